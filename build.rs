@@ -1,0 +1,29 @@
+//! Links every kernel under `shaders/` to plain WGSL, once for each way of fetching geometry, so
+//! that the binary carries its shaders and a broken import stops the build.
+
+use std::{error::Error, path::Path, process::ExitCode};
+
+fn main() -> ExitCode {
+    println!("cargo::rerun-if-changed=shaders");
+    match link_kernels() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn link_kernels() -> Result<(), Box<dyn Error>> {
+    let out = std::env::var("OUT_DIR")?;
+    for kernel in ["whitted", "debug_view", "develop"] {
+        for (variant, image_fetch) in [("image", true), ("buffer", false)] {
+            let mut compiler = wesl::Wesl::new("shaders");
+            compiler.set_feature("image_fetch", image_fetch);
+            let linked = compiler.compile(&format!("package::kernels::{kernel}").parse()?)?;
+            let path = Path::new(&out).join(format!("{kernel}_{variant}.wgsl"));
+            std::fs::write(path, linked.to_string())?;
+        }
+    }
+    Ok(())
+}

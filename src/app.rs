@@ -1,0 +1,55 @@
+//! The command line: one file per command, and what they share. Nothing below this module prints,
+//! exits or reads arguments.
+
+mod bench;
+mod cli;
+mod compare;
+mod completions;
+mod console;
+mod demo;
+mod destination;
+mod device;
+mod doctor;
+pub mod exit;
+mod inspect;
+mod interrupt;
+mod overrides;
+mod picture;
+mod progress;
+mod render;
+mod report;
+mod schema;
+
+use clap::Parser;
+use cli::{Cli, Command};
+use exit::AppError;
+use std::ffi::OsString;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Runs the command that `arguments` (the program's name first) ask for, prints what went wrong to
+/// the standard error, and returns the exit code. `started` is when the process began: reports
+/// count from there.
+pub fn run(arguments: impl IntoIterator<Item = OsString>, started: Instant) -> ExitCode {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => return exit::command_line(&error),
+    };
+    match dispatch(cli.command, started) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => exit::failure(&error),
+    }
+}
+
+fn dispatch(command: Command, started: Instant) -> Result<(), AppError> {
+    match command {
+        Command::Demo(arguments) => demo::run(&arguments, started),
+        Command::Render(arguments) => render::run(&arguments, started),
+        Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Doctor(arguments) => doctor::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Schema => schema::run(),
+    }
+}

@@ -1,0 +1,161 @@
+//! The command line as clap sees it. Names here are promises: add to them, rename nothing.
+
+mod flags;
+mod values;
+
+pub use flags::{
+    CameraFlags, DeviceFlags, LogFlags, OutputFlags, PictureFlags, ProgressMode, SceneFlags,
+    SizeFlags,
+};
+pub use values::{INTEGRATORS, TONES, TRANSFERS};
+
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
+use std::path::PathBuf;
+
+/// Ray traces scenes on the GPU, or on the CPU through Mesa's software driver.
+#[derive(Debug, Parser)]
+#[command(
+    name = "glimray",
+    version,
+    max_term_width = 100,
+    arg_required_else_help = true,
+    after_help = "Example: glimray demo -o glimray.png\n\n\
+        Exit codes: 0 done, 1 internal fault, 2 bad command line, 3 scene or input refused, \
+        4 output cannot be written, 5 no usable GPU adapter, 6 the GPU kept failing, \
+        7 too big for the memory or the adapter, 8 compare: different, 130 Ctrl-C, 143 SIGTERM."
+)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render a showcase scene that is part of the program: no file needed.
+    #[command(after_help = "Example: glimray demo --size 1280x720 --samples 16 -o demo.png")]
+    Demo(Box<DemoArgs>),
+    /// Render one picture of a scene. What the scene file says is the default; a flag wins.
+    #[command(after_help = "Examples:\n  \
+            glimray render scene.toml -o picture.png\n  \
+            glimray render model.obj --look-from 0,1,4 --look-at 0,0,0 --samples 16 -o model.exr\n  \
+            glimray render scene.scene --quiet -o - --format png | display")]
+    Render(Box<RenderArgs>),
+    /// Say what is in a scene: counts, bounds, cameras, lights, materials, what was skipped.
+    #[command(after_help = "Example: glimray inspect scene.toml --json")]
+    Inspect(InspectArgs),
+    /// List the GPU adapters and their limits, test the one that would be used, and say what to
+    /// install when there is none.
+    #[command(after_help = "Example: glimray doctor --backend vulkan")]
+    Doctor(DoctorArgs),
+    /// Compare two pictures: RMSE, PSNR, FLIP, largest difference. Exit code 8 when they differ.
+    #[command(
+        after_help = "Example: glimray compare a.png b.png --tolerance 3 --max-share 0.1 \
+            --diff difference.png\n\n\
+            Values are compared as the files store them, 8-bit and 16-bit ones as parts of 1. One \
+            level is 1/255."
+    )]
+    Compare(CompareArgs),
+    /// Measure compile, trace and total time, and rays per second, on built-in scenes.
+    #[command(after_help = "Example: glimray bench --repeats 5 --json")]
+    Bench(BenchArgs),
+    /// Print a completion script for a shell.
+    #[command(
+        after_help = "Example: glimray completions bash > ~/.local/share/bash-completion/completions/glimray"
+    )]
+    Completions(CompletionsArgs),
+    /// Print the JSON Schema of the native scene format (.toml), for editors.
+    #[command(after_help = "Example: glimray schema > glimray.schema.json")]
+    Schema,
+}
+
+#[derive(Debug, Args)]
+pub struct DemoArgs {
+    #[command(flatten)]
+    pub output: OutputFlags,
+    #[command(flatten)]
+    pub size: SizeFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+    #[command(flatten)]
+    pub log: LogFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// The scene: .scene (course format), .toml (native) or .obj
+    pub scene: PathBuf,
+    #[command(flatten)]
+    pub output: OutputFlags,
+    #[command(flatten)]
+    pub picture: PictureFlags,
+    #[command(flatten)]
+    pub camera: CameraFlags,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+    #[command(flatten)]
+    pub log: LogFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct InspectArgs {
+    /// The scene: .scene (course format), .toml (native) or .obj
+    pub scene: PathBuf,
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct DoctorArgs {
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    /// The first picture: PNG, JPEG, OpenEXR or Radiance HDR
+    pub a: PathBuf,
+    /// The second picture, of the same size
+    pub b: PathBuf,
+    /// Let a pixel differ by this many levels of 255 in any channel before it counts
+    #[arg(long, value_name = "LEVELS", default_value = "0", value_parser = values::tolerance)]
+    pub tolerance: f64,
+    /// Let this share of the pixels differ by more than the tolerance, in percent
+    #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = values::percent)]
+    pub max_share: f64,
+    /// Write a picture of the differences, scaled so that the largest is white
+    #[arg(long, value_name = "OUT.png")]
+    pub diff: Option<PathBuf>,
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// How often to render each workload; the median counts
+    #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub repeats: u32,
+    /// Only the workloads whose name contains this
+    #[arg(long, value_name = "NAME")]
+    pub only: Option<String>,
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct CompletionsArgs {
+    /// The shell
+    pub shell: Shell,
+}

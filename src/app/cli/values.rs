@@ -1,0 +1,198 @@
+//! What may follow a flag, and the words for what may not.
+
+use super::ProgressMode;
+use crate::gpu::Backend;
+use crate::output::Format;
+use crate::render::{Antialias, Integrator, TriangleTest};
+use crate::scene::{ToneCurve, Transfer};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use glam::{DVec3, Vec3};
+use std::fmt::Display;
+use std::str::FromStr;
+
+/// A flag's words: each with what it does and what it stands for.
+pub struct Words<T: 'static>(&'static [(&'static str, &'static str, T)]);
+
+pub static FORMATS: Words<Format> = Words(&[
+    ("png", "8 bits a channel, lossless", Format::Png),
+    ("jpeg", "8 bits a channel, lossy", Format::Jpeg),
+    ("jpg", "the same as jpeg", Format::Jpeg),
+    ("exr", "OpenEXR, linear float", Format::Exr),
+    ("hdr", "Radiance RGBE, linear", Format::Hdr),
+]);
+
+pub static ANTIALIAS: Words<Antialias> = Words(&[
+    ("none", "all in the pixel's centre", Antialias::None),
+    (
+        "stratified",
+        "one at random in each cell of a grid",
+        Antialias::Stratified,
+    ),
+]);
+
+pub static INTEGRATORS: Words<Integrator> = Words(&[
+    ("whitted", "Phong shading with shadows", Integrator::Whitted),
+    ("normals", "shading normals as colours", Integrator::Normals),
+    ("depth", "distance along the ray", Integrator::Depth),
+    ("ids", "one colour for each primitive", Integrator::Ids),
+    (
+        "heat",
+        "how much of the tree a ray visits",
+        Integrator::Heat,
+    ),
+]);
+
+pub static TRIANGLE_TESTS: Words<TriangleTest> = Words(&[
+    (
+        "plane",
+        "ray and plane, then inside or not",
+        TriangleTest::Plane,
+    ),
+    (
+        "moller-trumbore",
+        "Möller and Trumbore 1997",
+        TriangleTest::MollerTrumbore,
+    ),
+    (
+        "watertight",
+        "Woop, Benthin and Wald 2013",
+        TriangleTest::Watertight,
+    ),
+]);
+
+pub static TONES: Words<ToneCurve> = Words(&[
+    ("none", "clamp", ToneCurve::None),
+    ("aces", "filmic, Narkowicz 2015", ToneCurve::Aces),
+    ("agx", "filmic, Sobotka's AgX", ToneCurve::Agx),
+    ("reinhard", "x / (1 + x) on luminance", ToneCurve::Reinhard),
+]);
+
+pub static TRANSFERS: Words<Transfer> = Words(&[
+    ("srgb", "IEC 61966-2-1", Transfer::Srgb),
+    ("linear", "stored as is", Transfer::Linear),
+]);
+
+pub static BACKENDS: Words<Backend> = Words(&[
+    ("vulkan", "Linux, Windows, Android", Backend::Vulkan),
+    ("metal", "macOS, iOS", Backend::Metal),
+    ("dx12", "Windows", Backend::Dx12),
+    ("gl", "OpenGL ES 3.1 and later", Backend::Gl),
+]);
+
+pub static PROGRESS: Words<ProgressMode> = Words(&[
+    (
+        "auto",
+        "a bar on a terminal, else nothing",
+        ProgressMode::Auto,
+    ),
+    ("bar", "a bar (on a terminal)", ProgressMode::Bar),
+    ("json", "a line of JSON now and then", ProgressMode::Json),
+    ("none", "nothing", ProgressMode::None),
+]);
+
+impl<T: Clone + Send + Sync> Words<T> {
+    pub fn parser(&'static self) -> impl TypedValueParser<Value = T> {
+        let words = self.0.iter();
+        PossibleValuesParser::new(words.map(|(word, help, _)| PossibleValue::new(word).help(help)))
+            .try_map(|given| {
+                let mut words = self.0.iter();
+                let found = words.find(|(word, ..)| *word == given);
+                found.map(|(.., value)| value.clone()).ok_or("unknown")
+            })
+    }
+}
+
+impl<T: PartialEq> Words<T> {
+    /// The word for `value`, as flags and reports have it.
+    pub fn word(&self, value: &T) -> &'static str {
+        let mut words = self.0.iter();
+        words
+            .find(|(.., known)| known == value)
+            .map_or("unknown", |(word, ..)| word)
+    }
+}
+
+/// Pixels on a side of a picture.
+const MAX_SIDE: u32 = 1_000_000;
+
+/// Coordinates beyond this are mistakes.
+const MAX_COORDINATE: f64 = 1e9;
+
+pub fn size(text: &str) -> Result<(u32, u32), String> {
+    let (width, height) = text
+        .split_once(['x', 'X', '×'])
+        .ok_or("it must be WIDTHxHEIGHT in pixels, such as 640x480")?;
+    let side = |text: &str| within(text, 1, MAX_SIDE, "width and height");
+    Ok((side(width)?, side(height)?))
+}
+
+pub fn crop(text: &str) -> Result<[u32; 4], String> {
+    let edges @ [x0, y0, x1, y1] = list(text, "X0,Y0,X1,Y1", |part| {
+        within(part, 0, MAX_SIDE, "every edge")
+    })?;
+    if x0 < x1 && y0 < y1 {
+        Ok(edges)
+    } else {
+        Err("it is empty: X1 must be more than X0, and Y1 more than Y0".into())
+    }
+}
+
+pub fn vector(text: &str) -> Result<DVec3, String> {
+    let part = |part: &str| within(part, -MAX_COORDINATE, MAX_COORDINATE, "every coordinate");
+    list(text, "X,Y,Z", part).map(DVec3::from_array)
+}
+
+pub fn color(text: &str) -> Result<Vec3, String> {
+    let part = |part: &str| within(part, 0.0, 1e6_f32, "every channel");
+    list(text, "R,G,B", part).map(Vec3::from_array)
+}
+
+pub fn exposure(text: &str) -> Result<f32, String> {
+    within(text, -64.0, 64.0, "it")
+}
+
+pub fn fov_y(text: &str) -> Result<f64, String> {
+    within(text, 0.001, 179.9, "it")
+}
+
+pub fn tolerance(text: &str) -> Result<f64, String> {
+    within(text, 0.0, f64::MAX, "it")
+}
+
+pub fn percent(text: &str) -> Result<f64, String> {
+    within(text, 0.0, 100.0, "it")
+}
+
+pub fn override_of(text: &str) -> Result<String, String> {
+    match text.split_once('=') {
+        Some((key, _)) if !key.trim().is_empty() => Ok(text.into()),
+        _ => Err("it must be KEY=VALUE, such as camera.fov_y_deg=30".into()),
+    }
+}
+
+/// `N` values with commas between them.
+fn list<T, const N: usize>(
+    text: &str,
+    shape: &str,
+    part: impl Fn(&str) -> Result<T, String>,
+) -> Result<[T; N], String> {
+    let parts = text.split(',').map(part).collect::<Result<Vec<_>, _>>()?;
+    let count = parts.len();
+    parts
+        .try_into()
+        .map_err(|_| format!("it must be {shape}, which is {N} numbers, not {count}"))
+}
+
+/// A number from `min` to `max`; NaN is in no range.
+fn within<T>(text: &str, min: T, max: T, what: &str) -> Result<T, String>
+where
+    T: FromStr + PartialOrd + Display,
+{
+    match text.trim().parse::<T>() {
+        Ok(number) if number >= min && number <= max => Ok(number),
+        _ => Err(format!(
+            "{what} must be a number from {min} to {max}, not `{}`",
+            text.trim()
+        )),
+    }
+}

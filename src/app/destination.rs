@@ -1,0 +1,79 @@
+//! Where a picture goes: a file, a pipe, or the standard output.
+
+use super::cli::OutputFlags;
+use super::exit::AppError;
+use crate::image::Image;
+use crate::output::{self, Format, SaveOptions};
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+/// The picture's way out.
+pub struct Destination {
+    /// As on the command line; `-` is the standard output.
+    path: PathBuf,
+    options: SaveOptions,
+}
+
+impl Destination {
+    /// What the flags say; without a name, `stem` with the format's ending in the current folder.
+    pub fn new(flags: &OutputFlags, stem: &Path) -> Self {
+        let default = || stem.with_extension(flags.format.map_or("png", ending));
+        Self {
+            path: flags.path.clone().unwrap_or_else(default),
+            options: SaveOptions {
+                format: flags.format,
+                quality: flags.quality,
+                clobber: !flags.no_clobber,
+            },
+        }
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub fn is_stdout(&self) -> bool {
+        self.path == Path::new("-")
+    }
+
+    /// Whether the file holds linear light rather than display values.
+    pub fn is_linear(&self) -> bool {
+        let format = self.options.format;
+        format
+            .or_else(|| Format::from_path(&self.path))
+            .is_some_and(Format::is_linear)
+    }
+
+    /// Refuses, before any rendering, what would fail after it.
+    pub fn check(&self, width: u32, height: u32) -> Result<(), AppError> {
+        if !self.is_stdout() {
+            return Ok(output::check(&self.path, &self.options, width, height)?);
+        }
+        if std::io::stdout().is_terminal() {
+            return Err(AppError::Usage(
+                "cannot show a picture (standard output): it is a terminal. \
+                 Redirect it to a file or a program."
+                    .into(),
+            ));
+        }
+        Ok(())
+    }
+
+    pub fn save(&self, image: &Image) -> Result<(), AppError> {
+        let saved = if self.is_stdout() {
+            output::save_to_stdout(image, &self.options)
+        } else {
+            output::save_with(&self.path, image, &self.options)
+        };
+        saved.map_err(AppError::from)
+    }
+}
+
+fn ending(format: Format) -> &'static str {
+    match format {
+        Format::Png => "png",
+        Format::Jpeg => "jpg",
+        Format::Exr => "exr",
+        Format::Hdr => "hdr",
+    }
+}

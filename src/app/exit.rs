@@ -1,0 +1,157 @@
+//! How the program ends: one error for everything that can go wrong, its exit code, and its words.
+
+use super::console;
+use crate::gpu::{self, GpuError};
+use crate::import::ImportError;
+use crate::output::{self, OutputError};
+use crate::pack::PackError;
+use crate::render::RenderError;
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
+use std::io::{self, IsTerminal};
+use std::process::ExitCode;
+
+/// What ended a command. The text is `WHAT (WHERE): WHY. WHAT TO DO.`
+#[derive(Debug, thiserror::Error)]
+pub enum AppError {
+    /// The flags make no sense together, or not for this scene.
+    #[error("{0}")]
+    Usage(String),
+    /// The scene file was refused.
+    #[error(transparent)]
+    Import(#[from] ImportError),
+    /// Some other input was refused.
+    #[error("{0}")]
+    Refused(String),
+    /// The scene cannot be laid out for a GPU.
+    #[error(transparent)]
+    Pack(#[from] PackError),
+    /// No adapter could be used.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// Rendering failed.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// The adapter computes wrong results.
+    #[error("{0}")]
+    SelfTest(String),
+    /// The picture or report could not be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The standard output takes no more.
+    #[error("cannot write the result (standard output): {}. Send it elsewhere.", output::reason(.0))]
+    Stdout(#[source] io::Error),
+    /// `compare` found the pictures different.
+    #[error("{0}")]
+    Different(String),
+    /// A signal asked for the end.
+    #[error("interrupted: no picture was written.")]
+    Interrupted {
+        /// 128 and the signal's number.
+        exit_code: u8,
+    },
+    /// Our bug.
+    #[error("internal fault ({0}). Please report it.")]
+    Internal(String),
+}
+
+impl AppError {
+    /// As the contract with scripts has it.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Internal(_) => 1,
+            Self::Usage(_) => 2,
+            Self::Import(error) if error.is_too_big() => 7,
+            Self::Import(_) | Self::Refused(_) => 3,
+            Self::Output(OutputError::UnknownFormat { .. } | OutputError::TooLarge { .. }) => 2,
+            Self::Output(OutputError::Encode { .. } | OutputError::Misshapen { .. }) => 1,
+            Self::Output(_) | Self::Stdout(_) => 4,
+            Self::SelfTest(_) => 5,
+            Self::Pack(_) => 7,
+            Self::Different(_) => 8,
+            Self::Gpu(error) => error.exit_code(),
+            Self::Render(error) => error.exit_code(),
+            Self::Interrupted { exit_code } => *exit_code,
+        }
+    }
+}
+
+/// Prints `error` and returns its exit code.
+pub fn failure(error: &AppError) -> ExitCode {
+    console::error(error);
+    if let AppError::Import(error) = error
+        && io::stderr().is_terminal()
+        && let Some(snippet) = snippet(error)
+    {
+        console::block(&snippet, |c| c == '\u{1b}');
+    }
+    ExitCode::from(error.exit_code())
+}
+
+/// Prints what clap has to say: help and version to the standard output, mistakes to the standard
+/// error; and returns the exit code.
+pub fn command_line(error: &clap::Error) -> ExitCode {
+    let printed = error.print();
+    match (error.use_stderr(), printed) {
+        (true, _) => ExitCode::from(2),
+        (false, Err(error)) if error.kind() != io::ErrorKind::BrokenPipe => {
+            failure(&AppError::Stdout(error))
+        }
+        (false, _) => ExitCode::SUCCESS,
+    }
+}
+
+/// Makes a panic, which is always our bug, end the program with one line and exit code 1. While
+/// [`gpu::is_guarded`] says so the panic is one of wgpu's, and `gpu` deals with it.
+pub fn install_panic_hook() {
+    std::panic::set_hook(Box::new(|panic| {
+        if gpu::is_guarded() {
+            return;
+        }
+        let place = panic.location().map_or_else(
+            || "unknown place".into(),
+            |place| format!("{}:{}", place.file(), place.line()),
+        );
+        let what = panic.payload_as_str().unwrap_or("no message");
+        let what = what.trim_end().trim_end_matches('.');
+        console::error(format_args!(
+            "internal fault ({place}): {what}. Please report it."
+        ));
+        std::process::exit(1);
+    }));
+}
+
+/// Longer lines than this many bytes are not shown: a terminal is no place for a megabyte.
+const MAX_LINE: usize = 300;
+
+/// The lines of the scene file that `error` points at, drawn for a terminal.
+fn snippet(error: &ImportError) -> Option<String> {
+    let source = error.source_code()?;
+    for label in error.labels()? {
+        let line = source.read_span(label.inner(), 0, 0).ok()?;
+        if line.data().len() > MAX_LINE {
+            return None;
+        }
+    }
+    let mut drawing = String::new();
+    GraphicalReportHandler::new_themed(GraphicalTheme::default())
+        .with_context_lines(0)
+        .render_report(&mut drawing, &Excerpt(error))
+        .ok()?;
+    // The first line is the message, which has been printed.
+    drawing.split_once('\n').map(|(_, rest)| rest.to_owned())
+}
+
+/// The source and labels of a diagnostic without its message.
+#[derive(Debug, thiserror::Error)]
+#[error("-")]
+struct Excerpt<'a>(&'a ImportError);
+
+impl Diagnostic for Excerpt<'_> {
+    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
+        self.0.source_code()
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = miette::LabeledSpan> + '_>> {
+        self.0.labels()
+    }
+}

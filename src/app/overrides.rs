@@ -1,0 +1,64 @@
+//! Flags win over the scene file: what they change in a scene.
+
+use super::cli::CameraFlags;
+use super::exit::AppError;
+use crate::scene::{Camera, Scene};
+
+/// Chooses and changes the scene's camera and background as the flags say.
+///
+/// # Errors
+/// There is no camera of that name, or the changed one looks nowhere.
+pub fn apply(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
+    if let Some(name) = &flags.camera {
+        scene.camera_index = camera_index(&scene.cameras, name)?;
+    }
+    if let Some(background) = flags.background {
+        scene.background = background;
+    }
+    let camera = &mut scene.cameras[scene.camera_index];
+    camera.look_from = flags.look_from.unwrap_or(camera.look_from);
+    camera.look_at = flags.look_at.unwrap_or(camera.look_at);
+    camera.up = flags.up.unwrap_or(camera.up);
+    camera.fov_y = flags.fov_y.map_or(camera.fov_y, f64::to_radians);
+    let moved = flags.look_from.or(flags.look_at).or(flags.up).is_some();
+    if moved { check(camera) } else { Ok(()) }
+}
+
+/// By name, else by number.
+fn camera_index(cameras: &[Camera], name: &str) -> Result<usize, AppError> {
+    let named = cameras.iter().position(|camera| camera.name == name);
+    let numbered = || name.parse().ok().filter(|&index| index < cameras.len());
+    named.or_else(numbered).ok_or_else(|| {
+        let known: Vec<_> = (0..).zip(cameras).map(label).collect();
+        AppError::Usage(format!(
+            "no such camera (--camera {name}): the scene has {}. Choose one of them.",
+            known.join(", ")
+        ))
+    })
+}
+
+fn label((index, camera): (usize, &Camera)) -> String {
+    if camera.name.is_empty() {
+        index.to_string()
+    } else {
+        format!("{index} `{}`", camera.name)
+    }
+}
+
+/// A camera needs a direction to look in and an up direction beside it.
+fn check(camera: &Camera) -> Result<(), AppError> {
+    // `why` closes the bracket of the place it names.
+    let refused = |why| Err(AppError::Usage(format!("cannot place the camera ({why}.")));
+    let forward = camera.look_at - camera.look_from;
+    let scale = camera.look_at.length().max(camera.look_from.length());
+    if forward.length() <= scale * f64::EPSILON {
+        return refused("--look-from, --look-at): both are the same point. Move one of them");
+    }
+    let Some(up) = camera.up.try_normalize() else {
+        return refused("--up): it has no length. Give a direction, such as 0,1,0");
+    };
+    if up.cross(forward.normalize()).length() < 1e-9 {
+        return refused("--up): it is the viewing direction. Give another one, such as 0,0,1");
+    }
+    Ok(())
+}

@@ -1,0 +1,176 @@
+//! The report of a finished picture, for programs. Fields are promises: add to them, rename nothing.
+
+use crate::gpu::AdapterReport;
+use crate::render::{Rays, Stats};
+use crate::scene::{Geometry, Scene};
+use serde::Serialize;
+use std::path::Path;
+
+/// What a command did and what it took.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    /// The program's version.
+    pub glimray: &'static str,
+    /// The command's name.
+    pub command: &'static str,
+    pub scene: SceneReport,
+    pub image: ImageReport,
+    pub adapter: Adapter,
+    pub seconds: Seconds,
+    /// Absent unless they were to be counted.
+    pub rays: Option<RayCounts>,
+    pub submissions: Submissions,
+    /// Samples that were dropped because they were infinite or no number.
+    pub nonfinite_samples: u64,
+    pub memory: Memory,
+}
+
+/// How much is in the scene.
+#[derive(Debug, Serialize)]
+pub struct SceneReport {
+    pub path: String,
+    pub spheres: usize,
+    /// Instances counted each.
+    pub triangles: usize,
+    /// Analytic shapes that are no spheres.
+    pub shapes: usize,
+    /// Placements of meshes.
+    pub instances: usize,
+    pub materials: usize,
+    pub lights: usize,
+    /// What the importer left out or repaired.
+    pub skipped: Vec<String>,
+}
+
+/// The picture and the settings that determine it.
+#[derive(Debug, Serialize)]
+pub struct ImageReport {
+    /// `-` for the standard output.
+    pub path: String,
+    pub width: u32,
+    pub height: u32,
+    pub samples: u32,
+    pub integrator: &'static str,
+    /// Bounces after the first hit.
+    pub max_depth: u32,
+    pub seed: u32,
+}
+
+#[derive(Debug, Serialize)]
+pub struct Adapter {
+    pub name: String,
+    pub backend: String,
+    pub driver: String,
+    pub device_type: String,
+}
+
+/// Wall-clock seconds. `total` is from the start of the process to the file on disk; the others are
+/// parts of it that do not overlap.
+#[derive(Debug, Default, Serialize)]
+pub struct Seconds {
+    pub total: f64,
+    /// Reading the scene.
+    pub load: f64,
+    /// Building the tree.
+    pub bvh: f64,
+    /// Opening the adapter.
+    pub gpu: f64,
+    /// Compiling shaders.
+    pub compile: f64,
+    pub upload: f64,
+    pub trace: f64,
+    /// Exposure, tone curve, transfer, and reading the picture back.
+    pub develop: f64,
+    /// Encoding the picture and writing the file.
+    pub write: f64,
+}
+
+#[derive(Debug, Serialize)]
+pub struct RayCounts {
+    pub primary: u64,
+    pub primary_hits: u64,
+    /// One for each light sample that faces the surface.
+    pub shadow: u64,
+    pub shadow_blocked: u64,
+    /// This and the next three stay 0 as long as there are no bounces.
+    pub reflection: u64,
+    pub reflection_hits: u64,
+    pub refraction: u64,
+    pub refraction_hits: u64,
+}
+
+#[derive(Debug, Serialize)]
+pub struct Submissions {
+    pub count: u64,
+    pub longest_ms: f64,
+}
+
+#[derive(Debug, Serialize)]
+pub struct Memory {
+    pub gpu_bytes: u64,
+    /// Null where the system does not tell.
+    pub host_peak_bytes: Option<u64>,
+}
+
+impl SceneReport {
+    pub fn new(path: &str, scene: &Scene) -> Self {
+        let is_sphere = |geometry| matches!(geometry, Geometry::Sphere { .. });
+        let shapes = scene.shapes.iter();
+        let spheres = shapes.filter(|shape| is_sphere(shape.geometry)).count();
+        Self {
+            path: path.into(),
+            spheres,
+            triangles: scene.triangle_count(),
+            shapes: scene.shapes.len() - spheres,
+            instances: scene.instances.len(),
+            materials: scene.materials.len(),
+            lights: scene.lights.len(),
+            skipped: scene.skipped.clone(),
+        }
+    }
+}
+
+impl From<&AdapterReport> for Adapter {
+    fn from(adapter: &AdapterReport) -> Self {
+        Self {
+            name: adapter.name.clone(),
+            backend: adapter.backend.clone(),
+            driver: adapter.driver.clone(),
+            device_type: adapter.device_type.clone(),
+        }
+    }
+}
+
+impl From<&Rays> for RayCounts {
+    fn from(rays: &Rays) -> Self {
+        Self {
+            primary: rays.primary,
+            primary_hits: rays.primary_hits,
+            shadow: rays.shadow,
+            shadow_blocked: rays.shadow_blocked,
+            reflection: 0,
+            reflection_hits: 0,
+            refraction: 0,
+            refraction_hits: 0,
+        }
+    }
+}
+
+impl From<&Stats> for Submissions {
+    fn from(stats: &Stats) -> Self {
+        Self {
+            count: stats.submissions,
+            longest_ms: stats.longest_submission_ms,
+        }
+    }
+}
+
+/// The most memory that this process has held at once, in bytes, where Linux says so.
+pub fn host_peak_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string(Path::new("/proc/self/status")).ok()?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kibibytes << 10)
+}

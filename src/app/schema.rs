@@ -1,0 +1,9 @@
+//! `glimray schema`: the JSON Schema of the native scene format.
+
+use super::console;
+use super::exit::AppError;
+use crate::import;
+
+pub fn run() -> Result<(), AppError> {
+    console::print_json(&import::native_schema())
+}

@@ -1,0 +1,167 @@
+//! Collapse of a binary tree to nodes of up to four children.
+
+use super::{
+    Aabb, Bvh,
+    binary::{BinaryKind, BinaryNode},
+};
+
+/// Price of visiting a node, in box areas times primitive tests: what a leaf may cost more before
+/// it is split. Four-way nodes share their price between several splits.
+const NODE_COST: f32 = 1.0;
+
+/// Up to four children with their boxes.
+#[derive(Clone, Debug, Default)]
+pub struct WideNode {
+    pub children: Vec<(Aabb, Child)>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Child {
+    /// Index of a node.
+    Node(u32),
+    /// `count` boxes from place `first` of the group's [`Bvh::order`].
+    Leaf { group: u8, first: u32, count: u32 },
+}
+
+/// What a subtree looks like to the collapse.
+#[derive(Clone, Copy)]
+struct Summary {
+    count: u32,
+    /// The one group of all its boxes, if there is one.
+    group: Option<u8>,
+    /// Expected cost of a ray that meets it, times its area.
+    cost: f32,
+    is_leaf: bool,
+}
+
+/// Opens the child with the largest area until there are four, and makes leaves of up to
+/// `leaf_size` boxes of one group where that costs no more than going on.
+pub fn collapse(tree: &[BinaryNode], groups: &[u8], group_count: usize, leaf_size: u32) -> Bvh {
+    let mut bvh = Bvh {
+        nodes: vec![WideNode::default()],
+        order: vec![Vec::new(); group_count],
+        stack_need: 1,
+    };
+    if tree.is_empty() {
+        return bvh;
+    }
+    let summaries = summarize(tree, groups, leaf_size);
+    let mut open = vec![(0usize, 0usize)];
+    while let Some((binary, wide)) = open.pop() {
+        let mut children = Vec::with_capacity(4);
+        for source in gather(tree, &summaries, binary) {
+            let child = match summaries[source] {
+                Summary {
+                    group: Some(group),
+                    count,
+                    is_leaf: true,
+                    ..
+                } => {
+                    let order = &mut bvh.order[group as usize];
+                    let first = order.len() as u32;
+                    push_boxes(tree, source, order);
+                    Child::Leaf {
+                        group,
+                        first,
+                        count,
+                    }
+                }
+                _ => {
+                    bvh.nodes.push(WideNode::default());
+                    let index = bvh.nodes.len() - 1;
+                    open.push((source, index));
+                    Child::Node(index as u32)
+                }
+            };
+            children.push((tree[source].aabb, child));
+        }
+        bvh.nodes[wide].children = children;
+    }
+    bvh.stack_need = stack_need(&bvh.nodes);
+    bvh
+}
+
+/// Summaries of all subtrees. Children come after their parents, so one pass backwards does.
+fn summarize(tree: &[BinaryNode], groups: &[u8], leaf_size: u32) -> Vec<Summary> {
+    let nothing = Summary {
+        count: 0,
+        group: None,
+        cost: 0.0,
+        is_leaf: false,
+    };
+    let mut summaries = vec![nothing; tree.len()];
+    for (i, node) in tree.iter().enumerate().rev() {
+        let area = node.aabb.half_area();
+        summaries[i] = match node.kind {
+            BinaryKind::Leaf(index) => Summary {
+                count: 1,
+                group: Some(groups[index as usize]),
+                cost: area,
+                is_leaf: true,
+            },
+            BinaryKind::Inner(left, right) => {
+                let (left, right) = (summaries[left], summaries[right]);
+                let count = left.count + right.count;
+                let group = left.group.filter(|_| left.group == right.group);
+                let split_cost = NODE_COST * area + left.cost + right.cost;
+                let leaf_cost = count as f32 * area;
+                let is_leaf = group.is_some() && count <= leaf_size && leaf_cost <= split_cost;
+                let cost = if is_leaf { leaf_cost } else { split_cost };
+                Summary {
+                    count,
+                    group,
+                    cost,
+                    is_leaf,
+                }
+            }
+        };
+    }
+    summaries
+}
+
+/// The up to four subtrees that become the children of a wide node.
+fn gather(tree: &[BinaryNode], summaries: &[Summary], root: usize) -> Vec<usize> {
+    let mut parts = vec![root];
+    while parts.len() < 4 {
+        let largest = parts
+            .iter()
+            .enumerate()
+            .filter(|(_, part)| !summaries[**part].is_leaf)
+            .max_by(|(_, a), (_, b)| {
+                let area = |i: &usize| tree[*i].aabb.half_area();
+                area(a).total_cmp(&area(b))
+            });
+        let Some((place, &part)) = largest else { break };
+        let BinaryKind::Inner(left, right) = tree[part].kind else {
+            break;
+        };
+        parts[place] = left;
+        parts.push(right);
+    }
+    parts
+}
+
+/// Appends the boxes below a node to `order`, left to right.
+fn push_boxes(tree: &[BinaryNode], root: usize, order: &mut Vec<u32>) {
+    let mut open = vec![root];
+    while let Some(node) = open.pop() {
+        match tree[node].kind {
+            BinaryKind::Leaf(index) => order.push(index),
+            BinaryKind::Inner(left, right) => open.extend([right, left]),
+        }
+    }
+}
+
+/// Entries on the stack when every child of every node on the way is hit: a node with n children
+/// leaves n - 1 behind. One more for the entry that says the stack is empty.
+fn stack_need(nodes: &[WideNode]) -> usize {
+    let mut need = vec![0usize; nodes.len()];
+    for (i, node) in nodes.iter().enumerate().rev() {
+        let below = node.children.iter().map(|(_, child)| match child {
+            Child::Node(index) => need[*index as usize],
+            Child::Leaf { .. } => 0,
+        });
+        need[i] = below.max().unwrap_or(0) + node.children.len().saturating_sub(1);
+    }
+    need[0] + 1
+}

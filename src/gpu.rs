@@ -1,0 +1,245 @@
+//! The device: finding an adapter, opening it, noticing when it is lost, and every way it can fail
+//! turned into a [`GpuError`].
+//!
+//! wgpu reports the loss of a device through a callback and panics in `poll` after it; see
+//! [`Gpu::wait`]. Allocation and pipeline creation run inside error scopes.
+
+mod adapter;
+mod buffer;
+mod error;
+mod fault;
+mod guard;
+mod readback;
+mod shader;
+
+pub use adapter::{AdapterChoice, AdapterReport, Backend, adapters};
+pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
+pub use error::GpuError;
+pub use guard::is_guarded;
+pub(crate) use readback::Source;
+pub use shader::{Kernel, Overrides};
+
+use std::{
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Duration,
+};
+
+/// How long one wait for the device may take, and how many of them are tried before the device
+/// counts as lost.
+const WAIT: Duration = Duration::from_secs(10);
+const WAITS: u32 = 3;
+
+/// An open device with its queue.
+pub struct Gpu {
+    choice: AdapterChoice,
+    report: AdapterReport,
+    /// What the adapter could give at the most.
+    adapter_limits: wgpu::Limits,
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    lost: Arc<AtomicBool>,
+    /// The first error that no scope caught.
+    stray_error: Arc<Mutex<Option<String>>>,
+}
+
+/// Sizes that may exceed WebGPU's default limits, in bytes and texels.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Needs {
+    /// The largest buffer that a shader reads or writes as a whole.
+    pub binding_bytes: u64,
+    /// The longest side of a texture.
+    pub texture_side: u32,
+}
+
+impl Gpu {
+    /// Opens the adapter that `choice` names, or the fastest kind there is. It asks for no feature
+    /// and for no more than WebGPU's default limits.
+    pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
+        Self::with_needs(choice, Needs::default())
+    }
+
+    fn with_needs(choice: &AdapterChoice, needs: Needs) -> Result<Self, GpuError> {
+        let (adapter, report) = adapter::choose(choice)?;
+        let adapter_limits = adapter.limits();
+        let required_limits = limits_for(needs, &adapter_limits)?;
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("glimray"),
+            required_limits,
+            ..Default::default()
+        };
+        let (device, queue) =
+            pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
+                GpuError::NoDevice {
+                    adapter: report.name.clone(),
+                    why: error.to_string(),
+                }
+            })?;
+        let lost = Arc::new(AtomicBool::new(false));
+        let on_loss = lost.clone();
+        // The callback may run with locks held, so it only sets a flag.
+        device.set_device_lost_callback(move |_, _| on_loss.store(true, Ordering::Release));
+        let stray_error = Arc::new(Mutex::new(None));
+        let slot = stray_error.clone();
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            if let Ok(mut slot) = slot.lock() {
+                slot.get_or_insert(error.to_string());
+            }
+        }));
+        Ok(Self {
+            choice: choice.clone(),
+            report,
+            adapter_limits,
+            device,
+            queue,
+            lost,
+            stray_error,
+        })
+    }
+
+    /// This device if it serves `needs`, else one on the same adapter with higher limits.
+    pub(crate) fn serving(self, needs: Needs) -> Result<Self, GpuError> {
+        let limits = self.device.limits();
+        let serves = needs.binding_bytes <= limits.max_storage_buffer_binding_size
+            && needs.binding_bytes <= limits.max_buffer_size
+            && needs.texture_side <= limits.max_texture_dimension_2d;
+        if serves {
+            return Ok(self);
+        }
+        limits_for(needs, &self.adapter_limits)?;
+        Self::with_needs(&self.choice, needs)
+    }
+
+    /// A fresh device in place of a lost one.
+    pub(crate) fn rebuilt(&self, needs: Needs) -> Result<Self, GpuError> {
+        Self::with_needs(&self.choice, needs)
+    }
+
+    /// The adapter that this device runs on.
+    pub fn adapter(&self) -> &AdapterReport {
+        &self.report
+    }
+
+    /// Whether the adapter is a software renderer.
+    pub fn is_cpu(&self) -> bool {
+        self.report.device_type == "cpu"
+    }
+
+    /// Loses the device, as a driver reset would. For rehearsing what happens then.
+    pub fn lose(&self) {
+        self.device.destroy();
+    }
+
+    /// Whether the device has been lost.
+    pub fn is_lost(&self) -> bool {
+        self.lost.load(Ordering::Acquire)
+    }
+
+    /// Submits and waits until the work is done. A device that is lost, or does not answer within
+    /// half a minute, is [`GpuError::Lost`].
+    pub(crate) fn submit(&self, commands: wgpu::CommandBuffer) -> Result<(), GpuError> {
+        if fault::strikes(fault::Site::Device) {
+            self.lose();
+        }
+        let index = guard::quiet(|| self.queue.submit([commands])).map_err(|_| GpuError::Lost)?;
+        self.wait(index)
+    }
+
+    fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {
+        for _ in 0..WAITS {
+            let poll = wgpu::PollType::Wait {
+                submission_index: Some(index.clone()),
+                timeout: Some(WAIT),
+            };
+            let polled = guard::quiet(|| self.device.poll(poll)).map_err(|_| GpuError::Lost)?;
+            self.check()?;
+            match polled {
+                Ok(_) => return Ok(()),
+                Err(wgpu::PollError::Timeout) => {}
+                Err(_) => return Err(GpuError::Lost),
+            }
+        }
+        Err(GpuError::Lost)
+    }
+
+    /// Whether anything went wrong that was not reported where it happened.
+    fn check(&self) -> Result<(), GpuError> {
+        if self.is_lost() {
+            return Err(GpuError::Lost);
+        }
+        match self
+            .stray_error
+            .lock()
+            .ok()
+            .and_then(|mut slot| slot.take())
+        {
+            Some(what) => Err(GpuError::Internal { what }),
+            None => Ok(()),
+        }
+    }
+
+    /// Runs `make` inside error scopes and turns what they catch into an error.
+    fn scoped<T>(&self, what: &str, make: impl FnOnce() -> T) -> Result<T, GpuError> {
+        let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let made = guard::quiet(make);
+        let invalid = pollster::block_on(validation.pop());
+        let exhausted = pollster::block_on(memory.pop());
+        if self.is_lost() {
+            return Err(GpuError::Lost);
+        }
+        if exhausted.is_some() {
+            return Err(GpuError::OutOfMemory { what: what.into() });
+        }
+        if let Some(error) = invalid {
+            return Err(GpuError::Internal {
+                what: format!("{what}: {error}"),
+            });
+        }
+        made.map_err(|_| GpuError::Lost)
+    }
+}
+
+/// WebGPU's default limits, raised to `needs` where the adapter allows it.
+fn limits_for(needs: Needs, adapter: &wgpu::Limits) -> Result<wgpu::Limits, GpuError> {
+    let defaults = wgpu::Limits::default();
+    let raise = |name, need: u64, default: u64, most: u64| {
+        if need > default && need > most {
+            return Err(GpuError::Limit {
+                name,
+                need,
+                limit: most,
+            });
+        }
+        Ok(need.max(default).min(most.max(1)))
+    };
+    let binding = raise(
+        "bytes in one storage buffer binding",
+        needs.binding_bytes,
+        defaults.max_storage_buffer_binding_size,
+        adapter.max_storage_buffer_binding_size,
+    )?;
+    let buffer = raise(
+        "bytes in one buffer",
+        needs.binding_bytes,
+        defaults.max_buffer_size,
+        adapter.max_buffer_size,
+    )?;
+    let side = raise(
+        "texels along a texture's side",
+        needs.texture_side.into(),
+        defaults.max_texture_dimension_2d.into(),
+        adapter.max_texture_dimension_2d.into(),
+    )?;
+    // What an adapter cannot give at all (a GL driver below WebGPU's floor) is not asked for; a
+    // shader that needs it is refused when its pipeline is made.
+    let floor = defaults.or_worse_values_from(adapter);
+    Ok(wgpu::Limits {
+        max_storage_buffer_binding_size: binding,
+        max_buffer_size: buffer,
+        max_texture_dimension_2d: side as u32,
+        ..floor
+    })
+}

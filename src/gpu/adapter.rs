@@ -1,0 +1,172 @@
+//! Which adapters there are, and which one to use.
+
+use super::{GpuError, guard};
+
+/// A graphics API that wgpu can drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Backend {
+    Vulkan,
+    Metal,
+    Dx12,
+    Gl,
+}
+
+/// What the user wants; the default leaves it to us.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct AdapterChoice {
+    pub backend: Option<Backend>,
+    /// An index into [`adapters`], or part of a name in either case.
+    pub adapter: Option<String>,
+}
+
+/// An adapter and what it can do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AdapterReport {
+    pub index: usize,
+    pub name: String,
+    /// "vulkan", "metal", "dx12" or "gl".
+    pub backend: String,
+    pub driver: String,
+    /// "discrete_gpu", "integrated_gpu", "virtual_gpu", "cpu" or "other".
+    pub device_type: String,
+    pub max_buffer_bytes: u64,
+    pub max_binding_bytes: u64,
+    pub max_texture_2d: u32,
+    pub storage_buffers_per_stage: u32,
+}
+
+/// All adapters that can run compute shaders, in the order of their indices.
+pub fn adapters(choice: &AdapterChoice) -> Vec<AdapterReport> {
+    enumerate(everything(choice))
+        .iter()
+        .enumerate()
+        .map(|(index, adapter)| report(index, adapter))
+        .collect()
+}
+
+/// The adapter asked for, else the first of the best kind: a card of its own, one in the processor,
+/// a virtual one, a software renderer; among equals a modern API before GL.
+pub(super) fn choose(choice: &AdapterChoice) -> Result<(wgpu::Adapter, AdapterReport), GpuError> {
+    // Looking for GL devices takes as long as a small picture, so it is done only when it must.
+    let mut found = match (choice.backend, &choice.adapter) {
+        (None, None) => enumerate(wgpu::Backends::PRIMARY),
+        _ => Vec::new(),
+    };
+    if found.is_empty() {
+        found = enumerate(everything(choice));
+    }
+    let reports: Vec<_> = found
+        .iter()
+        .enumerate()
+        .map(|(i, a)| report(i, a))
+        .collect();
+    let index = match &choice.adapter {
+        _ if found.is_empty() => {
+            let tried = choice
+                .backend
+                .map_or("every backend".into(), |b| format!("{b:?}"));
+            return Err(GpuError::NoAdapter { tried });
+        }
+        Some(wanted) => reports
+            .iter()
+            .position(|r| matches(r, wanted))
+            .ok_or_else(|| no_such_adapter(wanted, &reports))?,
+        None => (0..reports.len())
+            .min_by_key(|&i| preference(&reports[i]))
+            .unwrap_or(0),
+    };
+    Ok((found.swap_remove(index), reports[index].clone()))
+}
+
+fn matches(report: &AdapterReport, wanted: &str) -> bool {
+    match wanted.parse::<usize>() {
+        Ok(index) => report.index == index,
+        Err(_) => report.name.to_lowercase().contains(&wanted.to_lowercase()),
+    }
+}
+
+fn no_such_adapter(wanted: &str, reports: &[AdapterReport]) -> GpuError {
+    let present: Vec<_> = (reports.iter())
+        .map(|r| format!("{} {} ({})", r.index, r.name, r.backend))
+        .collect();
+    GpuError::NoSuchAdapter {
+        wanted: wanted.into(),
+        present: present.join(", "),
+    }
+}
+
+fn preference(report: &AdapterReport) -> (usize, bool, usize) {
+    let kinds = [
+        "discrete_gpu",
+        "integrated_gpu",
+        "virtual_gpu",
+        "other",
+        "cpu",
+    ];
+    let kind = kinds.iter().position(|kind| *kind == report.device_type);
+    (
+        kind.unwrap_or(kinds.len()),
+        report.backend == "gl",
+        report.index,
+    )
+}
+
+/// The backends that a choice allows.
+fn everything(choice: &AdapterChoice) -> wgpu::Backends {
+    match choice.backend {
+        None => wgpu::Backends::PRIMARY | wgpu::Backends::GL,
+        Some(Backend::Vulkan) => wgpu::Backends::VULKAN,
+        Some(Backend::Metal) => wgpu::Backends::METAL,
+        Some(Backend::Dx12) => wgpu::Backends::DX12,
+        Some(Backend::Gl) => wgpu::Backends::GL,
+    }
+}
+
+fn enumerate(backends: wgpu::Backends) -> Vec<wgpu::Adapter> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = backends;
+    // Nothing is dispatched indirectly, so the check of such calls only costs start-up time.
+    descriptor
+        .flags
+        .remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
+    descriptor.memory_budget_thresholds = wgpu::MemoryBudgetThresholds {
+        for_resource_creation: Some(90),
+        for_device_loss: Some(97),
+    };
+    let found = guard::quiet(|| {
+        let instance = wgpu::Instance::new(descriptor);
+        pollster::block_on(instance.enumerate_adapters(backends))
+    });
+    let has_compute = |adapter: &wgpu::Adapter| {
+        let flags = adapter.get_downlevel_capabilities().flags;
+        flags.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS)
+    };
+    found
+        .unwrap_or_default()
+        .into_iter()
+        .filter(has_compute)
+        .collect()
+}
+
+fn report(index: usize, adapter: &wgpu::Adapter) -> AdapterReport {
+    let info = adapter.get_info();
+    let limits = adapter.limits();
+    AdapterReport {
+        index,
+        name: info.name,
+        backend: info.backend.to_str().into(),
+        driver: [info.driver, info.driver_info].join(" ").trim().into(),
+        device_type: match info.device_type {
+            wgpu::DeviceType::DiscreteGpu => "discrete_gpu",
+            wgpu::DeviceType::IntegratedGpu => "integrated_gpu",
+            wgpu::DeviceType::VirtualGpu => "virtual_gpu",
+            wgpu::DeviceType::Cpu => "cpu",
+            wgpu::DeviceType::Other => "other",
+        }
+        .into(),
+        max_buffer_bytes: limits.max_buffer_size,
+        max_binding_bytes: limits.max_storage_buffer_binding_size,
+        max_texture_2d: limits.max_texture_dimension_2d,
+        storage_buffers_per_stage: limits.max_storage_buffers_per_shader_stage,
+    }
+}

@@ -1,0 +1,149 @@
+//! Allocation, with a ledger: some drivers never say that memory has run out, so the sum is kept
+//! here and held against a limit before anything is allocated.
+
+use super::{Gpu, GpuError, fault};
+
+/// The memory limit unless the user sets one, in bytes.
+pub const MEMORY_LIMIT_BYTES: u64 = 4 << 30;
+
+/// What is planned to be allocated, by name.
+#[derive(Clone, Debug, Default)]
+pub struct Ledger {
+    entries: Vec<(&'static str, u64)>,
+}
+
+impl Ledger {
+    /// Plans `bytes` for `what`.
+    pub fn plan(&mut self, what: &'static str, bytes: u64) {
+        self.entries.push((what, bytes));
+    }
+
+    /// All that is planned, in bytes.
+    pub fn total(&self) -> u64 {
+        self.entries.iter().map(|(_, bytes)| bytes).sum()
+    }
+
+    /// Refuses a plan beyond `limit` bytes, naming its largest part.
+    pub fn check(&self, limit: u64) -> Result<(), GpuError> {
+        let need = self.total();
+        if need <= limit {
+            return Ok(());
+        }
+        let largest = self.entries.iter().max_by_key(|(_, bytes)| *bytes);
+        let what = largest.map_or(String::new(), |(what, bytes)| {
+            format!("{what} {bytes} bytes")
+        });
+        Err(GpuError::Budget { what, need, limit })
+    }
+}
+
+impl Gpu {
+    /// A buffer of at least 16 bytes, its contents undefined or zero.
+    pub(crate) fn allocate(
+        &self,
+        what: &'static str,
+        bytes: u64,
+        usage: wgpu::BufferUsages,
+    ) -> Result<wgpu::Buffer, GpuError> {
+        if fault::strikes(fault::Site::Allocation) {
+            return Err(GpuError::OutOfMemory { what: what.into() });
+        }
+        self.scoped(what, || {
+            self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(what),
+                size: bytes.max(16).next_multiple_of(4),
+                usage,
+                mapped_at_creation: false,
+            })
+        })
+    }
+
+    /// A storage buffer with `contents`, which may be empty: a shader sees zeros then.
+    pub(crate) fn upload(
+        &self,
+        what: &'static str,
+        contents: &[u8],
+    ) -> Result<wgpu::Buffer, GpuError> {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        // WebGPU wants a binding to hold at least one element; 256 bytes hold any of ours.
+        let buffer = self.allocate(what, (contents.len() as u64).max(256), usage)?;
+        self.write(&buffer, 0, contents)?;
+        Ok(buffer)
+    }
+
+    /// Writes into a buffer, in parts so that no staging copy grows beyond 64 MiB.
+    pub(crate) fn write(
+        &self,
+        buffer: &wgpu::Buffer,
+        offset: u64,
+        contents: &[u8],
+    ) -> Result<(), GpuError> {
+        const PART: usize = 64 << 20;
+        self.scoped("write", || {
+            for (i, part) in contents.chunks(PART).enumerate() {
+                self.queue
+                    .write_buffer(buffer, offset + (i * PART) as u64, part);
+                if i > 0 {
+                    self.queue.submit([]);
+                }
+            }
+        })
+    }
+
+    /// A read-only storage image of 16-byte texels, rows of `width` texels, `texels` in all.
+    pub(crate) fn upload_image(
+        &self,
+        what: &'static str,
+        contents: &[u8],
+        width: u32,
+    ) -> Result<wgpu::TextureView, GpuError> {
+        if fault::strikes(fault::Site::Allocation) {
+            return Err(GpuError::OutOfMemory { what: what.into() });
+        }
+        let row_bytes = 16 * width as usize;
+        let height = contents.len().div_ceil(row_bytes).max(1) as u32;
+        let size = |height| wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        };
+        let texture = self.scoped(what, || {
+            self.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(what),
+                size: size(height),
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: wgpu::TextureFormat::Rgba32Uint,
+                usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_DST,
+                view_formats: &[],
+            })
+        })?;
+        const ROWS: usize = 512;
+        self.scoped(what, || {
+            for (i, part) in contents.chunks(ROWS * row_bytes).enumerate() {
+                let mut padded = part.to_vec();
+                padded.resize(part.len().next_multiple_of(row_bytes), 0);
+                let target = wgpu::TexelCopyTextureInfo {
+                    texture: &texture,
+                    mip_level: 0,
+                    origin: wgpu::Origin3d {
+                        x: 0,
+                        y: (i * ROWS) as u32,
+                        z: 0,
+                    },
+                    aspect: wgpu::TextureAspect::All,
+                };
+                let layout = wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(row_bytes as u32),
+                    rows_per_image: None,
+                };
+                let rows = padded.len() / row_bytes;
+                self.queue
+                    .write_texture(target, &padded, layout, size(rows as u32));
+            }
+        })?;
+        Ok(texture.create_view(&Default::default()))
+    }
+}

@@ -1,0 +1,50 @@
+//! Faults on demand, to rehearse what a user would meet: `GLIMRAY_FAULT=device@3` loses the device
+//! at the third submission, `allocation@2` refuses the second allocation, `device@*` fails always.
+
+use std::sync::{
+    OnceLock,
+    atomic::{AtomicU32, Ordering},
+};
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Site {
+    Device,
+    Allocation,
+}
+
+struct Plan {
+    site: Site,
+    /// The occasion that fails, counted from 1; `None` is every one.
+    at: Option<u32>,
+    seen: AtomicU32,
+}
+
+/// Whether this occasion is one that is to fail.
+pub(super) fn strikes(site: Site) -> bool {
+    static PLAN: OnceLock<Option<Plan>> = OnceLock::new();
+    let plan = PLAN.get_or_init(|| parse(&std::env::var("GLIMRAY_FAULT").ok()?));
+    let Some(plan) = plan.as_ref().filter(|plan| plan.site == site) else {
+        return false;
+    };
+    let occasion = plan.seen.fetch_add(1, Ordering::Relaxed) + 1;
+    plan.at.is_none_or(|at| at == occasion)
+}
+
+fn parse(text: &str) -> Option<Plan> {
+    let (site, at) = text.split_once('@')?;
+    let site = match site {
+        "device" => Site::Device,
+        "allocation" => Site::Allocation,
+        _ => return None,
+    };
+    let at = if at == "*" {
+        None
+    } else {
+        Some(at.parse().ok()?)
+    };
+    Some(Plan {
+        site,
+        at,
+        seen: AtomicU32::new(0),
+    })
+}

@@ -1,0 +1,82 @@
+//! The linked kernels and the pipelines made of them.
+
+use super::{Gpu, GpuError};
+
+/// A compute kernel: WGSL linked by `build.rs`, and its entry point.
+#[derive(Clone, Copy, Debug)]
+pub struct Kernel {
+    pub name: &'static str,
+    /// Geometry read from images.
+    pub image_source: &'static str,
+    /// Geometry read from buffers.
+    pub buffer_source: &'static str,
+}
+
+macro_rules! kernels {
+    ($($constant:ident $name:literal)*) => {
+        $(pub const $constant: Kernel = Kernel {
+            name: $name,
+            image_source: include_str!(concat!(env!("OUT_DIR"), "/", $name, "_image.wgsl")),
+            buffer_source: include_str!(concat!(env!("OUT_DIR"), "/", $name, "_buffer.wgsl")),
+        };)*
+        /// All kernels.
+        pub const ALL: &[Kernel] = &[$(Self::$constant),*];
+    };
+}
+
+impl Kernel {
+    kernels! {
+        WHITTED "whitted"
+        DEBUG_VIEW "debug_view"
+        DEVELOP "develop"
+    }
+}
+
+/// Values for the `override`s of `bindings.wesl`, by their ids.
+pub type Overrides<'a> = &'a [(&'a str, f64)];
+
+impl Gpu {
+    /// Compiles a kernel. A shader that the driver refuses is our fault: the error carries the
+    /// driver's words, and the linked text lies in the folder for temporary files.
+    pub(crate) fn pipeline(
+        &self,
+        name: &str,
+        source: &str,
+        layout: Option<&wgpu::PipelineLayout>,
+        overrides: Overrides,
+    ) -> Result<wgpu::ComputePipeline, GpuError> {
+        let made = self.scoped(name, || {
+            let module = self
+                .device
+                .create_shader_module(wgpu::ShaderModuleDescriptor {
+                    label: Some(name),
+                    source: wgpu::ShaderSource::Wgsl(source.into()),
+                });
+            self.device
+                .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                    label: Some(name),
+                    layout,
+                    module: &module,
+                    entry_point: None,
+                    compilation_options: wgpu::PipelineCompilationOptions {
+                        constants: overrides,
+                        ..Default::default()
+                    },
+                    cache: None,
+                })
+        });
+        made.map_err(|error| match error {
+            GpuError::Internal { what } => {
+                let dump = std::env::temp_dir().join(format!("glimray-{name}.wgsl"));
+                let place = match std::fs::write(&dump, source) {
+                    Ok(()) => format!(" (linked shader: {})", dump.display()),
+                    Err(_) => String::new(),
+                };
+                GpuError::Internal {
+                    what: format!("{what}{place}"),
+                }
+            }
+            other => other,
+        })
+    }
+}

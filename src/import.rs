@@ -1,0 +1,130 @@
+//! Scene files into [`Scene`]s: [`load`] chooses the importer by the file's ending.
+//!
+//! | ending | format | module |
+//! |---|---|---|
+//! | `.toml` | glimray's own | `native.rs` |
+//! | `.scene` | the course's | `course.rs` |
+//! | `.obj` | Wavefront OBJ with MTL | `obj.rs` |
+//!
+//! Files are hostile until read: nothing here panics, follows a path out of the scene's folder, or
+//! takes more memory than a few times the file's size. What cannot be rendered but does no harm is
+//! left out and named in [`Scene::skipped`]; everything else is one [`ImportError`] with the place
+//! it happened at.
+
+mod course;
+mod error;
+mod native;
+mod number;
+mod obj;
+mod paths;
+mod source;
+mod stage;
+mod suggest;
+
+pub use error::{Fault, ImportError, Position};
+
+use crate::scene::Scene;
+use error::fault;
+use paths::Files;
+use source::Source;
+use std::path::{Path, PathBuf};
+
+/// What a caller may add to a scene file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Folders outside the scene's own in which it may name files.
+    pub allow_dirs: Vec<PathBuf>,
+    /// `KEY=VALUE` pairs that replace or add one value of a native scene each, such as
+    /// `camera.fov_y_deg=30`, `objects.0.sphere.radius=2` or `output.tone=aces`. Values are TOML; a
+    /// bare word is a string.
+    pub overrides: Vec<String>,
+}
+
+/// The largest geometry file (`.scene`, `.obj`) that is read, in bytes.
+const MAX_GEOMETRY_BYTES: u64 = 2 << 30;
+
+/// The scene in the file at `path`, with default [`Options`].
+///
+/// # Errors
+/// See [`load_with`].
+pub fn load(path: &Path) -> Result<Scene, ImportError> {
+    load_with(path, &Options::default())
+}
+
+/// The scene in the file at `path`.
+///
+/// # Errors
+/// The file or one it names is missing, unreadable, too big, malformed or outside the scene's
+/// folder; the ending is unknown; an override does not fit, or the format takes none.
+pub fn load_with(path: &Path, options: &Options) -> Result<Scene, ImportError> {
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    let is_native = match ending.to_str() {
+        Some("toml") => true,
+        Some("scene" | "obj") => false,
+        _ => return Err(unknown_format(path)),
+    };
+    if is_native {
+        let files = Files::beside(path, &options.allow_dirs)?;
+        return native::read(&native::open(path)?, options, &files);
+    }
+    if !options.overrides.is_empty() {
+        let why = "only native scenes (.toml) have keys to set";
+        let fault = fault("override refused", path, why, "Leave out --set");
+        return Err(ImportError::Malformed(fault));
+    }
+    let bytes = paths::read(path, MAX_GEOMETRY_BYTES)?;
+    if ending == "scene" {
+        return course::read(&Source::new("bad scene", path, bytes)?);
+    }
+    let files = Files::beside(path, &options.allow_dirs)?;
+    obj::read_scene(&Source::new("bad model", path, bytes)?, &files)
+}
+
+/// The native scene in `text`, which can name no files. `name` stands for the file's path in errors.
+///
+/// # Errors
+/// `text` is malformed or names a file, or an override does not fit.
+pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportError> {
+    let source = Source::new("bad scene", Path::new(name), text.as_bytes().to_vec())?;
+    native::read(&source, options, &Files::none())
+}
+
+/// The JSON Schema (2020-12) of the native format, for editors that complete and check TOML.
+pub fn native_schema() -> serde_json::Value {
+    native::schema()
+}
+
+fn unknown_format(path: &Path) -> ImportError {
+    let ending = path.extension().map_or_else(
+        || "the name has no ending".to_owned(),
+        |ending| {
+            let ending = format!(".{}", ending.to_string_lossy());
+            format!(
+                "the ending {} is not known",
+                source::quote(ending.as_bytes())
+            )
+        },
+    );
+    ImportError::UnknownFormat(fault(
+        "unknown scene format",
+        path,
+        &ending,
+        "Name a .toml (native), .scene (course) or .obj (Wavefront) file",
+    ))
+}
+
+/// What [`crate::scene::Mesh::repair`] did, as notes for [`Scene::skipped`].
+fn repair_notes(repairs: crate::scene::Repairs) -> Vec<String> {
+    let count = |count: usize, what: &str| match count {
+        0 => None,
+        1 => Some(format!("1 {what}")),
+        _ => Some(format!("{count} {}s", what)),
+    };
+    let dropped = count(repairs.dropped_triangles, "triangle");
+    let recomputed = count(repairs.recomputed_normals, "normal");
+    dropped
+        .map(|triangles| format!("{triangles} without area dropped"))
+        .into_iter()
+        .chain(recomputed.map(|normals| format!("{normals} without length recomputed")))
+        .collect()
+}

@@ -1,0 +1,374 @@
+//! The course's format (`.scene`): CV 804 exercise 4 and its parent, USC CSCI 420 assignment 3.
+//!
+//! ```text
+//! file     := N  "amb:" r g b  object*          N counts lights too
+//! object   := sphere | triangle | light
+//! sphere   := "sphere"   "pos:" x y z  "rad:" r  "dif:" r g b  "spe:" r g b  "shi:" s
+//! triangle := "triangle" vertex vertex vertex
+//! vertex   := "pos:" x y z  "nor:" x y z  "dif:" r g b  "spe:" r g b  "shi:" s
+//! light    := "light"    "pos:" x y z  "col:" r g b
+//! ```
+//! Read as found in the wild: keys of an object in any order and case, an `N` that does not count,
+//! `#` and `//` comments, and the extensions `ref:` and `area_light:`, which are not rendered yet.
+
+mod palette;
+mod tokens;
+
+use super::error::ImportError;
+use super::number;
+use super::source::{Source, Token};
+use super::suggest;
+use crate::scene::{
+    Attenuation, Camera, Geometry, Instance, Light, LightKind, Mesh, OutputDefaults, Scene, Shape,
+    ToneCurve, Transfer,
+};
+use glam::{DAffine3, DVec3, Vec3};
+use palette::Palette;
+use tokens::Tokens;
+
+/// One `key:` and the values that an object or vertex has for it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Key {
+    Pos,
+    Nor,
+    Dif,
+    Spe,
+    Shi,
+    Rad,
+    Col,
+}
+
+use Key::{Col, Dif, Nor, Pos, Rad, Shi, Spe};
+
+const SPHERE: &[Key] = &[Pos, Rad, Dif, Spe, Shi];
+const VERTEX: &[Key] = &[Pos, Nor, Dif, Spe, Shi];
+const LIGHT: &[Key] = &[Pos, Col];
+const OBJECTS: [&str; 3] = ["sphere", "triangle", "light"];
+
+/// Keys that student renderers added, and how many words follow them.
+const EXTENSIONS: [(&str, usize); 5] = [
+    ("ref:", 1),
+    ("area_light:", 1),
+    ("area_u:", 3),
+    ("area_v:", 3),
+    ("samples:", 1),
+];
+
+/// The values of one object or vertex, by [`Key`]; single numbers in the first place.
+type Fields = [Option<[f64; 3]>; 7];
+
+impl Key {
+    fn name(self) -> &'static str {
+        ["pos:", "nor:", "dif:", "spe:", "shi:", "rad:", "col:"][self as usize]
+    }
+
+    fn of(self, fields: &Fields) -> DVec3 {
+        DVec3::from(fields[self as usize].unwrap_or_default())
+    }
+}
+
+/// The scene in `source`, with the picture that the course asks for.
+pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
+    let mut reader = Reader {
+        source,
+        tokens: Tokens::new(&source.bytes),
+        scene: Scene {
+            background: Vec3::ONE,
+            cameras: vec![Camera::default()],
+            output: OutputDefaults {
+                tone: ToneCurve::None,
+                transfer: Transfer::Linear,
+                ..OutputDefaults::default()
+            },
+            ..Scene::default()
+        },
+        mesh: Mesh::default(),
+        positions: Vec::new(),
+        palette: Palette::default(),
+        extensions: [0; 5],
+    };
+    let announced = reader.header()?;
+    let mut found = 0_u64;
+    while let Some(token) = reader.next_object()? {
+        reader.object(token)?;
+        found += 1;
+    }
+    if announced != found as f64 {
+        let note = format!(
+            "the file announces {announced} objects, but has {found}: all of them are read"
+        );
+        reader.scene.skipped.push(note);
+    }
+    Ok(reader.finish())
+}
+
+struct Reader<'s> {
+    source: &'s Source,
+    tokens: Tokens<'s>,
+    scene: Scene,
+    /// All triangles, without their positions.
+    mesh: Mesh,
+    positions: Vec<DVec3>,
+    palette: Palette,
+    /// How often each of [`EXTENSIONS`] was met.
+    extensions: [usize; 5],
+}
+
+impl<'s> Reader<'s> {
+    /// Reads up to the first object and returns how many are announced.
+    fn header(&mut self) -> Result<f64, ImportError> {
+        let token = self.expect("the number of objects ", "N")?;
+        let announced = number::parse(self.source, token)?;
+        if announced < 0.0 || announced.fract() != 0.0 {
+            let why = format!("{} is not a number of objects", token.quote());
+            return Err(self.refuse(token, why, "Write a whole number, 0 or more"));
+        }
+        let token = self.expect("", "amb:")?;
+        if !token.bytes.eq_ignore_ascii_case(b"amb:") {
+            let why = format!("expected `amb:`, found {}", token.quote());
+            return Err(self.refuse(token, why, "Begin the file with N and `amb: R G B`"));
+        }
+        self.scene.ambient = DVec3::from(self.color("amb:")?).as_vec3();
+        Ok(announced)
+    }
+
+    /// The keyword of the next object, or `None` at the end.
+    fn next_object(&mut self) -> Result<Option<Token<'s>>, ImportError> {
+        while let Some(token) = self.tokens.next() {
+            if !self.is_extension(token)? {
+                return Ok(Some(token));
+            }
+        }
+        Ok(None)
+    }
+
+    fn object(&mut self, keyword: Token<'s>) -> Result<(), ImportError> {
+        match keyword.bytes.to_ascii_lowercase().as_slice() {
+            b"sphere" => self.sphere(),
+            b"triangle" => self.triangle(),
+            b"light" => self.light(),
+            word => {
+                let why = suggest::unknown("object", &String::from_utf8_lossy(word), OBJECTS);
+                let todo = "Objects are `sphere`, `triangle` and `light`";
+                Err(self.refuse(keyword, why, todo))
+            }
+        }
+    }
+
+    fn sphere(&mut self) -> Result<(), ImportError> {
+        let fields = self.fields("sphere", SPHERE)?;
+        let shape = Shape {
+            geometry: Geometry::Sphere {
+                center: Pos.of(&fields),
+                radius: Rad.of(&fields).x,
+            },
+            material: self.material(&fields) as usize,
+        };
+        self.scene.shapes.push(shape);
+        Ok(())
+    }
+
+    fn triangle(&mut self) -> Result<(), ImportError> {
+        let first = self.positions.len() as u32;
+        for _ in 0..3 {
+            let fields = self.fields("triangle", VERTEX)?;
+            self.positions.push(Pos.of(&fields));
+            self.mesh.normals.push(Nor.of(&fields).as_vec3());
+            let material = self.material(&fields);
+            self.mesh.materials.push(material);
+        }
+        self.mesh.triangles.push([first, first + 1, first + 2]);
+        Ok(())
+    }
+
+    fn light(&mut self) -> Result<(), ImportError> {
+        let fields = self.fields("light", LIGHT)?;
+        self.scene.lights.push(Light {
+            kind: LightKind::Point {
+                position: Pos.of(&fields),
+            },
+            color: Col.of(&fields).as_vec3(),
+            attenuation: Attenuation::None,
+        });
+        Ok(())
+    }
+
+    fn material(&mut self, fields: &Fields) -> u32 {
+        let (diffuse, specular) = (Dif.of(fields).as_vec3(), Spe.of(fields).as_vec3());
+        self.palette
+            .index(diffuse, specular, Shi.of(fields).x as f32)
+    }
+
+    /// Reads keys in any order until all of `wanted` are there.
+    fn fields(&mut self, object: &str, wanted: &[Key]) -> Result<Fields, ImportError> {
+        let mut fields = Fields::default();
+        while let Some(missing) = wanted.iter().find(|&&key| fields[key as usize].is_none()) {
+            let Some(token) = self.tokens.next() else {
+                let why = format!(
+                    "the file ends inside a {object}, before `{}`",
+                    missing.name()
+                );
+                return Err(self.refuse(self.tokens.end(), why, "Check that it is complete"));
+            };
+            if self.is_extension(token)? {
+                continue;
+            }
+            let key = self.key(token, object, wanted, *missing)?;
+            if fields[key as usize].is_some() {
+                let why = format!("a second `{}` before `{}`", key.name(), missing.name());
+                return Err(self.refuse(token, why, &takes(object, wanted)));
+            }
+            fields[key as usize] = Some(self.values(key)?);
+        }
+        Ok(fields)
+    }
+
+    fn key(
+        &self,
+        token: Token,
+        object: &str,
+        wanted: &[Key],
+        missing: Key,
+    ) -> Result<Key, ImportError> {
+        let is_named = |key: &&Key| token.bytes.eq_ignore_ascii_case(key.name().as_bytes());
+        if let Some(&key) = wanted.iter().find(is_named) {
+            return Ok(key);
+        }
+        let word = String::from_utf8_lossy(token.bytes).to_lowercase();
+        let why = if OBJECTS.contains(&word.as_str()) {
+            format!(
+                "a new object begins, but the {object} before it has no `{}`",
+                missing.name()
+            )
+        } else {
+            suggest::unknown("key", &word, wanted.iter().map(|key| key.name()))
+        };
+        Err(self.refuse(token, why, &takes(object, wanted)))
+    }
+
+    /// The checked values of `key`.
+    fn values(&mut self, key: Key) -> Result<[f64; 3], ImportError> {
+        let name = key.name();
+        match key {
+            Pos | Nor => Ok([
+                self.number(name)?.1,
+                self.number(name)?.1,
+                self.number(name)?.1,
+            ]),
+            Dif | Spe | Col => self.color(name),
+            Rad => self.radius(),
+            Shi => Ok([self.at_least_zero(name)?, 0.0, 0.0]),
+        }
+    }
+
+    fn radius(&mut self) -> Result<[f64; 3], ImportError> {
+        let (token, radius) = self.number("rad:")?;
+        if radius < f64::from(f32::MIN_POSITIVE) {
+            let why = format!("the radius {} is not greater than 0", token.quote());
+            return Err(self.refuse(token, why, "Write a positive number"));
+        }
+        Ok([radius, 0.0, 0.0])
+    }
+
+    fn color(&mut self, key: &str) -> Result<[f64; 3], ImportError> {
+        Ok([
+            self.at_least_zero(key)?,
+            self.at_least_zero(key)?,
+            self.at_least_zero(key)?,
+        ])
+    }
+
+    fn at_least_zero(&mut self, key: &str) -> Result<f64, ImportError> {
+        match self.number(key)? {
+            (_, value) if value >= 0.0 => Ok(value),
+            (token, _) => {
+                let why = format!("{} in `{key}` is negative", token.quote());
+                Err(self.refuse(token, why, "Write 0 or more"))
+            }
+        }
+    }
+
+    fn number(&mut self, key: &str) -> Result<(Token<'s>, f64), ImportError> {
+        let token = self.expect("a number of ", key)?;
+        Ok((token, number::parse(self.source, token)?))
+    }
+
+    /// The next token, which should be `key` or something of it.
+    fn expect(&mut self, what: &str, key: &str) -> Result<Token<'s>, ImportError> {
+        self.tokens.next().ok_or_else(|| {
+            let why = format!("the file ends where {what}`{key}` should be");
+            self.refuse(self.tokens.end(), why, "Check that it is complete")
+        })
+    }
+
+    /// Whether `token` is an extension, whose words are then passed over.
+    fn is_extension(&mut self, token: Token) -> Result<bool, ImportError> {
+        let known = |(name, _): &(&str, usize)| token.bytes.eq_ignore_ascii_case(name.as_bytes());
+        let Some(index) = EXTENSIONS.iter().position(known) else {
+            return Ok(false);
+        };
+        let (name, word_count) = EXTENSIONS[index];
+        for _ in 0..word_count {
+            let word = self.expect("a value of ", name)?;
+            if name == "area_light:" {
+                if !matches!(
+                    word.bytes.to_ascii_lowercase().as_slice(),
+                    b"true" | b"false"
+                ) {
+                    let why = format!("expected `true` or `false`, found {}", word.quote());
+                    return Err(self.refuse(word, why, "Write `area_light: true`"));
+                }
+            } else {
+                number::parse(self.source, word)?;
+            }
+        }
+        self.extensions[index] += 1;
+        Ok(true)
+    }
+
+    fn refuse(&self, token: Token, why: String, todo: &str) -> ImportError {
+        self.source.malformed(token.span(), why, todo)
+    }
+
+    fn finish(mut self) -> Scene {
+        for ((name, _), count) in EXTENSIONS.iter().zip(self.extensions) {
+            if count > 0 {
+                let times = if count == 1 {
+                    "once".to_owned()
+                } else {
+                    format!("{count} times")
+                };
+                self.scene
+                    .skipped
+                    .push(format!("`{name}` is not rendered yet (found {times})"));
+            }
+        }
+        let (local, offset) = Mesh::from_world_positions(&self.positions);
+        self.mesh.positions = local;
+        let repairs = self.mesh.repair();
+        self.scene.skipped.extend(super::repair_notes(repairs));
+        if !self.mesh.triangles.is_empty() {
+            let world_from_object = DAffine3::from_translation(offset);
+            self.scene.meshes.push(self.mesh);
+            self.scene.instances.push(Instance {
+                mesh: 0,
+                world_from_object,
+            });
+        }
+        self.scene.materials = self.palette.into_materials();
+        self.scene
+    }
+}
+
+fn takes(object: &str, wanted: &[Key]) -> String {
+    let names: Vec<_> = wanted
+        .iter()
+        .map(|key| format!("`{}`", key.name()))
+        .collect();
+    let part = if object == "triangle" {
+        "vertex of a triangle"
+    } else {
+        object
+    };
+    format!("A {part} takes {}, each once", names.join(", "))
+}

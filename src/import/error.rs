@@ -1,0 +1,157 @@
+//! What can go wrong on the way from a file to a scene, and how it reads.
+
+use miette::{LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Why a scene was refused. The kinds differ in what a program may want to do about them; the text
+/// is in the [`Fault`], and `Display` is one line: `WHAT (FILE:LINE:COLUMN): WHY. WHAT TO DO.`
+#[derive(Debug, thiserror::Error)]
+pub enum ImportError {
+    /// A file is missing, is no file, or the system would not let us read it.
+    #[error("{0}")]
+    Unreadable(Box<Fault>),
+    /// No importer knows the file's ending.
+    #[error("{0}")]
+    UnknownFormat(Box<Fault>),
+    /// A scene names a file outside its folder.
+    #[error("{0}")]
+    OutsideFolder(Box<Fault>),
+    /// The contents are not what the format says.
+    #[error("{0}")]
+    Malformed(Box<Fault>),
+    /// Reading on would take more memory than we allow.
+    #[error("{0}")]
+    TooBig(Box<Fault>),
+}
+
+/// One error, in the parts that a report is made of.
+#[derive(Debug)]
+pub struct Fault {
+    /// What failed: "bad scene".
+    pub what: String,
+    pub path: PathBuf,
+    /// Absent when the whole file is at fault.
+    pub position: Option<Position>,
+    /// Why, as a clause without a full stop.
+    pub why: String,
+    /// What the user can do, as a sentence without a full stop.
+    pub todo: String,
+    excerpt: Option<Excerpt>,
+}
+
+/// A place in a text file, counted from 1; columns count characters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Position {
+    pub line: usize,
+    pub column: usize,
+}
+
+/// A short window of the line at fault.
+#[derive(Debug)]
+pub(super) struct Excerpt {
+    pub name: String,
+    pub text: String,
+    /// Bytes of `text` to point at.
+    pub span: std::ops::Range<usize>,
+    pub position: Position,
+}
+
+/// A fault of a whole file.
+pub(super) fn fault(what: &str, path: &Path, why: &str, todo: &str) -> Box<Fault> {
+    Box::new(Fault {
+        what: what.to_owned(),
+        path: path.to_owned(),
+        position: None,
+        why: why.to_owned(),
+        todo: todo.to_owned(),
+        excerpt: None,
+    })
+}
+
+impl ImportError {
+    /// Whether the scene was refused for its size alone.
+    pub fn is_too_big(&self) -> bool {
+        matches!(self, Self::TooBig(_))
+    }
+
+    /// The parts of the message.
+    pub fn fault(&self) -> &Fault {
+        match self {
+            Self::Unreadable(fault)
+            | Self::UnknownFormat(fault)
+            | Self::OutsideFolder(fault)
+            | Self::Malformed(fault)
+            | Self::TooBig(fault) => fault,
+        }
+    }
+}
+
+impl ImportError {
+    pub(super) fn into_fault(self) -> Box<Fault> {
+        match self {
+            Self::Unreadable(fault)
+            | Self::UnknownFormat(fault)
+            | Self::OutsideFolder(fault)
+            | Self::Malformed(fault)
+            | Self::TooBig(fault) => fault,
+        }
+    }
+}
+
+impl Fault {
+    pub(super) fn at(mut self: Box<Self>, excerpt: Excerpt) -> Box<Self> {
+        self.position = Some(excerpt.position);
+        self.excerpt = Some(excerpt);
+        self
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({}", self.what, one_line(&self.path))?;
+        if let Some(Position { line, column }) = self.position {
+            write!(f, ":{line}:{column}")?;
+        }
+        let stop = if self.why.ends_with('?') { "" } else { "." };
+        write!(f, "): {}{stop} {}.", self.why, self.todo)
+    }
+}
+
+/// A path as text that keeps to one line, whatever characters are in it.
+pub(super) fn one_line(path: &Path) -> String {
+    let visible = |c: char| if c.is_control() { '\u{fffd}' } else { c };
+    path.to_string_lossy().chars().map(visible).collect()
+}
+
+impl miette::Diagnostic for ImportError {
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.fault().excerpt.as_ref().map(|e| e as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let excerpt = self.fault().excerpt.as_ref()?;
+        let label =
+            LabeledSpan::new_primary_with_span(Some("here".to_owned()), excerpt.span.clone());
+        Some(Box::new(std::iter::once(label)))
+    }
+}
+
+impl SourceCode for Excerpt {
+    /// Always the whole window, which is one line.
+    fn read_span<'a>(
+        &'a self,
+        _: &SourceSpan,
+        _: usize,
+        _: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        Ok(Box::new(MietteSpanContents::new_named(
+            self.name.clone(),
+            self.text.as_bytes(),
+            (0, self.text.len()).into(),
+            self.position.line - 1,
+            self.position.column - 1,
+            1,
+        )))
+    }
+}

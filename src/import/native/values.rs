@@ -1,0 +1,338 @@
+//! The single values of a native scene. Each checks itself when it is read, so that the parser
+//! knows where in the file a bad one stands, and describes itself for the JSON Schema.
+
+use crate::import::number::in_range;
+use crate::import::source::quote;
+use crate::scene::{Attenuation, ToneCurve, Transfer};
+use glam::{DVec3, Vec3};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
+use std::borrow::Cow;
+use std::fmt;
+use std::marker::PhantomData;
+
+/// Any number in the range of f32, integer or not.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Number(pub f64);
+
+impl<'de> Deserialize<'de> for Number {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Checked;
+        impl Visitor<'_> for Checked {
+            type Value = Number;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a number")
+            }
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Number, E> {
+                Ok(Number(value as f64))
+            }
+            fn visit_u64<E: de::Error>(self, value: u64) -> Result<Number, E> {
+                Ok(Number(value as f64))
+            }
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Number, E> {
+                match value {
+                    value if in_range(value) => Ok(Number(value)),
+                    value if value.is_finite() => Err(E::custom(format!(
+                        "{value:e} is out of range: at most 3.4e38 is allowed"
+                    ))),
+                    _ => Err(E::custom(format!("{value} is not a finite number"))),
+                }
+            }
+        }
+        deserializer.deserialize_f64(Checked)
+    }
+}
+
+/// Reads `[a, b, …]` of exactly `N` elements.
+struct Elements<T, const N: usize>(&'static str, PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Elements<T, N> {
+    type Value = [T; N];
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.0)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<[T; N], A::Error> {
+        let mut elements = Vec::with_capacity(N);
+        while let Some(element) = seq.next_element()? {
+            elements.push(element);
+            if elements.len() > N {
+                break;
+            }
+        }
+        elements.try_into().map_err(|wrong: Vec<T>| {
+            let more = if wrong.len() > N { "more" } else { "fewer" };
+            de::Error::custom(format!("expected {}, found {more}", self.0))
+        })
+    }
+}
+
+/// Exactly `N` elements, which `expected` describes.
+pub(super) fn elements<'de, T: Deserialize<'de>, const N: usize, D: Deserializer<'de>>(
+    deserializer: D,
+    expected: &'static str,
+) -> Result<[T; N], D::Error> {
+    deserializer.deserialize_seq(Elements(expected, PhantomData))
+}
+
+/// A value type: its docs, the type it is made from, its schema, and the check.
+macro_rules! value {
+    ($(#[doc = $doc:literal])* $name:ident($inner:ty), $schema:tt, $read:expr) => {
+        $(#[doc = $doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub(super) struct $name(pub $inner);
+
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                let read: fn(D) -> Result<$inner, D::Error> = $read;
+                read(deserializer).map(Self)
+            }
+        }
+
+        impl JsonSchema for $name {
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+            fn json_schema(_: &mut SchemaGenerator) -> Schema {
+                json_schema!($schema)
+            }
+        }
+    };
+}
+
+/// Reads a number that `holds`, or says that it `is not …`.
+fn number<'de, D: Deserializer<'de>>(
+    deserializer: D,
+    holds: fn(f64) -> bool,
+    wanted: &str,
+) -> Result<f64, D::Error> {
+    match Number::deserialize(deserializer)?.0 {
+        value if holds(value) => Ok(value),
+        value => Err(de::Error::custom(format!("{value} is not {wanted}"))),
+    }
+}
+
+value! {
+    /// A length or exponent above 0.
+    Positive(f64),
+    { "type": "number", "exclusiveMinimum": 0 },
+    |d| number(d, |x| x >= f64::from(f32::MIN_POSITIVE), "greater than 0")
+}
+
+value! {
+    /// A number, 0 or more.
+    NonNegative(f32),
+    { "type": "number", "minimum": 0 },
+    |d| number(d, |x| x >= 0.0, "0 or more").map(|x| x as f32)
+}
+
+value! {
+    /// A number of photographic stops.
+    Stops(f32),
+    { "type": "number", "minimum": -32, "maximum": 32 },
+    |d| number(d, |x| x.abs() <= 32.0, "between -32 and 32").map(|x| x as f32)
+}
+
+value! {
+    /// A full angle of view in degrees.
+    ViewAngle(f64),
+    { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 180 },
+    |d| number(d, |x| (1e-3..=179.999).contains(&x), "an angle between 0.001 and 179.999 degrees")
+}
+
+value! {
+    /// An angle off an axis in degrees.
+    AxisAngle(f64),
+    { "type": "number", "minimum": 0, "maximum": 90 },
+    |d| number(d, |x| (0.0..=90.0).contains(&x), "an angle between 0 and 90 degrees")
+}
+
+value! {
+    /// Three numbers: x, y, z.
+    Vector(DVec3),
+    { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 },
+    |d| elements::<Number, 3, D>(d, "three numbers [x, y, z]").map(|v| DVec3::from(v.map(|x| x.0)))
+}
+
+value! {
+    /// Three numbers that are not all 0: a direction of any length.
+    Direction(DVec3),
+    { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 },
+    |d| {
+        let vector = Vector::deserialize(d)?.0;
+        vector.try_normalize().ok_or_else(|| de::Error::custom("a direction cannot be [0, 0, 0]"))
+    }
+}
+
+value! {
+    /// A scale factor for all axes, or one for each. Negative factors mirror.
+    Scale(DVec3),
+    { "oneOf": [
+        { "type": "number", "not": { "const": 0 } },
+        { "type": "array", "items": { "type": "number", "not": { "const": 0 } }, "minItems": 3, "maxItems": 3 }
+    ] },
+    |d| {
+        let scale = d.deserialize_any(NumberOrVector)?;
+        let is_flat = scale.abs().min_element() < f64::from(f32::MIN_POSITIVE);
+        if is_flat { Err(de::Error::custom("a scale cannot be 0")) } else { Ok(scale) }
+    }
+}
+
+value! {
+    /// A linear Rec. 709 colour as three numbers [r, g, b], 0 or more, or an sRGB colour as "#rrggbb".
+    Color(Vec3),
+    { "oneOf": [
+        { "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": 3, "maxItems": 3 },
+        { "type": "string", "pattern": "^#[0-9A-Fa-f]{6}$" }
+    ] },
+    |d| d.deserialize_any(ColorVisitor)
+}
+
+value! {
+    /// Width and height in pixels.
+    Size([u32; 2]),
+    { "type": "array", "items": { "type": "integer", "minimum": 1, "maximum": 65536 }, "minItems": 2, "maxItems": 2 },
+    |d| elements::<Count, 2, D>(d, "two numbers [width, height]").map(|size| size.map(|count| count.0))
+}
+
+value! {
+    /// A whole number from 1 to 65536.
+    Count(u32),
+    { "type": "integer", "minimum": 1, "maximum": 65536 },
+    |d| {
+        let holds = |x: f64| x.fract() == 0.0 && (1.0..=65536.0).contains(&x);
+        number(d, holds, "a whole number from 1 to 65536").map(|x| x as u32)
+    }
+}
+
+struct NumberOrVector;
+
+impl<'de> Visitor<'de> for NumberOrVector {
+    type Value = DVec3;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a number or [x, y, z]")
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<DVec3, E> {
+        self.visit_f64(value as f64)
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<DVec3, E> {
+        Number::deserialize(de::value::F64Deserializer::new(value)).map(|x| DVec3::splat(x.0))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<DVec3, A::Error> {
+        Vector::deserialize(de::value::SeqAccessDeserializer::new(seq)).map(|vector| vector.0)
+    }
+}
+
+struct ColorVisitor;
+
+impl<'de> Visitor<'de> for ColorVisitor {
+    type Value = Vec3;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a colour: [r, g, b] or \"#rrggbb\"")
+    }
+
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<Vec3, E> {
+        let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6);
+        let code = digits.filter(|digits| digits.bytes().all(|b| b.is_ascii_hexdigit()));
+        let code = code
+            .and_then(|digits| u32::from_str_radix(digits, 16).ok())
+            .ok_or_else(|| {
+                let quoted = quote(text.as_bytes());
+                E::custom(format!(
+                    "{quoted} is not a colour: write \"#rrggbb\" or [r, g, b]"
+                ))
+            })?;
+        let channel = |shift: u32| linear_from_srgb(((code >> shift) & 0xff) as f64 / 255.0) as f32;
+        Ok(Vec3::new(channel(16), channel(8), channel(0)))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Vec3, A::Error> {
+        let expected = "three numbers [r, g, b]";
+        let color = Elements::<Number, 3>(expected, PhantomData)
+            .visit_seq(seq)?
+            .map(|x| x.0);
+        match color.iter().find(|&&x| x < 0.0) {
+            Some(x) => Err(de::Error::custom(format!("{x} in a colour is negative"))),
+            None => Ok(DVec3::from(color).as_vec3()),
+        }
+    }
+}
+
+/// The inverse of the sRGB transfer function, IEC 61966-2-1.
+fn linear_from_srgb(value: f64) -> f64 {
+    if value <= 0.04045 {
+        value / 12.92
+    } else {
+        ((value + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// How display-linear values become stored ones.
+#[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum TransferName {
+    /// The sRGB curve, IEC 61966-2-1.
+    Srgb,
+    /// As they are.
+    Linear,
+}
+
+impl From<TransferName> for Transfer {
+    fn from(name: TransferName) -> Self {
+        match name {
+            TransferName::Srgb => Self::Srgb,
+            TransferName::Linear => Self::Linear,
+        }
+    }
+}
+
+/// How scene-linear radiance becomes display-linear.
+#[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum ToneName {
+    /// Clamp.
+    None,
+    /// Filmic, contrasty: a fit of ACES.
+    Aces,
+    /// Filmic, soft, keeps hues: AgX.
+    Agx,
+    /// x / (1 + x) on luminance.
+    Reinhard,
+}
+
+impl From<ToneName> for ToneCurve {
+    fn from(name: ToneName) -> Self {
+        match name {
+            ToneName::None => Self::None,
+            ToneName::Aces => Self::Aces,
+            ToneName::Agx => Self::Agx,
+            ToneName::Reinhard => Self::Reinhard,
+        }
+    }
+}
+
+/// How a light fades with the distance r to it.
+#[derive(Clone, Copy, Debug, Default, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum AttenuationName {
+    /// Not at all.
+    None,
+    /// 1/r², as light does.
+    #[default]
+    InverseSquare,
+}
+
+impl From<AttenuationName> for Attenuation {
+    fn from(name: AttenuationName) -> Self {
+        match name {
+            AttenuationName::None => Self::None,
+            AttenuationName::InverseSquare => Self::InverseSquare,
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! A text file in memory that can say where in it something is wrong.
+
+use super::error::{Excerpt, ImportError, Position, fault, one_line};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// Bytes of the line that an error shows on either side of the fault.
+const EXCERPT_REACH: usize = 60;
+
+/// The text of one file, without its byte order mark.
+pub(super) struct Source {
+    /// What an error in it is called, such as "bad scene".
+    what: &'static str,
+    pub path: PathBuf,
+    pub bytes: Vec<u8>,
+}
+
+/// Some bytes of a [`Source`] and where they begin.
+#[derive(Clone, Copy)]
+pub(super) struct Token<'s> {
+    pub bytes: &'s [u8],
+    pub at: usize,
+}
+
+impl Token<'_> {
+    /// The bytes of the source that the token takes.
+    pub fn span(&self) -> Range<usize> {
+        self.at..self.at + self.bytes.len()
+    }
+
+    /// The token as an error shows it.
+    pub fn quote(&self) -> String {
+        quote(self.bytes)
+    }
+}
+
+impl Source {
+    /// # Errors
+    /// `bytes` are empty, UTF-16 or no text at all.
+    pub fn new(what: &'static str, path: &Path, mut bytes: Vec<u8>) -> Result<Self, ImportError> {
+        let refuse = |why, todo| Err(ImportError::Malformed(fault(what, path, why, todo)));
+        if bytes.is_empty() {
+            return refuse("the file is empty", "Check that it was written completely");
+        }
+        if is_utf16(&bytes) {
+            return refuse("the file is UTF-16", "Save it as UTF-8");
+        }
+        if bytes.starts_with(b"\xef\xbb\xbf") {
+            bytes.drain(..3);
+        }
+        let source = Self {
+            what,
+            path: path.to_owned(),
+            bytes,
+        };
+        match source.bytes.iter().position(|&b| b == 0) {
+            Some(at) => {
+                let why = "a zero byte: the file is binary, not text".to_owned();
+                Err(source.malformed(at..at + 1, why, "Name a text file"))
+            }
+            None => Ok(source),
+        }
+    }
+
+    /// # Errors
+    /// The bytes are not UTF-8.
+    pub fn text(&self) -> Result<&str, ImportError> {
+        std::str::from_utf8(&self.bytes).map_err(|error| {
+            let at = error.valid_up_to();
+            let why = format!("the byte {:#04x} is not UTF-8", self.bytes[at]);
+            self.malformed(at..at + 1, why, "Save the file as UTF-8")
+        })
+    }
+
+    /// An error about `span`. `why` is a clause without a full stop (or a question with its mark),
+    /// `todo` a sentence without one.
+    pub fn malformed(&self, span: Range<usize>, why: String, todo: &str) -> ImportError {
+        let fault = fault(self.what, &self.path, &why, todo);
+        ImportError::Malformed(fault.at(self.excerpt(span)))
+    }
+
+    /// The window round `span`, which may end, but not begin, beyond the text.
+    pub fn excerpt(&self, span: Range<usize>) -> Excerpt {
+        let at = span.start.min(self.bytes.len());
+        let line = self.line_around(at);
+        let from = line.start.max(at.saturating_sub(EXCERPT_REACH));
+        let to = line.end.min(at + EXCERPT_REACH);
+        let cut = |is_cut| if is_cut { "…" } else { "" };
+        let before = format!(
+            "{}{}",
+            cut(from > line.start),
+            visible(&self.bytes[from..at])
+        );
+        let marked = visible(&self.bytes[at..span.end.clamp(at, to)]);
+        let after = visible(&self.bytes[at.max(span.end.clamp(at, to))..to]);
+        Excerpt {
+            name: one_line(&self.path),
+            span: before.len()..before.len() + marked.len(),
+            text: format!("{before}{marked}{after}{}", cut(to < line.end)),
+            position: self.position(at),
+        }
+    }
+
+    /// The line and column of the byte `at`.
+    pub fn position(&self, at: usize) -> Position {
+        let start = self.line_around(at).start;
+        let is_newline = |b: &&u8| **b == b'\n';
+        let begins_character = |b: &&u8| **b & 0xc0 != 0x80;
+        Position {
+            line: 1 + self.bytes[..start].iter().filter(is_newline).count(),
+            column: 1 + self.bytes[start..at]
+                .iter()
+                .filter(begins_character)
+                .count(),
+        }
+    }
+
+    fn line_around(&self, at: usize) -> Range<usize> {
+        let (before, after) = self.bytes.split_at(at);
+        let start = before
+            .iter()
+            .rposition(|&b| b == b'\n')
+            .map_or(0, |i| i + 1);
+        let length = after.iter().position(|&b| b == b'\n' || b == b'\r');
+        start..length.map_or(self.bytes.len(), |length| at + length)
+    }
+}
+
+/// By its byte order mark, or else by the zero half of its first character.
+fn is_utf16(bytes: &[u8]) -> bool {
+    match *bytes {
+        [a, b, ..] => matches!((a, b), (0xff, 0xfe) | (0xfe, 0xff)) || (a == 0) != (b == 0),
+        _ => false,
+    }
+}
+
+/// `bytes` in backquotes, cut when long, with nothing in it that could upset a terminal.
+pub(super) fn quote(bytes: &[u8]) -> String {
+    const LONGEST: usize = 32;
+    let mut quoted = String::from("`");
+    for c in String::from_utf8_lossy(&bytes[..bytes.len().min(LONGEST)]).chars() {
+        match c {
+            '\\' | '\'' | '"' => quoted.push(c),
+            c => quoted.extend(c.escape_debug()),
+        }
+    }
+    quoted.push_str(if bytes.len() > LONGEST { "…`" } else { "`" });
+    quoted
+}
+
+fn visible(bytes: &[u8]) -> String {
+    let plain = |c: char| match c {
+        '\t' => ' ',
+        c if c.is_control() => '\u{fffd}',
+        c => c,
+    };
+    String::from_utf8_lossy(bytes).chars().map(plain).collect()
+}

@@ -1,0 +1,53 @@
+//! A camera and lights for geometry that comes without.
+
+use crate::scene::{Attenuation, Camera, Light, LightKind, Scene};
+use glam::{DVec3, Vec3};
+
+/// A camera that sees all of `scene` from the front, a little to the right and above, in a picture
+/// of 4:3 or wider; the course's camera when nothing in the scene is bounded.
+pub(super) fn camera(scene: &Scene) -> Camera {
+    let Some((min, max)) = scene.bounds() else {
+        return Camera::default();
+    };
+    let center = (min + max) / 2.0;
+    // Never 0, not even for a single point far out.
+    let half = ((max - min) / 2.0).max(DVec3::splat(1e-6 * center.abs().max_element().max(1e-6)));
+    let backward = DVec3::new(0.55, 0.4, 1.0).normalize();
+    let right = DVec3::Y.cross(backward).normalize();
+    let up = backward.cross(right);
+
+    let fov_y = 35_f64.to_radians();
+    let slope = (fov_y / 2.0).tan();
+    // How far back the camera must be for a corner of the box to be on the edge of the picture.
+    let distance = |i: u8| {
+        let side = |bit: u8| if i & bit == 0 { -1.0 } else { 1.0 };
+        let corner = half * DVec3::new(side(1), side(2), side(4));
+        let height = corner.dot(up).abs().max(corner.dot(right).abs() * 0.75);
+        corner.dot(backward) + height / slope
+    };
+    let distance = (0..8).map(distance).fold(0.0, f64::max);
+    Camera {
+        look_from: center + 1.06 * distance * backward,
+        look_at: center,
+        fov_y,
+        ..Camera::default()
+    }
+}
+
+/// Lights, background and ambient light for a bare model: a warm key from the right above, a cool
+/// fill from the left, and enough ambient that nothing is black.
+pub(super) fn light(scene: &mut Scene) {
+    let sun = |towards: DVec3, color: Vec3| Light {
+        kind: LightKind::Directional {
+            direction: towards.normalize(),
+        },
+        color,
+        attenuation: Attenuation::None,
+    };
+    scene.lights = vec![
+        sun(DVec3::new(-0.6, -1.0, -0.7), Vec3::new(0.85, 0.81, 0.74)),
+        sun(DVec3::new(1.0, -0.35, -0.6), Vec3::new(0.16, 0.19, 0.25)),
+    ];
+    scene.background = Vec3::new(0.54, 0.62, 0.72);
+    scene.ambient = Vec3::new(0.14, 0.15, 0.17);
+}

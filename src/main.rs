@@ -1,0 +1,12 @@
+//! The `glimray` program: hands its arguments to [`glimray::app`].
+
+#![forbid(unsafe_code)]
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+fn main() -> ExitCode {
+    let started = Instant::now();
+    glimray::app::exit::install_panic_hook();
+    glimray::app::run(std::env::args_os(), started)
+}

@@ -1,0 +1,212 @@
+//! Bytes → file, so that a reader, a crash or a full disk never sees half of it: a new file beside
+//! the old one, written, synced, renamed over it; then the folder synced and the result looked at.
+
+use super::OutputError;
+use std::fs::{self, File, OpenOptions, Permissions};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use tempfile::NamedTempFile;
+
+/// Between a file's name and the process that was writing it.
+const PART: &str = ".part-";
+
+/// Names of files end at 255 bytes nearly everywhere; this leaves room for what is put round them.
+const MAX_STEM: usize = 200;
+
+/// Where bytes for a path really go.
+enum Target {
+    /// A file, new or old, to be put in place by renaming.
+    File {
+        /// With symbolic links resolved, so that the link survives and its file is replaced.
+        path: PathBuf,
+        /// Of the file that is there.
+        permissions: Option<Permissions>,
+    },
+    /// A pipe, a device or a socket: to be written to as it is.
+    Stream,
+}
+
+pub(super) fn check(path: &Path, clobber: bool) -> Result<(), OutputError> {
+    if let Target::File { path: file, .. } = target(path, clobber)? {
+        remove_leftovers(&file);
+        part_file(&file).map_err(|source| failed(path, source))?;
+    }
+    Ok(())
+}
+
+pub(super) fn write(path: &Path, bytes: &[u8], clobber: bool) -> Result<(), OutputError> {
+    match target(path, clobber)? {
+        Target::Stream => OpenOptions::new()
+            .write(true)
+            .open(path)
+            .and_then(|mut stream| stream.write_all(bytes).and_then(|()| stream.flush()))
+            .map_err(|source| failed(path, source)),
+        Target::File {
+            path: file,
+            permissions,
+        } => {
+            replace(&file, bytes, permissions, clobber).map_err(|source| match source.kind() {
+                ErrorKind::AlreadyExists if !clobber => OutputError::Exists { path: path.into() },
+                _ => failed(path, source),
+            })?;
+            verify(path, &file, bytes.len() as u64)
+        }
+    }
+}
+
+fn target(path: &Path, clobber: bool) -> Result<Target, OutputError> {
+    let found = match fs::metadata(path) {
+        Ok(found) => found,
+        Err(error) if error.kind() == ErrorKind::NotFound => return new_target(path),
+        Err(source) => return Err(failed(path, source)),
+    };
+    if found.is_dir() {
+        return Err(OutputError::IsFolder { path: path.into() });
+    }
+    if !found.is_file() {
+        return Ok(Target::Stream);
+    }
+    if !clobber {
+        return Err(OutputError::Exists { path: path.into() });
+    }
+    if found.permissions().readonly() {
+        return Err(OutputError::Protected { path: path.into() });
+    }
+    Ok(Target::File {
+        path: fs::canonicalize(path).map_err(|source| failed(path, source))?,
+        permissions: Some(found.permissions()),
+    })
+}
+
+/// Of a path at which there is nothing yet.
+fn new_target(path: &Path) -> Result<Target, OutputError> {
+    let ends_in_separator = path.to_string_lossy().ends_with(std::path::is_separator);
+    let folder = if ends_in_separator {
+        path
+    } else {
+        folder_of(path)
+    };
+    if path.file_name().is_none() || !folder.exists() {
+        return Err(OutputError::MissingFolder {
+            path: path.into(),
+            folder: folder.into(),
+        });
+    }
+    Ok(Target::File {
+        path: path.into(),
+        permissions: None,
+    })
+}
+
+fn replace(
+    path: &Path,
+    bytes: &[u8],
+    permissions: Option<Permissions>,
+    clobber: bool,
+) -> io::Result<()> {
+    let mut part = part_file(path)?;
+    if let Some(permissions) = permissions {
+        part.as_file().set_permissions(permissions)?;
+    }
+    part.write_all(bytes)?;
+    part.flush()?;
+    part.as_file().sync_all()?;
+    // An error from here on drops, and thereby removes, the part.
+    if clobber {
+        part.persist(path)?;
+    } else {
+        part.persist_noclobber(path)?;
+    }
+    sync_folder(folder_of(path));
+    Ok(())
+}
+
+/// A new empty file beside `path`, gone when it is dropped.
+fn part_file(path: &Path) -> io::Result<NamedTempFile> {
+    let prefix = format!("{}{}-", part_prefix(path), std::process::id());
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&prefix);
+    // Temporary files are private by default; this one is to become an ordinary file, for which
+    // the system takes the umask off.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder_of(path))
+}
+
+fn part_prefix(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let end = name.floor_char_boundary(MAX_STEM);
+    format!(".{}{PART}", &name[..end])
+}
+
+/// Removes the parts that killed processes left for `path`. What cannot be removed stays.
+fn remove_leftovers(path: &Path) {
+    let prefix = part_prefix(path);
+    let Ok(entries) = fs::read_dir(folder_of(path)) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let writer = name
+            .to_str()
+            .and_then(|name| name.strip_prefix(&prefix))
+            .and_then(|rest| rest.split_once('-'))
+            .and_then(|(process, _)| process.parse::<u32>().ok());
+        if writer.is_some_and(|process| is_abandoned(process, &entry)) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether nobody can still be writing the file. Without a /proc to ask, a day settles it.
+fn is_abandoned(process: u32, entry: &fs::DirEntry) -> bool {
+    let processes = Path::new("/proc");
+    if processes.join("self").exists() {
+        return !processes.join(process.to_string()).exists();
+    }
+    entry
+        .metadata()
+        .and_then(|found| found.modified())
+        .is_ok_and(|time| {
+            time.elapsed()
+                .is_ok_and(|age| age > Duration::from_hours(24))
+        })
+}
+
+/// Makes the renaming itself last through a power cut, where the system lets folders be synced.
+fn sync_folder(folder: &Path) {
+    if let Ok(folder) = File::open(folder) {
+        let _ = folder.sync_all();
+    }
+}
+
+/// Looks at the file that is now at its place.
+fn verify(path: &Path, file: &Path, expected: u64) -> Result<(), OutputError> {
+    let found = File::open(file)
+        .and_then(|file| file.metadata())
+        .map_err(|source| failed(path, source))?
+        .len();
+    if found == expected {
+        return Ok(());
+    }
+    Err(OutputError::Incomplete {
+        path: path.into(),
+        expected,
+        found,
+    })
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+fn failed(path: &Path, source: io::Error) -> OutputError {
+    OutputError::Io {
+        path: path.into(),
+        source,
+    }
+}

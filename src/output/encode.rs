@@ -1,0 +1,65 @@
+//! Image → the bytes of a file, in memory: the writers of `image` drop the errors of a full disk
+//! (PNG's last chunk is written in `Drop`), but memory cannot fail them.
+
+use super::{Format, OutputError};
+use crate::image::Image;
+use ::image::codecs::{
+    hdr::HdrEncoder, jpeg::JpegEncoder, openexr::OpenExrEncoder, png::PngEncoder,
+};
+use ::image::{DynamicImage, ImageBuffer, Pixel, Rgb, Rgba};
+use std::io::Cursor;
+
+/// The file's bytes. Opacity is kept where the format can and any pixel is not opaque.
+pub(super) fn encode(image: &Image, format: Format, quality: u8) -> Result<Vec<u8>, OutputError> {
+    let alpha = matches!(format, Format::Png | Format::Exr) && !image.is_opaque();
+    let pixels = match (format, alpha) {
+        (Format::Png, true) => raster(image, |p| Rgba(p.map(level))),
+        (Format::Png | Format::Jpeg, _) => raster(image, |p| Rgb(rgb(p).map(level))),
+        (Format::Exr, true) => raster(image, Rgba),
+        (Format::Exr, false) => raster(image, |p| Rgb(rgb(p))),
+        // `max` also turns a NaN into 0.
+        (Format::Hdr, _) => raster(image, |p| Rgb(rgb(p).map(|v| v.max(0.0)))),
+    }
+    .ok_or(OutputError::Misshapen {
+        width: image.width,
+        height: image.height,
+        pixel_count: image.pixels.len(),
+    })?;
+
+    let mut file = Cursor::new(Vec::new());
+    match format {
+        Format::Png => pixels.write_with_encoder(PngEncoder::new(&mut file)),
+        Format::Jpeg => pixels.write_with_encoder(JpegEncoder::new_with_quality(
+            &mut file,
+            quality.clamp(1, 100),
+        )),
+        Format::Exr => pixels.write_with_encoder(OpenExrEncoder::new(&mut file)),
+        Format::Hdr => pixels.write_with_encoder(HdrEncoder::new(&mut file)),
+    }
+    .map_err(|source| OutputError::Encode { format, source })?;
+    Ok(file.into_inner())
+}
+
+/// The pixels in the form that the encoders of `image` take; `None` when their number is wrong.
+fn raster<P: Pixel>(image: &Image, convert: impl Fn([f32; 4]) -> P) -> Option<DynamicImage>
+where
+    DynamicImage: From<ImageBuffer<P, Vec<P::Subpixel>>>,
+{
+    if image.pixels.len() as u64 != u64::from(image.width) * u64::from(image.height) {
+        return None;
+    }
+    let mut samples = Vec::with_capacity(image.pixels.len() * usize::from(P::CHANNEL_COUNT));
+    for &pixel in &image.pixels {
+        samples.extend_from_slice(convert(pixel).channels());
+    }
+    ImageBuffer::from_raw(image.width, image.height, samples).map(DynamicImage::from)
+}
+
+fn rgb([r, g, b, _]: [f32; 4]) -> [f32; 3] {
+    [r, g, b]
+}
+
+/// The nearest of the 256 levels to a value in [0, 1]; values beyond go to its ends, a NaN to 0.
+fn level(value: f32) -> u8 {
+    (value.clamp(0.0, 1.0) * 255.0).round() as u8
+}

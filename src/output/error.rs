@@ -1,0 +1,180 @@
+//! Why a picture could not be written, in one line each.
+
+use super::Format;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// What keeps a file from being written. The text is `WHAT (WHERE): WHY. WHAT TO DO.`
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// The name's ending says nothing known, and no format was given.
+    #[error(
+        "cannot tell the picture format ({}): the name has none of the endings {}. \
+         Choose one of them or name the format.",
+        show(path),
+        Format::ENDINGS
+    )]
+    UnknownFormat {
+        /// Where the picture was to go.
+        path: PathBuf,
+    },
+
+    /// The format cannot count that many pixels. All figures are pixels.
+    #[error(
+        "cannot write the picture ({width}×{height} pixels): {format} holds at most \
+         {max_width}×{max_height}. Choose a smaller size or another format."
+    )]
+    TooLarge {
+        /// The format asked for.
+        format: Format,
+        /// The picture's width.
+        width: u32,
+        /// The picture's height.
+        height: u32,
+        /// The format's greatest width.
+        max_width: u32,
+        /// The format's greatest height.
+        max_height: u32,
+    },
+
+    /// The picture has not as many pixels as its width and height say.
+    #[error(
+        "cannot write the picture ({width}×{height} pixels): it holds {pixel_count} pixels. \
+         Give it as many as its size says."
+    )]
+    Misshapen {
+        /// The picture's width.
+        width: u32,
+        /// The picture's height.
+        height: u32,
+        /// How many it holds.
+        pixel_count: usize,
+    },
+
+    /// The name is a folder's.
+    #[error(
+        "cannot write the file ({}): it is a folder. Add a file name.",
+        show(path)
+    )]
+    IsFolder {
+        /// The folder.
+        path: PathBuf,
+    },
+
+    /// The folder does not exist.
+    #[error(
+        "cannot write the file ({}): the folder {} does not exist. Create it first.",
+        show(path),
+        show(folder)
+    )]
+    MissingFolder {
+        /// Where the file was to go.
+        path: PathBuf,
+        /// What is missing.
+        folder: PathBuf,
+    },
+
+    /// The file exists and may not be replaced.
+    #[error(
+        "cannot write the file ({}): it exists and is to be kept. Choose another name.",
+        show(path)
+    )]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+
+    /// The file exists and is marked read-only.
+    #[error(
+        "cannot write the file ({}): it is write-protected. Choose another name or make it writable.",
+        show(path)
+    )]
+    Protected {
+        /// The file.
+        path: PathBuf,
+    },
+
+    /// The operating system refused.
+    #[error(
+        "cannot write the file ({}): {}. {}",
+        show(path),
+        reason(source),
+        advice(source)
+    )]
+    Io {
+        /// Where the file was to go.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+
+    /// The standard output takes no more.
+    #[error(
+        "cannot write the picture (standard output): {}. {}",
+        reason(source),
+        advice(source)
+    )]
+    Stdout {
+        /// What the system said.
+        source: io::Error,
+    },
+
+    /// The file was written without an error, yet does not hold what was written.
+    #[error(
+        "cannot write the file ({}): {found} of {expected} bytes arrived. \
+         Check the disk and write to another one.",
+        show(path)
+    )]
+    Incomplete {
+        /// The file.
+        path: PathBuf,
+        /// How many bytes it should have.
+        expected: u64,
+        /// How many it has.
+        found: u64,
+    },
+
+    /// The encoder refused the picture.
+    #[error("cannot write the picture ({format}): {source}. Choose another format.")]
+    Encode {
+        /// The format asked for.
+        format: Format,
+        /// What the encoder said.
+        source: ::image::ImageError,
+    },
+}
+
+/// A path for a one-line message: control characters are escaped, so that no file name can break
+/// the line or steer the terminal.
+fn show(path: &Path) -> String {
+    path.to_string_lossy()
+        .chars()
+        .flat_map(|c| {
+            let escaped = c.is_control().then(|| c.escape_default());
+            let plain = escaped.is_none().then_some(c);
+            escaped.into_iter().flatten().chain(plain)
+        })
+        .collect()
+}
+
+/// The system's words without its number, as a part of a sentence.
+pub(crate) fn reason(error: &io::Error) -> String {
+    let text = error.to_string();
+    let text = text.split(" (os error").next().unwrap_or_default();
+    let mut chars = text.chars();
+    match chars.next() {
+        Some(first) => first.to_lowercase().chain(chars).collect(),
+        None => "unknown reason".into(),
+    }
+}
+
+fn advice(error: &io::Error) -> &'static str {
+    use io::ErrorKind::*;
+    match error.kind() {
+        StorageFull | QuotaExceeded | FileTooLarge => "Free some space or choose another disk.",
+        PermissionDenied | ReadOnlyFilesystem => "Choose a folder that you may write to.",
+        InvalidFilename | InvalidInput | NotADirectory => "Choose another name.",
+        BrokenPipe => "Keep the reading program running until the end.",
+        _ => "Choose another place.",
+    }
+}

@@ -1,0 +1,77 @@
+//! The picture formats and what they can hold.
+
+use super::OutputError;
+use std::fmt;
+use std::path::Path;
+
+/// A picture file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// 8 bits a channel, lossless.
+    Png,
+    /// 8 bits a channel, lossy, no opacity.
+    Jpeg,
+    /// OpenEXR, 32-bit float.
+    Exr,
+    /// Radiance RGBE, about 8 bits of precision at any brightness, no opacity and nothing negative.
+    Hdr,
+}
+
+impl Format {
+    /// Every ending that [`Format::from_path`] knows, for messages.
+    pub const ENDINGS: &str = ".png, .jpg, .jpeg, .exr, .hdr";
+
+    /// The format that the ending of `path` says, in upper or lower case.
+    pub fn from_path(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        match ending.as_str() {
+            "png" => Some(Self::Png),
+            "jpg" | "jpeg" => Some(Self::Jpeg),
+            "exr" => Some(Self::Exr),
+            "hdr" => Some(Self::Hdr),
+            _ => None,
+        }
+    }
+
+    /// Whether it holds linear light of any brightness, rather than display values in [0, 1].
+    pub fn is_linear(self) -> bool {
+        matches!(self, Self::Exr | Self::Hdr)
+    }
+
+    /// Refuses a picture with more pixels on a side than the format can count.
+    pub(super) fn check_size(self, width: u32, height: u32) -> Result<(), OutputError> {
+        let (max_width, max_height) = self.max_size();
+        if width <= max_width && height <= max_height {
+            return Ok(());
+        }
+        Err(OutputError::TooLarge {
+            format: self,
+            width,
+            height,
+            max_width,
+            max_height,
+        })
+    }
+
+    /// Width and height in pixels.
+    fn max_size(self) -> (u32, u32) {
+        let signed = i32::MAX as u32;
+        match self {
+            Self::Png | Self::Exr => (signed, signed),
+            Self::Jpeg => (0xFFFF, 0xFFFF),
+            // Run-length coded lines count their pixels in 15 bits.
+            Self::Hdr => (0x7FFF, signed),
+        }
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Png => "PNG",
+            Self::Jpeg => "JPEG",
+            Self::Exr => "OpenEXR",
+            Self::Hdr => "Radiance HDR",
+        })
+    }
+}

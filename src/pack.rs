@@ -1,0 +1,129 @@
+//! From the host model to the arrays that the GPU reads. Pure: no device is involved, the same
+//! scene gives the same bytes.
+
+mod frame;
+mod geometry;
+mod nodes;
+
+pub use frame::PackedView;
+
+use crate::{
+    bvh,
+    layout::{
+        LEAF_FIRST_MASK, MATERIAL_TWO_SIDED, PackedMaterial, PackedNode, PackedShape,
+        PackedTriangle, PackedVertex, STACK_SIZE,
+    },
+    scene::{Material, Scene},
+};
+use glam::DVec3;
+use std::time::Instant;
+
+/// Most primitives in a leaf.
+const LEAF_SIZE: u32 = 4;
+
+/// A scene as the GPU wants it.
+#[derive(Clone, Debug)]
+pub struct PackedScene {
+    /// Four-way nodes with boxes of 8 bits a plane; node 0 is the root.
+    pub nodes: Vec<PackedNode>,
+    /// In leaf order.
+    pub triangles: Vec<PackedTriangle>,
+    /// Bounded shapes in leaf order, then `plane_count` planes.
+    pub shapes: Vec<PackedShape>,
+    pub plane_count: u32,
+    pub vertices: Vec<PackedVertex>,
+    pub materials: Vec<PackedMaterial>,
+    /// Whether some triangle's corners differ in material.
+    pub mixed_materials: bool,
+    /// Where render space has its origin, in world space: at the scene's default camera, where the
+    /// picture needs f32 to be finest.
+    pub origin: DVec3,
+    /// Time that building the tree took.
+    pub build_seconds: f64,
+}
+
+/// Why a scene cannot be packed: it is too big for the formats the GPU reads.
+#[derive(Debug, thiserror::Error)]
+pub enum PackError {
+    #[error(
+        "scene too big (after instancing): it has {count} {what}, the tree can address {limit}. Use fewer or simpler objects."
+    )]
+    TooMany {
+        what: &'static str,
+        count: usize,
+        limit: usize,
+    },
+    #[error(
+        "scene too spread out (object coordinates): {value:e} units from the camera is beyond the range of f32 arithmetic, at most {limit:e}. Scale the scene down."
+    )]
+    OutOfRange { value: f64, limit: f64 },
+}
+
+/// Packs a scene and builds its tree.
+pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
+    let origin = scene.cameras[scene.camera_index].look_from;
+    let geometry::Flat {
+        triangles,
+        vertices,
+        bounded,
+        planes,
+        mixed_materials,
+    } = geometry::flatten(scene, origin)?;
+    let limit = LEAF_FIRST_MASK as usize;
+    for (what, count) in [("triangles", triangles.len()), ("shapes", bounded.len())] {
+        if count > limit {
+            return Err(PackError::TooMany { what, count, limit });
+        }
+    }
+
+    let start = Instant::now();
+    let boxes: Vec<_> = (triangles.iter().map(geometry::triangle_box))
+        .chain(bounded.iter().map(geometry::shape_box))
+        .collect();
+    let mut groups = vec![nodes::TRIANGLES; triangles.len()];
+    groups.resize(boxes.len(), nodes::SHAPES);
+    let limits = bvh::Limits {
+        leaf_size: LEAF_SIZE,
+        // The last store of a traversal step lies one beyond the entries that count.
+        stack_size: STACK_SIZE as usize - 1,
+    };
+    let bvh = bvh::build(&boxes, &groups, nodes::GROUP_COUNT, limits);
+    let pick_shape = |&i: &u32| bounded[i as usize - triangles.len()];
+    Ok(PackedScene {
+        nodes: bvh.nodes.iter().map(nodes::quantize).collect(),
+        triangles: (bvh.order[nodes::TRIANGLES as usize].iter())
+            .map(|&i| triangles[i as usize])
+            .collect(),
+        shapes: (bvh.order[nodes::SHAPES as usize].iter().map(pick_shape))
+            .chain(planes.iter().copied())
+            .collect(),
+        plane_count: planes.len() as u32,
+        vertices,
+        materials: scene.materials.iter().map(material).collect(),
+        mixed_materials,
+        origin,
+        build_seconds: start.elapsed().as_secs_f64(),
+    })
+}
+
+impl PackedScene {
+    /// Number of shapes in the tree.
+    pub fn bounded_shape_count(&self) -> u32 {
+        self.shapes.len() as u32 - self.plane_count
+    }
+}
+
+fn material(material: &Material) -> PackedMaterial {
+    PackedMaterial {
+        diffuse: material.diffuse.into(),
+        shininess: material.shininess,
+        specular: material.specular.into(),
+        flags: if material.two_sided {
+            MATERIAL_TWO_SIDED
+        } else {
+            0
+        },
+        ambient: material.ambient.into(),
+        _pad: 0.0,
+    }
+}

@@ -1,0 +1,455 @@
+//! The renderer: takes a packed scene and a frame, adds samples to the film step by step, and
+//! develops the picture. Every front end runs this same loop.
+
+mod bindings;
+mod debug_view;
+mod develop;
+mod film;
+mod settings;
+mod slice;
+mod whitted;
+
+pub use develop::Tone;
+pub use settings::{Antialias, Fetch, Integrator, Settings, Slicing, TriangleTest};
+
+use crate::{
+    gpu::{AdapterReport, Gpu, GpuError, Kernel, Source},
+    layout::PackedSlice,
+    pack::{PackedScene, PackedView},
+};
+use bindings::{Buffers, Layouts};
+use bytemuck::{bytes_of, cast_slice, pod_read_unaligned};
+use film::{CHUNK, Film, TILE_PIXELS};
+use slice::{Planner, Slice};
+use std::{sync::Arc, time::Instant};
+
+/// How often a lost device is replaced before the render gives up.
+const MAX_LOSSES: u32 = 3;
+const PIXEL_BYTES: u64 = 16;
+
+/// Renders one frame after another of one scene.
+pub struct Renderer {
+    scene: Arc<PackedScene>,
+    settings: Settings,
+    view: PackedView,
+    device: Device,
+    film: Film,
+    planner: Planner,
+    cursor: Cursor,
+    stats: Stats,
+}
+
+/// What lives on the GPU, and dies with it.
+struct Device {
+    gpu: Gpu,
+    /// Image or buffer, not auto.
+    fetch: Fetch,
+    layouts: Layouts,
+    buffers: Buffers,
+    pipeline: wgpu::ComputePipeline,
+    developer: Option<develop::Developer>,
+    /// The window whose sums are in the film buffer.
+    loaded_window: Option<usize>,
+}
+
+/// How far the render is: the tile and the samples of the sweep that is under way.
+#[derive(Clone, Copy, Debug, Default)]
+struct Cursor {
+    window: usize,
+    tile: u32,
+    sample: u32,
+    sweep_samples: u32,
+}
+
+/// What a render has cost so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stats {
+    /// Making pipelines and running each once with nothing to do, when drivers compile.
+    pub compile_seconds: f64,
+    pub upload_seconds: f64,
+    pub trace_seconds: f64,
+    pub develop_seconds: f64,
+    /// Submissions that traced, and the longest of them.
+    pub submissions: u64,
+    pub longest_submission_ms: f64,
+    /// Samples that were infinite or not a number, and dropped.
+    pub nonfinite_samples: u64,
+    /// Planned memory in bytes; see [`Settings::memory_limit_bytes`].
+    pub gpu_bytes: u64,
+    /// How often the device was lost and replaced.
+    pub device_losses: u32,
+    /// Kept with [`Settings::count_rays`].
+    pub rays: Option<Rays>,
+}
+
+/// Rays by kind. Shadow rays count one for each light that the surface faces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rays {
+    pub primary: u64,
+    pub primary_hits: u64,
+    pub shadow: u64,
+    pub shadow_blocked: u64,
+}
+
+/// Why a picture cannot be rendered.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    #[error(
+        "too much work in one pixel ({steps} loop rounds): this driver ends a shader's loops after 65,535, and the picture would be wrong. Use fewer lights, or leave out --no-bvh."
+    )]
+    PathTooLong { steps: u32 },
+}
+
+impl RenderError {
+    /// The process's exit code for this error.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Gpu(error) => error.exit_code(),
+            Self::PathTooLong { .. } => 7,
+        }
+    }
+}
+
+impl Renderer {
+    /// Checks the memory limit, uploads the scene and compiles the kernels. The settings' sizes and
+    /// counts must be in the ranges they document.
+    pub fn new(
+        gpu: Gpu,
+        scene: Arc<PackedScene>,
+        view: &PackedView,
+        settings: Settings,
+    ) -> Result<Self, RenderError> {
+        let view = view.with_aspect(settings.size.0, settings.size.1);
+        let film = Film::new(settings.region(), settings.slicing.window_side);
+        let [.., width, height] = settings.region();
+        let picture_pixels = u64::from(width) * u64::from(height);
+        let ledger = bindings::ledger(&scene, &view, film.largest_window(), picture_pixels);
+        ledger.check(settings.memory_limit_bytes)?;
+        let mut stats = Stats {
+            gpu_bytes: ledger.total(),
+            rays: settings.count_rays.then(Rays::default),
+            ..Default::default()
+        };
+        let fetch = bindings::choose_fetch(settings.fetch, &gpu, &scene);
+        let gpu = gpu.serving(bindings::needs(&scene, fetch, film.largest_window()))?;
+        let pixels = film.largest_window();
+        let device = Device::new(gpu, fetch, &scene, &view, &settings, pixels, &mut stats)?;
+        Ok(Self {
+            planner: Planner::new(settings.slicing),
+            scene,
+            settings,
+            view,
+            device,
+            film,
+            cursor: Cursor::default(),
+            stats,
+        })
+    }
+
+    /// Starts over with another frame of the same scene.
+    pub fn set_frame(&mut self, view: &PackedView) -> Result<(), RenderError> {
+        self.view = view.with_aspect(self.settings.size.0, self.settings.size.1);
+        self.film = Film::new(self.settings.region(), self.settings.slicing.window_side);
+        self.cursor = Cursor::default();
+        self.surviving_losses(|renderer| {
+            let device = &mut renderer.device;
+            device
+                .buffers
+                .set_view(&device.gpu, &device.layouts, &renderer.view)?;
+            device.loaded_window = None;
+            Ok(())
+        })
+    }
+
+    /// Whether every pixel has its samples.
+    pub fn is_done(&self) -> bool {
+        self.cursor.window == self.film.windows.len()
+    }
+
+    /// Share of the work that is done, in 0..=1.
+    pub fn progress(&self) -> f64 {
+        let Some(window) = self.film.windows.get(self.cursor.window) else {
+            return 1.0;
+        };
+        let sweep = f64::from(self.cursor.sweep_samples) * f64::from(self.cursor.tile)
+            / f64::from(window.tile_count());
+        let within = (f64::from(self.cursor.sample) + sweep) / f64::from(self.settings.samples);
+        (self.cursor.window as f64 + within) / self.film.windows.len() as f64
+    }
+
+    /// What the render has cost so far.
+    pub fn stats(&self) -> &Stats {
+        &self.stats
+    }
+
+    /// The adapter in use.
+    pub fn adapter(&self) -> &AdapterReport {
+        self.device.gpu.adapter()
+    }
+
+    /// Adds samples for about [`Slicing::target_seconds`]. Does nothing when the render is done.
+    pub fn step(&mut self) -> Result<(), RenderError> {
+        let Some(window) = self.film.windows.get_mut(self.cursor.window) else {
+            return Ok(());
+        };
+        if window.sums.is_empty() {
+            window.begin();
+        }
+        let tile_count = window.tile_count();
+        if self.cursor.tile == 0 {
+            let left = self.settings.samples - self.cursor.sample;
+            let in_chunk = CHUNK - self.cursor.sample % CHUNK;
+            self.cursor.sweep_samples = self.planner.sweep_samples(tile_count, left.min(in_chunk));
+        }
+        let Cursor {
+            tile,
+            sample,
+            sweep_samples,
+            ..
+        } = self.cursor;
+        let slice = self.planner.next(tile_count, tile, sample, sweep_samples);
+        let start = Instant::now();
+        let outcome = self.surviving_losses(|renderer| renderer.trace(&slice))?;
+        self.account(&slice, outcome, start.elapsed().as_secs_f64())
+    }
+
+    /// Books a slice that came back, or leaves it to be done again when it was cut short.
+    fn account(
+        &mut self,
+        slice: &Slice,
+        (tally, sums): (PackedSlice, Vec<u8>),
+        seconds: f64,
+    ) -> Result<(), RenderError> {
+        self.stats.trace_seconds += seconds;
+        self.stats.submissions += 1;
+        self.stats.longest_submission_ms = self.stats.longest_submission_ms.max(seconds * 1e3);
+        let (columns, rows) = slice.grid();
+        if tally.tiles_done != columns * rows {
+            // The driver stopped the dispatch without a word: once more, smaller.
+            self.device.loaded_window = None;
+            self.planner.cut_short();
+            return self.count_loss();
+        }
+        if tally.longest_path > slice::LONGEST_PATH {
+            return Err(RenderError::PathTooLong {
+                steps: tally.longest_path,
+            });
+        }
+        let window = &mut self.film.windows[self.cursor.window];
+        let first = slice.first_tile as usize * TILE_PIXELS;
+        let target: &mut [u8] = bytemuck::cast_slice_mut(&mut window.sums[first..]);
+        target[..sums.len()].copy_from_slice(&sums);
+        self.planner.finished(slice, seconds, tally.longest_path);
+        self.stats.nonfinite_samples += u64::from(tally.nonfinite_samples);
+        if let Some(rays) = &mut self.stats.rays {
+            rays.primary += u64::from(tally.primary);
+            rays.primary_hits += u64::from(tally.primary_hits);
+            rays.shadow += u64::from(tally.shadow);
+            rays.shadow_blocked += u64::from(tally.shadow_blocked);
+        }
+        self.advance(slice);
+        Ok(())
+    }
+
+    fn advance(&mut self, slice: &Slice) {
+        let window = &mut self.film.windows[self.cursor.window];
+        self.cursor.tile = slice.end_tile;
+        if self.cursor.tile < window.tile_count() {
+            return;
+        }
+        self.cursor.tile = 0;
+        self.cursor.sample = slice.end_sample;
+        self.planner.sweep_done();
+        if self.cursor.sample == self.settings.samples {
+            self.cursor = Cursor {
+                window: self.cursor.window + 1,
+                ..Cursor::default()
+            };
+        } else if self.cursor.sample.is_multiple_of(CHUNK) {
+            window.close_chunk();
+            self.device.loaded_window = None;
+        }
+    }
+
+    /// Runs one slice and returns its accounts and the sums of its tiles.
+    fn trace(&mut self, slice: &Slice) -> Result<(PackedSlice, Vec<u8>), GpuError> {
+        let Device {
+            gpu,
+            buffers,
+            pipeline,
+            loaded_window,
+            ..
+        } = &mut self.device;
+        let window = &self.film.windows[self.cursor.window];
+        if *loaded_window != Some(self.cursor.window) {
+            gpu.write(&buffers.film, 0, cast_slice(&window.sums))?;
+            *loaded_window = Some(self.cursor.window);
+        }
+        let Settings {
+            size,
+            samples,
+            seed,
+            ..
+        } = self.settings;
+        gpu.write(
+            &buffers.slice,
+            0,
+            bytes_of(&slice.packed(window, size, samples, seed)),
+        )?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        dispatch(&mut encoder, pipeline, buffers, slice);
+        let tile_bytes = TILE_PIXELS as u64 * PIXEL_BYTES;
+        let slice_bytes = size_of::<PackedSlice>() as u64;
+        let sources = [
+            Source {
+                buffer: &buffers.slice,
+                offset: 0,
+                bytes: slice_bytes,
+            },
+            Source {
+                buffer: &buffers.film,
+                offset: u64::from(slice.first_tile) * tile_bytes,
+                bytes: u64::from(slice.end_tile - slice.first_tile) * tile_bytes,
+            },
+        ];
+        let read = gpu.submit_and_read(encoder, &sources, &buffers.staging)?;
+        let (tally, sums) = read.split_at(slice_bytes as usize);
+        Ok((pod_read_unaligned(tally), sums.to_vec()))
+    }
+
+    /// Repeats `attempt` on a fresh device when the old one is lost. The film on the host holds all
+    /// finished slices, so nothing else is done twice.
+    fn surviving_losses<T>(
+        &mut self,
+        mut attempt: impl FnMut(&mut Self) -> Result<T, GpuError>,
+    ) -> Result<T, RenderError> {
+        loop {
+            match attempt(self) {
+                Err(GpuError::Lost) => self.replace_device()?,
+                other => return Ok(other?),
+            }
+        }
+    }
+
+    fn replace_device(&mut self) -> Result<(), RenderError> {
+        let pixels = self.film.largest_window();
+        loop {
+            self.count_loss()?;
+            let fetch = self.device.fetch;
+            let needs = bindings::needs(&self.scene, fetch, pixels);
+            let rebuilt = self.device.gpu.rebuilt(needs).and_then(|gpu| {
+                Device::new(
+                    gpu,
+                    fetch,
+                    &self.scene,
+                    &self.view,
+                    &self.settings,
+                    pixels,
+                    &mut self.stats,
+                )
+            });
+            match rebuilt {
+                Err(GpuError::Lost) => {}
+                Err(error) => return Err(error.into()),
+                Ok(device) => {
+                    self.device = device;
+                    return Ok(());
+                }
+            }
+        }
+    }
+
+    fn count_loss(&mut self) -> Result<(), RenderError> {
+        self.stats.device_losses += 1;
+        if self.stats.device_losses > MAX_LOSSES {
+            return Err(GpuError::KeptFailing {
+                count: self.stats.device_losses,
+            }
+            .into());
+        }
+        Ok(())
+    }
+}
+
+impl Device {
+    /// Uploads the scene, compiles the kernel, and runs it once on nothing, which is when some
+    /// drivers really compile.
+    fn new(
+        gpu: Gpu,
+        fetch: Fetch,
+        scene: &PackedScene,
+        view: &PackedView,
+        settings: &Settings,
+        film_pixels: usize,
+        stats: &mut Stats,
+    ) -> Result<Self, GpuError> {
+        let start = Instant::now();
+        let layouts = Layouts::new(&gpu, fetch);
+        let buffers = Buffers::new(&gpu, &layouts, fetch, scene, view, film_pixels)?;
+        stats.upload_seconds += start.elapsed().as_secs_f64();
+
+        let start = Instant::now();
+        let (kernel, overrides) = match settings.integrator {
+            Integrator::Whitted => (
+                Kernel::WHITTED,
+                whitted::overrides(scene, settings, gpu.is_cpu()),
+            ),
+            _ => (Kernel::DEBUG_VIEW, debug_view::overrides(scene, settings)),
+        };
+        let layout = gpu
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(kernel.name),
+                bind_group_layouts: &[
+                    Some(&layouts.scene),
+                    Some(&layouts.frame),
+                    Some(&layouts.film),
+                ],
+                immediate_size: 0,
+            });
+        let source = if fetch == Fetch::Image {
+            kernel.image_source
+        } else {
+            kernel.buffer_source
+        };
+        let pipeline = gpu.pipeline(kernel.name, source, Some(&layout), &overrides)?;
+        let nothing = Slice::default();
+        let idle = PackedSlice {
+            tile_count: 1,
+            tile_columns: 1,
+            grid_width: 1,
+            ..Default::default()
+        };
+        gpu.write(&buffers.slice, 0, bytes_of(&idle))?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        dispatch(&mut encoder, &pipeline, &buffers, &nothing);
+        gpu.submit(encoder.finish())?;
+        stats.compile_seconds += start.elapsed().as_secs_f64();
+        Ok(Self {
+            gpu,
+            fetch,
+            layouts,
+            buffers,
+            pipeline,
+            developer: None,
+            loaded_window: None,
+        })
+    }
+}
+
+fn dispatch(
+    encoder: &mut wgpu::CommandEncoder,
+    pipeline: &wgpu::ComputePipeline,
+    buffers: &Buffers,
+    slice: &Slice,
+) {
+    let mut pass = encoder.begin_compute_pass(&Default::default());
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(0, &buffers.scene_group, &[]);
+    pass.set_bind_group(1, &buffers.frame_group, &[]);
+    pass.set_bind_group(2, &buffers.film_group, &[]);
+    let (columns, rows) = slice.grid();
+    pass.dispatch_workgroups(columns, rows, 1);
+}

@@ -1,0 +1,256 @@
+//! The bind groups of `bindings.wesl` on the host: layouts and the buffers in them.
+
+use crate::{
+    gpu::{Gpu, GpuError, Ledger, Needs},
+    layout::{IMAGE_WIDTH_LOG2, PackedFrame, PackedLight, PackedSlice, PackedTone},
+    pack::{PackedScene, PackedView},
+    render::settings::Fetch,
+};
+use bytemuck::{bytes_of, cast_slice};
+use wgpu::{BindGroupLayout, BindingType, Buffer, BufferBindingType, BufferUsages};
+
+const PIXEL_BYTES: u64 = 16;
+const IMAGE_WIDTH: u32 = 1 << IMAGE_WIDTH_LOG2;
+
+/// Layouts of groups 0 to 3.
+pub struct Layouts {
+    pub scene: BindGroupLayout,
+    pub frame: BindGroupLayout,
+    pub film: BindGroupLayout,
+    pub develop: BindGroupLayout,
+}
+
+impl Layouts {
+    pub fn new(gpu: &Gpu, fetch: Fetch) -> Self {
+        let read = BindingType::Buffer {
+            ty: BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let write = BindingType::Buffer {
+            ty: BufferBindingType::Storage { read_only: false },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let image = BindingType::StorageTexture {
+            access: wgpu::StorageTextureAccess::ReadOnly,
+            format: wgpu::TextureFormat::Rgba32Uint,
+            view_dimension: wgpu::TextureViewDimension::D2,
+        };
+        let geometry = if fetch == Fetch::Image { image } else { read };
+        let layout = |label, types: &[BindingType]| {
+            let entries: Vec<_> = (0..)
+                .zip(types)
+                .map(|(binding, &ty)| wgpu::BindGroupLayoutEntry {
+                    binding,
+                    visibility: wgpu::ShaderStages::COMPUTE,
+                    ty,
+                    count: None,
+                })
+                .collect();
+            gpu.device
+                .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                    label: Some(label),
+                    entries: &entries,
+                })
+        };
+        Self {
+            scene: layout("scene", &[geometry, geometry, read, read, read]),
+            frame: layout("frame", &[read, write]),
+            film: layout("film", &[write]),
+            develop: layout("develop", &[read, write]),
+        }
+    }
+}
+
+/// Everything on the GPU but the pipelines.
+pub struct Buffers {
+    pub scene_group: wgpu::BindGroup,
+    pub frame_group: wgpu::BindGroup,
+    pub film_group: wgpu::BindGroup,
+    pub slice: Buffer,
+    pub film: Buffer,
+    pub staging: Buffer,
+}
+
+impl Buffers {
+    /// Uploads the scene and the frame, and makes room for `film_pixels`.
+    pub fn new(
+        gpu: &Gpu,
+        layouts: &Layouts,
+        fetch: Fetch,
+        scene: &PackedScene,
+        view: &PackedView,
+        film_pixels: usize,
+    ) -> Result<Self, GpuError> {
+        let shapes = gpu.upload("shapes", cast_slice(&scene.shapes))?;
+        let vertices = gpu.upload("vertices", cast_slice(&scene.vertices))?;
+        let materials = gpu.upload("materials", cast_slice(&scene.materials))?;
+        let nodes = Geometry::upload(gpu, fetch, "nodes", cast_slice(&scene.nodes))?;
+        let triangles = Geometry::upload(gpu, fetch, "triangles", cast_slice(&scene.triangles))?;
+        let scene_group = group(
+            gpu,
+            &layouts.scene,
+            &[
+                nodes.resource(),
+                triangles.resource(),
+                shapes.as_entire_binding(),
+                vertices.as_entire_binding(),
+                materials.as_entire_binding(),
+            ],
+        );
+
+        let storage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
+        let slice = gpu.allocate("slice", size_of::<PackedSlice>() as u64, storage)?;
+        let film_bytes = film_pixels as u64 * PIXEL_BYTES;
+        let film = gpu.allocate("film", film_bytes, storage)?;
+        let staging = gpu.allocate(
+            "staging",
+            film_bytes + size_of::<PackedSlice>() as u64,
+            BufferUsages::MAP_READ | BufferUsages::COPY_DST,
+        )?;
+        let frame_group = frame_group(gpu, layouts, view, &slice)?;
+        let film_group = group(gpu, &layouts.film, &[film.as_entire_binding()]);
+        Ok(Self {
+            scene_group,
+            frame_group,
+            film_group,
+            slice,
+            film,
+            staging,
+        })
+    }
+
+    /// Puts another frame in place.
+    pub fn set_view(
+        &mut self,
+        gpu: &Gpu,
+        layouts: &Layouts,
+        view: &PackedView,
+    ) -> Result<(), GpuError> {
+        self.frame_group = frame_group(gpu, layouts, view, &self.slice)?;
+        Ok(())
+    }
+}
+
+fn frame_group(
+    gpu: &Gpu,
+    layouts: &Layouts,
+    view: &PackedView,
+    slice: &Buffer,
+) -> Result<wgpu::BindGroup, GpuError> {
+    let mut bytes = bytes_of(&view.frame).to_vec();
+    bytes.extend_from_slice(cast_slice(&view.lights));
+    let frame = gpu.upload("frame", &bytes)?;
+    let resources = [frame.as_entire_binding(), slice.as_entire_binding()];
+    Ok(group(gpu, &layouts.frame, &resources))
+}
+
+/// Nodes or triangles on the GPU.
+enum Geometry {
+    Image(wgpu::TextureView),
+    Buffer(Buffer),
+}
+
+impl Geometry {
+    fn upload(gpu: &Gpu, fetch: Fetch, what: &'static str, bytes: &[u8]) -> Result<Self, GpuError> {
+        Ok(match fetch {
+            Fetch::Image => Self::Image(gpu.upload_image(what, bytes, IMAGE_WIDTH)?),
+            _ => Self::Buffer(gpu.upload(what, bytes)?),
+        })
+    }
+
+    fn resource(&self) -> wgpu::BindingResource<'_> {
+        match self {
+            Self::Image(view) => wgpu::BindingResource::TextureView(view),
+            Self::Buffer(buffer) => buffer.as_entire_binding(),
+        }
+    }
+}
+
+/// A bind group of these resources at bindings 0, 1, ….
+pub fn group(
+    gpu: &Gpu,
+    layout: &BindGroupLayout,
+    resources: &[wgpu::BindingResource],
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = (0..)
+        .zip(resources)
+        .map(|(binding, resource)| wgpu::BindGroupEntry {
+            binding,
+            resource: resource.clone(),
+        })
+        .collect();
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout,
+        entries: &entries,
+    })
+}
+
+/// The fetch to use: as asked, or images on software adapters, where they are twice as fast.
+/// Elsewhere buffers, unless only images are large enough.
+pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene) -> Fetch {
+    let fits = geometry_bytes(scene).into_iter().max() <= Some(gpu.adapter().max_binding_bytes);
+    match wanted {
+        Fetch::Auto if gpu.is_cpu() || !fits => Fetch::Image,
+        Fetch::Auto => Fetch::Buffer,
+        chosen => chosen,
+    }
+}
+
+/// What the device must be able to do for this scene and this film.
+pub fn needs(scene: &PackedScene, fetch: Fetch, film_pixels: usize) -> Needs {
+    let geometry = geometry_bytes(scene);
+    let mut bindings = vec![
+        size_of_val(&scene.shapes[..]) as u64,
+        size_of_val(&scene.vertices[..]) as u64,
+        size_of_val(&scene.materials[..]) as u64,
+        film_pixels as u64 * PIXEL_BYTES,
+    ];
+    let mut texture_side = 0;
+    if fetch == Fetch::Image {
+        let row_bytes = u64::from(IMAGE_WIDTH) * 16;
+        let rows = geometry.iter().map(|bytes| bytes.div_ceil(row_bytes)).max();
+        texture_side = IMAGE_WIDTH.max(rows.unwrap_or(0).try_into().unwrap_or(u32::MAX));
+    } else {
+        bindings.extend(geometry);
+    }
+    Needs {
+        binding_bytes: bindings.into_iter().max().unwrap_or(0),
+        texture_side,
+    }
+}
+
+/// All that a render will allocate, on the GPU and for the picture on the host.
+pub fn ledger(
+    scene: &PackedScene,
+    view: &PackedView,
+    film_pixels: usize,
+    picture_pixels: u64,
+) -> Ledger {
+    let [nodes, triangles] = geometry_bytes(scene);
+    let film = film_pixels as u64 * PIXEL_BYTES;
+    let mut ledger = Ledger::default();
+    ledger.plan("nodes", nodes);
+    ledger.plan("triangles", triangles);
+    ledger.plan("vertices", size_of_val(&scene.vertices[..]) as u64);
+    ledger.plan("shapes", size_of_val(&scene.shapes[..]) as u64);
+    ledger.plan("materials", size_of_val(&scene.materials[..]) as u64);
+    ledger.plan(
+        "frame",
+        (size_of::<PackedFrame>()
+            + size_of::<PackedTone>()
+            + view.lights.len() * size_of::<PackedLight>()) as u64,
+    );
+    ledger.plan("film and its copies", 4 * film);
+    ledger.plan("picture", picture_pixels * 2 * PIXEL_BYTES);
+    ledger
+}
+
+fn geometry_bytes(scene: &PackedScene) -> [u64; 2] {
+    [
+        size_of_val(&scene.nodes[..]) as u64,
+        size_of_val(&scene.triangles[..]) as u64,
+    ]
+}

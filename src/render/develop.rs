@@ -1,0 +1,155 @@
+//! From sums to a picture: `kernels/develop.wesl`.
+
+use super::{RenderError, Renderer, bindings::group, slice::Slice};
+use crate::{
+    gpu::{GpuError, Kernel, Source},
+    image::Image,
+    layout::{
+        PackedTone, TONE_ACES, TONE_AGX, TONE_NONE, TONE_REINHARD, TRANSFER_LINEAR, TRANSFER_SRGB,
+    },
+    scene::{ToneCurve, Transfer},
+};
+use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec};
+use std::time::Instant;
+use wgpu::BufferUsages;
+
+/// How linear radiance becomes a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tone {
+    /// Stops; each doubles the brightness.
+    pub exposure_ev: f32,
+    pub curve: ToneCurve,
+    pub transfer: Transfer,
+}
+
+impl Tone {
+    /// Leaves radiance as it is.
+    pub const LINEAR: Self = Self {
+        exposure_ev: 0.0,
+        curve: ToneCurve::None,
+        transfer: Transfer::Linear,
+    };
+
+    fn packed(&self) -> PackedTone {
+        PackedTone {
+            exposure_scale: self.exposure_ev.exp2(),
+            curve: match self.curve {
+                ToneCurve::None => TONE_NONE,
+                ToneCurve::Aces => TONE_ACES,
+                ToneCurve::Agx => TONE_AGX,
+                ToneCurve::Reinhard => TONE_REINHARD,
+            },
+            transfer: match self.transfer {
+                Transfer::Srgb => TRANSFER_SRGB,
+                Transfer::Linear => TRANSFER_LINEAR,
+            },
+            _pad: 0,
+        }
+    }
+}
+
+/// What developing keeps on the GPU once it has been used.
+pub(super) struct Developer {
+    pipeline: wgpu::ComputePipeline,
+    developed: wgpu::Buffer,
+    tone: wgpu::Buffer,
+    group: wgpu::BindGroup,
+}
+
+impl Renderer {
+    /// The picture of what has been gathered so far, also before the render is done. Changing the
+    /// tone costs no new rays.
+    pub fn develop(&mut self, tone: &Tone) -> Result<Image, RenderError> {
+        let start = Instant::now();
+        let [x, y, width, height] = self.settings.region();
+        let mut image = Image::new(width, height);
+        for window in 0..self.film.windows.len() {
+            let pixels = self.surviving_losses(|renderer| renderer.develop_window(window, tone))?;
+            let window = &self.film.windows[window];
+            for (row, line) in pixels.chunks_exact(window.width as usize).enumerate() {
+                let start = (window.y - y) as usize + row;
+                let start = start * width as usize + (window.x - x) as usize;
+                image.pixels[start..start + line.len()].copy_from_slice(line);
+            }
+        }
+        self.stats.develop_seconds += start.elapsed().as_secs_f64();
+        Ok(image)
+    }
+
+    /// One window's pixels, row by row.
+    fn develop_window(&mut self, index: usize, tone: &Tone) -> Result<Vec<[f32; 4]>, GpuError> {
+        if self.device.developer.is_none() {
+            self.device.developer = Some(self.new_developer()?);
+        }
+        let device = &self.device;
+        let Some(developer) = &device.developer else {
+            return Err(GpuError::Internal {
+                what: "no develop pipeline".into(),
+            });
+        };
+        let window = &self.film.windows[index];
+        let slice = Slice {
+            first_tile: 0,
+            end_tile: window.tile_count(),
+            first_sample: 0,
+            end_sample: 0,
+        };
+        let packed = slice.packed(window, self.settings.size, 0, 0);
+        let gpu = &device.gpu;
+        gpu.write(&device.buffers.slice, 0, bytes_of(&packed))?;
+        gpu.write(&device.buffers.film, 0, cast_slice(&window.developable()))?;
+        gpu.write(&developer.tone, 0, bytes_of(&tone.packed()))?;
+
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(&developer.pipeline);
+            pass.set_bind_group(1, &device.buffers.frame_group, &[]);
+            pass.set_bind_group(2, &device.buffers.film_group, &[]);
+            pass.set_bind_group(3, &developer.group, &[]);
+            let (columns, rows) = slice.grid();
+            pass.dispatch_workgroups(columns, rows, 1);
+        }
+        let bytes = u64::from(window.width) * u64::from(window.height) * 16;
+        let source = Source {
+            buffer: &developer.developed,
+            offset: 0,
+            bytes,
+        };
+        let read = gpu.submit_and_read(encoder, &[source], &device.buffers.staging)?;
+        // The film on the GPU is this window's now.
+        self.device.loaded_window = None;
+        Ok(pod_collect_to_vec(&read))
+    }
+
+    fn new_developer(&self) -> Result<Developer, GpuError> {
+        let gpu = &self.device.gpu;
+        let layouts = &self.device.layouts;
+        let layout = gpu
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("develop"),
+                bind_group_layouts: &[
+                    None,
+                    Some(&layouts.frame),
+                    Some(&layouts.film),
+                    Some(&layouts.develop),
+                ],
+                immediate_size: 0,
+            });
+        let source = Kernel::DEVELOP.buffer_source;
+        let pipeline = gpu.pipeline(Kernel::DEVELOP.name, source, Some(&layout), &[])?;
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+        let bytes = self.film.largest_window() as u64 * 16;
+        let developed = gpu.allocate("developed", bytes, usage)?;
+        let tone = gpu.upload("tone", bytes_of(&Tone::LINEAR.packed()))?;
+        let resources = [tone.as_entire_binding(), developed.as_entire_binding()];
+        let group = group(gpu, &layouts.develop, &resources);
+        Ok(Developer {
+            pipeline,
+            developed,
+            tone,
+            group,
+        })
+    }
+}

@@ -1,0 +1,126 @@
+//! What is to be rendered and how, apart from the scene.
+
+use crate::gpu::MEMORY_LIMIT_BYTES;
+
+/// Settings of one picture. Together with scene, frame and seed they determine every pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Width and height of the whole picture in pixels, at least 1.
+    pub size: (u32, u32),
+    /// Part of the picture to render: x0, y0, x1, y1 in pixels, the last two exclusive.
+    pub crop: Option<[u32; 4]>,
+    /// Samples per pixel, at least 1.
+    pub samples: u32,
+    pub antialias: Antialias,
+    pub integrator: Integrator,
+    pub triangle_test: TriangleTest,
+    /// Tests every primitive for every ray instead of walking the tree. For checking it.
+    pub brute_force: bool,
+    pub seed: u32,
+    /// Whether [`super::Stats::rays`] is kept.
+    pub count_rays: bool,
+    /// Most memory that scene and picture may take, in bytes.
+    pub memory_limit_bytes: u64,
+    pub fetch: Fetch,
+    pub slicing: Slicing,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            size: (640, 480),
+            crop: None,
+            samples: 1,
+            antialias: Antialias::None,
+            integrator: Integrator::Whitted,
+            triangle_test: TriangleTest::Watertight,
+            brute_force: false,
+            seed: 0,
+            count_rays: false,
+            memory_limit_bytes: MEMORY_LIMIT_BYTES,
+            fetch: Fetch::Auto,
+            slicing: Slicing::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// The rectangle to render: x, y, width, height.
+    pub fn region(&self) -> [u32; 4] {
+        let [x0, y0, x1, y1] = self.crop.unwrap_or([0, 0, self.size.0, self.size.1]);
+        [x0, y0, x1 - x0, y1 - y0]
+    }
+}
+
+/// Where in a pixel its samples lie.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Antialias {
+    /// All at the centre, as the course's pictures want it.
+    #[default]
+    None,
+    /// Well spread over the pixel's square, all of equal weight.
+    Stratified,
+}
+
+/// What a camera ray brings back.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Integrator {
+    /// Phong's illumination with shadow rays.
+    #[default]
+    Whitted,
+    /// Shading normals, components from -1..1 to 0..1; black where nothing is hit.
+    Normals,
+    /// Distance along the ray in scene units; 0 where nothing is hit.
+    Depth,
+    /// A colour for each primitive.
+    Ids,
+    /// Steps of the tree walk, from black over blue, green, yellow and red to white.
+    Heat,
+}
+
+/// How a ray is tested against a triangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TriangleTest {
+    /// The plane, then whether the point is inside.
+    Plane,
+    /// Möller and Trumbore 1997.
+    MollerTrumbore,
+    /// Woop, Benthin and Wald 2013: no ray slips between neighbours.
+    #[default]
+    Watertight,
+}
+
+/// Through what the shader reads nodes and triangles; the picture is the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fetch {
+    /// Images on software adapters, buffers elsewhere where they are large enough.
+    #[default]
+    Auto,
+    Image,
+    Buffer,
+}
+
+/// How work is cut into submissions; the picture is the same.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slicing {
+    /// Time that one submission should take, in seconds.
+    pub target_seconds: f64,
+    /// Most tiles of 8x8 pixels in a submission, at least 1.
+    pub max_tiles: u32,
+    /// Most samples per pixel in a submission, at least 1.
+    pub max_samples: u32,
+    /// Longest side of a window, the part of the picture that is on the GPU at a time, in pixels;
+    /// 8 to 2048.
+    pub window_side: u32,
+}
+
+impl Default for Slicing {
+    fn default() -> Self {
+        Self {
+            target_seconds: 0.1,
+            max_tiles: u32::MAX,
+            max_samples: 16,
+            window_side: 2048,
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Cuts the work on a window into submissions that take about the target time each: watchdogs kill
+//! long ones, and nothing can be shown, stopped or saved within one.
+
+use super::{film::Window, settings::Slicing};
+use crate::layout::PackedSlice;
+
+/// Tiles of the first submission; one that turns out heavier than planned stays short.
+const FIRST_TILES: f64 = 8.0;
+/// The most by which a submission may be larger than the one before.
+const GROWTH: f64 = 4.0;
+/// Workgroups along x in a dispatch: a second dimension keeps both below WebGPU's 65,535.
+const GRID_WIDTH: u32 = 256;
+
+/// Loop rounds of one invocation beyond which a software driver's limit of 65,535 is near; the last
+/// round of each loop is not in the count.
+pub const LONGEST_PATH: u32 = 60_000;
+
+/// What one submission does: some tiles of a window, some samples of their pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Slice {
+    pub first_tile: u32,
+    pub end_tile: u32,
+    pub first_sample: u32,
+    pub end_sample: u32,
+}
+
+impl Slice {
+    /// Workgroups along x and y.
+    pub fn grid(&self) -> (u32, u32) {
+        let tiles = (self.end_tile - self.first_tile).max(1);
+        (tiles.min(GRID_WIDTH), tiles.div_ceil(GRID_WIDTH))
+    }
+
+    /// Tiles times samples, the measure of work.
+    fn work(&self) -> f64 {
+        f64::from(self.end_tile - self.first_tile) * f64::from(self.end_sample - self.first_sample)
+    }
+
+    /// The slice as the shader reads it.
+    pub fn packed(
+        &self,
+        window: &Window,
+        picture: (u32, u32),
+        samples: u32,
+        seed: u32,
+    ) -> PackedSlice {
+        PackedSlice {
+            picture_width: picture.0,
+            picture_height: picture.1,
+            window_x: window.x,
+            window_y: window.y,
+            window_width: window.width,
+            window_height: window.height,
+            tile_columns: window.tile_columns(),
+            tile_count: window.tile_count(),
+            tile_stride: window.tile_stride(),
+            first_tile: self.first_tile,
+            end_tile: self.end_tile,
+            grid_width: self.grid().0,
+            first_sample: self.first_sample,
+            end_sample: self.end_sample,
+            sample_count: samples,
+            seed,
+            ..Default::default()
+        }
+    }
+}
+
+/// Plans slices from how long the last ones took.
+#[derive(Clone, Debug)]
+pub struct Planner {
+    slicing: Slicing,
+    /// Work that should fit into the target time.
+    budget: f64,
+    /// Most samples that an invocation takes: one until a whole sweep has shown how long paths are.
+    max_samples: u32,
+    /// Most loop rounds that a sample has been seen to take.
+    longest_sample: u32,
+}
+
+impl Planner {
+    pub fn new(slicing: Slicing) -> Self {
+        Self {
+            slicing,
+            budget: FIRST_TILES,
+            max_samples: 1,
+            longest_sample: 0,
+        }
+    }
+
+    /// The next slice of a sweep over `tile_count` tiles that stands at `first_tile`; all slices of
+    /// a sweep take the same samples.
+    pub fn next(
+        &self,
+        tile_count: u32,
+        first_tile: u32,
+        first_sample: u32,
+        sweep_samples: u32,
+    ) -> Slice {
+        let tiles = (self.budget / f64::from(sweep_samples)) as u32;
+        let tiles = tiles
+            .clamp(1, self.slicing.max_tiles)
+            .min(tile_count - first_tile);
+        Slice {
+            first_tile,
+            end_tile: first_tile + tiles,
+            first_sample,
+            end_sample: first_sample + sweep_samples,
+        }
+    }
+
+    /// Samples per pixel of the next sweep: several only where a slice holds the whole window, which
+    /// then saves submissions.
+    pub fn sweep_samples(&self, tile_count: u32, samples_left: u32) -> u32 {
+        let fitting = (self.budget / f64::from(tile_count)) as u32;
+        fitting.clamp(1, self.max_samples).min(samples_left)
+    }
+
+    /// Learns from a finished slice.
+    pub fn finished(&mut self, slice: &Slice, seconds: f64, longest_path: u32) {
+        let fitting = slice.work() * self.slicing.target_seconds / seconds.max(1e-6);
+        self.budget = fitting.clamp(1.0, slice.work().max(FIRST_TILES) * GROWTH);
+        let samples = (slice.end_sample - slice.first_sample).max(1);
+        self.longest_sample = self.longest_sample.max(longest_path.div_ceil(samples));
+    }
+
+    /// Learns from a finished sweep: as many samples at a time as keep well below the limit.
+    pub fn sweep_done(&mut self) {
+        let fitting = LONGEST_PATH / 4 / self.longest_sample.max(1);
+        self.max_samples = fitting.clamp(1, self.slicing.max_samples);
+    }
+
+    /// Answers a slice that the driver cut short: smaller ones from now on.
+    pub fn cut_short(&mut self) {
+        self.budget = (self.budget / 2.0).max(1.0);
+    }
+}

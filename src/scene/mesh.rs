@@ -1,0 +1,102 @@
+//! Triangle meshes and the repairs that every mesh format needs.
+
+use glam::{DVec3, Vec3};
+
+/// Triangles over shared vertices, in object space. Positions are in range, triangles have an area,
+/// normals have unit length: [`Mesh::repair`] sees to that, whatever the file said.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Empty when the file gives none.
+    pub name: String,
+    pub positions: Vec<Vec3>,
+    /// One unit normal for each position.
+    pub normals: Vec<Vec3>,
+    /// For each position, an index into [`super::Scene::materials`]. Where the three vertices of a
+    /// triangle differ, their coefficients are interpolated.
+    pub materials: Vec<u32>,
+    /// Indices into the arrays above. Winding gives the geometric normal and nothing else.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// What [`Mesh::repair`] had to do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Repairs {
+    /// Triangles without area, which were dropped.
+    pub dropped_triangles: usize,
+    /// Normals of no usable length, which were computed from the triangles round the vertex.
+    pub recomputed_normals: usize,
+}
+
+impl Mesh {
+    /// Drops triangles whose area is zero (or too small for f32 to tell), recomputes normals that
+    /// are missing or have no length as the area-weighted mean round their vertex, and normalises
+    /// the others.
+    ///
+    /// `normals` may be shorter than `positions`; the missing ones count as zero and are not
+    /// reported as repaired. Indices must be in range and positions finite.
+    pub fn repair(&mut self) -> Repairs {
+        let given_normals = self.normals.len();
+        self.normals.resize(self.positions.len(), Vec3::ZERO);
+
+        let corner = |i: u32| self.positions[i as usize].as_dvec3();
+        let cross = |t: &[u32; 3]| (corner(t[1]) - corner(t[0])).cross(corner(t[2]) - corner(t[0]));
+        let mut area_normals = vec![DVec3::ZERO; self.positions.len()];
+        let before = self.triangles.len();
+        let mut kept = Vec::with_capacity(before);
+        for triangle in &self.triangles {
+            let normal = cross(triangle);
+            let longest = (0..3)
+                .map(|i| corner(triangle[i]).distance_squared(corner(triangle[(i + 1) % 3])))
+                .fold(0.0, f64::max);
+            // Below one f32 rounding of the longest edge the height is noise, not area.
+            if normal.length() <= longest * f64::from(f32::EPSILON) * 0.5 {
+                continue;
+            }
+            for &i in triangle {
+                area_normals[i as usize] += normal;
+            }
+            kept.push(*triangle);
+        }
+        self.triangles = kept;
+
+        let mut used = vec![false; self.positions.len()];
+        for &i in self.triangles.iter().flatten() {
+            used[i as usize] = true;
+        }
+        let mut recomputed_normals = 0;
+        for (i, normal) in self.normals.iter_mut().enumerate() {
+            let given = normal.as_dvec3();
+            let length = given.length();
+            *normal = if length.is_finite() && length > 1e-30 {
+                (given / length).as_vec3()
+            } else {
+                recomputed_normals += usize::from(i < given_normals && used[i]);
+                area_normals[i]
+                    .try_normalize()
+                    .unwrap_or(DVec3::Y)
+                    .as_vec3()
+            };
+        }
+        Repairs {
+            dropped_triangles: before - self.triangles.len(),
+            recomputed_normals,
+        }
+    }
+
+    /// Moves the vertices so that their box is centred on the origin and returns the translation
+    /// that brings them back. Of use to importers whose files place vertices far from the origin.
+    pub fn from_world_positions(positions: &[DVec3]) -> (Vec<Vec3>, DVec3) {
+        let Some((min, max)) = positions.iter().map(|&p| (p, p)).reduce(super::union) else {
+            return (Vec::new(), DVec3::ZERO);
+        };
+        // Only worth it when the offset costs f32 precision; else the file's numbers stay as they are.
+        let center = (min + max) / 2.0;
+        let offset = if center.abs().max_element() > 4.0 * (max - min).max_element() {
+            center
+        } else {
+            DVec3::ZERO
+        };
+        let local = positions.iter().map(|p| (*p - offset).as_vec3()).collect();
+        (local, offset)
+    }
+}
