@@ -1,4 +1,77 @@
-//! glimray
+//! A GPU ray tracer: scenes in, pictures out, all rays traced by compute shaders.
+//!
+//! A scene file becomes a picture along one river. Each arrow is one function, each noun is a value
+//! that can be printed and tested alone, and no arrow points back:
+//!
+//! ```text
+//! file ─import▶ Scene ─frame▶ Frame ─pack▶ PackedScene, PackedView ─Renderer▶ film ─develop▶ Image ─output▶ file
+//! ```
+//!
+//! ```
+//! use glimray::gpu::{AdapterChoice, Gpu};
+//! use glimray::render::{Renderer, Settings, Tone};
+//! use glimray::{import, output, pack};
+//! use std::{path::Path, sync::Arc};
+//!
+//! let scene = import::load(Path::new("assets/scenes/spheres_and_triangles.scene"))?;
+//! let packed = Arc::new(pack::scene(&scene)?);
+//! let view = packed.frame(&scene.frame(0.0))?;
+//! let gpu = Gpu::new(&AdapterChoice::default())?;
+//! let settings = Settings { size: scene.output.size, ..Settings::default() };
+//! let mut renderer = Renderer::new(gpu, packed, &view, settings)?;
+//! while !renderer.is_done() {
+//!     renderer.step()?;
+//! }
+//! let picture = renderer.develop(&Tone::LINEAR)?;
+//! let folder = tempfile::tempdir()?;
+//! output::save(folder.path().join("spheres.png"), &picture)?;
+//! # assert_eq!((picture.width, picture.height), (640, 480));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Conventions
+//!
+//! * **Axes**: right-handed, +Y up; a camera without a transform looks along −Z. Pictures start at
+//!   the top left, x to the right, y down; pixel (0, 0) has its centre at (0.5, 0.5).
+//! * **Units**: metres, or whatever one unit a file uses; seconds; bytes. Angles are radians, and
+//!   degrees only in files and flags, where the name ends in `_deg` (or the help says so).
+//! * **Colours**: linear Rec. 709 radiance from the importer to the film. Only [`output`]'s PNG and
+//!   JPEG hold what exposure, tone curve and transfer made of it ([`render::Tone`]).
+//! * **Spaces**: a mesh is f32 in object space; instances, shapes, lights and cameras are f64 in
+//!   world space; on the GPU everything is f32 in render space, which is world space moved so that
+//!   the scene's default camera is at the origin ([`pack::PackedScene::origin`]).
+//! * **Normals**: `n` is for shading, `ng` is the geometric one; a triangle's winding gives `ng` and
+//!   nothing else. Directions have unit length and point away from the surface.
+//! * **Absence** is `Option` on the host and [`layout::NONE`] on the GPU, never a NaN or an infinity.
+//! * **Ownership**: the caller owns the [`scene::Scene`]; the packed scene is shared, because a
+//!   [`render::Renderer`] uploads it again when a device is lost; the renderer owns the device and
+//!   the film; an [`image::Image`] belongs to whoever asked for it.
+//! * **Determinism**: a pixel is a function of scene, frame, settings, seed and sample index. How the
+//!   work is cut into steps does not show.
+//! * **Errors**: one enum for each module that can fail, with what a user needs to know. Only
+//!   [`app`] prints or exits. There is no panic on a bad file, a missing GPU or a full disk.
+//!
+//! # Map
+//!
+//! | module | does | uses |
+//! |---|---|---|
+//! | [`scene`] | the host model, with every question settled | |
+//! | [`import`] | file → `Scene`, one file for each format | `scene` |
+//! | [`bvh`] | boxes → tree of four-way nodes | |
+//! | [`layout`] | the structs and tags that shaders also see | |
+//! | [`pack`] | `Scene` → arrays for the GPU; no device needed | `scene`, `bvh`, `layout` |
+//! | [`gpu`] | the device, its memory, its loss, its errors | |
+//! | [`render`] | steps, film, developing | `pack`, `layout`, `gpu`, `image`, `scene` |
+//! | [`image`](mod@image) | a finished picture in memory | |
+//! | [`output`] | `Image` → file, complete or absent | `image` |
+//! | [`app`] | the command line | everything |
+//!
+//! The shaders are in `shaders/`: `types.wesl` (shared structs), `bindings.wesl` (all bindings and
+//! overrides), `lib/` (pure functions), `scene/` (what reads bindings), `kernels/` (entry points).
+//! `build.rs` links them to plain WGSL, which the binary carries.
+
+#![forbid(unsafe_code)]
+
 pub mod app;
 pub mod bvh;
 pub mod gpu;

@@ -409,10 +409,9 @@ impl Device {
                 ],
                 immediate_size: 0,
             });
-        let source = if fetch == Fetch::Image {
-            kernel.image_source
-        } else {
-            kernel.buffer_source
+        let source = match fetch {
+            Fetch::Image => kernel.image_source,
+            _ => kernel.buffer_source,
         };
         let pipeline = gpu.pipeline(kernel.name, source, Some(&layout), &overrides)?;
         let nothing = Slice::default();

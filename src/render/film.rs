@@ -45,12 +45,12 @@ impl Window {
         self.tile_columns() * self.height.div_ceil(TILE_SIDE)
     }
 
-    /// A stride coprime to the tile count, near the golden section of it, so that any run of tiles
-    /// is spread over the window.
+    /// A stride coprime to the tile count that steps to the next tile down and right: neighbours
+    /// share what is in the caches, and any run of tiles longer than the window is high samples all
+    /// of its height.
     pub fn tile_stride(&self) -> u32 {
         let count = self.tile_count();
-        let golden = (f64::from(count) * 0.618_033_988_75) as u32;
-        (golden.max(1)..count)
+        (self.tile_columns() + 1..count)
             .find(|&stride| gcd(stride, count) == 1)
             .unwrap_or(1)
     }

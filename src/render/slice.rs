@@ -8,7 +8,7 @@ use crate::layout::PackedSlice;
 const FIRST_TILES: f64 = 8.0;
 /// The most by which a submission may be larger than the one before.
 const GROWTH: f64 = 4.0;
-/// Workgroups along x in a dispatch: a second dimension keeps both below WebGPU's 65,535.
+/// Most workgroups along x: a second dimension keeps both below WebGPU's 65,535.
 const GRID_WIDTH: u32 = 256;
 
 /// Loop rounds of one invocation beyond which a software driver's limit of 65,535 is near; the last
@@ -28,7 +28,8 @@ impl Slice {
     /// Workgroups along x and y.
     pub fn grid(&self) -> (u32, u32) {
         let tiles = (self.end_tile - self.first_tile).max(1);
-        (tiles.min(GRID_WIDTH), tiles.div_ceil(GRID_WIDTH))
+        let rows = tiles.div_ceil(GRID_WIDTH);
+        (tiles.div_ceil(rows), rows)
     }
 
     /// Tiles times samples, the measure of work.
