@@ -13,6 +13,7 @@ mod doctor;
 pub mod exit;
 mod inspect;
 mod interrupt;
+pub mod mesa;
 mod overrides;
 mod picture;
 mod progress;

@@ -80,12 +80,17 @@ pub fn load_with(path: &Path, options: &Options) -> Result<Scene, ImportError> {
     obj::read_scene(&Source::new("bad model", path, bytes)?, &files)
 }
 
-/// The native scene in `text`, which can name no files. `name` stands for the file's path in errors.
+/// The scene in `text`, which can name no files. `name` stands for the file's path in errors; if it
+/// ends in `.scene` the text is in the course's format, else in the native one.
 ///
 /// # Errors
 /// `text` is malformed or names a file, or an override does not fit.
 pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportError> {
-    let source = Source::new("bad scene", Path::new(name), text.as_bytes().to_vec())?;
+    let path = Path::new(name);
+    let source = Source::new("bad scene", path, text.as_bytes().to_vec())?;
+    if path.extension().is_some_and(|ending| ending == "scene") {
+        return course::read(&source);
+    }
     native::read(&source, options, &Files::none())
 }
 

@@ -18,7 +18,7 @@ use crate::{
     pack::{PackedScene, PackedView},
 };
 use bindings::{Buffers, Layouts};
-use bytemuck::{bytes_of, cast_slice, pod_read_unaligned};
+use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
 use film::{CHUNK, Film, TILE_PIXELS};
 use slice::{Planner, Slice};
 use std::{sync::Arc, time::Instant};
@@ -211,22 +211,21 @@ impl Renderer {
         } = self.cursor;
         let slice = self.planner.next(tile_count, tile, sample, sweep_samples);
         let start = Instant::now();
-        let outcome = self.surviving_losses(|renderer| renderer.trace(&slice))?;
-        self.account(&slice, outcome, start.elapsed().as_secs_f64())
+        let tally = self.surviving_losses(|renderer| renderer.trace(&slice))?;
+        self.account(&slice, &tally, start.elapsed().as_secs_f64())
     }
 
     /// Books a slice that came back, or leaves it to be done again when it was cut short.
     fn account(
         &mut self,
         slice: &Slice,
-        (tally, sums): (PackedSlice, Vec<u8>),
+        tally: &PackedSlice,
         seconds: f64,
     ) -> Result<(), RenderError> {
         self.stats.trace_seconds += seconds;
         self.stats.submissions += 1;
         self.stats.longest_submission_ms = self.stats.longest_submission_ms.max(seconds * 1e3);
-        let (columns, rows) = slice.grid();
-        if tally.tiles_done != columns * rows {
+        if !slice.is_complete(tally) {
             // The driver stopped the dispatch without a word: once more, smaller.
             self.device.loaded_window = None;
             self.planner.cut_short();
@@ -237,10 +236,6 @@ impl Renderer {
                 steps: tally.longest_path,
             });
         }
-        let window = &mut self.film.windows[self.cursor.window];
-        let first = slice.first_tile as usize * TILE_PIXELS;
-        let target: &mut [u8] = bytemuck::cast_slice_mut(&mut window.sums[first..]);
-        target[..sums.len()].copy_from_slice(&sums);
         self.planner.finished(slice, seconds, tally.longest_path);
         self.stats.nonfinite_samples += u64::from(tally.nonfinite_samples);
         if let Some(rays) = &mut self.stats.rays {
@@ -273,8 +268,9 @@ impl Renderer {
         }
     }
 
-    /// Runs one slice and returns its accounts and the sums of its tiles.
-    fn trace(&mut self, slice: &Slice) -> Result<(PackedSlice, Vec<u8>), GpuError> {
+    /// Runs one slice and returns its accounts. The sums of its tiles come to the host's film if it
+    /// was done in full.
+    fn trace(&mut self, slice: &Slice) -> Result<PackedSlice, GpuError> {
         let Device {
             gpu,
             buffers,
@@ -282,7 +278,7 @@ impl Renderer {
             loaded_window,
             ..
         } = &mut self.device;
-        let window = &self.film.windows[self.cursor.window];
+        let window = &mut self.film.windows[self.cursor.window];
         if *loaded_window != Some(self.cursor.window) {
             gpu.write(&buffers.film, 0, cast_slice(&window.sums))?;
             *loaded_window = Some(self.cursor.window);
@@ -314,9 +310,16 @@ impl Renderer {
                 bytes: u64::from(slice.end_tile - slice.first_tile) * tile_bytes,
             },
         ];
-        let read = gpu.submit_and_read(encoder, &sources, &buffers.staging)?;
-        let (tally, sums) = read.split_at(slice_bytes as usize);
-        Ok((pod_read_unaligned(tally), sums.to_vec()))
+        let first_pixel = slice.first_tile as usize * TILE_PIXELS;
+        gpu.submit_and_read(encoder, &sources, &buffers.staging, |bytes| {
+            let (tally, sums) = bytes.split_at(slice_bytes as usize);
+            let tally = pod_read_unaligned(tally);
+            if slice.is_complete(&tally) {
+                let target = cast_slice_mut(&mut window.sums[first_pixel..]);
+                target[..sums.len()].copy_from_slice(sums);
+            }
+            tally
+        })
     }
 
     /// Repeats `attempt` on a fresh device when the old one is lost. The film on the host holds all

@@ -11,14 +11,15 @@ pub(crate) struct Source<'a> {
 }
 
 impl Gpu {
-    /// Submits `encoder` and returns what is in `sources` when it is done, one after the other.
+    /// Submits `encoder` and hands `read` what is in `sources` when it is done, one after the other.
     /// `staging` must be mappable for reading and hold them all.
-    pub(crate) fn submit_and_read(
+    pub(crate) fn submit_and_read<T>(
         &self,
         mut encoder: wgpu::CommandEncoder,
         sources: &[Source],
         staging: &wgpu::Buffer,
-    ) -> Result<Vec<u8>, GpuError> {
+        read: impl FnOnce(&[u8]) -> T,
+    ) -> Result<T, GpuError> {
         let mut bytes = 0;
         for source in sources {
             encoder.copy_buffer_to_buffer(
@@ -53,7 +54,7 @@ impl Gpu {
         }
         let contents = slice
             .get_mapped_range()
-            .map(|view| view.to_vec())
+            .map(|view| read(&view))
             .map_err(|_| GpuError::Lost);
         staging.unmap();
         contents

@@ -116,10 +116,11 @@ impl Renderer {
             offset: 0,
             bytes,
         };
-        let read = gpu.submit_and_read(encoder, &[source], &device.buffers.staging)?;
+        let staging = &device.buffers.staging;
+        let pixels = gpu.submit_and_read(encoder, &[source], staging, pod_collect_to_vec)?;
         // The film on the GPU is this window's now.
         self.device.loaded_window = None;
-        Ok(pod_collect_to_vec(&read))
+        Ok(pixels)
     }
 
     fn new_developer(&self) -> Result<Developer, GpuError> {

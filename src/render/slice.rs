@@ -32,6 +32,12 @@ impl Slice {
         (tiles.div_ceil(rows), rows)
     }
 
+    /// Whether every workgroup of the dispatch signed off.
+    pub fn is_complete(&self, tally: &PackedSlice) -> bool {
+        let (columns, rows) = self.grid();
+        tally.tiles_done == columns * rows
+    }
+
     /// Tiles times samples, the measure of work.
     fn work(&self) -> f64 {
         f64::from(self.end_tile - self.first_tile) * f64::from(self.end_sample - self.first_sample)
