@@ -58,10 +58,11 @@ impl Gpu {
     /// Opens the adapter that `choice` names, or the fastest kind there is. It asks for no feature
     /// and for no more than WebGPU's default limits.
     pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
-        Self::with_needs(choice, Needs::default())
+        Self::open(choice, Needs::default())
     }
 
-    fn with_needs(choice: &AdapterChoice, needs: Needs) -> Result<Self, GpuError> {
+    /// Opens an adapter with limits that serve `needs`.
+    pub(crate) fn open(choice: &AdapterChoice, needs: Needs) -> Result<Self, GpuError> {
         let (adapter, report) = adapter::choose(choice)?;
         let adapter_limits = adapter.limits();
         let required_limits = limits_for(needs, &adapter_limits)?;
@@ -109,12 +110,12 @@ impl Gpu {
             return Ok(self);
         }
         limits_for(needs, &self.adapter_limits)?;
-        Self::with_needs(&self.choice, needs)
+        Self::open(&self.choice, needs)
     }
 
-    /// A fresh device in place of a lost one.
-    pub(crate) fn rebuilt(&self, needs: Needs) -> Result<Self, GpuError> {
-        Self::with_needs(&self.choice, needs)
+    /// What this device was asked for by.
+    pub(crate) fn choice(&self) -> &AdapterChoice {
+        &self.choice
     }
 
     /// The adapter that this device runs on.

@@ -4,6 +4,7 @@
 mod bindings;
 mod debug_view;
 mod develop;
+mod device;
 mod film;
 mod settings;
 mod slice;
@@ -13,19 +14,17 @@ pub use develop::Tone;
 pub use settings::{Antialias, Fetch, Integrator, Settings, Slicing, TriangleTest};
 
 use crate::{
-    gpu::{AdapterReport, Gpu, GpuError, Kernel, Source},
+    gpu::{AdapterChoice, AdapterReport, Gpu, GpuError},
     layout::PackedSlice,
     pack::{PackedScene, PackedView},
 };
-use bindings::{Buffers, Layouts};
-use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
-use film::{CHUNK, Film, TILE_PIXELS};
+use device::{Device, Task};
+use film::{CHUNK, Film};
 use slice::{Planner, Slice};
 use std::{sync::Arc, time::Instant};
 
 /// How often a lost device is replaced before the render gives up.
 const MAX_LOSSES: u32 = 3;
-const PIXEL_BYTES: u64 = 16;
 
 /// Renders one frame after another of one scene.
 pub struct Renderer {
@@ -37,19 +36,6 @@ pub struct Renderer {
     planner: Planner,
     cursor: Cursor,
     stats: Stats,
-}
-
-/// What lives on the GPU, and dies with it.
-struct Device {
-    gpu: Gpu,
-    /// Image or buffer, not auto.
-    fetch: Fetch,
-    layouts: Layouts,
-    buffers: Buffers,
-    pipeline: wgpu::ComputePipeline,
-    developer: Option<develop::Developer>,
-    /// The window whose sums are in the film buffer.
-    loaded_window: Option<usize>,
 }
 
 /// How far the render is: the tile and the samples of the sweep that is under way.
@@ -112,6 +98,18 @@ impl RenderError {
     }
 }
 
+impl Stats {
+    /// Counts a failure of the device; too many of them are the end.
+    fn count_loss(&mut self) -> Result<(), RenderError> {
+        self.device_losses += 1;
+        if self.device_losses > MAX_LOSSES {
+            let count = self.device_losses;
+            return Err(GpuError::KeptFailing { count }.into());
+        }
+        Ok(())
+    }
+}
+
 impl Renderer {
     /// Checks the memory limit, uploads the scene and compiles the kernels. The settings' sizes and
     /// counts must be in the ranges they document.
@@ -132,10 +130,19 @@ impl Renderer {
             rays: settings.count_rays.then(Rays::default),
             ..Default::default()
         };
+        let task = Task {
+            scene: &scene,
+            view: &view,
+            settings: &settings,
+            film_pixels: film.largest_window(),
+        };
         let fetch = bindings::choose_fetch(settings.fetch, &gpu, &scene);
-        let gpu = gpu.serving(bindings::needs(&scene, fetch, film.largest_window()))?;
-        let pixels = film.largest_window();
-        let device = Device::new(gpu, fetch, &scene, &view, &settings, pixels, &mut stats)?;
+        let gpu = gpu.serving(bindings::needs(&scene, fetch, task.film_pixels))?;
+        let choice = gpu.choice().clone();
+        let device = match Device::new(gpu, fetch, task, &mut stats) {
+            Err(GpuError::Lost) => replacement(&choice, fetch, task, &mut stats)?,
+            other => other?,
+        };
         Ok(Self {
             planner: Planner::new(settings.slicing),
             scene,
@@ -154,12 +161,13 @@ impl Renderer {
         self.film = Film::new(self.settings.region(), self.settings.slicing.window_side);
         self.cursor = Cursor::default();
         self.surviving_losses(|renderer| {
-            let device = &mut renderer.device;
-            device
-                .buffers
-                .set_view(&device.gpu, &device.layouts, &renderer.view)?;
-            device.loaded_window = None;
-            Ok(())
+            let task = Task {
+                scene: &renderer.scene,
+                view: &renderer.view,
+                settings: &renderer.settings,
+                film_pixels: renderer.film.largest_window(),
+            };
+            renderer.device.set_view(task, &mut renderer.stats)
         })
     }
 
@@ -211,7 +219,13 @@ impl Renderer {
         } = self.cursor;
         let slice = self.planner.next(tile_count, tile, sample, sweep_samples);
         let start = Instant::now();
-        let tally = self.surviving_losses(|renderer| renderer.trace(&slice))?;
+        let tally = self.surviving_losses(|renderer| {
+            let index = renderer.cursor.window;
+            let window = &mut renderer.film.windows[index];
+            renderer
+                .device
+                .trace(&slice, (index, window), &renderer.settings)
+        })?;
         self.account(&slice, &tally, start.elapsed().as_secs_f64())
     }
 
@@ -229,7 +243,7 @@ impl Renderer {
             // The driver stopped the dispatch without a word: once more, smaller.
             self.device.loaded_window = None;
             self.planner.cut_short();
-            return self.count_loss();
+            return self.stats.count_loss();
         }
         if tally.longest_path > slice::LONGEST_PATH {
             return Err(RenderError::PathTooLong {
@@ -268,60 +282,6 @@ impl Renderer {
         }
     }
 
-    /// Runs one slice and returns its accounts. The sums of its tiles come to the host's film if it
-    /// was done in full.
-    fn trace(&mut self, slice: &Slice) -> Result<PackedSlice, GpuError> {
-        let Device {
-            gpu,
-            buffers,
-            pipeline,
-            loaded_window,
-            ..
-        } = &mut self.device;
-        let window = &mut self.film.windows[self.cursor.window];
-        if *loaded_window != Some(self.cursor.window) {
-            gpu.write(&buffers.film, 0, cast_slice(&window.sums))?;
-            *loaded_window = Some(self.cursor.window);
-        }
-        let Settings {
-            size,
-            samples,
-            seed,
-            ..
-        } = self.settings;
-        gpu.write(
-            &buffers.slice,
-            0,
-            bytes_of(&slice.packed(window, size, samples, seed)),
-        )?;
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        dispatch(&mut encoder, pipeline, buffers, slice);
-        let tile_bytes = TILE_PIXELS as u64 * PIXEL_BYTES;
-        let slice_bytes = size_of::<PackedSlice>() as u64;
-        let sources = [
-            Source {
-                buffer: &buffers.slice,
-                offset: 0,
-                bytes: slice_bytes,
-            },
-            Source {
-                buffer: &buffers.film,
-                offset: u64::from(slice.first_tile) * tile_bytes,
-                bytes: u64::from(slice.end_tile - slice.first_tile) * tile_bytes,
-            },
-        ];
-        let first_pixel = slice.first_tile as usize * TILE_PIXELS;
-        gpu.submit_and_read(encoder, &sources, &buffers.staging, |bytes| {
-            let (tally, sums) = bytes.split_at(slice_bytes as usize);
-            let tally = pod_read_unaligned(tally);
-            if slice.is_complete(&tally) {
-                let target = cast_slice_mut(&mut window.sums[first_pixel..]);
-                target[..sums.len()].copy_from_slice(sums);
-            }
-            tally
-        })
-    }
-
     /// Repeats `attempt` on a fresh device when the old one is lost. The film on the host holds all
     /// finished slices, so nothing else is done twice.
     fn surviving_losses<T>(
@@ -337,121 +297,31 @@ impl Renderer {
     }
 
     fn replace_device(&mut self) -> Result<(), RenderError> {
-        let pixels = self.film.largest_window();
-        loop {
-            self.count_loss()?;
-            let fetch = self.device.fetch;
-            let needs = bindings::needs(&self.scene, fetch, pixels);
-            let rebuilt = self.device.gpu.rebuilt(needs).and_then(|gpu| {
-                Device::new(
-                    gpu,
-                    fetch,
-                    &self.scene,
-                    &self.view,
-                    &self.settings,
-                    pixels,
-                    &mut self.stats,
-                )
-            });
-            match rebuilt {
-                Err(GpuError::Lost) => {}
-                Err(error) => return Err(error.into()),
-                Ok(device) => {
-                    self.device = device;
-                    return Ok(());
-                }
-            }
-        }
-    }
-
-    fn count_loss(&mut self) -> Result<(), RenderError> {
-        self.stats.device_losses += 1;
-        if self.stats.device_losses > MAX_LOSSES {
-            return Err(GpuError::KeptFailing {
-                count: self.stats.device_losses,
-            }
-            .into());
-        }
+        let choice = self.device.gpu.choice().clone();
+        let fetch = self.device.fetch;
+        let task = Task {
+            scene: &self.scene,
+            view: &self.view,
+            settings: &self.settings,
+            film_pixels: self.film.largest_window(),
+        };
+        self.device = replacement(&choice, fetch, task, &mut self.stats)?;
         Ok(())
     }
 }
 
-impl Device {
-    /// Uploads the scene, compiles the kernel, and runs it once on nothing, which is when some
-    /// drivers really compile.
-    fn new(
-        gpu: Gpu,
-        fetch: Fetch,
-        scene: &PackedScene,
-        view: &PackedView,
-        settings: &Settings,
-        film_pixels: usize,
-        stats: &mut Stats,
-    ) -> Result<Self, GpuError> {
-        let start = Instant::now();
-        let layouts = Layouts::new(&gpu, fetch);
-        let buffers = Buffers::new(&gpu, &layouts, fetch, scene, view, film_pixels)?;
-        stats.upload_seconds += start.elapsed().as_secs_f64();
-
-        let start = Instant::now();
-        let (kernel, overrides) = match settings.integrator {
-            Integrator::Whitted => (
-                Kernel::WHITTED,
-                whitted::overrides(scene, settings, gpu.is_cpu()),
-            ),
-            _ => (Kernel::DEBUG_VIEW, debug_view::overrides(scene, settings)),
-        };
-        let layout = gpu
-            .device
-            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(kernel.name),
-                bind_group_layouts: &[
-                    Some(&layouts.scene),
-                    Some(&layouts.frame),
-                    Some(&layouts.film),
-                ],
-                immediate_size: 0,
-            });
-        let source = match fetch {
-            Fetch::Image => kernel.image_source,
-            _ => kernel.buffer_source,
-        };
-        let pipeline = gpu.pipeline(kernel.name, source, Some(&layout), &overrides)?;
-        let nothing = Slice::default();
-        let idle = PackedSlice {
-            tile_count: 1,
-            tile_columns: 1,
-            grid_width: 1,
-            ..Default::default()
-        };
-        gpu.write(&buffers.slice, 0, bytes_of(&idle))?;
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        dispatch(&mut encoder, &pipeline, &buffers, &nothing);
-        gpu.submit(encoder.finish())?;
-        stats.compile_seconds += start.elapsed().as_secs_f64();
-        Ok(Self {
-            gpu,
-            fetch,
-            layouts,
-            buffers,
-            pipeline,
-            developer: None,
-            loaded_window: None,
-        })
+/// A new device in place of a lost one, which may be lost in turn.
+fn replacement(
+    choice: &AdapterChoice,
+    fetch: Fetch,
+    task: Task,
+    stats: &mut Stats,
+) -> Result<Device, RenderError> {
+    loop {
+        stats.count_loss()?;
+        match device::reopen(choice, fetch, task, stats) {
+            Err(GpuError::Lost) => {}
+            other => return Ok(other?),
+        }
     }
-}
-
-fn dispatch(
-    encoder: &mut wgpu::CommandEncoder,
-    pipeline: &wgpu::ComputePipeline,
-    buffers: &Buffers,
-    slice: &Slice,
-) {
-    let mut pass = encoder.begin_compute_pass(&Default::default());
-    pass.set_pipeline(pipeline);
-    pass.set_bind_group(0, &buffers.scene_group, &[]);
-    pass.set_bind_group(1, &buffers.frame_group, &[]);
-    pass.set_bind_group(2, &buffers.film_group, &[]);
-    let (columns, rows) = slice.grid();
-    pass.dispatch_workgroups(columns, rows, 1);
 }

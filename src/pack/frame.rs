@@ -17,6 +17,8 @@ pub struct PackedView {
     pub frame: PackedFrame,
     /// At least one: a dark light stands in where there is none.
     pub lights: Vec<PackedLight>,
+    /// Whether there is a light that is not dark.
+    pub has_lights: bool,
 }
 
 impl PackedScene {
@@ -25,6 +27,7 @@ impl PackedScene {
         let mut lights = (frame.lights.iter())
             .map(|l| light(l, self.origin))
             .collect::<Result<Vec<_>, _>>()?;
+        let has_lights = lights.iter().any(|light| light.color != [0.0; 3]);
         if lights.is_empty() {
             lights.push(PackedLight::default());
         }
@@ -40,6 +43,7 @@ impl PackedScene {
                 ..Default::default()
             },
             lights,
+            has_lights,
         })
     }
 }

@@ -55,7 +55,7 @@ impl Layouts {
                 })
         };
         Self {
-            scene: layout("scene", &[geometry, geometry, read, read, read]),
+            scene: layout("scene", &[geometry, geometry, geometry, geometry, read]),
             frame: layout("frame", &[read, write]),
             film: layout("film", &[write]),
             develop: layout("develop", &[read, write]),
@@ -84,21 +84,13 @@ impl Buffers {
         film_pixels: usize,
     ) -> Result<Self, GpuError> {
         let shapes = gpu.upload("shapes", cast_slice(&scene.shapes))?;
-        let vertices = gpu.upload("vertices", cast_slice(&scene.vertices))?;
-        let materials = gpu.upload("materials", cast_slice(&scene.materials))?;
-        let nodes = Geometry::upload(gpu, fetch, "nodes", cast_slice(&scene.nodes))?;
-        let triangles = Geometry::upload(gpu, fetch, "triangles", cast_slice(&scene.triangles))?;
-        let scene_group = group(
-            gpu,
-            &layouts.scene,
-            &[
-                nodes.resource(),
-                triangles.resource(),
-                shapes.as_entire_binding(),
-                vertices.as_entire_binding(),
-                materials.as_entire_binding(),
-            ],
-        );
+        let rows = scene_rows(scene)
+            .into_iter()
+            .map(|(what, bytes)| Rows::upload(gpu, fetch, what, bytes))
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut resources: Vec<_> = rows.iter().map(Rows::resource).collect();
+        resources.push(shapes.as_entire_binding());
+        let scene_group = group(gpu, &layouts.scene, &resources);
 
         let storage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let slice = gpu.allocate("slice", size_of::<PackedSlice>() as u64, storage)?;
@@ -146,13 +138,23 @@ fn frame_group(
     Ok(group(gpu, &layouts.frame, &resources))
 }
 
-/// Nodes or triangles on the GPU.
-enum Geometry {
+/// What the shaders fetch as rows of 16 bytes, in the order of their bindings.
+fn scene_rows(scene: &PackedScene) -> [(&'static str, &[u8]); 4] {
+    [
+        ("nodes", cast_slice(&scene.nodes)),
+        ("triangles", cast_slice(&scene.triangles)),
+        ("vertices", cast_slice(&scene.vertices)),
+        ("materials", cast_slice(&scene.materials)),
+    ]
+}
+
+/// One of them on the GPU.
+enum Rows {
     Image(wgpu::TextureView),
     Buffer(Buffer),
 }
 
-impl Geometry {
+impl Rows {
     fn upload(gpu: &Gpu, fetch: Fetch, what: &'static str, bytes: &[u8]) -> Result<Self, GpuError> {
         Ok(match fetch {
             Fetch::Image => Self::Image(gpu.upload_image(what, bytes, IMAGE_WIDTH)?),
@@ -191,7 +193,7 @@ pub fn group(
 /// The fetch to use: as asked, or images on software adapters, where they are twice as fast.
 /// Elsewhere buffers, unless only images are large enough.
 pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene) -> Fetch {
-    let fits = geometry_bytes(scene).into_iter().max() <= Some(gpu.adapter().max_binding_bytes);
+    let fits = largest_row_bytes(scene) <= gpu.adapter().max_binding_bytes;
     match wanted {
         Fetch::Auto if gpu.is_cpu() || !fits => Fetch::Image,
         Fetch::Auto => Fetch::Buffer,
@@ -201,25 +203,25 @@ pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene) -> Fetch {
 
 /// What the device must be able to do for this scene and this film.
 pub fn needs(scene: &PackedScene, fetch: Fetch, film_pixels: usize) -> Needs {
-    let geometry = geometry_bytes(scene);
-    let mut bindings = vec![
-        size_of_val(&scene.shapes[..]) as u64,
-        size_of_val(&scene.vertices[..]) as u64,
-        size_of_val(&scene.materials[..]) as u64,
-        film_pixels as u64 * PIXEL_BYTES,
-    ];
-    let mut texture_side = 0;
-    if fetch == Fetch::Image {
-        let row_bytes = u64::from(IMAGE_WIDTH) * 16;
-        let rows = geometry.iter().map(|bytes| bytes.div_ceil(row_bytes)).max();
-        texture_side = IMAGE_WIDTH.max(rows.unwrap_or(0).try_into().unwrap_or(u32::MAX));
-    } else {
-        bindings.extend(geometry);
+    let shapes = size_of_val(&scene.shapes[..]) as u64;
+    let film = film_pixels as u64 * PIXEL_BYTES;
+    let rows = largest_row_bytes(scene);
+    if fetch != Fetch::Image {
+        return Needs {
+            binding_bytes: shapes.max(film).max(rows),
+            texture_side: 0,
+        };
     }
+    let height = rows.div_ceil(u64::from(IMAGE_WIDTH) * 16);
     Needs {
-        binding_bytes: bindings.into_iter().max().unwrap_or(0),
-        texture_side,
+        binding_bytes: shapes.max(film),
+        texture_side: IMAGE_WIDTH.max(height.try_into().unwrap_or(u32::MAX)),
     }
+}
+
+fn largest_row_bytes(scene: &PackedScene) -> u64 {
+    let sizes = scene_rows(scene).map(|(_, bytes)| bytes.len() as u64);
+    sizes.into_iter().max().unwrap_or(0)
 }
 
 /// All that a render will allocate, on the GPU and for the picture on the host.
@@ -229,28 +231,15 @@ pub fn ledger(
     film_pixels: usize,
     picture_pixels: u64,
 ) -> Ledger {
-    let [nodes, triangles] = geometry_bytes(scene);
-    let film = film_pixels as u64 * PIXEL_BYTES;
     let mut ledger = Ledger::default();
-    ledger.plan("nodes", nodes);
-    ledger.plan("triangles", triangles);
-    ledger.plan("vertices", size_of_val(&scene.vertices[..]) as u64);
+    for (what, bytes) in scene_rows(scene) {
+        ledger.plan(what, bytes.len() as u64);
+    }
     ledger.plan("shapes", size_of_val(&scene.shapes[..]) as u64);
-    ledger.plan("materials", size_of_val(&scene.materials[..]) as u64);
-    ledger.plan(
-        "frame",
-        (size_of::<PackedFrame>()
-            + size_of::<PackedTone>()
-            + view.lights.len() * size_of::<PackedLight>()) as u64,
-    );
-    ledger.plan("film and its copies", 4 * film);
+    let lights = view.lights.len() * size_of::<PackedLight>();
+    let frame = size_of::<PackedFrame>() + size_of::<PackedTone>() + lights;
+    ledger.plan("frame", frame as u64);
+    ledger.plan("film and its copies", 4 * film_pixels as u64 * PIXEL_BYTES);
     ledger.plan("picture", picture_pixels * 2 * PIXEL_BYTES);
     ledger
-}
-
-fn geometry_bytes(scene: &PackedScene) -> [u64; 2] {
-    [
-        size_of_val(&scene.nodes[..]) as u64,
-        size_of_val(&scene.triangles[..]) as u64,
-    ]
 }

@@ -49,7 +49,7 @@ impl Tone {
 }
 
 /// What developing keeps on the GPU once it has been used.
-pub(super) struct Developer {
+pub struct Developer {
     pipeline: wgpu::ComputePipeline,
     developed: wgpu::Buffer,
     tone: wgpu::Buffer,
@@ -94,7 +94,7 @@ impl Renderer {
             first_sample: 0,
             end_sample: 0,
         };
-        let packed = slice.packed(window, self.settings.size, 0, 0);
+        let packed = slice.packed(window, &self.settings);
         let gpu = &device.gpu;
         gpu.write(&device.buffers.slice, 0, bytes_of(&packed))?;
         gpu.write(&device.buffers.film, 0, cast_slice(&window.developable()))?;

@@ -1,7 +1,10 @@
 //! Cuts the work on a window into submissions that take about the target time each: watchdogs kill
 //! long ones, and nothing can be shown, stopped or saved within one.
 
-use super::{film::Window, settings::Slicing};
+use super::{
+    film::Window,
+    settings::{Settings, Slicing},
+};
 use crate::layout::PackedSlice;
 
 /// Tiles of the first submission; one that turns out heavier than planned stays short.
@@ -44,16 +47,10 @@ impl Slice {
     }
 
     /// The slice as the shader reads it.
-    pub fn packed(
-        &self,
-        window: &Window,
-        picture: (u32, u32),
-        samples: u32,
-        seed: u32,
-    ) -> PackedSlice {
+    pub fn packed(&self, window: &Window, settings: &Settings) -> PackedSlice {
         PackedSlice {
-            picture_width: picture.0,
-            picture_height: picture.1,
+            picture_width: settings.size.0,
+            picture_height: settings.size.1,
             window_x: window.x,
             window_y: window.y,
             window_width: window.width,
@@ -66,8 +63,8 @@ impl Slice {
             grid_width: self.grid().0,
             first_sample: self.first_sample,
             end_sample: self.end_sample,
-            sample_count: samples,
-            seed,
+            sample_count: settings.samples,
+            seed: settings.seed,
             ..Default::default()
         }
     }

@@ -1,18 +1,20 @@
 //! The overrides of `kernels/whitted.wesl`.
 
-use super::settings::{Antialias, Settings, TriangleTest};
-use crate::{
-    layout::{TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT},
-    pack::PackedScene,
+use super::{
+    device::Task,
+    settings::{Antialias, TriangleTest},
 };
+use crate::layout::{TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT};
 
-/// Features that the scene and the settings need; all others are compiled out. `limit_steps` makes
+/// Features that the scene, the frame and the settings need; all others are compiled out. `limit_steps` makes
 /// the kernel report paths that come near a software driver's limit of loop rounds.
-pub fn overrides(
-    scene: &PackedScene,
-    settings: &Settings,
-    limit_steps: bool,
-) -> Vec<(&'static str, f64)> {
+pub fn overrides(task: Task, limit_steps: bool) -> Vec<(&'static str, f64)> {
+    let Task {
+        scene,
+        view,
+        settings,
+        ..
+    } = task;
     let triangle_test = match settings.triangle_test {
         TriangleTest::Plane => TRIANGLE_TEST_PLANE,
         TriangleTest::MollerTrumbore => TRIANGLE_TEST_MOLLER_TRUMBORE,
@@ -29,5 +31,6 @@ pub fn overrides(
         ("6", flag(settings.antialias == Antialias::Stratified)),
         ("7", flag(settings.count_rays)),
         ("8", flag(limit_steps)),
+        ("10", flag(view.has_lights)),
     ]
 }

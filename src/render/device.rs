@@ -1,0 +1,200 @@
+//! What a render keeps on the GPU, and how one slice is run there.
+
+use super::{
+    Stats,
+    bindings::{self, Buffers, Layouts},
+    debug_view,
+    develop::Developer,
+    film::{TILE_PIXELS, Window},
+    settings::{Fetch, Integrator, Settings},
+    slice::Slice,
+    whitted,
+};
+use crate::{
+    gpu::{AdapterChoice, Gpu, GpuError, Kernel, Source},
+    layout::PackedSlice,
+    pack::{PackedScene, PackedView},
+};
+use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
+use std::time::Instant;
+
+const PIXEL_BYTES: u64 = 16;
+
+/// What is to be rendered.
+#[derive(Clone, Copy)]
+pub struct Task<'a> {
+    pub scene: &'a PackedScene,
+    pub view: &'a PackedView,
+    pub settings: &'a Settings,
+    /// Pixels of the largest window, in film order.
+    pub film_pixels: usize,
+}
+
+/// Everything that lives on the GPU, and dies with it.
+pub struct Device {
+    pub gpu: Gpu,
+    /// Image or buffer, not auto.
+    pub fetch: Fetch,
+    pub layouts: Layouts,
+    pub buffers: Buffers,
+    pipeline: wgpu::ComputePipeline,
+    /// Whether the pipeline knows lights.
+    has_lights: bool,
+    pub developer: Option<Developer>,
+    /// The window whose sums are in the film buffer.
+    pub loaded_window: Option<usize>,
+}
+
+impl Device {
+    /// Uploads the scene and compiles the kernel.
+    pub fn new(gpu: Gpu, fetch: Fetch, task: Task, stats: &mut Stats) -> Result<Self, GpuError> {
+        let start = Instant::now();
+        let layouts = Layouts::new(&gpu, fetch);
+        let buffers = Buffers::new(
+            &gpu,
+            &layouts,
+            fetch,
+            task.scene,
+            task.view,
+            task.film_pixels,
+        )?;
+        stats.upload_seconds += start.elapsed().as_secs_f64();
+        let pipeline = compile(&gpu, fetch, &layouts, &buffers, task, stats)?;
+        Ok(Self {
+            gpu,
+            fetch,
+            layouts,
+            buffers,
+            pipeline,
+            has_lights: task.view.has_lights,
+            developer: None,
+            loaded_window: None,
+        })
+    }
+
+    /// Puts another frame in place.
+    pub fn set_view(&mut self, task: Task, stats: &mut Stats) -> Result<(), GpuError> {
+        self.buffers.set_view(&self.gpu, &self.layouts, task.view)?;
+        self.loaded_window = None;
+        if self.has_lights != task.view.has_lights {
+            let Self {
+                gpu,
+                fetch,
+                layouts,
+                buffers,
+                ..
+            } = &*self;
+            self.pipeline = compile(gpu, *fetch, layouts, buffers, task, stats)?;
+            self.has_lights = task.view.has_lights;
+        }
+        Ok(())
+    }
+
+    /// Runs one slice of the window with this index and returns its accounts. The sums of its tiles
+    /// come to the host's film if it was done in full.
+    pub fn trace(
+        &mut self,
+        slice: &Slice,
+        (index, window): (usize, &mut Window),
+        settings: &Settings,
+    ) -> Result<PackedSlice, GpuError> {
+        let Self { gpu, buffers, .. } = self;
+        if self.loaded_window != Some(index) {
+            gpu.write(&buffers.film, 0, cast_slice(&window.sums))?;
+            self.loaded_window = Some(index);
+        }
+        let packed = slice.packed(window, settings);
+        gpu.write(&buffers.slice, 0, bytes_of(&packed))?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        dispatch(&mut encoder, &self.pipeline, buffers, slice);
+        let tile_bytes = TILE_PIXELS as u64 * PIXEL_BYTES;
+        let accounts = Source {
+            buffer: &buffers.slice,
+            offset: 0,
+            bytes: size_of::<PackedSlice>() as u64,
+        };
+        let tiles = Source {
+            buffer: &buffers.film,
+            offset: u64::from(slice.first_tile) * tile_bytes,
+            bytes: u64::from(slice.end_tile - slice.first_tile) * tile_bytes,
+        };
+        let first_pixel = slice.first_tile as usize * TILE_PIXELS;
+        gpu.submit_and_read(encoder, &[accounts, tiles], &buffers.staging, |bytes| {
+            let (tally, sums) = bytes.split_at(size_of::<PackedSlice>());
+            let tally = pod_read_unaligned(tally);
+            if slice.is_complete(&tally) {
+                let target = cast_slice_mut(&mut window.sums[first_pixel..]);
+                target[..sums.len()].copy_from_slice(sums);
+            }
+            tally
+        })
+    }
+}
+
+/// A device like the one that was lost.
+pub fn reopen(
+    choice: &AdapterChoice,
+    fetch: Fetch,
+    task: Task,
+    stats: &mut Stats,
+) -> Result<Device, GpuError> {
+    let needs = bindings::needs(task.scene, fetch, task.film_pixels);
+    Device::new(Gpu::open(choice, needs)?, fetch, task, stats)
+}
+
+/// Makes the pipeline of the integrator and runs it once on nothing, which is when some drivers
+/// really compile.
+fn compile(
+    gpu: &Gpu,
+    fetch: Fetch,
+    layouts: &Layouts,
+    buffers: &Buffers,
+    task: Task,
+    stats: &mut Stats,
+) -> Result<wgpu::ComputePipeline, GpuError> {
+    let start = Instant::now();
+    let (kernel, overrides) = match task.settings.integrator {
+        Integrator::Whitted => (Kernel::WHITTED, whitted::overrides(task, gpu.is_cpu())),
+        _ => (Kernel::DEBUG_VIEW, debug_view::overrides(task)),
+    };
+    let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
+    let layout = gpu
+        .device
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(kernel.name),
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        });
+    let source = match fetch {
+        Fetch::Image => kernel.image_source,
+        _ => kernel.buffer_source,
+    };
+    let pipeline = gpu.pipeline(kernel.name, source, Some(&layout), &overrides)?;
+    let idle = PackedSlice {
+        tile_count: 1,
+        tile_columns: 1,
+        grid_width: 1,
+        ..Default::default()
+    };
+    gpu.write(&buffers.slice, 0, bytes_of(&idle))?;
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    dispatch(&mut encoder, &pipeline, buffers, &Slice::default());
+    gpu.submit(encoder.finish())?;
+    stats.compile_seconds += start.elapsed().as_secs_f64();
+    Ok(pipeline)
+}
+
+fn dispatch(
+    encoder: &mut wgpu::CommandEncoder,
+    pipeline: &wgpu::ComputePipeline,
+    buffers: &Buffers,
+    slice: &Slice,
+) {
+    let mut pass = encoder.begin_compute_pass(&Default::default());
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(0, &buffers.scene_group, &[]);
+    pass.set_bind_group(1, &buffers.frame_group, &[]);
+    pass.set_bind_group(2, &buffers.film_group, &[]);
+    let (columns, rows) = slice.grid();
+    pass.dispatch_workgroups(columns, rows, 1);
+}
