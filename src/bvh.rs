@@ -2,7 +2,7 @@
 //!
 //! The builder knows boxes and the group that each belongs to, not what is in them: the caller
 //! arranges its primitives in the order that [`Bvh`] gives back. `obvhs` makes a binary tree
-//! (PLOC, then reinsertion), [`wide`] collapses it.
+//! (PLOC, then reinsertion), `wide` collapses it.
 
 mod binary;
 mod wide;
@@ -14,7 +14,9 @@ use glam::Vec3;
 /// An axis-aligned box; `min` ≤ `max` in every component, both finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
+    /// Lower corner.
     pub min: Vec3,
+    /// Upper corner.
     pub max: Vec3,
 }
 
@@ -37,6 +39,7 @@ impl Aabb {
 /// A tree of four-way nodes. Node 0 is the root; without boxes it has no children.
 #[derive(Clone, Debug)]
 pub struct Bvh {
+    /// At least one.
     pub nodes: Vec<WideNode>,
     /// For each group, the indices of its boxes in leaf order.
     pub order: Vec<Vec<u32>>,

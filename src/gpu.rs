@@ -2,7 +2,7 @@
 //! turned into a [`GpuError`].
 //!
 //! wgpu reports the loss of a device through a callback and panics in `poll` after it; see
-//! [`Gpu::wait`]. Allocation and pipeline creation run inside error scopes.
+//! `Gpu::wait`. Allocation and pipeline creation run inside error scopes.
 
 mod adapter;
 mod buffer;

@@ -10,43 +10,67 @@ pub const NONE: u32 = u32::MAX;
 pub const LEAF: u32 = 0x8000_0000;
 /// Marks a leaf's or a primitive's index as a [`PackedShape`]'s; without it, it is a triangle's.
 pub const SHAPE: u32 = 0x4000_0000;
+/// Lowest bit of a leaf reference's count less one, which has three bits.
 pub const LEAF_COUNT_SHIFT: u32 = 27;
+/// One more primitive in a leaf reference.
 pub const LEAF_COUNT_ONE: u32 = 1 << LEAF_COUNT_SHIFT;
+/// The bits of a leaf reference's count less one.
 pub const LEAF_COUNT_MASK: u32 = 7 << LEAF_COUNT_SHIFT;
+/// The bits of a leaf reference's first primitive.
 pub const LEAF_FIRST_MASK: u32 = LEAF_COUNT_ONE - 1;
 /// Entries of the traversal stack.
 pub const STACK_SIZE: u32 = 64;
 /// Texels in a row of the geometry images, as a power of two.
 pub const IMAGE_WIDTH_LOG2: u32 = 12;
 
+/// [`PackedShape::kind`]: a sphere.
 pub const SHAPE_SPHERE: u32 = 0;
+/// [`PackedShape::kind`]: an infinite plane.
 pub const SHAPE_PLANE: u32 = 1;
 
+/// [`PackedLight::kind`]: shines from a point, evenly all round.
 pub const LIGHT_POINT: u32 = 0;
+/// [`PackedLight::kind`]: shines along one direction, from infinitely far.
 pub const LIGHT_DIRECTIONAL: u32 = 1;
+/// [`PackedLight::kind`]: shines from a point into a cone.
 pub const LIGHT_SPOT: u32 = 2;
 
+/// [`PackedLight::attenuation`]: the same at every distance.
 pub const ATTENUATION_NONE: u32 = 0;
+/// [`PackedLight::attenuation`]: 1/r² at distance r.
 pub const ATTENUATION_INVERSE_SQUARE: u32 = 1;
 
 /// Bit of [`PackedMaterial::flags`].
 pub const MATERIAL_TWO_SIDED: u32 = 1;
 
+/// Override `TRIANGLE_TEST`: [`crate::render::TriangleTest::Plane`].
 pub const TRIANGLE_TEST_PLANE: u32 = 0;
+/// Override `TRIANGLE_TEST`: [`crate::render::TriangleTest::MollerTrumbore`].
 pub const TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1;
+/// Override `TRIANGLE_TEST`: [`crate::render::TriangleTest::Watertight`].
 pub const TRIANGLE_TEST_WATERTIGHT: u32 = 2;
 
+/// Override `VIEW`: [`crate::render::Integrator::Normals`].
 pub const VIEW_NORMALS: u32 = 0;
+/// Override `VIEW`: [`crate::render::Integrator::Depth`].
 pub const VIEW_DEPTH: u32 = 1;
+/// Override `VIEW`: [`crate::render::Integrator::Ids`].
 pub const VIEW_IDS: u32 = 2;
+/// Override `VIEW`: [`crate::render::Integrator::Heat`].
 pub const VIEW_HEAT: u32 = 3;
 
+/// [`PackedTone::curve`]: [`crate::scene::ToneCurve::None`].
 pub const TONE_NONE: u32 = 0;
+/// [`PackedTone::curve`]: [`crate::scene::ToneCurve::Aces`].
 pub const TONE_ACES: u32 = 1;
+/// [`PackedTone::curve`]: [`crate::scene::ToneCurve::Agx`].
 pub const TONE_AGX: u32 = 2;
+/// [`PackedTone::curve`]: [`crate::scene::ToneCurve::Reinhard`].
 pub const TONE_REINHARD: u32 = 3;
 
+/// [`PackedTone::transfer`]: [`crate::scene::Transfer::Srgb`].
 pub const TRANSFER_SRGB: u32 = 0;
+/// [`PackedTone::transfer`]: [`crate::scene::Transfer::Linear`].
 pub const TRANSFER_LINEAR: u32 = 1;
 
 /// A node as the shader's `decode_node` reads it: four rows of four words.
@@ -83,103 +107,184 @@ macro_rules! packed {
 packed! {
     /// Three corners in render space and the index of each one's [`PackedVertex`].
     PackedTriangle {
+        /// First corner.
         v0: [f32; 3],
+        /// Index of its [`PackedVertex`].
         i0: u32,
+        /// Second corner, of barycentric weight b1.
         v1: [f32; 3],
+        /// Index of its [`PackedVertex`].
         i1: u32,
+        /// Third corner, of barycentric weight b2.
         v2: [f32; 3],
+        /// Index of its [`PackedVertex`].
         i2: u32,
     }
     /// What is known at a corner besides its position.
     PackedVertex {
+        /// Unit shading normal.
         normal: [f32; 3],
+        /// Index of a [`PackedMaterial`].
         material: u32,
     }
     /// An analytic shape; the meaning of `position`, `radius` and `normal` depends on `kind`.
     PackedShape {
+        /// Sphere: its centre. Plane: a point on it. In render space.
         position: [f32; 3],
+        /// Sphere: its radius, above 0. Plane: 0.
         radius: f32,
+        /// Plane: its unit normal. Sphere: 0.
         normal: [f32; 3],
+        /// [`SHAPE_SPHERE`] or [`SHAPE_PLANE`].
         kind: u32,
+        /// Index of a [`PackedMaterial`].
         material: u32,
+        /// Index in [`crate::scene::Scene::shapes`].
         id: u32,
+        #[doc(hidden)]
         _pad0: u32,
+        #[doc(hidden)]
         _pad1: u32,
     }
+    /// Phong coefficients, per colour channel, 0 or more.
     PackedMaterial {
+        /// k_d.
         diffuse: [f32; 3],
+        /// The exponent α.
         shininess: f32,
+        /// k_s.
         specular: [f32; 3],
+        /// [`MATERIAL_TWO_SIDED`] or 0.
         flags: u32,
+        /// Multiplies [`PackedFrame::ambient`].
         ambient: [f32; 3],
+        #[doc(hidden)]
         _pad: f32,
     }
+    /// A light without extent; `kind` says which members count.
     PackedLight {
+        /// Point and spot: where it is, in render space.
         position: [f32; 3],
+        /// [`LIGHT_POINT`], [`LIGHT_DIRECTIONAL`] or [`LIGHT_SPOT`].
         kind: u32,
+        /// Directional and spot: the unit direction in which the light travels.
         direction: [f32; 3],
+        /// [`ATTENUATION_NONE`], which directional lights always have, or
+        /// [`ATTENUATION_INVERSE_SQUARE`].
         attenuation: u32,
+        /// Linear radiance, at distance 1 where it falls off.
         color: [f32; 3],
+        /// Spot: cosine of the angle off the axis up to which it has its full strength.
         cos_inner: f32,
+        /// Spot: cosine of the angle off the axis beyond which it gives nothing.
         cos_outer: f32,
+        #[doc(hidden)]
         _pad0: f32,
+        #[doc(hidden)]
         _pad1: f32,
+        #[doc(hidden)]
         _pad2: f32,
     }
     /// `right` and `up` reach from the middle of the image plane to its edges.
     PackedCamera {
+        /// The pinhole, in render space.
         origin: [f32; 3],
+        #[doc(hidden)]
         _pad0: f32,
+        /// Unit viewing direction.
         forward: [f32; 3],
+        #[doc(hidden)]
         _pad1: f32,
+        /// From the middle of the image plane to its right edge.
         right: [f32; 3],
+        #[doc(hidden)]
         _pad2: f32,
+        /// From the middle of the image plane to its upper edge.
         up: [f32; 3],
+        #[doc(hidden)]
         _pad3: f32,
     }
     /// The head of the frame buffer; [`PackedLight`]s follow it.
     PackedFrame {
+        /// The camera that the picture is seen by.
         camera: PackedCamera,
+        /// Linear radiance of rays that hit nothing.
         background: [f32; 3],
+        /// Number of lights, at least 1.
         light_count: u32,
+        /// Linear radiance of the ambient term, multiplied by [`PackedMaterial::ambient`].
         ambient: [f32; 3],
+        /// Number of triangles.
         triangle_count: u32,
+        /// Number of shapes in the tree, which come first among the shapes.
         shape_count: u32,
+        /// Number of planes, which follow them.
         plane_count: u32,
+        #[doc(hidden)]
         _pad0: u32,
+        #[doc(hidden)]
         _pad1: u32,
     }
     /// What one submission is to do, and from `tiles_done` on what came of it.
     PackedSlice {
+        /// In pixels.
         picture_width: u32,
+        /// In pixels.
         picture_height: u32,
+        /// Left edge of the window in the picture, in pixels.
         window_x: u32,
+        /// Upper edge of the window in the picture, in pixels.
         window_y: u32,
+        /// In pixels.
         window_width: u32,
+        /// In pixels.
         window_height: u32,
+        /// Tiles in a row of the window.
         tile_columns: u32,
+        /// Tiles in the window, at most 65,536.
         tile_count: u32,
+        /// Step from one visited tile to the next, modulo `tile_count` and coprime to it.
         tile_stride: u32,
+        /// Place of the first tile in the order of visits.
         first_tile: u32,
+        /// One beyond the place of the last tile.
         end_tile: u32,
+        /// Workgroups along x; a workgroup is a tile.
         grid_width: u32,
+        /// Index of each pixel's first sample.
         first_sample: u32,
+        /// One beyond the index of each pixel's last sample.
         end_sample: u32,
+        /// Samples per pixel of the finished picture.
         sample_count: u32,
+        /// Of the random numbers.
         seed: u32,
+        /// Workgroups that ran to their end.
         tiles_done: u32,
+        /// Samples that were dropped: with them a sum would be infinite or not a number.
         nonfinite_samples: u32,
-        longest_path: u32,
+        /// Invocations in which a loop ended before its condition did.
+        cut_off_paths: u32,
+        /// Camera rays. This and the following are kept where override `COUNT_RAYS` is on.
         primary: u32,
+        /// Camera rays that hit something.
         primary_hits: u32,
+        /// Rays to lights.
         shadow: u32,
+        /// Rays to lights that hit something before.
         shadow_blocked: u32,
+        #[doc(hidden)]
         _pad: u32,
     }
+    /// How sums become a picture: [`crate::render::Tone`].
     PackedTone {
+        /// Factor on linear radiance, above 0.
         exposure_scale: f32,
+        /// [`TONE_NONE`], [`TONE_ACES`], [`TONE_AGX`] or [`TONE_REINHARD`].
         curve: u32,
+        /// [`TRANSFER_SRGB`] or [`TRANSFER_LINEAR`].
         transfer: u32,
+        #[doc(hidden)]
         _pad: u32,
     }
 }

@@ -30,33 +30,46 @@ pub struct PackedScene {
     pub triangles: Vec<PackedTriangle>,
     /// Bounded shapes in leaf order, then `plane_count` planes.
     pub shapes: Vec<PackedShape>,
+    /// Shapes at the end of `shapes` that are not in the tree.
     pub plane_count: u32,
+    /// In scene order, instances one after the other.
     pub vertices: Vec<PackedVertex>,
+    /// In scene order.
     pub materials: Vec<PackedMaterial>,
     /// Whether some triangle's corners differ in material.
     pub mixed_materials: bool,
     /// Where render space has its origin, in world space: at the scene's default camera, where the
     /// picture needs f32 to be finest.
     pub origin: DVec3,
-    /// Time that building the tree took.
+    /// Seconds that building the tree took.
     pub build_seconds: f64,
 }
 
 /// Why a scene cannot be packed: it is too big for the formats the GPU reads.
 #[derive(Debug, thiserror::Error)]
 pub enum PackError {
+    /// An index does not fit into its bits.
     #[error(
         "scene too big (after instancing): it has {count} {what}, the tree can address {limit}. Use fewer or simpler objects."
     )]
     TooMany {
+        /// What is counted, in the plural.
         what: &'static str,
+        /// How many there are, instances counted each.
         count: usize,
+        /// The most that can be told apart.
         limit: usize,
     },
+    /// A coordinate or radius whose square f32 cannot hold.
     #[error(
         "scene too spread out (object coordinates): {value:e} units from the camera is beyond the range of f32 arithmetic, at most {limit:e}. Scale the scene down."
     )]
-    OutOfRange { value: f64, limit: f64 },
+    OutOfRange {
+        /// Its magnitude in scene units, seen from the default camera.
+        value: f64,
+        /// The largest allowed.
+        limit: f64,
+    },
 }
 
 /// Packs a scene and builds its tree.

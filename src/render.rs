@@ -83,9 +83,9 @@ pub enum RenderError {
     #[error(transparent)]
     Gpu(#[from] GpuError),
     #[error(
-        "too much work in one pixel ({steps} loop rounds): this driver ends a shader's loops after 65,535, and the picture would be wrong. Use fewer lights, or leave out --no-bvh."
+        "too much work in one pixel (lights, or primitives with --no-bvh): this driver ends a shader's loops after 65,535 rounds, and the picture would be wrong. Use fewer lights, or leave out --no-bvh."
     )]
-    PathTooLong { steps: u32 },
+    PathTooLong,
 }
 
 impl RenderError {
@@ -93,12 +93,29 @@ impl RenderError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Gpu(error) => error.exit_code(),
-            Self::PathTooLong { .. } => 7,
+            Self::PathTooLong => 7,
         }
     }
 }
 
 impl Stats {
+    fn submitted(&mut self, seconds: f64) {
+        self.trace_seconds += seconds;
+        self.submissions += 1;
+        self.longest_submission_ms = self.longest_submission_ms.max(seconds * 1e3);
+    }
+
+    /// Adds the accounts of a slice.
+    fn add(&mut self, tally: &PackedSlice) {
+        self.nonfinite_samples += u64::from(tally.nonfinite_samples);
+        if let Some(rays) = &mut self.rays {
+            rays.primary += u64::from(tally.primary);
+            rays.primary_hits += u64::from(tally.primary_hits);
+            rays.shadow += u64::from(tally.shadow);
+            rays.shadow_blocked += u64::from(tally.shadow_blocked);
+        }
+    }
+
     /// Counts a failure of the device; too many of them are the end.
     fn count_loss(&mut self) -> Result<(), RenderError> {
         self.device_losses += 1;
@@ -218,47 +235,42 @@ impl Renderer {
             ..
         } = self.cursor;
         let slice = self.planner.next(tile_count, tile, sample, sweep_samples);
-        let start = Instant::now();
-        let tally = self.surviving_losses(|renderer| {
-            let index = renderer.cursor.window;
-            let window = &mut renderer.film.windows[index];
-            renderer
-                .device
-                .trace(&slice, (index, window), &renderer.settings)
-        })?;
-        self.account(&slice, &tally, start.elapsed().as_secs_f64())
+        self.run(slice)?;
+        self.advance(&slice);
+        Ok(())
     }
 
-    /// Books a slice that came back, or leaves it to be done again when it was cut short.
-    fn account(
-        &mut self,
-        slice: &Slice,
-        tally: &PackedSlice,
-        seconds: f64,
-    ) -> Result<(), RenderError> {
-        self.stats.trace_seconds += seconds;
-        self.stats.submissions += 1;
-        self.stats.longest_submission_ms = self.stats.longest_submission_ms.max(seconds * 1e3);
-        if !slice.is_complete(tally) {
-            // The driver stopped the dispatch without a word: once more, smaller.
+    /// Runs a slice, in parts if it must be: a driver may stop a dispatch, or end the loops of a
+    /// path, without a word. What it did then is thrown away.
+    fn run(&mut self, slice: Slice) -> Result<(), RenderError> {
+        let mut parts = vec![slice];
+        while let Some(part) = parts.pop() {
+            let start = Instant::now();
+            let tally = self.surviving_losses(|renderer| {
+                let index = renderer.cursor.window;
+                let window = &mut renderer.film.windows[index];
+                let device = &mut renderer.device;
+                device.trace(&part, (index, window), &renderer.settings)
+            })?;
+            let seconds = start.elapsed().as_secs_f64();
+            self.stats.submitted(seconds);
+            if part.is_complete(&tally) {
+                self.planner.finished(&part, seconds);
+                self.stats.add(&tally);
+                continue;
+            }
             self.device.loaded_window = None;
-            self.planner.cut_short();
-            return self.stats.count_loss();
+            if !part.is_signed_off(&tally) {
+                self.planner.cut_short();
+                self.stats.count_loss()?;
+                parts.push(part);
+            } else if let Some((earlier, later)) = part.halves() {
+                self.planner.shorten_paths();
+                parts.extend([later, earlier]);
+            } else {
+                return Err(RenderError::PathTooLong);
+            }
         }
-        if tally.longest_path > slice::LONGEST_PATH {
-            return Err(RenderError::PathTooLong {
-                steps: tally.longest_path,
-            });
-        }
-        self.planner.finished(slice, seconds, tally.longest_path);
-        self.stats.nonfinite_samples += u64::from(tally.nonfinite_samples);
-        if let Some(rays) = &mut self.stats.rays {
-            rays.primary += u64::from(tally.primary);
-            rays.primary_hits += u64::from(tally.primary_hits);
-            rays.shadow += u64::from(tally.shadow);
-            rays.shadow_blocked += u64::from(tally.shadow_blocked);
-        }
-        self.advance(slice);
         Ok(())
     }
 
@@ -270,7 +282,6 @@ impl Renderer {
         }
         self.cursor.tile = 0;
         self.cursor.sample = slice.end_sample;
-        self.planner.sweep_done();
         if self.cursor.sample == self.settings.samples {
             self.cursor = Cursor {
                 window: self.cursor.window + 1,

@@ -26,7 +26,9 @@ pub struct Scene {
     pub instances: Vec<Instance>,
     /// Analytic shapes, in world space.
     pub shapes: Vec<Shape>,
+    /// At least one.
     pub materials: Vec<Material>,
+    /// May be empty.
     pub lights: Vec<Light>,
     /// At least one.
     pub cameras: Vec<Camera>,
@@ -54,6 +56,7 @@ pub struct Instance {
 /// An analytic surface with one material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
+    /// Where it is and how large.
     pub geometry: Geometry,
     /// Index into [`Scene::materials`].
     pub material: usize,
@@ -62,10 +65,20 @@ pub struct Shape {
 /// The surface of a [`Shape`], in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Geometry {
-    /// `radius` > 0.
-    Sphere { center: DVec3, radius: f64 },
-    /// The infinite plane through `point` with unit `normal`.
-    Plane { point: DVec3, normal: DVec3 },
+    /// All points at one distance from a centre.
+    Sphere {
+        /// The centre.
+        center: DVec3,
+        /// Above 0.
+        radius: f64,
+    },
+    /// An infinite plane.
+    Plane {
+        /// Any point on it.
+        point: DVec3,
+        /// Of unit length.
+        normal: DVec3,
+    },
 }
 
 /// Phong coefficients, per colour channel (Phong 1975).
@@ -103,27 +116,36 @@ impl Default for Material {
 /// A light without extent: it casts hard shadows and is itself invisible.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
+    /// Where it is and which way it shines.
     pub kind: LightKind,
     /// Linear radiance L of the Phong sum, at distance 1 where it falls off; 0 or more.
     pub color: Vec3,
+    /// How it fades.
     pub attenuation: Attenuation,
 }
 
+/// Place and direction of a [`Light`], in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightKind {
+    /// Shines evenly all round.
     Point {
+        /// Where it is.
         position: DVec3,
     },
-    /// `direction` is the unit direction in which the light travels.
+    /// Shines from infinitely far.
     Directional {
+        /// The unit direction in which the light travels.
         direction: DVec3,
     },
-    /// Full strength inside `inner` radians off the unit `direction`, smoothly down to nothing at
-    /// `outer`; 0 ≤ inner ≤ outer ≤ π/2.
+    /// Shines into a cone: full strength inside `inner`, smoothly down to nothing at `outer`.
     Spot {
+        /// Where it is.
         position: DVec3,
+        /// The unit direction of the cone's axis, in which the light travels.
         direction: DVec3,
+        /// Radians off the axis, in [0, `outer`].
         inner: f64,
+        /// Radians off the axis, in [`inner`, π/2].
         outer: f64,
     },
 }
@@ -131,6 +153,7 @@ pub enum LightKind {
 /// How a light fades with the distance r to it. A directional light never does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Attenuation {
+    /// Not at all.
     #[default]
     None,
     /// 1/r².
@@ -143,10 +166,11 @@ pub enum Attenuation {
 pub struct Camera {
     /// Empty when the file gives none.
     pub name: String,
+    /// The pinhole, in world space.
     pub look_from: DVec3,
-    /// Differs from `look_from`.
+    /// A point in the middle of the picture, in world space; differs from `look_from`.
     pub look_at: DVec3,
-    /// Not parallel to the viewing direction.
+    /// Upwards in the picture, of any length; not parallel to the viewing direction.
     pub up: DVec3,
     /// Vertical field of view in radians, in (0, π).
     pub fov_y: f64,
@@ -172,8 +196,11 @@ pub struct OutputDefaults {
     pub size: (u32, u32),
     /// Samples per pixel, at least 1.
     pub samples: u32,
+    /// Stops; each doubles the brightness.
     pub exposure_ev: f32,
+    /// Applied after the exposure.
     pub tone: ToneCurve,
+    /// Applied last.
     pub transfer: Transfer,
 }
 

@@ -6,6 +6,9 @@ use obvhs::{
     Boundable, BvhBuildParams, bvh2::reinsertion::ReinsertionOptimizer, ploc::PlocBuilder,
 };
 
+/// Longer runs (see [`longest_run`]) are not left to PLOC.
+const LONGEST_RUN: usize = 256;
+
 /// A node of a binary tree: a box and what is below it. Children come after their parent.
 #[derive(Clone, Copy, Debug)]
 pub struct BinaryNode {
@@ -32,6 +35,9 @@ impl Boundable for Aabb {
 pub fn build(boxes: &[Aabb]) -> Vec<BinaryNode> {
     if boxes.is_empty() {
         return Vec::new();
+    }
+    if longest_run(boxes) > LONGEST_RUN {
+        return build_balanced(boxes);
     }
     let params = BvhBuildParams::medium_build();
     let mut tree = PlocBuilder::with_capacity(boxes.len()).build(
@@ -65,6 +71,42 @@ pub fn build(boxes: &[Aabb]) -> Vec<BinaryNode> {
         attach(&mut nodes, parent, index);
     }
     nodes
+}
+
+/// The most neighbours in a row, along the Morton curve, whose joint boxes all have the same area,
+/// or each a larger (or smaller) one than the last. PLOC joins pairs that are nearest to each other,
+/// of which there is only one in such a run: it takes as many passes as the run is long, and ends
+/// with a chain. Equal boxes, boxes in a row and boxes in boxes are like that.
+fn longest_run(boxes: &[Aabb]) -> usize {
+    let all = boxes[1..].iter().fold(boxes[0], |a, b| a.union(*b));
+    let extent = (all.max - all.min).max(Vec3::splat(f32::MIN_POSITIVE));
+    let code = |aabb: &Aabb| {
+        let center = (aabb.min * 0.5 + aabb.max * 0.5 - all.min) / extent;
+        let [x, y, z] = (center * 1023.0).to_array().map(|c| spread_bits(c as u32));
+        x | y << 1 | z << 2
+    };
+    let mut order: Vec<_> = (0u32..).zip(boxes).map(|(i, aabb)| (code(aabb), i)).collect();
+    order.sort_unstable();
+    let areas = order.windows(2).map(|pair| {
+        let [a, b] = [pair[0], pair[1]].map(|(_, i)| boxes[i as usize]);
+        a.union(b).half_area()
+    });
+    let (mut rising, mut falling, mut longest, mut last) = (0, 0, 0, 0.0);
+    for area in areas {
+        rising = if area >= last { rising + 1 } else { 0 };
+        falling = if area <= last { falling + 1 } else { 0 };
+        longest = longest.max(rising).max(falling);
+        last = area;
+    }
+    longest
+}
+
+/// Ten bits, each three places from the next.
+fn spread_bits(x: u32) -> u32 {
+    let x = (x | x << 16) & 0x0300_00ff;
+    let x = (x | x << 8) & 0x0300_f00f;
+    let x = (x | x << 4) & 0x030c_30c3;
+    (x | x << 2) & 0x0924_9249
 }
 
 /// A tree whose depth is the logarithm of the number of boxes, by halving along the longest axis

@@ -12,15 +12,24 @@ const NODE_COST: f32 = 1.0;
 /// Up to four children with their boxes.
 #[derive(Clone, Debug, Default)]
 pub struct WideNode {
+    /// Each box holds all boxes below it.
     pub children: Vec<(Aabb, Child)>,
 }
 
+/// What lies below a [`WideNode`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Child {
-    /// Index of a node.
+    /// Index into [`Bvh::nodes`].
     Node(u32),
-    /// `count` boxes from place `first` of the group's [`Bvh::order`].
-    Leaf { group: u8, first: u32, count: u32 },
+    /// A run of boxes in their group's [`Bvh::order`].
+    Leaf {
+        /// Index into [`Bvh::order`].
+        group: u8,
+        /// Place of the first box in it.
+        first: u32,
+        /// Number of boxes, 1 to [`super::Limits::leaf_size`].
+        count: u32,
+    },
 }
 
 /// What a subtree looks like to the collapse.

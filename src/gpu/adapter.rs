@@ -5,15 +5,20 @@ use super::{GpuError, guard};
 /// A graphics API that wgpu can drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Backend {
+    /// Vulkan, which Mesa's software renderer speaks too.
     Vulkan,
+    /// Metal, on Apple's systems.
     Metal,
+    /// Direct3D 12, on Windows.
     Dx12,
+    /// OpenGL and OpenGL ES.
     Gl,
 }
 
 /// What the user wants; the default leaves it to us.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AdapterChoice {
+    /// The only backend to look at.
     pub backend: Option<Backend>,
     /// An index into [`adapters`], or part of a name in either case.
     pub adapter: Option<String>,
@@ -22,16 +27,23 @@ pub struct AdapterChoice {
 /// An adapter and what it can do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdapterReport {
+    /// Place in [`adapters`].
     pub index: usize,
+    /// As the driver gives it.
     pub name: String,
     /// "vulkan", "metal", "dx12" or "gl".
     pub backend: String,
+    /// The driver's name and version; may be empty.
     pub driver: String,
     /// "discrete_gpu", "integrated_gpu", "virtual_gpu", "cpu" or "other".
     pub device_type: String,
+    /// Largest buffer.
     pub max_buffer_bytes: u64,
+    /// Most of a storage buffer that a shader can see at a time.
     pub max_binding_bytes: u64,
+    /// Longest side of a 2-D texture, in texels.
     pub max_texture_2d: u32,
+    /// Most storage buffers that a compute shader can see at a time.
     pub storage_buffers_per_stage: u32,
 }
 

@@ -3,43 +3,84 @@
 /// An error of the device or its driver.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
+    /// No adapter that can run compute shaders was found.
     #[error(
         "no usable GPU (tried {tried}): no driver was found. Install a Vulkan driver, or Mesa's software one (Debian and Ubuntu: apt-get install libvulkan1 mesa-vulkan-drivers)."
     )]
-    NoAdapter { tried: String },
+    NoAdapter {
+        /// The backend that was asked for, or that it was all of them.
+        tried: String,
+    },
+    /// There are adapters, but not the one that was asked for.
     #[error(
         "no such adapter (--adapter {wanted}): there are {present}. Name one of them, or part of its name."
     )]
-    NoSuchAdapter { wanted: String, present: String },
+    NoSuchAdapter {
+        /// What was asked for: [`super::AdapterChoice::adapter`].
+        wanted: String,
+        /// Index, name and backend of each adapter there is.
+        present: String,
+    },
+    /// The driver refuses to open the adapter.
     #[error("the adapter cannot be opened ({adapter}): {why}. Try another with --adapter.")]
-    NoDevice { adapter: String, why: String },
+    NoDevice {
+        /// The adapter's name.
+        adapter: String,
+        /// The driver's words.
+        why: String,
+    },
+    /// The device is gone; what was on it is lost. A [`crate::render::Renderer`] opens another one.
     #[error("the GPU was lost (driver reset or time-out): its work is gone. Try again.")]
     Lost,
+    /// Devices were lost, or stopped work half-way, too often for one picture.
     #[error(
         "the GPU failed {count} times (driver resets): it cannot finish this picture. Try another adapter with --adapter, or update the driver."
     )]
-    KeptFailing { count: u32 },
+    KeptFailing {
+        /// How often.
+        count: u32,
+    },
+    /// The scene or picture needs more than a limit of the adapter.
     #[error(
         "too big for this adapter ({name}): {need} needed, {limit} allowed. {}",
         Self::ADVICE
     )]
     Limit {
+        /// The limit, with its unit.
         name: &'static str,
+        /// What is needed, in that unit.
         need: u64,
+        /// The most that the adapter can give.
         limit: u64,
     },
+    /// All allocations together would exceed [`crate::render::Settings::memory_limit_bytes`].
     #[error(
         "too big for the memory limit ({what}): {need} bytes needed in all, {limit} allowed. {}",
         Self::ADVICE
     )]
-    Budget { what: String, need: u64, limit: u64 },
+    Budget {
+        /// The largest allocation and its size.
+        what: String,
+        /// Their sum, in bytes.
+        need: u64,
+        /// In bytes.
+        limit: u64,
+    },
+    /// The driver refused an allocation within the limits.
     #[error(
         "the GPU is out of memory ({what}): the driver refused to allocate. {}",
         Self::ADVICE
     )]
-    OutOfMemory { what: String },
+    OutOfMemory {
+        /// What was to be allocated or made.
+        what: String,
+    },
+    /// The driver reports misuse of its interface, refuses a shader or leaves work undone.
     #[error("internal fault (GPU): {what}. Please report it with the output of `glimray doctor`.")]
-    Internal { what: String },
+    Internal {
+        /// What happened, in the driver's words if it had any.
+        what: String,
+    },
 }
 
 impl GpuError {

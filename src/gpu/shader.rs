@@ -5,6 +5,7 @@ use super::{Gpu, GpuError};
 /// A compute kernel: WGSL linked by `build.rs`, and its entry point.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
+    /// Also its file's in `shaders/kernels/`, and the entry point's.
     pub name: &'static str,
     /// Geometry read from images.
     pub image_source: &'static str,
@@ -13,8 +14,8 @@ pub struct Kernel {
 }
 
 macro_rules! kernels {
-    ($($constant:ident $name:literal)*) => {
-        $(pub const $constant: Kernel = Kernel {
+    ($($(#[$doc:meta])* $constant:ident $name:literal)*) => {
+        $($(#[$doc])* pub const $constant: Kernel = Kernel {
             name: $name,
             image_source: include_str!(concat!(env!("OUT_DIR"), "/", $name, "_image.wgsl")),
             buffer_source: include_str!(concat!(env!("OUT_DIR"), "/", $name, "_buffer.wgsl")),
@@ -26,8 +27,11 @@ macro_rules! kernels {
 
 impl Kernel {
     kernels! {
+        /// Adds samples of [`crate::render::Integrator::Whitted`] to the film.
         WHITTED "whitted"
+        /// Adds samples of the other integrators to the film.
         DEBUG_VIEW "debug_view"
+        /// Turns the film into a picture.
         DEVELOP "develop"
     }
 }

@@ -30,6 +30,7 @@ pub enum ImportError {
 pub struct Fault {
     /// What failed: "bad scene".
     pub what: String,
+    /// The file at fault.
     pub path: PathBuf,
     /// Absent when the whole file is at fault.
     pub position: Option<Position>,
@@ -43,7 +44,9 @@ pub struct Fault {
 /// A place in a text file, counted from 1; columns count characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Position {
+    /// From the top.
     pub line: usize,
+    /// From the left.
     pub column: usize,
 }
 

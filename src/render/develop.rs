@@ -18,7 +18,9 @@ use wgpu::BufferUsages;
 pub struct Tone {
     /// Stops; each doubles the brightness.
     pub exposure_ev: f32,
+    /// Applied after the exposure.
     pub curve: ToneCurve,
+    /// Applied last.
     pub transfer: Transfer,
 }
 

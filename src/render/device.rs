@@ -154,7 +154,7 @@ fn compile(
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let start = Instant::now();
     let (kernel, overrides) = match task.settings.integrator {
-        Integrator::Whitted => (Kernel::WHITTED, whitted::overrides(task, gpu.is_cpu())),
+        Integrator::Whitted => (Kernel::WHITTED, whitted::overrides(task)),
         _ => (Kernel::DEBUG_VIEW, debug_view::overrides(task)),
     };
     let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);

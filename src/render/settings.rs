@@ -11,17 +11,23 @@ pub struct Settings {
     pub crop: Option<[u32; 4]>,
     /// Samples per pixel, at least 1.
     pub samples: u32,
+    /// Where in a pixel its samples lie.
     pub antialias: Antialias,
+    /// What a camera ray brings back.
     pub integrator: Integrator,
+    /// How rays meet triangles.
     pub triangle_test: TriangleTest,
     /// Tests every primitive for every ray instead of walking the tree. For checking it.
     pub brute_force: bool,
+    /// Chooses the random numbers.
     pub seed: u32,
     /// Whether [`super::Stats::rays`] is kept.
     pub count_rays: bool,
     /// Most memory that scene and picture may take, in bytes.
     pub memory_limit_bytes: u64,
+    /// Through what the shader reads the scene.
     pub fetch: Fetch,
+    /// How work is cut into submissions.
     pub slicing: Slicing,
 }
 
@@ -96,7 +102,9 @@ pub enum Fetch {
     /// Images on software adapters, buffers elsewhere where they are large enough.
     #[default]
     Auto,
+    /// Storage images: the faster way on software adapters.
     Image,
+    /// Storage buffers: the faster way on most GPUs, where one binding can hold the scene.
     Buffer,
 }
 

@@ -14,10 +14,6 @@ const GROWTH: f64 = 4.0;
 /// Most workgroups along x: a second dimension keeps both below WebGPU's 65,535.
 const GRID_WIDTH: u32 = 256;
 
-/// Loop rounds of one invocation beyond which a software driver's limit of 65,535 is near; the last
-/// round of each loop is not in the count.
-pub const LONGEST_PATH: u32 = 60_000;
-
 /// What one submission does: some tiles of a window, some samples of their pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Slice {
@@ -36,9 +32,23 @@ impl Slice {
     }
 
     /// Whether every workgroup of the dispatch signed off.
-    pub fn is_complete(&self, tally: &PackedSlice) -> bool {
+    pub fn is_signed_off(&self, tally: &PackedSlice) -> bool {
         let (columns, rows) = self.grid();
         tally.tiles_done == columns * rows
+    }
+
+    /// Whether all of it was done, and no path cut off.
+    pub fn is_complete(&self, tally: &PackedSlice) -> bool {
+        self.is_signed_off(tally) && tally.cut_off_paths == 0
+    }
+
+    /// Its earlier and its later samples, if it has several.
+    pub fn halves(&self) -> Option<(Self, Self)> {
+        let middle = self.first_sample + (self.end_sample - self.first_sample) / 2;
+        let mut parts = (*self, *self);
+        parts.0.end_sample = middle;
+        parts.1.first_sample = middle;
+        (middle > self.first_sample).then_some(parts)
     }
 
     /// Tiles times samples, the measure of work.
@@ -76,10 +86,8 @@ pub struct Planner {
     slicing: Slicing,
     /// Work that should fit into the target time.
     budget: f64,
-    /// Most samples that an invocation takes: one until a whole sweep has shown how long paths are.
+    /// Most samples that an invocation takes.
     max_samples: u32,
-    /// Most loop rounds that a sample has been seen to take.
-    longest_sample: u32,
 }
 
 impl Planner {
@@ -87,8 +95,7 @@ impl Planner {
         Self {
             slicing,
             budget: FIRST_TILES,
-            max_samples: 1,
-            longest_sample: 0,
+            max_samples: slicing.max_samples,
         }
     }
 
@@ -121,17 +128,14 @@ impl Planner {
     }
 
     /// Learns from a finished slice.
-    pub fn finished(&mut self, slice: &Slice, seconds: f64, longest_path: u32) {
+    pub fn finished(&mut self, slice: &Slice, seconds: f64) {
         let fitting = slice.work() * self.slicing.target_seconds / seconds.max(1e-6);
         self.budget = fitting.clamp(1.0, slice.work().max(FIRST_TILES) * GROWTH);
-        let samples = (slice.end_sample - slice.first_sample).max(1);
-        self.longest_sample = self.longest_sample.max(longest_path.div_ceil(samples));
     }
 
-    /// Learns from a finished sweep: as many samples at a time as keep well below the limit.
-    pub fn sweep_done(&mut self) {
-        let fitting = LONGEST_PATH / 4 / self.longest_sample.max(1);
-        self.max_samples = fitting.clamp(1, self.slicing.max_samples);
+    /// Answers paths that the driver cut off: fewer samples in an invocation from now on.
+    pub fn shorten_paths(&mut self) {
+        self.max_samples = (self.max_samples / 2).max(1);
     }
 
     /// Answers a slice that the driver cut short: smaller ones from now on.

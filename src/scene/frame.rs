@@ -7,9 +7,13 @@ use glam::Vec3;
 /// animation uploads them once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
+    /// The camera that the picture is seen by.
     pub camera: Camera,
+    /// May be empty.
     pub lights: Vec<Light>,
+    /// Linear radiance of rays that hit nothing.
     pub background: Vec3,
+    /// Linear radiance of the ambient term, multiplied by [`super::Material::ambient`].
     pub ambient: Vec3,
 }
 

@@ -8,6 +8,7 @@ use glam::{DVec3, Vec3};
 pub struct Mesh {
     /// Empty when the file gives none.
     pub name: String,
+    /// The vertices, in object space.
     pub positions: Vec<Vec3>,
     /// One unit normal for each position.
     pub normals: Vec<Vec3>,

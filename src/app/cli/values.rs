@@ -25,7 +25,7 @@ pub static ANTIALIAS: Words<Antialias> = Words(&[
     ("none", "all in the pixel's centre", Antialias::None),
     (
         "stratified",
-        "one at random in each cell of a grid",
+        "well spread over the pixel",
         Antialias::Stratified,
     ),
 ]);

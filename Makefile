@@ -1,0 +1,76 @@
+# For a fresh Debian or Ubuntu with Rust: `make demo` makes a picture, `make test` runs every check.
+
+CARGO ?= cargo
+# One profile throughout, so that demo, tests, lints and docs share what they compile.
+FLAGS := --release --locked
+GLIMRAY := $(or $(CARGO_TARGET_DIR),target)/release/glimray
+
+# Mesa's device-select layer complains on machines without a desktop session (see src/app/mesa.rs).
+export NODEVICE_SELECT := 1
+
+# Followed by names of Debian packages.
+install = sh -c 'echo "missing, to be installed: $$*"; \
+	command -v apt-get >/dev/null || { echo "There is no apt-get: install them by hand." >&2; exit 1; }; \
+	as_root=; [ "$$(id -u)" -eq 0 ] || as_root=sudo; \
+	$$as_root apt-get update && \
+	$$as_root env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends "$$@"' install
+
+.DEFAULT_GOAL := help
+# Steps share a build, so none runs beside another.
+.NOTPARALLEL:
+.PHONY: help demo test bench gallery build compiler driver lint headless
+
+help:
+	@echo 'make demo      render the showcase scene to glimray.png'
+	@echo 'make test      format, lints, documentation, all tests'
+	@echo 'make bench     measure speed on built-in scenes'
+	@echo 'make gallery   render the pictures of README.md again'
+	@echo 'Where no Vulkan adapter is found, each first installs the Vulkan loader and the software'
+	@echo 'driver of Mesa (Debian and Ubuntu, with apt-get).'
+
+demo: build driver
+	$(GLIMRAY) demo -o glimray.png
+
+# Tests are built first, the program with them: `driver` needs it.
+test: lint headless
+	$(CARGO) test $(FLAGS) --no-run
+	@$(MAKE) --no-print-directory driver
+	$(CARGO) test $(FLAGS)
+
+bench: build driver
+	$(GLIMRAY) bench
+
+# The commands are those that README.md shows beside each picture.
+gallery: build driver
+	@grep -o 'glimray [a-z]* [^`]*-o assets/gallery/[^` ]*' README.md | while read -r _ arguments; do \
+		echo "glimray $$arguments"; \
+		$(GLIMRAY) $$arguments --quiet || exit; \
+	done
+
+build: compiler
+	$(CARGO) build $(FLAGS)
+
+# FLIP, by which `compare` judges pictures, is C++.
+compiler:
+	@command -v c++ >/dev/null || { $(install) g++; }
+
+# Exit code 5 of `doctor`: there is no usable adapter.
+driver:
+	@if [ "$$(uname -s)" != Linux ]; then exit 0; fi; \
+	status=0; $(GLIMRAY) doctor --backend vulkan >/dev/null 2>&1 || status=$$?; \
+	if [ $$status -ne 5 ]; then exit 0; fi; \
+	$(install) libvulkan1 mesa-vulkan-drivers && $(GLIMRAY) doctor --backend vulkan
+
+lint: compiler
+	@$(CARGO) fmt --version >/dev/null && $(CARGO) clippy --version >/dev/null || \
+		rustup component add rustfmt clippy
+	$(CARGO) fmt --check
+	$(CARGO) clippy $(FLAGS) --all-targets -- --deny warnings
+	RUSTDOCFLAGS=--deny=warnings $(CARGO) doc $(FLAGS) --no-deps
+
+# Without default features nothing may need a window system. `wayland-sys` is let through: it holds
+# the declarations of wgpu's OpenGL backend, which links nothing and runs without a display.
+headless:
+	@if $(CARGO) tree --locked --no-default-features --edges normal --prefix none | \
+		grep -E '^(winit|softbuffer|smithay|wayland-(client|cursor|backend)|x11|xcb|xkb|sdl|glfw|gtk|egui|minifb)'; \
+	then echo 'The crates above need a window system.' >&2; exit 1; fi

@@ -1,0 +1,400 @@
+//! The tree: what every builder input must give, and that rays find in it what they find without it.
+
+use crate::reference::compare::{assert_none, check_same_bits, render};
+use crate::reference::scenes::{self, Build, Random};
+use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3};
+use glimray::bvh::{self, Aabb, Bvh, Child, Limits};
+use glimray::layout::{LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, SHAPE, STACK_SIZE};
+use glimray::pack::{self, PackedScene};
+use glimray::render::{Integrator, Settings, TriangleTest};
+use glimray::scene::{Mesh, Scene};
+
+const LIMITS: Limits = Limits { leaf_size: 4, stack_size: STACK_SIZE as usize - 1 };
+
+fn box_round(center: DVec3, half: DVec3) -> Aabb {
+    Aabb { min: (center - half).as_vec3(), max: (center + half).as_vec3() }
+}
+
+fn inputs() -> Vec<(&'static str, Vec<Aabb>)> {
+    let mut random = Random(1);
+    let mut many = |count: usize, mut make: Box<dyn FnMut(&mut Random) -> Aabb>| -> Vec<Aabb> {
+        (0..count).map(|_| make(&mut random)).collect()
+    };
+    vec![
+        ("none", vec![]),
+        ("one", vec![box_round(DVec3::ONE, DVec3::ONE)]),
+        ("two", many(2, Box::new(|r| box_round(r.within(1.0), DVec3::ONE)))),
+        ("random", many(5000, Box::new(|r| box_round(r.within(10.0), r.within(0.3).abs())))),
+        (
+            "clustered",
+            many(5000, Box::new(|r| {
+                let cluster = dvec3(r.below(8) as f64 * 100.0, r.below(3) as f64 * 1e-3, 0.0);
+                box_round(cluster + r.within(1e-4), DVec3::splat(1e-5))
+            })),
+        ),
+        // The builder must not take time that grows with the square of these.
+        ("coincident", vec![box_round(DVec3::ONE, DVec3::ONE); 100_000]),
+        ("in a row", (0..100_000).map(|i| box_round(DVec3::X * f64::from(3 * i), DVec3::ONE)).collect()),
+        ("nested", (1..=100_000).map(|i| box_round(DVec3::ONE, DVec3::splat(f64::from(i)))).collect()),
+        ("a few places", (0..100_000).map(|i| box_round(DVec3::Y * f64::from(i % 40), DVec3::ONE)).collect()),
+        (
+            "collinear points",
+            many(50_000, Box::new(|r| box_round(DVec3::X * r.between(-5.0, 5.0), DVec3::ZERO))),
+        ),
+        (
+            "huge and tiny",
+            many(3000, Box::new(|r| {
+                let size = 10f64.powf(r.between(-30.0, 14.0));
+                box_round(r.within(1.0) * size, r.within(1.0).abs() * size)
+            })),
+        ),
+        ("at the limit", many(100, Box::new(|r| box_round(r.within(1e15), DVec3::splat(1e14))))),
+        ("spread exponentially", exponential()),
+    ]
+}
+
+/// Each box twice as far out as the one before: whoever joins nearest neighbours digs a chain.
+fn exponential() -> Vec<Aabb> {
+    let place = |i: i32| DVec3::X * 2f64.powi(i);
+    (-70..50).map(|i| box_round(place(i), DVec3::splat(2f64.powi(i - 4)))).collect()
+}
+
+/// Says what is wrong with a tree.
+fn check_tree(bvh: &Bvh, boxes: &[Aabb], groups: &[u8]) -> Result<(), String> {
+    let mut seen = vec![0; boxes.len()];
+    let mut visited = vec![0; bvh.nodes.len()];
+    let mut open = vec![0];
+    while let Some(index) = open.pop() {
+        visited[index] += 1;
+        let children = &bvh.nodes[index].children;
+        if children.len() > 4 {
+            return Err(format!("node {index} has {} children", children.len()));
+        }
+        for (aabb, child) in children {
+            match *child {
+                Child::Node(below) => {
+                    for (inner, _) in &bvh.nodes[below as usize].children {
+                        if aabb.union(*inner) != *aabb {
+                            return Err(format!("node {below} is not in its box {aabb:?}: {inner:?}"));
+                        }
+                    }
+                    open.push(below as usize);
+                }
+                Child::Leaf { group, first, count } => {
+                    if count == 0 || count > LIMITS.leaf_size {
+                        return Err(format!("a leaf of {count}"));
+                    }
+                    for place in first..first + count {
+                        let i = bvh.order[group as usize][place as usize] as usize;
+                        seen[i] += 1;
+                        if groups[i] != group {
+                            return Err(format!("box {i} is in a leaf of group {group}"));
+                        }
+                        if aabb.union(boxes[i]) != *aabb {
+                            return Err(format!("box {i} is not in its leaf's {aabb:?}"));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    if let Some(i) = seen.iter().position(|&count| count != 1) {
+        return Err(format!("box {i} is in {} leaf slots", seen[i]));
+    }
+    if let Some(i) = visited.iter().position(|&count| count != 1) {
+        return Err(format!("node {i} is reached {} times", visited[i]));
+    }
+    let need = deepest_stack(bvh);
+    if bvh.stack_need != need {
+        return Err(format!("stack_need is {}, a walk takes {need}", bvh.stack_need));
+    }
+    Ok(())
+}
+
+/// The most entries at a time when the walk meets every child of every node, over all orders in
+/// which siblings may be visited: each child is tried as the first, with its siblings waiting.
+fn deepest_stack(bvh: &Bvh) -> usize {
+    let mut deepest = 1;
+    let mut open = vec![(0, 1)];
+    while let Some((index, waiting)) = open.pop() {
+        let children: &Vec<(Aabb, Child)> = &bvh.nodes[index].children;
+        let waiting = waiting + children.len().saturating_sub(1);
+        deepest = deepest.max(waiting);
+        for (_, child) in children {
+            if let Child::Node(below) = child {
+                open.push((*below as usize, waiting));
+            }
+        }
+    }
+    deepest
+}
+
+#[test]
+fn every_input_gives_a_sound_tree() {
+    assert_none(inputs().into_iter().map(|(name, boxes)| {
+        let groups: Vec<u8> = (0..boxes.len()).map(|i| u8::from(i % 3 == 0)).collect();
+        let bvh = bvh::build(&boxes, &groups, 2, LIMITS);
+        let fits = bvh.stack_need <= LIMITS.stack_size;
+        let checked = check_tree(&bvh, &boxes, &groups)
+            .and(fits.then_some(()).ok_or(format!("needs a stack of {}", bvh.stack_need)));
+        checked.map_err(|why| format!("{name}: {why}"))
+    }));
+}
+
+#[test]
+fn a_tree_too_deep_for_the_stack_is_built_again_balanced() {
+    let boxes = exponential();
+    let groups = vec![0; boxes.len()];
+    let unlimited = Limits { stack_size: usize::MAX, ..LIMITS };
+    let need = bvh::build(&boxes, &groups, 1, unlimited).stack_need;
+    assert!(need > LIMITS.stack_size, "this input is meant to be deep, it needs {need}");
+    let balanced = bvh::build(&boxes, &groups, 1, LIMITS);
+    assert!(balanced.stack_need <= LIMITS.stack_size, "{}", balanced.stack_need);
+    assert_eq!(check_tree(&balanced, &boxes, &groups), Ok(()));
+}
+
+#[test]
+fn the_same_boxes_give_the_same_tree() {
+    let mut random = Random(2);
+    let boxes: Vec<_> = (0..50_000)
+        .map(|_| box_round(random.within(10.0), random.within(0.2).abs()))
+        .collect();
+    let groups = vec![0; boxes.len()];
+    let build = || bvh::build(&boxes, &groups, 1, LIMITS);
+    let (a, b) = (build(), build());
+    assert_eq!(a.order, b.order);
+    let children = |bvh: &Bvh| -> Vec<_> { bvh.nodes.iter().map(|n| n.children.clone()).collect() };
+    assert!(children(&a) == children(&b), "the nodes differ");
+}
+
+/// The exact box below a child reference of the packed tree, in f64.
+fn exact_box(scene: &PackedScene, reference: u32) -> Result<(DVec3, DVec3), String> {
+    let mut all = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let mut add = |min: DVec3, max: DVec3| all = (all.0.min(min), all.1.max(max));
+    if reference & LEAF == 0 {
+        for (child, decoded) in decode(scene, reference) {
+            let (min, max) = exact_box(scene, child)?;
+            for (low, high) in decoded {
+                if low.cmpgt(min).any() || high.cmplt(max).any() {
+                    return Err(format!("{low}..{high} does not hold {min}..{max}"));
+                }
+            }
+            add(min, max);
+        }
+        return Ok(all);
+    }
+    let first = reference & LEAF_FIRST_MASK;
+    let count = ((reference & LEAF_COUNT_MASK) >> LEAF_COUNT_SHIFT) + 1;
+    for i in (first..first + count).map(|i| i as usize) {
+        if reference & SHAPE == 0 {
+            let triangle = &scene.triangles[i];
+            for corner in [triangle.v0, triangle.v1, triangle.v2] {
+                let corner = Vec3::from(corner).as_dvec3();
+                add(corner, corner);
+            }
+        } else {
+            let center = Vec3::from(scene.shapes[i].position).as_dvec3();
+            let radius = f64::from(scene.shapes[i].radius);
+            add(center - radius, center + radius);
+        }
+    }
+    Ok(all)
+}
+
+type Box64 = (DVec3, DVec3);
+
+/// The children of a packed node with their boxes, decoded in f32 with a fused and with a separate
+/// multiplication, since a shader may do either.
+fn decode(scene: &PackedScene, node: u32) -> Vec<(u32, [Box64; 2])> {
+    let words = &scene.nodes[node as usize];
+    let plane = |axis: usize, word: usize, child: usize, fused: bool| {
+        let (lo, scale) = (f32::from_bits(words[axis]), f32::from_bits(words[3 + axis]));
+        let steps = f32::from(words[word].to_le_bytes()[child]);
+        f64::from(if fused { scale.mul_add(steps, lo) } else { scale * steps + lo })
+    };
+    let children = (0..4).filter(|&i| words[12 + i] != 0);
+    let decoded = |i: usize, fused: bool| {
+        let min = |axis: usize| plane(axis, 6 + 2 * axis, i, fused);
+        let max = |axis: usize| plane(axis, 7 + 2 * axis, i, fused);
+        (dvec3(min(0), min(1), min(2)), dvec3(max(0), max(1), max(2)))
+    };
+    children.map(|i| (words[12 + i], [decoded(i, false), decoded(i, true)])).collect()
+}
+
+#[test]
+fn quantised_nodes_decode_to_boxes_that_hold_the_exact_ones() {
+    let mut far = scenes::meshes();
+    far.cameras[0].look_from = dvec3(3e4, -2e5, 1e3);
+    let mut tiny = Scene { meshes: vec![], instances: vec![], ..scenes::meshes() };
+    tiny.add_mesh(scenes::ball(UVec2::splat(20), 0), DAffine3::from_scale(DVec3::splat(1e-12)));
+    let mut huge = soup(9, 2000);
+    huge.add_sphere(dvec3(1e14, 1.0, 0.0), 1e10, 0);
+    let rows = [
+        ("mixed", scenes::everything()),
+        ("soup", soup(3, 5000)),
+        ("far from the camera", far),
+        ("tiny", tiny),
+        ("huge beside small", huge),
+        ("flat", scenes::spheres()),
+    ];
+    assert_none(rows.map(|(name, scene)| {
+        let packed = pack::scene(&scene).expect("packed");
+        exact_box(&packed, 0).map(|_| ()).map_err(|why| format!("{name}: {why}"))
+    }));
+}
+
+fn lone_triangles(corners: impl IntoIterator<Item = [DVec3; 3]>) -> Mesh {
+    let mut mesh = Mesh::default();
+    for triangle in corners {
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend(triangle.map(|corner| corner.as_vec3()));
+        mesh.triangles.push([first, first + 1, first + 2]);
+    }
+    mesh.materials = vec![0; mesh.positions.len()];
+    mesh.repair();
+    mesh
+}
+
+fn seen_from(look_from: DVec3) -> Scene {
+    let mut scene = scenes::empty();
+    scene.cameras[0].look_from = look_from;
+    scene.cameras[0].look_at = look_from - DVec3::Z;
+    scene
+}
+
+/// Triangles of all sizes and directions.
+fn soup(seed: u64, count: usize) -> Scene {
+    let mut random = Random(seed);
+    let triangles = (0..count).map(|_| {
+        let (center, size) = (random.within(2.0), 10f64.powf(random.between(-2.0, 0.0)));
+        [(); 3].map(|()| center + random.within(size))
+    });
+    let mesh = lone_triangles(triangles.collect::<Vec<_>>());
+    let mut scene = seen_from(dvec3(0.0, 0.0, 6.0));
+    scene.add_mesh(mesh, DAffine3::IDENTITY);
+    scene
+}
+
+/// Spheres that overlap, some twice the same.
+fn bubbles(seed: u64) -> Scene {
+    let mut random = Random(seed);
+    let mut scene = seen_from(dvec3(0.0, 0.0, 6.0));
+    for i in 0..300 {
+        let (center, radius) = (random.within(2.0), 10f64.powf(random.between(-2.0, 0.0)));
+        for _ in 0..=(i % 7) / 6 {
+            scene.add_sphere(center, radius, 0);
+        }
+    }
+    scene
+}
+
+/// The walls of unit cells on a grid, seen along an axis from a corner of the grid, so that rays
+/// have zero components and run in the walls' planes and through their edges.
+fn walls(seed: u64) -> Scene {
+    let mut random = Random(seed);
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let mut triangles = Vec::new();
+    for _ in 0..400 {
+        let corner = [(); 3].map(|()| random.below(7) as f64 - 3.0);
+        let corner = DVec3::from_array(corner);
+        let axis = random.below(3) as usize;
+        let (u, v) = (axes[(axis + 1) % 3], axes[(axis + 2) % 3]);
+        triangles.push([corner, corner + u, corner + v]);
+        triangles.push([corner + u, corner + u + v, corner + v]);
+    }
+    let mut scene = seen_from(dvec3(0.0, 0.0, 8.0));
+    scene.add_mesh(lone_triangles(triangles), DAffine3::IDENTITY);
+    scene
+}
+
+/// The same triangles several times over, and others that lie in the same plane and overlap.
+fn ties(seed: u64) -> Scene {
+    let mut random = Random(seed);
+    let mut triangles = Vec::new();
+    for i in 0..200 {
+        let mut flat = |z: f64| [(); 3].map(|()| (random.within(2.0) * dvec3(1.0, 1.0, 0.0)).with_z(z));
+        let triangle = flat(f64::from(i % 4) * 0.5);
+        let copies = if i % 3 == 0 { 6 } else { 1 };
+        triangles.extend(std::iter::repeat_n(triangle, copies));
+    }
+    let mut scene = seen_from(dvec3(0.0, 0.0, 6.0));
+    scene.add_mesh(lone_triangles(triangles), DAffine3::IDENTITY);
+    scene
+}
+
+/// All kinds of primitive at once, planes among them.
+fn medley(seed: u64) -> Scene {
+    let mut scene = soup(seed, 300);
+    scene.shapes = bubbles(seed + 100).shapes;
+    scene.add_plane(dvec3(0.0, -1.0, 0.0), DVec3::Y, 0);
+    scene.add_plane(dvec3(0.0, 0.0, -2.0), DVec3::Z, 0);
+    scene
+}
+
+/// Distances and ids through the tree and without it.
+fn check_tree_against_brute_force(name: &str, scene: &Scene, settings: &Settings) -> Result<(), String> {
+    let mut problems = Vec::new();
+    for integrator in [Integrator::Depth, Integrator::Ids] {
+        let of = |brute_force| {
+            render(scene, &Settings { integrator, brute_force, ..settings.clone() }).0
+        };
+        let name = format!("{name}, {integrator:?}");
+        problems.extend(check_same_bits(&name, &of(true), &of(false)).err());
+    }
+    if problems.is_empty() { Ok(()) } else { Err(problems.join("\n")) }
+}
+
+/// An odd number of pixels, so that the middle ones look straight along an axis.
+fn odd_sized() -> Settings {
+    Settings { size: (129, 129), ..Settings::default() }
+}
+
+#[test]
+fn the_tree_finds_what_brute_force_finds() {
+    let kinds: [(&str, fn(u64) -> Scene); 5] = [
+        ("soup", |seed| soup(seed, 600)),
+        ("bubbles", bubbles),
+        ("walls", walls),
+        ("ties", ties),
+        ("medley", medley),
+    ];
+    assert_none(kinds.into_iter().flat_map(|(name, scene)| {
+        (1..=4).map(move |seed| {
+            let name = format!("{name} {seed}");
+            check_tree_against_brute_force(&name, &scene(seed), &odd_sized())
+        })
+    }));
+}
+
+#[test]
+fn every_triangle_test_finds_the_same_with_and_without_the_tree() {
+    let rows = [("soup", soup(7, 600)), ("walls", walls(7)), ("ties", ties(7))];
+    assert_none(rows.into_iter().flat_map(|(name, scene)| {
+        [TriangleTest::Plane, TriangleTest::MollerTrumbore].map(|triangle_test| {
+            let settings = Settings { triangle_test, ..odd_sized() };
+            let name = format!("{name} by {triangle_test:?}");
+            check_tree_against_brute_force(&name, &scene, &settings)
+        })
+    }));
+}
+
+#[test]
+fn shadows_are_the_same_with_and_without_the_tree() {
+    let scene = scenes::everything();
+    let of = |brute_force| render(&scene, &Settings { brute_force, ..odd_sized() }).0;
+    assert_none([check_same_bits("shadows", &of(true), &of(false))]);
+}
+
+#[test]
+fn a_chain_of_spheres_deeper_than_the_stack_renders_right() {
+    let mut scene = seen_from(dvec3(0.0, 0.0, 6.0));
+    for i in -40..46 {
+        let (far, turn) = (2f64.powi(i), f64::from(i));
+        let aside = 0.3 * dvec3(turn.cos(), turn.sin(), 0.0);
+        scene.add_sphere(far * (aside - DVec3::Z), far / 20.0, 0);
+    }
+    let settings = Settings { size: (64, 64), ..Settings::default() };
+    assert_none([check_tree_against_brute_force("chain", &scene, &settings)]);
+    let hit = render(&scene, &Settings { integrator: Integrator::Depth, ..settings }).0;
+    assert!(hit.pixels.iter().any(|pixel| pixel[0] > 1e6), "the far end is in the picture");
+}

@@ -1,0 +1,160 @@
+//! What a user meets when the GPU fails, rehearsed through `GLIMRAY_FAULT` (see `src/gpu/fault.rs`):
+//! the same picture after a lost device, or one clear line and an exit code, and never half a file.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+use tempfile::TempDir;
+
+const SCENE: &str = "
+ambient = [0.1, 0.1, 0.1]
+background = [0.2, 0.4, 0.6]
+[output]
+size = [200, 150]
+samples = 3
+[camera]
+look_from = [0, 1.5, 6]
+look_at = [0, 0.5, 0]
+fov_y_deg = 45
+[[lights]]
+point = { position = [3, 5, 4], color = [1, 1, 1], intensity = 0.8 }
+[[objects]]
+plane = { point = [0, 0, 0], normal = [0, 1, 0] }
+[[objects]]
+sphere = { center = [0, 1, 0], radius = 1 }
+[[objects]]
+triangle = { vertices = [[-3, 0, 0], [-1, 0, 1], [-2, 2, 0]] }
+";
+
+/// A folder with a scene in it.
+struct Workplace(TempDir);
+
+/// What a run of `glimray render` left.
+struct Run {
+    code: Option<i32>,
+    stderr: String,
+    picture: Option<Vec<u8>>,
+    submissions: u64,
+}
+
+impl Workplace {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        fs::write(folder.path().join("a.toml"), SCENE).expect("a scene");
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Renders under a fault with more flags, and clears away what the run left.
+    fn render<S: AsRef<OsStr>>(&self, fault: &str, flags: impl IntoIterator<Item = S>) -> Run {
+        let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
+            .args(["render", "a.toml", "-o", "a.png", "--quiet", "--report", "a.json"])
+            .args(flags)
+            .current_dir(self.0.path())
+            .env("GLIMRAY_FAULT", fault)
+            .stdin(Stdio::null())
+            .output()
+            .expect("glimray runs");
+        let report = fs::read_to_string(self.path("a.json")).unwrap_or_default();
+        let report: serde_json::Value = serde_json::from_str(&report).unwrap_or_default();
+        let picture = fs::read(self.path("a.png")).ok();
+        for name in ["a.png", "a.json"] {
+            let _ = fs::remove_file(self.path(name));
+        }
+        let left = fs::read_dir(self.0.path()).expect("a readable folder").count();
+        assert_eq!(left, 1, "{fault}: files are left beside the scene");
+        Run {
+            code: output.status.code(),
+            stderr: String::from_utf8(output.stderr).expect("messages are text"),
+            picture,
+            submissions: report["submissions"]["count"].as_u64().unwrap_or_default(),
+        }
+    }
+}
+
+const NO_FLAGS: [&str; 0] = [];
+
+impl Run {
+    /// Says what is wrong unless the run ended with this code, one line with these words, and no
+    /// picture.
+    fn check_refusal(&self, fault: &str, code: i32, words: &[&str]) -> Result<(), String> {
+        let lines: Vec<_> = message_lines(&self.stderr);
+        let [line] = lines[..] else {
+            return Err(format!("{fault}: not one line but {lines:?}"));
+        };
+        let says = line.starts_with("error: ") && words.iter().all(|word| line.contains(word));
+        let is_fault_of_ours = line.contains("panicked") || line.contains("internal fault");
+        if self.code != Some(code) || !says || is_fault_of_ours {
+            return Err(format!("{fault}: exit code {:?}, {line}", self.code));
+        }
+        if self.picture.is_some() {
+            return Err(format!("{fault}: there is a picture"));
+        }
+        Ok(())
+    }
+}
+
+/// Without what Vulkan's loader and Mesa may have to say about the machine.
+fn message_lines(stderr: &str) -> Vec<&str> {
+    stderr
+        .lines()
+        .filter(|line| !line.contains("XDG_RUNTIME_DIR") && !line.starts_with("MESA"))
+        .collect()
+}
+
+fn assert_none(problems: impl IntoIterator<Item = Result<(), String>>) {
+    let problems: Vec<_> = problems.into_iter().filter_map(Result::err).collect();
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+#[test]
+fn a_device_lost_at_any_submission_costs_nothing_but_time() {
+    let place = Workplace::new();
+    let whole = place.render("", NO_FLAGS);
+    assert_eq!(whole.code, Some(0), "{}", whole.stderr);
+    assert!(whole.submissions > 3, "{} submissions", whole.submissions);
+    // The first submission warms up, the last one develops.
+    let last = whole.submissions + 2;
+    assert_none([1, 2, 3, last / 2, last - 1, last].map(|at| {
+        let run = place.render(&format!("device@{at}"), NO_FLAGS);
+        let is_same = run.picture.is_some() && run.picture == whole.picture;
+        let says_so = matches!(message_lines(&run.stderr)[..], [line] if line.starts_with("warning: the GPU was lost"));
+        (is_same && says_so && run.code == Some(0)).then_some(()).ok_or_else(|| {
+            format!("device@{at}: exit code {:?}, same picture {is_same}, {}", run.code, run.stderr)
+        })
+    }));
+}
+
+#[test]
+fn a_device_that_is_lost_every_time_ends_with_exit_6() {
+    let run = Workplace::new().render("device@*", NO_FLAGS);
+    assert_none([run.check_refusal("device@*", 6, &["the GPU failed 4 times", "--adapter"])]);
+}
+
+#[test]
+fn a_refused_allocation_ends_with_exit_7_wherever_it_strikes() {
+    let place = Workplace::new();
+    let mut at = 0;
+    loop {
+        at += 1;
+        let fault = format!("allocation@{at}");
+        let run = place.render(&fault, ["--memory-limit", "512"]);
+        if run.code == Some(0) {
+            break;
+        }
+        assert_none([run.check_refusal(&fault, 7, &["out of memory", "--memory-limit"])]);
+    }
+    assert!(at > 8, "only {} allocations were refused", at - 1);
+}
+
+#[test]
+fn the_memory_limit_is_checked_before_the_first_allocation() {
+    let place = Workplace::new();
+    let flags = ["--memory-limit", "1", "--size", "4096x4096"];
+    let run = place.render("allocation@1", flags);
+    assert_none([run.check_refusal("allocation@1", 7, &["memory limit", "1048576"])]);
+}

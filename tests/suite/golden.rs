@@ -1,0 +1,219 @@
+//! Small pictures, one for each thing that can be asked for, as they were when somebody last looked
+//! at them and found them right. A failure says how to look and how to bless what is there now.
+
+use crate::reference::compare::{assert_none, check_alike, open_gpu, sized};
+use crate::reference::scenes::{self, Build};
+use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
+use glimray::image::Image;
+use glimray::output;
+use glimray::pack;
+use glimray::render::{Antialias, Integrator, Renderer, Settings, Tone, TriangleTest};
+use glimray::scene::{Attenuation, Light, LightKind, Material, Scene, ToneCurve, Transfer};
+use std::f64::consts::PI;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+const WIDTH: u32 = 64;
+const HEIGHT: u32 = 48;
+/// Allowed on a tenth of a percent of the pixels.
+const LEVELS: f32 = 3.0;
+const MOST_BYTES: u64 = 16 << 10;
+const UPDATE: &str = "UPDATE_GOLDEN=1 cargo test --release --test suite golden";
+
+struct Golden {
+    name: &'static str,
+    scene: Scene,
+    settings: Settings,
+    tone: Tone,
+}
+
+fn golden(name: &'static str, scene: Scene) -> Golden {
+    let tone = Tone { exposure_ev: 0.0, curve: ToneCurve::None, transfer: Transfer::Srgb };
+    Golden { name, scene, settings: sized(WIDTH, HEIGHT), tone }
+}
+
+impl Golden {
+    fn set(mut self, change: impl FnOnce(&mut Settings)) -> Self {
+        change(&mut self.settings);
+        self
+    }
+
+    fn viewed(self, integrator: Integrator, exposure_ev: f32) -> Self {
+        let tone = Tone { exposure_ev, ..Tone::LINEAR };
+        Self { tone, ..self }.set(|settings| settings.integrator = integrator)
+    }
+
+    fn toned(mut self, exposure_ev: f32, curve: ToneCurve) -> Self {
+        self.tone = Tone { exposure_ev, curve, ..self.tone };
+        self
+    }
+
+    fn linear(mut self) -> Self {
+        self.tone.transfer = Transfer::Linear;
+        self
+    }
+
+    fn render(&self) -> Image {
+        let packed = Arc::new(pack::scene(&self.scene).expect("packed"));
+        let view = packed.frame(&self.scene.frame(0.0)).expect("a frame");
+        let mut renderer = Renderer::new(open_gpu(), packed, &view, self.settings.clone())
+            .unwrap_or_else(|error| panic!("{}: {error}", self.name));
+        while !renderer.is_done() {
+            renderer.step().expect("a step");
+        }
+        renderer.develop(&self.tone).expect("a picture")
+    }
+}
+
+/// A ball, a torus and a sphere on a floor, without light.
+fn still_life() -> Scene {
+    let mut scene = scenes::empty();
+    let red = scene.add_material(scenes::shiny(vec3(0.9, 0.3, 0.2)));
+    let green = scene.add_material(scenes::shiny(vec3(0.3, 0.7, 0.3)));
+    let blue = scene.add_material(scenes::shiny(vec3(0.2, 0.4, 0.9)));
+    scene.add_plane(DVec3::ZERO, DVec3::Y, 0);
+    scene.add_sphere(dvec3(-1.6, 0.8, 0.0), 0.8, red);
+    let lying = DAffine3::from_translation(dvec3(0.3, 0.4, 1.0)) * DAffine3::from_rotation_x(0.2);
+    scene.add_mesh(scenes::torus(0.7, 0.3, UVec2::new(24, 12), green as u32), lying);
+    let placed = DAffine3::from_translation(dvec3(1.8, 0.9, -0.3));
+    scene.add_mesh(scenes::ball(UVec2::new(20, 10), blue as u32), placed);
+    scene
+}
+
+fn lit() -> Scene {
+    let mut scene = still_life();
+    scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.8);
+    scene
+}
+
+fn lit_by(kind: LightKind, strength: f32, attenuation: Attenuation) -> Scene {
+    let mut scene = still_life();
+    scene.lights.push(Light { kind, color: Vec3::splat(strength), attenuation });
+    scene
+}
+
+fn spot() -> LightKind {
+    let position = dvec3(0.5, 5.0, 3.0);
+    LightKind::Spot { position, direction: -position.normalize(), inner: 0.15, outer: 0.35 }
+}
+
+fn mixed() -> Scene {
+    let mut scene = still_life();
+    let count = scene.materials.len() as u32;
+    for mesh in &mut scene.meshes {
+        for (i, material) in mesh.materials.iter_mut().enumerate() {
+            *material = i as u32 / 3 % count;
+        }
+    }
+    scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.8);
+    scene
+}
+
+/// Two walls seen and lit from behind: the left one has two sides, the right one has not.
+fn sides() -> Scene {
+    let mut scene = scenes::empty();
+    let one_sided = scene.add_material(Material { two_sided: false, ..Material::default() });
+    let upright = DAffine3::from_rotation_x(PI / 2.0);
+    for (x, material) in [(-1.5, 0), (1.5, one_sided)] {
+        // Both face away from the camera and the lamp.
+        let turned = DAffine3::from_rotation_y(PI) * upright;
+        let placement = DAffine3::from_translation(dvec3(x, 0.5, 0.0)) * turned;
+        scene.add_mesh(scenes::quad(2.4, material as u32), placement);
+    }
+    scene.add_point_light(dvec3(0.0, 2.0, 4.0), 0.8);
+    scene
+}
+
+fn inside() -> Scene {
+    let mut scene = still_life();
+    let shell = scene.add_material(scenes::shiny(vec3(0.7, 0.6, 0.3)));
+    scene.add_sphere(dvec3(0.0, 1.0, 2.0), 7.0, shell);
+    scene.add_point_light(dvec3(2.0, 4.0, 4.0), 0.8);
+    scene
+}
+
+fn goldens() -> Vec<Golden> {
+    let none = Attenuation::None;
+    let aslant = LightKind::Directional { direction: dvec3(-0.5, -0.7, -0.5).normalize() };
+    let near = LightKind::Point { position: dvec3(0.3, 1.6, 1.0) };
+    let mut bright = lit();
+    bright.lights[0].color = vec3(6.0, 5.0, 3.5);
+    vec![
+        golden("whitted", lit()),
+        golden("normals", lit()).viewed(Integrator::Normals, 0.0),
+        golden("depth", lit()).viewed(Integrator::Depth, -4.0),
+        golden("ids", lit()).viewed(Integrator::Ids, 0.0),
+        golden("heat", lit()).viewed(Integrator::Heat, 0.0),
+        golden("triangle-plane", lit()).set(|s| s.triangle_test = TriangleTest::Plane),
+        golden("triangle-moller-trumbore", lit())
+            .set(|s| s.triangle_test = TriangleTest::MollerTrumbore),
+        golden("stratified", lit()).set(|s| {
+            s.samples = 16;
+            s.antialias = Antialias::Stratified;
+        }),
+        golden("crop", lit()).set(|s| {
+            s.size = (128, 96);
+            s.crop = Some([20, 30, 20 + WIDTH, 30 + HEIGHT]);
+        }),
+        golden("light-none", still_life()),
+        golden("light-directional", lit_by(aslant, 0.8, none)),
+        golden("light-spot", lit_by(spot(), 0.9, none)),
+        golden("light-inverse-square", lit_by(near, 1.5, Attenuation::InverseSquare)),
+        golden("materials-mixed", mixed()),
+        golden("materials-sides", sides()),
+        golden("inside-a-sphere", inside()),
+        golden("background", scenes::empty()),
+        golden("everything", scenes::everything()),
+        golden("transfer-linear", lit()).linear(),
+        golden("tone-none", bright.clone()),
+        golden("tone-aces", bright.clone()).toned(0.0, ToneCurve::Aces),
+        golden("tone-agx", bright.clone()).toned(0.0, ToneCurve::Agx),
+        golden("tone-reinhard", bright.clone()).toned(0.0, ToneCurve::Reinhard),
+        golden("exposure", bright).toned(-2.5, ToneCurve::None),
+    ]
+}
+
+fn path(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    folder.join(format!("{name}.png"))
+}
+
+/// A stored picture, levels as parts of 1.
+fn stored(name: &str) -> Result<Image, String> {
+    let read = image::open(path(name)).map_err(|error| format!("{name}: {error}. Run: {UPDATE}"))?;
+    let read = read.into_rgb8();
+    let pixels = read.pixels().map(|p| vec3(p[0].into(), p[1].into(), p[2].into()) / 255.0);
+    Ok(Image {
+        width: read.width(),
+        height: read.height(),
+        pixels: pixels.map(|p| p.extend(1.0).to_array()).collect(),
+    })
+}
+
+#[test]
+fn golden_pictures_are_as_they_were() {
+    let update = std::env::var_os("UPDATE_GOLDEN").is_some();
+    assert_none(goldens().iter().map(|golden| {
+        let actual = golden.render();
+        if update {
+            return output::save(path(golden.name), &actual).map_err(|error| error.to_string());
+        }
+        // Allows the rounding to levels on top.
+        check_alike(golden.name, &stored(golden.name)?, &actual, LEVELS + 0.5, 0.001)
+            .map_err(|why| format!("{why}. If it is right now, run: {UPDATE}"))
+    }));
+}
+
+#[test]
+fn golden_pictures_are_small_and_all_in_use() {
+    let names: Vec<_> = goldens().iter().map(|golden| golden.name).collect();
+    let folder = path("any").parent().map(PathBuf::from).expect("a folder");
+    for entry in folder.read_dir().expect("golden pictures") {
+        let entry = entry.expect("an entry");
+        let bytes = entry.metadata().expect("a file").len();
+        let file = entry.path();
+        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        assert!(names.contains(&name.as_str()), "{} belongs to no test", file.display());
+        assert!(bytes <= MOST_BYTES, "{} has {bytes} bytes", file.display());
+    }
+}

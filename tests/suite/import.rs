@@ -1,0 +1,60 @@
+//! Scene files in: what each format means, and what everything that is wrong with one gets.
+
+mod assets;
+mod course;
+mod files;
+mod hostile;
+mod native;
+mod obj;
+
+use glimray::import::{self, ImportError, Options};
+use glimray::scene::Scene;
+use std::path::Path;
+use tempfile::TempDir;
+
+/// A folder with the given files in it.
+fn folder(files: &[(&str, &[u8])]) -> TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, contents) in files {
+        let path = folder.path().join(name);
+        std::fs::create_dir_all(path.parent().expect("a parent")).expect("a folder");
+        std::fs::write(path, contents).expect("a file");
+    }
+    folder
+}
+
+/// What a file of this name and contents loads as.
+fn load(name: &str, contents: impl AsRef<[u8]>) -> Result<Scene, ImportError> {
+    let folder = folder(&[(name, contents.as_ref())]);
+    import::load(&folder.path().join(name))
+}
+
+/// The scene in a file that is known to be good.
+fn scene(name: &str, contents: impl AsRef<[u8]>) -> Scene {
+    load(name, contents).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The message that the file `name` in `folder` gets, without the folder's own name.
+fn message_in(folder: &TempDir, name: &str, options: &Options) -> String {
+    match import::load_with(&folder.path().join(name), options) {
+        Ok(_) => "no error".to_owned(),
+        Err(error) => without_folder(&error, folder.path()),
+    }
+}
+
+fn without_folder(error: &ImportError, folder: &Path) -> String {
+    let text = error.to_string();
+    assert_eq!(text.lines().count(), 1, "an error is one line: {text}");
+    let real = folder.canonicalize().expect("the folder is there");
+    let text = text.replace(&format!("{}/", real.display()), "");
+    text.replace(&format!("{}/", folder.display()), "")
+}
+
+/// The messages for files of one kind, one line for each text.
+fn messages<T: AsRef<[u8]>>(name: &str, texts: &[T]) -> String {
+    let message = |text: &T| {
+        let folder = folder(&[(name, text.as_ref())]);
+        message_in(&folder, name, &Options::default())
+    };
+    texts.iter().map(message).collect::<Vec<_>>().join("\n")
+}

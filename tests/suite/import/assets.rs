@@ -1,0 +1,143 @@
+//! The scenes of the project: all of them load, and keep what [`Scene`] promises.
+
+use glam::{DVec3, Vec3};
+use glimray::import::{self, Options};
+use glimray::scene::{Geometry, LightKind, Scene};
+use std::path::{Path, PathBuf};
+
+/// The file `name` in the folder of scenes.
+pub fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("assets/scenes")
+        .join(name)
+}
+
+fn is_color(color: Vec3) -> bool {
+    color.is_finite() && color.min_element() >= 0.0
+}
+
+/// Asserts what the docs of [`Scene`] say.
+fn assert_promises(scene: &Scene) {
+    assert!(scene.camera_index < scene.cameras.len() && !scene.materials.is_empty());
+    assert!(is_color(scene.background) && is_color(scene.ambient));
+    for material in &scene.materials {
+        assert!(
+            is_color(material.diffuse) && is_color(material.specular) && is_color(material.ambient)
+        );
+        assert!(material.shininess >= 0.0 && material.shininess.is_finite());
+    }
+    for mesh in &scene.meshes {
+        assert!(mesh.positions.iter().all(|p| p.is_finite()));
+        assert!(mesh.normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-5));
+        assert_eq!(mesh.normals.len(), mesh.positions.len());
+        assert_eq!(mesh.materials.len(), mesh.positions.len());
+        assert!(
+            mesh.materials
+                .iter()
+                .all(|&m| (m as usize) < scene.materials.len())
+        );
+        assert!(
+            mesh.triangles
+                .iter()
+                .flatten()
+                .all(|&i| (i as usize) < mesh.positions.len())
+        );
+    }
+    for instance in &scene.instances {
+        assert!(instance.mesh < scene.meshes.len());
+        assert!(instance.world_from_object.is_finite());
+        assert_ne!(instance.world_from_object.matrix3.determinant(), 0.0);
+    }
+    for shape in &scene.shapes {
+        assert!(shape.material < scene.materials.len());
+        match shape.geometry {
+            Geometry::Sphere { center, radius } => assert!(center.is_finite() && radius > 0.0),
+            Geometry::Plane { point, normal } => {
+                assert!(point.is_finite() && normal.is_normalized())
+            }
+        }
+    }
+    for light in &scene.lights {
+        assert!(is_color(light.color));
+        match light.kind {
+            LightKind::Point { position } => assert!(position.is_finite()),
+            LightKind::Directional { direction } => assert!(direction.is_normalized()),
+            LightKind::Spot {
+                direction,
+                inner,
+                outer,
+                ..
+            } => {
+                assert!(direction.is_normalized() && 0.0 <= inner && inner <= outer);
+            }
+        }
+    }
+    for camera in &scene.cameras {
+        let forward: DVec3 = camera.look_at - camera.look_from;
+        assert!(forward.cross(camera.up).length() > 0.0);
+    }
+}
+
+#[test]
+fn every_scene_of_the_project_loads_whole() {
+    let mut count = 0;
+    for entry in path("").read_dir().expect("the folder of scenes") {
+        let path = entry.expect("an entry").path();
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        if !matches!(ending, Some("scene" | "toml" | "obj")) {
+            continue;
+        }
+        let scene = import::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        assert_promises(&scene);
+        assert_eq!(scene.skipped, [""; 0], "{}", path.display());
+        assert!(
+            !scene.lights.is_empty() && scene.bounds().is_some(),
+            "{}",
+            path.display()
+        );
+        count += 1;
+    }
+    assert!(count >= 10, "{count} scenes");
+}
+
+#[test]
+fn native_scenes_begin_with_what_they_show() {
+    for entry in path("").read_dir().expect("the folder of scenes") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|ending| ending == "toml") {
+            let text = std::fs::read_to_string(&path).expect("text");
+            assert!(text.starts_with("# "), "{}", path.display());
+        }
+    }
+}
+
+#[test]
+fn the_showcase_needs_no_files() {
+    let text = std::fs::read_to_string(path("showcase.toml")).expect("text");
+    let scene = import::parse("showcase.toml", &text, &Options::default()).expect("a scene");
+    assert!(scene.shapes.len() > 50 && scene.lights.len() >= 3);
+}
+
+#[test]
+fn the_lighthouse_reads_as_tobj_reads_it() {
+    let options = tobj::LoadOptions {
+        triangulate: true,
+        single_index: true,
+        ..Default::default()
+    };
+    let (models, _) = tobj::load_obj(path("lighthouse.obj"), &options).expect("a model");
+    let triangles: usize = models
+        .iter()
+        .map(|model| model.mesh.indices.len() / 3)
+        .sum();
+    let highest = models
+        .iter()
+        .flat_map(|model| model.mesh.positions.chunks(3))
+        .map(|p| p[1])
+        .fold(0.0, f64::max);
+    let scene = import::load(&path("lighthouse.obj")).expect("a scene");
+    assert_eq!(scene.triangle_count(), triangles);
+    let (_, max) = scene.bounds().expect("bounds");
+    assert!((max.y - highest).abs() < 1e-6);
+    assert_eq!(scene.materials.len(), 7);
+}

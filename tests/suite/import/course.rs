@@ -1,0 +1,274 @@
+//! The course's format, to the letter and as found in the wild.
+
+use super::{messages, scene};
+use glam::{DVec3, Vec3};
+use glimray::scene::{
+    Attenuation, Camera, Geometry, Light, LightKind, Material, Shape, ToneCurve, Transfer,
+};
+use insta::assert_snapshot;
+
+const PLAIN: &str = "2
+amb: 0.1 0.2 0.3
+sphere
+pos: 0 -0 -3
+rad: .44
+dif: 0.3 0.5 0.8
+spe: 0.6 0.6 0.6
+shi: 50
+light
+pos: 3 4 1
+col: 0.9 1 +0.5e0
+";
+
+/// A triangle in the plane z = -5 whose corners have the given normals and materials of one colour.
+fn triangle(corners: [&str; 3], normal: &str) -> String {
+    let vertex = |p: &str| format!("pos: {p} nor: {normal} dif: 1 0 0 spe: 0 0 0 shi: 1\n");
+    format!("triangle\n{}", corners.map(vertex).concat())
+}
+
+#[test]
+fn a_plain_file_reads_as_written() {
+    let scene = scene("a.scene", PLAIN);
+    let center = DVec3::new(0.0, 0.0, -3.0);
+    let geometry = Geometry::Sphere {
+        center,
+        radius: 0.44,
+    };
+    assert_eq!(
+        scene.shapes,
+        [Shape {
+            geometry,
+            material: 0
+        }]
+    );
+    assert_eq!(
+        scene.materials,
+        [Material {
+            name: String::new(),
+            diffuse: Vec3::new(0.3, 0.5, 0.8),
+            specular: Vec3::splat(0.6),
+            shininess: 50.0,
+            ambient: Vec3::ONE,
+            two_sided: false,
+        }]
+    );
+    assert_eq!(
+        scene.lights,
+        [Light {
+            kind: LightKind::Point {
+                position: DVec3::new(3.0, 4.0, 1.0)
+            },
+            color: Vec3::new(0.9, 1.0, 0.5),
+            attenuation: Attenuation::None,
+        }]
+    );
+    assert_eq!(scene.ambient, Vec3::new(0.1, 0.2, 0.3));
+    assert_eq!(scene.skipped, [""; 0]);
+}
+
+#[test]
+fn the_picture_is_the_one_the_course_asks_for() {
+    let scene = scene("a.scene", "0 amb: 0 0 0");
+    assert_eq!(scene.cameras, [Camera::default()]);
+    assert_eq!(scene.background, Vec3::ONE);
+    assert_eq!(scene.output.size, (640, 480));
+    assert_eq!(scene.output.samples, 1);
+    assert_eq!(scene.output.tone, ToneCurve::None);
+    assert_eq!(scene.output.transfer, Transfer::Linear);
+    assert_eq!(
+        scene.materials.len(),
+        1,
+        "there is a material even when nothing has one"
+    );
+}
+
+#[test]
+fn the_oddities_of_files_in_the_wild_change_nothing() {
+    let plain = scene("a.scene", PLAIN);
+    let no_newline = PLAIN.trim_end().to_owned();
+    let windows = format!("\u{feff}{}", PLAIN.replace('\n', "\r\n"));
+    let spaced = PLAIN.replace(' ', "\t \n\n\x0b\x0c");
+    let shouted = PLAIN.to_uppercase();
+    let commented = PLAIN.replace('\n', " # amb: 9 9 9\n// sphere\n");
+    let glued = PLAIN.replace("-3\n", "-3//three away\n");
+    let one_line = PLAIN.replace('\n', " ");
+    for text in [
+        no_newline, windows, spaced, shouted, commented, glued, one_line,
+    ] {
+        assert_eq!(scene("a.scene", &text), plain, "{text:?}");
+    }
+    let any_order = "2 amb: 0.1 0.2 0.3 sphere shi: 50 spe: 0.6 0.6 0.6 dif: 0.3 0.5 0.8 rad: .44
+        pos: 0 0 -3 light col: 0.9 1 .5 pos: 3 4 1";
+    assert_eq!(scene("a.scene", any_order), plain);
+}
+
+#[test]
+fn a_wrong_count_is_reported_and_all_objects_are_read() {
+    for announced in ["1", "3", "1e9"] {
+        let scene = scene("a.scene", PLAIN.replacen('2', announced, 1));
+        assert_eq!((scene.shapes.len(), scene.lights.len()), (1, 1));
+        assert_eq!(scene.skipped.len(), 1);
+    }
+    let scene = scene("a.scene", PLAIN.replacen('2', "5", 1));
+    assert_snapshot!(scene.skipped.join("\n"), @"the file announces 5 objects, but has 2: all of them are read");
+}
+
+#[test]
+fn the_students_extensions_are_read_and_reported() {
+    let text = "3 amb: 0 0 0
+        sphere pos: 0 0 -3 ref: 0.5 rad: 1 dif: 1 1 1 spe: 0 0 0 shi: 1
+        sphere pos: 0 0 -9 rad: 1 dif: 1 1 1 spe: 0 0 0 shi: 1 Ref: 0.25
+        light pos: 0 5 0 col: 1 1 1 area_light: true area_u: 1 0 0 area_v: 0 0 1 samples: 16";
+    let scene = scene("a.scene", text);
+    assert_eq!((scene.shapes.len(), scene.lights.len()), (2, 1));
+    assert_snapshot!(scene.skipped.join("\n"), @r"
+`ref:` is not rendered yet (found 2 times)
+`area_light:` is not rendered yet (found once)
+`area_u:` is not rendered yet (found once)
+`area_v:` is not rendered yet (found once)
+`samples:` is not rendered yet (found once)
+");
+}
+
+#[test]
+fn triangles_become_one_mesh_with_a_material_at_each_corner() {
+    let text = "2 amb: 0 0 0
+        triangle
+        pos: 0 0 -5 nor: 0 0 2 dif: 1 0 0 spe: 0 0 0 shi: 1
+        pos: 1 0 -5 nor: 0 0 1 dif: 0 1 0 spe: 0 0 0 shi: 1
+        nor: 0 3 4 pos: 0 1 -5 dif: 1 0 0 shi: 1 spe: 0 -0 0
+        sphere pos: 0 0 -9 rad: 1 dif: 0 1 0 spe: 0 0 0 shi: 1";
+    let scene = scene("a.scene", text);
+    let mesh = &scene.meshes[0];
+    assert_eq!(mesh.triangles, [[0, 1, 2]]);
+    let offset = scene.instances[0].world_from_object.translation;
+    let corner = mesh.positions[1].as_dvec3() + offset;
+    assert_eq!(corner, DVec3::new(1.0, 0.0, -5.0));
+    assert_eq!(mesh.normals, [Vec3::Z, Vec3::Z, Vec3::new(0.0, 0.6, 0.8)]);
+    assert_eq!(mesh.materials, [0, 1, 0], "equal materials are one");
+    assert_eq!(scene.shapes[0].material, 1);
+    assert_eq!(scene.materials.len(), 2);
+}
+
+#[test]
+fn normals_are_not_flipped_by_the_winding() {
+    let text = format!(
+        "1 amb: 0 0 0 {}",
+        triangle(["0 0 -5", "0 1 -5", "1 0 -5"], "0 0 1")
+    );
+    assert_eq!(scene("a.scene", text).meshes[0].normals, [Vec3::Z; 3]);
+}
+
+#[test]
+fn flat_triangles_are_dropped_and_zero_normals_recomputed() {
+    let flat = triangle(["0 0 -5", "1 1 -6", "2 2 -7"], "0 0 1");
+    let bare = triangle(["0 0 -5", "1 0 -5", "0 1 -5"], "0 0 0");
+    let scene = scene("a.scene", format!("2 amb: 0 0 0 {flat} {bare}"));
+    assert_eq!(scene.triangle_count(), 1);
+    assert_eq!(&scene.meshes[0].normals[3..], [Vec3::Z; 3]);
+    assert_snapshot!(scene.skipped.join("\n"), @r"
+1 triangle without area dropped
+3 normals without length recomputed
+");
+
+    let nothing = super::scene("a.scene", format!("1 amb: 0 0 0 {flat}"));
+    assert_eq!((nothing.meshes.len(), nothing.instances.len()), (0, 0));
+}
+
+#[test]
+fn triangles_far_away_keep_their_shape() {
+    let corners = ["1e6 0 -5", "1000000.25 0 -5", "1e6 0.25 -5"];
+    let scene = scene(
+        "a.scene",
+        format!("1 amb: 0 0 0 {}", triangle(corners, "0 0 1")),
+    );
+    let instance = &scene.instances[0];
+    let corner = |i: usize| scene.meshes[0].positions[i].as_dvec3();
+    assert_eq!(corner(1) - corner(0), DVec3::new(0.25, 0.0, 0.0));
+    let world = instance.world_from_object.transform_point3(corner(0));
+    assert!(world.distance(DVec3::new(1e6, 0.0, -5.0)) < 1e-6);
+}
+
+#[test]
+fn every_mistake_has_its_message() {
+    let sphere = "1\namb: 0 0 0\nsphere pos: 0 0 -3 rad: 1 dif: 1 1 1 spe: 0 0 0 shi: 1\n";
+    let change = |from: &str, to: &str| sphere.replacen(from, to, 1);
+    let texts = [
+        String::new(),
+        "  \n".to_owned(),
+        "many".to_owned(),
+        "-1 amb: 0 0 0".to_owned(),
+        "1.5 amb: 0 0 0".to_owned(),
+        "1".to_owned(),
+        "1 sphere".to_owned(),
+        "1 amb: 0 0".to_owned(),
+        change("amb: 0 0 0", "amb: 0 -1 0"),
+        change("sphere", "shpere"),
+        change("sphere", "torus"),
+        change("rad: 1", "rads: 1"),
+        change("rad: 1", "reflectivity: 1"),
+        change("rad: 1", "pos: 0 0 0"),
+        change("rad: 1 ", ""),
+        change("rad: 1", "rad: 0"),
+        change("rad: 1", "rad: -1"),
+        change("rad: 1", "rad: 1e-50"),
+        change("rad: 1", "rad: nan"),
+        change("rad: 1", "rad: -inf"),
+        change("rad: 1", "rad: 1e400"),
+        change("rad: 1", "rad: 1e39"),
+        change("rad: 1", "rad: 0x10"),
+        change("rad: 1", "rad: 1,5"),
+        change("rad: 1", "rad: ١"),
+        change("rad: 1", "rad:"),
+        change("dif: 1 1 1", "dif: 1 1 -1"),
+        change("shi: 1", "shi: -1"),
+        change("shi: 1", "shi:"),
+        change(" shi: 1", ""),
+        change("shi: 1", "ref: much"),
+        change("shi: 1", "shi: 1 area_light: yes"),
+        change("shi: 1", "shi: 1 samples:"),
+        format!("{sphere}col: 1 1 1"),
+        format!("{sphere}light pos: 0 0 0 sphere"),
+        format!("{sphere}triangle pos: 0 0 0 nor: 0 0 1 dif: 1 1 1 spe: 0 0 0 shi: 1"),
+        format!("{sphere}triangle pos: 0 0 0 nor: 0 0 1 rad: 1"),
+    ];
+    assert_snapshot!(messages("a.scene", &texts), @r"
+bad scene (a.scene): the file is empty. Check that it was written completely.
+bad scene (a.scene:1:1): the file ends where the number of objects `N` should be. Check that it is complete.
+bad scene (a.scene:1:1): `many` is not a number. Write a decimal number such as -0.5 or 2e3.
+bad scene (a.scene:1:1): `-1` is not a number of objects. Write a whole number, 0 or more.
+bad scene (a.scene:1:1): `1.5` is not a number of objects. Write a whole number, 0 or more.
+bad scene (a.scene:1:2): the file ends where `amb:` should be. Check that it is complete.
+bad scene (a.scene:1:3): expected `amb:`, found `sphere`. Begin the file with N and `amb: R G B`.
+bad scene (a.scene:1:11): the file ends where a number of `amb:` should be. Check that it is complete.
+bad scene (a.scene:2:8): `-1` in `amb:` is negative. Write 0 or more.
+bad scene (a.scene:3:1): unknown object `shpere`, did you mean `sphere`? Objects are `sphere`, `triangle` and `light`.
+bad scene (a.scene:3:1): unknown object `torus`. Objects are `sphere`, `triangle` and `light`.
+bad scene (a.scene:3:20): unknown key `rads:`, did you mean `rad:`? A sphere takes `pos:`, `rad:`, `dif:`, `spe:`, `shi:`, each once.
+bad scene (a.scene:3:20): unknown key `reflectivity:`. A sphere takes `pos:`, `rad:`, `dif:`, `spe:`, `shi:`, each once.
+bad scene (a.scene:3:20): a second `pos:` before `rad:`. A sphere takes `pos:`, `rad:`, `dif:`, `spe:`, `shi:`, each once.
+bad scene (a.scene:3:48): the file ends inside a sphere, before `rad:`. Check that it is complete.
+bad scene (a.scene:3:25): the radius `0` is not greater than 0. Write a positive number.
+bad scene (a.scene:3:25): the radius `-1` is not greater than 0. Write a positive number.
+bad scene (a.scene:3:25): the radius `1e-50` is not greater than 0. Write a positive number.
+bad scene (a.scene:3:25): `nan` is not a finite number. Write a decimal number such as -0.5 or 2e3.
+bad scene (a.scene:3:25): `-inf` is not a finite number. Write a decimal number such as -0.5 or 2e3.
+bad scene (a.scene:3:25): `1e400` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.
+bad scene (a.scene:3:25): `1e39` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.
+bad scene (a.scene:3:25): `0x10` is hexadecimal, which is not accepted. Write a decimal number such as -0.5 or 2e3.
+bad scene (a.scene:3:25): `1,5` is not a number. Write a decimal number such as -0.5 or 2e3.
+bad scene (a.scene:3:25): `١` is not a number. Write a decimal number such as -0.5 or 2e3.
+bad scene (a.scene:3:25): `dif:` is not a number. Write a decimal number such as -0.5 or 2e3.
+bad scene (a.scene:3:36): `-1` in `dif:` is negative. Write 0 or more.
+bad scene (a.scene:3:54): `-1` in `shi:` is negative. Write 0 or more.
+bad scene (a.scene:3:53): the file ends where a number of `shi:` should be. Check that it is complete.
+bad scene (a.scene:3:48): the file ends inside a sphere, before `shi:`. Check that it is complete.
+bad scene (a.scene:3:54): `much` is not a number. Write a decimal number such as -0.5 or 2e3.
+bad scene (a.scene:3:68): expected `true` or `false`, found `yes`. Write `area_light: true`.
+bad scene (a.scene:3:64): the file ends where a value of `samples:` should be. Check that it is complete.
+bad scene (a.scene:4:1): unknown object `col:`. Objects are `sphere`, `triangle` and `light`.
+bad scene (a.scene:4:18): a new object begins, but the light before it has no `col:`. A light takes `pos:`, `col:`, each once.
+bad scene (a.scene:4:60): the file ends inside a triangle, before `pos:`. Check that it is complete.
+bad scene (a.scene:4:32): unknown key `rad:`. A vertex of a triangle takes `pos:`, `nor:`, `dif:`, `spe:`, `shi:`, each once.
+");
+}

@@ -1,0 +1,188 @@
+//! Which files may be read at all.
+
+use super::{folder, message_in, messages, without_folder};
+use glimray::import::{self, Options};
+use insta::assert_snapshot;
+use std::path::Path;
+
+const TRIANGLE: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+/// A native scene that names `file`, which holds no quotes.
+fn naming(file: &str) -> String {
+    format!(
+        "[[objects]]\nmesh = {{ file = {} }}\n",
+        serde_json::json!(file)
+    )
+}
+
+#[test]
+fn names_that_lead_out_are_refused() {
+    let names = [
+        "../m.obj",
+        "a/../../m.obj",
+        "..\\m.obj",
+        "/etc/passwd",
+        "/proc/self/mem",
+        "/dev/zero",
+        "C:\\m.obj",
+        "c:m.obj",
+        "\\\\host\\share\\m.obj",
+        "file:///etc/passwd",
+        "http://example.org/m.obj",
+        "%2e%2e/m.obj",
+        "%FF.obj",
+        "a\0b.obj",
+        "",
+        " ",
+        ".",
+        "gone.obj",
+        "folder",
+        "folder/deep.obj/x.obj",
+    ];
+    let message = |name: &&str| {
+        let scene = naming(name);
+        let folder = folder(&[("a.toml", scene.as_bytes()), ("folder/deep.obj", TRIANGLE)]);
+        message_in(&folder, "a.toml", &Options::default())
+    };
+    let lines: Vec<_> = names.iter().map(message).collect();
+    assert_snapshot!(lines.join("\n"), @r"
+mesh file refused (a.toml:2:17): `../m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
+mesh file refused (a.toml:2:17): `a/../../m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
+mesh file refused (a.toml:2:17): `..\m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
+mesh file refused (a.toml:2:17): `/etc/passwd` points outside the scene folder. Use --allow-dir DIR to permit.
+mesh file refused (a.toml:2:17): `/proc/self/mem` points outside the scene folder. Use --allow-dir DIR to permit.
+mesh file refused (a.toml:2:17): `/dev/zero` points outside the scene folder. Use --allow-dir DIR to permit.
+mesh file refused (a.toml:2:17): `C:\m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
+mesh file refused (a.toml:2:17): `c:m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
+mesh file refused (a.toml:2:17): `\\host\share\m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
+mesh file refused (a.toml:2:17): `file:///etc/passwd` points outside the scene folder. Use --allow-dir DIR to permit.
+mesh file refused (a.toml:2:17): `http://example.org/m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
+mesh file refused (a.toml:2:17): `%2e%2e/m.obj` does not exist. Check the name and the folder.
+mesh file refused (a.toml:2:17): `%FF.obj` does not exist. Check the name and the folder.
+mesh file refused (a.toml:2:17): `a\0b.obj` is not a file name. Name a plain file in the scene folder.
+mesh file refused (a.toml:2:17): `` is not a file name. Name a plain file in the scene folder.
+mesh file refused (a.toml:2:17): ` ` is not a file name. Name a plain file in the scene folder.
+mesh file refused (a.toml:2:17): `.` is not a plain file. Name a plain file in the scene folder.
+mesh file refused (a.toml:2:17): `gone.obj` does not exist. Check the name and the folder.
+mesh file refused (a.toml:2:17): `folder` is not a plain file. Name a plain file in the scene folder.
+mesh file refused (a.toml:2:17): `folder/deep.obj/x.obj`: part of the path is not a folder. Name a plain file in the scene folder.
+");
+
+    let long = "../".repeat(300_000);
+    assert_snapshot!(message(&long.as_str()), @"mesh file refused (a.toml:2:17): `../../../../../../../../../../..…` is not a file name. Name a plain file in the scene folder.");
+}
+
+#[test]
+fn material_files_are_confined_too() {
+    let names = [
+        "../a.mtl",
+        "/etc/passwd",
+        "C:\\a.mtl",
+        "http://example.org/a.mtl",
+        ".",
+    ];
+    let texts = names.map(|name| format!("mtllib {name}\n"));
+    assert_snapshot!(messages("a.obj", &texts), @r"
+material file refused (a.obj:1:8): `../a.mtl` points outside the scene folder. Use --allow-dir DIR to permit.
+material file refused (a.obj:1:8): `/etc/passwd` points outside the scene folder. Use --allow-dir DIR to permit.
+material file refused (a.obj:1:8): `C:\a.mtl` points outside the scene folder. Use --allow-dir DIR to permit.
+material file refused (a.obj:1:8): `http://example.org/a.mtl` points outside the scene folder. Use --allow-dir DIR to permit.
+material file refused (a.obj:1:8): `.` is not a plain file. Name a plain file in the scene folder.
+");
+}
+
+#[test]
+fn allowed_folders_are_open() {
+    let elsewhere = folder(&[("m.obj", TRIANGLE)]);
+    let dir = elsewhere.path().canonicalize().expect("a folder");
+    let absolute = naming(&dir.join("m.obj").display().to_string());
+    let scene = folder(&[("a.toml", absolute.as_bytes())]);
+    let refused = message_in(&scene, "a.toml", &Options::default());
+    assert!(refused.ends_with("points outside the scene folder. Use --allow-dir DIR to permit."));
+    let options = Options {
+        allow_dirs: vec![dir],
+        ..Options::default()
+    };
+    let loaded = import::load_with(&scene.path().join("a.toml"), &options).expect("a scene");
+    assert_eq!(loaded.triangle_count(), 1);
+
+    let options = Options {
+        allow_dirs: vec!["no/such/folder".into()],
+        ..Options::default()
+    };
+    assert_snapshot!(message_in(&scene, "a.toml", &options), @"cannot use --allow-dir (no/such/folder): no such file or folder. Check that the folder exists.");
+}
+
+#[cfg(unix)]
+#[test]
+fn links_out_and_pipes_are_refused() {
+    let elsewhere = folder(&[("m.obj", TRIANGLE)]);
+    let scene = folder(&[
+        ("a.toml", naming("link.obj").as_bytes()),
+        ("b.toml", naming("pipe.obj").as_bytes()),
+        ("c.toml", naming("inside.obj").as_bytes()),
+        ("m.obj", TRIANGLE),
+    ]);
+    let at = |name: &str| scene.path().join(name);
+    std::os::unix::fs::symlink(elsewhere.path().join("m.obj"), at("link.obj")).expect("a link");
+    std::os::unix::fs::symlink(at("m.obj"), at("inside.obj")).expect("a link");
+    let made = std::process::Command::new("mkfifo")
+        .arg(at("pipe.obj"))
+        .status();
+    assert!(made.expect("mkfifo runs").success());
+    let message = |name| message_in(&scene, name, &Options::default());
+    assert_snapshot!(message("a.toml"), @"mesh file refused (a.toml:2:17): `link.obj` points outside the scene folder. Use --allow-dir DIR to permit.");
+    assert_snapshot!(message("b.toml"), @"mesh file refused (b.toml:2:17): `pipe.obj` is not a plain file. Name a plain file in the scene folder.");
+    assert_snapshot!(message("c.toml"), @"no error");
+    assert_snapshot!(message("pipe.obj"), @"cannot read the file (pipe.obj): it is not a plain file. Name a scene file.");
+}
+
+#[test]
+fn files_that_are_no_scenes_have_their_messages() {
+    let folder = folder(&[
+        ("a.gltf", b"{}"),
+        ("plain", b"0"),
+        ("odd.\u{7}\n", b"0"),
+        ("d.toml/x", b""),
+    ]);
+    let names = [
+        "a.gltf",
+        "plain",
+        "odd.\u{7}\n",
+        "d.toml",
+        "gone.toml",
+        "gone.scene",
+        "gone/a.obj",
+    ];
+    let lines: Vec<_> = names
+        .iter()
+        .map(|name| message_in(&folder, name, &Options::default()))
+        .collect();
+    assert_snapshot!(lines.join("\n"), @r"
+unknown scene format (a.gltf): the ending `.gltf` is not known. Name a .toml (native), .scene (course) or .obj (Wavefront) file.
+unknown scene format (plain): the name has no ending. Name a .toml (native), .scene (course) or .obj (Wavefront) file.
+unknown scene format (odd.��): the ending `.\u{7}\n` is not known. Name a .toml (native), .scene (course) or .obj (Wavefront) file.
+cannot read the file (d.toml): it is a folder. Name a scene file.
+cannot read the file (gone.toml): no such file or folder. Check the path and its permissions.
+cannot read the file (gone.scene): no such file or folder. Check the path and its permissions.
+cannot read the file (gone/a.obj): no such file or folder. Check the path and its permissions.
+");
+}
+
+#[test]
+fn endings_may_be_in_capitals() {
+    let folder = folder(&[
+        ("A.SCENE", b"0 amb: 0 0 0"),
+        ("B.Obj", TRIANGLE),
+        ("C.TOML", b"#"),
+    ]);
+    for name in ["A.SCENE", "B.Obj", "C.TOML"] {
+        import::load(&folder.path().join(name)).expect(name);
+    }
+}
+
+#[test]
+fn a_scene_in_the_current_folder_needs_no_path() {
+    let error = import::load(Path::new("gone.toml")).expect_err("there is none");
+    assert_snapshot!(without_folder(&error, Path::new(".")), @"cannot read the file (gone.toml): no such file or folder. Check the path and its permissions.");
+}

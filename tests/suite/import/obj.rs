@@ -1,0 +1,288 @@
+//! Wavefront OBJ and MTL.
+
+use super::{folder, messages, scene};
+use glam::{DVec3, Vec3};
+use glimray::import;
+use glimray::scene::{Material, Scene};
+use insta::assert_snapshot;
+
+/// The area of all triangles.
+fn area(scene: &Scene) -> f32 {
+    let mesh = &scene.meshes[0];
+    let corner = |i: u32| mesh.positions[i as usize];
+    let area = |t: &[u32; 3]| {
+        (corner(t[1]) - corner(t[0]))
+            .cross(corner(t[2]) - corner(t[0]))
+            .length()
+            / 2.0
+    };
+    mesh.triangles.iter().map(area).sum()
+}
+
+/// A model with a material library beside it.
+fn with_library(model: &str, library: &[u8]) -> Scene {
+    let folder = folder(&[("a.obj", model.as_bytes()), ("a.mtl", library)]);
+    import::load(&folder.path().join("a.obj")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+#[test]
+fn a_model_alone_is_framed_and_lit() {
+    let scene = scene("a.obj", format!("{SQUARE}f 1 2 3 4"));
+    assert_eq!(scene.triangle_count(), 2);
+    assert_eq!(scene.meshes[0].name, "a");
+    assert!(scene.lights.len() >= 2);
+    assert_ne!(scene.background, Vec3::ZERO);
+    assert_eq!(scene.cameras[0].look_at, DVec3::new(0.5, 0.5, 0.0));
+    assert_eq!(scene.materials, [Material::default()]);
+}
+
+#[test]
+fn corners_may_be_written_in_every_way() {
+    let rest = "vt 0 0\nvn 0 0 1\n";
+    let plain = scene("a.obj", format!("{SQUARE}{rest}f 1 2 3"));
+    for face in [
+        "1/1 2/1 3/1",
+        "1//1 2//1 3//1",
+        "1/1/1 2/1/1 3/1/1",
+        "-4 -3 -2",
+        "1/ 2/ 3/",
+        "1 \\\n2 \\\r\n 3",
+        "1//-1 2//-1 3//-1 # why not",
+    ] {
+        let scene = scene("a.obj", format!("{SQUARE}{rest}f {face}\r\n"));
+        assert_eq!(scene.meshes, plain.meshes, "{face:?}");
+    }
+}
+
+#[test]
+fn concave_polygons_are_cut_along_their_inside() {
+    // An arrowhead, and a comb of five teeth, in a plane that is none of the coordinate planes.
+    let arrow = "v 0 0 0\nv 2 0 2\nv 0.5 0.5 0.5\nv 0 2 0\nf 1 2 3 4\n";
+    let area_of_arrow = 2.0 * 0.5 * 2_f32.sqrt();
+    assert!((area(&scene("a.obj", arrow)) - area_of_arrow).abs() < 1e-6);
+
+    let mut comb = String::new();
+    let mut face = String::from("f");
+    for tooth in 0..5 {
+        for (x, y) in [(0, 0), (0, 9), (1, 9), (1, 0)] {
+            comb += &format!("v {} {y} 1\n", 2 * tooth + x);
+        }
+    }
+    comb += "v 9 -1 1\nv 0 -1 1\n";
+    (1..=22).for_each(|i| face += &format!(" {i}"));
+    let scene = scene("a.obj", comb + &face);
+    assert_eq!(scene.triangle_count(), 20);
+    assert!(
+        (area(&scene) - (5.0 * 9.0 + 9.0)).abs() < 1e-4,
+        "{}",
+        area(&scene)
+    );
+}
+
+#[test]
+fn missing_normals_are_smooth_across_faces_and_materials() {
+    // Two faces of a roof, the right one twice as large.
+    let roof = "v 0 1 0\nv 0 1 1\nv -1 0 0\nv -1 0 1\nv 2 -1 0\nv 2 -1 1\n";
+    let both = format!("{roof}usemtl a\nf 1 3 4 2\nusemtl b\nf 2 6 5 1\n");
+    let scene = scene("a.obj", both);
+    let mesh = &scene.meshes[0];
+    assert_eq!(
+        mesh.positions.len(),
+        8,
+        "vertices on the ridge are split by material"
+    );
+    let ridge: Vec<_> = (0..8)
+        .filter(|&i| mesh.positions[i] == Vec3::Y)
+        .map(|i| mesh.normals[i])
+        .collect();
+    assert_eq!(ridge.len(), 2);
+    assert_eq!(ridge[0], ridge[1]);
+    assert!(ridge[0].x > 0.1 && ridge[0].y > 0.8, "{}", ridge[0]);
+}
+
+#[test]
+fn smoothing_off_makes_faces_flat() {
+    let roof =
+        "v 0 1 0\nv 0 1 1\nv -1 0 0\nv -1 0 1\nv 1 0 0\nv 1 0 1\ns off\nf 1 3 4 2\nf 2 6 5 1\n";
+    let scene = scene("a.obj", roof);
+    let half = 0.5_f32.sqrt();
+    let is_flat = |n: &Vec3| n.distance(Vec3::new(n.x.signum() * half, half, 0.0)) < 1e-6;
+    assert!(scene.meshes[0].normals.iter().all(is_flat));
+}
+
+#[test]
+fn normals_are_kept_where_given_and_computed_where_not() {
+    let text = format!("{SQUARE}vn 0 3 4\nvn 0 0 0\nf 1//1 2 3\nf 1//2 3//1 4//1");
+    let scene = scene("a.obj", text);
+    let given = Vec3::new(0.0, 0.6, 0.8);
+    let count = |n: Vec3| {
+        scene.meshes[0]
+            .normals
+            .iter()
+            .filter(|m| m.distance(n) < 1e-6)
+            .count()
+    };
+    assert_eq!((count(given), count(Vec3::Z)), (3, 3));
+    assert_snapshot!(scene.skipped.join("\n"), @"1 normal without length recomputed");
+}
+
+#[test]
+fn materials_come_from_the_library() {
+    let library = b"# colours
+        newmtl dark red
+        Kd 0.5 0 0
+        Ks 0.25
+        Ns 64
+        Ka 0 0 0.1
+        illum 2
+        map_Kd red.png
+        d 0.5
+        newmtl other
+        Kd spectral red.rfl
+        Kd 0 1 0
+        newmtl unused
+        Kd 0 0 1";
+    let model = format!("mtllib a.mtl\n{SQUARE}usemtl dark red\nf 1 2 3\nusemtl other\nf 1 3 4\n");
+    let scene = with_library(&model, library);
+    let [red, green] = &scene.materials[..] else {
+        panic!("only materials in use are kept: {:?}", scene.materials);
+    };
+    assert_eq!(red.name, "dark red");
+    assert_eq!(red.diffuse, Vec3::new(0.5, 0.0, 0.0));
+    assert_eq!(red.specular, Vec3::splat(0.25));
+    assert_eq!(red.shininess, 64.0);
+    assert_eq!(red.ambient, Vec3::new(0.0, 0.0, 0.1));
+    assert_eq!((green.diffuse, green.ambient), (Vec3::Y, Vec3::Y));
+    assert_snapshot!(scene.skipped.join("\n"), @r"
+spectral colours of materials left out: 1
+textures of materials left out: 1
+transparency of materials left out: 1
+");
+}
+
+#[test]
+fn what_is_missing_or_not_rendered_is_reported() {
+    let text = format!(
+        "mtllib gone.mtl lost too.mtl\n{SQUARE}v 0 0 1 1 0 0\no part\ng a b\ns 1\nusemtl gold\nf 1 2 3\nf 1 2\nf 1 1 1\n\
+         l 1 2\np 1\ncurv 0 1 1 2\nhologram 7\n"
+    );
+    let scene = scene("a.obj", text);
+    assert_eq!(scene.triangle_count(), 1);
+    assert_snapshot!(scene.skipped.join("\n"), @r"
+the material file `gone.mtl` does not exist
+the material file `lost` does not exist
+the material file `too.mtl` does not exist
+the material `gold` is not defined: the default takes its place
+faces of fewer than three corners left out: 1
+free-form statements left out: 1
+lines and points left out: 2
+unknown statements left out: 1
+vertex colours left out: 1
+the first unknown statement is `hologram`
+1 triangle without area dropped
+");
+}
+
+#[test]
+fn a_model_without_faces_is_an_empty_scene() {
+    for text in ["# nothing\n", "v 1 2 3\n", "o a\n"] {
+        let scene = scene("a.obj", text);
+        assert_eq!(scene.instances.len(), 0);
+        assert_eq!(scene.skipped, ["the model has no triangles"]);
+    }
+}
+
+#[test]
+fn models_far_away_keep_their_shape() {
+    let text = "v 1000000 0 0\nv 1000000.125 0 0\nv 1000000 0.125 0\nf 1 2 3";
+    let scene = scene("a.obj", text);
+    assert_eq!(area(&scene), 0.125 * 0.125 / 2.0);
+    let (min, _) = scene.bounds().expect("bounds");
+    assert!((min.x - 1e6).abs() < 1e-6);
+}
+
+#[test]
+fn every_mistake_has_its_message() {
+    let square = |rest: &str| format!("{SQUARE}{rest}");
+    let texts = [
+        String::new(),
+        "Dear Sir or Madam".to_owned(),
+        "\x01\x02".to_owned(),
+        "v 1 2".to_owned(),
+        "v 1 2 x".to_owned(),
+        "v 1 2 nan".to_owned(),
+        "v 1 2 1e400".to_owned(),
+        "v 1 2 3 4 5 6 7 8".to_owned(),
+        "vn 0 1".to_owned(),
+        square("f"),
+        square("f 1 2 5"),
+        square("f 1 2 0"),
+        square("f 1 2 -5"),
+        square("f 1 2 99999999999999999999"),
+        square("f 1 2 3.5"),
+        square("f 1 2 three"),
+        square("f 1/1 2/1 3/1"),
+        square("f 1//1 2//1 3//1"),
+        square("f 1/1/1/1 2 3"),
+        square("f 1// 2 3"),
+        square("f / 2 3"),
+        square(&format!("f{}", " 1 2 3".repeat(30_000))),
+    ];
+    assert_snapshot!(messages("a.obj", &texts), @r"
+bad model (a.obj): the file is empty. Check that it was written completely.
+bad model (a.obj:1:1): `Dear` is no statement of an OBJ file. Check that this is a Wavefront OBJ file.
+bad model (a.obj:1:1): `\u{1}\u{2}` is no statement of an OBJ file. Check that this is a Wavefront OBJ file.
+bad model (a.obj:1:1): `v` needs three numbers. Add the missing ones.
+bad model (a.obj:1:7): `x` is not a number. Write a decimal number such as -0.5 or 2e3.
+bad model (a.obj:1:7): `nan` is not a finite number. Write a decimal number such as -0.5 or 2e3.
+bad model (a.obj:1:7): `1e400` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.
+bad model (a.obj:1:17): a vertex has too many numbers. Write `v X Y Z`.
+bad model (a.obj:1:1): `vn` needs three numbers. Add the missing ones.
+bad model (a.obj:5:1): a face has no corners. Check that the file is complete.
+bad model (a.obj:5:7): vertex 5 does not exist: 4 come before this face. Count from 1, or backwards from -1.
+bad model (a.obj:5:7): vertex 0 does not exist: 4 come before this face. Count from 1, or backwards from -1.
+bad model (a.obj:5:7): vertex -5 does not exist: 4 come before this face. Count from 1, or backwards from -1.
+bad model (a.obj:5:7): `99999999999999999999` is not the number of a vertex. Write a whole number, counted from 1.
+bad model (a.obj:5:7): `3.5` is not the number of a vertex. Write a whole number, counted from 1.
+bad model (a.obj:5:7): `three` is not the number of a vertex. Write a whole number, counted from 1.
+bad model (a.obj:5:5): texture coordinate 1 does not exist: 0 come before this face. Count from 1, or backwards from -1.
+bad model (a.obj:5:6): normal 1 does not exist: 0 come before this face. Count from 1, or backwards from -1.
+bad model (a.obj:5:5): texture coordinate 1 does not exist: 0 come before this face. Count from 1, or backwards from -1.
+bad model (a.obj:5:3): `1//` is not a corner of a face. Write V, V/VT, V//VN or V/VT/VN.
+bad model (a.obj:5:3): `/` is not a corner of a face. Write V, V/VT, V//VN or V/VT/VN.
+bad model (a.obj:5:131075): a face has more than 65536 corners. Split it.
+");
+}
+
+#[test]
+fn every_mistake_in_a_library_has_its_message() {
+    let texts = [
+        "Kd 1 0 0",
+        "newmtl",
+        "newmtl a\nKd 1 0",
+        "newmtl a\nKd 1 0 -1",
+        "newmtl a\nKd inf 0 0",
+        "newmtl a\nKs",
+        "newmtl a\nNs -3",
+        "newmtl a\nNs 1e39",
+        "newmtl a\nd much",
+    ];
+    let message = |text: &&str| {
+        let folder = folder(&[("a.obj", b"mtllib a.mtl"), ("a.mtl", text.as_bytes())]);
+        super::message_in(&folder, "a.obj", &import::Options::default())
+    };
+    let lines: Vec<_> = texts.iter().map(message).collect();
+    assert_snapshot!(lines.join("\n"), @r"
+bad material file (a.mtl:1:1): `Kd` stands before the first `newmtl`. Begin with `newmtl NAME`.
+bad material file (a.mtl:1:1): a material has no name. Write `newmtl NAME`.
+bad material file (a.mtl:2:1): `Kd` lacks a number. Add it.
+bad material file (a.mtl:2:8): `-1` in `Kd` is negative. Write 0 or more.
+bad material file (a.mtl:2:4): `inf` is not a finite number. Write a decimal number such as -0.5 or 2e3.
+bad material file (a.mtl:2:1): `Ks` lacks a number. Add it.
+bad material file (a.mtl:2:4): `-3` in `Ns` is negative. Write 0 or more.
+bad material file (a.mtl:2:4): `1e39` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.
+bad material file (a.mtl:2:3): `much` is not a number. Write a decimal number such as -0.5 or 2e3.
+");
+}

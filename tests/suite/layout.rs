@@ -1,0 +1,347 @@
+//! Host and shader mean the same bytes: structs, tags, bindings and overrides.
+
+use crate::support::verdict::{Tolerance, Verdict};
+use glimray::{
+    gpu::Kernel,
+    layout::{self, PACKED_STRUCTS},
+};
+use naga::{AddressSpace, ArraySize, ImageClass, Module, StorageAccess, StorageFormat, TypeInner};
+use std::{collections::BTreeSet, fs};
+use wesl::{EscapeMangler, Mangler};
+
+fn parse(name: &str, source: &str) -> Module {
+    naga::front::wgsl::parse_str(source)
+        .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)))
+}
+
+/// What all shaders share, before linking: it imports nothing, so it is plain WGSL.
+fn shared_types() -> Module {
+    parse(
+        "types.wesl",
+        &fs::read_to_string("shaders/types.wesl").expect("shaders/types.wesl"),
+    )
+}
+
+/// Every linked kernel, with both ways of fetching geometry.
+fn linked() -> Vec<(String, Module)> {
+    Kernel::ALL
+        .iter()
+        .flat_map(|kernel| {
+            [
+                (kernel.name, "image", kernel.image_source),
+                (kernel.name, "buffer", kernel.buffer_source),
+            ]
+        })
+        .map(|(name, fetch, source)| (format!("{name} ({fetch})"), parse(name, source)))
+        .collect()
+}
+
+/// A name as it is written in its own file: the linker puts the path before it and marks
+/// underscores.
+fn plain(name: &Option<String>) -> String {
+    let name = name.as_deref().unwrap_or_default();
+    let linked = name
+        .starts_with("package_")
+        .then(|| EscapeMangler.unmangle(name))
+        .flatten();
+    linked.map_or(name.to_string(), |(_, item)| item)
+}
+
+type Members = Vec<(String, usize)>;
+
+/// Name, size and members (name, offset) of the packed structs of a module. An array without length
+/// at the end is no member on the host, where the struct is the head of a buffer.
+fn packed_structs(module: &Module) -> Vec<(String, usize, Members)> {
+    let mut found = Vec::new();
+    for (_, ty) in module.types.iter() {
+        let TypeInner::Struct { members, span } = &ty.inner else {
+            continue;
+        };
+        let name = plain(&ty.name);
+        if !name.starts_with("Packed") {
+            continue;
+        }
+        let is_endless = |ty| {
+            matches!(
+                module.types[ty].inner,
+                TypeInner::Array {
+                    size: ArraySize::Dynamic,
+                    ..
+                }
+            )
+        };
+        let endless = members.iter().find(|member| is_endless(member.ty));
+        let size = endless.map_or(*span, |member| member.offset) as usize;
+        let sized = members.iter().filter(|member| !is_endless(member.ty));
+        let members = sized
+            .map(|member| (plain(&member.name), member.offset as usize))
+            .collect();
+        found.push((name, size, members));
+    }
+    found
+}
+
+fn compare_structs(verdict: &mut Verdict, place: &str, module: &Module) {
+    for (name, size, members) in packed_structs(module) {
+        let host = PACKED_STRUCTS.iter().find(|(host, ..)| *host == name);
+        let host = host.map(|(_, size, members)| {
+            (
+                *size,
+                members
+                    .iter()
+                    .map(|(name, offset)| (name.to_string(), *offset))
+                    .collect::<Members>(),
+            )
+        });
+        let shader = Some((size, members));
+        verdict.that(format!("{name} in {place}"), host == shader, || {
+            format!("host   {host:?}\n    shader {shader:?}")
+        });
+    }
+}
+
+#[test]
+fn structs_have_the_same_members_at_the_same_offsets() {
+    let types = shared_types();
+    let mut verdict = Verdict::on("packed structs");
+    compare_structs(&mut verdict, "types.wesl", &types);
+    for (kernel, module) in linked() {
+        compare_structs(&mut verdict, &kernel, &module);
+    }
+    let in_shader: BTreeSet<_> = packed_structs(&types)
+        .into_iter()
+        .map(|(name, ..)| name)
+        .collect();
+    let on_host: BTreeSet<_> = PACKED_STRUCTS
+        .iter()
+        .map(|(name, ..)| name.to_string())
+        .collect();
+    verdict.that(
+        "both sides have the same structs",
+        in_shader == on_host,
+        || format!("host   {on_host:?}\n    shader {in_shader:?}"),
+    );
+    verdict.close();
+}
+
+#[test]
+fn lights_follow_the_head_of_the_frame() {
+    let types = shared_types();
+    let (_, frame) = types
+        .types
+        .iter()
+        .find(|(_, ty)| plain(&ty.name) == "PackedFrame")
+        .expect("PackedFrame");
+    let TypeInner::Struct { members, .. } = &frame.inner else {
+        panic!("PackedFrame is a struct")
+    };
+    let last = members.last().expect("members");
+    let TypeInner::Array { base, stride, .. } = types.types[last.ty].inner else {
+        panic!("lights are an array")
+    };
+    assert_eq!(plain(&types.types[base].name), "PackedLight");
+    assert_eq!(last.offset as usize, size_of::<layout::PackedFrame>());
+    assert_eq!(stride as usize, size_of::<layout::PackedLight>());
+}
+
+macro_rules! constants {
+    ($($name:ident)*) => { &[$((stringify!($name), layout::$name)),*] };
+}
+
+/// The tags and numbers of `types.wesl` as the host has them.
+const CONSTANTS: &[(&str, u32)] = constants! {
+    NONE
+    LEAF SHAPE LEAF_COUNT_SHIFT LEAF_COUNT_ONE LEAF_COUNT_MASK LEAF_FIRST_MASK STACK_SIZE
+    IMAGE_WIDTH_LOG2
+    SHAPE_SPHERE SHAPE_PLANE
+    LIGHT_POINT LIGHT_DIRECTIONAL LIGHT_SPOT
+    ATTENUATION_NONE ATTENUATION_INVERSE_SQUARE
+    MATERIAL_TWO_SIDED
+    TRIANGLE_TEST_PLANE TRIANGLE_TEST_MOLLER_TRUMBORE TRIANGLE_TEST_WATERTIGHT
+    VIEW_NORMALS VIEW_DEPTH VIEW_IDS VIEW_HEAT
+    TONE_NONE TONE_ACES TONE_AGX TONE_REINHARD
+    TRANSFER_SRGB TRANSFER_LINEAR
+};
+
+#[test]
+fn tags_have_the_same_values() {
+    let types = shared_types();
+    let value = |name: &str| {
+        let (_, constant) = types
+            .constants
+            .iter()
+            .find(|(_, constant)| constant.name.as_deref() == Some(name))?;
+        match types.global_expressions[constant.init] {
+            naga::Expression::Literal(naga::Literal::U32(value)) => Some(value),
+            _ => None,
+        }
+    };
+    let mut verdict = Verdict::on("constants of types.wesl");
+    for (name, host) in CONSTANTS {
+        let shader = value(name);
+        verdict.that(name, shader == Some(*host), || {
+            format!("host {host:#x}, shader {shader:x?}")
+        });
+    }
+    for (_, constant) in types.constants.iter() {
+        let name = plain(&constant.name);
+        let known = CONSTANTS.iter().any(|(known, _)| *known == name);
+        verdict.that(
+            format!("{name} is on the host as well"),
+            known,
+            || "it is not in this test's table",
+        );
+    }
+    verdict.close();
+}
+
+/// Bindings by group and slot, as `render/bindings.rs` lays them out: what a shader may do there.
+const BINDINGS: &[(u32, u32, &str, &str)] = &[
+    (0, 0, "nodes", "geometry"),
+    (0, 1, "triangles", "geometry"),
+    (0, 2, "vertices", "geometry"),
+    (0, 3, "materials", "geometry"),
+    (0, 4, "shapes", "read"),
+    (1, 0, "frame", "read"),
+    (1, 1, "slice", "read and write"),
+    (2, 0, "film", "read and write"),
+    (3, 0, "tone", "read"),
+    (3, 1, "developed", "read and write"),
+];
+
+/// What a module binds: group, slot, name and kind.
+fn bindings(module: &Module) -> BTreeSet<(u32, u32, String, &'static str)> {
+    let kind = |variable: &naga::GlobalVariable| match (
+        variable.space,
+        &module.types[variable.ty].inner,
+    ) {
+        (AddressSpace::Storage { access }, _) if access == StorageAccess::LOAD => "read",
+        (AddressSpace::Storage { access }, _)
+            if access == StorageAccess::LOAD | StorageAccess::STORE =>
+        {
+            "read and write"
+        }
+        (
+            AddressSpace::Handle,
+            TypeInner::Image {
+                dim: naga::ImageDimension::D2,
+                arrayed: false,
+                class:
+                    ImageClass::Storage {
+                        format: StorageFormat::Rgba32Uint,
+                        access: StorageAccess::LOAD,
+                    },
+            },
+        ) => "image",
+        _ => "something else",
+    };
+    let bound = module
+        .global_variables
+        .iter()
+        .filter_map(|(_, variable)| Some((variable.binding?, variable)));
+    bound
+        .map(|(place, variable)| {
+            (
+                place.group,
+                place.binding,
+                plain(&variable.name),
+                kind(variable),
+            )
+        })
+        .collect()
+}
+
+#[test]
+fn bindings_are_where_the_host_puts_them() {
+    let mut verdict = Verdict::on("bindings");
+    let mut used = BTreeSet::new();
+    for (kernel, module) in linked() {
+        let geometry = if kernel.ends_with("(image)") {
+            "image"
+        } else {
+            "read"
+        };
+        for (group, slot, name, kind) in bindings(&module) {
+            let expected = BINDINGS.iter().find(|(g, s, ..)| (*g, *s) == (group, slot));
+            let expected = expected
+                .map(|&(.., name, kind)| (name, if kind == "geometry" { geometry } else { kind }));
+            let found = (name.as_str(), kind);
+            verdict.that(
+                format!("group {group}, binding {slot} in {kernel}"),
+                expected == Some(found),
+                || format!("host   {expected:?}\n    shader {found:?}"),
+            );
+            used.insert((group, slot));
+        }
+    }
+    for (group, slot, name, _) in BINDINGS {
+        verdict.that(
+            format!("{name} is used"),
+            used.contains(&(*group, *slot)),
+            || "by no kernel",
+        );
+    }
+    verdict.close();
+}
+
+#[test]
+fn no_kernel_needs_more_storage_buffers_than_webgpu_guarantees() {
+    let mut verdict = Verdict::on("storage buffers");
+    for (kernel, module) in linked() {
+        let buffers = bindings(&module)
+            .iter()
+            .filter(|(.., kind)| *kind != "image")
+            .count();
+        verdict.that(kernel, buffers <= 8, || format!("{buffers} of 8"));
+    }
+    verdict.close();
+}
+
+/// The overrides in the order of their numbers, by which the host names them.
+const OVERRIDES: &[&str] = &[
+    "TRIANGLE_TEST",
+    "HAS_TRIANGLES",
+    "HAS_SHAPES",
+    "HAS_PLANES",
+    "MIXED_MATERIALS",
+    "BRUTE_FORCE",
+    "STRATIFIED",
+    "COUNT_RAYS",
+    "COUNT_STEPS",
+    "HAS_LIGHTS",
+    "VIEW",
+];
+
+#[test]
+fn overrides_have_the_numbers_that_the_host_uses() {
+    let mut verdict = Verdict::on("overrides");
+    let source = fs::read_to_string("shaders/bindings.wesl").expect("shaders/bindings.wesl");
+    let declared: Vec<_> = source
+        .lines()
+        .filter_map(|line| line.strip_prefix("@id(")?.split_once(") override "))
+        .map(|(id, rest)| {
+            (
+                id.parse().expect("a number"),
+                rest.split(':').next().unwrap_or_default(),
+            )
+        })
+        .collect();
+    let expected: Vec<(usize, &str)> = OVERRIDES.iter().copied().enumerate().collect();
+    verdict.that(
+        "bindings.wesl declares them once each",
+        declared == expected,
+        || format!("{declared:?}"),
+    );
+    for (kernel, module) in linked() {
+        for (_, constant) in module.overrides.iter() {
+            let name = plain(&constant.name);
+            let id = constant.id.map(u32::from).unwrap_or(u32::MAX);
+            let place = OVERRIDES
+                .iter()
+                .position(|known| *known == name)
+                .map_or(u32::MAX - 1, |i| i as u32);
+            verdict.near(format!("{name} in {kernel}"), &id, &place, Tolerance::Exact);
+        }
+    }
+    verdict.close();
+}

@@ -1,0 +1,32 @@
+//! All tests in one binary: linking wgpu once is slow enough.
+
+mod bvh;
+mod cli;
+mod faults;
+mod golden;
+mod import;
+mod imports;
+mod kernels;
+mod layout;
+mod output;
+mod pack;
+mod pictures;
+mod reference;
+mod render;
+mod scale;
+mod scene;
+mod shader_camera;
+mod shader_colormap;
+mod shader_light;
+mod shader_node;
+mod shader_numeric;
+mod shader_offset;
+mod shader_phong;
+mod shader_plane;
+mod shader_rng;
+mod shader_sampling;
+mod shader_sphere;
+mod shader_tile;
+mod shader_tone;
+mod shader_triangles;
+mod support;

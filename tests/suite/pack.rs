@@ -1,0 +1,232 @@
+//! Packing: what lies where in the arrays that the GPU reads.
+
+use crate::reference::scenes::{self, Build};
+use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
+use glimray::layout::{
+    LIGHT_POINT, LIGHT_SPOT, MATERIAL_TWO_SIDED, PackedLight, SHAPE_PLANE, SHAPE_SPHERE,
+};
+use glimray::pack::{self, PackError, PackedScene};
+use glimray::scene::{Attenuation, Light, LightKind, Material, Scene};
+
+fn packed(scene: &Scene) -> PackedScene {
+    pack::scene(scene).expect("a scene that can be packed")
+}
+
+#[test]
+fn render_space_has_its_origin_at_the_camera() {
+    let mut scene = scenes::empty();
+    let eye = dvec3(1e7, -3e7, 2e7);
+    scene.cameras[0].look_from = eye;
+    scene.cameras[0].look_at = eye + DVec3::X;
+    // f32 would round these places to whole metres.
+    scene.add_sphere(eye + dvec3(0.125, 0.25, -0.375), 0.5, 0);
+    scene.add_mesh(scenes::quad(1.0, 0), DAffine3::from_translation(eye + dvec3(0.0, 0.0625, 0.0)));
+    scene.add_point_light(eye + dvec3(0.0, 0.03125, 0.0), 1.0);
+    let packed = packed(&scene);
+    let view = packed.frame(&scene.frame(0.0)).expect("a frame");
+    assert_eq!(packed.origin, eye);
+    assert_eq!(view.frame.camera.origin, [0.0; 3]);
+    assert_eq!(packed.shapes[0].position, [0.125, 0.25, -0.375]);
+    assert_eq!(packed.triangles[0].v0, [-0.5, 0.0625, 0.5]);
+    assert_eq!(view.lights[0].position, [0.0, 0.03125, 0.0]);
+}
+
+#[test]
+fn another_camera_is_placed_relative_to_the_default_one() {
+    let scene = scenes::spheres();
+    let packed = packed(&scene);
+    let mut frame = scene.frame(0.0);
+    frame.camera.look_from += dvec3(1.0, 2.0, 3.0);
+    let view = packed.frame(&frame).expect("a frame");
+    assert_eq!(view.frame.camera.origin, [1.0, 2.0, 3.0]);
+}
+
+#[test]
+fn planes_follow_the_bounded_shapes_and_all_keep_their_ids() {
+    let mut scene = scenes::empty();
+    for i in 0..20 {
+        let x = f64::from(i);
+        if i % 3 == 0 {
+            scene.add_plane(dvec3(0.0, -x, 0.0), DVec3::Y, 0);
+        } else {
+            scene.add_sphere(dvec3(x, 0.0, 0.0), 0.1, 0);
+        }
+    }
+    let packed = packed(&scene);
+    assert_eq!((packed.plane_count, packed.bounded_shape_count()), (7, 13));
+    let kinds: Vec<_> = packed.shapes.iter().map(|shape| shape.kind).collect();
+    assert_eq!(kinds, [[SHAPE_SPHERE; 13].as_slice(), &[SHAPE_PLANE; 7]].concat());
+    let mut ids: Vec<_> = packed.shapes.iter().map(|shape| shape.id).collect();
+    for shape in &packed.shapes {
+        assert_eq!(shape.kind == SHAPE_PLANE, shape.id % 3 == 0, "{shape:?}");
+    }
+    ids.sort_unstable();
+    assert_eq!(ids, (0..20).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_plane_is_kept_by_its_point_nearest_to_the_camera() {
+    let mut scene = scenes::empty();
+    let normal = dvec3(1.0, 2.0, -2.0) / 3.0;
+    // The point in the file is far away, where f32 would place the plane badly.
+    let along = normal.any_orthonormal_vector();
+    let eye = scene.cameras[0].look_from;
+    scene.add_plane(eye + normal * 4.0 + along * 1e12, normal, 0);
+    let shape = packed(&scene).shapes[0];
+    let expected = (normal * 4.0).as_vec3();
+    assert!(Vec3::from(shape.position).distance(expected) < 1e-3, "{shape:?}");
+    assert_eq!(shape.normal, normal.as_vec3().to_array());
+}
+
+#[test]
+fn every_triangle_and_sphere_is_packed_once() {
+    let mut scene = scenes::everything();
+    scene.add_mesh(scenes::torus(1.0, 0.3, UVec2::new(30, 20), 0), DAffine3::IDENTITY);
+    let packed = packed(&scene);
+    assert_eq!(packed.triangles.len(), scene.triangle_count());
+    let mut corners: Vec<_> = packed.triangles.iter().map(|t| [t.i0, t.i1, t.i2]).collect();
+    let mut first = 0;
+    let mut expected = Vec::new();
+    for instance in &scene.instances {
+        let mesh = &scene.meshes[instance.mesh];
+        expected.extend(mesh.triangles.iter().map(|t| t.map(|i| i + first)));
+        first += mesh.positions.len() as u32;
+    }
+    corners.sort_unstable();
+    expected.sort_unstable();
+    assert_eq!(corners, expected);
+    assert_eq!(packed.vertices.len(), first as usize);
+}
+
+#[test]
+fn normals_go_by_the_inverse_transpose() {
+    let spin = DAffine3::from_rotation_y(0.7) * DAffine3::from_rotation_x(-0.4);
+    let mirror = DAffine3::from_scale(dvec3(-1.0, 1.0, 1.0));
+    let uneven = DAffine3::from_scale(dvec3(0.2, 1.0, 5.0));
+    let rows = [
+        ("turned", spin),
+        ("uneven", uneven),
+        ("mirrored", mirror),
+        ("all at once", spin * uneven * mirror * DAffine3::from_rotation_z(0.3)),
+        ("tiny", DAffine3::from_scale(DVec3::splat(1e-9))),
+        ("turned inside out", DAffine3::from_scale(DVec3::splat(-1e6))),
+    ];
+    for (name, placement) in rows {
+        let mut scene = scenes::empty();
+        scene.add_mesh(scenes::ball(UVec2::new(16, 8), 0), placement);
+        let packed = packed(&scene);
+        // The ball becomes the ellipsoid |M⁻¹ p| = 1, whose gradient is M⁻ᵀ M⁻¹ p.
+        let inverse = placement.matrix3.inverse();
+        for (vertex, position) in packed.vertices.iter().zip(&scene.meshes[0].positions) {
+            let p = placement.transform_vector3(position.as_dvec3());
+            let gradient = (inverse.transpose() * (inverse * p)).normalize();
+            let normal = Vec3::from(vertex.normal).as_dvec3();
+            assert!(normal.distance(gradient) < 1e-5, "{name}: {normal}, expected {gradient}");
+            assert!((normal.length() - 1.0).abs() < 1e-6, "{name}: {}", normal.length());
+            assert!(normal.dot(p) > 0.0, "{name}: a normal points inwards");
+        }
+    }
+}
+
+#[test]
+fn materials_keep_their_order_and_their_sides() {
+    let mut scene = scenes::empty();
+    scene.add_material(Material {
+        diffuse: vec3(0.1, 0.2, 0.3),
+        specular: vec3(0.4, 0.5, 0.6),
+        shininess: 7.0,
+        ambient: vec3(0.8, 0.9, 1.0),
+        two_sided: false,
+        ..Material::default()
+    });
+    let [default, given] = packed(&scene).materials[..] else { panic!("two materials") };
+    assert_eq!(default.flags & MATERIAL_TWO_SIDED, MATERIAL_TWO_SIDED);
+    assert_eq!(given.flags & MATERIAL_TWO_SIDED, 0);
+    assert_eq!((given.diffuse, given.specular), ([0.1, 0.2, 0.3], [0.4, 0.5, 0.6]));
+    assert_eq!((given.shininess, given.ambient), (7.0, [0.8, 0.9, 1.0]));
+}
+
+#[test]
+fn mixed_materials_are_noticed() {
+    assert!(!packed(&scenes::meshes()).mixed_materials);
+    assert!(packed(&scenes::everything()).mixed_materials);
+}
+
+#[test]
+fn a_dark_light_stands_in_where_there_is_none() {
+    let mut scene = scenes::spheres();
+    scene.lights.clear();
+    let view = packed(&scene).frame(&scene.frame(0.0)).expect("a frame");
+    assert_eq!(view.lights, [PackedLight::default()]);
+    assert_eq!(view.frame.light_count, 1);
+    assert_eq!(view.lights[0].color, [0.0; 3]);
+}
+
+#[test]
+fn lights_keep_their_kind_and_cones_become_cosines() {
+    let mut scene = scenes::empty();
+    scene.add_point_light(DVec3::ZERO, 0.5);
+    scene.lights.push(Light {
+        kind: LightKind::Spot {
+            position: DVec3::Y,
+            direction: DVec3::NEG_Y,
+            inner: 0.0,
+            outer: std::f64::consts::FRAC_PI_3,
+        },
+        color: Vec3::ONE,
+        attenuation: Attenuation::InverseSquare,
+    });
+    let view = packed(&scene).frame(&scene.frame(0.0)).expect("a frame");
+    let [point, spot] = view.lights[..] else { panic!("two lights") };
+    assert_eq!((point.kind, point.color, point.attenuation), (LIGHT_POINT, [0.5; 3], 0));
+    assert_eq!((spot.kind, spot.direction, spot.attenuation), (LIGHT_SPOT, [0.0, -1.0, 0.0], 1));
+    assert_eq!(spot.cos_inner, 1.0);
+    assert!((spot.cos_outer - 0.5).abs() < 1e-7, "{}", spot.cos_outer);
+}
+
+#[test]
+fn the_image_plane_is_as_high_as_the_field_of_view_and_as_wide_as_the_aspect() {
+    let mut scene = scenes::empty();
+    scene.cameras[0] = glimray::scene::Camera::default();
+    let view = packed(&scene).frame(&scene.frame(0.0)).expect("a frame");
+    let camera = view.with_aspect(300, 100).frame.camera;
+    let half = (std::f32::consts::PI / 6.0).tan();
+    assert_eq!(camera.forward, [0.0, 0.0, -1.0]);
+    assert!(Vec3::from(camera.up).distance(vec3(0.0, half, 0.0)) < 1e-7, "{:?}", camera.up);
+    assert!(Vec3::from(camera.right).distance(vec3(3.0 * half, 0.0, 0.0)) < 1e-6, "{:?}", camera.right);
+}
+
+#[test]
+fn the_same_scene_packs_to_the_same_bytes() {
+    let mut scene = scenes::everything();
+    let hills = scenes::height_field(8.0, 100, 0, |x, z| (x * 2.0).sin() * (z * 3.0).cos());
+    scene.add_mesh(hills, DAffine3::IDENTITY);
+    let (a, b) = (packed(&scene), packed(&scene));
+    assert!(a.nodes == b.nodes && a.triangles == b.triangles && a.shapes == b.shapes);
+    assert!(a.vertices == b.vertices && a.materials == b.materials);
+}
+
+#[test]
+fn coordinates_beyond_the_range_of_f32_arithmetic_are_refused() {
+    let mut far = scenes::empty();
+    far.add_sphere(dvec3(1e16, 0.0, 0.0), 1.0, 0);
+    let mut large = scenes::empty();
+    large.add_sphere(DVec3::ZERO, 1e16, 0);
+    let mut mesh = scenes::empty();
+    mesh.add_mesh(scenes::quad(1.0, 0), DAffine3::from_scale(DVec3::splat(1e17)));
+    for scene in [far, large, mesh] {
+        let refusal = pack::scene(&scene).map(|_| ());
+        assert!(matches!(refusal, Err(PackError::OutOfRange { .. })), "{refusal:?}");
+    }
+    let mut light = scenes::empty();
+    light.add_point_light(dvec3(0.0, 1e16, 0.0), 1.0);
+    let refusal = packed(&light).frame(&light.frame(0.0));
+    assert!(matches!(refusal, Err(PackError::OutOfRange { .. })), "{refusal:?}");
+}
+
+#[test]
+fn a_scene_without_geometry_packs_to_a_root_without_children() {
+    let packed = packed(&scenes::empty());
+    assert_eq!(packed.nodes, [[0; 16]]);
+    assert!(packed.triangles.is_empty() && packed.shapes.is_empty());
+}

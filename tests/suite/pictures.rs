@@ -1,0 +1,98 @@
+//! Whole pictures against the independent tracer in `reference`.
+
+use crate::reference::compare::{assert_none, check_alike, check_same_bits, render, sized};
+use crate::reference::{scenes, trace};
+use glimray::image::Image;
+use glimray::import;
+use glimray::render::{Antialias, Fetch, Settings, TriangleTest};
+use glimray::scene::Scene;
+use std::path::PathBuf;
+
+/// What the course's rules and the other tests here allow: 2 levels on 99.9 % of the pixels.
+const LEVELS: f32 = 2.0;
+const SHARE: f64 = 0.001;
+
+fn project_scene(name: &str) -> Scene {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets/scenes").join(name);
+    import::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn against_the_reference(name: &str, scene: &Scene, settings: &Settings) -> Result<(), String> {
+    let expected = trace(scene, settings.size).image;
+    check_alike(name, &expected, &render(scene, settings).0, LEVELS, SHARE)
+}
+
+#[test]
+fn the_course_scenes_match_an_independent_tracer_at_their_full_size() {
+    let names = ["sphere.scene", "spheres_and_triangles.scene", "terrain.scene"];
+    assert_none(names.map(|name| against_the_reference(name, &project_scene(name), &sized(640, 480))));
+}
+
+#[test]
+fn the_native_scenes_match_an_independent_tracer() {
+    // Brute force over the thousands of triangles of mesh.toml allows no larger picture.
+    let rows = [("shapes.toml", 320), ("lights.toml", 320), ("far_away.toml", 320), ("mesh.toml", 96)];
+    assert_none(rows.map(|(name, width)| {
+        against_the_reference(name, &project_scene(name), &sized(width, width * 3 / 4))
+    }));
+}
+
+#[test]
+fn scenes_with_every_surface_and_light_match_an_independent_tracer() {
+    let rows = [
+        ("spheres and planes", scenes::spheres()),
+        ("meshes", scenes::meshes()),
+        ("everything", scenes::everything()),
+    ];
+    assert_none(rows.map(|(name, scene)| against_the_reference(name, &scene, &sized(256, 192))));
+}
+
+#[test]
+fn all_triangle_tests_give_the_reference_picture() {
+    let scene = scenes::meshes();
+    let expected = trace(&scene, (256, 192)).image;
+    let tests = [TriangleTest::Plane, TriangleTest::MollerTrumbore, TriangleTest::Watertight];
+    assert_none(tests.map(|triangle_test| {
+        let settings = Settings { triangle_test, ..sized(256, 192) };
+        let name = format!("{triangle_test:?}");
+        check_alike(&name, &expected, &render(&scene, &settings).0, LEVELS, SHARE)
+    }));
+}
+
+#[test]
+fn images_and_buffers_fetch_the_same_bits() {
+    let scene = scenes::everything();
+    let of = |fetch| render(&scene, &Settings { fetch, ..sized(160, 120) }).0;
+    assert_none([check_same_bits("fetch", &of(Fetch::Image), &of(Fetch::Buffer))]);
+}
+
+#[test]
+fn the_seed_moves_stratified_samples_and_no_others() {
+    let scene = scenes::spheres();
+    let picture = |antialias, seed| -> Image {
+        let settings = Settings { antialias, seed, samples: 4, ..sized(64, 48) };
+        render(&scene, &settings).0
+    };
+    assert_none([check_same_bits("centre", &picture(Antialias::None, 1), &picture(Antialias::None, 2))]);
+    let (a, b) = (picture(Antialias::Stratified, 1), picture(Antialias::Stratified, 2));
+    assert_ne!(a, b, "another seed gives another picture");
+    assert_eq!(a, picture(Antialias::Stratified, 1), "the same seed gives the same picture");
+}
+
+#[test]
+fn many_stratified_samples_average_the_pixel() {
+    // The mean of a picture 8 times as fine over 8x8 pixels is a good estimate of the same integral.
+    let scene = scenes::spheres();
+    let settings = Settings { samples: 256, antialias: Antialias::Stratified, ..sized(40, 30) };
+    let (actual, _) = render(&scene, &settings);
+    let fine = trace(&scene, (320, 240)).image;
+    let mut expected = Image::new(40, 30);
+    for (i, pixel) in expected.pixels.iter_mut().enumerate() {
+        let (x, y) = (i as u32 % 40 * 8, i as u32 / 40 * 8);
+        for channel in 0..3 {
+            let parts = (0..64).filter_map(|k| fine.pixel(x + k % 8, y + k / 8));
+            pixel[channel] = parts.map(|part| part[channel]).sum::<f32>() / 64.0;
+        }
+    }
+    assert_none([check_alike("mean", &expected, &actual, 5.0, 0.01)]);
+}

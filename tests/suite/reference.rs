@@ -1,0 +1,280 @@
+//! An independent tracer to hold the renderer against: f64, every primitive tried for every ray,
+//! textbook formulas, written from the rules of the picture and sharing nothing with shaders or
+//! packing. Beside it what tests of whole pictures need: scenes, rendering and comparing.
+
+pub mod compare;
+pub mod scenes;
+
+use glam::{DVec2, DVec3};
+use glimray::image::Image;
+use glimray::render::Rays;
+use glimray::scene::{
+    Attenuation, Camera, Geometry, Light, LightKind, Material, Scene, Shape,
+};
+
+/// The picture and the number of rays it took.
+pub struct Traced {
+    /// Linear radiance, not clamped.
+    pub image: Image,
+    pub rays: Rays,
+}
+
+/// The picture of `scene` through its default camera, one ray through the centre of each pixel.
+pub fn trace(scene: &Scene, (width, height): (u32, u32)) -> Traced {
+    let tracer = Tracer::new(scene);
+    let aspect = f64::from(width) / f64::from(height);
+    let row = |y: u32| {
+        let mut rays = Rays::default();
+        let pixels: Vec<_> = (0..width)
+            .map(|x| {
+                let x = (f64::from(x) + 0.5) / f64::from(width) * 2.0 - 1.0;
+                let y = 1.0 - (f64::from(y) + 0.5) / f64::from(height) * 2.0;
+                let direction = ray_direction(tracer.camera, DVec2::new(x * aspect, y));
+                tracer.radiance(direction, &mut rays)
+            })
+            .collect();
+        (pixels, rays)
+    };
+    // Two threads, even and odd rows, because brute force takes its time.
+    let rows: Vec<_> = std::thread::scope(|scope| {
+        let of = |first: u32| move || (first..height).step_by(2).map(row).collect::<Vec<_>>();
+        let odd = scope.spawn(of(1));
+        let even = of(0)();
+        let mut odd = odd.join().expect("a traced half").into_iter();
+        even.into_iter().flat_map(|row| std::iter::once(row).chain(odd.next())).collect()
+    });
+
+    let mut image = Image { width, height, pixels: Vec::new() };
+    let mut rays = Rays::default();
+    for (pixels, row) in rows {
+        image.pixels.extend(pixels.iter().map(|c| c.as_vec3().extend(1.0).to_array()));
+        rays.primary += row.primary;
+        rays.primary_hits += row.primary_hits;
+        rays.shadow += row.shadow;
+        rays.shadow_blocked += row.shadow_blocked;
+    }
+    Traced { image, rays }
+}
+
+/// From the eye through (x, y) of the image plane at distance 1, whose upper edge is at y = 1.
+fn ray_direction(camera: &Camera, at: DVec2) -> DVec3 {
+    let forward = (camera.look_at - camera.look_from).normalize();
+    let right = forward.cross(camera.up).normalize();
+    let up = right.cross(forward);
+    let at = at * (camera.fov_y / 2.0).tan();
+    (forward + at.x * right + at.y * up).normalize()
+}
+
+struct Tracer<'a> {
+    scene: &'a Scene,
+    camera: &'a Camera,
+    triangles: Vec<Triangle>,
+}
+
+/// In world space.
+struct Triangle {
+    corners: [DVec3; 3],
+    /// Perpendicular to the plane; its length is twice the area.
+    cross: DVec3,
+    normals: [DVec3; 3],
+    materials: [u32; 3],
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Primitive {
+    Triangle(usize),
+    Shape(usize),
+}
+
+#[derive(Clone, Copy)]
+struct Ray {
+    origin: DVec3,
+    direction: DVec3,
+    /// Hits count with t_min < t < t_max.
+    t_min: f64,
+    t_max: f64,
+    /// A flat primitive that the ray leaves, and so cannot hit.
+    leaving: Option<Primitive>,
+}
+
+impl<'a> Tracer<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        let mut triangles = Vec::new();
+        for instance in &scene.instances {
+            let mesh = &scene.meshes[instance.mesh];
+            let placement = instance.world_from_object;
+            let normal_matrix = placement.matrix3.inverse().transpose();
+            for indices in &mesh.triangles {
+                let indices = indices.map(|i| i as usize);
+                let corners = indices.map(|i| placement.transform_point3(mesh.positions[i].as_dvec3()));
+                triangles.push(Triangle {
+                    corners,
+                    cross: (corners[1] - corners[0]).cross(corners[2] - corners[0]),
+                    normals: indices.map(|i| (normal_matrix * mesh.normals[i].as_dvec3()).normalize()),
+                    materials: indices.map(|i| mesh.materials[i]),
+                });
+            }
+        }
+        Self { scene, camera: &scene.cameras[scene.camera_index], triangles }
+    }
+
+    fn radiance(&self, direction: DVec3, rays: &mut Rays) -> DVec3 {
+        rays.primary += 1;
+        let ray = Ray {
+            origin: self.camera.look_from,
+            direction,
+            t_min: 0.0,
+            t_max: f64::INFINITY,
+            leaving: None,
+        };
+        let Some((t, primitive)) = self.nearest(ray) else {
+            return self.scene.background.as_dvec3();
+        };
+        rays.primary_hits += 1;
+        let p = ray.origin + t * direction;
+        let (normal, material) = match primitive {
+            Primitive::Shape(i) => self.shape_surface(&self.scene.shapes[i], p, direction),
+            Primitive::Triangle(i) => self.triangle_surface(&self.triangles[i], p, direction),
+        };
+        let shadow = Ray {
+            origin: p,
+            t_min: 1e-9 * t,
+            leaving: Some(primitive),
+            ..ray
+        };
+        self.shade(shadow, normal, -direction, &material, rays)
+    }
+
+    /// amb + Σ L (k_d max(l·n, 0) + k_s max(r·v, 0)^α) over the lights that are seen from `shadow`'s
+    /// origin, with r = 2(l·n)n - l.
+    fn shade(&self, shadow: Ray, n: DVec3, v: DVec3, material: &Material, rays: &mut Rays) -> DVec3 {
+        let mut sum = self.scene.ambient.as_dvec3() * material.ambient.as_dvec3();
+        for light in &self.scene.lights {
+            let (l, distance, arriving) = light_at(light, shadow.origin);
+            let cos = l.dot(n);
+            if cos <= 0.0 || arriving == DVec3::ZERO {
+                continue;
+            }
+            rays.shadow += 1;
+            if self.nearest(Ray { direction: l, t_max: distance, ..shadow }).is_some() {
+                rays.shadow_blocked += 1;
+                continue;
+            }
+            let r = 2.0 * cos * n - l;
+            let highlight = r.dot(v).max(0.0).powf(material.shininess.into());
+            sum += arriving
+                * (material.diffuse.as_dvec3() * cos + material.specular.as_dvec3() * highlight);
+        }
+        sum
+    }
+
+    fn nearest(&self, ray: Ray) -> Option<(f64, Primitive)> {
+        let triangles = self.triangles.iter().enumerate();
+        let shapes = self.scene.shapes.iter().enumerate();
+        let mut best = None;
+        let mut t_max = ray.t_max;
+        for (i, triangle) in triangles {
+            if ray.leaving != Some(Primitive::Triangle(i))
+                && let Some(t) = hit_triangle(triangle, Ray { t_max, ..ray })
+            {
+                t_max = t;
+                best = Some((t, Primitive::Triangle(i)));
+            }
+        }
+        for (i, shape) in shapes {
+            let is_left = ray.leaving == Some(Primitive::Shape(i));
+            let t = match shape.geometry {
+                Geometry::Sphere { center, radius } => hit_sphere(center, radius, ray),
+                Geometry::Plane { .. } if is_left => None,
+                Geometry::Plane { point, normal } => hit_plane(point, normal, ray),
+            };
+            if let Some(t) = t.filter(|t| *t < t_max) {
+                t_max = t;
+                best = Some((t, Primitive::Shape(i)));
+            }
+        }
+        best
+    }
+
+    fn shape_surface(&self, shape: &Shape, p: DVec3, direction: DVec3) -> (DVec3, Material) {
+        let material = self.scene.materials[shape.material].clone();
+        let normal = match shape.geometry {
+            Geometry::Sphere { center, radius } => (p - center) / radius,
+            Geometry::Plane { normal, .. } => normal,
+        };
+        let turned = material.two_sided && normal.dot(direction) > 0.0;
+        (if turned { -normal } else { normal }, material)
+    }
+
+    /// Normal and coefficients are interpolated; the first corner says whether there are two sides.
+    fn triangle_surface(&self, triangle: &Triangle, p: DVec3, direction: DVec3) -> (DVec3, Material) {
+        let weights = weights(triangle, p);
+        let [a, b, c] = triangle.materials.map(|i| &self.scene.materials[i as usize]);
+        let mix = |of: fn(&Material) -> glam::Vec3| {
+            weights.x as f32 * of(a) + weights.y as f32 * of(b) + weights.z as f32 * of(c)
+        };
+        let shininess = DVec3::new(a.shininess.into(), b.shininess.into(), c.shininess.into());
+        let material = Material {
+            name: String::new(),
+            diffuse: mix(|m| m.diffuse),
+            specular: mix(|m| m.specular),
+            shininess: weights.dot(shininess) as f32,
+            ambient: mix(|m| m.ambient),
+            two_sided: a.two_sided,
+        };
+        let [na, nb, nc] = triangle.normals;
+        let normal = (weights.x * na + weights.y * nb + weights.z * nc).normalize();
+        // The side is that of the flat triangle; the shading normal has to be on it.
+        let facing = triangle.cross * -triangle.cross.dot(direction).signum();
+        let turned = material.two_sided && normal.dot(facing) < 0.0;
+        (if turned { -normal } else { normal }, material)
+    }
+}
+
+/// Direction to the light, distance to it, and what arrives without shadow.
+fn light_at(light: &Light, p: DVec3) -> (DVec3, f64, DVec3) {
+    let color = light.color.as_dvec3();
+    let (position, strength) = match light.kind {
+        LightKind::Directional { direction } => return (-direction, f64::INFINITY, color),
+        LightKind::Point { position } => (position, 1.0),
+        LightKind::Spot { position, direction, inner, outer } => {
+            let cos = (p - position).normalize().dot(direction);
+            let x = ((cos - outer.cos()) / (inner.cos() - outer.cos()).max(1e-6)).clamp(0.0, 1.0);
+            (position, x * x * (3.0 - 2.0 * x))
+        }
+    };
+    let distance = position.distance(p);
+    let fall_off = match light.attenuation {
+        Attenuation::None => 1.0,
+        Attenuation::InverseSquare => distance.powi(-2),
+    };
+    ((position - p) / distance, distance, color * strength * fall_off)
+}
+
+/// t² + 2 b t + c = 0, the smaller root that counts.
+fn hit_sphere(center: DVec3, radius: f64, ray: Ray) -> Option<f64> {
+    let from_center = ray.origin - center;
+    let b = from_center.dot(ray.direction);
+    let c = from_center.length_squared() - radius * radius;
+    let root = (b * b - c).sqrt();
+    // Without real roots both are NaN, which is in no range.
+    [-b - root, -b + root].into_iter().find(|&t| t > ray.t_min && t < ray.t_max)
+}
+
+fn hit_plane(point: DVec3, normal: DVec3, ray: Ray) -> Option<f64> {
+    let t = (point - ray.origin).dot(normal) / ray.direction.dot(normal);
+    (t > ray.t_min && t < ray.t_max).then_some(t)
+}
+
+/// Where the plane is met, if that is on the inner side of all edges.
+fn hit_triangle(triangle: &Triangle, ray: Ray) -> Option<f64> {
+    let t = hit_plane(triangle.corners[0], triangle.cross, ray)?;
+    (weights(triangle, ray.origin + t * ray.direction).min_element() >= 0.0).then_some(t)
+}
+
+/// Barycentric weights of a point in the triangle's plane: areas that it cuts off.
+fn weights(triangle: &Triangle, p: DVec3) -> DVec3 {
+    let [a, b, c] = triangle.corners;
+    let area = |from: DVec3, to: DVec3| (to - from).cross(p - from).dot(triangle.cross);
+    DVec3::new(area(b, c), area(c, a), area(a, b)) / triangle.cross.length_squared()
+}

@@ -1,0 +1,116 @@
+//! Rendering a picture in a test, and holding two pictures against each other.
+
+use glimray::gpu::{AdapterChoice, Gpu};
+use glimray::image::Image;
+use glimray::pack;
+use glimray::render::{RenderError, Renderer, Settings, Stats, Tone};
+use glimray::scene::Scene;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The device that all tests use: the default one.
+pub fn open_gpu() -> Gpu {
+    Gpu::new(&AdapterChoice::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A renderer at its first step.
+pub fn start(scene: &Scene, settings: &Settings) -> Result<Renderer, RenderError> {
+    let packed = Arc::new(pack::scene(scene).expect("a scene that can be packed"));
+    let view = packed.frame(&scene.frame(0.0)).expect("a frame that can be packed");
+    Renderer::new(open_gpu(), packed, &view, settings.clone())
+}
+
+/// Renders to the end; the picture is linear radiance.
+pub fn try_render(scene: &Scene, settings: &Settings) -> Result<(Image, Stats), RenderError> {
+    let mut renderer = start(scene, settings)?;
+    while !renderer.is_done() {
+        renderer.step()?;
+    }
+    let image = renderer.develop(&Tone::LINEAR)?;
+    Ok((image, renderer.stats().clone()))
+}
+
+/// As [`try_render`], where nothing may go wrong.
+#[track_caller]
+pub fn render(scene: &Scene, settings: &Settings) -> (Image, Stats) {
+    try_render(scene, settings).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Settings for a picture of this size, everything else by default.
+pub fn sized(width: u32, height: u32) -> Settings {
+    Settings { size: (width, height), ..Settings::default() }
+}
+
+/// Number of pixels in which some channel, clamped to [0, 1], differs by more than `levels` of 255.
+pub fn differing(a: &Image, b: &Image, levels: f32) -> usize {
+    assert_eq!((a.width, a.height), (b.width, b.height), "sizes differ");
+    let level = |c: f32| c.clamp(0.0, 1.0) * 255.0;
+    let far = |(a, b): (&[f32; 4], &[f32; 4])| {
+        // Written so that a NaN counts as different.
+        !a.iter().zip(b).all(|(a, b)| (level(*a) - level(*b)).abs() <= levels + 1e-3)
+    };
+    a.pixels.iter().zip(&b.pixels).filter(|pair| far(*pair)).count()
+}
+
+/// Says what is wrong unless at most `share` of the pixels differ by more than `levels` of 255.
+pub fn check_alike(
+    name: &str,
+    expected: &Image,
+    actual: &Image,
+    levels: f32,
+    share: f64,
+) -> Result<(), String> {
+    let differing = differing(expected, actual, levels);
+    let pixels = expected.pixels.len();
+    if differing as f64 <= share * pixels as f64 {
+        return Ok(());
+    }
+    let path = write_comparison(name, expected, actual);
+    Err(format!(
+        "{name}: {differing} of {pixels} pixels differ by more than {levels} levels; expected | \
+         difference | actual: {}",
+        path.display()
+    ))
+}
+
+/// Says what is wrong unless the pictures are the same bit for bit.
+pub fn check_same_bits(name: &str, expected: &Image, actual: &Image) -> Result<(), String> {
+    assert_eq!((expected.width, expected.height), (actual.width, actual.height), "{name}");
+    let bits = |pixel: &[f32; 4]| pixel.map(f32::to_bits);
+    let mut pairs = expected.pixels.iter().zip(&actual.pixels).enumerate();
+    let Some((first, (a, b))) = pairs.find(|(_, (a, b))| bits(a) != bits(b)) else {
+        return Ok(());
+    };
+    let count = 1 + pairs.filter(|(_, (a, b))| bits(a) != bits(b)).count();
+    let (x, y) = (first as u32 % expected.width, first as u32 / expected.width);
+    Err(format!("{name}: {count} pixels differ, first ({x}, {y}): {a:?} became {b:?}"))
+}
+
+/// Fails with all the problems at once.
+#[track_caller]
+pub fn assert_none(problems: impl IntoIterator<Item = Result<(), String>>) {
+    let problems: Vec<_> = problems.into_iter().filter_map(Result::err).collect();
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+/// Writes expected | difference (amplified) | actual into the folder for temporary files.
+fn write_comparison(name: &str, expected: &Image, actual: &Image) -> PathBuf {
+    let (width, height) = (expected.width, expected.height);
+    let mut canvas = Image::new(3 * width, height);
+    for y in 0..height {
+        for x in 0..width {
+            let from = (y * width + x) as usize;
+            let (a, b) = (expected.pixels[from], actual.pixels[from]);
+            let difference = std::array::from_fn(|i| {
+                if i == 3 { 1.0 } else { ((a[i] - b[i]).abs() * 32.0).min(1.0) }
+            });
+            for (column, pixel) in [a, difference, b].into_iter().enumerate() {
+                let to = y * 3 * width + column as u32 * width + x;
+                canvas.pixels[to as usize] = pixel;
+            }
+        }
+    }
+    let path = std::env::temp_dir().join(format!("glimray-{}.png", name.replace([' ', '/'], "-")));
+    glimray::output::save(&path, &canvas).expect("a comparison");
+    path
+}

@@ -1,0 +1,229 @@
+//! Scenes built in code.
+
+use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
+use glimray::scene::{
+    Attenuation, Camera, Geometry, Instance, Light, LightKind, Material, Mesh, Scene, Shape,
+};
+use std::f64::consts::{PI, TAU};
+
+/// A camera, a grey material and a bluish background, and nothing in it.
+pub fn empty() -> Scene {
+    Scene {
+        cameras: vec![Camera {
+            look_from: dvec3(0.0, 1.5, 6.0),
+            look_at: dvec3(0.0, 0.3, 0.0),
+            fov_y: 0.8,
+            ..Camera::default()
+        }],
+        materials: vec![Material::default()],
+        background: vec3(0.2, 0.4, 0.6),
+        ambient: Vec3::splat(0.1),
+        ..Scene::default()
+    }
+}
+
+/// Three shiny spheres on a floor, a point light and a weaker directional one.
+pub fn spheres() -> Scene {
+    let mut scene = empty();
+    scene.add_plane(DVec3::ZERO, DVec3::Y, 0);
+    for (i, color) in [(-1, vec3(0.8, 0.2, 0.1)), (0, vec3(0.2, 0.7, 0.2)), (1, vec3(0.2, 0.3, 0.9))] {
+        let material = scene.add_material(shiny(color));
+        scene.add_sphere(dvec3(1.7 * f64::from(i), 0.8, 0.3 * f64::from(i)), 0.8, material);
+    }
+    scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.7);
+    scene.lights.push(Light {
+        kind: LightKind::Directional { direction: dvec3(0.6, -0.7, -0.4).normalize() },
+        color: vec3(0.2, 0.2, 0.3),
+        attenuation: Attenuation::None,
+    });
+    scene
+}
+
+/// A torus and a ball as meshes with smooth normals over a floor of two triangles.
+pub fn meshes() -> Scene {
+    let mut scene = empty();
+    let red = scene.add_material(shiny(vec3(0.8, 0.3, 0.2)));
+    let blue = scene.add_material(shiny(vec3(0.2, 0.4, 0.8)));
+    scene.add_mesh(quad(8.0, 0), DAffine3::IDENTITY);
+    scene.add_mesh(
+        torus(1.0, 0.35, UVec2::new(36, 18), red as u32),
+        DAffine3::from_translation(dvec3(-1.2, 1.0, 0.0)) * DAffine3::from_rotation_x(0.9),
+    );
+    scene.add_mesh(
+        ball(UVec2::new(32, 16), blue as u32),
+        DAffine3::from_translation(dvec3(1.5, 0.9, 0.2)) * DAffine3::from_scale(dvec3(1.0, 0.8, 0.6)),
+    );
+    scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.6);
+    scene.add_point_light(dvec3(-4.0, 3.0, 2.0), 0.3);
+    scene
+}
+
+/// Every kind of surface and light at once: one-sided and two-sided, mixed materials, a mirrored
+/// instance, a spot and inverse-square light.
+pub fn everything() -> Scene {
+    let mut scene = spheres();
+    let first = scene.add_material(Material {
+        diffuse: vec3(0.9, 0.1, 0.1),
+        specular: Vec3::splat(0.1),
+        shininess: 2.0,
+        ..shiny(Vec3::ONE)
+    });
+    scene.add_material(Material { shininess: 80.0, ..shiny(vec3(0.1, 0.9, 0.1)) });
+    scene.add_material(shiny(vec3(0.1, 0.1, 0.9)));
+    let mut panel = ball(UVec2::new(24, 12), 0);
+    for (i, material) in panel.materials.iter_mut().enumerate() {
+        *material = first as u32 + i as u32 % 3;
+    }
+    let mirrored = DAffine3::from_scale(dvec3(-0.7, 0.5, 0.5));
+    scene.add_mesh(panel, DAffine3::from_translation(dvec3(0.2, 2.1, -1.0)) * mirrored);
+    let one_sided = scene.add_material(Material { two_sided: false, ..Material::default() });
+    let wall = DAffine3::from_translation(dvec3(0.0, 0.0, -3.0)) * DAffine3::from_rotation_x(-PI / 2.0);
+    scene.add_mesh(quad(6.0, one_sided as u32), wall);
+    scene.add_plane(dvec3(-4.0, 0.0, 0.0), dvec3(1.0, 0.0, 0.2).normalize(), one_sided);
+    scene.lights.push(Light {
+        kind: LightKind::Spot {
+            position: dvec3(-2.0, 4.0, 3.0),
+            direction: dvec3(0.4, -0.8, -0.6).normalize(),
+            inner: 0.2,
+            outer: 0.5,
+        },
+        color: Vec3::splat(12.0),
+        attenuation: Attenuation::InverseSquare,
+    });
+    scene
+}
+
+pub fn shiny(color: Vec3) -> Material {
+    Material {
+        diffuse: color * 0.8,
+        specular: Vec3::splat(0.4),
+        shininess: 30.0,
+        ambient: color,
+        ..Material::default()
+    }
+}
+
+/// What tests build scenes with.
+pub trait Build {
+    fn add_material(&mut self, material: Material) -> usize;
+    fn add_sphere(&mut self, center: DVec3, radius: f64, material: usize);
+    fn add_plane(&mut self, point: DVec3, normal: DVec3, material: usize);
+    fn add_mesh(&mut self, mesh: Mesh, world_from_object: DAffine3);
+    fn add_point_light(&mut self, position: DVec3, strength: f32);
+}
+
+impl Build for Scene {
+    fn add_material(&mut self, material: Material) -> usize {
+        self.materials.push(material);
+        self.materials.len() - 1
+    }
+
+    fn add_sphere(&mut self, center: DVec3, radius: f64, material: usize) {
+        self.shapes.push(Shape { geometry: Geometry::Sphere { center, radius }, material });
+    }
+
+    fn add_plane(&mut self, point: DVec3, normal: DVec3, material: usize) {
+        self.shapes.push(Shape { geometry: Geometry::Plane { point, normal }, material });
+    }
+
+    fn add_mesh(&mut self, mesh: Mesh, world_from_object: DAffine3) {
+        self.meshes.push(mesh);
+        self.instances.push(Instance { mesh: self.meshes.len() - 1, world_from_object });
+    }
+
+    fn add_point_light(&mut self, position: DVec3, strength: f32) {
+        self.lights.push(Light {
+            kind: LightKind::Point { position },
+            color: Vec3::splat(strength),
+            attenuation: Attenuation::None,
+        });
+    }
+}
+
+/// A square of two triangles in the plane y = 0, `side` long, its normal up.
+pub fn quad(side: f32, material: u32) -> Mesh {
+    let h = side / 2.0;
+    Mesh {
+        positions: vec![vec3(-h, 0.0, h), vec3(h, 0.0, h), vec3(h, 0.0, -h), vec3(-h, 0.0, -h)],
+        normals: vec![Vec3::Y; 4],
+        materials: vec![material; 4],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Mesh::default()
+    }
+}
+
+/// The unit sphere in `parts.x` by `parts.y` facets.
+pub fn ball(parts: UVec2, material: u32) -> Mesh {
+    lattice(parts, material, |u, v| {
+        let (around, down) = (TAU * u, PI * v);
+        let p = dvec3(around.sin() * down.sin(), down.cos(), around.cos() * down.sin());
+        (p, p)
+    })
+}
+
+/// A torus round the y axis.
+pub fn torus(radius: f64, thickness: f64, parts: UVec2, material: u32) -> Mesh {
+    lattice(parts, material, |u, v| {
+        let outwards = dvec3((TAU * u).sin(), 0.0, (TAU * u).cos());
+        let normal = outwards * (TAU * v).sin() + DVec3::Y * (TAU * v).cos();
+        (outwards * radius + normal * thickness, normal)
+    })
+}
+
+/// A height field over the square of this side, without normals of its own.
+pub fn height_field(side: f64, parts: u32, material: u32, height: impl Fn(f64, f64) -> f64) -> Mesh {
+    let mut mesh = lattice(UVec2::splat(parts), material, |u, v| {
+        let (x, z) = (side * (u - 0.5), side * (v - 0.5));
+        (dvec3(x, height(x, z), z), DVec3::ZERO)
+    });
+    mesh.normals.clear();
+    mesh.repair();
+    mesh
+}
+
+/// A mesh over the unit square, with point and normal of each (u, v).
+fn lattice(parts: UVec2, material: u32, at: impl Fn(f64, f64) -> (DVec3, DVec3)) -> Mesh {
+    let mut mesh = Mesh::default();
+    for j in 0..=parts.y {
+        for i in 0..=parts.x {
+            let (u, v) = (f64::from(i) / f64::from(parts.x), f64::from(j) / f64::from(parts.y));
+            let (p, n) = at(u, v);
+            mesh.positions.push(p.as_vec3());
+            mesh.normals.push(n.as_vec3());
+            mesh.materials.push(material);
+            if i < parts.x && j < parts.y {
+                let a = j * (parts.x + 1) + i;
+                let b = a + parts.x + 1;
+                mesh.triangles.extend([[a, b, a + 1], [a + 1, b, b + 1]]);
+            }
+        }
+    }
+    mesh.repair();
+    mesh
+}
+
+/// Numbers that look random and are the same each time (SplitMix64).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// In 0..count.
+    pub fn below(&mut self, count: u64) -> u64 {
+        self.bits() % count
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// In the cube round the origin with this half side.
+    pub fn within(&mut self, half: f64) -> DVec3 {
+        DVec3::from_array(std::array::from_fn(|_| self.between(-half, half)))
+    }
+}

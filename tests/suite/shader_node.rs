@@ -1,0 +1,275 @@
+//! Ray and boxes: `lib/intersect/node.wesl`. A box test may let a ray in that passes it by; it must
+//! never turn one away that hits.
+
+use crate::support::{
+    harness::gpu,
+    random::Random,
+    types::Node,
+    verdict::{Tolerance, Verdict},
+};
+use glam::DVec3;
+
+/// `MISS` of node.wesl.
+const MISS: u32 = 0xffff_fffc;
+
+/// Keys of the four children, from the same numbers that the traversal has.
+const KEYS: &str = "
+    import package::types::Node;
+    import package::lib::intersect::node::child_keys;
+    import package::lib::numeric::safe_reciprocal;
+    fn probe(node: Node, origin: vec3f, direction: vec3f, t_max: f32) -> vec4u {
+        return child_keys(node, origin, safe_reciprocal(direction), t_max);
+    }
+";
+
+/// Lower and upper planes of a child as steps from the node's corner.
+type Steps = ([u8; 3], [u8; 3]);
+
+fn node(lo: [f32; 3], scale: [f32; 3], boxes: [Steps; 4]) -> Node {
+    let planes = |axis: usize, upper: bool| {
+        boxes.map(|(min, max)| f32::from(if upper { max[axis] } else { min[axis] }))
+    };
+    Node {
+        lo,
+        scale,
+        min_x: planes(0, false),
+        max_x: planes(0, true),
+        min_y: planes(1, false),
+        max_y: planes(1, true),
+        min_z: planes(2, false),
+        max_z: planes(2, true),
+        children: [1, 2, 3, 4],
+    }
+}
+
+/// The two corners of a child in exact arithmetic.
+fn corners(node: &Node, (min, max): Steps) -> [DVec3; 2] {
+    [min, max].map(|steps| {
+        let along = |axis: usize| {
+            f64::from(node.lo[axis]) + f64::from(node.scale[axis]) * f64::from(steps[axis])
+        };
+        DVec3::new(along(0), along(1), along(2))
+    })
+}
+
+/// Where a line is in a box, planes included: from t to t, or nowhere.
+fn slab([min, max]: [DVec3; 2], origin: DVec3, direction: DVec3) -> Option<(f64, f64)> {
+    let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
+    for axis in 0..3 {
+        let (o, d) = (origin[axis], direction[axis]);
+        if d == 0.0 {
+            if o < min[axis] || o > max[axis] {
+                return None;
+            }
+        } else {
+            let (a, b) = ((min[axis] - o) / d, (max[axis] - o) / d);
+            near = near.max(a.min(b));
+            far = far.min(a.max(b));
+        }
+    }
+    (near <= far && far >= 0.0).then_some((near.max(0.0), far))
+}
+
+#[test]
+fn decode_node_takes_the_rows_apart() {
+    #[rustfmt::skip]
+    let rows = [
+        [1.5f32.to_bits(), (-2.0f32).to_bits(), 1e-30f32.to_bits(), 0.25f32.to_bits()],
+        [0.5f32.to_bits(), 8.0f32.to_bits(), 0x0403_0201, 0xff80_7f00],
+        [0x1413_1211, 0x1817_1615, 0x2423_2221, 0x2827_2625],
+        [7, 0, 0x8000_0001, 0xc800_0009],
+    ];
+    let inputs = [(rows[0], rows[1], rows[2], rows[3])];
+    let nodes: Vec<Node> = gpu().map("lib::intersect::node::decode_node", &inputs);
+    let expected = Node {
+        lo: [1.5, -2.0, 1e-30],
+        scale: [0.25, 0.5, 8.0],
+        min_x: [1.0, 2.0, 3.0, 4.0],
+        max_x: [0.0, 127.0, 128.0, 255.0],
+        min_y: [17.0, 18.0, 19.0, 20.0],
+        max_y: [21.0, 22.0, 23.0, 24.0],
+        min_z: [33.0, 34.0, 35.0, 36.0],
+        max_z: [37.0, 38.0, 39.0, 40.0],
+        children: [7, 0, 0x8000_0001, 0xc800_0009],
+    };
+    assert_eq!(nodes[0], expected);
+}
+
+/// All planes lie a power of two away from the node's corner at -4, and directions are powers of
+/// two, so the shader's arithmetic is exact and so is the rule.
+#[test]
+fn boxes_are_met_exactly_for_every_combination_of_signs_and_places() {
+    let boxes = [
+        ([2, 1, 2], [8, 4, 4]), // [-2, 4] x [-3, 0] x [-2, 0]
+        ([4, 1, 2], [4, 8, 8]), // flat: x = 0
+        ([4, 2, 1], [4, 2, 8]), // a line along z
+        ([2, 4, 4], [2, 4, 4]), // the point (-2, 0, 0)
+    ];
+    let node = node([-4.0; 3], [1.0; 3], boxes);
+    let places = [-3.5, -3.0, -2.0, -1.0, 0.0, 4.0, 5.0];
+    let slopes = [1.0, -1.0, 0.5, 0.0, -0.0];
+    let grid = |values: &[f32]| -> Vec<[f32; 3]> {
+        let n = values.len();
+        (0..n * n * n)
+            .map(|i| [values[i % n], values[i / n % n], values[i / n / n]])
+            .collect()
+    };
+    let directions: Vec<_> = grid(&slopes)
+        .into_iter()
+        .filter(|d| *d != [0.0; 3])
+        .collect();
+    let inputs: Vec<_> = grid(&places)
+        .into_iter()
+        .flat_map(|origin| directions.iter().map(move |d| (node, origin, *d, 1e6f32)))
+        .collect();
+    let keys: Vec<[u32; 4]> = gpu().map_source(KEYS, &inputs);
+    let mut verdict = Verdict::on("child_keys");
+    for ((_, origin, direction, _), keys) in inputs.iter().zip(&keys) {
+        let o = DVec3::from(origin.map(f64::from));
+        let d = DVec3::from(direction.map(f64::from));
+        for (child, (&steps, &key)) in boxes.iter().zip(keys).enumerate() {
+            let corners = corners(&node, steps);
+            let expected = slab(corners, o, d).map_or(MISS, |(near, _)| {
+                ((near as f32).to_bits() & !3) | child as u32
+            });
+            // The builder moves planes outwards, so a ray that runs within one has nothing to hit
+            // there, and either answer is right.
+            let on_plane = |i: usize| d[i] == 0.0 && corners.iter().any(|corner| corner[i] == o[i]);
+            let is_in_plane = (0..3).any(on_plane);
+            let name = format!("box {child} from {origin:?} along {direction:?}");
+            if !is_in_plane || expected == MISS {
+                verdict.near(name, &key, &expected, Tolerance::Exact);
+            } else {
+                verdict.that(name, key == MISS || key == expected, || format!("{key:#x}"));
+            }
+        }
+    }
+    verdict.close();
+}
+
+/// The packer refuses coordinates beyond 1e15.
+#[test]
+fn the_largest_boxes_are_met_along_the_axes() {
+    let whole = ([0; 3], [255; 3]);
+    let node = node([-1e15; 3], [8e12; 3], [whole; 4]);
+    let axes = [
+        [1f32, 0.0, 0.0],
+        [-1.0, -0.0, 0.0],
+        [0.0, 1.0, -0.0],
+        [0.0, -1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [-0.0, 0.0, -1.0],
+    ];
+    let inputs: Vec<_> = axes
+        .iter()
+        .map(|d| (node, d.map(|c| -9e14 * c), *d, 3e38f32))
+        .collect();
+    let keys: Vec<[u32; 4]> = gpu().map_source(KEYS, &inputs);
+    let mut verdict = Verdict::on("child_keys");
+    for (direction, keys) in axes.iter().zip(&keys) {
+        verdict.near(
+            format!("from inside along {direction:?}"),
+            keys,
+            &[0, 1, 2, 3],
+            Tolerance::Exact,
+        );
+    }
+    verdict.close();
+}
+
+#[test]
+fn boxes_beyond_the_ray_s_end_and_absent_children_are_not_met() {
+    let ahead = ([0, 0, 16], [255, 255, 32]);
+    let mut one = node(
+        [-128.0, -128.0, 0.0],
+        [1.0; 3],
+        [ahead, ahead, ([0, 0, 64], [255, 255, 65]), ahead],
+    );
+    one.children = [9, 0, 9, 0];
+    #[rustfmt::skip]
+    let rows = [
+        ("without end, both children are met", 1e30, [16.0f32.to_bits(), MISS, 64.0f32.to_bits() | 2, MISS]),
+        ("an end between the boxes leaves the first", 40.0, [16.0f32.to_bits(), MISS, MISS, MISS]),
+        ("an end inside the box leaves it", 20.0, [16.0f32.to_bits(), MISS, MISS, MISS]),
+        ("an end on its plane leaves it", 16.0, [16.0f32.to_bits(), MISS, MISS, MISS]),
+        ("an end before it leaves none", 15.9, [MISS; 4]),
+    ];
+    let inputs: Vec<_> = rows
+        .iter()
+        .map(|(_, t_max, _)| (one, [0f32; 3], [0f32, 0.0, 1.0], *t_max as f32))
+        .collect();
+    let keys: Vec<[u32; 4]> = gpu().map_source(KEYS, &inputs);
+    let mut verdict = Verdict::on("child_keys");
+    for ((name, _, expected), keys) in rows.iter().zip(&keys) {
+        verdict.near(name, keys, expected, Tolerance::Exact);
+    }
+    verdict.close();
+}
+
+/// The builder moves planes outwards by 2^-20 of the node's size; with that much slack no ray at
+/// something in the box is turned away, near or far, at any scale.
+#[test]
+fn a_ray_at_something_in_a_box_meets_the_box() {
+    let mut random = Random::new(13);
+    let mut inputs = Vec::new();
+    let mut aimed_at = Vec::new();
+    while inputs.len() < 50_000 {
+        let size = 10f64.powf(random.between(-4.0, 4.0));
+        let lo = random.in_cube() * size * 10f64.powf(random.between(-2.0, 2.0));
+        let scale = (DVec3::splat(1.01) + random.in_cube()) * size / 255.0;
+        let boxes = std::array::from_fn(|_| {
+            let planes: [[u8; 2]; 3] = std::array::from_fn(|_| {
+                let (a, b) = (random.below(256) as u8, random.below(256) as u8);
+                [a.min(b), a.max(b)]
+            });
+            (planes.map(|[min, _]| min), planes.map(|[_, max]| max))
+        });
+        let node = node(lo.as_vec3().into(), scale.as_vec3().into(), boxes);
+        let child = random.below(4);
+        let [min, max] = corners(&node, boxes[child]);
+        let slack = 255.0 * DVec3::from(node.scale.map(f64::from)) / (1 << 20) as f64;
+        let [min, max] = [min + slack, max - slack];
+        // On the faces, edges and corners of what the box holds, and inside it.
+        let share = (1.2 * random.in_cube() + 0.5).clamp(DVec3::ZERO, DVec3::ONE);
+        let target = min + share * (max - min);
+        let away = size * 10f64.powf(random.between(-3.0, 4.0));
+        let origin = (target + away * random.direction()).as_vec3();
+        let direction = (target - origin.as_dvec3()).normalize().as_vec3();
+        // The rounded ray may pass by what the exact one was aimed at.
+        if min.cmple(max).all()
+            && slab([min, max], origin.as_dvec3(), direction.as_dvec3()).is_some()
+        {
+            inputs.push((node, origin.to_array(), direction.to_array(), 3e38f32));
+            aimed_at.push(child);
+        }
+    }
+    let keys: Vec<[u32; 4]> = gpu().map_source(KEYS, &inputs);
+    let mut verdict = Verdict::on("child_keys");
+    for ((input, child), keys) in inputs.iter().zip(aimed_at).zip(&keys) {
+        verdict.that(
+            format!("child {child} of {input:?}"),
+            keys[child] != MISS,
+            || "missed",
+        );
+    }
+    verdict.close();
+}
+
+#[test]
+fn sort4_sorts_every_order() {
+    let mut random = Random::new(14);
+    let small = (0..256).map(|i| [i & 3, i >> 2 & 3, i >> 4 & 3, i >> 6]);
+    let large = (0..1000).map(|_| std::array::from_fn(|_| random.word()));
+    let inputs: Vec<[u32; 4]> = small
+        .chain(large)
+        .chain([[MISS, 3, MISS, 0x7f80_0000]])
+        .collect();
+    let sorted: Vec<[u32; 4]> = gpu().map("lib::intersect::node::sort4", &inputs);
+    let mut verdict = Verdict::on("sort4");
+    for (keys, got) in inputs.iter().zip(&sorted) {
+        let mut expected = *keys;
+        expected.sort_unstable();
+        verdict.near(format!("{keys:?}"), got, &expected, Tolerance::Exact);
+    }
+    verdict.close();
+}

@@ -1,0 +1,166 @@
+//! `lib/sampling.wesl`: the Sobol sequence and the facts that Owen scrambling must not change.
+
+use crate::support::{
+    harness::gpu,
+    random::Random,
+    verdict::{Tolerance, Verdict},
+};
+
+/// The first points of the two-dimensional sequence, in eighths and sixteenths (Joe and Kuo 2008,
+/// dimensions 1 and 2, in counting order).
+const FIRST_POINTS: [[f64; 2]; 16] = [
+    [0.0, 0.0],
+    [0.5, 0.5],
+    [0.25, 0.75],
+    [0.75, 0.25],
+    [0.125, 0.625],
+    [0.625, 0.125],
+    [0.375, 0.375],
+    [0.875, 0.875],
+    [0.0625, 0.9375],
+    [0.5625, 0.4375],
+    [0.3125, 0.1875],
+    [0.8125, 0.6875],
+    [0.1875, 0.3125],
+    [0.6875, 0.8125],
+    [0.4375, 0.5625],
+    [0.9375, 0.0625],
+];
+
+#[test]
+fn sobol_begins_with_the_published_points() {
+    let indices: Vec<u32> = (0..16).collect();
+    let points: Vec<[u32; 2]> = gpu().map("lib::sampling::sobol", &indices);
+    let mut verdict = Verdict::on("sobol");
+    for (i, (point, expected)) in points.iter().zip(FIRST_POINTS).enumerate() {
+        let expected = expected.map(|x| (x * 4_294_967_296.0) as u32);
+        verdict.near(format!("point {i}"), point, &expected, Tolerance::Exact);
+    }
+    verdict.close();
+}
+
+/// How many of the elementary intervals (boxes of 2^-a by 2^-b, a + b = k) of 2^k points do not
+/// hold exactly one.
+fn crowded_or_empty(points: &[[f64; 2]]) -> usize {
+    let k = points.len().ilog2();
+    assert_eq!(points.len(), 1 << k, "a power of two");
+    let mut wrong = 0;
+    for a in 0..=k {
+        let mut counts = vec![0; points.len()];
+        for [x, y] in points {
+            let column = (x * f64::from(1 << a)) as usize;
+            let row = (y * f64::from(1 << (k - a))) as usize;
+            counts[(column << (k - a)) + row] += 1;
+        }
+        wrong += counts.iter().filter(|count| **count != 1).count();
+    }
+    wrong
+}
+
+#[test]
+fn aligned_blocks_of_sobol_points_fill_every_elementary_interval_once() {
+    let indices: Vec<u32> = (0..8192).collect();
+    let points: Vec<[u32; 2]> = gpu().map("lib::sampling::sobol", &indices);
+    let points: Vec<_> = points
+        .iter()
+        .map(|point| point.map(|x| f64::from(x) / 4_294_967_296.0))
+        .collect();
+    let mut verdict = Verdict::on("sobol");
+    for k in 0..=13 {
+        for (block, points) in points.chunks_exact(1 << k).enumerate() {
+            let wrong = crowded_or_empty(points);
+            verdict.that(format!("block {block} of 2^{k} points"), wrong == 0, || {
+                format!("{wrong} intervals")
+            });
+        }
+    }
+    verdict.close();
+}
+
+#[test]
+fn every_power_of_two_of_a_pixels_samples_is_stratified() {
+    let mut random = Random::new(3);
+    let keys: Vec<u32> = [0, 1, u32::MAX]
+        .into_iter()
+        .chain((0..29).map(|_| random.word()))
+        .collect();
+    let inputs: Vec<_> = keys
+        .iter()
+        .flat_map(|&key| (0..1024).map(move |index| (index, key)))
+        .collect();
+    let samples: Vec<[f32; 2]> = gpu().map("lib::sampling::stratified_2d", &inputs);
+    let mut verdict = Verdict::on("stratified_2d");
+    for (key, samples) in keys.iter().zip(samples.chunks_exact(1024)) {
+        let inside = samples.iter().flatten().all(|x| (0.0..1.0).contains(x));
+        verdict.that(
+            format!("samples of key {key:#x} lie in [0, 1)"),
+            inside,
+            || "outside",
+        );
+        let samples: Vec<_> = samples.iter().map(|sample| sample.map(f64::from)).collect();
+        for k in 0..=10 {
+            let wrong = crowded_or_empty(&samples[..1 << k]);
+            let name = format!("the first 2^{k} samples of key {key:#x}");
+            verdict.that(name, wrong == 0, || format!("{wrong} intervals"));
+        }
+    }
+    verdict.close();
+}
+
+#[test]
+fn samples_of_different_keys_are_unrelated() {
+    // The first sample of many pixels must itself be uniform: its mean over n pixels is 1/2 with a
+    // deviation of 1/√(12 n).
+    let inputs: Vec<(u32, u32)> = (0..40_000).map(|key| (0, key)).collect();
+    let samples: Vec<[f32; 2]> = gpu().map("lib::sampling::stratified_2d", &inputs);
+    let mean = |axis: usize| {
+        samples
+            .iter()
+            .map(|sample| f64::from(sample[axis]))
+            .sum::<f64>()
+            / 40_000.0
+    };
+    let product = samples.iter().map(|[x, y]| f64::from(x * y)).sum::<f64>() / 40_000.0;
+    let mut verdict = Verdict::on("stratified_2d");
+    verdict.that(
+        "mean of x is 1/2 within five sigma",
+        (mean(0) - 0.5).abs() < 0.0073,
+        || mean(0),
+    );
+    verdict.that(
+        "mean of y is 1/2 within five sigma",
+        (mean(1) - 0.5).abs() < 0.0073,
+        || mean(1),
+    );
+    verdict.that(
+        "x and y are independent",
+        (product - 0.25).abs() < 0.0056,
+        || product,
+    );
+    verdict.close();
+}
+
+#[test]
+fn owen_scrambling_keeps_common_leading_bits_and_splits_where_they_end() {
+    let mut random = Random::new(4);
+    let mut inputs = Vec::new();
+    for _ in 0..4000 {
+        let (x, seed, shared) = (random.word(), random.word(), random.below(32) as u32);
+        // Differs from x in the bit after the first `shared`, and at random behind it.
+        let bit = 0x8000_0000 >> shared;
+        let y = (x ^ bit) ^ (random.word() & (bit - 1));
+        inputs.extend([(x, seed), (y, seed)]);
+    }
+    let outputs: Vec<u32> = gpu().map("lib::sampling::owen_scramble", &inputs);
+    let mut verdict = Verdict::on("owen_scramble");
+    for (before, after) in inputs.chunks_exact(2).zip(outputs.chunks_exact(2)) {
+        let shared = (before[0].0 ^ before[1].0).leading_zeros();
+        let kept = (after[0] ^ after[1]).leading_zeros();
+        let name = format!(
+            "{:#x} and {:#x} with seed {:#x}",
+            before[0].0, before[1].0, before[0].1
+        );
+        verdict.near(name, &kept, &shared, Tolerance::Exact);
+    }
+    verdict.close();
+}

@@ -1,0 +1,94 @@
+//! `lib/tile.wesl`: every pixel is visited exactly once.
+
+use crate::support::{
+    harness::gpu,
+    verdict::{Tolerance, Verdict},
+};
+use std::collections::HashSet;
+
+#[test]
+fn strides_without_common_factor_visit_every_tile_once() {
+    let mut verdict = Verdict::on("permuted_tile");
+    for (count, stride) in [
+        (1, 1),
+        (2, 1),
+        (64, 27),
+        (4800, 2969),
+        (65_521, 40_503),
+        (65_536, 65_535),
+    ] {
+        let inputs: Vec<_> = (0..count).map(|index| (index, count, stride)).collect();
+        let tiles: Vec<u32> = gpu().map("lib::tile::permuted_tile", &inputs);
+        let distinct: HashSet<_> = tiles.iter().filter(|tile| **tile < count).collect();
+        verdict.that(
+            format!("{count} tiles in strides of {stride}"),
+            distinct.len() == count as usize,
+            || format!("{} distinct tiles", distinct.len()),
+        );
+    }
+    verdict.close();
+}
+
+#[test]
+fn lanes_of_a_tile_follow_the_z_curve() {
+    let lanes: Vec<u32> = (0..64).collect();
+    let places: Vec<[u32; 2]> = gpu().map("lib::tile::morton_8x8", &lanes);
+    let mut verdict = Verdict::on("morton_8x8");
+    let first = [
+        [0, 0],
+        [1, 0],
+        [0, 1],
+        [1, 1],
+        [2, 0],
+        [3, 0],
+        [2, 1],
+        [3, 1],
+        [0, 2],
+    ];
+    for (lane, expected) in first.iter().enumerate() {
+        verdict.near(
+            format!("lane {lane}"),
+            &places[lane],
+            expected,
+            Tolerance::Exact,
+        );
+    }
+    for (lanes, [width, height]) in [(4, [2, 2]), (8, [4, 2]), (16, [4, 4]), (64, [8, 8])] {
+        for (group, places) in places.chunks_exact(lanes).enumerate() {
+            let blocks: HashSet<_> = places
+                .iter()
+                .map(|[x, y]| [x / width, y / height])
+                .collect();
+            let distinct: HashSet<_> = places.iter().collect();
+            let name = format!("lanes {lanes} x {group} hold one block of {width}x{height}");
+            verdict.that(name, blocks.len() == 1 && distinct.len() == lanes, || {
+                format!("{places:?}")
+            });
+        }
+    }
+    verdict.close();
+}
+
+#[test]
+fn tiles_cover_a_window_once() {
+    let (columns, rows) = (5, 3);
+    let inputs: Vec<_> = (0..columns * rows)
+        .flat_map(|tile| (0..64).map(move |lane| (tile, lane, columns)))
+        .collect();
+    let pixels: Vec<[u32; 2]> = gpu().map("lib::tile::window_pixel", &inputs);
+    let mut verdict = Verdict::on("window_pixel");
+    let distinct: HashSet<_> = pixels
+        .iter()
+        .filter(|[x, y]| *x < 8 * columns && *y < 8 * rows)
+        .collect();
+    verdict.that("every pixel of 40x24", distinct.len() == 40 * 24, || {
+        distinct.len()
+    });
+    verdict.near(
+        "tile 7 of 5 columns begins at (16, 8)",
+        &pixels[7 * 64],
+        &[16, 8],
+        Tolerance::Exact,
+    );
+    verdict.close();
+}

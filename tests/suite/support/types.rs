@@ -1,0 +1,118 @@
+//! The structs of `shaders/types.wesl` that functions take and return.
+
+use super::words::shader_struct;
+use glimray::layout::{NONE, PackedCamera, PackedLight, PackedTone};
+
+pub const T_FAR: f32 = 3e38;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    pub origin: [f32; 3],
+    pub t_max: f32,
+    pub direction: [f32; 3],
+    pub leaving: u32,
+}
+
+/// A ray without end.
+pub fn ray(origin: [f32; 3], direction: [f32; 3]) -> Ray {
+    Ray {
+        origin,
+        t_max: T_FAR,
+        direction,
+        leaving: NONE,
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    pub hit: bool,
+    pub t: f32,
+    pub b1: f32,
+    pub b2: f32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    pub lo: [f32; 3],
+    pub scale: [f32; 3],
+    pub min_x: [f32; 4],
+    pub max_x: [f32; 4],
+    pub min_y: [f32; 4],
+    pub max_y: [f32; 4],
+    pub min_z: [f32; 4],
+    pub max_z: [f32; 4],
+    pub children: [u32; 4],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Phong {
+    pub diffuse: [f32; 3],
+    pub specular: [f32; 3],
+    pub shininess: f32,
+    pub ambient: [f32; 3],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Incident {
+    pub direction: [f32; 3],
+    pub distance: f32,
+    pub radiance: [f32; 3],
+}
+
+shader_struct!(Ray = "package::types::Ray" {
+    origin: [f32; 3],
+    t_max: f32,
+    direction: [f32; 3],
+    leaving: u32,
+});
+shader_struct!(Candidate = "package::types::Candidate" { hit: bool, t: f32, b1: f32, b2: f32, });
+shader_struct!(Node = "package::types::Node" {
+    lo: [f32; 3],
+    scale: [f32; 3],
+    min_x: [f32; 4],
+    max_x: [f32; 4],
+    min_y: [f32; 4],
+    max_y: [f32; 4],
+    min_z: [f32; 4],
+    max_z: [f32; 4],
+    children: [u32; 4],
+});
+shader_struct!(Phong = "package::types::Phong" {
+    diffuse: [f32; 3],
+    specular: [f32; 3],
+    shininess: f32,
+    ambient: [f32; 3],
+});
+shader_struct!(Incident = "package::types::Incident" {
+    direction: [f32; 3],
+    distance: f32,
+    radiance: [f32; 3],
+});
+shader_struct!(PackedCamera = "package::types::PackedCamera" {
+    origin: [f32; 3],
+    _pad0: f32,
+    forward: [f32; 3],
+    _pad1: f32,
+    right: [f32; 3],
+    _pad2: f32,
+    up: [f32; 3],
+    _pad3: f32,
+});
+shader_struct!(PackedLight = "package::types::PackedLight" {
+    position: [f32; 3],
+    kind: u32,
+    direction: [f32; 3],
+    attenuation: u32,
+    color: [f32; 3],
+    cos_inner: f32,
+    cos_outer: f32,
+    _pad0: f32,
+    _pad1: f32,
+    _pad2: f32,
+});
+shader_struct!(PackedTone = "package::types::PackedTone" {
+    exposure_scale: f32,
+    curve: u32,
+    transfer: u32,
+    _pad: u32,
+});

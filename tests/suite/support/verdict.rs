@@ -1,0 +1,153 @@
+//! Judges rows one by one and fails once, with all that is wrong.
+
+use super::{types::Candidate, words::Output};
+use std::fmt::{Debug, Display};
+
+/// How far a result may be from what is expected.
+#[derive(Clone, Copy, Debug)]
+pub enum Tolerance {
+    Exact,
+    Absolute(f64),
+    Relative(f64),
+    /// Steps of f32 at the expected value.
+    Ulps(f64),
+}
+
+impl Tolerance {
+    fn allows(self, got: f32, expected: f64) -> bool {
+        let error = (f64::from(got) - expected).abs();
+        match self {
+            Self::Exact => error == 0.0,
+            Self::Absolute(most) => error <= most,
+            Self::Relative(most) => error <= most * expected.abs(),
+            Self::Ulps(most) => error <= most * ulp(expected),
+        }
+    }
+}
+
+/// The distance between neighbouring f32 at `x`.
+pub fn ulp(x: f64) -> f64 {
+    let x = (x as f32).abs();
+    f64::from(x.next_up()) - f64::from(x)
+}
+
+/// What a shader should return, in exact numbers.
+pub trait Expected: Debug {
+    type Got: Output + Debug;
+    fn is_met(&self, got: &Self::Got, tolerance: Tolerance) -> bool;
+}
+
+impl Expected for f64 {
+    type Got = f32;
+    fn is_met(&self, got: &f32, tolerance: Tolerance) -> bool {
+        tolerance.allows(*got, *self)
+    }
+}
+
+impl Expected for u32 {
+    type Got = u32;
+    fn is_met(&self, got: &u32, _: Tolerance) -> bool {
+        self == got
+    }
+}
+
+impl Expected for bool {
+    type Got = bool;
+    fn is_met(&self, got: &bool, _: Tolerance) -> bool {
+        self == got
+    }
+}
+
+impl<E: Expected, const N: usize> Expected for [E; N] {
+    type Got = [E::Got; N];
+    fn is_met(&self, got: &Self::Got, tolerance: Tolerance) -> bool {
+        self.iter()
+            .zip(got)
+            .all(|(expected, got)| expected.is_met(got, tolerance))
+    }
+}
+
+/// The distance of a hit.
+impl Expected for Option<f64> {
+    type Got = Candidate;
+    fn is_met(&self, got: &Candidate, tolerance: Tolerance) -> bool {
+        got.hit == self.is_some() && self.is_none_or(|t| tolerance.allows(got.t, t))
+    }
+}
+
+/// Distance and barycentric weights of a hit.
+impl Expected for Option<[f64; 3]> {
+    type Got = Candidate;
+    fn is_met(&self, got: &Candidate, tolerance: Tolerance) -> bool {
+        let hit = |expected: &[f64; 3]| expected.is_met(&[got.t, got.b1, got.b2], tolerance);
+        got.hit == self.is_some() && self.as_ref().is_none_or(hit)
+    }
+}
+
+/// What became of a number of rows.
+pub struct Verdict {
+    subject: String,
+    rows: usize,
+    failures: Vec<String>,
+}
+
+impl Verdict {
+    /// Failures listed in full.
+    const LISTED: usize = 20;
+
+    pub fn on(subject: impl Display) -> Self {
+        Self {
+            subject: subject.to_string(),
+            rows: 0,
+            failures: Vec::new(),
+        }
+    }
+
+    /// One row whose result must be within `tolerance` of what is expected.
+    pub fn near<E: Expected>(
+        &mut self,
+        name: impl Display,
+        got: &E::Got,
+        expected: &E,
+        tolerance: Tolerance,
+    ) {
+        self.that(name, expected.is_met(got, tolerance), || {
+            format!("got      {got:?}\n    expected {expected:?}, {tolerance:?}")
+        });
+    }
+
+    /// One row of which something must hold; `details` says what was found instead.
+    pub fn that<D: Display>(
+        &mut self,
+        name: impl Display,
+        holds: bool,
+        details: impl FnOnce() -> D,
+    ) {
+        self.rows += 1;
+        if !holds {
+            self.failures.push(format!("  {name}\n    {}", details()));
+        }
+    }
+
+    /// Fails with every row that did not hold.
+    pub fn close(self) {
+        let Self {
+            subject,
+            rows,
+            failures,
+        } = self;
+        let unlisted = failures.len().saturating_sub(Self::LISTED);
+        let more = if unlisted > 0 {
+            format!("\n  … and {unlisted} more")
+        } else {
+            String::new()
+        };
+        let listed = &failures[..failures.len() - unlisted];
+        assert!(
+            failures.is_empty(),
+            "{subject}: {} of {rows} rows fail\n{}{more}",
+            failures.len(),
+            listed.join("\n"),
+        );
+    }
+}
