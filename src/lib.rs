@@ -71,6 +71,7 @@
 //! `build.rs` links them to plain WGSL, which the binary carries.
 
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 
 pub mod app;
 pub mod bvh;

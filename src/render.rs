@@ -52,13 +52,17 @@ struct Cursor {
 pub struct Stats {
     /// Making pipelines and running each once with nothing to do, when drivers compile.
     pub compile_seconds: f64,
+    /// Copying the scene to the device, again after a loss.
     pub upload_seconds: f64,
+    /// Tracing, from submission to the copy of the film, whatever came of it.
     pub trace_seconds: f64,
+    /// Developing, each time it was asked for.
     pub develop_seconds: f64,
-    /// Submissions that traced, and the longest of them.
+    /// Submissions that traced.
     pub submissions: u64,
+    /// The longest of them, in milliseconds.
     pub longest_submission_ms: f64,
-    /// Samples that were infinite or not a number, and dropped.
+    /// Samples that were dropped: with them a sum would be infinite or not a number.
     pub nonfinite_samples: u64,
     /// Planned memory in bytes; see [`Settings::memory_limit_bytes`].
     pub gpu_bytes: u64,
@@ -71,17 +75,23 @@ pub struct Stats {
 /// Rays by kind. Shadow rays count one for each light that the surface faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rays {
+    /// From the camera, one for each sample.
     pub primary: u64,
+    /// Those that hit something.
     pub primary_hits: u64,
+    /// To lights.
     pub shadow: u64,
+    /// Those that hit something before the light.
     pub shadow_blocked: u64,
 }
 
 /// Why a picture cannot be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
+    /// The device or its driver failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// The driver ended a shader's loops early, even with one sample in an invocation.
     #[error(
         "too much work in one pixel (lights, or primitives with --no-bvh): this driver ends a shader's loops after 65,535 rounds, and the picture would be wrong. Use fewer lights, or leave out --no-bvh."
     )]

@@ -85,7 +85,10 @@ fn longest_run(boxes: &[Aabb]) -> usize {
         let [x, y, z] = (center * 1023.0).to_array().map(|c| spread_bits(c as u32));
         x | y << 1 | z << 2
     };
-    let mut order: Vec<_> = (0u32..).zip(boxes).map(|(i, aabb)| (code(aabb), i)).collect();
+    let mut order: Vec<_> = (0u32..)
+        .zip(boxes)
+        .map(|(i, aabb)| (code(aabb), i))
+        .collect();
     order.sort_unstable();
     let areas = order.windows(2).map(|pair| {
         let [a, b] = [pair[0], pair[1]].map(|(_, i)| boxes[i as usize]);

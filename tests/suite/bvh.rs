@@ -4,15 +4,23 @@ use crate::reference::compare::{assert_none, check_same_bits, render};
 use crate::reference::scenes::{self, Build, Random};
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3};
 use glimray::bvh::{self, Aabb, Bvh, Child, Limits};
-use glimray::layout::{LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, SHAPE, STACK_SIZE};
+use glimray::layout::{
+    LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, SHAPE, STACK_SIZE,
+};
 use glimray::pack::{self, PackedScene};
 use glimray::render::{Integrator, Settings, TriangleTest};
 use glimray::scene::{Mesh, Scene};
 
-const LIMITS: Limits = Limits { leaf_size: 4, stack_size: STACK_SIZE as usize - 1 };
+const LIMITS: Limits = Limits {
+    leaf_size: 4,
+    stack_size: STACK_SIZE as usize - 1,
+};
 
 fn box_round(center: DVec3, half: DVec3) -> Aabb {
-    Aabb { min: (center - half).as_vec3(), max: (center + half).as_vec3() }
+    Aabb {
+        min: (center - half).as_vec3(),
+        max: (center + half).as_vec3(),
+    }
 }
 
 fn inputs() -> Vec<(&'static str, Vec<Aabb>)> {
@@ -23,32 +31,74 @@ fn inputs() -> Vec<(&'static str, Vec<Aabb>)> {
     vec![
         ("none", vec![]),
         ("one", vec![box_round(DVec3::ONE, DVec3::ONE)]),
-        ("two", many(2, Box::new(|r| box_round(r.within(1.0), DVec3::ONE)))),
-        ("random", many(5000, Box::new(|r| box_round(r.within(10.0), r.within(0.3).abs())))),
+        (
+            "two",
+            many(2, Box::new(|r| box_round(r.within(1.0), DVec3::ONE))),
+        ),
+        (
+            "random",
+            many(
+                5000,
+                Box::new(|r| box_round(r.within(10.0), r.within(0.3).abs())),
+            ),
+        ),
         (
             "clustered",
-            many(5000, Box::new(|r| {
-                let cluster = dvec3(r.below(8) as f64 * 100.0, r.below(3) as f64 * 1e-3, 0.0);
-                box_round(cluster + r.within(1e-4), DVec3::splat(1e-5))
-            })),
+            many(
+                5000,
+                Box::new(|r| {
+                    let cluster = dvec3(r.below(8) as f64 * 100.0, r.below(3) as f64 * 1e-3, 0.0);
+                    box_round(cluster + r.within(1e-4), DVec3::splat(1e-5))
+                }),
+            ),
         ),
         // The builder must not take time that grows with the square of these.
-        ("coincident", vec![box_round(DVec3::ONE, DVec3::ONE); 100_000]),
-        ("in a row", (0..100_000).map(|i| box_round(DVec3::X * f64::from(3 * i), DVec3::ONE)).collect()),
-        ("nested", (1..=100_000).map(|i| box_round(DVec3::ONE, DVec3::splat(f64::from(i)))).collect()),
-        ("a few places", (0..100_000).map(|i| box_round(DVec3::Y * f64::from(i % 40), DVec3::ONE)).collect()),
+        (
+            "coincident",
+            vec![box_round(DVec3::ONE, DVec3::ONE); 100_000],
+        ),
+        (
+            "in a row",
+            (0..100_000)
+                .map(|i| box_round(DVec3::X * f64::from(3 * i), DVec3::ONE))
+                .collect(),
+        ),
+        (
+            "nested",
+            (1..=100_000)
+                .map(|i| box_round(DVec3::ONE, DVec3::splat(f64::from(i))))
+                .collect(),
+        ),
+        (
+            "a few places",
+            (0..100_000)
+                .map(|i| box_round(DVec3::Y * f64::from(i % 40), DVec3::ONE))
+                .collect(),
+        ),
         (
             "collinear points",
-            many(50_000, Box::new(|r| box_round(DVec3::X * r.between(-5.0, 5.0), DVec3::ZERO))),
+            many(
+                50_000,
+                Box::new(|r| box_round(DVec3::X * r.between(-5.0, 5.0), DVec3::ZERO)),
+            ),
         ),
         (
             "huge and tiny",
-            many(3000, Box::new(|r| {
-                let size = 10f64.powf(r.between(-30.0, 14.0));
-                box_round(r.within(1.0) * size, r.within(1.0).abs() * size)
-            })),
+            many(
+                3000,
+                Box::new(|r| {
+                    let size = 10f64.powf(r.between(-30.0, 14.0));
+                    box_round(r.within(1.0) * size, r.within(1.0).abs() * size)
+                }),
+            ),
         ),
-        ("at the limit", many(100, Box::new(|r| box_round(r.within(1e15), DVec3::splat(1e14))))),
+        (
+            "at the limit",
+            many(
+                100,
+                Box::new(|r| box_round(r.within(1e15), DVec3::splat(1e14))),
+            ),
+        ),
         ("spread exponentially", exponential()),
     ]
 }
@@ -56,7 +106,9 @@ fn inputs() -> Vec<(&'static str, Vec<Aabb>)> {
 /// Each box twice as far out as the one before: whoever joins nearest neighbours digs a chain.
 fn exponential() -> Vec<Aabb> {
     let place = |i: i32| DVec3::X * 2f64.powi(i);
-    (-70..50).map(|i| box_round(place(i), DVec3::splat(2f64.powi(i - 4)))).collect()
+    (-70..50)
+        .map(|i| box_round(place(i), DVec3::splat(2f64.powi(i - 4))))
+        .collect()
 }
 
 /// Says what is wrong with a tree.
@@ -75,12 +127,18 @@ fn check_tree(bvh: &Bvh, boxes: &[Aabb], groups: &[u8]) -> Result<(), String> {
                 Child::Node(below) => {
                     for (inner, _) in &bvh.nodes[below as usize].children {
                         if aabb.union(*inner) != *aabb {
-                            return Err(format!("node {below} is not in its box {aabb:?}: {inner:?}"));
+                            return Err(format!(
+                                "node {below} is not in its box {aabb:?}: {inner:?}"
+                            ));
                         }
                     }
                     open.push(below as usize);
                 }
-                Child::Leaf { group, first, count } => {
+                Child::Leaf {
+                    group,
+                    first,
+                    count,
+                } => {
                     if count == 0 || count > LIMITS.leaf_size {
                         return Err(format!("a leaf of {count}"));
                     }
@@ -106,7 +164,10 @@ fn check_tree(bvh: &Bvh, boxes: &[Aabb], groups: &[u8]) -> Result<(), String> {
     }
     let need = deepest_stack(bvh);
     if bvh.stack_need != need {
-        return Err(format!("stack_need is {}, a walk takes {need}", bvh.stack_need));
+        return Err(format!(
+            "stack_need is {}, a walk takes {need}",
+            bvh.stack_need
+        ));
     }
     Ok(())
 }
@@ -135,8 +196,10 @@ fn every_input_gives_a_sound_tree() {
         let groups: Vec<u8> = (0..boxes.len()).map(|i| u8::from(i % 3 == 0)).collect();
         let bvh = bvh::build(&boxes, &groups, 2, LIMITS);
         let fits = bvh.stack_need <= LIMITS.stack_size;
-        let checked = check_tree(&bvh, &boxes, &groups)
-            .and(fits.then_some(()).ok_or(format!("needs a stack of {}", bvh.stack_need)));
+        let checked = check_tree(&bvh, &boxes, &groups).and(
+            fits.then_some(())
+                .ok_or(format!("needs a stack of {}", bvh.stack_need)),
+        );
         checked.map_err(|why| format!("{name}: {why}"))
     }));
 }
@@ -145,11 +208,21 @@ fn every_input_gives_a_sound_tree() {
 fn a_tree_too_deep_for_the_stack_is_built_again_balanced() {
     let boxes = exponential();
     let groups = vec![0; boxes.len()];
-    let unlimited = Limits { stack_size: usize::MAX, ..LIMITS };
+    let unlimited = Limits {
+        stack_size: usize::MAX,
+        ..LIMITS
+    };
     let need = bvh::build(&boxes, &groups, 1, unlimited).stack_need;
-    assert!(need > LIMITS.stack_size, "this input is meant to be deep, it needs {need}");
+    assert!(
+        need > LIMITS.stack_size,
+        "this input is meant to be deep, it needs {need}"
+    );
     let balanced = bvh::build(&boxes, &groups, 1, LIMITS);
-    assert!(balanced.stack_need <= LIMITS.stack_size, "{}", balanced.stack_need);
+    assert!(
+        balanced.stack_need <= LIMITS.stack_size,
+        "{}",
+        balanced.stack_need
+    );
     assert_eq!(check_tree(&balanced, &boxes, &groups), Ok(()));
 }
 
@@ -210,7 +283,11 @@ fn decode(scene: &PackedScene, node: u32) -> Vec<(u32, [Box64; 2])> {
     let plane = |axis: usize, word: usize, child: usize, fused: bool| {
         let (lo, scale) = (f32::from_bits(words[axis]), f32::from_bits(words[3 + axis]));
         let steps = f32::from(words[word].to_le_bytes()[child]);
-        f64::from(if fused { scale.mul_add(steps, lo) } else { scale * steps + lo })
+        f64::from(if fused {
+            scale.mul_add(steps, lo)
+        } else {
+            scale * steps + lo
+        })
     };
     let children = (0..4).filter(|&i| words[12 + i] != 0);
     let decoded = |i: usize, fused: bool| {
@@ -218,15 +295,24 @@ fn decode(scene: &PackedScene, node: u32) -> Vec<(u32, [Box64; 2])> {
         let max = |axis: usize| plane(axis, 7 + 2 * axis, i, fused);
         (dvec3(min(0), min(1), min(2)), dvec3(max(0), max(1), max(2)))
     };
-    children.map(|i| (words[12 + i], [decoded(i, false), decoded(i, true)])).collect()
+    children
+        .map(|i| (words[12 + i], [decoded(i, false), decoded(i, true)]))
+        .collect()
 }
 
 #[test]
 fn quantised_nodes_decode_to_boxes_that_hold_the_exact_ones() {
     let mut far = scenes::meshes();
     far.cameras[0].look_from = dvec3(3e4, -2e5, 1e3);
-    let mut tiny = Scene { meshes: vec![], instances: vec![], ..scenes::meshes() };
-    tiny.add_mesh(scenes::ball(UVec2::splat(20), 0), DAffine3::from_scale(DVec3::splat(1e-12)));
+    let mut tiny = Scene {
+        meshes: vec![],
+        instances: vec![],
+        ..scenes::meshes()
+    };
+    tiny.add_mesh(
+        scenes::ball(UVec2::splat(20), 0),
+        DAffine3::from_scale(DVec3::splat(1e-12)),
+    );
     let mut huge = soup(9, 2000);
     huge.add_sphere(dvec3(1e14, 1.0, 0.0), 1e10, 0);
     let rows = [
@@ -239,7 +325,9 @@ fn quantised_nodes_decode_to_boxes_that_hold_the_exact_ones() {
     ];
     assert_none(rows.map(|(name, scene)| {
         let packed = pack::scene(&scene).expect("packed");
-        exact_box(&packed, 0).map(|_| ()).map_err(|why| format!("{name}: {why}"))
+        exact_box(&packed, 0)
+            .map(|_| ())
+            .map_err(|why| format!("{name}: {why}"))
     }));
 }
 
@@ -247,7 +335,8 @@ fn lone_triangles(corners: impl IntoIterator<Item = [DVec3; 3]>) -> Mesh {
     let mut mesh = Mesh::default();
     for triangle in corners {
         let first = mesh.positions.len() as u32;
-        mesh.positions.extend(triangle.map(|corner| corner.as_vec3()));
+        mesh.positions
+            .extend(triangle.map(|corner| corner.as_vec3()));
         mesh.triangles.push([first, first + 1, first + 2]);
     }
     mesh.materials = vec![0; mesh.positions.len()];
@@ -312,7 +401,8 @@ fn ties(seed: u64) -> Scene {
     let mut random = Random(seed);
     let mut triangles = Vec::new();
     for i in 0..200 {
-        let mut flat = |z: f64| [(); 3].map(|()| (random.within(2.0) * dvec3(1.0, 1.0, 0.0)).with_z(z));
+        let mut flat =
+            |z: f64| [(); 3].map(|()| (random.within(2.0) * dvec3(1.0, 1.0, 0.0)).with_z(z));
         let triangle = flat(f64::from(i % 4) * 0.5);
         let copies = if i % 3 == 0 { 6 } else { 1 };
         triangles.extend(std::iter::repeat_n(triangle, copies));
@@ -332,26 +422,46 @@ fn medley(seed: u64) -> Scene {
 }
 
 /// Distances and ids through the tree and without it.
-fn check_tree_against_brute_force(name: &str, scene: &Scene, settings: &Settings) -> Result<(), String> {
+fn check_tree_against_brute_force(
+    name: &str,
+    scene: &Scene,
+    settings: &Settings,
+) -> Result<(), String> {
     let mut problems = Vec::new();
     for integrator in [Integrator::Depth, Integrator::Ids] {
         let of = |brute_force| {
-            render(scene, &Settings { integrator, brute_force, ..settings.clone() }).0
+            render(
+                scene,
+                &Settings {
+                    integrator,
+                    brute_force,
+                    ..settings.clone()
+                },
+            )
+            .0
         };
         let name = format!("{name}, {integrator:?}");
         problems.extend(check_same_bits(&name, &of(true), &of(false)).err());
     }
-    if problems.is_empty() { Ok(()) } else { Err(problems.join("\n")) }
+    if problems.is_empty() {
+        Ok(())
+    } else {
+        Err(problems.join("\n"))
+    }
 }
 
 /// An odd number of pixels, so that the middle ones look straight along an axis.
 fn odd_sized() -> Settings {
-    Settings { size: (129, 129), ..Settings::default() }
+    Settings {
+        size: (129, 129),
+        ..Settings::default()
+    }
 }
 
 #[test]
 fn the_tree_finds_what_brute_force_finds() {
-    let kinds: [(&str, fn(u64) -> Scene); 5] = [
+    type Kind = (&'static str, fn(u64) -> Scene);
+    let kinds: [Kind; 5] = [
         ("soup", |seed| soup(seed, 600)),
         ("bubbles", bubbles),
         ("walls", walls),
@@ -368,10 +478,17 @@ fn the_tree_finds_what_brute_force_finds() {
 
 #[test]
 fn every_triangle_test_finds_the_same_with_and_without_the_tree() {
-    let rows = [("soup", soup(7, 600)), ("walls", walls(7)), ("ties", ties(7))];
+    let rows = [
+        ("soup", soup(7, 600)),
+        ("walls", walls(7)),
+        ("ties", ties(7)),
+    ];
     assert_none(rows.into_iter().flat_map(|(name, scene)| {
         [TriangleTest::Plane, TriangleTest::MollerTrumbore].map(|triangle_test| {
-            let settings = Settings { triangle_test, ..odd_sized() };
+            let settings = Settings {
+                triangle_test,
+                ..odd_sized()
+            };
             let name = format!("{name} by {triangle_test:?}");
             check_tree_against_brute_force(&name, &scene, &settings)
         })
@@ -381,7 +498,16 @@ fn every_triangle_test_finds_the_same_with_and_without_the_tree() {
 #[test]
 fn shadows_are_the_same_with_and_without_the_tree() {
     let scene = scenes::everything();
-    let of = |brute_force| render(&scene, &Settings { brute_force, ..odd_sized() }).0;
+    let of = |brute_force| {
+        render(
+            &scene,
+            &Settings {
+                brute_force,
+                ..odd_sized()
+            },
+        )
+        .0
+    };
     assert_none([check_same_bits("shadows", &of(true), &of(false))]);
 }
 
@@ -393,8 +519,21 @@ fn a_chain_of_spheres_deeper_than_the_stack_renders_right() {
         let aside = 0.3 * dvec3(turn.cos(), turn.sin(), 0.0);
         scene.add_sphere(far * (aside - DVec3::Z), far / 20.0, 0);
     }
-    let settings = Settings { size: (64, 64), ..Settings::default() };
+    let settings = Settings {
+        size: (64, 64),
+        ..Settings::default()
+    };
     assert_none([check_tree_against_brute_force("chain", &scene, &settings)]);
-    let hit = render(&scene, &Settings { integrator: Integrator::Depth, ..settings }).0;
-    assert!(hit.pixels.iter().any(|pixel| pixel[0] > 1e6), "the far end is in the picture");
+    let hit = render(
+        &scene,
+        &Settings {
+            integrator: Integrator::Depth,
+            ..settings
+        },
+    )
+    .0;
+    assert!(
+        hit.pixels.iter().any(|pixel| pixel[0] > 1e6),
+        "the far end is in the picture"
+    );
 }

@@ -52,7 +52,9 @@ impl Workplace {
     /// Renders under a fault with more flags, and clears away what the run left.
     fn render<S: AsRef<OsStr>>(&self, fault: &str, flags: impl IntoIterator<Item = S>) -> Run {
         let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
-            .args(["render", "a.toml", "-o", "a.png", "--quiet", "--report", "a.json"])
+            .args([
+                "render", "a.toml", "-o", "a.png", "--quiet", "--report", "a.json",
+            ])
             .args(flags)
             .current_dir(self.0.path())
             .env("GLIMRAY_FAULT", fault)
@@ -65,7 +67,9 @@ impl Workplace {
         for name in ["a.png", "a.json"] {
             let _ = fs::remove_file(self.path(name));
         }
-        let left = fs::read_dir(self.0.path()).expect("a readable folder").count();
+        let left = fs::read_dir(self.0.path())
+            .expect("a readable folder")
+            .count();
         assert_eq!(left, 1, "{fault}: files are left beside the scene");
         Run {
             code: output.status.code(),

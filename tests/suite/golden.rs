@@ -28,8 +28,17 @@ struct Golden {
 }
 
 fn golden(name: &'static str, scene: Scene) -> Golden {
-    let tone = Tone { exposure_ev: 0.0, curve: ToneCurve::None, transfer: Transfer::Srgb };
-    Golden { name, scene, settings: sized(WIDTH, HEIGHT), tone }
+    let tone = Tone {
+        exposure_ev: 0.0,
+        curve: ToneCurve::None,
+        transfer: Transfer::Srgb,
+    };
+    Golden {
+        name,
+        scene,
+        settings: sized(WIDTH, HEIGHT),
+        tone,
+    }
 }
 
 impl Golden {
@@ -39,12 +48,19 @@ impl Golden {
     }
 
     fn viewed(self, integrator: Integrator, exposure_ev: f32) -> Self {
-        let tone = Tone { exposure_ev, ..Tone::LINEAR };
+        let tone = Tone {
+            exposure_ev,
+            ..Tone::LINEAR
+        };
         Self { tone, ..self }.set(|settings| settings.integrator = integrator)
     }
 
     fn toned(mut self, exposure_ev: f32, curve: ToneCurve) -> Self {
-        self.tone = Tone { exposure_ev, curve, ..self.tone };
+        self.tone = Tone {
+            exposure_ev,
+            curve,
+            ..self.tone
+        };
         self
     }
 
@@ -74,7 +90,10 @@ fn still_life() -> Scene {
     scene.add_plane(DVec3::ZERO, DVec3::Y, 0);
     scene.add_sphere(dvec3(-1.6, 0.8, 0.0), 0.8, red);
     let lying = DAffine3::from_translation(dvec3(0.3, 0.4, 1.0)) * DAffine3::from_rotation_x(0.2);
-    scene.add_mesh(scenes::torus(0.7, 0.3, UVec2::new(24, 12), green as u32), lying);
+    scene.add_mesh(
+        scenes::torus(0.7, 0.3, UVec2::new(24, 12), green as u32),
+        lying,
+    );
     let placed = DAffine3::from_translation(dvec3(1.8, 0.9, -0.3));
     scene.add_mesh(scenes::ball(UVec2::new(20, 10), blue as u32), placed);
     scene
@@ -88,13 +107,22 @@ fn lit() -> Scene {
 
 fn lit_by(kind: LightKind, strength: f32, attenuation: Attenuation) -> Scene {
     let mut scene = still_life();
-    scene.lights.push(Light { kind, color: Vec3::splat(strength), attenuation });
+    scene.lights.push(Light {
+        kind,
+        color: Vec3::splat(strength),
+        attenuation,
+    });
     scene
 }
 
 fn spot() -> LightKind {
     let position = dvec3(0.5, 5.0, 3.0);
-    LightKind::Spot { position, direction: -position.normalize(), inner: 0.15, outer: 0.35 }
+    LightKind::Spot {
+        position,
+        direction: -position.normalize(),
+        inner: 0.15,
+        outer: 0.35,
+    }
 }
 
 fn mixed() -> Scene {
@@ -112,7 +140,10 @@ fn mixed() -> Scene {
 /// Two walls seen and lit from behind: the left one has two sides, the right one has not.
 fn sides() -> Scene {
     let mut scene = scenes::empty();
-    let one_sided = scene.add_material(Material { two_sided: false, ..Material::default() });
+    let one_sided = scene.add_material(Material {
+        two_sided: false,
+        ..Material::default()
+    });
     let upright = DAffine3::from_rotation_x(PI / 2.0);
     for (x, material) in [(-1.5, 0), (1.5, one_sided)] {
         // Both face away from the camera and the lamp.
@@ -134,8 +165,12 @@ fn inside() -> Scene {
 
 fn goldens() -> Vec<Golden> {
     let none = Attenuation::None;
-    let aslant = LightKind::Directional { direction: dvec3(-0.5, -0.7, -0.5).normalize() };
-    let near = LightKind::Point { position: dvec3(0.3, 1.6, 1.0) };
+    let aslant = LightKind::Directional {
+        direction: dvec3(-0.5, -0.7, -0.5).normalize(),
+    };
+    let near = LightKind::Point {
+        position: dvec3(0.3, 1.6, 1.0),
+    };
     let mut bright = lit();
     bright.lights[0].color = vec3(6.0, 5.0, 3.5);
     vec![
@@ -158,7 +193,10 @@ fn goldens() -> Vec<Golden> {
         golden("light-none", still_life()),
         golden("light-directional", lit_by(aslant, 0.8, none)),
         golden("light-spot", lit_by(spot(), 0.9, none)),
-        golden("light-inverse-square", lit_by(near, 1.5, Attenuation::InverseSquare)),
+        golden(
+            "light-inverse-square",
+            lit_by(near, 1.5, Attenuation::InverseSquare),
+        ),
         golden("materials-mixed", mixed()),
         golden("materials-sides", sides()),
         golden("inside-a-sphere", inside()),
@@ -180,9 +218,12 @@ fn path(name: &str) -> PathBuf {
 
 /// A stored picture, levels as parts of 1.
 fn stored(name: &str) -> Result<Image, String> {
-    let read = image::open(path(name)).map_err(|error| format!("{name}: {error}. Run: {UPDATE}"))?;
+    let read =
+        image::open(path(name)).map_err(|error| format!("{name}: {error}. Run: {UPDATE}"))?;
     let read = read.into_rgb8();
-    let pixels = read.pixels().map(|p| vec3(p[0].into(), p[1].into(), p[2].into()) / 255.0);
+    let pixels = read
+        .pixels()
+        .map(|p| vec3(p[0].into(), p[1].into(), p[2].into()) / 255.0);
     Ok(Image {
         width: read.width(),
         height: read.height(),
@@ -199,8 +240,14 @@ fn golden_pictures_are_as_they_were() {
             return output::save(path(golden.name), &actual).map_err(|error| error.to_string());
         }
         // Allows the rounding to levels on top.
-        check_alike(golden.name, &stored(golden.name)?, &actual, LEVELS + 0.5, 0.001)
-            .map_err(|why| format!("{why}. If it is right now, run: {UPDATE}"))
+        check_alike(
+            golden.name,
+            &stored(golden.name)?,
+            &actual,
+            LEVELS + 0.5,
+            0.001,
+        )
+        .map_err(|why| format!("{why}. If it is right now, run: {UPDATE}"))
     }));
 }
 
@@ -212,8 +259,16 @@ fn golden_pictures_are_small_and_all_in_use() {
         let entry = entry.expect("an entry");
         let bytes = entry.metadata().expect("a file").len();
         let file = entry.path();
-        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        assert!(names.contains(&name.as_str()), "{} belongs to no test", file.display());
+        let name = file
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        assert!(
+            names.contains(&name.as_str()),
+            "{} belongs to no test",
+            file.display()
+        );
         assert!(bytes <= MOST_BYTES, "{} has {bytes} bytes", file.display());
     }
 }

@@ -2,6 +2,7 @@
 
 mod bvh;
 mod cli;
+mod drivers;
 mod faults;
 mod golden;
 mod import;

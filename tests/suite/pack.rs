@@ -20,7 +20,10 @@ fn render_space_has_its_origin_at_the_camera() {
     scene.cameras[0].look_at = eye + DVec3::X;
     // f32 would round these places to whole metres.
     scene.add_sphere(eye + dvec3(0.125, 0.25, -0.375), 0.5, 0);
-    scene.add_mesh(scenes::quad(1.0, 0), DAffine3::from_translation(eye + dvec3(0.0, 0.0625, 0.0)));
+    scene.add_mesh(
+        scenes::quad(1.0, 0),
+        DAffine3::from_translation(eye + dvec3(0.0, 0.0625, 0.0)),
+    );
     scene.add_point_light(eye + dvec3(0.0, 0.03125, 0.0), 1.0);
     let packed = packed(&scene);
     let view = packed.frame(&scene.frame(0.0)).expect("a frame");
@@ -55,7 +58,10 @@ fn planes_follow_the_bounded_shapes_and_all_keep_their_ids() {
     let packed = packed(&scene);
     assert_eq!((packed.plane_count, packed.bounded_shape_count()), (7, 13));
     let kinds: Vec<_> = packed.shapes.iter().map(|shape| shape.kind).collect();
-    assert_eq!(kinds, [[SHAPE_SPHERE; 13].as_slice(), &[SHAPE_PLANE; 7]].concat());
+    assert_eq!(
+        kinds,
+        [[SHAPE_SPHERE; 13].as_slice(), &[SHAPE_PLANE; 7]].concat()
+    );
     let mut ids: Vec<_> = packed.shapes.iter().map(|shape| shape.id).collect();
     for shape in &packed.shapes {
         assert_eq!(shape.kind == SHAPE_PLANE, shape.id % 3 == 0, "{shape:?}");
@@ -74,17 +80,27 @@ fn a_plane_is_kept_by_its_point_nearest_to_the_camera() {
     scene.add_plane(eye + normal * 4.0 + along * 1e12, normal, 0);
     let shape = packed(&scene).shapes[0];
     let expected = (normal * 4.0).as_vec3();
-    assert!(Vec3::from(shape.position).distance(expected) < 1e-3, "{shape:?}");
+    assert!(
+        Vec3::from(shape.position).distance(expected) < 1e-3,
+        "{shape:?}"
+    );
     assert_eq!(shape.normal, normal.as_vec3().to_array());
 }
 
 #[test]
 fn every_triangle_and_sphere_is_packed_once() {
     let mut scene = scenes::everything();
-    scene.add_mesh(scenes::torus(1.0, 0.3, UVec2::new(30, 20), 0), DAffine3::IDENTITY);
+    scene.add_mesh(
+        scenes::torus(1.0, 0.3, UVec2::new(30, 20), 0),
+        DAffine3::IDENTITY,
+    );
     let packed = packed(&scene);
     assert_eq!(packed.triangles.len(), scene.triangle_count());
-    let mut corners: Vec<_> = packed.triangles.iter().map(|t| [t.i0, t.i1, t.i2]).collect();
+    let mut corners: Vec<_> = packed
+        .triangles
+        .iter()
+        .map(|t| [t.i0, t.i1, t.i2])
+        .collect();
     let mut first = 0;
     let mut expected = Vec::new();
     for instance in &scene.instances {
@@ -107,9 +123,15 @@ fn normals_go_by_the_inverse_transpose() {
         ("turned", spin),
         ("uneven", uneven),
         ("mirrored", mirror),
-        ("all at once", spin * uneven * mirror * DAffine3::from_rotation_z(0.3)),
+        (
+            "all at once",
+            spin * uneven * mirror * DAffine3::from_rotation_z(0.3),
+        ),
         ("tiny", DAffine3::from_scale(DVec3::splat(1e-9))),
-        ("turned inside out", DAffine3::from_scale(DVec3::splat(-1e6))),
+        (
+            "turned inside out",
+            DAffine3::from_scale(DVec3::splat(-1e6)),
+        ),
     ];
     for (name, placement) in rows {
         let mut scene = scenes::empty();
@@ -121,8 +143,15 @@ fn normals_go_by_the_inverse_transpose() {
             let p = placement.transform_vector3(position.as_dvec3());
             let gradient = (inverse.transpose() * (inverse * p)).normalize();
             let normal = Vec3::from(vertex.normal).as_dvec3();
-            assert!(normal.distance(gradient) < 1e-5, "{name}: {normal}, expected {gradient}");
-            assert!((normal.length() - 1.0).abs() < 1e-6, "{name}: {}", normal.length());
+            assert!(
+                normal.distance(gradient) < 1e-5,
+                "{name}: {normal}, expected {gradient}"
+            );
+            assert!(
+                (normal.length() - 1.0).abs() < 1e-6,
+                "{name}: {}",
+                normal.length()
+            );
             assert!(normal.dot(p) > 0.0, "{name}: a normal points inwards");
         }
     }
@@ -139,10 +168,15 @@ fn materials_keep_their_order_and_their_sides() {
         two_sided: false,
         ..Material::default()
     });
-    let [default, given] = packed(&scene).materials[..] else { panic!("two materials") };
+    let [default, given] = packed(&scene).materials[..] else {
+        panic!("two materials")
+    };
     assert_eq!(default.flags & MATERIAL_TWO_SIDED, MATERIAL_TWO_SIDED);
     assert_eq!(given.flags & MATERIAL_TWO_SIDED, 0);
-    assert_eq!((given.diffuse, given.specular), ([0.1, 0.2, 0.3], [0.4, 0.5, 0.6]));
+    assert_eq!(
+        (given.diffuse, given.specular),
+        ([0.1, 0.2, 0.3], [0.4, 0.5, 0.6])
+    );
     assert_eq!((given.shininess, given.ambient), (7.0, [0.8, 0.9, 1.0]));
 }
 
@@ -177,9 +211,17 @@ fn lights_keep_their_kind_and_cones_become_cosines() {
         attenuation: Attenuation::InverseSquare,
     });
     let view = packed(&scene).frame(&scene.frame(0.0)).expect("a frame");
-    let [point, spot] = view.lights[..] else { panic!("two lights") };
-    assert_eq!((point.kind, point.color, point.attenuation), (LIGHT_POINT, [0.5; 3], 0));
-    assert_eq!((spot.kind, spot.direction, spot.attenuation), (LIGHT_SPOT, [0.0, -1.0, 0.0], 1));
+    let [point, spot] = view.lights[..] else {
+        panic!("two lights")
+    };
+    assert_eq!(
+        (point.kind, point.color, point.attenuation),
+        (LIGHT_POINT, [0.5; 3], 0)
+    );
+    assert_eq!(
+        (spot.kind, spot.direction, spot.attenuation),
+        (LIGHT_SPOT, [0.0, -1.0, 0.0], 1)
+    );
     assert_eq!(spot.cos_inner, 1.0);
     assert!((spot.cos_outer - 0.5).abs() < 1e-7, "{}", spot.cos_outer);
 }
@@ -192,8 +234,16 @@ fn the_image_plane_is_as_high_as_the_field_of_view_and_as_wide_as_the_aspect() {
     let camera = view.with_aspect(300, 100).frame.camera;
     let half = (std::f32::consts::PI / 6.0).tan();
     assert_eq!(camera.forward, [0.0, 0.0, -1.0]);
-    assert!(Vec3::from(camera.up).distance(vec3(0.0, half, 0.0)) < 1e-7, "{:?}", camera.up);
-    assert!(Vec3::from(camera.right).distance(vec3(3.0 * half, 0.0, 0.0)) < 1e-6, "{:?}", camera.right);
+    assert!(
+        Vec3::from(camera.up).distance(vec3(0.0, half, 0.0)) < 1e-7,
+        "{:?}",
+        camera.up
+    );
+    assert!(
+        Vec3::from(camera.right).distance(vec3(3.0 * half, 0.0, 0.0)) < 1e-6,
+        "{:?}",
+        camera.right
+    );
 }
 
 #[test]
@@ -213,15 +263,24 @@ fn coordinates_beyond_the_range_of_f32_arithmetic_are_refused() {
     let mut large = scenes::empty();
     large.add_sphere(DVec3::ZERO, 1e16, 0);
     let mut mesh = scenes::empty();
-    mesh.add_mesh(scenes::quad(1.0, 0), DAffine3::from_scale(DVec3::splat(1e17)));
+    mesh.add_mesh(
+        scenes::quad(1.0, 0),
+        DAffine3::from_scale(DVec3::splat(1e17)),
+    );
     for scene in [far, large, mesh] {
         let refusal = pack::scene(&scene).map(|_| ());
-        assert!(matches!(refusal, Err(PackError::OutOfRange { .. })), "{refusal:?}");
+        assert!(
+            matches!(refusal, Err(PackError::OutOfRange { .. })),
+            "{refusal:?}"
+        );
     }
     let mut light = scenes::empty();
     light.add_point_light(dvec3(0.0, 1e16, 0.0), 1.0);
     let refusal = packed(&light).frame(&light.frame(0.0));
-    assert!(matches!(refusal, Err(PackError::OutOfRange { .. })), "{refusal:?}");
+    assert!(
+        matches!(refusal, Err(PackError::OutOfRange { .. })),
+        "{refusal:?}"
+    );
 }
 
 #[test]

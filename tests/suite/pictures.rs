@@ -13,7 +13,9 @@ const LEVELS: f32 = 2.0;
 const SHARE: f64 = 0.001;
 
 fn project_scene(name: &str) -> Scene {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets/scenes").join(name);
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("assets/scenes")
+        .join(name);
     import::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -24,14 +26,25 @@ fn against_the_reference(name: &str, scene: &Scene, settings: &Settings) -> Resu
 
 #[test]
 fn the_course_scenes_match_an_independent_tracer_at_their_full_size() {
-    let names = ["sphere.scene", "spheres_and_triangles.scene", "terrain.scene"];
-    assert_none(names.map(|name| against_the_reference(name, &project_scene(name), &sized(640, 480))));
+    let names = [
+        "sphere.scene",
+        "spheres_and_triangles.scene",
+        "terrain.scene",
+    ];
+    assert_none(
+        names.map(|name| against_the_reference(name, &project_scene(name), &sized(640, 480))),
+    );
 }
 
 #[test]
 fn the_native_scenes_match_an_independent_tracer() {
     // Brute force over the thousands of triangles of mesh.toml allows no larger picture.
-    let rows = [("shapes.toml", 320), ("lights.toml", 320), ("far_away.toml", 320), ("mesh.toml", 96)];
+    let rows = [
+        ("shapes.toml", 320),
+        ("lights.toml", 320),
+        ("far_away.toml", 320),
+        ("mesh.toml", 96),
+    ];
     assert_none(rows.map(|(name, width)| {
         against_the_reference(name, &project_scene(name), &sized(width, width * 3 / 4))
     }));
@@ -51,39 +64,85 @@ fn scenes_with_every_surface_and_light_match_an_independent_tracer() {
 fn all_triangle_tests_give_the_reference_picture() {
     let scene = scenes::meshes();
     let expected = trace(&scene, (256, 192)).image;
-    let tests = [TriangleTest::Plane, TriangleTest::MollerTrumbore, TriangleTest::Watertight];
+    let tests = [
+        TriangleTest::Plane,
+        TriangleTest::MollerTrumbore,
+        TriangleTest::Watertight,
+    ];
     assert_none(tests.map(|triangle_test| {
-        let settings = Settings { triangle_test, ..sized(256, 192) };
+        let settings = Settings {
+            triangle_test,
+            ..sized(256, 192)
+        };
         let name = format!("{triangle_test:?}");
-        check_alike(&name, &expected, &render(&scene, &settings).0, LEVELS, SHARE)
+        check_alike(
+            &name,
+            &expected,
+            &render(&scene, &settings).0,
+            LEVELS,
+            SHARE,
+        )
     }));
 }
 
 #[test]
 fn images_and_buffers_fetch_the_same_bits() {
     let scene = scenes::everything();
-    let of = |fetch| render(&scene, &Settings { fetch, ..sized(160, 120) }).0;
-    assert_none([check_same_bits("fetch", &of(Fetch::Image), &of(Fetch::Buffer))]);
+    let of = |fetch| {
+        render(
+            &scene,
+            &Settings {
+                fetch,
+                ..sized(160, 120)
+            },
+        )
+        .0
+    };
+    assert_none([check_same_bits(
+        "fetch",
+        &of(Fetch::Image),
+        &of(Fetch::Buffer),
+    )]);
 }
 
 #[test]
 fn the_seed_moves_stratified_samples_and_no_others() {
     let scene = scenes::spheres();
     let picture = |antialias, seed| -> Image {
-        let settings = Settings { antialias, seed, samples: 4, ..sized(64, 48) };
+        let settings = Settings {
+            antialias,
+            seed,
+            samples: 4,
+            ..sized(64, 48)
+        };
         render(&scene, &settings).0
     };
-    assert_none([check_same_bits("centre", &picture(Antialias::None, 1), &picture(Antialias::None, 2))]);
-    let (a, b) = (picture(Antialias::Stratified, 1), picture(Antialias::Stratified, 2));
+    assert_none([check_same_bits(
+        "centre",
+        &picture(Antialias::None, 1),
+        &picture(Antialias::None, 2),
+    )]);
+    let (a, b) = (
+        picture(Antialias::Stratified, 1),
+        picture(Antialias::Stratified, 2),
+    );
     assert_ne!(a, b, "another seed gives another picture");
-    assert_eq!(a, picture(Antialias::Stratified, 1), "the same seed gives the same picture");
+    assert_eq!(
+        a,
+        picture(Antialias::Stratified, 1),
+        "the same seed gives the same picture"
+    );
 }
 
 #[test]
 fn many_stratified_samples_average_the_pixel() {
     // The mean of a picture 8 times as fine over 8x8 pixels is a good estimate of the same integral.
     let scene = scenes::spheres();
-    let settings = Settings { samples: 256, antialias: Antialias::Stratified, ..sized(40, 30) };
+    let settings = Settings {
+        samples: 256,
+        antialias: Antialias::Stratified,
+        ..sized(40, 30)
+    };
     let (actual, _) = render(&scene, &settings);
     let fine = trace(&scene, (320, 240)).image;
     let mut expected = Image::new(40, 30);

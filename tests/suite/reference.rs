@@ -8,9 +8,7 @@ pub mod scenes;
 use glam::{DVec2, DVec3};
 use glimray::image::Image;
 use glimray::render::Rays;
-use glimray::scene::{
-    Attenuation, Camera, Geometry, Light, LightKind, Material, Scene, Shape,
-};
+use glimray::scene::{Attenuation, Camera, Geometry, Light, LightKind, Material, Scene, Shape};
 
 /// The picture and the number of rays it took.
 pub struct Traced {
@@ -41,13 +39,21 @@ pub fn trace(scene: &Scene, (width, height): (u32, u32)) -> Traced {
         let odd = scope.spawn(of(1));
         let even = of(0)();
         let mut odd = odd.join().expect("a traced half").into_iter();
-        even.into_iter().flat_map(|row| std::iter::once(row).chain(odd.next())).collect()
+        even.into_iter()
+            .flat_map(|row| std::iter::once(row).chain(odd.next()))
+            .collect()
     });
 
-    let mut image = Image { width, height, pixels: Vec::new() };
+    let mut image = Image {
+        width,
+        height,
+        pixels: Vec::new(),
+    };
     let mut rays = Rays::default();
     for (pixels, row) in rows {
-        image.pixels.extend(pixels.iter().map(|c| c.as_vec3().extend(1.0).to_array()));
+        image
+            .pixels
+            .extend(pixels.iter().map(|c| c.as_vec3().extend(1.0).to_array()));
         rays.primary += row.primary;
         rays.primary_hits += row.primary_hits;
         rays.shadow += row.shadow;
@@ -106,16 +112,22 @@ impl<'a> Tracer<'a> {
             let normal_matrix = placement.matrix3.inverse().transpose();
             for indices in &mesh.triangles {
                 let indices = indices.map(|i| i as usize);
-                let corners = indices.map(|i| placement.transform_point3(mesh.positions[i].as_dvec3()));
+                let corners =
+                    indices.map(|i| placement.transform_point3(mesh.positions[i].as_dvec3()));
                 triangles.push(Triangle {
                     corners,
                     cross: (corners[1] - corners[0]).cross(corners[2] - corners[0]),
-                    normals: indices.map(|i| (normal_matrix * mesh.normals[i].as_dvec3()).normalize()),
+                    normals: indices
+                        .map(|i| (normal_matrix * mesh.normals[i].as_dvec3()).normalize()),
                     materials: indices.map(|i| mesh.materials[i]),
                 });
             }
         }
-        Self { scene, camera: &scene.cameras[scene.camera_index], triangles }
+        Self {
+            scene,
+            camera: &scene.cameras[scene.camera_index],
+            triangles,
+        }
     }
 
     fn radiance(&self, direction: DVec3, rays: &mut Rays) -> DVec3 {
@@ -147,7 +159,14 @@ impl<'a> Tracer<'a> {
 
     /// amb + Σ L (k_d max(l·n, 0) + k_s max(r·v, 0)^α) over the lights that are seen from `shadow`'s
     /// origin, with r = 2(l·n)n - l.
-    fn shade(&self, shadow: Ray, n: DVec3, v: DVec3, material: &Material, rays: &mut Rays) -> DVec3 {
+    fn shade(
+        &self,
+        shadow: Ray,
+        n: DVec3,
+        v: DVec3,
+        material: &Material,
+        rays: &mut Rays,
+    ) -> DVec3 {
         let mut sum = self.scene.ambient.as_dvec3() * material.ambient.as_dvec3();
         for light in &self.scene.lights {
             let (l, distance, arriving) = light_at(light, shadow.origin);
@@ -156,7 +175,14 @@ impl<'a> Tracer<'a> {
                 continue;
             }
             rays.shadow += 1;
-            if self.nearest(Ray { direction: l, t_max: distance, ..shadow }).is_some() {
+            if self
+                .nearest(Ray {
+                    direction: l,
+                    t_max: distance,
+                    ..shadow
+                })
+                .is_some()
+            {
                 rays.shadow_blocked += 1;
                 continue;
             }
@@ -207,9 +233,16 @@ impl<'a> Tracer<'a> {
     }
 
     /// Normal and coefficients are interpolated; the first corner says whether there are two sides.
-    fn triangle_surface(&self, triangle: &Triangle, p: DVec3, direction: DVec3) -> (DVec3, Material) {
+    fn triangle_surface(
+        &self,
+        triangle: &Triangle,
+        p: DVec3,
+        direction: DVec3,
+    ) -> (DVec3, Material) {
         let weights = weights(triangle, p);
-        let [a, b, c] = triangle.materials.map(|i| &self.scene.materials[i as usize]);
+        let [a, b, c] = triangle
+            .materials
+            .map(|i| &self.scene.materials[i as usize]);
         let mix = |of: fn(&Material) -> glam::Vec3| {
             weights.x as f32 * of(a) + weights.y as f32 * of(b) + weights.z as f32 * of(c)
         };
@@ -237,7 +270,12 @@ fn light_at(light: &Light, p: DVec3) -> (DVec3, f64, DVec3) {
     let (position, strength) = match light.kind {
         LightKind::Directional { direction } => return (-direction, f64::INFINITY, color),
         LightKind::Point { position } => (position, 1.0),
-        LightKind::Spot { position, direction, inner, outer } => {
+        LightKind::Spot {
+            position,
+            direction,
+            inner,
+            outer,
+        } => {
             let cos = (p - position).normalize().dot(direction);
             let x = ((cos - outer.cos()) / (inner.cos() - outer.cos()).max(1e-6)).clamp(0.0, 1.0);
             (position, x * x * (3.0 - 2.0 * x))
@@ -248,7 +286,11 @@ fn light_at(light: &Light, p: DVec3) -> (DVec3, f64, DVec3) {
         Attenuation::None => 1.0,
         Attenuation::InverseSquare => distance.powi(-2),
     };
-    ((position - p) / distance, distance, color * strength * fall_off)
+    (
+        (position - p) / distance,
+        distance,
+        color * strength * fall_off,
+    )
 }
 
 /// t² + 2 b t + c = 0, the smaller root that counts.
@@ -258,7 +300,9 @@ fn hit_sphere(center: DVec3, radius: f64, ray: Ray) -> Option<f64> {
     let c = from_center.length_squared() - radius * radius;
     let root = (b * b - c).sqrt();
     // Without real roots both are NaN, which is in no range.
-    [-b - root, -b + root].into_iter().find(|&t| t > ray.t_min && t < ray.t_max)
+    [-b - root, -b + root]
+        .into_iter()
+        .find(|&t| t > ray.t_min && t < ray.t_max)
 }
 
 fn hit_plane(point: DVec3, normal: DVec3, ray: Ray) -> Option<f64> {

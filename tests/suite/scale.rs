@@ -12,10 +12,14 @@ fn placed(scene: &Scene, scale: f64, offset: DVec3) -> Scene {
     let mut placed = scene.clone();
     for shape in &mut placed.shapes {
         shape.geometry = match shape.geometry {
-            Geometry::Sphere { center, radius } => {
-                Geometry::Sphere { center: place(center), radius: scale * radius }
-            }
-            Geometry::Plane { point, normal } => Geometry::Plane { point: place(point), normal },
+            Geometry::Sphere { center, radius } => Geometry::Sphere {
+                center: place(center),
+                radius: scale * radius,
+            },
+            Geometry::Plane { point, normal } => Geometry::Plane {
+                point: place(point),
+                normal,
+            },
         };
     }
     let placement = DAffine3::from_translation(offset) * DAffine3::from_scale(DVec3::splat(scale));
@@ -27,10 +31,20 @@ fn placed(scene: &Scene, scale: f64, offset: DVec3) -> Scene {
             light.color *= (scale * scale) as f32;
         }
         light.kind = match light.kind {
-            LightKind::Point { position } => LightKind::Point { position: place(position) },
-            LightKind::Spot { position, direction, inner, outer } => {
-                LightKind::Spot { position: place(position), direction, inner, outer }
-            }
+            LightKind::Point { position } => LightKind::Point {
+                position: place(position),
+            },
+            LightKind::Spot {
+                position,
+                direction,
+                inner,
+                outer,
+            } => LightKind::Spot {
+                position: place(position),
+                direction,
+                inner,
+                outer,
+            },
             directional => directional,
         };
     }
@@ -95,7 +109,13 @@ fn a_mesh_with_large_or_small_vertices_gives_the_same_picture() {
             *position *= scale as f32;
         }
         let (actual, _) = render(&scene, &settings);
-        check_alike(&format!("vertices times {scale}"), &expected, &actual, 2.0, 0.001)
+        check_alike(
+            &format!("vertices times {scale}"),
+            &expected,
+            &actual,
+            2.0,
+            0.001,
+        )
     }));
 }
 
@@ -117,7 +137,9 @@ fn a_scene_seen_from_10_000_away_matches_the_reference() {
 /// Light that grazes the ground at this angle and lights it all the same.
 fn grazing(angle: f64) -> Light {
     Light {
-        kind: LightKind::Directional { direction: dvec3(-angle.cos(), -angle.sin(), 0.0) },
+        kind: LightKind::Directional {
+            direction: dvec3(-angle.cos(), -angle.sin(), 0.0),
+        },
         color: Vec3::splat((0.8 / angle.sin()) as f32),
         attenuation: Attenuation::None,
     }
@@ -140,13 +162,19 @@ fn grazing_light_draws_no_speckles() {
     let mut flat_field = ground();
     flat_field.add_mesh(scenes::height_field(20.0, 50, 0, |_, _| 0.0), identity);
     let mut slope = ground();
-    slope.add_mesh(scenes::height_field(20.0, 50, 0, |x, z| 0.1 * x - 0.3 * z), identity);
+    slope.add_mesh(
+        scenes::height_field(20.0, 50, 0, |x, z| 0.1 * x - 0.3 * z),
+        identity,
+    );
     let mut hills = ground();
     let height = |x: f64, z: f64| 0.3 * (1.1 * x).sin() * (1.3 * z).cos();
     hills.add_mesh(scenes::height_field(12.0, 40, 0, height), identity);
     let mut balls = ground();
     balls.add_sphere(DVec3::ZERO, 1.0, 0);
-    balls.add_mesh(scenes::ball(UVec2::new(48, 24), 0), DAffine3::from_translation(DVec3::X * 2.2));
+    balls.add_mesh(
+        scenes::ball(UVec2::new(48, 24), 0),
+        DAffine3::from_translation(DVec3::X * 2.2),
+    );
     let grounds = [
         ("plane", plane),
         ("tilted plane", tilted),
@@ -163,7 +191,13 @@ fn grazing_light_draws_no_speckles() {
             scene.lights = vec![grazing(degrees.to_radians())];
             let expected = trace(&scene, settings.size).image;
             let (actual, _) = render(&scene, &settings);
-            check_alike(&format!("{name} at {degrees} degrees"), &expected, &actual, 2.0, 0.001)
+            check_alike(
+                &format!("{name} at {degrees} degrees"),
+                &expected,
+                &actual,
+                2.0,
+                0.001,
+            )
         })
     }));
 }
@@ -184,6 +218,12 @@ fn a_lamp_just_above_the_ground_draws_no_speckles() {
         scene.add_point_light(dvec3(0.3, height, 0.2), (1.0 / height) as f32);
         let expected = trace(&scene, settings.size).image;
         let (actual, _) = render(&scene, &settings);
-        check_alike(&format!("lamp {height} above the {name}"), &expected, &actual, 2.0, 0.001)
+        check_alike(
+            &format!("lamp {height} above the {name}"),
+            &expected,
+            &actual,
+            2.0,
+            0.001,
+        )
     }));
 }

@@ -30,9 +30,18 @@ fn triangles_without_area_are_dropped_and_counted() {
     let cases: [(&str, [Vec3; 3]); 5] = [
         ("one point", [Vec3::ONE; 3]),
         ("two points", [Vec3::ZERO, Vec3::X, Vec3::X]),
-        ("collinear", [Vec3::ZERO, vec3(1.0, 2.0, 3.0), vec3(2.0, 4.0, 6.0)]),
-        ("thinner than rounding", [Vec3::ZERO, vec3(1e6, 0.0, 0.0), vec3(5e5, 1e-3, 0.0)]),
-        ("tiny and collinear", [Vec3::ZERO, Vec3::X * 1e-20, Vec3::X * 2e-20]),
+        (
+            "collinear",
+            [Vec3::ZERO, vec3(1.0, 2.0, 3.0), vec3(2.0, 4.0, 6.0)],
+        ),
+        (
+            "thinner than rounding",
+            [Vec3::ZERO, vec3(1e6, 0.0, 0.0), vec3(5e5, 1e-3, 0.0)],
+        ),
+        (
+            "tiny and collinear",
+            [Vec3::ZERO, Vec3::X * 1e-20, Vec3::X * 2e-20],
+        ),
     ];
     for (name, corners) in cases {
         let mut mesh = square();
@@ -40,7 +49,14 @@ fn triangles_without_area_are_dropped_and_counted() {
         mesh.materials.extend([0; 3]);
         mesh.triangles.insert(1, [4, 5, 6]);
         let repairs = mesh.repair();
-        assert_eq!(repairs, Repairs { dropped_triangles: 1, recomputed_normals: 0 }, "{name}");
+        assert_eq!(
+            repairs,
+            Repairs {
+                dropped_triangles: 1,
+                recomputed_normals: 0
+            },
+            "{name}"
+        );
         assert_eq!(mesh.triangles, square().triangles, "{name}");
     }
 }
@@ -48,7 +64,10 @@ fn triangles_without_area_are_dropped_and_counted() {
 #[test]
 fn thin_and_tiny_triangles_stay() {
     let cases = [
-        ("a sliver", [Vec3::ZERO, vec3(1.0, 0.0, 0.0), vec3(0.5, 1e-5, 0.0)]),
+        (
+            "a sliver",
+            [Vec3::ZERO, vec3(1.0, 0.0, 0.0), vec3(0.5, 1e-5, 0.0)],
+        ),
         ("tiny", [Vec3::ZERO, Vec3::X * 1e-15, Vec3::Y * 1e-15]),
         ("huge", [Vec3::ZERO, Vec3::X * 1e15, Vec3::Y * 1e15]),
     ];
@@ -61,7 +80,11 @@ fn thin_and_tiny_triangles_stay() {
         };
         assert_eq!(mesh.repair(), Repairs::default(), "{name}");
         assert_eq!(mesh.triangles.len(), 1, "{name}");
-        assert!(mesh.normals.iter().all(|n| n.distance(Vec3::Z) < 1e-6), "{name}: {:?}", mesh.normals);
+        assert!(
+            mesh.normals.iter().all(|n| n.distance(Vec3::Z) < 1e-6),
+            "{name}: {:?}",
+            mesh.normals
+        );
     }
 }
 
@@ -77,7 +100,13 @@ fn normals_without_length_are_recomputed_and_counted() {
     let mut mesh = square();
     mesh.normals = vec![Vec3::ZERO, Vec3::NAN, Vec3::INFINITY, Vec3::X * 5.0];
     let repairs = mesh.repair();
-    assert_eq!(repairs, Repairs { dropped_triangles: 0, recomputed_normals: 3 });
+    assert_eq!(
+        repairs,
+        Repairs {
+            dropped_triangles: 0,
+            recomputed_normals: 3
+        }
+    );
     assert_eq!(mesh.normals, [Vec3::Z, Vec3::Z, Vec3::Z, Vec3::X]);
 }
 
@@ -98,7 +127,12 @@ fn normals_of_any_length_become_unit_vectors() {
 fn recomputed_normals_weigh_triangles_by_area() {
     // A large triangle facing z and a small one facing x share the edge at the origin.
     let mut mesh = Mesh {
-        positions: vec![Vec3::ZERO, Vec3::Y, vec3(-3.0, 0.0, 0.0), vec3(0.0, 0.0, -1.0)],
+        positions: vec![
+            Vec3::ZERO,
+            Vec3::Y,
+            vec3(-3.0, 0.0, 0.0),
+            vec3(0.0, 0.0, -1.0),
+        ],
         materials: vec![0; 4],
         triangles: vec![[0, 1, 2], [0, 3, 1]],
         ..Mesh::default()
@@ -107,7 +141,10 @@ fn recomputed_normals_weigh_triangles_by_area() {
     let expected = vec3(1.0, 0.0, 3.0).normalize();
     let facing = vec3(mesh.normals[0].x.abs(), 0.0, mesh.normals[0].z.abs());
     assert!(facing.distance(expected) < 1e-6, "{:?}", mesh.normals[0]);
-    assert!(mesh.normals[2].abs().distance(Vec3::Z) < 1e-6, "one triangle only");
+    assert!(
+        mesh.normals[2].abs().distance(Vec3::Z) < 1e-6,
+        "one triangle only"
+    );
 }
 
 #[test]
@@ -123,13 +160,20 @@ fn a_vertex_of_no_triangle_gets_a_unit_normal_and_counts_as_nothing() {
 #[test]
 fn vertices_far_from_the_origin_are_kept_near_their_own() {
     let far = dvec3(1e7, 0.0, -2e7);
-    let world = [far + dvec3(0.125, 0.0, 0.0), far + dvec3(-0.125, 0.25, 0.5), far];
+    let world = [
+        far + dvec3(0.125, 0.0, 0.0),
+        far + dvec3(-0.125, 0.25, 0.5),
+        far,
+    ];
     let (local, offset) = Mesh::from_world_positions(&world);
     for (local, world) in local.iter().zip(world) {
         assert_eq!(local.as_dvec3() + offset, world);
     }
     let near = [DVec3::ZERO, DVec3::ONE];
-    assert_eq!(Mesh::from_world_positions(&near), (vec![Vec3::ZERO, Vec3::ONE], DVec3::ZERO));
+    assert_eq!(
+        Mesh::from_world_positions(&near),
+        (vec![Vec3::ZERO, Vec3::ONE], DVec3::ZERO)
+    );
     assert_eq!(Mesh::from_world_positions(&[]), (vec![], DVec3::ZERO));
 }
 
@@ -140,10 +184,17 @@ fn bounds_hold_everything_that_is_bounded() {
     scene.add_plane(DVec3::ZERO, DVec3::Y, 0);
     assert_eq!(scene.bounds(), None, "a plane has no bounds");
     scene.add_sphere(dvec3(1.0, 2.0, 3.0), 0.5, 0);
-    assert_eq!(scene.bounds(), Some((dvec3(0.5, 1.5, 2.5), dvec3(1.5, 2.5, 3.5))));
-    let placement = DAffine3::from_translation(dvec3(10.0, 0.0, 0.0)) * DAffine3::from_scale(dvec3(-2.0, 1.0, 1.0));
+    assert_eq!(
+        scene.bounds(),
+        Some((dvec3(0.5, 1.5, 2.5), dvec3(1.5, 2.5, 3.5)))
+    );
+    let placement = DAffine3::from_translation(dvec3(10.0, 0.0, 0.0))
+        * DAffine3::from_scale(dvec3(-2.0, 1.0, 1.0));
     scene.add_mesh(scenes::quad(2.0, 0), placement);
-    assert_eq!(scene.bounds(), Some((dvec3(0.5, 0.0, -1.0), dvec3(12.0, 2.5, 3.5))));
+    assert_eq!(
+        scene.bounds(),
+        Some((dvec3(0.5, 0.0, -1.0), dvec3(12.0, 2.5, 3.5)))
+    );
 }
 
 #[test]
@@ -163,6 +214,9 @@ fn a_frame_holds_what_the_default_camera_sees() {
     scene.camera_index = 1;
     let frame = scene.frame(0.0);
     assert_eq!(frame.camera.fov_y, 0.3);
-    assert_eq!((frame.lights, frame.background), (scene.lights.clone(), scene.background));
+    assert_eq!(
+        (frame.lights, frame.background),
+        (scene.lights.clone(), scene.background)
+    );
     assert_eq!(frame.ambient, scene.ambient);
 }

@@ -16,7 +16,9 @@ pub fn open_gpu() -> Gpu {
 /// A renderer at its first step.
 pub fn start(scene: &Scene, settings: &Settings) -> Result<Renderer, RenderError> {
     let packed = Arc::new(pack::scene(scene).expect("a scene that can be packed"));
-    let view = packed.frame(&scene.frame(0.0)).expect("a frame that can be packed");
+    let view = packed
+        .frame(&scene.frame(0.0))
+        .expect("a frame that can be packed");
     Renderer::new(open_gpu(), packed, &view, settings.clone())
 }
 
@@ -38,7 +40,10 @@ pub fn render(scene: &Scene, settings: &Settings) -> (Image, Stats) {
 
 /// Settings for a picture of this size, everything else by default.
 pub fn sized(width: u32, height: u32) -> Settings {
-    Settings { size: (width, height), ..Settings::default() }
+    Settings {
+        size: (width, height),
+        ..Settings::default()
+    }
 }
 
 /// Number of pixels in which some channel, clamped to [0, 1], differs by more than `levels` of 255.
@@ -47,9 +52,15 @@ pub fn differing(a: &Image, b: &Image, levels: f32) -> usize {
     let level = |c: f32| c.clamp(0.0, 1.0) * 255.0;
     let far = |(a, b): (&[f32; 4], &[f32; 4])| {
         // Written so that a NaN counts as different.
-        !a.iter().zip(b).all(|(a, b)| (level(*a) - level(*b)).abs() <= levels + 1e-3)
+        !a.iter()
+            .zip(b)
+            .all(|(a, b)| (level(*a) - level(*b)).abs() <= levels + 1e-3)
     };
-    a.pixels.iter().zip(&b.pixels).filter(|pair| far(*pair)).count()
+    a.pixels
+        .iter()
+        .zip(&b.pixels)
+        .filter(|pair| far(*pair))
+        .count()
 }
 
 /// Says what is wrong unless at most `share` of the pixels differ by more than `levels` of 255.
@@ -75,7 +86,11 @@ pub fn check_alike(
 
 /// Says what is wrong unless the pictures are the same bit for bit.
 pub fn check_same_bits(name: &str, expected: &Image, actual: &Image) -> Result<(), String> {
-    assert_eq!((expected.width, expected.height), (actual.width, actual.height), "{name}");
+    assert_eq!(
+        (expected.width, expected.height),
+        (actual.width, actual.height),
+        "{name}"
+    );
     let bits = |pixel: &[f32; 4]| pixel.map(f32::to_bits);
     let mut pairs = expected.pixels.iter().zip(&actual.pixels).enumerate();
     let Some((first, (a, b))) = pairs.find(|(_, (a, b))| bits(a) != bits(b)) else {
@@ -83,7 +98,9 @@ pub fn check_same_bits(name: &str, expected: &Image, actual: &Image) -> Result<(
     };
     let count = 1 + pairs.filter(|(_, (a, b))| bits(a) != bits(b)).count();
     let (x, y) = (first as u32 % expected.width, first as u32 / expected.width);
-    Err(format!("{name}: {count} pixels differ, first ({x}, {y}): {a:?} became {b:?}"))
+    Err(format!(
+        "{name}: {count} pixels differ, first ({x}, {y}): {a:?} became {b:?}"
+    ))
 }
 
 /// Fails with all the problems at once.
@@ -102,7 +119,11 @@ fn write_comparison(name: &str, expected: &Image, actual: &Image) -> PathBuf {
             let from = (y * width + x) as usize;
             let (a, b) = (expected.pixels[from], actual.pixels[from]);
             let difference = std::array::from_fn(|i| {
-                if i == 3 { 1.0 } else { ((a[i] - b[i]).abs() * 32.0).min(1.0) }
+                if i == 3 {
+                    1.0
+                } else {
+                    ((a[i] - b[i]).abs() * 32.0).min(1.0)
+                }
             });
             for (column, pixel) in [a, difference, b].into_iter().enumerate() {
                 let to = y * 3 * width + column as u32 * width + x;

@@ -26,13 +26,23 @@ pub fn empty() -> Scene {
 pub fn spheres() -> Scene {
     let mut scene = empty();
     scene.add_plane(DVec3::ZERO, DVec3::Y, 0);
-    for (i, color) in [(-1, vec3(0.8, 0.2, 0.1)), (0, vec3(0.2, 0.7, 0.2)), (1, vec3(0.2, 0.3, 0.9))] {
+    for (i, color) in [
+        (-1, vec3(0.8, 0.2, 0.1)),
+        (0, vec3(0.2, 0.7, 0.2)),
+        (1, vec3(0.2, 0.3, 0.9)),
+    ] {
         let material = scene.add_material(shiny(color));
-        scene.add_sphere(dvec3(1.7 * f64::from(i), 0.8, 0.3 * f64::from(i)), 0.8, material);
+        scene.add_sphere(
+            dvec3(1.7 * f64::from(i), 0.8, 0.3 * f64::from(i)),
+            0.8,
+            material,
+        );
     }
     scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.7);
     scene.lights.push(Light {
-        kind: LightKind::Directional { direction: dvec3(0.6, -0.7, -0.4).normalize() },
+        kind: LightKind::Directional {
+            direction: dvec3(0.6, -0.7, -0.4).normalize(),
+        },
         color: vec3(0.2, 0.2, 0.3),
         attenuation: Attenuation::None,
     });
@@ -51,7 +61,8 @@ pub fn meshes() -> Scene {
     );
     scene.add_mesh(
         ball(UVec2::new(32, 16), blue as u32),
-        DAffine3::from_translation(dvec3(1.5, 0.9, 0.2)) * DAffine3::from_scale(dvec3(1.0, 0.8, 0.6)),
+        DAffine3::from_translation(dvec3(1.5, 0.9, 0.2))
+            * DAffine3::from_scale(dvec3(1.0, 0.8, 0.6)),
     );
     scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.6);
     scene.add_point_light(dvec3(-4.0, 3.0, 2.0), 0.3);
@@ -68,18 +79,32 @@ pub fn everything() -> Scene {
         shininess: 2.0,
         ..shiny(Vec3::ONE)
     });
-    scene.add_material(Material { shininess: 80.0, ..shiny(vec3(0.1, 0.9, 0.1)) });
+    scene.add_material(Material {
+        shininess: 80.0,
+        ..shiny(vec3(0.1, 0.9, 0.1))
+    });
     scene.add_material(shiny(vec3(0.1, 0.1, 0.9)));
     let mut panel = ball(UVec2::new(24, 12), 0);
     for (i, material) in panel.materials.iter_mut().enumerate() {
         *material = first as u32 + i as u32 % 3;
     }
     let mirrored = DAffine3::from_scale(dvec3(-0.7, 0.5, 0.5));
-    scene.add_mesh(panel, DAffine3::from_translation(dvec3(0.2, 2.1, -1.0)) * mirrored);
-    let one_sided = scene.add_material(Material { two_sided: false, ..Material::default() });
-    let wall = DAffine3::from_translation(dvec3(0.0, 0.0, -3.0)) * DAffine3::from_rotation_x(-PI / 2.0);
+    scene.add_mesh(
+        panel,
+        DAffine3::from_translation(dvec3(0.2, 2.1, -1.0)) * mirrored,
+    );
+    let one_sided = scene.add_material(Material {
+        two_sided: false,
+        ..Material::default()
+    });
+    let wall =
+        DAffine3::from_translation(dvec3(0.0, 0.0, -3.0)) * DAffine3::from_rotation_x(-PI / 2.0);
     scene.add_mesh(quad(6.0, one_sided as u32), wall);
-    scene.add_plane(dvec3(-4.0, 0.0, 0.0), dvec3(1.0, 0.0, 0.2).normalize(), one_sided);
+    scene.add_plane(
+        dvec3(-4.0, 0.0, 0.0),
+        dvec3(1.0, 0.0, 0.2).normalize(),
+        one_sided,
+    );
     scene.lights.push(Light {
         kind: LightKind::Spot {
             position: dvec3(-2.0, 4.0, 3.0),
@@ -119,16 +144,25 @@ impl Build for Scene {
     }
 
     fn add_sphere(&mut self, center: DVec3, radius: f64, material: usize) {
-        self.shapes.push(Shape { geometry: Geometry::Sphere { center, radius }, material });
+        self.shapes.push(Shape {
+            geometry: Geometry::Sphere { center, radius },
+            material,
+        });
     }
 
     fn add_plane(&mut self, point: DVec3, normal: DVec3, material: usize) {
-        self.shapes.push(Shape { geometry: Geometry::Plane { point, normal }, material });
+        self.shapes.push(Shape {
+            geometry: Geometry::Plane { point, normal },
+            material,
+        });
     }
 
     fn add_mesh(&mut self, mesh: Mesh, world_from_object: DAffine3) {
         self.meshes.push(mesh);
-        self.instances.push(Instance { mesh: self.meshes.len() - 1, world_from_object });
+        self.instances.push(Instance {
+            mesh: self.meshes.len() - 1,
+            world_from_object,
+        });
     }
 
     fn add_point_light(&mut self, position: DVec3, strength: f32) {
@@ -144,7 +178,12 @@ impl Build for Scene {
 pub fn quad(side: f32, material: u32) -> Mesh {
     let h = side / 2.0;
     Mesh {
-        positions: vec![vec3(-h, 0.0, h), vec3(h, 0.0, h), vec3(h, 0.0, -h), vec3(-h, 0.0, -h)],
+        positions: vec![
+            vec3(-h, 0.0, h),
+            vec3(h, 0.0, h),
+            vec3(h, 0.0, -h),
+            vec3(-h, 0.0, -h),
+        ],
         normals: vec![Vec3::Y; 4],
         materials: vec![material; 4],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
@@ -156,7 +195,11 @@ pub fn quad(side: f32, material: u32) -> Mesh {
 pub fn ball(parts: UVec2, material: u32) -> Mesh {
     lattice(parts, material, |u, v| {
         let (around, down) = (TAU * u, PI * v);
-        let p = dvec3(around.sin() * down.sin(), down.cos(), around.cos() * down.sin());
+        let p = dvec3(
+            around.sin() * down.sin(),
+            down.cos(),
+            around.cos() * down.sin(),
+        );
         (p, p)
     })
 }
@@ -171,7 +214,12 @@ pub fn torus(radius: f64, thickness: f64, parts: UVec2, material: u32) -> Mesh {
 }
 
 /// A height field over the square of this side, without normals of its own.
-pub fn height_field(side: f64, parts: u32, material: u32, height: impl Fn(f64, f64) -> f64) -> Mesh {
+pub fn height_field(
+    side: f64,
+    parts: u32,
+    material: u32,
+    height: impl Fn(f64, f64) -> f64,
+) -> Mesh {
     let mut mesh = lattice(UVec2::splat(parts), material, |u, v| {
         let (x, z) = (side * (u - 0.5), side * (v - 0.5));
         (dvec3(x, height(x, z), z), DVec3::ZERO)
@@ -186,7 +234,10 @@ fn lattice(parts: UVec2, material: u32, at: impl Fn(f64, f64) -> (DVec3, DVec3))
     let mut mesh = Mesh::default();
     for j in 0..=parts.y {
         for i in 0..=parts.x {
-            let (u, v) = (f64::from(i) / f64::from(parts.x), f64::from(j) / f64::from(parts.y));
+            let (u, v) = (
+                f64::from(i) / f64::from(parts.x),
+                f64::from(j) / f64::from(parts.y),
+            );
             let (p, n) = at(u, v);
             mesh.positions.push(p.as_vec3());
             mesh.normals.push(n.as_vec3());

@@ -1,0 +1,53 @@
+//! The same pictures through a second driver: wgpu's OpenGL backend, where there is one.
+
+use crate::reference::compare::{assert_none, check_alike, render};
+use glimray::gpu::{AdapterChoice, Backend, Gpu};
+use glimray::import;
+use glimray::render::{Antialias, Renderer, Settings, Tone};
+use glimray::{image::Image, pack, scene::Scene};
+use std::{path::Path, sync::Arc};
+
+/// The scene through OpenGL, in linear radiance; `None` without such an adapter.
+fn through_gl(scene: &Scene, settings: &Settings) -> Option<Image> {
+    let choice = AdapterChoice {
+        backend: Some(Backend::Gl),
+        adapter: None,
+    };
+    let gpu = Gpu::new(&choice).ok()?;
+    let packed = Arc::new(pack::scene(scene).expect("a packed scene"));
+    let view = packed.frame(&scene.frame(0.0)).expect("a packed frame");
+    let mut renderer = Renderer::new(gpu, packed, &view, settings.clone()).expect("a renderer");
+    while !renderer.is_done() {
+        renderer.step().expect("a step");
+    }
+    Some(renderer.develop(&Tone::LINEAR).expect("a picture"))
+}
+
+#[test]
+fn every_scene_looks_the_same_through_opengl() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
+    let mut scenes: Vec<_> = (std::fs::read_dir(folder).expect("the scenes"))
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| {
+            path.extension()
+                .is_some_and(|e| e == "toml" || e == "scene")
+        })
+        .collect();
+    scenes.sort();
+    assert!(!scenes.is_empty());
+    let settings = Settings {
+        size: (240, 160),
+        samples: 4,
+        antialias: Antialias::Stratified,
+        ..Settings::default()
+    };
+    assert_none(scenes.iter().map(|path| {
+        let scene = import::load(path).expect("a scene");
+        let Some(actual) = through_gl(&scene, &settings) else {
+            println!("skipped: no OpenGL adapter");
+            return Ok(());
+        };
+        let (expected, _) = render(&scene, &settings);
+        check_alike(&path.display().to_string(), &expected, &actual, 3.0, 0.001)
+    }));
+}
