@@ -255,8 +255,6 @@ packed! {
         first_sample: u32,
         /// One beyond the index of each pixel's last sample.
         end_sample: u32,
-        /// Samples per pixel of the finished picture.
-        sample_count: u32,
         /// Of the random numbers.
         seed: u32,
         /// Workgroups that ran to their end.
@@ -273,8 +271,6 @@ packed! {
         shadow: u32,
         /// Rays to lights that hit something before.
         shadow_blocked: u32,
-        #[doc(hidden)]
-        _pad: u32,
     }
     /// How sums become a picture: [`crate::render::Tone`].
     PackedTone {

@@ -73,7 +73,6 @@ impl Slice {
             grid_width: self.grid().0,
             first_sample: self.first_sample,
             end_sample: self.end_sample,
-            sample_count: settings.samples,
             seed: settings.seed,
             ..Default::default()
         }

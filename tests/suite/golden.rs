@@ -241,7 +241,7 @@ fn golden_pictures_are_as_they_were() {
         }
         // Allows the rounding to levels on top.
         check_alike(
-            golden.name,
+            &format!("golden {}", golden.name),
             &stored(golden.name)?,
             &actual,
             LEVELS + 0.5,
