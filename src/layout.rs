@@ -19,7 +19,7 @@ pub const LEAF_COUNT_MASK: u32 = 7 << LEAF_COUNT_SHIFT;
 /// The bits of a leaf reference's first primitive.
 pub const LEAF_FIRST_MASK: u32 = LEAF_COUNT_ONE - 1;
 /// Entries of the traversal stack.
-pub const STACK_SIZE: u32 = 64;
+pub const STACK_SIZE: u32 = 96;
 /// Texels in a row of the geometry images, as a power of two.
 pub const IMAGE_WIDTH_LOG2: u32 = 12;
 
