@@ -17,7 +17,7 @@ pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
 pub use error::GpuError;
 pub use guard::is_guarded;
 pub(crate) use readback::Source;
-pub use shader::{Kernel, Overrides};
+pub use shader::Kernel;
 
 use std::{
     sync::{
@@ -136,6 +136,12 @@ impl Gpu {
     /// Whether the device has been lost.
     pub fn is_lost(&self) -> bool {
         self.lost.load(Ordering::Acquire)
+    }
+
+    /// Workgroups along x of a dispatch that is to have `columns`: one less where a driver that cuts
+    /// it short is rehearsed.
+    pub(crate) fn dispatched(&self, columns: u32) -> u32 {
+        columns - u32::from(fault::strikes(fault::Site::Dispatch))
     }
 
     /// Submits and waits until the work is done. A device that is lost, or does not answer within

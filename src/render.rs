@@ -273,8 +273,11 @@ impl Renderer {
             if !part.is_signed_off(&tally) {
                 self.planner.cut_short();
                 self.stats.count_loss()?;
-                parts.push(part);
-            } else if let Some((earlier, later)) = part.halves() {
+                match part.tile_halves() {
+                    Some((first, last)) => parts.extend([last, first]),
+                    None => parts.push(part),
+                }
+            } else if let Some((earlier, later)) = part.sample_halves() {
                 self.planner.shorten_paths();
                 parts.extend([later, earlier]);
             } else {

@@ -1,5 +1,6 @@
 //! Faults on demand, to rehearse what a user would meet: `GLIMRAY_FAULT=device@3` loses the device
-//! at the third submission, `allocation@2` refuses the second allocation, `device@*` fails always.
+//! at the third submission, `allocation@2` refuses the second allocation, `dispatch@2` leaves out a
+//! part of the second dispatch that traces, `device@*` fails always.
 
 use std::sync::{
     OnceLock,
@@ -10,6 +11,7 @@ use std::sync::{
 pub(super) enum Site {
     Device,
     Allocation,
+    Dispatch,
 }
 
 struct Plan {
@@ -35,6 +37,7 @@ fn parse(text: &str) -> Option<Plan> {
     let site = match site {
         "device" => Site::Device,
         "allocation" => Site::Allocation,
+        "dispatch" => Site::Dispatch,
         _ => return None,
     };
     let at = if at == "*" {

@@ -36,9 +36,6 @@ impl Kernel {
     }
 }
 
-/// Values for the `override`s of `bindings.wesl`, by their ids.
-pub type Overrides<'a> = &'a [(&'a str, f64)];
-
 impl Gpu {
     /// Compiles a kernel. A shader that the driver refuses is our fault: the error carries the
     /// driver's words, and the linked text lies in the folder for temporary files.
@@ -47,7 +44,7 @@ impl Gpu {
         name: &str,
         source: &str,
         layout: Option<&wgpu::PipelineLayout>,
-        overrides: Overrides,
+        overrides: &[(&str, f64)],
     ) -> Result<wgpu::ComputePipeline, GpuError> {
         let made = self.scoped(name, || {
             let module = self

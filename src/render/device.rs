@@ -106,7 +106,9 @@ impl Device {
         let packed = slice.packed(window, settings);
         gpu.write(&buffers.slice, 0, bytes_of(&packed))?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        dispatch(&mut encoder, &self.pipeline, buffers, slice);
+        let (columns, rows) = slice.grid();
+        let grid = (gpu.dispatched(columns), rows);
+        dispatch(&mut encoder, &self.pipeline, buffers, grid);
         let tile_bytes = TILE_PIXELS as u64 * PIXEL_BYTES;
         let accounts = Source {
             buffer: &buffers.slice,
@@ -178,7 +180,7 @@ fn compile(
     };
     gpu.write(&buffers.slice, 0, bytes_of(&idle))?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    dispatch(&mut encoder, &pipeline, buffers, &Slice::default());
+    dispatch(&mut encoder, &pipeline, buffers, (1, 1));
     gpu.submit(encoder.finish())?;
     stats.compile_seconds += start.elapsed().as_secs_f64();
     Ok(pipeline)
@@ -188,13 +190,12 @@ fn dispatch(
     encoder: &mut wgpu::CommandEncoder,
     pipeline: &wgpu::ComputePipeline,
     buffers: &Buffers,
-    slice: &Slice,
+    (columns, rows): (u32, u32),
 ) {
     let mut pass = encoder.begin_compute_pass(&Default::default());
     pass.set_pipeline(pipeline);
     pass.set_bind_group(0, &buffers.scene_group, &[]);
     pass.set_bind_group(1, &buffers.frame_group, &[]);
     pass.set_bind_group(2, &buffers.film_group, &[]);
-    let (columns, rows) = slice.grid();
     pass.dispatch_workgroups(columns, rows, 1);
 }

@@ -42,8 +42,17 @@ impl Slice {
         self.is_signed_off(tally) && tally.cut_off_paths == 0
     }
 
+    /// Its first and its last tiles, if it has several.
+    pub fn tile_halves(&self) -> Option<(Self, Self)> {
+        let middle = self.first_tile + (self.end_tile - self.first_tile) / 2;
+        let mut parts = (*self, *self);
+        parts.0.end_tile = middle;
+        parts.1.first_tile = middle;
+        (middle > self.first_tile).then_some(parts)
+    }
+
     /// Its earlier and its later samples, if it has several.
-    pub fn halves(&self) -> Option<(Self, Self)> {
+    pub fn sample_halves(&self) -> Option<(Self, Self)> {
         let middle = self.first_sample + (self.end_sample - self.first_sample) / 2;
         let mut parts = (*self, *self);
         parts.0.end_sample = middle;

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::layout::{TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT};
 
-/// Overrides by their ids.
+/// Values for the `override`s of `bindings.wesl`, by their ids.
 pub type Overrides = Vec<(&'static str, f64)>;
 
 /// Features that the scene, the frame and the settings need; all others are compiled out.

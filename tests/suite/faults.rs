@@ -134,6 +134,27 @@ fn a_device_lost_at_any_submission_costs_nothing_but_time() {
 }
 
 #[test]
+fn a_dispatch_that_is_cut_short_is_noticed_and_done_again() {
+    let place = Workplace::new();
+    let whole = place.render("", NO_FLAGS);
+    assert_none([1, 2, whole.submissions].map(|at| {
+        let fault = format!("dispatch@{at}");
+        let run = place.render(&fault, NO_FLAGS);
+        let is_same = run.picture.is_some() && run.picture == whole.picture;
+        let again = run.submissions > at && !message_lines(&run.stderr).is_empty();
+        (is_same && again && run.code == Some(0))
+            .then_some(())
+            .ok_or_else(|| format!("{fault}: same picture {is_same}, {}", run.stderr))
+    }));
+}
+
+#[test]
+fn a_dispatch_that_is_always_cut_short_ends_with_exit_6() {
+    let run = Workplace::new().render("dispatch@*", NO_FLAGS);
+    assert_none([run.check_refusal("dispatch@*", 6, &["the GPU failed 4 times"])]);
+}
+
+#[test]
 fn a_device_that_is_lost_every_time_ends_with_exit_6() {
     let run = Workplace::new().render("device@*", NO_FLAGS);
     assert_none([run.check_refusal("device@*", 6, &["the GPU failed 4 times", "--adapter"])]);
