@@ -3,6 +3,7 @@
 
 mod frame;
 mod geometry;
+mod material;
 mod nodes;
 
 pub use frame::PackedView;
@@ -10,10 +11,10 @@ pub use frame::PackedView;
 use crate::{
     bvh,
     layout::{
-        LEAF_FIRST_MASK, MATERIAL_TWO_SIDED, PackedMaterial, PackedNode, PackedShape,
-        PackedTriangle, PackedVertex, STACK_SIZE,
+        LEAF_FIRST_MASK, PackedMaterial, PackedNode, PackedShape, PackedTexture, PackedTriangle,
+        PackedVertex, STACK_SIZE,
     },
-    scene::{Material, Scene},
+    scene::{Scene, Shadows},
 };
 use glam::DVec3;
 use std::time::Instant;
@@ -34,15 +35,44 @@ pub struct PackedScene {
     pub plane_count: u32,
     /// In scene order, instances one after the other.
     pub vertices: Vec<PackedVertex>,
-    /// In scene order.
+    /// (u, v, 0, 0) of each vertex; empty where no texture asks for them.
+    pub uvs: Vec<[f32; 4]>,
+    /// In scene order, then those of visible lights.
     pub materials: Vec<PackedMaterial>,
-    /// Whether some triangle's corners differ in material.
-    pub mixed_materials: bool,
+    /// In scene order.
+    pub textures: Vec<PackedTexture>,
+    /// Linear texels of all pictures, one after the other, as half floats; the fourth is 1.
+    pub texels: Vec<[u16; 4]>,
+    /// For each of the scene's pictures its first texel, width and height.
+    pub pictures: Vec<[u32; 3]>,
+    /// What the scene has, so that all else is compiled out.
+    pub features: Features,
     /// Where render space has its origin, in world space: at the scene's default camera, where the
     /// picture needs f32 to be finest.
     pub origin: DVec3,
     /// Seconds that building the tree took.
     pub build_seconds: f64,
+}
+
+/// What is in a scene that a kernel needs code for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Features {
+    /// Bit k: there is a bounded shape of kind k.
+    pub shape_kinds: u32,
+    /// Some triangle's corners differ in material.
+    pub mixed_materials: bool,
+    /// Something mirrors.
+    pub reflection: bool,
+    /// Something is transparent.
+    pub refraction: bool,
+    /// There are several transparent materials, or several bodies of one.
+    pub contact: bool,
+    /// Shadow rays go on through what is transparent.
+    pub filtered_shadows: bool,
+    /// Some colour varies over a surface.
+    pub textures: bool,
+    /// Something shines that rays can see.
+    pub emission: bool,
 }
 
 /// Why a scene cannot be packed: it is too big for the formats the GPU reads.
@@ -78,6 +108,7 @@ pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
     let geometry::Flat {
         triangles,
         vertices,
+        uvs,
         bounded,
         planes,
         mixed_materials,
@@ -91,7 +122,7 @@ pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
 
     let start = Instant::now();
     let boxes: Vec<_> = (triangles.iter().map(geometry::triangle_box))
-        .chain(bounded.iter().map(geometry::shape_box))
+        .chain(bounded.iter().map(|(_, bounds)| *bounds))
         .collect();
     let mut groups = vec![nodes::TRIANGLES; triangles.len()];
     groups.resize(boxes.len(), nodes::SHAPES);
@@ -101,7 +132,17 @@ pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
         stack_size: STACK_SIZE as usize - 1,
     };
     let bvh = bvh::build(&boxes, &groups, nodes::GROUP_COUNT, limits);
-    let pick_shape = |&i: &u32| bounded[i as usize - triangles.len()];
+    let (texels, pictures) = material::texels(scene)?;
+    let textures = (scene.textures.iter())
+        .map(|texture| material::texture(texture, origin, &pictures))
+        .collect::<Vec<_>>();
+    let features = Features {
+        shape_kinds: (bounded.iter()).fold(0, |kinds, (shape, _)| kinds | 1 << shape.kind),
+        mixed_materials,
+        filtered_shadows: scene.shadows == Shadows::Filtered,
+        ..material::features(scene)
+    };
+    let pick_shape = |&i: &u32| bounded[i as usize - triangles.len()].0;
     Ok(PackedScene {
         nodes: bvh.nodes.iter().map(nodes::quantize).collect(),
         triangles: (bvh.order[nodes::TRIANGLES as usize].iter())
@@ -112,8 +153,12 @@ pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
             .collect(),
         plane_count: planes.len() as u32,
         vertices,
-        materials: scene.materials.iter().map(material).collect(),
-        mixed_materials,
+        uvs: if features.textures { uvs } else { Vec::new() },
+        materials: scene.materials.iter().map(material::material).collect(),
+        textures,
+        texels,
+        pictures,
+        features,
         origin,
         build_seconds: start.elapsed().as_secs_f64(),
     })
@@ -123,20 +168,5 @@ impl PackedScene {
     /// Number of shapes in the tree.
     pub fn bounded_shape_count(&self) -> u32 {
         self.shapes.len() as u32 - self.plane_count
-    }
-}
-
-fn material(material: &Material) -> PackedMaterial {
-    PackedMaterial {
-        diffuse: material.diffuse.into(),
-        shininess: material.shininess,
-        specular: material.specular.into(),
-        flags: if material.two_sided {
-            MATERIAL_TWO_SIDED
-        } else {
-            0
-        },
-        ambient: material.ambient.into(),
-        _pad: 0.0,
     }
 }

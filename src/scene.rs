@@ -10,10 +10,20 @@
 //! near their own origin, so that a scene far from the world's origin loses nothing.
 
 mod frame;
+mod light;
+mod material;
 mod mesh;
+mod output;
+mod shape;
+mod texture;
 
 pub use frame::Frame;
+pub use light::{Attenuation, Light, LightKind};
+pub use material::{Fresnel, Material, Mixing, Textures};
 pub use mesh::{Mesh, Repairs};
+pub use output::{Antialias, Filter, OutputDefaults, ToneCurve, Transfer};
+pub use shape::{Form, Geometry, Shape};
+pub use texture::{Pattern, Picture, Space, Texture};
 
 use glam::{DAffine3, DVec3, Vec3};
 
@@ -28,16 +38,22 @@ pub struct Scene {
     pub shapes: Vec<Shape>,
     /// At least one.
     pub materials: Vec<Material>,
+    /// Colours that vary over a surface.
+    pub textures: Vec<Texture>,
+    /// What textures and the background show.
+    pub pictures: Vec<Picture>,
     /// May be empty.
     pub lights: Vec<Light>,
     /// At least one.
     pub cameras: Vec<Camera>,
     /// Index into `cameras` of the one to use unless told otherwise.
     pub camera_index: usize,
-    /// Linear radiance of rays that hit nothing.
-    pub background: Vec3,
+    /// What rays see that hit nothing.
+    pub background: Background,
     /// Linear radiance of the ambient term, multiplied by [`Material::ambient`].
     pub ambient: Vec3,
+    /// How shadow rays meet what is transparent.
+    pub shadows: Shadows,
     /// What the file says about the picture; flags win over it.
     pub output: OutputDefaults,
     /// What the importer left out or repaired, one sentence each, in file order.
@@ -53,115 +69,48 @@ pub struct Instance {
     pub world_from_object: DAffine3,
 }
 
-/// An analytic surface with one material.
+/// What rays see that hit nothing, as linear radiance.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shape {
-    /// Where it is and how large.
-    pub geometry: Geometry,
-    /// Index into [`Scene::materials`].
-    pub material: usize,
-}
-
-/// The surface of a [`Shape`], in world space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Geometry {
-    /// All points at one distance from a centre.
-    Sphere {
-        /// The centre.
-        center: DVec3,
-        /// Above 0.
-        radius: f64,
+pub enum Background {
+    /// The same everywhere.
+    Color(Vec3),
+    /// By the direction's y: from `bottom` straight down to `top` straight up, linearly.
+    Gradient {
+        /// Straight down.
+        bottom: Vec3,
+        /// Straight up.
+        top: Vec3,
     },
-    /// An infinite plane.
-    Plane {
-        /// Any point on it.
-        point: DVec3,
-        /// Of unit length.
-        normal: DVec3,
+    /// An equirectangular picture: its middle lies in the direction −Z, its upper edge straight up,
+    /// +X to the right of the middle.
+    Picture {
+        /// Index into [`Scene::pictures`].
+        picture: usize,
+        /// Multiplies it, 0 or more.
+        strength: f32,
+        /// Radians by which it is turned about +Y, counter-clockwise from above.
+        rotation: f64,
     },
 }
 
-/// Phong coefficients, per colour channel (Phong 1975).
-#[derive(Clone, Debug, PartialEq)]
-pub struct Material {
-    /// Empty when the file gives none.
-    pub name: String,
-    /// k_d, 0 or more.
-    pub diffuse: Vec3,
-    /// k_s, 0 or more.
-    pub specular: Vec3,
-    /// The exponent α, 0 or more.
-    pub shininess: f32,
-    /// Multiplies [`Scene::ambient`]. The course's format wants 1, others the diffuse colour.
-    pub ambient: Vec3,
-    /// Whether the shading normal is turned to the side that the ray comes from. The course's
-    /// format wants it left as given: a surface lit from behind gets the ambient term only.
-    pub two_sided: bool,
-}
-
-impl Default for Material {
-    /// A matte light grey, seen from both sides.
+impl Default for Background {
     fn default() -> Self {
-        Self {
-            name: String::new(),
-            diffuse: Vec3::splat(0.8),
-            specular: Vec3::ZERO,
-            shininess: 1.0,
-            ambient: Vec3::splat(0.8),
-            two_sided: true,
-        }
+        Self::Color(Vec3::ZERO)
     }
 }
 
-/// A light without extent: it casts hard shadows and is itself invisible.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Light {
-    /// Where it is and which way it shines.
-    pub kind: LightKind,
-    /// Linear radiance L of the Phong sum, at distance 1 where it falls off; 0 or more.
-    pub color: Vec3,
-    /// How it fades.
-    pub attenuation: Attenuation,
-}
-
-/// Place and direction of a [`Light`], in world space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LightKind {
-    /// Shines evenly all round.
-    Point {
-        /// Where it is.
-        position: DVec3,
-    },
-    /// Shines from infinitely far.
-    Directional {
-        /// The unit direction in which the light travels.
-        direction: DVec3,
-    },
-    /// Shines into a cone: full strength inside `inner`, smoothly down to nothing at `outer`.
-    Spot {
-        /// Where it is.
-        position: DVec3,
-        /// The unit direction of the cone's axis, in which the light travels.
-        direction: DVec3,
-        /// Radians off the axis, in [0, `outer`].
-        inner: f64,
-        /// Radians off the axis, in [`inner`, π/2].
-        outer: f64,
-    },
-}
-
-/// How a light fades with the distance r to it. A directional light never does.
+/// How shadow rays meet what is transparent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Attenuation {
-    /// Not at all.
+pub enum Shadows {
+    /// Everything throws a full shadow, as in the classical ray tracer.
     #[default]
-    None,
-    /// 1/r².
-    InverseSquare,
+    Opaque,
+    /// Light goes straight through, weakened by transmission, Fresnel's reflection and absorption.
+    Filtered,
 }
 
-/// A pinhole camera. Its image plane is the near plane at distance 1, whose height the field of
-/// view sets; the aspect is the picture's width over its height.
+/// A camera with a pinhole, or with a thin lens. Its image plane is the near plane at distance 1,
+/// whose height the field of view sets; the aspect is the picture's width over its height.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
     /// Empty when the file gives none.
@@ -174,6 +123,21 @@ pub struct Camera {
     pub up: DVec3,
     /// Vertical field of view in radians, in (0, π).
     pub fov_y: f64,
+    /// Absent for a pinhole, to which everything is sharp.
+    pub lens: Option<Lens>,
+}
+
+/// The opening of a thin lens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Above 0, in scene units; of a polygon the distance of its corners.
+    pub radius: f64,
+    /// Distance along the viewing direction of what is sharp, above 0.
+    pub focus_distance: f64,
+    /// Corners of the opening, 3 or more; 0 for a round one.
+    pub blade_count: u32,
+    /// Radians counter-clockwise of the first corner from the picture's right.
+    pub blade_rotation: f64,
 }
 
 impl Default for Camera {
@@ -185,69 +149,16 @@ impl Default for Camera {
             look_at: DVec3::NEG_Z,
             up: DVec3::Y,
             fov_y: std::f64::consts::FRAC_PI_3,
+            lens: None,
         }
     }
-}
-
-/// How a scene wants its picture, where no flag says otherwise.
-#[derive(Clone, Debug, PartialEq)]
-pub struct OutputDefaults {
-    /// Width and height in pixels.
-    pub size: (u32, u32),
-    /// Samples per pixel, at least 1.
-    pub samples: u32,
-    /// Stops; each doubles the brightness.
-    pub exposure_ev: f32,
-    /// Applied after the exposure.
-    pub tone: ToneCurve,
-    /// Applied last.
-    pub transfer: Transfer,
-}
-
-impl Default for OutputDefaults {
-    fn default() -> Self {
-        Self {
-            size: (640, 480),
-            samples: 1,
-            exposure_ev: 0.0,
-            tone: ToneCurve::None,
-            transfer: Transfer::Srgb,
-        }
-    }
-}
-
-/// From scene-linear radiance to display-linear [0, 1].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ToneCurve {
-    /// Clamp.
-    #[default]
-    None,
-    /// Narkowicz' fit of the ACES filmic curve (2015).
-    Aces,
-    /// Sobotka's AgX, Wrensch's polynomial fit (2023).
-    Agx,
-    /// x / (1 + x) on luminance (Reinhard et al. 2002).
-    Reinhard,
-}
-
-/// From display-linear [0, 1] to stored values.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Transfer {
-    /// IEC 61966-2-1.
-    #[default]
-    Srgb,
-    /// As is, which the course's format wants.
-    Linear,
 }
 
 impl Scene {
     /// The axis-aligned box (min, max) round everything bounded, in world space; `None` when there
     /// is nothing bounded.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let shapes = self.shapes.iter().filter_map(|shape| match shape.geometry {
-            Geometry::Sphere { center, radius } => Some((center - radius, center + radius)),
-            Geometry::Plane { .. } => None,
-        });
+        let shapes = (self.shapes.iter()).filter_map(|shape| shape.geometry.bounds());
         let instances = self.instances.iter().filter_map(|instance| {
             self.meshes[instance.mesh]
                 .positions

@@ -5,7 +5,7 @@ use super::console;
 use super::exit::AppError;
 use super::render;
 use super::report::SceneReport;
-use crate::scene::{Attenuation, Camera, Light, LightKind, Material, Scene};
+use crate::scene::{Attenuation, Background, Camera, Light, LightKind, Material, Scene};
 use glam::{DVec3, Vec3};
 use serde_json::{Value, json};
 use std::fmt::{self, Write};
@@ -38,13 +38,29 @@ fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
     value["cameras"] = scene.cameras.iter().map(camera_json).collect();
     value["light_list"] = scene.lights.iter().map(light_json).collect();
     value["material_list"] = scene.materials.iter().map(material_json).collect();
-    value["background"] = json!(scene.background.to_array());
+    value["background"] = background_json(&scene.background);
     value["ambient"] = json!(scene.ambient.to_array());
     value["output"] = json!({
         "size": output.size, "samples": output.samples, "exposure_ev": output.exposure_ev,
         "tone": TONES.word(&output.tone), "transfer": TRANSFERS.word(&output.transfer),
     });
     Ok(value)
+}
+
+fn background_json(background: &Background) -> Value {
+    match background {
+        Background::Color(color) => json!(color.to_array()),
+        Background::Gradient { bottom, top } => {
+            json!({ "bottom": bottom.to_array(), "top": top.to_array() })
+        }
+        Background::Picture {
+            picture,
+            strength,
+            rotation,
+        } => json!({
+            "picture": picture, "strength": strength, "rotation_deg": rotation.to_degrees(),
+        }),
+    }
 }
 
 fn camera_json(camera: &Camera) -> Value {
@@ -72,6 +88,25 @@ fn light_json(light: &Light) -> Value {
             "inner_deg": inner.to_degrees(),
             "outer_deg": outer.to_degrees(),
         }),
+        LightKind::Rectangle {
+            center,
+            edge_u,
+            edge_v,
+        } => json!({
+            "center": center.to_array(),
+            "edge_u": edge_u.to_array(),
+            "edge_v": edge_v.to_array(),
+        }),
+        LightKind::Disc {
+            center,
+            normal,
+            radius,
+        } => json!({
+            "center": center.to_array(), "normal": normal.to_array(), "radius": radius,
+        }),
+        LightKind::Sphere { center, radius } => {
+            json!({ "center": center.to_array(), "radius": radius })
+        }
     };
     value["kind"] = json!(kind(light));
     value["color"] = json!(light.color.to_array());
@@ -119,7 +154,7 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
     writeln!(
         out,
         "background {}, ambient {}",
-        color(scene.background),
+        background(&scene.background),
         color(scene.ambient)
     )?;
     list(out, "cameras", &scene.cameras, |out, index, camera| {
@@ -161,6 +196,16 @@ fn list<T>(
     Ok(())
 }
 
+fn background(background: &Background) -> String {
+    match background {
+        Background::Color(value) => color(*value),
+        Background::Gradient { bottom, top } => {
+            format!("from {} below to {} above", color(*bottom), color(*top))
+        }
+        Background::Picture { picture, .. } => format!("picture {picture}"),
+    }
+}
+
 fn camera_text(out: &mut String, camera: &Camera) -> fmt::Result {
     let (from, at) = (point(camera.look_from), point(camera.look_at));
     let fov = camera.fov_y.to_degrees();
@@ -189,6 +234,20 @@ fn light_text(out: &mut String, light: &Light) -> fmt::Result {
             inner.to_degrees(),
             outer.to_degrees()
         )?,
+        LightKind::Rectangle {
+            center,
+            edge_u,
+            edge_v,
+        } => write!(
+            out,
+            " at {}, {} by {}",
+            point(center),
+            number(2.0 * edge_u.length()),
+            number(2.0 * edge_v.length())
+        )?,
+        LightKind::Disc { center, radius, .. } | LightKind::Sphere { center, radius } => {
+            write!(out, " at {}, radius {}", point(center), number(radius))?;
+        }
     }
     write!(out, ", attenuation {}", attenuation(light))
 }
@@ -209,6 +268,9 @@ fn kind(light: &Light) -> &'static str {
         LightKind::Point { .. } => "point",
         LightKind::Directional { .. } => "directional",
         LightKind::Spot { .. } => "spot",
+        LightKind::Rectangle { .. } => "rectangle",
+        LightKind::Disc { .. } => "disc",
+        LightKind::Sphere { .. } => "sphere",
     }
 }
 

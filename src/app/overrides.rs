@@ -2,7 +2,7 @@
 
 use super::cli::CameraFlags;
 use super::exit::AppError;
-use crate::scene::{Camera, Scene};
+use crate::scene::{Background, Camera, Scene};
 
 /// Chooses and changes the scene's camera and background as the flags say.
 ///
@@ -13,7 +13,7 @@ pub fn apply(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
         scene.camera_index = camera_index(&scene.cameras, name)?;
     }
     if let Some(background) = flags.background {
-        scene.background = background;
+        scene.background = Background::Color(background);
     }
     let camera = &mut scene.cameras[scene.camera_index];
     camera.look_from = flags.look_from.unwrap_or(camera.look_from);

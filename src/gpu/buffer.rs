@@ -90,17 +90,24 @@ impl Gpu {
         })
     }
 
-    /// A read-only storage image of 16-byte texels, rows of `width` texels, `texels` in all.
+    /// A read-only image in rows of `width` texels: a storage image of unsigned integers, or a
+    /// texture of floats.
     pub(crate) fn upload_image(
         &self,
         what: &'static str,
         contents: &[u8],
         width: u32,
+        format: wgpu::TextureFormat,
     ) -> Result<wgpu::TextureView, GpuError> {
         if fault::strikes(fault::Site::Allocation) {
             return Err(GpuError::OutOfMemory { what: what.into() });
         }
-        let row_bytes = 16 * width as usize;
+        let texel_bytes = format.block_copy_size(None).unwrap_or(16);
+        let row_bytes = (texel_bytes * width) as usize;
+        let binding = match format {
+            wgpu::TextureFormat::Rgba32Uint => wgpu::TextureUsages::STORAGE_BINDING,
+            _ => wgpu::TextureUsages::TEXTURE_BINDING,
+        };
         let height = contents.len().div_ceil(row_bytes).max(1) as u32;
         let size = |height| wgpu::Extent3d {
             width,
@@ -114,8 +121,8 @@ impl Gpu {
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
-                format: wgpu::TextureFormat::Rgba32Uint,
-                usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_DST,
+                format,
+                usage: binding | wgpu::TextureUsages::COPY_DST,
                 view_formats: &[],
             })
         })?;

@@ -19,7 +19,7 @@ use super::number;
 use super::source::{Source, Token};
 use super::suggest;
 use crate::scene::{
-    Attenuation, Camera, Geometry, Instance, Light, LightKind, Mesh, OutputDefaults, Scene, Shape,
+    Background, Camera, Geometry, Instance, Light, LightKind, Mesh, OutputDefaults, Scene, Shape,
     ToneCurve, Transfer,
 };
 use glam::{DAffine3, DVec3, Vec3};
@@ -73,7 +73,7 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
         source,
         tokens: Tokens::new(&source.bytes),
         scene: Scene {
-            background: Vec3::ONE,
+            background: Background::Color(Vec3::ONE),
             cameras: vec![Camera::default()],
             output: OutputDefaults {
                 tone: ToneCurve::None,
@@ -188,7 +188,7 @@ impl<'s> Reader<'s> {
                 position: Pos.of(&fields),
             },
             color: Col.of(&fields).as_vec3(),
-            attenuation: Attenuation::None,
+            ..Light::default()
         });
         Ok(())
     }

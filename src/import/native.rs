@@ -7,6 +7,7 @@ mod build;
 mod cameras;
 mod file;
 mod lights;
+mod materials;
 mod set;
 mod values;
 

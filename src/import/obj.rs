@@ -358,6 +358,7 @@ impl Reader<'_> {
             name: name.to_string_lossy().into_owned(),
             positions,
             normals: vertices.iter().map(normal).collect(),
+            uvs: Vec::new(),
             materials: vertices
                 .iter()
                 .map(|v| material_of_id[v.material as usize])

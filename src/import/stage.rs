@@ -1,6 +1,6 @@
 //! A camera and lights for geometry that comes without.
 
-use crate::scene::{Attenuation, Camera, Light, LightKind, Scene};
+use crate::scene::{Background, Camera, Light, LightKind, Scene};
 use glam::{DVec3, Vec3};
 
 /// A camera that sees all of `scene` from the front, a little to the right and above, in a picture
@@ -42,12 +42,12 @@ pub(super) fn light(scene: &mut Scene) {
             direction: towards.normalize(),
         },
         color,
-        attenuation: Attenuation::None,
+        ..Light::default()
     };
     scene.lights = vec![
         sun(DVec3::new(-0.6, -1.0, -0.7), Vec3::new(0.85, 0.81, 0.74)),
         sun(DVec3::new(1.0, -0.35, -0.6), Vec3::new(0.16, 0.19, 0.25)),
     ];
-    scene.background = Vec3::new(0.54, 0.62, 0.72);
+    scene.background = Background::Color(Vec3::new(0.54, 0.62, 0.72));
     scene.ambient = Vec3::new(0.14, 0.15, 0.17);
 }

@@ -3,10 +3,11 @@
 use super::{PackError, PackedScene, geometry::render_point};
 use crate::{
     layout::{
-        ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT,
-        PackedCamera, PackedFrame, PackedLight,
+        ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, BACKGROUND_COLOR, BACKGROUND_GRADIENT,
+        BACKGROUND_PICTURE, LIGHT_DIRECTIONAL, LIGHT_DISC, LIGHT_POINT, LIGHT_RECTANGLE,
+        LIGHT_SPHERE, LIGHT_SPOT, NONE, PackedCamera, PackedFrame, PackedLight,
     },
-    scene::{Attenuation, Camera, Frame, Light, LightKind},
+    scene::{Attenuation, Background, Camera, Frame, Light, LightKind},
 };
 use glam::DVec3;
 
@@ -19,6 +20,10 @@ pub struct PackedView {
     pub lights: Vec<PackedLight>,
     /// Whether there is a light that is not dark.
     pub has_lights: bool,
+    /// Whether there is a light that has extent.
+    pub has_area_lights: bool,
+    /// [`BACKGROUND_COLOR`] and so on.
+    pub background: u32,
 }
 
 impl PackedScene {
@@ -34,17 +39,51 @@ impl PackedScene {
         Ok(PackedView {
             frame: PackedFrame {
                 camera: camera(&frame.camera, self.origin)?,
-                background: frame.background.into(),
                 light_count: lights.len() as u32,
                 ambient: frame.ambient.into(),
                 triangle_count: self.triangles.len() as u32,
                 shape_count: self.bounded_shape_count(),
                 plane_count: self.plane_count,
-                ..Default::default()
+                vertex_count: self.vertices.len() as u32,
+                material_count: self.materials.len() as u32,
+                camera_media: [NONE; 4],
+                ..self.background(&frame.background)
             },
+            background: match frame.background {
+                Background::Color(_) => BACKGROUND_COLOR,
+                Background::Gradient { .. } => BACKGROUND_GRADIENT,
+                Background::Picture { .. } => BACKGROUND_PICTURE,
+            },
+            has_area_lights: lights.iter().any(|light| light.kind >= LIGHT_RECTANGLE),
             lights,
             has_lights,
         })
+    }
+
+    /// The members of a frame that belong to the background.
+    fn background(&self, background: &Background) -> PackedFrame {
+        let mut frame = PackedFrame::default();
+        match *background {
+            Background::Color(color) => frame.background = color.into(),
+            Background::Gradient { bottom, top } => {
+                frame.background = bottom.into();
+                frame.background_top = top.into();
+            }
+            Background::Picture {
+                picture,
+                strength,
+                rotation,
+            } => {
+                frame.background = [strength; 3];
+                frame.background_rotation = rotation as f32;
+                [
+                    frame.background_first_texel,
+                    frame.background_width,
+                    frame.background_height,
+                ] = self.pictures[picture];
+            }
+        }
+        frame
     }
 }
 
@@ -75,32 +114,78 @@ fn camera(camera: &Camera, origin: DVec3) -> Result<PackedCamera, PackError> {
         forward: forward.as_vec3().into(),
         right: (right * half_height).as_vec3().into(),
         up: (up * half_height).as_vec3().into(),
-        ..Default::default()
+        lens_radius: camera.lens.map_or(0.0, |lens| lens.radius as f32),
+        focus_distance: camera.lens.map_or(1.0, |lens| lens.focus_distance as f32),
+        blade_count: camera.lens.map_or(0, |lens| lens.blade_count),
+        blade_rotation: camera.lens.map_or(0.0, |lens| lens.blade_rotation as f32),
     })
 }
 
 fn light(light: &Light, origin: DVec3) -> Result<PackedLight, PackError> {
-    let (kind, position, direction, cones) = match light.kind {
-        LightKind::Point { position } => (LIGHT_POINT, position, DVec3::NEG_Y, (0.0, 0.0)),
-        LightKind::Directional { direction } => (LIGHT_DIRECTIONAL, origin, direction, (0.0, 0.0)),
+    let mut packed = PackedLight {
+        direction: DVec3::NEG_Y.as_vec3().into(),
+        color: light.color.into(),
+        attenuation: match light.attenuation {
+            Attenuation::InverseSquare => ATTENUATION_INVERSE_SQUARE,
+            Attenuation::None => ATTENUATION_NONE,
+        },
+        sample_count: 1,
+        ..Default::default()
+    };
+    let direct = |direction: DVec3| direction.as_vec3().into();
+    let position = match light.kind {
+        LightKind::Point { position } => {
+            packed.kind = LIGHT_POINT;
+            position
+        }
+        LightKind::Directional { direction } => {
+            packed.kind = LIGHT_DIRECTIONAL;
+            packed.attenuation = ATTENUATION_NONE;
+            packed.direction = direct(direction);
+            origin
+        }
         LightKind::Spot {
             position,
             direction,
             inner,
             outer,
-        } => (LIGHT_SPOT, position, direction, (inner, outer)),
+        } => {
+            packed.kind = LIGHT_SPOT;
+            packed.direction = direct(direction);
+            packed.cos_inner = inner.cos() as f32;
+            packed.cos_outer = outer.cos() as f32;
+            position
+        }
+        LightKind::Rectangle {
+            center,
+            edge_u,
+            edge_v,
+        } => {
+            packed.kind = LIGHT_RECTANGLE;
+            packed.direction = direct(edge_u.cross(edge_v).normalize_or(DVec3::NEG_Y));
+            (packed.edge_u, packed.edge_v) = (direct(edge_u), direct(edge_v));
+            center
+        }
+        LightKind::Disc {
+            center,
+            normal,
+            radius,
+        } => {
+            packed.kind = LIGHT_DISC;
+            packed.direction = direct(normal);
+            let (u, v) = normal.any_orthonormal_pair();
+            (packed.edge_u, packed.edge_v) = (direct(u * radius), direct(v * radius));
+            center
+        }
+        LightKind::Sphere { center, radius } => {
+            packed.kind = LIGHT_SPHERE;
+            packed.radius = radius as f32;
+            center
+        }
     };
-    Ok(PackedLight {
-        position: render_point(position, origin)?.into(),
-        kind,
-        direction: direction.as_vec3().into(),
-        attenuation: match light.attenuation {
-            Attenuation::InverseSquare if kind != LIGHT_DIRECTIONAL => ATTENUATION_INVERSE_SQUARE,
-            _ => ATTENUATION_NONE,
-        },
-        color: light.color.into(),
-        cos_inner: cones.0.cos() as f32,
-        cos_outer: cones.1.cos() as f32,
-        ..Default::default()
-    })
+    packed.position = render_point(position, origin)?.into();
+    if light.kind.radiance().is_some() {
+        packed.sample_count = light.samples;
+    }
+    Ok(packed)
 }

@@ -3,8 +3,11 @@
 use super::PackError;
 use crate::{
     bvh::Aabb,
-    layout::{PackedShape, PackedTriangle, PackedVertex, SHAPE_PLANE, SHAPE_SPHERE},
-    scene::{Geometry, Instance, Mesh, Scene},
+    layout::{
+        PackedShape, PackedTriangle, PackedVertex, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC,
+        SHAPE_ELLIPSOID, SHAPE_PLANE, SHAPE_RECTANGLE, SHAPE_SPHERE, SHAPE_TORUS,
+    },
+    scene::{Form, Geometry, Instance, Mesh, Scene},
 };
 use glam::{DMat3, DVec3, Vec3};
 
@@ -15,8 +18,10 @@ const COORDINATE_LIMIT: f64 = 1e15;
 pub struct Flat {
     pub triangles: Vec<PackedTriangle>,
     pub vertices: Vec<PackedVertex>,
+    /// (u, v, 0, 0) of each vertex.
+    pub uvs: Vec<[f32; 4]>,
     /// Shapes that have bounds, and those that have none.
-    pub bounded: Vec<PackedShape>,
+    pub bounded: Vec<(PackedShape, Aabb)>,
     pub planes: Vec<PackedShape>,
     pub mixed_materials: bool,
 }
@@ -26,6 +31,7 @@ pub fn flatten(scene: &Scene, origin: DVec3) -> Result<Flat, PackError> {
     let mut flat = Flat {
         triangles: Vec::with_capacity(scene.triangle_count()),
         vertices: Vec::new(),
+        uvs: Vec::new(),
         bounded: Vec::new(),
         planes: Vec::new(),
         mixed_materials: false,
@@ -35,31 +41,77 @@ pub fn flatten(scene: &Scene, origin: DVec3) -> Result<Flat, PackError> {
         flat.add_mesh(mesh, instance, origin)?;
     }
     for (id, shape) in scene.shapes.iter().enumerate() {
-        let (list, position, radius, normal, kind) = match shape.geometry {
-            Geometry::Sphere { center, radius } => {
-                (&mut flat.bounded, center, radius, DVec3::ZERO, SHAPE_SPHERE)
-            }
-            Geometry::Plane { point, normal } => {
-                // The foot of the perpendicular from the origin is the point f32 keeps best.
-                let foot = origin + normal * normal.dot(point - origin);
-                (&mut flat.planes, foot, 0.0, normal, SHAPE_PLANE)
-            }
-        };
-        in_range(radius)?;
-        list.push(PackedShape {
-            position: render_point(position, origin)?.into(),
-            radius: radius as f32,
-            normal: normal.as_vec3().into(),
-            kind,
-            material: shape.material as u32,
-            id: id as u32,
-            ..Default::default()
-        });
+        flat.add_shape(&shape.geometry, shape.material, id, origin)?;
     }
     Ok(flat)
 }
 
 impl Flat {
+    fn add_shape(
+        &mut self,
+        geometry: &Geometry,
+        material: usize,
+        id: usize,
+        origin: DVec3,
+    ) -> Result<(), PackError> {
+        let mut packed = PackedShape {
+            material: material as u32,
+            id: id as u32,
+            ..Default::default()
+        };
+        match *geometry {
+            Geometry::Sphere { center, radius } => {
+                in_range(radius)?;
+                packed.kind = SHAPE_SPHERE;
+                packed.position = render_point(center, origin)?.into();
+                packed.size0 = radius as f32;
+            }
+            Geometry::Plane { point, normal } => {
+                // The foot of the perpendicular from the origin is the point f32 keeps best.
+                let foot = origin + normal * normal.dot(point - origin);
+                packed.kind = SHAPE_PLANE;
+                packed.position = render_point(foot, origin)?.into();
+                packed.row_y = normal.as_vec3().into();
+                self.planes.push(packed);
+                return Ok(());
+            }
+            Geometry::Placed {
+                form,
+                world_from_form,
+            } => {
+                (packed.kind, packed.size0, packed.size1, packed.flags) = match form {
+                    Form::Disc { hole } => (SHAPE_DISC, hole as f32, 0.0, 0),
+                    Form::Rectangle => (SHAPE_RECTANGLE, 0.0, 0.0, 0),
+                    Form::Box => (SHAPE_BOX, 0.0, 0.0, 0),
+                    Form::Cone {
+                        bottom,
+                        top,
+                        capped,
+                    } => {
+                        let flags = if capped { SHAPE_CAPPED } else { 0 };
+                        (SHAPE_CONE, bottom as f32, top as f32, flags)
+                    }
+                    Form::Torus { minor } => (SHAPE_TORUS, minor as f32, 0.0, 0),
+                    Form::Ellipsoid => (SHAPE_ELLIPSOID, 0.0, 0.0, 0),
+                };
+                packed.position = render_point(world_from_form.translation, origin)?.into();
+                let form_from_world = world_from_form.matrix3.inverse();
+                [packed.row_x, packed.row_y, packed.row_z] =
+                    [0, 1, 2].map(|i| form_from_world.row(i).as_vec3().into());
+            }
+        }
+        let (min, max) = geometry.bounds().unwrap_or_default();
+        let (min, max) = (render_point(min, origin)?, render_point(max, origin)?);
+        // Rounded outwards.
+        let slack = min.abs().max(max.abs()) * f32::EPSILON;
+        let bounds = Aabb {
+            min: min - slack,
+            max: max + slack,
+        };
+        self.bounded.push((packed, bounds));
+        Ok(())
+    }
+
     fn add_mesh(
         &mut self,
         mesh: &Mesh,
@@ -78,6 +130,10 @@ impl Flat {
             });
         }
         let mut positions = Vec::with_capacity(mesh.positions.len());
+        self.uvs
+            .extend(mesh.uvs.iter().map(|uv| [uv.x, uv.y, 0.0, 0.0]));
+        self.uvs
+            .resize(first_vertex + mesh.positions.len(), [0.0; 4]);
         for (i, position) in mesh.positions.iter().enumerate() {
             let world = world_from_object.transform_point3(position.as_dvec3());
             positions.push(render_point(world, origin)?);
@@ -127,15 +183,5 @@ pub fn triangle_box(triangle: &PackedTriangle) -> Aabb {
     Aabb {
         min: a.min(b).min(c),
         max: a.max(b).max(c),
-    }
-}
-
-/// A sphere's box, rounded outwards.
-pub fn shape_box(shape: &PackedShape) -> Aabb {
-    let center = Vec3::from(shape.position);
-    let slack = (center.abs() + shape.radius) * f32::EPSILON;
-    Aabb {
-        min: center - shape.radius - slack,
-        max: center + shape.radius + slack,
     }
 }

@@ -7,10 +7,13 @@ use crate::{
     render::settings::Fetch,
 };
 use bytemuck::{bytes_of, cast_slice};
+use std::borrow::Cow;
 use wgpu::{BindGroupLayout, BindingType, Buffer, BufferBindingType, BufferUsages};
 
 const PIXEL_BYTES: u64 = 16;
 const IMAGE_WIDTH: u32 = 1 << IMAGE_WIDTH_LOG2;
+const ROW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+const TEXEL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
 /// Layouts of groups 0 to 3.
 pub struct Layouts {
@@ -34,8 +37,13 @@ impl Layouts {
         };
         let image = BindingType::StorageTexture {
             access: wgpu::StorageTextureAccess::ReadOnly,
-            format: wgpu::TextureFormat::Rgba32Uint,
+            format: ROW_FORMAT,
             view_dimension: wgpu::TextureViewDimension::D2,
+        };
+        let texels = BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
         };
         let geometry = if fetch == Fetch::Image { image } else { read };
         let layout = |label, types: &[BindingType]| {
@@ -55,7 +63,10 @@ impl Layouts {
                 })
         };
         Self {
-            scene: layout("scene", &[geometry, geometry, geometry, geometry, read]),
+            scene: layout(
+                "scene",
+                &[geometry, geometry, geometry, geometry, read, texels],
+            ),
             frame: layout("frame", &[read, write]),
             film: layout("film", &[write]),
             develop: layout("develop", &[read, write]),
@@ -86,10 +97,13 @@ impl Buffers {
         let shapes = gpu.upload("shapes", cast_slice(&scene.shapes))?;
         let rows = scene_rows(scene)
             .into_iter()
-            .map(|(what, bytes)| Rows::upload(gpu, fetch, what, bytes))
+            .map(|(what, bytes)| Rows::upload(gpu, fetch, what, &bytes))
             .collect::<Result<Vec<_>, _>>()?;
+        let texels = cast_slice(&scene.texels);
+        let texels = gpu.upload_image("texels", texels, IMAGE_WIDTH, TEXEL_FORMAT)?;
         let mut resources: Vec<_> = rows.iter().map(Rows::resource).collect();
         resources.push(shapes.as_entire_binding());
+        resources.push(wgpu::BindingResource::TextureView(&texels));
         let scene_group = group(gpu, &layouts.scene, &resources);
 
         let storage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
@@ -139,12 +153,38 @@ fn frame_group(
 }
 
 /// What the shaders fetch as rows of 16 bytes, in the order of their bindings.
-fn scene_rows(scene: &PackedScene) -> [(&'static str, &[u8]); 4] {
+fn scene_rows(scene: &PackedScene) -> [(&'static str, Cow<'_, [u8]>); 4] {
+    let both = |first, second: &'_ [u8]| match second.is_empty() {
+        true => Cow::Borrowed(first),
+        false => Cow::Owned([first, second].concat()),
+    };
     [
-        ("nodes", cast_slice(&scene.nodes)),
-        ("triangles", cast_slice(&scene.triangles)),
-        ("vertices", cast_slice(&scene.vertices)),
-        ("materials", cast_slice(&scene.materials)),
+        ("nodes", Cow::Borrowed(cast_slice(&scene.nodes))),
+        ("triangles", Cow::Borrowed(cast_slice(&scene.triangles))),
+        (
+            "vertices",
+            both(cast_slice(&scene.vertices), cast_slice(&scene.uvs)),
+        ),
+        (
+            "materials",
+            both(cast_slice(&scene.materials), cast_slice(&scene.textures)),
+        ),
+    ]
+}
+
+/// How many bytes of each there are.
+fn row_bytes(scene: &PackedScene) -> [(&'static str, u64); 4] {
+    [
+        ("nodes", size_of_val(&scene.nodes[..]) as u64),
+        ("triangles", size_of_val(&scene.triangles[..]) as u64),
+        (
+            "vertices",
+            (size_of_val(&scene.vertices[..]) + size_of_val(&scene.uvs[..])) as u64,
+        ),
+        (
+            "materials",
+            (size_of_val(&scene.materials[..]) + size_of_val(&scene.textures[..])) as u64,
+        ),
     ]
 }
 
@@ -157,7 +197,7 @@ enum Rows {
 impl Rows {
     fn upload(gpu: &Gpu, fetch: Fetch, what: &'static str, bytes: &[u8]) -> Result<Self, GpuError> {
         Ok(match fetch {
-            Fetch::Image => Self::Image(gpu.upload_image(what, bytes, IMAGE_WIDTH)?),
+            Fetch::Image => Self::Image(gpu.upload_image(what, bytes, IMAGE_WIDTH, ROW_FORMAT)?),
             _ => Self::Buffer(gpu.upload(what, bytes)?),
         })
     }
@@ -212,6 +252,7 @@ pub fn needs(scene: &PackedScene, fetch: Fetch, film_pixels: usize) -> Needs {
             texture_side: 0,
         };
     }
+    // Texels keep to what WebGPU guarantees.
     let height = rows.div_ceil(u64::from(IMAGE_WIDTH) * 16);
     Needs {
         binding_bytes: shapes.max(film),
@@ -220,7 +261,7 @@ pub fn needs(scene: &PackedScene, fetch: Fetch, film_pixels: usize) -> Needs {
 }
 
 fn largest_row_bytes(scene: &PackedScene) -> u64 {
-    let sizes = scene_rows(scene).map(|(_, bytes)| bytes.len() as u64);
+    let sizes = row_bytes(scene).map(|(_, bytes)| bytes);
     sizes.into_iter().max().unwrap_or(0)
 }
 
@@ -232,9 +273,10 @@ pub fn ledger(
     picture_pixels: u64,
 ) -> Ledger {
     let mut ledger = Ledger::default();
-    for (what, bytes) in scene_rows(scene) {
-        ledger.plan(what, bytes.len() as u64);
+    for (what, bytes) in row_bytes(scene) {
+        ledger.plan(what, bytes);
     }
+    ledger.plan("texels", size_of_val(&scene.texels[..]) as u64);
     ledger.plan("shapes", size_of_val(&scene.shapes[..]) as u64);
     let lights = view.lights.len() * size_of::<PackedLight>();
     let frame = size_of::<PackedFrame>() + size_of::<PackedTone>() + lights;

@@ -171,6 +171,9 @@ fn compile(
         Fetch::Image => kernel.image_source,
         _ => kernel.buffer_source,
     };
+    // The linker leaves out overrides that a kernel has no use for.
+    let known = |(id, _): &(&str, f64)| source.contains(&format!("@id({id})"));
+    let overrides: Vec<_> = overrides.into_iter().filter(known).collect();
     let pipeline = gpu.pipeline(kernel.name, source, Some(&layout), &overrides)?;
     let idle = PackedSlice {
         tile_count: 1,

@@ -19,23 +19,30 @@ pub fn overrides(task: Task) -> Overrides {
 /// Those of every kernel that sends rays.
 pub fn tracing(task: Task) -> Overrides {
     let Task {
-        scene, settings, ..
+        scene,
+        view,
+        settings,
+        ..
     } = task;
     let triangle_test = match settings.triangle_test {
         TriangleTest::Plane => TRIANGLE_TEST_PLANE,
         TriangleTest::MollerTrumbore => TRIANGLE_TEST_MOLLER_TRUMBORE,
         TriangleTest::Watertight => TRIANGLE_TEST_WATERTIGHT,
     };
+    let features = scene.features;
     vec![
         ("0", f64::from(triangle_test)),
         ("1", flag(!scene.triangles.is_empty())),
         ("2", flag(scene.bounded_shape_count() > 0)),
         ("3", flag(scene.plane_count > 0)),
-        ("4", flag(scene.mixed_materials)),
+        ("4", flag(scene.features.mixed_materials)),
         ("5", flag(settings.brute_force)),
         ("6", flag(settings.antialias == Antialias::Stratified)),
         ("7", flag(settings.count_rays)),
         ("8", flag(settings.integrator == Integrator::Heat)),
+        ("11", f64::from(features.shape_kinds)),
+        ("17", flag(view.frame.camera.lens_radius > 0.0)),
+        ("21", flag(features.textures)),
     ]
 }
 

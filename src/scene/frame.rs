@@ -1,6 +1,6 @@
 //! What moves: the state of a scene at one moment.
 
-use super::{Camera, Light, Scene};
+use super::{Background, Camera, Light, Scene};
 use glam::Vec3;
 
 /// The moving part of a [`Scene`] at one time. Geometry and materials stay in the scene, so that an
@@ -11,8 +11,8 @@ pub struct Frame {
     pub camera: Camera,
     /// May be empty.
     pub lights: Vec<Light>,
-    /// Linear radiance of rays that hit nothing.
-    pub background: Vec3,
+    /// What rays see that hit nothing.
+    pub background: Background,
     /// Linear radiance of the ambient term, multiplied by [`super::Material::ambient`].
     pub ambient: Vec3,
 }
@@ -24,7 +24,7 @@ impl Scene {
         Frame {
             camera: self.cameras[self.camera_index].clone(),
             lights: self.lights.clone(),
-            background: self.background,
+            background: self.background.clone(),
             ambient: self.ambient,
         }
     }

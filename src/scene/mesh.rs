@@ -1,6 +1,6 @@
 //! Triangle meshes and the repairs that every mesh format needs.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 /// Triangles over shared vertices, in object space. Positions are in range, triangles have an area,
 /// normals have unit length: [`Mesh::repair`] sees to that, whatever the file said.
@@ -12,6 +12,8 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// One unit normal for each position.
     pub normals: Vec<Vec3>,
+    /// One (u, v) for each position, v upwards; empty when the file gives none.
+    pub uvs: Vec<Vec2>,
     /// For each position, an index into [`super::Scene::materials`]. Where the three vertices of a
     /// triangle differ, their coefficients are interpolated.
     pub materials: Vec<u32>,

@@ -267,7 +267,7 @@ fn exact_box(scene: &PackedScene, reference: u32) -> Result<(DVec3, DVec3), Stri
             }
         } else {
             let center = Vec3::from(scene.shapes[i].position).as_dvec3();
-            let radius = f64::from(scene.shapes[i].radius);
+            let radius = f64::from(scene.shapes[i].size0);
             add(center - radius, center + radius);
         }
     }

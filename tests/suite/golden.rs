@@ -111,6 +111,7 @@ fn lit_by(kind: LightKind, strength: f32, attenuation: Attenuation) -> Scene {
         kind,
         color: Vec3::splat(strength),
         attenuation,
+        ..Light::default()
     });
     scene
 }

@@ -84,7 +84,7 @@ fn a_plane_is_kept_by_its_point_nearest_to_the_camera() {
         Vec3::from(shape.position).distance(expected) < 1e-3,
         "{shape:?}"
     );
-    assert_eq!(shape.normal, normal.as_vec3().to_array());
+    assert_eq!(shape.row_y, normal.as_vec3().to_array());
 }
 
 #[test]
@@ -182,8 +182,8 @@ fn materials_keep_their_order_and_their_sides() {
 
 #[test]
 fn mixed_materials_are_noticed() {
-    assert!(!packed(&scenes::meshes()).mixed_materials);
-    assert!(packed(&scenes::everything()).mixed_materials);
+    assert!(!packed(&scenes::meshes()).features.mixed_materials);
+    assert!(packed(&scenes::everything()).features.mixed_materials);
 }
 
 #[test]
@@ -209,6 +209,7 @@ fn lights_keep_their_kind_and_cones_become_cosines() {
         },
         color: Vec3::ONE,
         attenuation: Attenuation::InverseSquare,
+        ..Light::default()
     });
     let view = packed(&scene).frame(&scene.frame(0.0)).expect("a frame");
     let [point, spot] = view.lights[..] else {

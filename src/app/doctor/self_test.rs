@@ -5,7 +5,7 @@ use crate::app::device;
 use crate::app::exit::AppError;
 use crate::gpu::Gpu;
 use crate::render::{Settings, Tone};
-use crate::scene::{Attenuation, Camera, Geometry, Light, LightKind, Material, Scene, Shape};
+use crate::scene::{Camera, Geometry, Light, LightKind, Material, Scene, Shape};
 use glam::{DVec3, Vec3};
 
 /// Odd, so that the ray through the middle pixel runs along the camera's axis.
@@ -81,7 +81,7 @@ fn scene() -> Scene {
         lights: vec![Light {
             kind: LightKind::Point { position: LIGHT },
             color: Vec3::ONE,
-            attenuation: Attenuation::None,
+            ..Light::default()
         }],
         cameras: vec![Camera::default()],
         ambient: Vec3::splat(AMBIENT as f32),

@@ -20,12 +20,12 @@ impl Palette {
         let key = [a, b, c, d, e, f, shininess].map(|value| (value + 0.0).to_bits());
         *self.indices.entry(key).or_insert_with(|| {
             self.materials.push(Material {
-                name: String::new(),
                 diffuse,
                 specular,
                 shininess,
                 ambient: Vec3::ONE,
                 two_sided: false,
+                ..Material::default()
             });
             self.materials.len() as u32 - 1
         })

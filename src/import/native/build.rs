@@ -2,17 +2,17 @@
 //! read, and everything checked that takes more than one value to see.
 
 use super::file::{
-    MaterialRef, MaterialTable, MeshTable, ObjectTable, OutputTable, PlaneTable, SceneFile,
-    SphereTable, TransformTable, TriangleTable,
+    MaterialRef, MeshTable, ObjectTable, OutputTable, PlaneTable, SceneFile, SphereTable,
+    TransformTable, TriangleTable,
 };
 use super::values::Vector;
-use super::{Texts, cameras, lights};
+use super::{Texts, cameras, lights, materials};
 use crate::import::error::ImportError;
 use crate::import::number::in_range;
 use crate::import::paths::Files;
 use crate::import::source::quote;
 use crate::import::{obj, repair_notes, stage, suggest};
-use crate::scene::{Geometry, Instance, Material, Mesh, OutputDefaults, Scene, Shape};
+use crate::scene::{Background, Geometry, Instance, Material, Mesh, OutputDefaults, Scene, Shape};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -70,9 +70,9 @@ impl<'a> Builder<'a> {
                 materials: file
                     .materials
                     .iter()
-                    .map(|(name, table)| material(name, table))
+                    .map(|(name, table)| materials::material(name, table))
                     .collect(),
-                background: file.background.0,
+                background: Background::Color(file.background.0),
                 ambient: file.ambient.0,
                 output: output(&file.output),
                 ..Scene::default()
@@ -319,7 +319,7 @@ impl<'a> Builder<'a> {
         match reference.get_ref() {
             MaterialRef::Name(name) => self.named(name, reference.span()),
             MaterialRef::Inline(table) => {
-                self.scene.materials.push(material("", table));
+                self.scene.materials.push(materials::material("", table));
                 Ok(self.scene.materials.len() - 1)
             }
         }
@@ -339,18 +339,6 @@ impl<'a> Builder<'a> {
     }
 }
 
-fn material(name: &str, table: &MaterialTable) -> Material {
-    let phong = &table.phong;
-    Material {
-        name: name.to_owned(),
-        diffuse: phong.diffuse.0,
-        specular: phong.specular.0,
-        shininess: phong.shininess.0,
-        ambient: phong.ambient.unwrap_or(phong.diffuse).0,
-        two_sided: table.two_sided,
-    }
-}
-
 fn output(table: &OutputTable) -> OutputDefaults {
     let [width, height] = table.size.0;
     OutputDefaults {
@@ -359,6 +347,7 @@ fn output(table: &OutputTable) -> OutputDefaults {
         exposure_ev: table.exposure_ev.0,
         tone: table.tone.into(),
         transfer: table.transfer.into(),
+        ..OutputDefaults::default()
     }
 }
 

@@ -50,5 +50,6 @@ fn camera(table: &CameraTable, texts: &Texts) -> Result<Camera, ImportError> {
         look_at,
         up,
         fov_y: table.fov_y_deg.0.to_radians(),
+        lens: None,
     })
 }

@@ -4,7 +4,7 @@ use super::Texts;
 use super::file::{LightTable, SpotTable};
 use super::values::{Color, NonNegative};
 use crate::import::error::ImportError;
-use crate::scene::{Attenuation, Light, LightKind};
+use crate::scene::{Light, LightKind};
 use glam::Vec3;
 use toml::Spanned;
 
@@ -29,6 +29,7 @@ pub(super) fn light(table: &Spanned<LightTable>, texts: &Texts) -> Result<Light,
             },
             color: radiance(point.color, point.intensity)?,
             attenuation: point.attenuation.into(),
+            ..Light::default()
         }),
         LightTable {
             point: None,
@@ -39,7 +40,7 @@ pub(super) fn light(table: &Spanned<LightTable>, texts: &Texts) -> Result<Light,
                 direction: sun.direction.0,
             },
             color: radiance(sun.color, sun.intensity)?,
-            attenuation: Attenuation::None,
+            ..Light::default()
         }),
         LightTable {
             point: None,
@@ -49,6 +50,7 @@ pub(super) fn light(table: &Spanned<LightTable>, texts: &Texts) -> Result<Light,
             kind: cone(spot, texts)?,
             color: radiance(spot.color, spot.intensity)?,
             attenuation: spot.attenuation.into(),
+            ..Light::default()
         }),
         _ => {
             let todo = "Give it exactly one of `point`, `directional` and `spot`";

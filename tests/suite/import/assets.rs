@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
-use glimray::scene::{Geometry, LightKind, Scene};
+use glimray::scene::{Background, Geometry, LightKind, Scene};
 use std::path::{Path, PathBuf};
 
 /// The file `name` in the folder of scenes.
@@ -19,7 +19,12 @@ fn is_color(color: Vec3) -> bool {
 /// Asserts what the docs of [`Scene`] say.
 fn assert_promises(scene: &Scene) {
     assert!(scene.camera_index < scene.cameras.len() && !scene.materials.is_empty());
-    assert!(is_color(scene.background) && is_color(scene.ambient));
+    assert!(is_color(scene.ambient));
+    match scene.background {
+        Background::Color(color) => assert!(is_color(color)),
+        Background::Gradient { bottom, top } => assert!(is_color(bottom) && is_color(top)),
+        Background::Picture { picture, .. } => assert!(picture < scene.pictures.len()),
+    }
     for material in &scene.materials {
         assert!(
             is_color(material.diffuse) && is_color(material.specular) && is_color(material.ambient)
@@ -55,6 +60,12 @@ fn assert_promises(scene: &Scene) {
             Geometry::Plane { point, normal } => {
                 assert!(point.is_finite() && normal.is_normalized())
             }
+            Geometry::Placed {
+                world_from_form, ..
+            } => {
+                assert!(world_from_form.is_finite());
+                assert_ne!(world_from_form.matrix3.determinant(), 0.0);
+            }
         }
     }
     for light in &scene.lights {
@@ -70,6 +81,13 @@ fn assert_promises(scene: &Scene) {
             } => {
                 assert!(direction.is_normalized() && 0.0 <= inner && inner <= outer);
             }
+            LightKind::Rectangle { edge_u, edge_v, .. } => {
+                assert!(edge_u.cross(edge_v).length() > 0.0);
+            }
+            LightKind::Disc { normal, radius, .. } => {
+                assert!(normal.is_normalized() && radius > 0.0);
+            }
+            LightKind::Sphere { radius, .. } => assert!(radius > 0.0),
         }
     }
     for camera in &scene.cameras {

@@ -3,7 +3,8 @@
 use super::{messages, scene};
 use glam::{DVec3, Vec3};
 use glimray::scene::{
-    Attenuation, Camera, Geometry, Light, LightKind, Material, Shape, ToneCurve, Transfer,
+    Attenuation, Background, Camera, Geometry, Light, LightKind, Material, Shape, ToneCurve,
+    Transfer,
 };
 use insta::assert_snapshot;
 
@@ -50,6 +51,7 @@ fn a_plain_file_reads_as_written() {
             shininess: 50.0,
             ambient: Vec3::ONE,
             two_sided: false,
+            ..Material::default()
         }]
     );
     assert_eq!(
@@ -60,6 +62,7 @@ fn a_plain_file_reads_as_written() {
             },
             color: Vec3::new(0.9, 1.0, 0.5),
             attenuation: Attenuation::None,
+            ..Light::default()
         }]
     );
     assert_eq!(scene.ambient, Vec3::new(0.1, 0.2, 0.3));
@@ -70,7 +73,7 @@ fn a_plain_file_reads_as_written() {
 fn the_picture_is_the_one_the_course_asks_for() {
     let scene = scene("a.scene", "0 amb: 0 0 0");
     assert_eq!(scene.cameras, [Camera::default()]);
-    assert_eq!(scene.background, Vec3::ONE);
+    assert_eq!(scene.background, Background::Color(Vec3::ONE));
     assert_eq!(scene.output.size, (640, 480));
     assert_eq!(scene.output.samples, 1);
     assert_eq!(scene.output.tone, ToneCurve::None);

@@ -4,7 +4,8 @@ use super::{folder, message_in, messages, scene};
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
 use glimray::scene::{
-    Attenuation, Camera, Geometry, LightKind, Material, OutputDefaults, Scene, ToneCurve, Transfer,
+    Attenuation, Background, Camera, Geometry, LightKind, Material, OutputDefaults, Scene,
+    ToneCurve, Transfer,
 };
 use insta::assert_snapshot;
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -24,7 +25,7 @@ fn with(overrides: &[&str], text: &str) -> Result<Scene, import::ImportError> {
 fn sphere(scene: &Scene, index: usize) -> (DVec3, f64) {
     match scene.shapes[index].geometry {
         Geometry::Sphere { center, radius } => (center, radius),
-        Geometry::Plane { .. } => panic!("not a sphere"),
+        _ => panic!("not a sphere"),
     }
 }
 
@@ -32,7 +33,10 @@ fn sphere(scene: &Scene, index: usize) -> (DVec3, f64) {
 fn what_is_left_out_has_its_default() {
     let scene = scene("a.toml", "# nothing\n");
     assert_eq!(scene.output, OutputDefaults::default());
-    assert_eq!((scene.background, scene.ambient), (Vec3::ZERO, Vec3::ZERO));
+    assert_eq!(
+        (scene.background, scene.ambient),
+        (Background::Color(Vec3::ZERO), Vec3::ZERO)
+    );
     assert_eq!(scene.cameras, [Camera::default()]);
     assert_eq!(scene.materials, [Material::default()]);
     assert_eq!(scene.skipped, [""; 0]);
@@ -84,7 +88,10 @@ fn every_key_is_heard() {
         spot = { position = [0, 5, 0], look_at = [0, 0, 0], inner_deg = 45, outer_deg = 90, attenuation = "none" }
         "##,
     );
-    assert_eq!(scene.background, Vec3::new(0.5, 0.25, 2.0));
+    assert_eq!(
+        scene.background,
+        Background::Color(Vec3::new(0.5, 0.25, 2.0))
+    );
     assert_eq!(scene.ambient, Vec3::ONE);
     let output = OutputDefaults {
         size: (320, 200),
@@ -92,6 +99,7 @@ fn every_key_is_heard() {
         exposure_ev: -1.5,
         tone: ToneCurve::Agx,
         transfer: Transfer::Linear,
+        ..OutputDefaults::default()
     };
     assert_eq!(scene.output, output);
     assert_eq!(scene.cameras[0].name, "a");
@@ -105,6 +113,7 @@ fn every_key_is_heard() {
         shininess: 7.5,
         ambient: Vec3::Z,
         two_sided: false,
+        ..Material::default()
     };
     assert_eq!(scene.materials[0], named);
     assert_eq!(
@@ -137,13 +146,15 @@ fn every_key_is_heard() {
 
 #[test]
 fn hex_colors_are_srgb_and_lists_linear() {
-    let hex = scene("a.toml", "background = '#00ff80'").background;
+    let Background::Color(hex) = scene("a.toml", "background = '#00ff80'").background else {
+        panic!("a colour");
+    };
     assert!(
         (hex - Vec3::new(0.0, 1.0, 0.215_86)).length() < 1e-5,
         "{hex}"
     );
     let list = scene("a.toml", "background = [0, 1, 0.5]").background;
-    assert_eq!(list, Vec3::new(0.0, 1.0, 0.5));
+    assert_eq!(list, Background::Color(Vec3::new(0.0, 1.0, 0.5)));
 }
 
 #[test]
@@ -284,7 +295,7 @@ fn overrides_replace_and_add_values() {
     assert_eq!(sphere(&scene, 0).1, 2.0);
     assert_eq!(scene.output.tone, ToneCurve::Aces);
     assert_eq!(scene.output.transfer, Transfer::Linear);
-    assert_eq!(scene.background, Vec3::ONE);
+    assert_eq!(scene.background, Background::Color(Vec3::ONE));
     assert!(!scene.materials[0].two_sided);
 }
 

@@ -3,7 +3,7 @@
 use super::{folder, messages, scene};
 use glam::{DVec3, Vec3};
 use glimray::import;
-use glimray::scene::{Material, Scene};
+use glimray::scene::{Background, Material, Scene};
 use insta::assert_snapshot;
 
 /// The area of all triangles.
@@ -33,7 +33,7 @@ fn a_model_alone_is_framed_and_lit() {
     assert_eq!(scene.triangle_count(), 2);
     assert_eq!(scene.meshes[0].name, "a");
     assert!(scene.lights.len() >= 2);
-    assert_ne!(scene.background, Vec3::ZERO);
+    assert_ne!(scene.background, Background::Color(Vec3::ZERO));
     assert_eq!(scene.cameras[0].look_at, DVec3::new(0.5, 0.5, 0.0));
     assert_eq!(scene.materials, [Material::default()]);
 }

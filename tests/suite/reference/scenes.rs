@@ -16,7 +16,7 @@ pub fn empty() -> Scene {
             ..Camera::default()
         }],
         materials: vec![Material::default()],
-        background: vec3(0.2, 0.4, 0.6),
+        background: glimray::scene::Background::Color(vec3(0.2, 0.4, 0.6)),
         ambient: Vec3::splat(0.1),
         ..Scene::default()
     }
@@ -45,6 +45,7 @@ pub fn spheres() -> Scene {
         },
         color: vec3(0.2, 0.2, 0.3),
         attenuation: Attenuation::None,
+        ..Light::default()
     });
     scene
 }
@@ -114,6 +115,7 @@ pub fn everything() -> Scene {
         },
         color: Vec3::splat(12.0),
         attenuation: Attenuation::InverseSquare,
+        ..Light::default()
     });
     scene
 }
@@ -170,6 +172,7 @@ impl Build for Scene {
             kind: LightKind::Point { position },
             color: Vec3::splat(strength),
             attenuation: Attenuation::None,
+            ..Light::default()
         });
     }
 }

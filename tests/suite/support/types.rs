@@ -90,13 +90,13 @@ shader_struct!(Incident = "package::types::Incident" {
 });
 shader_struct!(PackedCamera = "package::types::PackedCamera" {
     origin: [f32; 3],
-    _pad0: f32,
+    lens_radius: f32,
     forward: [f32; 3],
-    _pad1: f32,
+    focus_distance: f32,
     right: [f32; 3],
-    _pad2: f32,
+    blade_rotation: f32,
     up: [f32; 3],
-    _pad3: f32,
+    blade_count: u32,
 });
 shader_struct!(PackedLight = "package::types::PackedLight" {
     position: [f32; 3],
@@ -105,10 +105,14 @@ shader_struct!(PackedLight = "package::types::PackedLight" {
     attenuation: u32,
     color: [f32; 3],
     cos_inner: f32,
+    edge_u: [f32; 3],
     cos_outer: f32,
-    _pad0: f32,
-    _pad1: f32,
-    _pad2: f32,
+    edge_v: [f32; 3],
+    radius: f32,
+    sample_count: u32,
+    _pad0: u32,
+    _pad1: u32,
+    _pad2: u32,
 });
 shader_struct!(PackedTone = "package::types::PackedTone" {
     exposure_scale: f32,

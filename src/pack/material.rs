@@ -1,0 +1,142 @@
+//! Materials, textures and pictures as the GPU reads them.
+
+use super::{Features, PackError};
+use crate::{
+    layout::{
+        IMAGE_WIDTH_LOG2, MATERIAL_BLEND, MATERIAL_FRESNEL, MATERIAL_SCHLICK, MATERIAL_SUM,
+        MATERIAL_TWO_SIDED, NO_TEXTURE, PATTERN_CHECKER, PATTERN_GRADIENT, PATTERN_NOISE,
+        PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial, PackedTexture, TEXTURE_NEAREST,
+        TEXTURE_UV,
+    },
+    scene::{Fresnel, Material, Mixing, Pattern, Scene, Space, Texture},
+};
+use glam::{DAffine3, DVec3, Vec3};
+use half::f16;
+
+/// Most texels of all pictures together: a row of texels for each line of the largest texture that
+/// WebGPU guarantees.
+const MAX_TEXELS: usize = (8192 << IMAGE_WIDTH_LOG2) - 1;
+
+pub fn material(material: &Material) -> PackedMaterial {
+    let fresnel = match material.fresnel {
+        Fresnel::None => 0,
+        Fresnel::Exact => MATERIAL_FRESNEL,
+        Fresnel::Schlick => MATERIAL_FRESNEL | MATERIAL_SCHLICK,
+    };
+    let mixing = match material.mixing {
+        Mixing::Layer => 0,
+        Mixing::Sum => MATERIAL_SUM,
+        Mixing::Blend => MATERIAL_BLEND,
+    };
+    let sides = if material.two_sided {
+        MATERIAL_TWO_SIDED
+    } else {
+        0
+    };
+    let pair = |low: Option<usize>, high: Option<usize>| {
+        let index = |texture: Option<usize>| texture.map_or(NO_TEXTURE, |index| index as u32);
+        index(low) | index(high) << 16
+    };
+    let textures = &material.textures;
+    PackedMaterial {
+        diffuse: material.diffuse.into(),
+        shininess: material.shininess,
+        specular: material.specular.into(),
+        flags: sides | fresnel | mixing,
+        ambient: material.ambient.into(),
+        opacity: material.opacity,
+        reflect: material.reflect.into(),
+        ior: material.ior,
+        transmit: material.transmit.into(),
+        priority: material.priority,
+        absorption: material.absorption.into(),
+        emission: material.emission.into(),
+        textures: [
+            pair(textures.diffuse, textures.specular),
+            pair(textures.reflect, textures.transmit),
+            pair(textures.ambient, textures.emission),
+        ],
+        ..Default::default()
+    }
+}
+
+/// What the materials, textures and pictures of a scene ask for.
+pub fn features(scene: &Scene) -> Features {
+    let is_lit = |color: Vec3| color != Vec3::ZERO;
+    let transparent = scene.materials.iter().filter(|m| is_lit(m.transmit));
+    Features {
+        reflection: (scene.materials.iter()).any(|m| is_lit(m.reflect)),
+        refraction: transparent.clone().next().is_some(),
+        contact: transparent.count() > 1,
+        textures: !scene.textures.is_empty(),
+        emission: scene.materials.iter().any(|m| is_lit(m.emission)),
+        ..Features::default()
+    }
+}
+
+pub fn texture(texture: &Texture, origin: DVec3, pictures: &[[u32; 3]]) -> PackedTexture {
+    let space = match texture.space {
+        Space::World => texture.pattern_from_space * DAffine3::from_translation(origin),
+        Space::Uv => texture.pattern_from_space,
+    };
+    let row = |i| {
+        let row = space.matrix3.row(i);
+        [row.x, row.y, row.z, space.translation[i]].map(|c| c as f32)
+    };
+    let mut packed = PackedTexture {
+        flags: if texture.space == Space::Uv {
+            TEXTURE_UV
+        } else {
+            0
+        },
+        row_x: row(0),
+        row_y: row(1),
+        row_z: row(2),
+        ..Default::default()
+    };
+    let mut colors = |kind, a: Vec3, b: Vec3| {
+        (packed.kind, packed.color_a, packed.color_b) = (kind, a.into(), b.into());
+    };
+    match texture.pattern {
+        Pattern::Checker { a, b } => colors(PATTERN_CHECKER, a, b),
+        Pattern::Stripes { a, b } => colors(PATTERN_STRIPES, a, b),
+        Pattern::Gradient { a, b } => colors(PATTERN_GRADIENT, a, b),
+        Pattern::Noise { a, b, octaves } => {
+            colors(PATTERN_NOISE, a, b);
+            packed.octaves = octaves;
+        }
+        Pattern::Picture { picture, nearest } => {
+            packed.kind = PATTERN_PICTURE;
+            packed.flags |= if nearest { TEXTURE_NEAREST } else { 0 };
+            [packed.first_texel, packed.width, packed.height] = pictures[picture];
+        }
+    }
+    packed
+}
+
+/// All pictures' texels one after the other, and where each picture's are.
+pub fn texels(scene: &Scene) -> Result<(Vec<[u16; 4]>, Vec<[u32; 3]>), PackError> {
+    let count = scene.pictures.iter().map(|p| p.texels.len()).sum();
+    if count > MAX_TEXELS {
+        return Err(PackError::TooMany {
+            what: "texels",
+            count,
+            limit: MAX_TEXELS,
+        });
+    }
+    let mut texels = Vec::with_capacity(count);
+    let mut places = Vec::with_capacity(scene.pictures.len());
+    for picture in &scene.pictures {
+        places.push([texels.len() as u32, picture.width, picture.height]);
+        texels.extend(picture.texels.iter().map(|texel| {
+            let half = |c: f32| f16::from_f32(c.min(f16::MAX.to_f32())).to_bits();
+            [
+                half(texel.x),
+                half(texel.y),
+                half(texel.z),
+                f16::ONE.to_bits(),
+            ]
+        }));
+    }
+    Ok((texels, places))
+}
