@@ -17,7 +17,7 @@
 //! let packed = Arc::new(pack::scene(&scene)?);
 //! let view = packed.frame(&scene.frame(0.0))?;
 //! let gpu = Gpu::new(&AdapterChoice::default())?;
-//! let settings = Settings { size: scene.output.size, ..Settings::default() };
+//! let settings = Settings::from(&scene.output);
 //! let mut renderer = Renderer::new(gpu, packed, &view, settings)?;
 //! while !renderer.is_done() {
 //!     renderer.step()?;

@@ -4,6 +4,7 @@
 mod frame;
 mod geometry;
 mod material;
+mod media;
 mod nodes;
 
 pub use frame::PackedView;
@@ -47,6 +48,8 @@ pub struct PackedScene {
     pub pictures: Vec<[u32; 3]>,
     /// What the scene has, so that all else is compiled out.
     pub features: Features,
+    /// Transparent bodies, which the camera may be inside of.
+    bodies: Vec<media::Body>,
     /// Where render space has its origin, in world space: at the scene's default camera, where the
     /// picture needs f32 to be finest.
     pub origin: DVec3,
@@ -65,7 +68,7 @@ pub struct Features {
     pub reflection: bool,
     /// Something is transparent.
     pub refraction: bool,
-    /// There are several transparent materials, or several bodies of one.
+    /// A transparent body may touch another body.
     pub contact: bool,
     /// Shadow rays go on through what is transparent.
     pub filtered_shadows: bool,
@@ -159,6 +162,7 @@ pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
         texels,
         pictures,
         features,
+        bodies: media::bodies(scene),
         origin,
         build_seconds: start.elapsed().as_secs_f64(),
     })

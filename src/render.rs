@@ -1,6 +1,7 @@
 //! The renderer: takes a packed scene and a frame, adds samples to the film step by step, and
 //! develops the picture. Every front end runs this same loop.
 
+mod adaptive;
 mod bindings;
 mod debug_view;
 mod develop;
@@ -10,8 +11,9 @@ mod settings;
 mod slice;
 mod whitted;
 
+pub use crate::scene::Antialias;
 pub use develop::Tone;
-pub use settings::{Antialias, Fetch, Integrator, Settings, Slicing, TriangleTest};
+pub use settings::{Fetch, Integrator, MIN_THROUGHPUT, Settings, Slicing, TriangleTest};
 
 use crate::{
     gpu::{AdapterChoice, AdapterReport, Gpu, GpuError},
@@ -64,10 +66,15 @@ pub struct Stats {
     pub longest_submission_ms: f64,
     /// Samples that were dropped: with them a sum would be infinite or not a number.
     pub nonfinite_samples: u64,
+    /// Samples whose ray tree outgrew its stack or had too many rays; what was cut off is missing
+    /// in the picture.
+    pub cut_off_trees: u64,
     /// Planned memory in bytes; see [`Settings::memory_limit_bytes`].
     pub gpu_bytes: u64,
     /// How often the device was lost and replaced.
     pub device_losses: u32,
+    /// Camera rays whose sum is in the film.
+    pub samples: u64,
     /// Kept with [`Settings::count_rays`].
     pub rays: Option<Rays>,
 }
@@ -83,6 +90,14 @@ pub struct Rays {
     pub shadow: u64,
     /// Those that hit something before the light.
     pub shadow_blocked: u64,
+    /// Mirrored.
+    pub reflection: u64,
+    /// Those that hit something.
+    pub reflection_hits: u64,
+    /// Refracted.
+    pub refraction: u64,
+    /// Those that hit something.
+    pub refraction_hits: u64,
 }
 
 /// Why a picture cannot be rendered.
@@ -118,11 +133,16 @@ impl Stats {
     /// Adds the accounts of a slice.
     fn add(&mut self, tally: &PackedSlice) {
         self.nonfinite_samples += u64::from(tally.nonfinite_samples);
+        self.cut_off_trees += u64::from(tally.cut_off_trees);
         if let Some(rays) = &mut self.rays {
             rays.primary += u64::from(tally.primary);
             rays.primary_hits += u64::from(tally.primary_hits);
             rays.shadow += u64::from(tally.shadow);
             rays.shadow_blocked += u64::from(tally.shadow_blocked);
+            rays.reflection += u64::from(tally.reflection);
+            rays.reflection_hits += u64::from(tally.reflection_hits);
+            rays.refraction += u64::from(tally.refraction);
+            rays.refraction_hits += u64::from(tally.refraction_hits);
         }
     }
 
@@ -147,7 +167,7 @@ impl Renderer {
         settings: Settings,
     ) -> Result<Self, RenderError> {
         let view = view.with_aspect(settings.size.0, settings.size.1);
-        let film = Film::new(settings.region(), settings.slicing.window_side);
+        let film = Film::new(&settings);
         let [.., width, height] = settings.region();
         let picture_pixels = u64::from(width) * u64::from(height);
         let ledger = bindings::ledger(&scene, &view, film.largest_window(), picture_pixels);
@@ -161,10 +181,10 @@ impl Renderer {
             scene: &scene,
             view: &view,
             settings: &settings,
-            film_pixels: film.largest_window(),
+            film_rows: film.largest_window(),
         };
         let fetch = bindings::choose_fetch(settings.fetch, &gpu, &scene);
-        let gpu = gpu.serving(bindings::needs(&scene, fetch, task.film_pixels))?;
+        let gpu = gpu.serving(bindings::needs(&scene, fetch, task.film_rows))?;
         let choice = gpu.choice().clone();
         let device = match Device::new(gpu, fetch, task, &mut stats) {
             Err(GpuError::Lost) => replacement(&choice, fetch, task, &mut stats)?,
@@ -185,14 +205,14 @@ impl Renderer {
     /// Starts over with another frame of the same scene.
     pub fn set_frame(&mut self, view: &PackedView) -> Result<(), RenderError> {
         self.view = view.with_aspect(self.settings.size.0, self.settings.size.1);
-        self.film = Film::new(self.settings.region(), self.settings.slicing.window_side);
+        self.film = Film::new(&self.settings);
         self.cursor = Cursor::default();
         self.surviving_losses(|renderer| {
             let task = Task {
                 scene: &renderer.scene,
                 view: &renderer.view,
                 settings: &renderer.settings,
-                film_pixels: renderer.film.largest_window(),
+                film_rows: renderer.film.largest_window(),
             };
             renderer.device.set_view(task, &mut renderer.stats)
         })
@@ -200,7 +220,7 @@ impl Renderer {
 
     /// Whether every pixel has its samples.
     pub fn is_done(&self) -> bool {
-        self.cursor.window == self.film.windows.len()
+        self.cursor.window >= self.film.windows.len()
     }
 
     /// Share of the work that is done, in 0..=1.
@@ -210,8 +230,11 @@ impl Renderer {
         };
         let sweep = f64::from(self.cursor.sweep_samples) * f64::from(self.cursor.tile)
             / f64::from(window.tile_count());
-        let within = (f64::from(self.cursor.sample) + sweep) / f64::from(self.settings.samples);
-        (self.cursor.window as f64 + within) / self.film.windows.len() as f64
+        let round = self.film.round();
+        let length = f64::from(round.end - round.start);
+        let within = (f64::from(self.cursor.sample - round.start) + sweep) / length;
+        let rounds = (self.cursor.window as f64 + within) / self.film.windows.len() as f64;
+        (f64::from(round.start) + rounds * length) / f64::from(self.settings.samples)
     }
 
     /// What the render has cost so far.
@@ -234,7 +257,7 @@ impl Renderer {
         }
         let tile_count = window.tile_count();
         if self.cursor.tile == 0 {
-            let left = self.settings.samples - self.cursor.sample;
+            let left = self.film.round().end - self.cursor.sample;
             let in_chunk = CHUNK - self.cursor.sample % CHUNK;
             self.cursor.sweep_samples = self.planner.sweep_samples(tile_count, left.min(in_chunk));
         }
@@ -288,21 +311,31 @@ impl Renderer {
     }
 
     fn advance(&mut self, slice: &Slice) {
+        let round = self.film.round();
         let window = &mut self.film.windows[self.cursor.window];
         self.cursor.tile = slice.end_tile;
         if self.cursor.tile < window.tile_count() {
             return;
         }
+        let taken = slice.end_sample - slice.first_sample;
+        self.stats.samples += u64::from(taken) * window.sampled_pixels();
         self.cursor.tile = 0;
         self.cursor.sample = slice.end_sample;
-        if self.cursor.sample == self.settings.samples {
+        if self.cursor.sample < round.end {
+            if self.cursor.sample.is_multiple_of(CHUNK) {
+                window.close_chunk();
+                self.device.loaded_window = None;
+            }
+            return;
+        }
+        self.cursor.window += 1;
+        self.cursor.sample = round.start;
+        if self.is_done() && self.film.next_round() {
+            self.device.loaded_window = None;
             self.cursor = Cursor {
-                window: self.cursor.window + 1,
+                sample: self.film.round().start,
                 ..Cursor::default()
             };
-        } else if self.cursor.sample.is_multiple_of(CHUNK) {
-            window.close_chunk();
-            self.device.loaded_window = None;
         }
     }
 
@@ -327,7 +360,7 @@ impl Renderer {
             scene: &self.scene,
             view: &self.view,
             settings: &self.settings,
-            film_pixels: self.film.largest_window(),
+            film_rows: self.film.largest_window(),
         };
         self.device = replacement(&choice, fetch, task, &mut self.stats)?;
         Ok(())

@@ -11,7 +11,7 @@ use super::report::{self, ImageReport, Memory, Report, SceneReport, Seconds};
 use crate::gpu::Gpu;
 use crate::image::Image;
 use crate::output;
-use crate::render::{Antialias, Integrator, Renderer, Settings, Tone};
+use crate::render::{Integrator, Renderer, Settings, Tone};
 use crate::scene::{OutputDefaults, Scene, ToneCurve, Transfer};
 use std::path::Path;
 use std::time::Instant;
@@ -135,6 +135,13 @@ impl<'a> Job<'a> {
                 stats.nonfinite_samples
             ));
         }
+        if stats.cut_off_trees > 0 {
+            console::warning(format_args!(
+                "{} samples had too many rays and were cut off. Lower --max-depth, or raise \
+                 --min-throughput.",
+                stats.cut_off_trees
+            ));
+        }
         let path = self.destination.path().display().to_string();
         console.status(format_args!("wrote {path} ({:.2} s)", seconds.total));
         let report = Report {
@@ -146,8 +153,10 @@ impl<'a> Job<'a> {
                 width: image.width,
                 height: image.height,
                 samples: settings.samples,
+                mean_samples: stats.samples as f64
+                    / (f64::from(image.width) * f64::from(image.height)),
                 integrator: INTEGRATORS.word(&settings.integrator),
-                max_depth: 0,
+                max_depth: settings.max_depth,
                 seed: settings.seed,
             },
             adapter: renderer.adapter().into(),
@@ -155,6 +164,7 @@ impl<'a> Job<'a> {
             rays: stats.rays.as_ref().map(Into::into),
             submissions: stats.into(),
             nonfinite_samples: stats.nonfinite_samples,
+            cut_off_trees: stats.cut_off_trees,
             memory: Memory {
                 gpu_bytes: stats.gpu_bytes,
                 host_peak_bytes: report::host_peak_bytes(),
@@ -174,22 +184,22 @@ fn settings(
     device: &DeviceFlags,
     log: &LogFlags,
 ) -> Settings {
-    let samples = picture.size.samples.unwrap_or(scene.samples);
-    let antialias = if samples > 1 {
-        Antialias::Stratified
-    } else {
-        Antialias::None
+    let output = OutputDefaults {
+        samples: picture.size.samples.unwrap_or(scene.samples),
+        antialias: picture.antialias.or(scene.antialias),
+        ..scene.clone()
     };
-    let defaults = Settings::default();
+    let defaults = Settings::from(&output);
     Settings {
         size: picture.size.size.unwrap_or(scene.size),
         crop: picture.crop,
-        samples,
-        antialias: picture.antialias.unwrap_or(antialias),
+        noise: picture.noise.unwrap_or(defaults.noise),
         integrator: picture.integrator.unwrap_or(defaults.integrator),
         triangle_test: picture.triangle_test.unwrap_or(defaults.triangle_test),
         brute_force: picture.no_bvh,
         seed: picture.seed,
+        max_depth: picture.max_depth.unwrap_or(defaults.max_depth),
+        min_throughput: picture.min_throughput.unwrap_or(defaults.min_throughput),
         count_rays: log.count_rays,
         memory_limit_bytes: device.memory_limit_bytes(),
         ..defaults

@@ -22,6 +22,8 @@ pub struct Report {
     pub submissions: Submissions,
     /// Samples that were dropped because they were infinite or no number.
     pub nonfinite_samples: u64,
+    /// Samples whose ray tree was cut off because it had too many rays.
+    pub cut_off_trees: u64,
     pub memory: Memory,
 }
 
@@ -49,7 +51,10 @@ pub struct ImageReport {
     pub path: String,
     pub width: u32,
     pub height: u32,
+    /// Those allowed for each pixel.
     pub samples: u32,
+    /// Those taken, on average over the pixels.
+    pub mean_samples: f64,
     pub integrator: &'static str,
     /// Bounces after the first hit.
     pub max_depth: u32,
@@ -92,9 +97,10 @@ pub struct RayCounts {
     /// One for each light sample that faces the surface.
     pub shadow: u64,
     pub shadow_blocked: u64,
-    /// This and the next three stay 0 as long as there are no bounces.
+    /// Mirrored.
     pub reflection: u64,
     pub reflection_hits: u64,
+    /// Refracted.
     pub refraction: u64,
     pub refraction_hits: u64,
 }
@@ -148,10 +154,10 @@ impl From<&Rays> for RayCounts {
             primary_hits: rays.primary_hits,
             shadow: rays.shadow,
             shadow_blocked: rays.shadow_blocked,
-            reflection: 0,
-            reflection_hits: 0,
-            refraction: 0,
-            refraction_hits: 0,
+            reflection: rays.reflection,
+            reflection_hits: rays.reflection_hits,
+            refraction: rays.refraction,
+            refraction_hits: rays.refraction_hits,
         }
     }
 }

@@ -78,6 +78,7 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
             output: OutputDefaults {
                 tone: ToneCurve::None,
                 transfer: Transfer::Linear,
+                max_depth: 0,
                 ..OutputDefaults::default()
             },
             ..Scene::default()

@@ -1,11 +1,11 @@
 //! What changes from frame to frame: camera and lights.
 
-use super::{PackError, PackedScene, geometry::render_point};
+use super::{PackError, PackedScene, geometry::render_point, media};
 use crate::{
     layout::{
         ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, BACKGROUND_COLOR, BACKGROUND_GRADIENT,
         BACKGROUND_PICTURE, LIGHT_DIRECTIONAL, LIGHT_DISC, LIGHT_POINT, LIGHT_RECTANGLE,
-        LIGHT_SPHERE, LIGHT_SPOT, NONE, PackedCamera, PackedFrame, PackedLight,
+        LIGHT_SPHERE, LIGHT_SPOT, PackedCamera, PackedFrame, PackedLight,
     },
     scene::{Attenuation, Background, Camera, Frame, Light, LightKind},
 };
@@ -46,7 +46,7 @@ impl PackedScene {
                 plane_count: self.plane_count,
                 vertex_count: self.vertices.len() as u32,
                 material_count: self.materials.len() as u32,
-                camera_media: [NONE; 4],
+                camera_media: media::around(&self.bodies, frame.camera.look_from)?,
                 ..self.background(&frame.background)
             },
             background: match frame.background {

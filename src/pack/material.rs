@@ -63,11 +63,10 @@ pub fn material(material: &Material) -> PackedMaterial {
 /// What the materials, textures and pictures of a scene ask for.
 pub fn features(scene: &Scene) -> Features {
     let is_lit = |color: Vec3| color != Vec3::ZERO;
-    let transparent = scene.materials.iter().filter(|m| is_lit(m.transmit));
     Features {
         reflection: (scene.materials.iter()).any(|m| is_lit(m.reflect)),
-        refraction: transparent.clone().next().is_some(),
-        contact: transparent.count() > 1,
+        refraction: scene.materials.iter().any(|m| is_lit(m.transmit)),
+        contact: scene.shapes.len() + scene.instances.len() > 1,
         textures: !scene.textures.is_empty(),
         emission: scene.materials.iter().any(|m| is_lit(m.emission)),
         ..Features::default()

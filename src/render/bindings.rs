@@ -10,7 +10,7 @@ use bytemuck::{bytes_of, cast_slice};
 use std::borrow::Cow;
 use wgpu::{BindGroupLayout, BindingType, Buffer, BufferBindingType, BufferUsages};
 
-const PIXEL_BYTES: u64 = 16;
+const ROW_BYTES: u64 = 16;
 const IMAGE_WIDTH: u32 = 1 << IMAGE_WIDTH_LOG2;
 const ROW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const TEXEL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
@@ -85,14 +85,14 @@ pub struct Buffers {
 }
 
 impl Buffers {
-    /// Uploads the scene and the frame, and makes room for `film_pixels`.
+    /// Uploads the scene and the frame, and makes room for `film_rows`.
     pub fn new(
         gpu: &Gpu,
         layouts: &Layouts,
         fetch: Fetch,
         scene: &PackedScene,
         view: &PackedView,
-        film_pixels: usize,
+        film_rows: usize,
     ) -> Result<Self, GpuError> {
         let shapes = gpu.upload("shapes", cast_slice(&scene.shapes))?;
         let rows = scene_rows(scene)
@@ -108,7 +108,7 @@ impl Buffers {
 
         let storage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let slice = gpu.allocate("slice", size_of::<PackedSlice>() as u64, storage)?;
-        let film_bytes = film_pixels as u64 * PIXEL_BYTES;
+        let film_bytes = film_rows as u64 * ROW_BYTES;
         let film = gpu.allocate("film", film_bytes, storage)?;
         let staging = gpu.allocate(
             "staging",
@@ -242,9 +242,9 @@ pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene) -> Fetch {
 }
 
 /// What the device must be able to do for this scene and this film.
-pub fn needs(scene: &PackedScene, fetch: Fetch, film_pixels: usize) -> Needs {
+pub fn needs(scene: &PackedScene, fetch: Fetch, film_rows: usize) -> Needs {
     let shapes = size_of_val(&scene.shapes[..]) as u64;
-    let film = film_pixels as u64 * PIXEL_BYTES;
+    let film = film_rows as u64 * ROW_BYTES;
     let rows = largest_row_bytes(scene);
     if fetch != Fetch::Image {
         return Needs {
@@ -269,7 +269,7 @@ fn largest_row_bytes(scene: &PackedScene) -> u64 {
 pub fn ledger(
     scene: &PackedScene,
     view: &PackedView,
-    film_pixels: usize,
+    film_rows: usize,
     picture_pixels: u64,
 ) -> Ledger {
     let mut ledger = Ledger::default();
@@ -281,7 +281,7 @@ pub fn ledger(
     let lights = view.lights.len() * size_of::<PackedLight>();
     let frame = size_of::<PackedFrame>() + size_of::<PackedTone>() + lights;
     ledger.plan("frame", frame as u64);
-    ledger.plan("film and its copies", 4 * film_pixels as u64 * PIXEL_BYTES);
-    ledger.plan("picture", picture_pixels * 2 * PIXEL_BYTES);
+    ledger.plan("film and its copies", 4 * film_rows as u64 * ROW_BYTES);
+    ledger.plan("picture", picture_pixels * 2 * ROW_BYTES);
     ledger
 }

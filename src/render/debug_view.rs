@@ -13,7 +13,7 @@ pub fn overrides(task: Task) -> Overrides {
         Integrator::Depth => VIEW_DEPTH,
         Integrator::Ids => VIEW_IDS,
         Integrator::Heat => VIEW_HEAT,
-        Integrator::Normals | Integrator::Whitted => VIEW_NORMALS,
+        Integrator::Normals | Integrator::Whitted | Integrator::Samples => VIEW_NORMALS,
     };
     let mut overrides = whitted::tracing(task);
     overrides.push(("10", f64::from(view)));

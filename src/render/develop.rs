@@ -1,6 +1,6 @@
 //! From sums to a picture: `kernels/develop.wesl`.
 
-use super::{RenderError, Renderer, bindings::group, slice::Slice};
+use super::{Integrator, RenderError, Renderer, bindings::group, film::Window, slice::Slice};
 use crate::{
     gpu::{GpuError, Kernel, Source},
     image::Image,
@@ -65,9 +65,17 @@ impl Renderer {
         let start = Instant::now();
         let [x, y, width, height] = self.settings.region();
         let mut image = Image::new(width, height);
-        for window in 0..self.film.windows.len() {
-            let pixels = self.surviving_losses(|renderer| renderer.develop_window(window, tone))?;
-            let window = &self.film.windows[window];
+        if self.settings.integrator == Integrator::Samples {
+            for (index, pixel) in image.pixels.iter_mut().enumerate() {
+                let place = [x + index as u32 % width, y + index as u32 / width];
+                let share = self.film.samples_at(place) as f32 / self.settings.samples as f32;
+                *pixel = [share, share, share, 1.0];
+            }
+            return Ok(image);
+        }
+        for (window, means) in self.film.developable(&self.settings) {
+            let pixels =
+                self.surviving_losses(|renderer| renderer.develop_window(&window, &means, tone))?;
             for (row, line) in pixels.chunks_exact(window.width as usize).enumerate() {
                 let start = (window.y - y) as usize + row;
                 let start = start * width as usize + (window.x - x) as usize;
@@ -79,7 +87,12 @@ impl Renderer {
     }
 
     /// One window's pixels, row by row.
-    fn develop_window(&mut self, index: usize, tone: &Tone) -> Result<Vec<[f32; 4]>, GpuError> {
+    fn develop_window(
+        &mut self,
+        window: &Window,
+        means: &[[f32; 4]],
+        tone: &Tone,
+    ) -> Result<Vec<[f32; 4]>, GpuError> {
         if self.device.developer.is_none() {
             self.device.developer = Some(self.new_developer()?);
         }
@@ -89,7 +102,6 @@ impl Renderer {
                 what: "no develop pipeline".into(),
             });
         };
-        let window = &self.film.windows[index];
         let slice = Slice {
             first_tile: 0,
             end_tile: window.tile_count(),
@@ -99,7 +111,7 @@ impl Renderer {
         let packed = slice.packed(window, &self.settings);
         let gpu = &device.gpu;
         gpu.write(&device.buffers.slice, 0, bytes_of(&packed))?;
-        gpu.write(&device.buffers.film, 0, cast_slice(&window.developable()))?;
+        gpu.write(&device.buffers.film, 0, cast_slice(means))?;
         gpu.write(&developer.tone, 0, bytes_of(&tone.packed()))?;
 
         let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -18,7 +18,7 @@ use crate::{
 use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
 use std::time::Instant;
 
-const PIXEL_BYTES: u64 = 16;
+const ROW_BYTES: u64 = 16;
 
 /// What is to be rendered.
 #[derive(Clone, Copy)]
@@ -26,8 +26,8 @@ pub struct Task<'a> {
     pub scene: &'a PackedScene,
     pub view: &'a PackedView,
     pub settings: &'a Settings,
-    /// Pixels of the largest window, in film order.
-    pub film_pixels: usize,
+    /// Rows of the film of the largest window.
+    pub film_rows: usize,
 }
 
 /// Everything that lives on the GPU, and dies with it.
@@ -50,14 +50,7 @@ impl Device {
     pub fn new(gpu: Gpu, fetch: Fetch, task: Task, stats: &mut Stats) -> Result<Self, GpuError> {
         let start = Instant::now();
         let layouts = Layouts::new(&gpu, fetch);
-        let buffers = Buffers::new(
-            &gpu,
-            &layouts,
-            fetch,
-            task.scene,
-            task.view,
-            task.film_pixels,
-        )?;
+        let buffers = Buffers::new(&gpu, &layouts, fetch, task.scene, task.view, task.film_rows)?;
         stats.upload_seconds += start.elapsed().as_secs_f64();
         let pipeline = compile(&gpu, fetch, &layouts, &buffers, task, stats)?;
         Ok(Self {
@@ -109,7 +102,8 @@ impl Device {
         let (columns, rows) = slice.grid();
         let grid = (gpu.dispatched(columns), rows);
         dispatch(&mut encoder, &self.pipeline, buffers, grid);
-        let tile_bytes = TILE_PIXELS as u64 * PIXEL_BYTES;
+        let tile_rows = TILE_PIXELS * window.rows_per_pixel();
+        let tile_bytes = tile_rows as u64 * ROW_BYTES;
         let accounts = Source {
             buffer: &buffers.slice,
             offset: 0,
@@ -120,12 +114,12 @@ impl Device {
             offset: u64::from(slice.first_tile) * tile_bytes,
             bytes: u64::from(slice.end_tile - slice.first_tile) * tile_bytes,
         };
-        let first_pixel = slice.first_tile as usize * TILE_PIXELS;
+        let first_row = slice.first_tile as usize * tile_rows;
         gpu.submit_and_read(encoder, &[accounts, tiles], &buffers.staging, |bytes| {
             let (tally, sums) = bytes.split_at(size_of::<PackedSlice>());
             let tally = pod_read_unaligned(tally);
             if slice.is_complete(&tally) {
-                let target = cast_slice_mut(&mut window.sums[first_pixel..]);
+                let target = cast_slice_mut(&mut window.sums[first_row..]);
                 target[..sums.len()].copy_from_slice(sums);
             }
             tally
@@ -140,7 +134,7 @@ pub fn reopen(
     task: Task,
     stats: &mut Stats,
 ) -> Result<Device, GpuError> {
-    let needs = bindings::needs(task.scene, fetch, task.film_pixels);
+    let needs = bindings::needs(task.scene, fetch, task.film_rows);
     Device::new(Gpu::open(choice, needs)?, fetch, task, stats)
 }
 
@@ -156,7 +150,7 @@ fn compile(
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let start = Instant::now();
     let (kernel, overrides) = match task.settings.integrator {
-        Integrator::Whitted => (Kernel::WHITTED, whitted::overrides(task)),
+        Integrator::Whitted | Integrator::Samples => (Kernel::WHITTED, whitted::overrides(task)),
         _ => (Kernel::DEBUG_VIEW, debug_view::overrides(task)),
     };
     let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);

@@ -1,6 +1,13 @@
 //! What is to be rendered and how, apart from the scene.
 
-use crate::gpu::MEMORY_LIMIT_BYTES;
+use crate::{
+    gpu::MEMORY_LIMIT_BYTES,
+    scene::{Antialias, OutputDefaults},
+};
+
+/// The share in a sample below which rays are not sent, unless told otherwise: half of what shows
+/// in 8 bits.
+pub const MIN_THROUGHPUT: f32 = 1.0 / 512.0;
 
 /// Settings of one picture. Together with scene, frame and seed they determine every pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +20,8 @@ pub struct Settings {
     pub samples: u32,
     /// Where in a pixel its samples lie.
     pub antialias: Antialias,
+    /// The noise at which adaptive sampling stops; see [`Antialias::Adaptive`]. Above 0.
+    pub noise: f32,
     /// What a camera ray brings back.
     pub integrator: Integrator,
     /// How rays meet triangles.
@@ -21,6 +30,10 @@ pub struct Settings {
     pub brute_force: bool,
     /// Chooses the random numbers.
     pub seed: u32,
+    /// Bounces after the first hit; 0 is local shading only.
+    pub max_depth: u32,
+    /// Mirrored and refracted rays are sent whose share in a sample is at least this, 0 to 1.
+    pub min_throughput: f32,
     /// Whether [`super::Stats::rays`] is kept.
     pub count_rays: bool,
     /// Most memory that scene and picture may take, in bytes.
@@ -38,10 +51,13 @@ impl Default for Settings {
             crop: None,
             samples: 1,
             antialias: Antialias::None,
+            noise: 0.01,
             integrator: Integrator::Whitted,
             triangle_test: TriangleTest::Watertight,
             brute_force: false,
             seed: 0,
+            max_depth: 5,
+            min_throughput: MIN_THROUGHPUT,
             count_rays: false,
             memory_limit_bytes: MEMORY_LIMIT_BYTES,
             fetch: Fetch::Auto,
@@ -50,22 +66,37 @@ impl Default for Settings {
     }
 }
 
+impl From<&OutputDefaults> for Settings {
+    /// What the scene says, and everything else by default.
+    fn from(output: &OutputDefaults) -> Self {
+        let antialias = if output.samples > 1 {
+            Antialias::Stratified
+        } else {
+            Antialias::None
+        };
+        Self {
+            size: output.size,
+            samples: output.samples,
+            antialias: output.antialias.unwrap_or(antialias),
+            noise: output.noise,
+            max_depth: output.max_depth,
+            ..Self::default()
+        }
+    }
+}
+
 impl Settings {
+    /// Whether pixels stop when they are good enough.
+    pub fn is_adaptive(&self) -> bool {
+        let is_traced = matches!(self.integrator, Integrator::Whitted | Integrator::Samples);
+        self.antialias == Antialias::Adaptive && is_traced
+    }
+
     /// The rectangle to render: x, y, width, height.
     pub fn region(&self) -> [u32; 4] {
         let [x0, y0, x1, y1] = self.crop.unwrap_or([0, 0, self.size.0, self.size.1]);
         [x0, y0, x1 - x0, y1 - y0]
     }
-}
-
-/// Where in a pixel its samples lie.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Antialias {
-    /// All at the centre, as the course's pictures want it.
-    #[default]
-    None,
-    /// Well spread over the pixel's square, all of equal weight.
-    Stratified,
 }
 
 /// What a camera ray brings back.
@@ -82,6 +113,8 @@ pub enum Integrator {
     Ids,
     /// Steps of the tree walk, from black over blue, green, yellow and red to white.
     Heat,
+    /// The samples that adaptive sampling spent, as a share of those allowed.
+    Samples,
 }
 
 /// How a ray is tested against a triangle.

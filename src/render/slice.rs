@@ -83,6 +83,9 @@ impl Slice {
             first_sample: self.first_sample,
             end_sample: self.end_sample,
             seed: settings.seed,
+            max_depth: settings.max_depth,
+            min_throughput: settings.min_throughput,
+            light_samples: 1.0,
             ..Default::default()
         }
     }

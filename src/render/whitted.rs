@@ -2,9 +2,12 @@
 
 use super::{
     device::Task,
-    settings::{Antialias, Integrator, TriangleTest},
+    settings::{Integrator, TriangleTest},
 };
-use crate::layout::{TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT};
+use crate::{
+    layout::{TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT},
+    scene::Antialias,
+};
 
 /// Values for the `override`s of `bindings.wesl`, by their ids.
 pub type Overrides = Vec<(&'static str, f64)>;
@@ -37,12 +40,18 @@ pub fn tracing(task: Task) -> Overrides {
         ("3", flag(scene.plane_count > 0)),
         ("4", flag(scene.features.mixed_materials)),
         ("5", flag(settings.brute_force)),
-        ("6", flag(settings.antialias == Antialias::Stratified)),
+        ("6", flag(settings.antialias != Antialias::None)),
         ("7", flag(settings.count_rays)),
         ("8", flag(settings.integrator == Integrator::Heat)),
         ("11", f64::from(features.shape_kinds)),
+        ("12", flag(features.reflection && settings.max_depth > 0)),
+        ("13", flag(features.refraction && settings.max_depth > 0)),
+        ("14", flag(features.contact)),
+        ("15", flag(features.filtered_shadows)),
         ("17", flag(view.frame.camera.lens_radius > 0.0)),
         ("21", flag(features.textures)),
+        ("22", flag(features.emission)),
+        ("23", flag(settings.is_adaptive())),
     ]
 }
 

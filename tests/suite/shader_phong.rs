@@ -15,6 +15,7 @@ fn surface(diffuse: [f32; 3], specular: [f32; 3], shininess: f32) -> Phong {
         specular,
         shininess,
         ambient: [9.0; 3],
+        reflect: [9.0; 3],
     }
 }
 

@@ -53,6 +53,18 @@ pub struct PictureFlags {
     /// Where samples lie in a pixel [default: stratified for more than one sample, else none]
     #[arg(long, value_parser = ANTIALIAS.parser())]
     pub antialias: Option<Antialias>,
+    /// Adaptive sampling goes on where the estimated error, or after the first samples the difference
+    /// from a neighbour, is more than this; on the square root of luminance, where 1 is white
+    /// [default: the scene's, else 0.01]
+    #[arg(long, value_name = "NOISE", allow_hyphen_values = true, value_parser = values::noise)]
+    pub noise: Option<f32>,
+    /// Bounces after the first hit, 0 to 1000; 0 is local shading only [default: the scene's, else 5]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    pub max_depth: Option<u32>,
+    /// Send mirrored and refracted rays only if their share in the sample is at least this, 0 to 1
+    /// [default: 1/512]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = values::share)]
+    pub min_throughput: Option<f32>,
     /// What is computed for a ray [default: whitted]
     #[arg(long, value_parser = INTEGRATORS.parser())]
     pub integrator: Option<Integrator>,

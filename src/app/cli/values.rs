@@ -28,6 +28,11 @@ pub static ANTIALIAS: Words<Antialias> = Words(&[
         "well spread over the pixel",
         Antialias::Stratified,
     ),
+    (
+        "adaptive",
+        "the same, until the pixel is good enough",
+        Antialias::Adaptive,
+    ),
 ]);
 
 pub static INTEGRATORS: Words<Integrator> = Words(&[
@@ -39,6 +44,11 @@ pub static INTEGRATORS: Words<Integrator> = Words(&[
         "heat",
         "how much of the tree a ray visits",
         Integrator::Heat,
+    ),
+    (
+        "samples",
+        "the samples that adaptive sampling spent",
+        Integrator::Samples,
     ),
 ]);
 
@@ -145,6 +155,14 @@ pub fn vector(text: &str) -> Result<DVec3, String> {
 pub fn color(text: &str) -> Result<Vec3, String> {
     let part = |part: &str| within(part, 0.0, 1e6_f32, "every channel");
     list(text, "R,G,B", part).map(Vec3::from_array)
+}
+
+pub fn noise(text: &str) -> Result<f32, String> {
+    within(text, 1e-6, 1.0, "it")
+}
+
+pub fn share(text: &str) -> Result<f32, String> {
+    within(text, 0.0, 1.0, "it")
 }
 
 pub fn exposure(text: &str) -> Result<f32, String> {

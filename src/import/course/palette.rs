@@ -1,6 +1,6 @@
 //! Materials of a format that repeats them at every vertex, each kept once.
 
-use crate::scene::Material;
+use crate::scene::{Material, Mixing};
 use glam::Vec3;
 use std::collections::HashMap;
 
@@ -25,6 +25,8 @@ impl Palette {
                 shininess,
                 ambient: Vec3::ONE,
                 two_sided: false,
+                reflect: specular,
+                mixing: Mixing::Blend,
                 ..Material::default()
             });
             self.materials.len() as u32 - 1

@@ -21,7 +21,7 @@ use toml::Spanned;
 
 /// The scene that `file` describes.
 pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Scene, ImportError> {
-    let mut builder = Builder::new(&file, texts, files);
+    let mut builder = Builder::new(&file, texts, files)?;
     for object in &file.objects {
         builder.object(object)?;
     }
@@ -62,18 +62,18 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(file: &SceneFile, texts: &'a Texts, files: &'a Files) -> Self {
-        Self {
+    fn new(file: &SceneFile, texts: &'a Texts, files: &'a Files) -> Result<Self, ImportError> {
+        let materials = (file.materials.iter())
+            .map(|(name, table)| materials::material(name, table, texts))
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
             texts,
             files,
             scene: Scene {
-                materials: file
-                    .materials
-                    .iter()
-                    .map(|(name, table)| materials::material(name, table))
-                    .collect(),
+                materials,
                 background: Background::Color(file.background.0),
                 ambient: file.ambient.0,
+                shadows: file.shadows.into(),
                 output: output(&file.output),
                 ..Scene::default()
             },
@@ -82,7 +82,7 @@ impl<'a> Builder<'a> {
             meshes: HashMap::new(),
             triangles: Mesh::default(),
             corners: Vec::new(),
-        }
+        })
     }
 
     fn refuse(&self, span: Range<usize>, why: impl Into<String>, todo: &str) -> ImportError {
@@ -319,7 +319,8 @@ impl<'a> Builder<'a> {
         match reference.get_ref() {
             MaterialRef::Name(name) => self.named(name, reference.span()),
             MaterialRef::Inline(table) => {
-                self.scene.materials.push(materials::material("", table));
+                let material = materials::material("", table, self.texts)?;
+                self.scene.materials.push(material);
                 Ok(self.scene.materials.len() - 1)
             }
         }
@@ -344,6 +345,7 @@ fn output(table: &OutputTable) -> OutputDefaults {
     OutputDefaults {
         size: (width, height),
         samples: table.samples.0,
+        max_depth: table.max_depth.0,
         exposure_ev: table.exposure_ev.0,
         tone: table.tone.into(),
         transfer: table.transfer.into(),

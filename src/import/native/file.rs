@@ -6,13 +6,14 @@ mod materials;
 mod objects;
 
 pub(super) use lights::{LightTable, SpotTable};
-pub(super) use materials::{MaterialRef, MaterialTable};
+pub(super) use materials::{MaterialRef, MaterialTable, RefractTable};
 pub(super) use objects::{
     MeshTable, ObjectTable, PlaneTable, SphereTable, TransformTable, TriangleTable,
 };
 
 use super::values::{
-    Color, Count, Direction, Size, Stops, ToneName, TransferName, Vector, ViewAngle,
+    Bounces, Color, Count, Direction, ShadowsName, Size, Stops, ToneName, TransferName, Vector,
+    ViewAngle,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -36,6 +37,10 @@ pub(super) struct SceneFile {
     /// out.
     #[serde(default = "black")]
     pub ambient: Color,
+    /// Whether what is transparent throws a full shadow (opaque, if left out), or light goes straight
+    /// through it (filtered).
+    #[serde(default)]
+    pub shadows: ShadowsName,
     /// The camera. If there is none at all, one is placed that sees everything.
     #[schemars(with = "Option<CameraTable>")]
     pub camera: Option<Spanned<CameraTable>>,
@@ -64,6 +69,8 @@ pub(super) struct OutputTable {
     pub size: Size,
     /// Samples per pixel; 1 if left out.
     pub samples: Count,
+    /// Bounces after the first hit, 0 to 1000; 0 is local shading only. 5 if left out.
+    pub max_depth: Bounces,
     /// Exposure in stops, before the tone curve; 0 if left out.
     pub exposure_ev: Stops,
     /// The tone curve; none if left out.
@@ -77,6 +84,7 @@ impl Default for OutputTable {
         Self {
             size: Size([640, 480]),
             samples: Count(1),
+            max_depth: Bounces(5),
             exposure_ev: Stops(0.0),
             tone: ToneName::None,
             transfer: TransferName::Srgb,

@@ -3,7 +3,7 @@
 
 use crate::import::number::in_range;
 use crate::import::source::quote;
-use crate::scene::{Attenuation, ToneCurve, Transfer};
+use crate::scene::{Attenuation, Fresnel, Shadows, ToneCurve, Transfer};
 use glam::{DVec3, Vec3};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
@@ -128,6 +128,46 @@ value! {
 }
 
 value! {
+    /// A share, 0 to 1.
+    Fraction(f32),
+    { "type": "number", "minimum": 0, "maximum": 1 },
+    |d| number(d, |x| (0.0..=1.0).contains(&x), "between 0 and 1").map(|x| x as f32)
+}
+
+value! {
+    /// An index of refraction.
+    RefractiveIndex(f32),
+    { "type": "number", "minimum": 0.01, "maximum": 100 },
+    |d| {
+        let wanted = "an index of refraction between 0.01 and 100";
+        number(d, |x| (0.01..=100.0).contains(&x), wanted).map(|x| x as f32)
+    }
+}
+
+value! {
+    /// How much light a unit length swallows: three numbers [r, g, b], 0 or more.
+    Absorption(Vec3),
+    { "type": "array", "items": { "type": "number", "minimum": 0, "maximum": 1e12 }, "minItems": 3, "maxItems": 3 },
+    |d| {
+        let absorption = Vector::deserialize(d)?.0;
+        match absorption.to_array().iter().find(|&&x| !(0.0..=1e12).contains(&x)) {
+            Some(x) => Err(de::Error::custom(format!("{x} in an absorption is not between 0 and 1e12"))),
+            None => Ok(absorption.as_vec3()),
+        }
+    }
+}
+
+value! {
+    /// A rank, a whole number from -100 to 100.
+    Priority(i32),
+    { "type": "integer", "minimum": -100, "maximum": 100 },
+    |d| {
+        let holds = |x: f64| x.fract() == 0.0 && (-100.0..=100.0).contains(&x);
+        number(d, holds, "a whole number from -100 to 100").map(|x| x as i32)
+    }
+}
+
+value! {
     /// A number of photographic stops.
     Stops(f32),
     { "type": "number", "minimum": -32, "maximum": 32 },
@@ -194,6 +234,16 @@ value! {
     Size([u32; 2]),
     { "type": "array", "items": { "type": "integer", "minimum": 1, "maximum": 65536 }, "minItems": 2, "maxItems": 2 },
     |d| elements::<Count, 2, D>(d, "two numbers [width, height]").map(|size| size.map(|count| count.0))
+}
+
+value! {
+    /// A whole number from 0 to 1000.
+    Bounces(u32),
+    { "type": "integer", "minimum": 0, "maximum": 1000 },
+    |d| {
+        let holds = |x: f64| x.fract() == 0.0 && (0.0..=1000.0).contains(&x);
+        number(d, holds, "a whole number from 0 to 1000").map(|x| x as u32)
+    }
 }
 
 value! {
@@ -313,6 +363,48 @@ impl From<ToneName> for ToneCurve {
             ToneName::Aces => Self::Aces,
             ToneName::Agx => Self::Agx,
             ToneName::Reinhard => Self::Reinhard,
+        }
+    }
+}
+
+/// How much is mirrored at which angle.
+#[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum FresnelName {
+    /// The same at every angle.
+    None,
+    /// By Fresnel's equations.
+    Exact,
+    /// By Schlick's approximation of them.
+    Schlick,
+}
+
+impl From<FresnelName> for Fresnel {
+    fn from(name: FresnelName) -> Self {
+        match name {
+            FresnelName::None => Self::None,
+            FresnelName::Exact => Self::Exact,
+            FresnelName::Schlick => Self::Schlick,
+        }
+    }
+}
+
+/// How shadow rays meet what is transparent.
+#[derive(Clone, Copy, Debug, Default, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum ShadowsName {
+    /// It throws a full shadow.
+    #[default]
+    Opaque,
+    /// Light goes straight through, coloured and weakened.
+    Filtered,
+}
+
+impl From<ShadowsName> for Shadows {
+    fn from(name: ShadowsName) -> Self {
+        match name {
+            ShadowsName::Opaque => Self::Opaque,
+            ShadowsName::Filtered => Self::Filtered,
         }
     }
 }

@@ -50,6 +50,7 @@ pub struct Phong {
     pub specular: [f32; 3],
     pub shininess: f32,
     pub ambient: [f32; 3],
+    pub reflect: [f32; 3],
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +83,7 @@ shader_struct!(Phong = "package::types::Phong" {
     specular: [f32; 3],
     shininess: f32,
     ambient: [f32; 3],
+    reflect: [f32; 3],
 });
 shader_struct!(Incident = "package::types::Incident" {
     direction: [f32; 3],

@@ -1,11 +1,14 @@
 //! How a native scene describes what surfaces look like.
 
-use crate::import::native::values::{Color, NonNegative};
+use crate::import::native::values::{
+    Absorption, Color, Fraction, FresnelName, NonNegative, Priority, RefractiveIndex,
+};
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, Visitor};
 use std::fmt;
+use toml::Spanned;
 
 /// How a surface answers light.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -13,6 +16,13 @@ use std::fmt;
 pub(in crate::import::native) struct MaterialTable {
     /// Phong coefficients.
     pub phong: PhongTable,
+    /// What it mirrors; nothing if left out.
+    pub reflect: Option<ReflectTable>,
+    /// What it lets through, refracted; nothing if left out.
+    #[schemars(with = "Option<RefractTable>")]
+    pub refract: Option<Spanned<RefractTable>>,
+    /// The light that it gives off by itself; none if left out.
+    pub emission: Color,
     /// Whether both sides are lit alike (true if left out), or only the one the normal points to.
     pub two_sided: bool,
 }
@@ -21,7 +31,70 @@ impl Default for MaterialTable {
     fn default() -> Self {
         Self {
             phong: PhongTable::default(),
+            reflect: None,
+            refract: None,
+            emission: Color(Vec3::ZERO),
             two_sided: true,
+        }
+    }
+}
+
+/// What a surface mirrors. Ambient and diffuse light are weakened by as much.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(in crate::import::native) struct ReflectTable {
+    /// How much, 0 to 1; 1 if left out.
+    pub amount: Fraction,
+    /// What mirrored light is multiplied by; white if left out.
+    pub color: Color,
+    /// How much of it at which angle: none (all at every angle, as metals do; if left out), or exact
+    /// or schlick, as varnish does.
+    pub fresnel: FresnelName,
+    /// The index of refraction of the varnish where `fresnel` is not none; 1.5 if left out.
+    pub ior: RefractiveIndex,
+}
+
+impl Default for ReflectTable {
+    fn default() -> Self {
+        Self {
+            amount: Fraction(1.0),
+            color: Color(Vec3::ONE),
+            fresnel: FresnelName::None,
+            ior: RefractiveIndex(1.5),
+        }
+    }
+}
+
+/// What a surface lets through, and mirrors as the boundary of a transparent body, whose inside is
+/// where its normals point away from.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(in crate::import::native) struct RefractTable {
+    /// How much goes in or is mirrored; the rest is ambient and diffuse light. 0 to 1; 1 if left out.
+    pub amount: Fraction,
+    /// The index of refraction inside; 1.5 if left out.
+    pub ior: RefractiveIndex,
+    /// What light is multiplied by that goes through the surface; white if left out.
+    pub color: Color,
+    /// How much a unit length swallows, for each channel: exp(-absorption * length) is left. None if
+    /// left out.
+    pub absorption: Absorption,
+    /// How much is mirrored at which angle: exact (Fresnel's equations; if left out), schlick, or none.
+    pub fresnel: FresnelName,
+    /// Where bodies overlap, the one of the highest priority counts, among equals the one entered
+    /// last; 0 if left out.
+    pub priority: Priority,
+}
+
+impl Default for RefractTable {
+    fn default() -> Self {
+        Self {
+            amount: Fraction(1.0),
+            ior: RefractiveIndex(1.5),
+            color: Color(Vec3::ONE),
+            absorption: Absorption(Vec3::ZERO),
+            fresnel: FresnelName::Exact,
+            priority: Priority(0),
         }
     }
 }
