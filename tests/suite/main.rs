@@ -1,5 +1,6 @@
 //! All tests in one binary: linking wgpu once is slow enough.
 
+mod adaptive;
 mod bvh;
 mod cli;
 mod drivers;
@@ -9,6 +10,7 @@ mod import;
 mod imports;
 mod kernels;
 mod layout;
+mod optics;
 mod output;
 mod pack;
 mod pictures;
@@ -18,7 +20,9 @@ mod scale;
 mod scene;
 mod shader_camera;
 mod shader_colormap;
+mod shader_fresnel;
 mod shader_light;
+mod shader_media;
 mod shader_node;
 mod shader_numeric;
 mod shader_offset;

@@ -20,8 +20,12 @@ fn project_scene(name: &str) -> Scene {
 }
 
 fn against_the_reference(name: &str, scene: &Scene, settings: &Settings) -> Result<(), String> {
+    let settings = Settings {
+        max_depth: scene.output.max_depth,
+        ..settings.clone()
+    };
     let expected = trace(scene, settings.size).image;
-    check_alike(name, &expected, &render(scene, settings).0, LEVELS, SHARE)
+    check_alike(name, &expected, &render(scene, &settings).0, LEVELS, SHARE)
 }
 
 #[test]

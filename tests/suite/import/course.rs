@@ -3,7 +3,7 @@
 use super::{messages, scene};
 use glam::{DVec3, Vec3};
 use glimray::scene::{
-    Attenuation, Background, Camera, Geometry, Light, LightKind, Material, Shape, ToneCurve,
+    Attenuation, Background, Camera, Geometry, Light, LightKind, Material, Mixing, Shape, ToneCurve,
     Transfer,
 };
 use insta::assert_snapshot;
@@ -51,6 +51,9 @@ fn a_plain_file_reads_as_written() {
             shininess: 50.0,
             ambient: Vec3::ONE,
             two_sided: false,
+            // Blended in with as much as the highlight, where mirrors are asked for.
+            reflect: Vec3::splat(0.6),
+            mixing: Mixing::Blend,
             ..Material::default()
         }]
     );

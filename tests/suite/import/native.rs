@@ -436,8 +436,8 @@ bad scene (a.toml:1:21): invalid type: string "blue", expected a number. See `gl
 bad scene (a.toml:1:14): `blue` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `#12345` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): invalid type: floating point `0.5`, expected a colour: [r, g, b] or "#rrggbb". See `glimray schema` for what is allowed.
-bad scene (a.toml:1:1): unknown key `backgruond`, did you mean `background`? Known here: `output`, `background`, `ambient`, `camera`, `cameras`, `materials`, `objects`, `lights`.
-bad scene (a.toml:1:1): unknown key `zebra`. Known here: `output`, `background`, `ambient`, `camera`, `cameras`, `materials`, `objects`, `lights`.
+bad scene (a.toml:1:1): unknown key `backgruond`, did you mean `background`? Known here: `output`, `background`, `ambient`, `shadows`, `camera`, `cameras`, `materials`, `objects`, `lights`.
+bad scene (a.toml:1:1): unknown key `zebra`. Known here: `output`, `background`, `ambient`, `shadows`, `camera`, `cameras`, `materials`, `objects`, `lights`.
 bad scene (a.toml:1:15): 0 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:15): 640.5 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:15): expected two numbers [width, height], found more. See `glimray schema` for what is allowed.
@@ -537,6 +537,8 @@ fn the_schema_knows_every_key() {
         "camera.?=1",
         "materials.a.?=1",
         "materials.a.phong.?=1",
+        "materials.a.reflect.?=1",
+        "materials.a.refract.?=1",
         "objects=[{?=1}]",
         "objects=[{sphere={?=1}}]",
         "objects=[{plane={?=1}}]",

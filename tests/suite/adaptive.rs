@@ -1,0 +1,145 @@
+//! Adaptive sampling: as good as spending the same everywhere, for less.
+
+use crate::reference::compare::{assert_none, check_same_bits, render, start};
+use crate::reference::scenes;
+use glam::{Vec3, dvec3};
+use glimray::image::Image;
+use glimray::render::{Antialias, Integrator, Settings, Slicing, Stats, Tone};
+use glimray::scene::{Background, Camera, Geometry, Light, LightKind, Material, Scene, Shape};
+
+/// Rows of small balls in the lower left of the picture, and nothing elsewhere.
+fn detail_in_a_fifth() -> Scene {
+    let mut scene = Scene {
+        cameras: vec![Camera {
+            look_from: dvec3(0.0, 0.0, 10.0),
+            fov_y: 2.0 * 0.5_f64.atan(),
+            ..Camera::default()
+        }],
+        materials: vec![Material::default()],
+        background: Background::Color(Vec3::new(0.05, 0.1, 0.3)),
+        lights: vec![Light {
+            kind: LightKind::Directional {
+                direction: dvec3(-1.0, -1.0, -2.0).normalize(),
+            },
+            color: Vec3::ONE,
+            ..Light::default()
+        }],
+        ..Scene::default()
+    };
+    // The picture reaches from -5 to 5.
+    for i in 0..16 {
+        for j in 0..10 {
+            let (x, y) = (-4.9 + 0.29 * f64::from(i), -4.9 + 0.43 * f64::from(j));
+            scene.shapes.push(Shape {
+                geometry: Geometry::Sphere {
+                    center: dvec3(x, y, 0.0),
+                    radius: 0.12,
+                },
+                material: 0,
+            });
+        }
+    }
+    scene
+}
+
+fn settings(antialias: Antialias, samples: u32, noise: f32) -> Settings {
+    Settings {
+        size: (96, 96),
+        antialias,
+        samples,
+        noise,
+        ..Settings::default()
+    }
+}
+
+fn rmse(a: &Image, b: &Image) -> f64 {
+    let squares = |(a, b): (&[f32; 4], &[f32; 4])| -> f64 {
+        (0..3).map(|i| f64::from(a[i] - b[i]).powi(2)).sum()
+    };
+    let sum: f64 = a.pixels.iter().zip(&b.pixels).map(squares).sum();
+    (sum / (3.0 * a.pixels.len() as f64)).sqrt()
+}
+
+#[test]
+fn where_a_fifth_has_detail_half_of_the_rays_give_the_same_error() {
+    let scene = detail_in_a_fifth();
+    let of = |settings: &Settings| -> (Image, Stats) { render(&scene, settings) };
+    let truth = of(&settings(Antialias::Stratified, 4096, 0.01)).0;
+    let (even, even_stats) = of(&settings(Antialias::Stratified, 32, 0.01));
+    let (adaptive, stats) = of(&settings(Antialias::Adaptive, 128, 0.02));
+    let (allowed, got) = (rmse(&truth, &even), rmse(&truth, &adaptive));
+    assert_eq!(even_stats.samples, 32 * 96 * 96);
+    assert!(
+        got <= allowed && 2 * stats.samples <= even_stats.samples,
+        "error {got:.5} with {} rays, {allowed:.5} with {}",
+        stats.samples,
+        even_stats.samples,
+    );
+}
+
+#[test]
+fn less_noise_takes_more_samples_and_none_takes_all_or_few() {
+    let scene = scenes::spheres();
+    let mut last = 0;
+    for noise in [0.3, 0.03, 0.003] {
+        let (_, stats) = render(&scene, &settings(Antialias::Adaptive, 64, noise));
+        assert!(stats.samples > last, "{noise}: {} after {last}", stats.samples);
+        last = stats.samples;
+    }
+    let mut even = scenes::empty();
+    even.background = Background::Color(Vec3::splat(0.3));
+    let (image, stats) = render(&even, &settings(Antialias::Adaptive, 64, 0.01));
+    assert_eq!(stats.samples, 4 * 96 * 96);
+    assert!(image.pixels.iter().all(|pixel| (pixel[0] - 0.3).abs() < 1e-6));
+}
+
+#[test]
+fn the_map_of_samples_shows_where_they_went() {
+    let scene = detail_in_a_fifth();
+    let settings = Settings {
+        integrator: Integrator::Samples,
+        ..settings(Antialias::Adaptive, 64, 0.01)
+    };
+    let (map, stats) = render(&scene, &settings);
+    let spent: f64 = map.pixels.iter().map(|pixel| f64::from(pixel[0]) * 64.0).sum();
+    assert_eq!(spent as u64, stats.samples);
+    let at = |x, y| map.pixel(x, y).expect("a pixel")[0] * 64.0;
+    // Above and right of the balls there is nothing to find.
+    assert_eq!((at(80, 10), at(10, 10), at(80, 80)), (4.0, 4.0, 4.0));
+    assert!(map.pixels.iter().any(|pixel| pixel[0] == 1.0));
+}
+
+#[test]
+fn the_cut_of_the_work_and_a_crop_do_not_show() {
+    let scene = detail_in_a_fifth();
+    let whole = settings(Antialias::Adaptive, 300, 0.01);
+    let expected = render(&scene, &whole).0;
+    assert_none([(1, 3, 2048), (50, 16, 16), (7, 1, 40)].map(|(max_tiles, max_samples, window_side)| {
+        let cut = Settings {
+            slicing: Slicing {
+                max_tiles,
+                max_samples,
+                window_side,
+                ..Slicing::default()
+            },
+            ..whole.clone()
+        };
+        check_same_bits(&format!("{max_tiles} tiles"), &expected, &render(&scene, &cut).0)
+    }));
+}
+
+#[test]
+fn progress_reaches_1_and_a_picture_can_be_developed_on_the_way() {
+    let settings = settings(Antialias::Adaptive, 32, 0.01);
+    let mut renderer = start(&detail_in_a_fifth(), &settings).expect("a renderer");
+    let mut last = 0.0;
+    while !renderer.is_done() {
+        renderer.step().expect("a step");
+        assert!(renderer.progress() >= last, "{last}");
+        last = renderer.progress();
+        renderer.develop(&Tone::LINEAR).expect("a picture");
+    }
+    assert_eq!(last, 1.0);
+    let picture = renderer.develop(&Tone::LINEAR).expect("a picture");
+    assert_none([check_same_bits("developed", &picture, &render(&detail_in_a_fifth(), &settings).0)]);
+}

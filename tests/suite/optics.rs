@@ -1,0 +1,520 @@
+//! Recursive reflection and refraction in whole pictures, against closed forms.
+
+use crate::reference::compare::{assert_none, check_same_bits, render, sized};
+use crate::support::verdict::Verdict;
+use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3};
+use glimray::image::Image;
+use glimray::pack::PackError;
+use glimray::render::{Fetch, Rays, Settings, Slicing};
+use glimray::scene::{
+    Background, Camera, Form, Fresnel, Geometry, Light, LightKind, Material, Mixing, Scene, Shadows,
+    Shape,
+};
+use glimray::{import, pack};
+
+/// A scene without light, in which only backgrounds and emission shine.
+fn dark() -> Scene {
+    Scene {
+        cameras: vec![camera(dvec3(0.0, 0.0, 5.0), DVec3::ZERO, 1.0)],
+        ..Scene::default()
+    }
+}
+
+fn camera(look_from: DVec3, look_at: DVec3, fov_y: f64) -> Camera {
+    Camera {
+        look_from,
+        look_at,
+        fov_y,
+        ..Camera::default()
+    }
+}
+
+fn add(scene: &mut Scene, geometry: Geometry, material: Material) {
+    scene.shapes.push(Shape {
+        geometry,
+        material: scene.materials.len(),
+    });
+    scene.materials.push(material);
+}
+
+fn cuboid(min: DVec3, max: DVec3) -> Geometry {
+    Geometry::Placed {
+        form: Form::Box,
+        world_from_form: DAffine3::from_scale_rotation_translation(
+            (max - min) / 2.0,
+            DQuat::IDENTITY,
+            (min + max) / 2.0,
+        ),
+    }
+}
+
+fn plane(point: DVec3, normal: DVec3) -> Geometry {
+    Geometry::Plane { point, normal }
+}
+
+fn sphere(center: DVec3, radius: f64) -> Geometry {
+    Geometry::Sphere { center, radius }
+}
+
+fn glass(ior: f32) -> Material {
+    Material {
+        reflect: Vec3::ONE,
+        transmit: Vec3::ONE,
+        opacity: 0.0,
+        ior,
+        fresnel: Fresnel::Exact,
+        ..black()
+    }
+}
+
+fn mirror() -> Material {
+    Material {
+        reflect: Vec3::ONE,
+        ..black()
+    }
+}
+
+fn black() -> Material {
+    Material {
+        diffuse: Vec3::ZERO,
+        ambient: Vec3::ZERO,
+        ..Material::default()
+    }
+}
+
+fn shining(emission: f32) -> Material {
+    Material {
+        emission: Vec3::splat(emission),
+        ..black()
+    }
+}
+
+fn to_depth(max_depth: u32) -> Settings {
+    Settings {
+        max_depth,
+        min_throughput: 1e-7,
+        count_rays: true,
+        ..sized(16, 16)
+    }
+}
+
+fn middle(image: &Image) -> f64 {
+    f64::from(image.pixel(image.width / 2, image.height / 2).expect("a pixel")[0])
+}
+
+fn rays(scene: &Scene, settings: &Settings) -> Rays {
+    render(scene, settings).1.rays.expect("counted rays")
+}
+
+#[test]
+fn a_glass_slab_reflects_and_transmits_what_its_infinitely_many_bounces_add_up_to() {
+    // R = 2 R₀ / (1 + R₀) with R₀ = ((n - 1) / (n + 1))², T = 1 - R.
+    let r0 = (0.5_f64 / 2.5).powi(2);
+    let reflected = 2.0 * r0 / (1.0 + r0);
+    let slab = |in_front: f32, behind: f32| {
+        let mut scene = dark();
+        add(&mut scene, cuboid(dvec3(-50.0, -50.0, -1.0), dvec3(50.0, 50.0, 0.0)), glass(1.5));
+        add(&mut scene, plane(dvec3(0.0, 0.0, 10.0), DVec3::NEG_Z), shining(in_front));
+        add(&mut scene, plane(dvec3(0.0, 0.0, -10.0), DVec3::Z), shining(behind));
+        scene.cameras[0].fov_y = 1e-3;
+        middle(&render(&scene, &to_depth(30)).0)
+    };
+    let mut verdict = Verdict::on("slab");
+    for (name, got, expected) in [
+        ("reflected", slab(1.0, 0.0), reflected),
+        ("transmitted", slab(0.0, 1.0), 1.0 - reflected),
+        ("all of it", slab(1.0, 1.0), 1.0),
+    ] {
+        verdict.that(name, (got / expected - 1.0).abs() < 1e-3, || format!("{got} for {expected}"));
+    }
+    verdict.close();
+}
+
+#[test]
+fn an_absorbing_slab_leaves_what_beer_and_lambert_say() {
+    let mut scene = dark();
+    let tinted = Material {
+        absorption: Vec3::new(1.0, 2.0, 0.0),
+        ..glass(1.0)
+    };
+    add(&mut scene, cuboid(dvec3(-9.0, -9.0, -1.0), dvec3(9.0, 9.0, 0.0)), tinted);
+    scene.background = Background::Color(Vec3::ONE);
+    scene.cameras[0].fov_y = 1e-3;
+    let image = render(&scene, &to_depth(4)).0;
+    let pixel = image.pixel(8, 8).expect("a pixel");
+    for (channel, length) in [1.0_f64, 2.0, 0.0].into_iter().enumerate() {
+        let got = f64::from(pixel[channel]);
+        assert!((got / (-length).exp() - 1.0).abs() < 1e-3, "{got} after {length}");
+    }
+}
+
+#[test]
+fn a_camera_inside_a_medium_sees_through_it() {
+    // 2 units of water to its surface, at which all indices are 1.
+    let mut scene = dark();
+    let water = Material {
+        absorption: Vec3::splat(0.5),
+        ..glass(1.0)
+    };
+    add(&mut scene, cuboid(DVec3::splat(-7.0), DVec3::splat(7.0)), water);
+    add(&mut scene, sphere(dvec3(0.0, 0.0, -4.0), 1.0), shining(1.0));
+    scene.cameras[0].fov_y = 1e-3;
+    // From z = 5 to the ball at z = -3.
+    let got = middle(&render(&scene, &to_depth(4)).0);
+    assert!((got / (-4.0_f64).exp() - 1.0).abs() < 1e-3, "{got}");
+}
+
+#[test]
+fn a_white_furnace_shows_neither_mirror_nor_glass() {
+    for (name, material, room) in [("mirror", mirror(), 1e-5), ("glass", glass(1.5), 1e-4)] {
+        let mut scene = dark();
+        scene.background = Background::Color(Vec3::ONE);
+        add(&mut scene, sphere(DVec3::ZERO, 1.5), material);
+        let image = render(&scene, &to_depth(64)).0;
+        for pixel in &image.pixels {
+            assert!((f64::from(pixel[0]) - 1.0).abs() < room, "{name}: {pixel:?}");
+        }
+    }
+}
+
+#[test]
+fn a_mirror_corridor_shows_one_image_more_with_every_bounce() {
+    // Mirrors at z = ±2 and a ball beside the camera, whose k-th image lies 4k away.
+    let mut scene = dark();
+    scene.cameras[0] = camera(DVec3::ZERO, DVec3::NEG_Z, 2.0 * 0.16_f64.atan());
+    add(&mut scene, plane(dvec3(0.0, 0.0, -2.0), DVec3::Z), mirror());
+    add(&mut scene, plane(dvec3(0.0, 0.0, 2.0), DVec3::NEG_Z), mirror());
+    add(&mut scene, sphere(dvec3(0.5, 0.0, 0.0), 0.05), shining(1.0));
+    let mut verdict = Verdict::on("images");
+    for depth in 0..=6 {
+        let settings = Settings {
+            size: (1024, 1024),
+            crop: Some([0, 511, 1024, 512]),
+            ..to_depth(depth)
+        };
+        let row = render(&scene, &settings).0;
+        let lit: Vec<bool> = row.pixels.iter().map(|pixel| pixel[0] > 0.5).collect();
+        let images = lit.windows(2).filter(|pair| !pair[0] && pair[1]).count();
+        verdict.that(format!("depth {depth}"), images == depth as usize, || format!("{images} images"));
+    }
+    verdict.close();
+}
+
+#[test]
+fn every_bounce_between_mirrors_is_one_reflected_ray() {
+    let mut scene = dark();
+    scene.cameras[0] = camera(DVec3::ZERO, DVec3::NEG_Z, 0.1);
+    add(&mut scene, plane(dvec3(0.0, 0.0, -2.0), DVec3::Z), mirror());
+    add(&mut scene, plane(dvec3(0.0, 0.0, 2.0), DVec3::NEG_Z), mirror());
+    for depth in [0, 1, 7, 100] {
+        let counted = rays(&scene, &to_depth(depth));
+        assert_eq!(counted.primary_hits, 256);
+        assert_eq!(counted.reflection, 256 * u64::from(depth), "depth {depth}");
+        assert_eq!(counted.reflection_hits, counted.reflection);
+        assert_eq!(counted.refraction, 0);
+    }
+}
+
+#[test]
+fn rays_below_the_least_share_are_not_sent() {
+    // A mirror of one half between others: the k-th ray has the share 2⁻ᵏ, and 2⁻⁹ is 1/512.
+    let mut scene = dark();
+    scene.cameras[0] = camera(DVec3::ZERO, DVec3::NEG_Z, 0.1);
+    let half = Material {
+        reflect: Vec3::splat(0.5),
+        ..black()
+    };
+    add(&mut scene, plane(dvec3(0.0, 0.0, -2.0), DVec3::Z), half.clone());
+    add(&mut scene, plane(dvec3(0.0, 0.0, 2.0), DVec3::NEG_Z), half);
+    for (min_throughput, bounces) in [(1.0 / 512.0, 9), (0.25, 2), (0.6, 0)] {
+        let settings = Settings {
+            min_throughput,
+            ..to_depth(50)
+        };
+        assert_eq!(rays(&scene, &settings).reflection, 256 * bounces, "{min_throughput}");
+    }
+}
+
+#[test]
+fn a_tree_with_too_many_rays_is_cut_off_and_counted() {
+    // Surfaces that mirror and transmit all of the light make a tree that no share ends.
+    let mut scene = dark();
+    let endless = Material {
+        mixing: Mixing::Sum,
+        fresnel: Fresnel::None,
+        ..glass(1.0)
+    };
+    for i in 0..40 {
+        let z = -2.0 * f64::from(i);
+        add(&mut scene, cuboid(dvec3(-90.0, -90.0, z - 1.0), dvec3(90.0, 90.0, z)), endless.clone());
+    }
+    scene.cameras[0].fov_y = 0.1;
+    let (_, stats) = render(&scene, &to_depth(60));
+    assert_eq!(stats.cut_off_trees, 256);
+    let (_, stats) = render(&scene, &to_depth(3));
+    assert_eq!(stats.cut_off_trees, 0);
+}
+
+#[test]
+fn counts_do_not_depend_on_how_the_work_is_cut() {
+    let mut scene = dark();
+    scene.background = Background::Color(Vec3::ONE);
+    add(&mut scene, sphere(dvec3(-0.8, 0.0, 0.0), 1.0), glass(1.5));
+    add(&mut scene, sphere(dvec3(1.2, 0.2, -1.0), 1.0), mirror());
+    scene.lights.push(Light {
+        kind: LightKind::Point {
+            position: dvec3(3.0, 4.0, 5.0),
+        },
+        color: Vec3::ONE,
+        ..Light::default()
+    });
+    add(&mut scene, plane(dvec3(0.0, -1.0, 0.0), DVec3::Y), Material::default());
+    let whole = Settings {
+        samples: 4,
+        antialias: glimray::render::Antialias::Stratified,
+        ..to_depth(5)
+    };
+    let (image, stats) = render(&scene, &whole);
+    for (max_tiles, max_samples, window_side, fetch) in
+        [(1, 1, 8, Fetch::Buffer), (3, 2, 2048, Fetch::Image), (2, 4, 16, Fetch::Auto)]
+    {
+        let cut = Settings {
+            slicing: Slicing {
+                max_tiles,
+                max_samples,
+                window_side,
+                ..Slicing::default()
+            },
+            fetch,
+            ..whole.clone()
+        };
+        let (other, other_stats) = render(&scene, &cut);
+        assert_eq!(other_stats.rays, stats.rays);
+        assert_none([check_same_bits("cut", &image, &other)]);
+    }
+    let counted = stats.rays.expect("counts");
+    assert!(counted.reflection > 0 && counted.refraction > 0 && counted.shadow > 0);
+}
+
+/// A row of pixels across two bodies and what surrounds them.
+fn across(scene: &Scene) -> Vec<f64> {
+    let settings = Settings {
+        size: (129, 129),
+        crop: Some([0, 64, 129, 65]),
+        ..to_depth(20)
+    };
+    let row = render(scene, &settings).0;
+    row.pixels.iter().map(|pixel| f64::from(pixel[0])).collect()
+}
+
+#[test]
+fn two_touching_blocks_of_one_glass_look_like_one() {
+    let left = cuboid(dvec3(-2.0, -1.0, -1.0), dvec3(0.0, 1.0, 1.0));
+    let right = cuboid(dvec3(0.0, -1.0, -1.0), dvec3(2.0, 1.0, 1.0));
+    let whole = cuboid(dvec3(-2.0, -1.0, -1.0), dvec3(2.0, 1.0, 1.0));
+    let tinted = Material {
+        absorption: Vec3::splat(0.3),
+        ..glass(1.5)
+    };
+    let scene = |bodies: &[Geometry]| {
+        let mut scene = dark();
+        scene.background = Background::Gradient {
+            bottom: Vec3::splat(0.1),
+            top: Vec3::ONE,
+        };
+        // At an angle, so that rays cross the common face.
+        scene.cameras[0] = camera(dvec3(3.0, 1.0, 5.0), DVec3::ZERO, 0.8);
+        for body in bodies {
+            add(&mut scene, *body, tinted.clone());
+        }
+        scene
+    };
+    let one = across(&scene(&[whole]));
+    for (name, two) in [("left first", [left, right]), ("right first", [right, left])] {
+        let worst = across(&scene(&two))
+            .iter()
+            .zip(&one)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
+        assert!(worst < 1e-3, "{name}: {worst}");
+    }
+}
+
+#[test]
+fn light_passes_from_one_body_into_another_that_touches_it() {
+    // Straight through glass and water: three boundaries, none of them with air between.
+    let (glass_ior, water_ior) = (1.5_f64, 1.33);
+    let once = |a: f64, b: f64| ((a - b) / (a + b)).powi(2);
+    let straight = [once(1.0, glass_ior), once(glass_ior, water_ior), once(water_ior, 1.0)];
+    let mut scene = dark();
+    scene.background = Background::Color(Vec3::ONE);
+    add(&mut scene, cuboid(dvec3(-9.0, -9.0, -1.0), dvec3(9.0, 9.0, 0.0)), glass(1.5));
+    add(&mut scene, cuboid(dvec3(-9.0, -9.0, -2.0), dvec3(9.0, 9.0, -1.0)), glass(1.33));
+    scene.cameras[0].fov_y = 1e-3;
+    // Only what is never mirrored: the tree is as deep as there are boundaries.
+    let settings = Settings {
+        min_throughput: 0.5,
+        ..to_depth(3)
+    };
+    let got = middle(&render(&scene, &settings).0);
+    let expected: f64 = straight.iter().map(|r| 1.0 - r).product();
+    assert!((got / expected - 1.0).abs() < 1e-4, "{got} for {expected}");
+}
+
+#[test]
+fn of_overlapping_bodies_the_one_with_the_higher_priority_counts() {
+    // Water that reaches into the wall of its glass: from z = -1 to -1.5 both are there.
+    let seen = |water_priority| {
+        let mut scene = dark();
+        scene.background = Background::Color(Vec3::ONE);
+        let wall = Material {
+            absorption: Vec3::splat(1.0),
+            ..glass(1.0)
+        };
+        let water = Material {
+            absorption: Vec3::splat(0.1),
+            priority: water_priority,
+            ..glass(1.0)
+        };
+        add(&mut scene, cuboid(dvec3(-9.0, -9.0, -1.5), dvec3(9.0, 9.0, 0.0)), wall);
+        add(&mut scene, cuboid(dvec3(-9.0, -9.0, -3.0), dvec3(9.0, 9.0, -1.0)), water);
+        scene.cameras[0].fov_y = 1e-3;
+        -middle(&render(&scene, &to_depth(9)).0).ln()
+    };
+    for (name, priority, expected) in [
+        ("wall first", -1, 1.5 + 0.15),
+        ("water first", 1, 1.0 + 0.2),
+        ("the last entered", 0, 1.0 + 0.2),
+    ] {
+        let got = seen(priority);
+        assert!((got - expected).abs() < 2e-3, "{name}: {got} for {expected}");
+    }
+}
+
+#[test]
+fn a_bubble_in_glass_is_entered_from_glass() {
+    // At normal incidence four boundaries of the same R₀; the sphere of air counts as a medium of its own.
+    let r0 = (0.5_f64 / 2.5).powi(2);
+    let mut scene = dark();
+    scene.background = Background::Color(Vec3::ONE);
+    add(&mut scene, sphere(DVec3::ZERO, 2.0), glass(1.5));
+    add(&mut scene, sphere(DVec3::ZERO, 1.0), glass(1.0));
+    scene.cameras[0].fov_y = 1e-4;
+    let settings = Settings {
+        min_throughput: 0.5,
+        ..to_depth(9)
+    };
+    let got = middle(&render(&scene, &settings).0);
+    assert!((got / (1.0 - r0).powi(4) - 1.0).abs() < 1e-3, "{got}");
+}
+
+#[test]
+fn a_pane_on_a_table_shows_the_table() {
+    // The lower face of the pane and the table lie in one plane.
+    let mut scene = dark();
+    scene.cameras[0] = camera(dvec3(0.0, 4.0, 4.0), DVec3::ZERO, 0.5);
+    add(&mut scene, plane(DVec3::ZERO, DVec3::Y), shining(1.0));
+    add(&mut scene, cuboid(dvec3(-9.0, 0.0, -9.0), dvec3(9.0, 0.2, 9.0)), glass(1.5));
+    let settings = Settings {
+        min_throughput: 0.5,
+        ..to_depth(4)
+    };
+    let image = render(&scene, &settings).0;
+    for pixel in &image.pixels {
+        assert!(pixel[0] > 0.9, "{pixel:?}");
+    }
+}
+
+#[test]
+fn a_ball_of_glass_bends_light_as_a_lens_does() {
+    // A ball's focal length is n R / (2 (n - 1)) from its centre, where both principal planes lie:
+    // a ray that leaves a point at the distance s under the angle θ goes on under θ (1 - s / f).
+    let (radius, n) = (1.0, 1.5);
+    let f = n * radius / (2.0 * (n - 1.0));
+    let mut verdict = Verdict::on("ball lens");
+    for (name, s) in [("at the focus", f), ("inverted image", 2.0 * f), ("near", 1.2), ("far", 10.0)] {
+        let mut scene = dark();
+        // The brightness of the background tells the direction's y.
+        scene.background = Background::Gradient {
+            bottom: Vec3::ZERO,
+            top: Vec3::ONE,
+        };
+        add(&mut scene, sphere(DVec3::ZERO, radius), glass(n as f32));
+        scene.cameras[0] = camera(dvec3(0.0, 0.0, s), DVec3::ZERO, 0.02);
+        let settings = Settings {
+            size: (16, 16),
+            min_throughput: 0.5,
+            ..to_depth(4)
+        };
+        let image = render(&scene, &settings).0;
+        // The ray of pixel (8, 2) and the share that two boundaries let through.
+        let angle = ((5.5 / 8.0) * 0.01_f64.tan()).atan();
+        let through = (1.0 - 0.04_f64).powi(2);
+        let seen = f64::from(image.pixel(8, 2).expect("a pixel")[0]) / through;
+        let got = 2.0 * seen - 1.0;
+        let expected = angle * (1.0 - s / f);
+        verdict.that(name, (got - expected).abs() < 0.01 * angle, || format!("{got} for {expected}"));
+    }
+    verdict.close();
+}
+
+#[test]
+fn the_courses_mirrors_blend_local_and_reflected_light() {
+    // One ball under ambient light 0.2 only: (1 - spe) · amb + spe · white.
+    let text = "2\namb: 0.2 0.2 0.2\nsphere pos: 0 0 -3 rad: 1 dif: 0 0 0 spe: 0.25 0.5 1 shi: 1\n\
+                light pos: 0 0 -9 col: 1 1 1\n";
+    let scene = import::parse("a.scene", text, &import::Options::default()).expect("a scene");
+    assert_eq!(scene.output.max_depth, 0);
+    let local = render(&scene, &to_depth(0)).0.pixel(8, 8).expect("a pixel");
+    assert_eq!(local[..3], [0.2; 3]);
+    let mirrored = render(&scene, &to_depth(1)).0.pixel(8, 8).expect("a pixel");
+    for (channel, spe) in [0.25, 0.5, 1.0].into_iter().enumerate() {
+        let expected = (1.0 - spe) * 0.2 + spe;
+        assert!((mirrored[channel] - expected).abs() < 1e-5, "{mirrored:?}");
+    }
+}
+
+#[test]
+fn filtered_shadows_let_through_what_transmission_and_absorption_leave() {
+    // A lamp straight above a plate of glass above a floor.
+    let lit = |shadows, plate: Option<Material>| {
+        let mut scene = dark();
+        scene.shadows = shadows;
+        scene.cameras[0] = camera(dvec3(0.0, 0.5, 4.0), DVec3::ZERO, 1e-3);
+        add(&mut scene, plane(DVec3::ZERO, DVec3::Y), Material::default());
+        if let Some(plate) = plate {
+            add(&mut scene, cuboid(dvec3(-1.0, 1.0, -1.0), dvec3(1.0, 1.5, 1.0)), plate);
+        }
+        scene.lights.push(Light {
+            kind: LightKind::Point {
+                position: dvec3(0.0, 3.0, 0.0),
+            },
+            color: Vec3::ONE,
+            ..Light::default()
+        });
+        middle(&render(&scene, &to_depth(5)).0)
+    };
+    let open = lit(Shadows::Filtered, None);
+    let tinted = Material {
+        absorption: Vec3::splat(2.0),
+        transmit: Vec3::splat(0.9),
+        ..glass(1.5)
+    };
+    assert_eq!(lit(Shadows::Opaque, Some(tinted.clone())), 0.0);
+    let r0 = 0.04_f64;
+    let expected = open * (0.9 * (1.0 - r0)).powi(2) * (-1.0_f64).exp();
+    let got = lit(Shadows::Filtered, Some(tinted));
+    assert!((got / expected - 1.0).abs() < 2e-3, "{got} for {expected}");
+    assert_eq!(lit(Shadows::Filtered, Some(Material::default())), 0.0);
+}
+
+#[test]
+fn more_media_round_the_camera_than_a_ray_remembers_are_refused() {
+    let mut scene = dark();
+    for radius in 6..=10 {
+        add(&mut scene, sphere(DVec3::ZERO, f64::from(radius)), glass(1.5));
+    }
+    let packed = pack::scene(&scene).expect("a packed scene");
+    let refused = packed.frame(&scene.frame(0.0));
+    assert!(matches!(refused, Err(PackError::TooMany { count: 5, limit: 4, .. })));
+}

@@ -1,0 +1,170 @@
+//! Recursive reflection and refraction as a textbook writes them: a function that calls itself.
+
+use super::{Hit, Ray, Rays, Tracer, background};
+use glam::DVec3;
+use glimray::render::MIN_THROUGHPUT;
+use glimray::scene::{Fresnel, Mixing};
+
+/// A ray's place in the tree.
+#[derive(Clone)]
+pub struct Place {
+    pub depth: u32,
+    /// Its share in the sample.
+    pub share: DVec3,
+    /// The materials of the bodies that it is inside of, the last entered last.
+    pub media: Vec<usize>,
+}
+
+enum Kind {
+    Reflected,
+    Refracted,
+}
+
+impl Tracer<'_> {
+    /// What a ray brings back, without its own share.
+    pub fn follow(&self, ray: Ray, place: &Place, rays: &mut Rays) -> (DVec3, bool) {
+        let Some((t, primitive)) = self.nearest(ray) else {
+            let left = self.absorbed(self.dominant(&place.media), 1e30);
+            return (left * background(self.scene, ray.direction), false);
+        };
+        let hit = self.hit(ray, t, primitive);
+        let is_deep = self.scene.output.max_depth > 0;
+        let is_clear = is_deep && hit.material.transmit != glam::Vec3::ZERO;
+        let mut behind = place.media.clone();
+        let mut here = self.dominant(&place.media);
+        if is_clear {
+            if hit.enters {
+                behind.push(hit.material_index);
+            } else if let Some(i) = behind.iter().rposition(|&m| m == hit.material_index) {
+                behind.remove(i);
+            } else {
+                here = Some(hit.material_index);
+            }
+        }
+        let left = if is_deep { self.absorbed(here, t) } else { DVec3::ONE };
+        let share = place.share * left;
+        let (reflect, transmit, refracted) = self.split(&hit, ray.direction, here, &behind, is_clear);
+
+        let mut color = DVec3::ZERO;
+        let mut send = |kind: Kind, weight: DVec3, direction: DVec3, media: &[usize]| {
+            let next = Place {
+                depth: place.depth + 1,
+                share: share * weight,
+                media: media.to_vec(),
+            };
+            let matters = next.share.max_element() >= f64::from(MIN_THROUGHPUT);
+            if place.depth >= self.scene.output.max_depth || !matters {
+                return false;
+            }
+            let onwards = Ray {
+                origin: hit.p,
+                direction,
+                t_min: 1e-9 * t.max(1.0),
+                t_max: f64::INFINITY,
+                leaving: Some(primitive),
+            };
+            let (arriving, is_hit) = self.follow(onwards, &next, rays);
+            let (sent, met) = match kind {
+                Kind::Reflected => (&mut rays.reflection, &mut rays.reflection_hits),
+                Kind::Refracted => (&mut rays.refraction, &mut rays.refraction_hits),
+            };
+            *sent += 1;
+            *met += u64::from(is_hit);
+            color += weight * arriving;
+            true
+        };
+        let mirrored = ray.direction - 2.0 * ray.direction.dot(hit.n) * hit.n;
+        let sends = send(Kind::Reflected, reflect, mirrored, &place.media);
+        if is_clear {
+            send(Kind::Refracted, transmit, refracted, &behind);
+        }
+
+        let kept = (DVec3::ONE - reflect).max(DVec3::ZERO);
+        let (diffuse, highlight) = match hit.material.mixing {
+            _ if !is_deep => (DVec3::ONE, DVec3::ONE),
+            Mixing::Sum => (DVec3::ONE, DVec3::ONE),
+            Mixing::Blend if sends => (kept, kept),
+            Mixing::Blend => (DVec3::ONE, DVec3::ONE),
+            Mixing::Layer => (f64::from(hit.material.opacity) * kept, DVec3::ONE),
+        };
+        let mut material = hit.material.clone();
+        material.diffuse *= diffuse.as_vec3();
+        material.ambient *= diffuse.as_vec3();
+        material.specular *= highlight.as_vec3();
+        let shadow = Ray {
+            origin: hit.p,
+            t_min: 1e-9 * t,
+            leaving: Some(primitive),
+            ..ray
+        };
+        color += self.shade(shadow, hit.n, -ray.direction, &material, rays);
+        if hit.enters || material.two_sided {
+            color += material.emission.as_dvec3();
+        }
+        (left * color, true)
+    }
+
+    /// Weights of mirrored and refracted light, and the refracted direction.
+    fn split(
+        &self,
+        hit: &Hit,
+        direction: DVec3,
+        here: Option<usize>,
+        behind: &[usize],
+        is_clear: bool,
+    ) -> (DVec3, DVec3, DVec3) {
+        let index = |medium: Option<usize>| medium.map_or(1.0, |m| self.ior(m));
+        let n1 = index(here);
+        let n2 = if is_clear {
+            index(self.dominant(behind))
+        } else {
+            f64::from(hit.material.ior)
+        };
+        let n = hit.n * -hit.n.dot(direction).signum();
+        let incidence = (-direction.dot(n)).clamp(0.0, 1.0).acos();
+        let sine = n1 / n2 * incidence.sin();
+        let mut reflect = hit.material.reflect.as_dvec3();
+        let mut transmit = hit.material.transmit.as_dvec3();
+        if sine >= 1.0 {
+            if hit.material.fresnel == Fresnel::None && is_clear && hit.material.mixing != Mixing::Sum {
+                reflect += transmit;
+            }
+            return (reflect, DVec3::ZERO, direction);
+        }
+        let refraction = sine.asin();
+        let normal_share = ((n1 - n2) / (n1 + n2)).powi(2);
+        let share = match hit.material.fresnel {
+            Fresnel::None => None,
+            Fresnel::Exact if incidence < 1e-7 => Some(normal_share),
+            Fresnel::Exact => {
+                let (sum, difference) = (incidence + refraction, incidence - refraction);
+                Some(0.5 * ((difference.sin() / sum.sin()).powi(2) + (difference.tan() / sum.tan()).powi(2)))
+            }
+            Fresnel::Schlick => {
+                let cos = incidence.max(refraction).cos();
+                Some(normal_share + (1.0 - normal_share) * (1.0 - cos).powi(5))
+            }
+        };
+        if let Some(share) = share {
+            reflect *= share;
+            transmit *= 1.0 - share;
+        }
+        let along = (direction + incidence.cos() * n).normalize_or_zero();
+        (reflect, transmit, along * refraction.sin() - n * refraction.cos())
+    }
+
+    fn dominant(&self, media: &[usize]) -> Option<usize> {
+        let priority = |&m: &usize| self.scene.materials[m].priority;
+        // The last of the highest.
+        media.iter().copied().max_by_key(priority)
+    }
+
+    fn ior(&self, material: usize) -> f64 {
+        f64::from(self.scene.materials[material].ior)
+    }
+
+    fn absorbed(&self, medium: Option<usize>, length: f64) -> DVec3 {
+        let absorption = medium.map_or(DVec3::ZERO, |m| self.scene.materials[m].absorption.as_dvec3());
+        (-absorption * length).exp()
+    }
+}
