@@ -74,10 +74,8 @@ impl Flat {
                 packed.row_y = normal.as_vec3().into();
                 let (u, v) = Geometry::plane_axes(normal);
                 (packed.row_x, packed.row_z) = (u.as_vec3().into(), v.as_vec3().into());
-                (packed.size0, packed.size1) = (
-                    u.dot(origin - point) as f32,
-                    v.dot(origin - point) as f32,
-                );
+                (packed.size0, packed.size1) =
+                    (u.dot(origin - point) as f32, v.dot(origin - point) as f32);
                 self.planes.push(packed);
                 return Ok(());
             }
