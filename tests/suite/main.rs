@@ -18,6 +18,7 @@ mod scale;
 mod scene;
 mod shader_camera;
 mod shader_colormap;
+mod shader_forms;
 mod shader_light;
 mod shader_node;
 mod shader_numeric;
