@@ -201,15 +201,17 @@ packed! {
         position: [f32; 3],
         /// [`SHAPE_SPHERE`], [`SHAPE_PLANE`] and so on.
         kind: u32,
-        /// What a point less `position` is multiplied by for its x in the shape's space.
+        /// What a point less `position` is multiplied by for its x in the shape's space. Plane: what a
+        /// point is multiplied by for u, to which `size0` is added.
         row_x: [f32; 3],
         /// Sphere: radius. Disc: radius of its hole. Cone: radius at the bottom. Torus: small radius.
+        /// The larger radius of a cone is 1.
         size0: f32,
         /// The same for y. Plane: its unit normal.
         row_y: [f32; 3],
         /// Cone: radius at the top.
         size1: f32,
-        /// The same for z.
+        /// The same for z. Plane: for v, to which `size1` is added.
         row_z: [f32; 3],
         /// [`SHAPE_CAPPED`] or 0.
         flags: u32,

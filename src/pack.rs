@@ -103,6 +103,16 @@ pub enum PackError {
         /// The largest allowed.
         limit: f64,
     },
+    /// A shape that is thinner than f32 can resolve.
+    #[error(
+        "object too small (scaled size): {size:e} units in one direction is below the range of f32 arithmetic, at least {limit:e}. Make it larger, or scale the scene up."
+    )]
+    TooSmall {
+        /// In scene units.
+        size: f64,
+        /// The smallest allowed.
+        limit: f64,
+    },
 }
 
 /// Packs a scene and builds its tree.

@@ -9,6 +9,7 @@ mod file;
 mod lights;
 mod materials;
 mod set;
+mod shapes;
 mod values;
 
 use super::Options;

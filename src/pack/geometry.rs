@@ -72,6 +72,10 @@ impl Flat {
                 packed.kind = SHAPE_PLANE;
                 packed.position = render_point(foot, origin)?.into();
                 packed.row_y = normal.as_vec3().into();
+                let (u, v) = Geometry::plane_axes(normal);
+                (packed.row_x, packed.row_z) = (u.as_vec3().into(), v.as_vec3().into());
+                (packed.size0, packed.size1) =
+                    (u.dot(origin - point) as f32, v.dot(origin - point) as f32);
                 self.planes.push(packed);
                 return Ok(());
             }
@@ -79,6 +83,7 @@ impl Flat {
                 form,
                 world_from_form,
             } => {
+                let mut render_from_form = world_from_form.matrix3;
                 (packed.kind, packed.size0, packed.size1, packed.flags) = match form {
                     Form::Disc { hole } => (SHAPE_DISC, hole as f32, 0.0, 0),
                     Form::Rectangle => (SHAPE_RECTANGLE, 0.0, 0.0, 0),
@@ -88,22 +93,30 @@ impl Flat {
                         top,
                         capped,
                     } => {
+                        // The shader wants cones as wide as they are high, where f32 is finest.
+                        let wide = bottom.max(top);
+                        render_from_form.x_axis *= wide;
+                        render_from_form.z_axis *= wide;
                         let flags = if capped { SHAPE_CAPPED } else { 0 };
-                        (SHAPE_CONE, bottom as f32, top as f32, flags)
+                        let radii = ((bottom / wide) as f32, (top / wide) as f32);
+                        (SHAPE_CONE, radii.0, radii.1, flags)
                     }
                     Form::Torus { minor } => (SHAPE_TORUS, minor as f32, 0.0, 0),
                     Form::Ellipsoid => (SHAPE_ELLIPSOID, 0.0, 0.0, 0),
                 };
                 packed.position = render_point(world_from_form.translation, origin)?.into();
-                let form_from_world = world_from_form.matrix3.inverse();
-                [packed.row_x, packed.row_y, packed.row_z] =
-                    [0, 1, 2].map(|i| form_from_world.row(i).as_vec3().into());
+                let form_from_render = render_from_form.inverse();
+                let rows = [0, 1, 2].map(|i| form_from_render.row(i));
+                for row in rows {
+                    large_enough(row.length().recip())?;
+                }
+                [packed.row_x, packed.row_y, packed.row_z] = rows.map(|row| row.as_vec3().into());
             }
         }
         let (min, max) = geometry.bounds().unwrap_or_default();
         let (min, max) = (render_point(min, origin)?, render_point(max, origin)?);
-        // Rounded outwards.
-        let slack = min.abs().max(max.abs()) * f32::EPSILON;
+        // Rounded outwards, and for what f32 makes of the position and the rows.
+        let slack = (min.abs().max(max.abs()) + (max - min).max_element()) * (2.0 * f32::EPSILON);
         let bounds = Aabb {
             min: min - slack,
             max: max + slack,
@@ -174,6 +187,15 @@ fn in_range(value: f64) -> Result<(), PackError> {
             value,
             limit: COORDINATE_LIMIT,
         });
+    }
+    Ok(())
+}
+
+/// What is smaller than this in some direction cannot be scaled up to size 1 in f32.
+fn large_enough(size: f64) -> Result<(), PackError> {
+    let limit = COORDINATE_LIMIT.recip();
+    if size < limit {
+        return Err(PackError::TooSmall { size, limit });
     }
     Ok(())
 }

@@ -14,7 +14,7 @@ pub struct Shape {
 /// The surface of a [`Shape`], in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Geometry {
-    /// All points at one distance from a centre.
+    /// All points at one distance from a centre. u and v are those of [`Form::Ellipsoid`].
     Sphere {
         /// The centre.
         center: DVec3,
@@ -23,7 +23,7 @@ pub enum Geometry {
     },
     /// An infinite plane.
     Plane {
-        /// Any point on it.
+        /// Any point on it; where u and v are 0.
         point: DVec3,
         /// Of unit length.
         normal: DVec3,
@@ -37,19 +37,22 @@ pub enum Geometry {
     },
 }
 
-/// A surface of canonical size and place. Its axis, where it has one, is y.
+/// A surface of canonical size and place. Its axis, where it has one, is y. u and v are in [0, 1]; the
+/// longitude goes from −z by −x, +z and +x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
-    /// x² + z² ≤ 1 at y = 0, facing +y, less a hole.
+    /// x² + z² ≤ 1 at y = 0, facing +y, less a hole. u grows along x, v along −z.
     Disc {
         /// Radius of the hole, in [0, 1).
         hole: f64,
     },
-    /// |x| ≤ 1, |z| ≤ 1 at y = 0, facing +y.
+    /// |x| ≤ 1, |z| ≤ 1 at y = 0, facing +y. u grows along x, v along −z.
     Rectangle,
-    /// |x|, |y|, |z| ≤ 1.
+    /// |x|, |y|, |z| ≤ 1. On each side u grows to the right and v up for one who looks at it from
+    /// outside, where up is y, on top −z and at the bottom z.
     Box,
-    /// A cylinder, cone or frustum for 0 ≤ y ≤ 1.
+    /// A cylinder, cone or frustum for 0 ≤ y ≤ 1. On its side u is the longitude and v is y; its ends
+    /// are like the top and bottom of a box.
     Cone {
         /// Radius at y = 0, 0 or more.
         bottom: f64,
@@ -58,34 +61,18 @@ pub enum Form {
         /// Whether it is closed by discs.
         capped: bool,
     },
-    /// A tube round the circle of radius 1 at y = 0.
+    /// A tube round the circle of radius 1 at y = 0. u is the longitude; v goes round the tube, from
+    /// the inner equator by the lower side, the outer equator and the upper side.
     Torus {
         /// Radius of the tube, in (0, 1].
         minor: f64,
     },
-    /// The unit sphere.
+    /// The unit sphere. u is the longitude; v is the latitude, 0 at −y and 1 at y.
     Ellipsoid,
 }
 
-impl Form {
-    /// The axis-aligned box (min, max) in its own space.
-    pub fn bounds(&self) -> (DVec3, DVec3) {
-        let symmetric = |x: f64, y: f64, z: f64| (DVec3::new(-x, -y, -z), DVec3::new(x, y, z));
-        match *self {
-            Self::Disc { .. } | Self::Rectangle => symmetric(1.0, 0.0, 1.0),
-            Self::Box | Self::Ellipsoid => symmetric(1.0, 1.0, 1.0),
-            Self::Cone { bottom, top, .. } => {
-                let r = bottom.max(top);
-                (DVec3::new(-r, 0.0, -r), DVec3::new(r, 1.0, r))
-            }
-            Self::Torus { minor } => symmetric(1.0 + minor, minor, 1.0 + minor),
-        }
-    }
-}
-
 impl Geometry {
-    /// The axis-aligned box (min, max) in world space: the smallest for spheres, for others that of
-    /// their own box; `None` for planes.
+    /// The smallest axis-aligned box (min, max) in world space; `None` for planes.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         match *self {
             Self::Sphere { center, radius } => Some((center - radius, center + radius)),
@@ -93,16 +80,45 @@ impl Geometry {
             Self::Placed {
                 form,
                 world_from_form,
-            } => {
-                let (min, max) = form.bounds();
-                let center = world_from_form.transform_point3((min + max) / 2.0);
-                let half = (max - min) / 2.0;
-                let columns = world_from_form.matrix3;
-                let reach = columns.x_axis.abs() * half.x
-                    + columns.y_axis.abs() * half.y
-                    + columns.z_axis.abs() * half.z;
-                Some((center - reach, center + reach))
-            }
+            } => Some(placed_bounds(form, world_from_form)),
+        }
+    }
+
+    /// The unit vectors along which u and v of a plane grow with the distance from its point: to the
+    /// right and up for one who looks at its front with +Y upwards. Where it is rather level, seen
+    /// from above −Z is upwards instead, and seen from below +Z.
+    pub fn plane_axes(normal: DVec3) -> (DVec3, DVec3) {
+        let is_level = normal.y.abs() > std::f64::consts::FRAC_1_SQRT_2;
+        let up = if is_level {
+            DVec3::NEG_Z * normal.y.signum()
+        } else {
+            DVec3::Y
+        };
+        let u = up.cross(normal).normalize();
+        (u, normal.cross(u))
+    }
+}
+
+fn placed_bounds(form: Form, world_from_form: DAffine3) -> (DVec3, DVec3) {
+    let columns = world_from_form.matrix3;
+    let [x, y, z] = [columns.x_axis, columns.y_axis, columns.z_axis];
+    let squared = |v: DVec3| v * v;
+    let root = |v: DVec3| DVec3::new(v.x.sqrt(), v.y.sqrt(), v.z.sqrt());
+    // How far the unit circle at y = 0 and the unit sphere reach along each axis.
+    let circle = root(squared(x) + squared(z));
+    let sphere = root(squared(x) + squared(y) + squared(z));
+    let around = |center: DVec3, reach: DVec3| (center - reach, center + reach);
+    let center = world_from_form.translation;
+    match form {
+        Form::Disc { .. } => around(center, circle),
+        Form::Rectangle => around(center, x.abs() + z.abs()),
+        Form::Box => around(center, x.abs() + y.abs() + z.abs()),
+        Form::Ellipsoid => around(center, sphere),
+        Form::Torus { minor } => around(center, circle + minor * sphere),
+        Form::Cone { bottom, top, .. } => {
+            let (low, high) = around(center, bottom * circle);
+            let (other_low, other_high) = around(center + y, top * circle);
+            (low.min(other_low), high.max(other_high))
         }
     }
 }

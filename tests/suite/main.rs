@@ -20,6 +20,7 @@ mod scale;
 mod scene;
 mod shader_camera;
 mod shader_colormap;
+mod shader_forms;
 mod shader_fresnel;
 mod shader_light;
 mod shader_media;

@@ -60,8 +60,32 @@ fn scenes_with_every_surface_and_light_match_an_independent_tracer() {
         ("spheres and planes", scenes::spheres()),
         ("meshes", scenes::meshes()),
         ("everything", scenes::everything()),
+        ("solids", scenes::solids()),
     ];
     assert_none(rows.map(|(name, scene)| against_the_reference(name, &scene, &sized(256, 192))));
+}
+
+#[test]
+fn every_form_alone_is_what_it_is_among_others() {
+    // Each picture has a pipeline for one kind of shape.
+    let all = scenes::solids();
+    assert_none((0..all.shapes.len()).map(|i| {
+        let mut scene = all.clone();
+        scene.shapes = vec![all.shapes[i].clone()];
+        let name = format!("{:?}", scene.shapes[0].geometry);
+        against_the_reference(&name[..name.len().min(60)], &scene, &sized(96, 72))
+    }));
+}
+
+#[test]
+fn the_tree_finds_the_forms_that_brute_force_finds() {
+    let scene = scenes::solids();
+    let brute = Settings {
+        brute_force: true,
+        ..sized(256, 192)
+    };
+    let (expected, actual) = (render(&scene, &brute).0, render(&scene, &sized(256, 192)).0);
+    assert_none([check_same_bits("solids", &expected, &actual)]);
 }
 
 #[test]

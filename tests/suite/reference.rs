@@ -4,12 +4,13 @@
 
 pub mod compare;
 pub mod scenes;
+pub mod shapes;
 
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use glimray::image::Image;
 use glimray::render::Rays;
 use glimray::scene::{
-    Attenuation, Background, Camera, Geometry, Light, LightKind, Material, Scene, Shape,
+    Attenuation, Background, Camera, Form, Geometry, Light, LightKind, Material, Scene, Shape,
 };
 
 /// The picture and the number of rays it took.
@@ -215,7 +216,14 @@ impl<'a> Tracer<'a> {
                 Geometry::Sphere { center, radius } => hit_sphere(center, radius, ray),
                 Geometry::Plane { .. } if is_left => None,
                 Geometry::Plane { point, normal } => hit_plane(point, normal, ray),
-                Geometry::Placed { .. } => unimplemented!("no scene of the tests has one"),
+                Geometry::Placed {
+                    form: Form::Disc { .. } | Form::Rectangle,
+                    ..
+                } if is_left => None,
+                Geometry::Placed {
+                    form,
+                    world_from_form,
+                } => hit_placed(form, world_from_form, ray),
             };
             if let Some(t) = t.filter(|t| *t < t_max) {
                 t_max = t;
@@ -230,7 +238,10 @@ impl<'a> Tracer<'a> {
         let normal = match shape.geometry {
             Geometry::Sphere { center, radius } => (p - center) / radius,
             Geometry::Plane { normal, .. } => normal,
-            Geometry::Placed { .. } => unimplemented!("no scene of the tests has one"),
+            Geometry::Placed {
+                form,
+                world_from_form,
+            } => shapes::normal(form, world_from_form, p),
         };
         let turned = material.two_sided && normal.dot(direction) > 0.0;
         (if turned { -normal } else { normal }, material)
@@ -314,6 +325,12 @@ fn hit_sphere(center: DVec3, radius: f64, ray: Ray) -> Option<f64> {
     let root = (b * b - c).sqrt();
     // Without real roots both are NaN, which is in no range.
     [-b - root, -b + root]
+        .into_iter()
+        .find(|&t| t > ray.t_min && t < ray.t_max)
+}
+
+fn hit_placed(form: Form, world_from_form: DAffine3, ray: Ray) -> Option<f64> {
+    shapes::crossings(form, world_from_form, ray.origin, ray.direction)
         .into_iter()
         .find(|&t| t > ray.t_min && t < ray.t_max)
 }

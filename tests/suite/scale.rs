@@ -86,11 +86,12 @@ fn placed(scene: &Scene, scale: f64, offset: DVec3) -> Scene {
     placed
 }
 
-fn all_scenes() -> [(&'static str, Scene); 3] {
+fn all_scenes() -> [(&'static str, Scene); 4] {
     [
         ("spheres", scenes::spheres()),
         ("meshes", scenes::meshes()),
         ("everything", scenes::everything()),
+        ("solids", scenes::solids()),
     ]
 }
 
@@ -207,7 +208,10 @@ fn grazing_light_draws_no_speckles() {
         scenes::ball(UVec2::new(48, 24), 0),
         DAffine3::from_translation(DVec3::X * 2.2),
     );
+    let mut solids = scenes::solids();
+    solids.ambient = Vec3::ZERO;
     let grounds = [
+        ("solids", solids),
         ("plane", plane),
         ("tilted plane", tilted),
         ("square", square),

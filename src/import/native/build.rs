@@ -2,17 +2,18 @@
 //! read, and everything checked that takes more than one value to see.
 
 use super::file::{
-    MaterialRef, MeshTable, ObjectTable, OutputTable, PlaneTable, SceneFile, SphereTable,
-    TransformTable, TriangleTable,
+    MaterialRef, MeshTable, ObjectTable, OutputTable, SceneFile, TransformTable, TriangleTable,
 };
 use super::values::Vector;
-use super::{Texts, cameras, lights, materials};
+use super::{Texts, cameras, lights, materials, shapes};
 use crate::import::error::ImportError;
 use crate::import::number::in_range;
 use crate::import::paths::Files;
 use crate::import::source::quote;
 use crate::import::{obj, repair_notes, stage, suggest};
-use crate::scene::{Background, Geometry, Instance, Material, Mesh, OutputDefaults, Scene, Shape};
+use crate::scene::{
+    Background, Geometry, Instance, Material, Mesh, OutputDefaults, Scene, Shape, Textures,
+};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -91,14 +92,8 @@ impl<'a> Builder<'a> {
 
     fn object(&mut self, object: &Spanned<ObjectTable>) -> Result<(), ImportError> {
         let table = object.get_ref();
-        let surfaces = [
-            table.sphere.is_some(),
-            table.plane.is_some(),
-            table.triangle.is_some(),
-            table.mesh.is_some(),
-        ];
-        if surfaces.iter().filter(|&&given| given).count() != 1 {
-            let todo = "Give it exactly one of `sphere`, `plane`, `triangle` and `mesh`";
+        if shapes::count(table) + meshes_in(table) != 1 {
+            let todo = "Give it exactly one of `sphere`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle` and `mesh`";
             return Err(self.refuse(object.span(), "an object is one surface", todo));
         }
         if !table.visible {
@@ -106,16 +101,12 @@ impl<'a> Builder<'a> {
         }
         let transform = table.transform.as_ref();
         let placed = transform.map_or(DAffine3::IDENTITY, |t| world_from_object(t.get_ref()));
-        let reached = if let Some(sphere) = &table.sphere {
-            self.sphere(sphere, placed, table)?
-        } else if let Some(plane) = &table.plane {
-            self.plane(plane, placed, table)?
-        } else if let Some(triangle) = &table.triangle {
+        let reached = if let Some(triangle) = &table.triangle {
             self.triangle(triangle, placed, table)?
         } else if let Some(mesh) = &table.mesh {
             self.mesh(mesh, placed, table)?
         } else {
-            Vec::new()
+            self.shape(placed, table)?
         };
         if reached
             .iter()
@@ -134,48 +125,18 @@ impl<'a> Builder<'a> {
 
     // Each of the following returns points that the placed object reaches to.
 
-    fn sphere(
-        &mut self,
-        sphere: &SphereTable,
-        placed: DAffine3,
-        table: &ObjectTable,
-    ) -> Result<Vec<DVec3>, ImportError> {
-        let scale = match &table.transform {
-            Some(transform) => self.even_scale(transform)?,
-            None => 1.0,
+    fn shape(&mut self, placed: DAffine3, table: &ObjectTable) -> Result<Vec<DVec3>, ImportError> {
+        let material = self.material_of(table)?;
+        let textured = self.scene.materials[material].textures != Textures::default();
+        let Some(geometry) = shapes::geometry(table, placed, textured, self.texts)? else {
+            return Ok(Vec::new());
         };
-        let (center, radius) = (
-            placed.transform_point3(sphere.center.0),
-            scale * sphere.radius.0,
-        );
-        let geometry = Geometry::Sphere { center, radius };
-        let material = self.material_of(table)?;
         self.scene.shapes.push(Shape { geometry, material });
-        Ok(vec![center - radius, center + radius])
-    }
-
-    fn even_scale(&self, transform: &Spanned<TransformTable>) -> Result<f64, ImportError> {
-        let scale = transform.get_ref().scale.0.abs();
-        if scale.max_element() - scale.min_element() > 1e-9 * scale.max_element() {
-            let todo = "Use one factor for all axes, or a mesh";
-            return Err(self.refuse(transform.span(), "a sphere cannot be scaled unevenly", todo));
-        }
-        Ok(scale.x)
-    }
-
-    fn plane(
-        &mut self,
-        plane: &PlaneTable,
-        placed: DAffine3,
-        table: &ObjectTable,
-    ) -> Result<Vec<DVec3>, ImportError> {
-        let point = placed.transform_point3(plane.point.0);
-        let normal = normal_matrix(placed) * plane.normal.0;
-        let normal = normal.normalize_or(plane.normal.0);
-        let geometry = Geometry::Plane { point, normal };
-        let material = self.material_of(table)?;
-        self.scene.shapes.push(Shape { geometry, material });
-        Ok(vec![point])
+        Ok(match (geometry, geometry.bounds()) {
+            (Geometry::Plane { point, .. }, _) => vec![point],
+            (_, Some((min, max))) => vec![min, max],
+            (_, None) => Vec::new(),
+        })
     }
 
     fn triangle(
@@ -340,6 +301,10 @@ impl<'a> Builder<'a> {
     }
 }
 
+fn meshes_in(table: &ObjectTable) -> usize {
+    usize::from(table.triangle.is_some()) + usize::from(table.mesh.is_some())
+}
+
 fn output(table: &OutputTable) -> OutputDefaults {
     let [width, height] = table.size.0;
     OutputDefaults {
@@ -363,7 +328,7 @@ fn world_from_object(table: &TransformTable) -> DAffine3 {
 
 /// What normals are multiplied by where points are by `transform`: the inverse transpose, up to a
 /// positive factor, without the loss of a division by a small determinant.
-fn normal_matrix(transform: DAffine3) -> DMat3 {
+pub(super) fn normal_matrix(transform: DAffine3) -> DMat3 {
     let [x, y, z] = [
         transform.matrix3.x_axis,
         transform.matrix3.y_axis,

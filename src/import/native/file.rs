@@ -8,7 +8,8 @@ mod objects;
 pub(super) use lights::{LightTable, SpotTable};
 pub(super) use materials::{MaterialRef, MaterialTable, RefractTable};
 pub(super) use objects::{
-    MeshTable, ObjectTable, PlaneTable, SphereTable, TransformTable, TriangleTable,
+    BoxTable, ConeTable, CylinderTable, DiscTable, MeshTable, ObjectTable, PlaneTable,
+    RectangleTable, SphereTable, TorusTable, TransformTable, TriangleTable,
 };
 
 use super::values::{

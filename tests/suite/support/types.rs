@@ -1,7 +1,7 @@
 //! The structs of `shaders/types.wesl` that functions take and return.
 
 use super::words::shader_struct;
-use glimray::layout::{NONE, PackedCamera, PackedLight, PackedTone};
+use glimray::layout::{NONE, PackedCamera, PackedLight, PackedShape, PackedTone};
 
 pub const T_FAR: f32 = 3e38;
 
@@ -60,6 +60,15 @@ pub struct Incident {
     pub radiance: [f32; 3],
 }
 
+/// A point on a canonical surface: see `shaders/lib/form.wesl`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FormPoint {
+    pub p: [f32; 3],
+    pub n: [f32; 3],
+    pub uv: [f32; 2],
+}
+
+shader_struct!(FormPoint = "package::lib::form::FormPoint" { p: [f32; 3], n: [f32; 3], uv: [f32; 2], });
 shader_struct!(Ray = "package::types::Ray" {
     origin: [f32; 3],
     t_max: f32,
@@ -115,6 +124,20 @@ shader_struct!(PackedLight = "package::types::PackedLight" {
     _pad0: u32,
     _pad1: u32,
     _pad2: u32,
+});
+shader_struct!(PackedShape = "package::types::PackedShape" {
+    position: [f32; 3],
+    kind: u32,
+    row_x: [f32; 3],
+    size0: f32,
+    row_y: [f32; 3],
+    size1: f32,
+    row_z: [f32; 3],
+    flags: u32,
+    material: u32,
+    id: u32,
+    _pad0: u32,
+    _pad1: u32,
 });
 shader_struct!(PackedTone = "package::types::PackedTone" {
     exposure_scale: f32,

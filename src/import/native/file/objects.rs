@@ -1,14 +1,15 @@
 //! How a native scene describes surfaces and where they are.
 
 use super::materials::MaterialRef;
-use crate::import::native::values::{Direction, Positive, Scale, Vector, elements};
+use crate::import::native::values::{Direction, NonNegative, Positive, Scale, Vector, elements};
 use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::Deserializer;
 use toml::Spanned;
 
-/// One surface: exactly one of sphere, plane, triangle and mesh.
+/// One surface: exactly one of sphere, plane, disc, rectangle, box, cylinder, cone, torus, triangle
+/// and mesh.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct ObjectTable {
@@ -16,6 +17,19 @@ pub(in crate::import::native) struct ObjectTable {
     pub sphere: Option<SphereTable>,
     /// An infinite plane.
     pub plane: Option<PlaneTable>,
+    /// A disc, or a ring.
+    pub disc: Option<Box<DiscTable>>,
+    /// A rectangle or parallelogram.
+    pub rectangle: Option<Box<RectangleTable>>,
+    /// A box along the axes, before its transform.
+    #[serde(rename = "box")]
+    pub cuboid: Option<Box<BoxTable>>,
+    /// A cylinder.
+    pub cylinder: Option<Box<CylinderTable>>,
+    /// A cone, or a frustum, which is a cone whose tip is cut off.
+    pub cone: Option<Box<ConeTable>>,
+    /// A torus.
+    pub torus: Option<Box<TorusTable>>,
     /// A triangle.
     pub triangle: Option<Box<TriangleTable>>,
     /// The triangles of an OBJ file.
@@ -50,6 +64,108 @@ pub(in crate::import::native) struct PlaneTable {
     /// The direction it faces; [0, 1, 0] if left out.
     #[serde(default = "upwards")]
     pub normal: Direction,
+}
+
+/// A disc, or a ring if it has a hole.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct DiscTable {
+    /// Its centre.
+    pub center: Vector,
+    /// The direction it faces; [0, 1, 0] if left out.
+    #[serde(default = "upwards")]
+    pub normal: Direction,
+    /// Its radius, greater than 0.
+    pub radius: Positive,
+    /// The radius of its hole, less than `radius`; no hole if left out.
+    #[schemars(with = "Option<NonNegative>")]
+    pub inner_radius: Option<Spanned<NonNegative>>,
+}
+
+/// A rectangle: either two edges, or a size and where it faces.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct RectangleTable {
+    /// Its centre.
+    #[schemars(with = "Vector")]
+    pub center: Spanned<Vector>,
+    /// One whole edge, along which u grows; to be given together with `edge_v`.
+    #[schemars(with = "Option<Direction>")]
+    pub edge_u: Option<Spanned<Vector>>,
+    /// The other whole edge, along which v grows. The front is where the turn from `edge_u` to
+    /// `edge_v` is counter-clockwise. Edges that are not perpendicular make a parallelogram.
+    #[schemars(with = "Option<Direction>")]
+    pub edge_v: Option<Spanned<Vector>>,
+    /// Width and height, each greater than 0, in place of the edges. Seen from the front, with +y
+    /// upwards, the width is level; where it lies rather flat, the width is along x.
+    #[serde(default, deserialize_with = "maybe_two")]
+    pub size: Option<[Positive; 2]>,
+    /// The direction it faces, together with `size`; [0, 1, 0] if left out.
+    #[schemars(with = "Option<Direction>")]
+    pub normal: Option<Spanned<Direction>>,
+}
+
+/// A box along the axes, before its transform.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct BoxTable {
+    /// The corner with the least coordinates.
+    pub min: Vector,
+    /// The corner with the greatest coordinates, each greater than that of `min`.
+    #[schemars(with = "Vector")]
+    pub max: Spanned<Vector>,
+}
+
+/// A cylinder.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct CylinderTable {
+    /// The middle of one end.
+    pub from: Vector,
+    /// The middle of the other end.
+    #[schemars(with = "Vector")]
+    pub to: Spanned<Vector>,
+    /// Its radius, greater than 0.
+    pub radius: Positive,
+    /// Whether its ends are open (false if left out).
+    #[serde(default)]
+    pub open: bool,
+}
+
+/// A cone or frustum.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct ConeTable {
+    /// The middle of one end.
+    pub from: Vector,
+    /// The middle of the other end: the tip, unless `to_radius` is given.
+    #[schemars(with = "Vector")]
+    pub to: Spanned<Vector>,
+    /// The radius at `from`, 0 or more.
+    #[schemars(with = "NonNegative")]
+    pub from_radius: Spanned<NonNegative>,
+    /// The radius at `to`, 0 or more; 0 if left out. One of the two radii is greater than 0.
+    #[serde(default = "tip")]
+    pub to_radius: NonNegative,
+    /// Whether its ends are open (false if left out).
+    #[serde(default)]
+    pub open: bool,
+}
+
+/// A torus.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct TorusTable {
+    /// Its centre.
+    pub center: Vector,
+    /// The axis that it goes round; [0, 1, 0] if left out.
+    #[serde(default = "upwards")]
+    pub axis: Direction,
+    /// From the centre to the middle of the tube, greater than 0.
+    pub major_radius: Positive,
+    /// The radius of the tube, greater than 0 and at most `major_radius`.
+    #[schemars(with = "Positive")]
+    pub minor_radius: Spanned<Positive>,
 }
 
 /// A triangle.
@@ -111,6 +227,14 @@ where
     D: Deserializer<'de>,
 {
     three(from).map(Some)
+}
+
+fn maybe_two<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[Positive; 2]>, D::Error> {
+    elements(from, "two numbers [width, height]").map(Some)
+}
+
+fn tip() -> NonNegative {
+    NonNegative(0.0)
 }
 
 fn upwards() -> Direction {

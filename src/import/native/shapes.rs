@@ -1,0 +1,256 @@
+//! The analytic surfaces of a native scene.
+
+use super::Texts;
+use super::build::normal_matrix;
+use super::file::{
+    BoxTable, ConeTable, CylinderTable, DiscTable, ObjectTable, PlaneTable, RectangleTable,
+    SphereTable, TorusTable,
+};
+use crate::import::error::ImportError;
+use crate::scene::{Form, Geometry};
+use glam::{DAffine3, DMat3, DVec3};
+use std::ops::Range;
+
+/// Edges are parallel where the sine of the angle between them is no more than this.
+const PARALLEL: f64 = 1e-9;
+
+/// How many analytic surfaces `table` gives.
+pub(super) fn count(table: &ObjectTable) -> usize {
+    let given = [
+        table.sphere.is_some(),
+        table.plane.is_some(),
+        table.disc.is_some(),
+        table.rectangle.is_some(),
+        table.cuboid.is_some(),
+        table.cylinder.is_some(),
+        table.cone.is_some(),
+        table.torus.is_some(),
+    ];
+    given.into_iter().filter(|&given| given).count()
+}
+
+/// The analytic surface that `table` gives, brought into the world by `placed`. `textured` says
+/// whether its u and v show.
+pub(super) fn geometry(
+    table: &ObjectTable,
+    placed: DAffine3,
+    textured: bool,
+    texts: &Texts,
+) -> Result<Option<Geometry>, ImportError> {
+    let (form, object_from_form) = if let Some(plane) = &table.plane {
+        return Ok(Some(self::plane(plane, placed)));
+    } else if let Some(sphere) = &table.sphere {
+        return Ok(Some(self::sphere(sphere, placed, textured)));
+    } else if let Some(disc) = &table.disc {
+        self::disc(disc, texts)?
+    } else if let Some(rectangle) = &table.rectangle {
+        (Form::Rectangle, self::rectangle(rectangle, texts)?)
+    } else if let Some(cuboid) = &table.cuboid {
+        (Form::Box, self::cuboid(cuboid, texts)?)
+    } else if let Some(cylinder) = &table.cylinder {
+        self::cylinder(cylinder, texts)?
+    } else if let Some(cone) = &table.cone {
+        self::cone(cone, texts)?
+    } else if let Some(torus) = &table.torus {
+        self::torus(torus, texts)?
+    } else {
+        return Ok(None);
+    };
+    Ok(Some(Geometry::Placed {
+        form,
+        world_from_form: placed * object_from_form,
+    }))
+}
+
+fn plane(plane: &PlaneTable, placed: DAffine3) -> Geometry {
+    let normal = normal_matrix(placed) * plane.normal.0;
+    Geometry::Plane {
+        point: placed.transform_point3(plane.point.0),
+        normal: normal.normalize_or(plane.normal.0),
+    }
+}
+
+/// A sphere as long as its transform leaves it one; where a texture shows that it is turned, or it is
+/// scaled unevenly, an ellipsoid.
+fn sphere(sphere: &SphereTable, placed: DAffine3, textured: bool) -> Geometry {
+    let (center, radius) = (sphere.center.0, sphere.radius.0);
+    let matrix = placed.matrix3;
+    let lengths = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(DVec3::length);
+    let (least, most) = (
+        lengths.into_iter().fold(f64::INFINITY, f64::min),
+        lengths.into_iter().fold(0.0, f64::max),
+    );
+    // Transforms scale before they turn, so the axes stay perpendicular.
+    let is_sphere = most - least <= 1e-9 * most;
+    let is_turned = matrix != DMat3::from_diagonal(DVec3::splat(lengths[0]));
+    if is_sphere && !(textured && is_turned) {
+        return Geometry::Sphere {
+            center: placed.transform_point3(center),
+            radius: lengths[0] * radius,
+        };
+    }
+    let object_from_form =
+        DAffine3::from_scale_rotation_translation(DVec3::splat(radius), Default::default(), center);
+    Geometry::Placed {
+        form: Form::Ellipsoid,
+        world_from_form: placed * object_from_form,
+    }
+}
+
+fn disc(disc: &DiscTable, texts: &Texts) -> Result<(Form, DAffine3), ImportError> {
+    let radius = disc.radius.0;
+    let hole = match &disc.inner_radius {
+        Some(inner) if f64::from(inner.get_ref().0) >= radius => {
+            let why = format!("`inner_radius` is not less than `radius`, which is {radius}");
+            return Err(texts.malformed(inner.span(), why, "Make the hole smaller"));
+        }
+        Some(inner) => f64::from(inner.get_ref().0) / radius,
+        None => 0.0,
+    };
+    let (u, v) = Geometry::plane_axes(disc.normal.0);
+    let axes = DMat3::from_cols(radius * u, radius * disc.normal.0, -radius * v);
+    let object_from_form = DAffine3::from_mat3_translation(axes, disc.center.0);
+    Ok((Form::Disc { hole }, object_from_form))
+}
+
+fn rectangle(rectangle: &RectangleTable, texts: &Texts) -> Result<DAffine3, ImportError> {
+    let (u, v) = match rectangle {
+        RectangleTable {
+            edge_u: Some(edge_u),
+            edge_v: Some(edge_v),
+            size: None,
+            normal: None,
+            ..
+        } => {
+            let (u, v) = (edge_u.get_ref().0, edge_v.get_ref().0);
+            for (edge, vector) in [(edge_u, u), (edge_v, v)] {
+                if vector == DVec3::ZERO {
+                    let todo = "Give the whole edge, as [x, y, z]";
+                    let why = "an edge cannot be [0, 0, 0]".to_owned();
+                    return Err(texts.malformed(edge.span(), why, todo));
+                }
+            }
+            if u.normalize().cross(v.normalize()).length() <= PARALLEL {
+                let why = "`edge_v` is parallel to `edge_u`".to_owned();
+                return Err(texts.malformed(edge_v.span(), why, "Turn one of them"));
+            }
+            (u, v)
+        }
+        RectangleTable {
+            edge_u: None,
+            edge_v: None,
+            size: Some([width, height]),
+            normal,
+            ..
+        } => {
+            let normal = normal.as_ref().map_or(DVec3::Y, |n| n.get_ref().0);
+            let (u, v) = Geometry::plane_axes(normal);
+            (width.0 * u, height.0 * v)
+        }
+        _ => {
+            let edge = [&rectangle.edge_u, &rectangle.edge_v];
+            let edge = edge.into_iter().flatten().next();
+            let place = edge.map(|edge| edge.span()).or_else(|| {
+                let normal = rectangle.normal.as_ref();
+                normal.map(|normal| normal.span())
+            });
+            let why = "a rectangle has two edges, or a size".to_owned();
+            let todo = "Give it either `edge_u` and `edge_v`, or `size` and, if it does not face \
+                        upwards, `normal`";
+            return Err(texts.malformed(place.unwrap_or(rectangle.center.span()), why, todo));
+        }
+    };
+    // As high as wide, so that no direction is out of proportion.
+    let height = u.length().max(v.length());
+    let normal = u.normalize().cross(v.normalize()).normalize() * height;
+    let axes = DMat3::from_cols(u, normal, -v) * 0.5;
+    Ok(DAffine3::from_mat3_translation(
+        axes,
+        rectangle.center.get_ref().0,
+    ))
+}
+
+fn cuboid(cuboid: &BoxTable, texts: &Texts) -> Result<DAffine3, ImportError> {
+    let (min, max) = (cuboid.min.0, cuboid.max.get_ref().0);
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        if max[axis] <= min[axis] {
+            let why = format!("{name} of `max` is not greater than that of `min`");
+            let todo = "Give a box a width, a height and a depth, or use a rectangle";
+            return Err(texts.malformed(cuboid.max.span(), why, todo));
+        }
+    }
+    Ok(DAffine3::from_scale_rotation_translation(
+        (max - min) / 2.0,
+        Default::default(),
+        (max + min) / 2.0,
+    ))
+}
+
+fn cylinder(cylinder: &CylinderTable, texts: &Texts) -> Result<(Form, DAffine3), ImportError> {
+    let form = Form::Cone {
+        bottom: 1.0,
+        top: 1.0,
+        capped: !cylinder.open,
+    };
+    let (from, to) = (cylinder.from.0, cylinder.to.get_ref().0);
+    let axes = around(from, to, cylinder.radius.0, cylinder.to.span(), texts)?;
+    Ok((form, DAffine3::from_mat3_translation(axes, from)))
+}
+
+fn cone(cone: &ConeTable, texts: &Texts) -> Result<(Form, DAffine3), ImportError> {
+    let [bottom, top] = [cone.from_radius.get_ref().0, cone.to_radius.0].map(f64::from);
+    let wide = bottom.max(top);
+    if wide < f64::from(f32::MIN_POSITIVE) {
+        let why = "both radii of the cone are 0".to_owned();
+        let todo = "Make one of them greater than 0";
+        return Err(texts.malformed(cone.from_radius.span(), why, todo));
+    }
+    let form = Form::Cone {
+        bottom: bottom / wide,
+        top: top / wide,
+        capped: !cone.open,
+    };
+    let (from, to) = (cone.from.0, cone.to.get_ref().0);
+    let axes = around(from, to, wide, cone.to.span(), texts)?;
+    Ok((form, DAffine3::from_mat3_translation(axes, from)))
+}
+
+fn torus(torus: &TorusTable, texts: &Texts) -> Result<(Form, DAffine3), ImportError> {
+    let (major, minor) = (torus.major_radius.0, torus.minor_radius.get_ref().0);
+    if minor > major {
+        let why = format!("`minor_radius` is greater than `major_radius`, which is {major}");
+        let todo = "Make the tube thinner";
+        return Err(texts.malformed(torus.minor_radius.span(), why, todo));
+    }
+    let form = Form::Torus {
+        minor: minor / major,
+    };
+    let axes = turned_to(torus.axis.0) * major;
+    Ok((form, DAffine3::from_mat3_translation(axes, torus.center.0)))
+}
+
+/// Axes of a form of radius 1 whose y leads from `from` to `to`.
+fn around(
+    from: DVec3,
+    to: DVec3,
+    radius: f64,
+    span: Range<usize>,
+    texts: &Texts,
+) -> Result<DMat3, ImportError> {
+    let axis = to - from;
+    let Some(direction) = axis.try_normalize() else {
+        let why = "`to` is the same point as `from`".to_owned();
+        return Err(texts.malformed(span, why, "Move one of them"));
+    };
+    let turned = turned_to(direction);
+    Ok(DMat3::from_cols(
+        radius * turned.x_axis,
+        axis,
+        radius * turned.z_axis,
+    ))
+}
+
+/// The rotation that brings +y to `axis`, which has unit length, on the shortest way.
+fn turned_to(axis: DVec3) -> DMat3 {
+    DMat3::from_quat(glam::DQuat::from_rotation_arc(DVec3::Y, axis))
+}
