@@ -9,6 +9,7 @@ mod file;
 mod lights;
 mod materials;
 mod set;
+mod textures;
 mod values;
 
 use super::Options;

@@ -5,6 +5,7 @@ use super::file::{
     MaterialRef, MeshTable, ObjectTable, OutputTable, PlaneTable, SceneFile, SphereTable,
     TransformTable, TriangleTable,
 };
+use super::textures::Textures;
 use super::values::Vector;
 use super::{Texts, cameras, lights, materials};
 use crate::import::error::ImportError;
@@ -12,7 +13,7 @@ use crate::import::number::in_range;
 use crate::import::paths::Files;
 use crate::import::source::quote;
 use crate::import::{obj, repair_notes, stage, suggest};
-use crate::scene::{Background, Geometry, Instance, Material, Mesh, OutputDefaults, Scene, Shape};
+use crate::scene::{Geometry, Instance, Material, Mesh, OutputDefaults, Scene, Shape, Space};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -21,12 +22,18 @@ use toml::Spanned;
 
 /// The scene that `file` describes.
 pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Scene, ImportError> {
-    let mut builder = Builder::new(&file, texts, files);
+    let mut builder = Builder::new(&file, texts, files)?;
     for object in &file.objects {
         builder.object(object)?;
     }
     builder.finish_triangles();
-    let mut scene = builder.scene;
+    let background = builder.textures.background(&file.background)?;
+    let mut scene = Scene {
+        textures: builder.textures.textures,
+        pictures: builder.textures.pictures.pictures,
+        background,
+        ..builder.scene
+    };
     let lights = file.lights.iter().map(|table| lights::light(table, texts));
     scene.lights = lights.collect::<Result<_, _>>()?;
     let cameras = cameras::cameras(&file, texts)?;
@@ -50,7 +57,9 @@ type PlacedMesh = Option<(usize, DVec3)>;
 struct Builder<'a> {
     texts: &'a Texts<'a>,
     files: &'a Files,
+    /// Still without its textures, pictures and background.
     scene: Scene,
+    textures: Textures<'a>,
     names: HashMap<String, usize>,
     /// The material of objects that name none, once there is one.
     default_material: Option<usize>,
@@ -62,17 +71,17 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(file: &SceneFile, texts: &'a Texts, files: &'a Files) -> Self {
-        Self {
+    fn new(file: &SceneFile, texts: &'a Texts, files: &'a Files) -> Result<Self, ImportError> {
+        let mut textures = Textures::new(file, texts, files)?;
+        let materials = (file.materials.iter())
+            .map(|(name, table)| materials::material(name, table, &mut textures))
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
             texts,
             files,
+            textures,
             scene: Scene {
-                materials: file
-                    .materials
-                    .iter()
-                    .map(|(name, table)| materials::material(name, table))
-                    .collect(),
-                background: Background::Color(file.background.0),
+                materials,
                 ambient: file.ambient.0,
                 output: output(&file.output),
                 ..Scene::default()
@@ -82,7 +91,7 @@ impl<'a> Builder<'a> {
             meshes: HashMap::new(),
             triangles: Mesh::default(),
             corners: Vec::new(),
-        }
+        })
     }
 
     fn refuse(&self, span: Range<usize>, why: impl Into<String>, todo: &str) -> ImportError {
@@ -267,7 +276,13 @@ impl<'a> Builder<'a> {
         name: &str,
         material: Option<usize>,
     ) -> Result<PlacedMesh, ImportError> {
-        let mut model = obj::read_model(path, self.files)?;
+        let wants_uvs = material.map(|index| {
+            let textures = self.scene.materials[index].textures.all();
+            let is_uv = |&index: &usize| self.textures.textures[index].space == Space::Uv;
+            textures.iter().flatten().any(is_uv)
+        });
+        let pictures = &mut self.textures.pictures;
+        let mut model = obj::read_model(path, self.files, pictures, wants_uvs)?;
         self.scene.skipped.extend(
             model
                 .skipped
@@ -286,6 +301,11 @@ impl<'a> Builder<'a> {
                     .materials
                     .iter_mut()
                     .for_each(|index| *index += first);
+                let first = self.textures.textures.len();
+                for material in &mut model.materials {
+                    material.textures.shift(first);
+                }
+                self.textures.textures.append(&mut model.textures);
                 self.scene.materials.append(&mut model.materials);
             }
         }
@@ -319,7 +339,8 @@ impl<'a> Builder<'a> {
         match reference.get_ref() {
             MaterialRef::Name(name) => self.named(name, reference.span()),
             MaterialRef::Inline(table) => {
-                self.scene.materials.push(materials::material("", table));
+                let material = materials::material("", table, &mut self.textures)?;
+                self.scene.materials.push(material);
                 Ok(self.scene.materials.len() - 1)
             }
         }
@@ -352,11 +373,15 @@ fn output(table: &OutputTable) -> OutputDefaults {
 }
 
 fn world_from_object(table: &TransformTable) -> DAffine3 {
-    let degrees = table.rotate_deg.0;
-    let [x, y, z] = degrees.to_array().map(f64::to_radians);
+    placement(table.scale.0, table.rotate_deg.0, table.translate.0)
+}
+
+/// Scales first, then rotates round x, y and z, then moves.
+pub(super) fn placement(scale: DVec3, rotate_deg: DVec3, translate: DVec3) -> DAffine3 {
+    let [x, y, z] = rotate_deg.to_array().map(f64::to_radians);
     let rotation =
         DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x);
-    DAffine3::from_scale_rotation_translation(table.scale.0, rotation, table.translate.0)
+    DAffine3::from_scale_rotation_translation(scale, rotation, translate)
 }
 
 /// What normals are multiplied by where points are by `transform`: the inverse transpose, up to a

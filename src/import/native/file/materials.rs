@@ -1,11 +1,13 @@
 //! How a native scene describes what surfaces look like.
 
-use crate::import::native::values::{Color, NonNegative};
+use super::textures::{ColorOrTexture, plain};
+use crate::import::native::values::NonNegative;
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, Visitor};
 use std::fmt;
+use toml::Spanned;
 
 /// How a surface answers light.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -31,20 +33,23 @@ impl Default for MaterialTable {
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct PhongTable {
     /// The colour of the surface; light grey if left out.
-    pub diffuse: Color,
+    #[schemars(with = "ColorOrTexture")]
+    pub diffuse: Spanned<ColorOrTexture>,
     /// The colour of highlights; none if left out.
-    pub specular: Color,
+    #[schemars(with = "ColorOrTexture")]
+    pub specular: Spanned<ColorOrTexture>,
     /// The exponent of highlights: the higher, the smaller; 32 if left out.
     pub shininess: NonNegative,
     /// What the ambient light is multiplied by; the diffuse colour if left out.
-    pub ambient: Option<Color>,
+    #[schemars(with = "Option<ColorOrTexture>")]
+    pub ambient: Option<Spanned<ColorOrTexture>>,
 }
 
 impl Default for PhongTable {
     fn default() -> Self {
         Self {
-            diffuse: Color(Vec3::splat(0.8)),
-            specular: Color(Vec3::ZERO),
+            diffuse: plain(Vec3::splat(0.8)),
+            specular: plain(Vec3::ZERO),
             shininess: NonNegative(32.0),
             ambient: None,
         }
