@@ -9,9 +9,7 @@ pub mod textures;
 use glam::{DVec2, DVec3};
 use glimray::image::Image;
 use glimray::render::Rays;
-use glimray::scene::{
-    Attenuation, Camera, Geometry, Light, LightKind, Material, Scene, Shape,
-};
+use glimray::scene::{Attenuation, Camera, Geometry, Light, LightKind, Material, Scene, Shape};
 
 /// The picture and the number of rays it took.
 pub struct Traced {
@@ -123,8 +121,7 @@ impl<'a> Tracer<'a> {
                     cross: (corners[1] - corners[0]).cross(corners[2] - corners[0]),
                     normals: indices
                         .map(|i| (normal_matrix * mesh.normals[i].as_dvec3()).normalize()),
-                    uvs: indices
-                        .map(|i| mesh.uvs.get(i).copied().unwrap_or_default().as_dvec2()),
+                    uvs: indices.map(|i| mesh.uvs.get(i).copied().unwrap_or_default().as_dvec2()),
                     materials: indices.map(|i| mesh.materials[i]),
                 });
             }

@@ -160,8 +160,14 @@ fn noise_keeps_to_its_range_and_fills_most_of_it() {
         let (low, high) = values.iter().fold((0f64, 0f64), |(low, high), &value| {
             (low.min(value), high.max(value))
         });
-        assert!(low < -least && low > -most, "{octaves} octaves: down to {low}");
-        assert!(high > least && high < most, "{octaves} octaves: up to {high}");
+        assert!(
+            low < -least && low > -most,
+            "{octaves} octaves: down to {low}"
+        );
+        assert!(
+            high > least && high < most,
+            "{octaves} octaves: up to {high}"
+        );
     }
 }
 
@@ -173,7 +179,10 @@ fn noise_has_a_mean_of_nothing() {
         let spread = values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64;
         // Neighbouring points are alike: there are as many independent ones as cells, 2^24.
         let error = (spread / values.len() as f64).sqrt();
-        assert!(mean.abs() < 5.0 * error, "{octaves} octaves: {mean}, error {error}");
+        assert!(
+            mean.abs() < 5.0 * error,
+            "{octaves} octaves: {mean}, error {error}"
+        );
     }
 }
 
@@ -186,7 +195,9 @@ fn noise_is_continuous_with_its_slope() {
         .collect();
     let values = noise(&line, 1);
     let slopes: Vec<_> = values.windows(2).map(|v| (v[1] - v[0]) / STEP).collect();
-    let steepest = slopes.iter().fold(0f64, |most, slope| most.max(slope.abs()));
+    let steepest = slopes
+        .iter()
+        .fold(0f64, |most, slope| most.max(slope.abs()));
     assert!(steepest < 6.0, "slope {steepest}");
     let bends = slopes.windows(2).map(|s| (s[1] - s[0]).abs());
     let sharpest = bends.fold(0f64, f64::max);
@@ -196,10 +207,16 @@ fn noise_is_continuous_with_its_slope() {
 #[test]
 fn noise_begins_anew_after_its_period() {
     let near = points(8, 2000, 1.0);
-    let far: Vec<_> = near.iter().map(|p| *p + 256.0 * DVec3::new(1.0, -2.0, 3.0)).collect();
+    let far: Vec<_> = near
+        .iter()
+        .map(|p| *p + 256.0 * DVec3::new(1.0, -2.0, 3.0))
+        .collect();
     // As f32 has them, so that both are the same places in their cells.
     let far: Vec<_> = far.iter().map(|p| p.as_vec3().as_dvec3()).collect();
-    let near: Vec<_> = far.iter().map(|p| *p - 256.0 * DVec3::new(1.0, -2.0, 3.0)).collect();
+    let near: Vec<_> = far
+        .iter()
+        .map(|p| *p - 256.0 * DVec3::new(1.0, -2.0, 3.0))
+        .collect();
     for octaves in [1, 7] {
         let pairs = noise(&near, octaves).into_iter().zip(noise(&far, octaves));
         for (near, far) in pairs {

@@ -41,7 +41,17 @@ fn neighbours_are_in_the_picture_wherever_they_are_looked_for() {
     let mut random = Random::new(3);
     let mut inputs = Vec::new();
     for count in [1, 2, 3, 7, 640, 4096] {
-        for at in [0.0, -0.0, 1.0, -1e-9, -1e-38, 1e8, -1e8, 0.999_999_94, 1e-45] {
+        for at in [
+            0.0,
+            -0.0,
+            1.0,
+            -1e-9,
+            -1e-38,
+            1e8,
+            -1e8,
+            0.999_999_94,
+            1e-45,
+        ] {
             inputs.extend([(at, count, false), (at, count, true)]);
         }
         for _ in 0..2000 {
@@ -110,7 +120,11 @@ fn directions_lie_in_the_picture_of_all_directions_where_they_should() {
     for (y, v) in [(1.0f32, 1.0f32), (-1.0, 0.0)] {
         let poles: Vec<[f32; 2]> = gpu().map(
             "lib::picture::equirectangular",
-            &[([0f32, y, 0.0], 0f32), ([-0.0, y, -0.0], 0.0), ([0.0, y, -0.0], 0.0)],
+            &[
+                ([0f32, y, 0.0], 0f32),
+                ([-0.0, y, -0.0], 0.0),
+                ([0.0, y, -0.0], 0.0),
+            ],
         );
         for [u, pole] in poles {
             assert!(u.is_finite() && (pole - v).abs() < 1e-6, "({u}, {pole})");
@@ -122,7 +136,12 @@ fn directions_lie_in_the_picture_of_all_directions_where_they_should() {
 fn every_direction_is_found_to_a_fraction_of_a_texel() {
     let mut random = Random::new(4);
     let inputs: Vec<_> = (0..20_000)
-        .map(|_| (random.direction().as_vec3().to_array(), random.between(-3.0, 3.0) as f32))
+        .map(|_| {
+            (
+                random.direction().as_vec3().to_array(),
+                random.between(-3.0, 3.0) as f32,
+            )
+        })
         .collect();
     let found: Vec<[f32; 2]> = gpu().map("lib::picture::equirectangular", &inputs);
     let mut verdict = Verdict::on("equirectangular");

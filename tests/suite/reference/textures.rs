@@ -37,9 +37,11 @@ pub fn color_at(scene: &Scene, texture: &Texture, p: DVec3, uv: DVec2) -> DVec3 
         }
         Pattern::Stripes { a, b } => mix(a, b, (2.0 * (q.x - CELL_START)).floor().rem_euclid(2.0)),
         Pattern::Gradient { a, b } => mix(a, b, q.x.clamp(0.0, 1.0)),
-        Pattern::Noise { a, b, octaves } => {
-            mix(a, b, (0.5 + 0.5 * noise_octaves(q, octaves)).clamp(0.0, 1.0))
-        }
+        Pattern::Noise { a, b, octaves } => mix(
+            a,
+            b,
+            (0.5 + 0.5 * noise_octaves(q, octaves)).clamp(0.0, 1.0),
+        ),
         Pattern::Picture { picture, nearest } => {
             picture_at(&scene.pictures[picture], q.truncate(), nearest, true)
         }
@@ -114,7 +116,9 @@ pub fn gradient_noise(p: DVec3, period: i64) -> f64 {
             f64::from(corner >> 1 & 1),
             f64::from(corner >> 2),
         );
-        let place = (cell + step).to_array().map(|c| (c as i64).rem_euclid(period) as u32);
+        let place = (cell + step)
+            .to_array()
+            .map(|c| (c as i64).rem_euclid(period) as u32);
         let away = inside - step;
         let weight = 1.0 - away.abs();
         sum += fade(weight.x) * fade(weight.y) * fade(weight.z) * gradient(place).dot(away);
