@@ -148,8 +148,11 @@ fn period(pattern: &Pattern) -> Option<f64> {
     }
 }
 
+/// Half floats, and for each picture its first texel, width and height.
+type Texels = (Vec<[u16; 4]>, Vec<[u32; 3]>);
+
 /// All pictures' texels one after the other, and where each picture's are.
-pub fn texels(scene: &Scene) -> Result<(Vec<[u16; 4]>, Vec<[u32; 3]>), PackError> {
+pub fn texels(scene: &Scene) -> Result<Texels, PackError> {
     let count = scene.pictures.iter().map(|p| p.texels.len()).sum();
     if count > MAX_TEXELS {
         return Err(PackError::TooMany {

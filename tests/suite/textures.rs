@@ -87,7 +87,7 @@ fn textured_scene() -> Scene {
             textures: slots(Some(slot), None, Some(slot)),
             ..Material::default()
         });
-        let mut quad = scenes::quad(1.2, material as u32);
+        let mut quad = scenes::quad(0.85, material as u32);
         quad.uvs = [[-0.3, -0.2], [1.1, 0.0], [1.4, 1.2], [0.1, 1.0]]
             .map(Vec2::from)
             .into();

@@ -13,8 +13,8 @@ pub(super) use objects::{
 };
 
 pub(super) use textures::{
-    BackgroundTable, ColorOrBackground, ColorOrTexture, PairTable, PatternTables, SpaceName,
-    TextureTable,
+    BackgroundTable, ColorOrBackground, ColorOrTexture, PairTable, PatternTables, PictureOrFile,
+    SpaceName, TextureTable,
 };
 
 use super::values::{

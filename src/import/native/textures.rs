@@ -3,8 +3,8 @@
 use super::Texts;
 use super::build::placement;
 use super::file::{
-    BackgroundTable, ColorOrBackground, ColorOrTexture, PairTable, PatternTables, SceneFile,
-    SpaceName,
+    BackgroundTable, ColorOrBackground, ColorOrTexture, PairTable, PatternTables, PictureOrFile,
+    SceneFile, SpaceName,
 };
 use crate::import::error::ImportError;
 use crate::import::paths::Files;
@@ -106,7 +106,7 @@ impl<'a> Textures<'a> {
                 }
                 let degrees = table.rotation_deg.map_or(0.0, |angle| angle.0);
                 Ok(Background::Picture {
-                    picture: self.picture(name)?,
+                    picture: self.picture(name.get_ref(), name.span())?,
                     strength,
                     rotation: (degrees % 360.0).to_radians(),
                 })
@@ -148,10 +148,14 @@ impl<'a> Textures<'a> {
                 octaves: noise.octaves.0,
             })
         } else if let Some(picture) = tables.picture {
-            Some(Pattern::Picture {
-                picture: self.picture(&picture.file)?,
-                nearest: picture.nearest,
-            })
+            let (name, span, nearest) = match picture.get_ref() {
+                PictureOrFile::File(name) => (name, picture.span(), false),
+                PictureOrFile::Table(table) => {
+                    (table.file.get_ref(), table.file.span(), table.nearest)
+                }
+            };
+            let picture = self.picture(name, span)?;
+            Some(Pattern::Picture { picture, nearest })
         } else {
             None
         };
@@ -178,12 +182,11 @@ impl<'a> Textures<'a> {
         Ok(self.textures.len() - 1)
     }
 
-    fn picture(&mut self, name: &Spanned<String>) -> Result<usize, ImportError> {
-        self.pictures
-            .read(self.files, name.get_ref())
-            .map_err(|refused| {
-                refused.into_error(|why, todo| self.texts.malformed(name.span(), why, todo))
-            })
+    fn picture(&mut self, name: &str, span: Range<usize>) -> Result<usize, ImportError> {
+        let read = self.pictures.read(self.files, name);
+        read.map_err(|refused| {
+            refused.into_error(|why, todo| self.texts.malformed(span, why, todo))
+        })
     }
 }
 

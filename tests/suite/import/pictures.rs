@@ -169,6 +169,8 @@ fn png_header(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = b"\x89PNG\r\n\x1a\n\0\0\0\x0d".to_vec();
     bytes.extend(chunk);
     bytes.extend((!crc).to_be_bytes());
+    // Where the header ends: the first texels, none.
+    bytes.extend(b"\0\0\0\0IDAT\x35\xaf\x06\x1e");
     bytes
 }
 
@@ -209,14 +211,30 @@ fn every_picture_that_is_none_has_its_message() {
             message_in(&folder, "a.toml", &Options::default())
         })
         .collect();
-    assert_snapshot!(lines.join("\n"), @"");
+    assert_snapshot!(lines.join("\n"), @r"
+picture refused (a.toml:2:26): `empty.png` is not a picture that is known. Name a PNG, JPEG, HDR or EXR file.
+picture refused (a.toml:2:26): `text.png` is not a picture that is known. Name a PNG, JPEG, HDR or EXR file.
+picture refused (a.toml:2:26): `cut.png` is broken: unexpected end of file. Check that it was written completely.
+picture refused (a.toml:2:26): `wide.png` has 100000 × 100000, but at most 33554431 texels are read. Use a smaller picture.
+picture refused (a.toml:2:26): `huge.png` takes too much memory to decode. Use a smaller picture.
+picture refused (a.toml:2:26): `flat.png` is broken: Format error decoding Png: Invalid image dimensions. Check that it was written completely.
+picture refused (a.toml:2:26): `huge.hdr` has 60000 × 60000, but at most 33554431 texels are read. Use a smaller picture.
+picture refused (a.toml:2:26): `cut.exr` is broken: Format error decoding OpenExr: invalid: reference to missing bytes. Check that it was written completely.
+picture refused (a.toml:2:26): `a.gif` is a picture of a kind that is not read. Save it as PNG, JPEG, HDR or EXR.
+picture refused (a.toml:2:26): `gone.png` does not exist. Check the name and the folder.
+picture refused (a.toml:2:26): `sub` is not a plain file. Name a plain file in the scene folder.
+picture refused (a.toml:2:26): `../a.png` points outside the scene folder. Use --allow-dir DIR to permit.
+picture refused (a.toml:2:26): `/etc/passwd` points outside the scene folder. Use --allow-dir DIR to permit.
+picture refused (a.toml:2:26): `` is not a file name. Name a plain file in the scene folder.
+picture refused (a.toml:2:26): `http://a.org/a.png` points outside the scene folder. Use --allow-dir DIR to permit.
+");
 }
 
 #[test]
 fn an_embedded_scene_has_no_pictures() {
     let text = "background = { picture = 'a.png' }";
     let error = import::parse("a.toml", text, &Options::default()).expect_err("refused");
-    assert_snapshot!(error, @"");
+    assert_snapshot!(error, @"picture refused (a.toml:1:26): `a.png`: a built-in scene has no folder. Name a plain file in the scene folder.");
 }
 
 /// Good pictures of every kind, cut and garbled in ways that repeat.

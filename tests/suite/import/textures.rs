@@ -116,7 +116,8 @@ fn every_mistake_in_a_texture_has_its_message() {
         diffuse("{ noise = { octaves = 2.5 } }"),
         diffuse("{ checker = {}, scale = 0 }"),
         diffuse("{ checker = {}, space = 'object' }"),
-        diffuse("{ picture = 'a.png' }"),
+        diffuse("{ picture = 'gone.png' }"),
+        diffuse("{ picture = 3 }"),
         diffuse("{ picture = { nearest = true } }"),
         diffuse("{ picture = { file = 'gone.png' } }"),
         diffuse("{ texture = 'tile' }\n[textures.tiles]\nchecker = {}"),
@@ -137,7 +138,43 @@ fn every_mistake_in_a_texture_has_its_message() {
         "background = { picture = 'gone.hdr', strength = 1e37 }".to_owned(),
         "background = { picture = 'gone.hdr', rotation_deg = 'left' }".to_owned(),
     ];
-    assert_snapshot!(messages("a.toml", &texts), @"");
+    assert_snapshot!(messages("a.toml", &texts), @r##"
+bad scene (a.toml:2:17): invalid type: floating point `0.5`, expected a colour ([r, g, b] or "#rrggbb") or a texture. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:17): `blue` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:17): expected three numbers [r, g, b], found fewer. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:17): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
+bad scene (a.toml:2:17): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
+bad scene (a.toml:2:17): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
+bad scene (a.toml:2:19): unknown key `cheker`, did you mean `checker`? Known here: `texture`, `color`, `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`.
+bad scene (a.toml:2:31): unknown key `c`, did you mean `a`? Known here: `a`, `b`.
+bad scene (a.toml:2:35): -1 in a colour is negative. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:39): 0 is not a whole number from 1 to 16. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:39): 17 is not a whole number from 1 to 16. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:39): 2.5 is not a whole number from 1 to 16. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:41): a scale cannot be 0. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:41): unknown value `object`. Known here: `world`, `uv`.
+picture refused (a.toml:2:29): `gone.png` does not exist. Check the name and the folder.
+bad scene (a.toml:2:29): invalid type: integer `3`, expected the name of a picture file, or a table. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:29): the key `file` is missing. Add `file = …`.
+picture refused (a.toml:2:38): `gone.png` does not exist. Check the name and the folder.
+bad scene (a.toml:2:29): unknown texture `tile`, did you mean `tiles`? Add it under [textures], or name one that is there.
+bad scene (a.toml:2:29): unknown texture `tiles`. Add it under [textures], or name one that is there.
+bad scene (a.toml:2:29): a texture with a name brings its own pattern and place. Put them under [textures], or leave out `texture`.
+bad scene (a.toml:2:29): a texture with a name brings its own pattern and place. Put them under [textures], or leave out `texture`.
+bad scene (a.toml:2:17): color times texture is out of range: at most 3.4e38 is allowed. Lower one of them.
+bad scene (a.toml:1:1): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
+bad scene (a.toml:2:1): unknown key `texture`. Known here: `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`.
+bad scene (a.toml:1:12): invalid type: integer `3`, expected a map. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:16): unknown key `up`. Known here: `bottom`, `top`, `picture`, `strength`, `rotation_deg`.
+picture refused (a.toml:1:26): `gone.hdr` does not exist. Check the name and the folder.
+bad scene (a.toml:1:49): -1 is not 0 or more. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:14): `strength` is out of range: at most 5e33 is allowed. Lower it.
+bad scene (a.toml:1:53): invalid type: string "left", expected a number. See `glimray schema` for what is allowed.
+"##);
 }
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
@@ -153,7 +190,7 @@ fn models_bring_their_pictures() {
     let text =
         format!("mtllib m/a.mtl\n{SQUARE}usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1/ 3/3/ 4/4/\n");
     let library = b"newmtl a\nKd 0.5 1 1\nmap_Kd -clamp on -s 2 2 1 my red.png\nmap_bump x.png\n\
-                    newmtl b\nmap_Kd -mm 0 1 ..\\m\\my red.png\nmap_Ks my red.png\nKa 0.1 0.1 0.1\n\
+                    newmtl b\nmap_Kd -mm 0 1 .\\my red.png\nmap_Ks my red.png\nKa 0.1 0.1 0.1\n\
                     newmtl unused\nmap_Kd gone.png\n";
     let png = png();
     let scene = model(&[
@@ -176,7 +213,10 @@ fn models_bring_their_pictures() {
     for (p, uv) in mesh.positions.iter().zip(&mesh.uvs) {
         assert_eq!(p.truncate(), *uv, "here u is x and v is y");
     }
-    assert_snapshot!(scene.skipped.join("\n"), @"");
+    assert_snapshot!(scene.skipped.join("\n"), @r"
+options of textures of materials left out: 2
+other textures of materials left out: 1
+");
 }
 
 #[test]
@@ -216,7 +256,7 @@ fn vertices_part_where_u_and_v_differ_only_if_a_picture_wants_them() {
 #[test]
 fn pictures_that_cannot_be_read_are_left_out_of_models() {
     let text = format!(
-        "mtllib a.mtl\n{SQUARE}usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\nusemtl c\nf 1/1 4/4 3/3\nusemtl d\nf 1/1 3/3 2/2\n"
+        "mtllib a.mtl\n{SQUARE}usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\nusemtl c\nf 1/1 2/2 4/4\nusemtl d\nf 2/2 3/3 4/4\n"
     );
     let library = b"newmtl a\nKd 1 0 0\nmap_Kd gone.png\nnewmtl b\nmap_Kd C:\\pictures\\x.png\n\
                     newmtl c\nmap_Kd broken.png\nnewmtl d\nmap_Kd\nmap_Ks -s 1\n";
@@ -227,7 +267,12 @@ fn pictures_that_cannot_be_read_are_left_out_of_models() {
     ]);
     assert_eq!(scene.triangle_count(), 4);
     assert!(scene.textures.is_empty() && scene.meshes[0].uvs.is_empty());
-    assert_snapshot!(scene.skipped.join("\n"), @"");
+    assert_snapshot!(scene.skipped.join("\n"), @r"
+options of textures of materials left out: 1
+texture left out: `gone.png` does not exist
+texture left out: `C:\pictures\x.png` points outside the scene folder
+texture left out: `broken.png` is not a picture that is known
+");
 }
 
 #[test]
@@ -239,5 +284,11 @@ fn texture_coordinates_are_numbers() {
         "vt 1e400",
         "vt 1e38 -1e38 5\nv 0 0 0",
     ];
-    assert_snapshot!(messages("a.obj", &texts), @"");
+    assert_snapshot!(messages("a.obj", &texts), @r"
+bad model (a.obj:1:1): `vt` needs a number. Write `vt U V`.
+bad model (a.obj:1:4): `a` is not a number. Write a decimal number such as -0.5 or 2e3.
+bad model (a.obj:1:6): `b` is not a number. Write a decimal number such as -0.5 or 2e3.
+bad model (a.obj:1:4): `1e400` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.
+no error
+");
 }

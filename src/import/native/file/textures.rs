@@ -26,7 +26,8 @@ macro_rules! with_pattern {
             /// Clouds between `a` and `b`, about one unit large.
             pub noise: Option<NoiseTable>,
             /// A picture, repeated over every unit of u and v.
-            pub picture: Option<PictureTable>,
+            #[schemars(with = "Option<PictureOrFile>")]
+            pub picture: Option<Spanned<PictureOrFile>>,
             /// What the pattern is laid over; the surface's u and v for a picture, the world for all
             /// others if left out.
             pub space: Option<SpaceName>,
@@ -82,7 +83,7 @@ pub(in crate::import::native) struct PatternTables<'a> {
     pub stripes: Option<&'a PairTable>,
     pub gradient: Option<&'a PairTable>,
     pub noise: Option<&'a NoiseTable>,
-    pub picture: Option<&'a PictureTable>,
+    pub picture: Option<&'a Spanned<PictureOrFile>>,
     pub space: Option<SpaceName>,
     pub scale: Option<Scale>,
     pub rotate_deg: Option<Vector>,
@@ -112,7 +113,36 @@ pub(in crate::import::native) struct NoiseTable {
     pub octaves: Octaves,
 }
 
-/// A picture file.
+/// The path of a picture (PNG, JPEG, HDR or EXR) from the scene's folder downwards, or a table.
+#[derive(Clone, Debug, JsonSchema)]
+#[schemars(untagged)]
+pub(in crate::import::native) enum PictureOrFile {
+    File(String),
+    Table(PictureTable),
+}
+
+impl<'de> Deserialize<'de> for PictureOrFile {
+    // By hand: serde's untagged enums lose the place of an error.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct NameOrTable;
+        impl<'de> Visitor<'de> for NameOrTable {
+            type Value = PictureOrFile;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("the name of a picture file, or a table")
+            }
+            fn visit_str<E: de::Error>(self, name: &str) -> Result<PictureOrFile, E> {
+                Ok(PictureOrFile::File(name.to_owned()))
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<PictureOrFile, A::Error> {
+                let table = de::value::MapAccessDeserializer::new(map);
+                PictureTable::deserialize(table).map(PictureOrFile::Table)
+            }
+        }
+        deserializer.deserialize_any(NameOrTable)
+    }
+}
+
+/// A picture file, and how it is looked up.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct PictureTable {
