@@ -10,6 +10,7 @@ mod lines;
 mod materials;
 mod mtl;
 mod triangulate;
+mod uv;
 mod weld;
 
 use super::error::ImportError;
@@ -240,24 +241,6 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// u and perhaps v; w, which only solid textures use, is passed over.
-    fn texture_coordinates(&mut self, keyword: Token, line: &mut Line) -> Result<(), ImportError> {
-        let Some(word) = line.word() else {
-            let why = format!("{} needs a number", keyword.quote());
-            let todo = "Write `vt U V`";
-            return Err(self.source.malformed(keyword.span(), why, todo));
-        };
-        let u = number::parse(self.source, word)?;
-        let v = match line.word() {
-            Some(word) => number::parse(self.source, word)?,
-            None => 0.0,
-        };
-        // Far beyond, where f32 has whole numbers only, all places in a texture are the same.
-        let place = |x: f64| x.clamp(-1e9, 1e9) as f32;
-        self.uvs.push(Vec2::new(place(u), place(v)));
-        Ok(())
-    }
-
     fn numbers(&self, keyword: Token, line: &mut Line) -> Result<DVec3, ImportError> {
         let mut values = DVec3::ZERO;
         for value in values.as_mut() {
@@ -379,15 +362,10 @@ impl Reader<'_> {
 
     fn finish(mut self) -> Model {
         let (materials, material_of_id) = self.materials();
-        for corner in &mut self.corners {
-            let material = &materials[material_of_id[corner.material as usize] as usize];
-            let own = || material.textures.all().iter().any(Option::is_some);
-            if !self.replaced.unwrap_or_else(own) {
-                corner.uv = face::NO_UV;
-            }
-        }
+        self.drop_unwanted_uvs(&materials, &material_of_id);
         let (vertices, vertex_of_corner) = weld::weld(&self.corners);
         drop(std::mem::take(&mut self.corners));
+        let uvs = self.uvs_of(&vertices, &materials);
 
         let world: Vec<DVec3> = vertices
             .iter()
@@ -403,18 +381,12 @@ impl Reader<'_> {
             }
             index => self.normals[index as usize],
         };
-        let uv = |v: &Corner| self.uvs.get(v.uv as usize).copied().unwrap_or_default();
-        let has_uvs = vertices.iter().any(|v| v.uv != face::NO_UV);
         let name = self.source.path.file_stem().unwrap_or_default();
         let mut mesh = Mesh {
             name: name.to_string_lossy().into_owned(),
             positions,
             normals: vertices.iter().map(normal).collect(),
-            uvs: if has_uvs {
-                vertices.iter().map(uv).collect()
-            } else {
-                Vec::new()
-            },
+            uvs,
             materials: vertices
                 .iter()
                 .map(|v| material_of_id[v.material as usize])

@@ -14,7 +14,7 @@ use crate::import::paths::Files;
 use crate::import::source::quote;
 use crate::import::{obj, repair_notes, stage, suggest};
 use crate::scene::{Geometry, Instance, Material, Mesh, OutputDefaults, Scene, Shape, Space};
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2};
 use std::collections::HashMap;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -276,11 +276,7 @@ impl<'a> Builder<'a> {
         name: &str,
         material: Option<usize>,
     ) -> Result<PlacedMesh, ImportError> {
-        let wants_uvs = material.map(|index| {
-            let textures = self.scene.materials[index].textures.all();
-            let is_uv = |&index: &usize| self.textures.textures[index].space == Space::Uv;
-            textures.iter().flatten().any(is_uv)
-        });
+        let wants_uvs = material.map(|index| self.wants_uvs(index));
         let pictures = &mut self.textures.pictures;
         let mut model = obj::read_model(path, self.files, pictures, wants_uvs)?;
         self.scene.skipped.extend(
@@ -313,10 +309,23 @@ impl<'a> Builder<'a> {
         Ok(Some((self.scene.meshes.len() - 1, model.offset)))
     }
 
+    /// Whether a texture of the material with this index lies on u and v.
+    fn wants_uvs(&self, material: usize) -> bool {
+        let textures = self.scene.materials[material].textures.all();
+        let is_uv = |&index: &usize| self.textures.textures[index].space == Space::Uv;
+        textures.iter().flatten().any(is_uv)
+    }
+
     fn finish_triangles(&mut self) {
         let mut mesh = std::mem::take(&mut self.triangles);
         let (positions, offset) = Mesh::from_world_positions(&self.corners);
         mesh.positions = positions;
+        let is_wanted = |&material: &u32| self.wants_uvs(material as usize);
+        if mesh.materials.iter().any(is_wanted) {
+            // u goes from the first corner to the second, v to the third.
+            let own = [Vec2::ZERO, Vec2::X, Vec2::Y];
+            mesh.uvs = own.repeat(mesh.triangles.len());
+        }
         let repairs = mesh.repair();
         self.scene.skipped.extend(repair_notes(repairs));
         if !mesh.triangles.is_empty() {

@@ -292,3 +292,26 @@ bad model (a.obj:1:4): `1e400` is out of range: at most 3.4e38 is allowed. Write
 no error
 ");
 }
+
+#[test]
+fn single_triangles_have_u_and_v_of_their_own_where_a_texture_wants_them() {
+    for (space, expected) in [("uv", &[Vec2::ZERO, Vec2::X, Vec2::Y][..]), ("world", &[])] {
+        let text = format!(
+            "[[objects]]\ntriangle = {{ vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] }}\n\
+             material.phong.diffuse = {{ checker = {{}}, space = '{space}' }}"
+        );
+        assert_eq!(scene("a.toml", text).meshes[0].uvs, expected);
+    }
+}
+
+#[test]
+fn a_picture_on_a_model_without_texture_coordinates_is_reported() {
+    let files: [(&str, &[u8]); 2] = [
+        (
+            "s.toml",
+            b"[[objects]]\nmesh = { file = 'a.obj' }\nmaterial.phong.diffuse = { noise = {}, space = 'uv' }",
+        ),
+        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3"),
+    ];
+    assert_snapshot!(model(&files).skipped.join("\n"), @"`a.obj`: there are no texture coordinates: textures show one colour each");
+}

@@ -180,7 +180,8 @@ impl Default for NoiseTable {
 pub(in crate::import::native) enum SpaceName {
     /// The point in the world: the pattern is carved out of a block.
     World,
-    /// The surface's own u and v, as x and y.
+    /// The surface's own u and v, as x and y: of a model as its file says, of a triangle from its
+    /// first corner to its second and third.
     Uv,
 }
 
