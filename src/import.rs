@@ -6,6 +6,8 @@
 //! | `.scene` | the course's | `course.rs` |
 //! | `.obj` | Wavefront OBJ with MTL | `obj.rs` |
 //!
+//! Pictures that scenes and models name are read by `picture.rs`.
+//!
 //! Files are hostile until read: nothing here panics, follows a path out of the scene's folder, or
 //! takes more memory than a few times the file's size. What cannot be rendered but does no harm is
 //! left out and named in [`Scene::skipped`]; everything else is one [`ImportError`] with the place
@@ -17,6 +19,7 @@ mod native;
 mod number;
 mod obj;
 mod paths;
+mod picture;
 mod source;
 mod stage;
 mod suggest;

@@ -146,9 +146,7 @@ pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
     };
     let bvh = bvh::build(&boxes, &groups, nodes::GROUP_COUNT, limits);
     let (texels, pictures) = material::texels(scene)?;
-    let textures = (scene.textures.iter())
-        .map(|texture| material::texture(texture, origin, &pictures))
-        .collect::<Vec<_>>();
+    let textures = material::textures(scene, origin, &pictures)?;
     let features = Features {
         shape_kinds: (bounded.iter()).fold(0, |kinds, (shape, _)| kinds | 1 << shape.kind),
         mixed_materials,

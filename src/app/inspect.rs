@@ -1,5 +1,7 @@
 //! `glimray inspect SCENE`: what is in a scene, as the renderer will see it.
 
+mod textures;
+
 use super::cli::{InspectArgs, TONES, TRANSFERS};
 use super::console;
 use super::exit::AppError;
@@ -38,6 +40,12 @@ fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
     value["cameras"] = scene.cameras.iter().map(camera_json).collect();
     value["light_list"] = scene.lights.iter().map(light_json).collect();
     value["material_list"] = scene.materials.iter().map(material_json).collect();
+    value["texture_list"] = (scene.textures.iter())
+        .map(textures::texture_json)
+        .collect();
+    value["picture_list"] = (scene.pictures.iter())
+        .map(textures::picture_json)
+        .collect();
     value["background"] = background_json(&scene.background);
     value["ambient"] = json!(scene.ambient.to_array());
     value["output"] = json!({
@@ -172,6 +180,12 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
     list(out, "materials", &scene.materials, |out, _, material| {
         material_text(out, material)
     })?;
+    list(out, "textures", &scene.textures, |out, _, texture| {
+        textures::texture_text(out, texture)
+    })?;
+    list(out, "pictures", &scene.pictures, |out, _, picture| {
+        textures::picture_text(out, picture)
+    })?;
     list(out, "skipped", &scene.skipped, |out, _, reason| {
         write!(out, "{reason}")
     })
@@ -202,7 +216,7 @@ fn background(background: &Background) -> String {
         Background::Gradient { bottom, top } => {
             format!("from {} below to {} above", color(*bottom), color(*top))
         }
-        Background::Picture { picture, .. } => format!("picture {picture}"),
+        Background::Picture { picture, .. } => format!("picture number {picture}"),
     }
 }
 
@@ -292,6 +306,10 @@ fn quoted(name: &str) -> String {
 
 fn point(p: DVec3) -> String {
     format!("({}, {}, {})", number(p.x), number(p.y), number(p.z))
+}
+
+fn color_json(c: Vec3) -> Value {
+    json!(c.to_array())
 }
 
 fn color(c: Vec3) -> String {

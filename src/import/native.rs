@@ -10,6 +10,7 @@ mod lights;
 mod materials;
 mod set;
 mod shapes;
+mod textures;
 mod values;
 
 use super::Options;

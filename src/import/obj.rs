@@ -2,21 +2,25 @@
 //!
 //! All groups of a file become one [`Mesh`]. Polygons are triangulated, concave ones too. Corners
 //! without normals get the area-weighted mean of the faces round their vertex, or the face's own
-//! normal after `s off`. Textures, lines, points and curves are left out and reported.
+//! normal after `s off`. Lines, points and curves are left out and reported. Vertices have u and v only
+//! where some material wants them: they part vertices that are one without.
 
 mod face;
 mod lines;
+mod materials;
 mod mtl;
 mod triangulate;
+mod uv;
 mod weld;
 
 use super::error::ImportError;
 use super::paths::{self, Files, Refusal};
+use super::picture::Pictures;
 use super::source::{Source, Token, quote};
 use super::{number, repair_notes, stage};
-use crate::scene::{Instance, Material, Mesh, OutputDefaults, Scene};
+use crate::scene::{Instance, Material, Mesh, OutputDefaults, Scene, Texture};
 use face::Corner;
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec2, Vec3};
 use lines::{Line, Lines};
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
@@ -52,16 +56,21 @@ pub(super) struct Model {
     pub mesh: Mesh,
     /// World from mesh: the translation that brings the mesh back to where the file has it.
     pub offset: DVec3,
+    /// Their textures are indices into `textures`.
     pub materials: Vec<Material>,
+    pub textures: Vec<Texture>,
     /// Notes for [`Scene::skipped`].
     pub skipped: Vec<String>,
 }
 
 /// The model in `source` as a scene, with a camera and lights that show it.
 pub(super) fn read_scene(source: &Source, files: &Files) -> Result<Scene, ImportError> {
-    let model = read(source, files)?;
+    let mut pictures = Pictures::default();
+    let model = read(source, files, &mut pictures, None)?;
     let mut scene = Scene {
         materials: model.materials,
+        textures: model.textures,
+        pictures: pictures.pictures,
         output: OutputDefaults {
             size: (800, 600),
             samples: 4,
@@ -85,22 +94,34 @@ pub(super) fn read_scene(source: &Source, files: &Files) -> Result<Scene, Import
     Ok(scene)
 }
 
-/// The model in the file at `path`, which must already be known to be permitted.
-pub(super) fn read_model(path: &Path, files: &Files) -> Result<Model, ImportError> {
+/// The model in the file at `path`, which must already be known to be permitted. Its pictures go to
+/// `pictures`. Where another material takes the place of its own, `replaced` says whether that one
+/// wants u and v.
+pub(super) fn read_model(
+    path: &Path,
+    files: &Files,
+    pictures: &mut Pictures,
+    replaced: Option<bool>,
+) -> Result<Model, ImportError> {
     let bytes = paths::read(path, super::MAX_GEOMETRY_BYTES)?;
-    read(
-        &Source::new("bad model", path, bytes)?,
-        &files.named_in(path),
-    )
+    let source = Source::new("bad model", path, bytes)?;
+    read(&source, &files.named_in(path), pictures, replaced)
 }
 
-fn read(source: &Source, files: &Files) -> Result<Model, ImportError> {
+fn read(
+    source: &Source,
+    files: &Files,
+    pictures: &mut Pictures,
+    replaced: Option<bool>,
+) -> Result<Model, ImportError> {
     let mut reader = Reader {
         source,
         files,
+        pictures,
+        replaced,
         positions: Vec::new(),
         normals: Vec::new(),
-        texture_count: 0,
+        uvs: Vec::new(),
         face_normals: Vec::new(),
         smooth_normals: Vec::new(),
         corners: Vec::new(),
@@ -110,6 +131,7 @@ fn read(source: &Source, files: &Files) -> Result<Model, ImportError> {
         material_ids: HashMap::new(),
         flat: false,
         library: HashMap::new(),
+        textures: Vec::new(),
         skipped: Vec::new(),
         left_out: BTreeMap::new(),
         unknown: None,
@@ -133,9 +155,11 @@ fn read(source: &Source, files: &Files) -> Result<Model, ImportError> {
 struct Reader<'s> {
     source: &'s Source,
     files: &'s Files,
+    pictures: &'s mut Pictures,
+    replaced: Option<bool>,
     positions: Vec<DVec3>,
     normals: Vec<Vec3>,
-    texture_count: usize,
+    uvs: Vec<Vec2>,
     /// Normals of flat faces, which the file does not have.
     face_normals: Vec<Vec3>,
     /// For each position, the sum of the normals of the faces that have none there; shorter than
@@ -150,7 +174,8 @@ struct Reader<'s> {
     material_ids: HashMap<Vec<u8>, u32>,
     /// Whether faces without normals are flat.
     flat: bool,
-    library: HashMap<String, Material>,
+    library: HashMap<String, mtl::Entry>,
+    textures: Vec<Texture>,
     skipped: Vec<String>,
     /// How much of what was left out.
     left_out: BTreeMap<&'static str, usize>,
@@ -168,7 +193,7 @@ impl Reader<'_> {
                 let normal = self.numbers(keyword, line)?;
                 self.normals.push(normal.as_vec3());
             }
-            b"vt" => self.texture_count += 1,
+            b"vt" => self.texture_coordinates(keyword, line)?,
             b"f" | b"fo" => self.face(keyword, line)?,
             b"usemtl" => self.use_material(line),
             b"mtllib" => self.material_library(line)?,
@@ -231,7 +256,7 @@ impl Reader<'_> {
     }
 
     fn face(&mut self, keyword: Token, line: &mut Line) -> Result<(), ImportError> {
-        let counts = [self.positions.len(), self.texture_count, self.normals.len()];
+        let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
         let mut face = face::read(self.source, keyword, line, counts, self.material)?;
         if face.len() < 3 {
             self.leave_out("faces of fewer than three corners");
@@ -327,7 +352,8 @@ impl Reader<'_> {
         let bytes = paths::read(&path, MAX_MTL_BYTES)?;
         // Exporters do write empty libraries.
         if !bytes.is_empty() {
-            let library = mtl::read(&Source::new("bad material file", &path, bytes)?)?;
+            let source = Source::new("bad material file", &path, bytes)?;
+            let library = mtl::read(&source)?;
             self.library.extend(library.materials);
             self.skipped.extend(library.skipped);
         }
@@ -335,9 +361,11 @@ impl Reader<'_> {
     }
 
     fn finish(mut self) -> Model {
+        let (materials, material_of_id) = self.materials();
+        self.drop_unwanted_uvs(&materials, &material_of_id);
         let (vertices, vertex_of_corner) = weld::weld(&self.corners);
         drop(std::mem::take(&mut self.corners));
-        let (materials, material_of_id) = self.materials(&vertices);
+        let uvs = self.uvs_of(&vertices, &materials);
 
         let world: Vec<DVec3> = vertices
             .iter()
@@ -358,7 +386,7 @@ impl Reader<'_> {
             name: name.to_string_lossy().into_owned(),
             positions,
             normals: vertices.iter().map(normal).collect(),
-            uvs: Vec::new(),
+            uvs,
             materials: vertices
                 .iter()
                 .map(|v| material_of_id[v.material as usize])
@@ -381,41 +409,8 @@ impl Reader<'_> {
             mesh,
             offset,
             materials,
+            textures: self.textures,
             skipped: self.skipped,
         }
-    }
-
-    /// The materials that `vertices` use, and the index of each by its id.
-    fn materials(&mut self, vertices: &[Corner]) -> (Vec<Material>, Vec<u32>) {
-        let mut is_used = vec![false; self.material_names.len()];
-        for vertex in vertices {
-            is_used[vertex.material as usize] = true;
-        }
-        let mut materials = Vec::new();
-        let mut index_of_id = vec![0; is_used.len()];
-        for (id, name) in self
-            .material_names
-            .iter()
-            .enumerate()
-            .filter(|(id, _)| is_used[*id])
-        {
-            index_of_id[id] = materials.len() as u32;
-            materials.push(self.library.get(name).cloned().unwrap_or_else(|| {
-                if id > 0 {
-                    let quoted = quote(name.as_bytes());
-                    self.skipped.push(format!(
-                        "the material {quoted} is not defined: the default takes its place"
-                    ));
-                }
-                Material {
-                    name: name.clone(),
-                    ..Material::default()
-                }
-            }));
-        }
-        if materials.is_empty() {
-            materials.push(Material::default());
-        }
-        (materials, index_of_id)
     }
 }

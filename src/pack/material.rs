@@ -17,6 +17,9 @@ use half::f16;
 /// WebGPU guarantees.
 const MAX_TEXELS: usize = (8192 << IMAGE_WIDTH_LOG2) - 1;
 
+/// `NOISE_PERIOD` of `lib/noise.wesl`.
+const NOISE_PERIOD: f64 = 256.0;
+
 pub fn material(material: &Material) -> PackedMaterial {
     let fresnel = match material.fresnel {
         Fresnel::None => 0,
@@ -73,14 +76,35 @@ pub fn features(scene: &Scene) -> Features {
     }
 }
 
-pub fn texture(texture: &Texture, origin: DVec3, pictures: &[[u32; 3]]) -> PackedTexture {
-    let space = match texture.space {
+/// All textures, of which materials can tell `NO_TEXTURE` apart.
+pub fn textures(
+    scene: &Scene,
+    origin: DVec3,
+    pictures: &[[u32; 3]],
+) -> Result<Vec<PackedTexture>, PackError> {
+    let (count, limit) = (scene.textures.len(), NO_TEXTURE as usize);
+    if count > limit {
+        let what = "textures";
+        return Err(PackError::TooMany { what, count, limit });
+    }
+    let pack = |one| texture(one, origin, pictures);
+    Ok(scene.textures.iter().map(pack).collect())
+}
+
+fn texture(texture: &Texture, origin: DVec3, pictures: &[[u32; 3]]) -> PackedTexture {
+    let mut space = match texture.space {
         Space::World => texture.pattern_from_space * DAffine3::from_translation(origin),
         Space::Uv => texture.pattern_from_space,
     };
+    // Whole repetitions are left out, so that f32 is as fine far from the pattern's origin as near it.
+    if let Some(period) = period(&texture.pattern) {
+        let repetitions = (space.translation / period).round();
+        space.translation -= period * repetitions;
+    }
+    // Kept so small that no point of a scene leads out of range.
     let row = |i| {
         let row = space.matrix3.row(i);
-        [row.x, row.y, row.z, space.translation[i]].map(|c| c as f32)
+        [row.x, row.y, row.z, space.translation[i]].map(|c| c.clamp(-1e18, 1e18) as f32)
     };
     let mut packed = PackedTexture {
         flags: if texture.space == Space::Uv {
@@ -113,8 +137,21 @@ pub fn texture(texture: &Texture, origin: DVec3, pictures: &[[u32; 3]]) -> Packe
     packed
 }
 
+/// After how many units along each axis a pattern begins anew.
+fn period(pattern: &Pattern) -> Option<f64> {
+    match pattern {
+        Pattern::Checker { .. } => Some(2.0),
+        Pattern::Stripes { .. } | Pattern::Picture { .. } => Some(1.0),
+        Pattern::Noise { .. } => Some(NOISE_PERIOD),
+        Pattern::Gradient { .. } => None,
+    }
+}
+
+/// Half floats, and for each picture its first texel, width and height.
+type Texels = (Vec<[u16; 4]>, Vec<[u32; 3]>);
+
 /// All pictures' texels one after the other, and where each picture's are.
-pub fn texels(scene: &Scene) -> Result<(Vec<[u16; 4]>, Vec<[u32; 3]>), PackError> {
+pub fn texels(scene: &Scene) -> Result<Texels, PackError> {
     let count = scene.pictures.iter().map(|p| p.texels.len()).sum();
     if count > MAX_TEXELS {
         return Err(PackError::TooMany {

@@ -8,7 +8,7 @@ use super::{
     film::{TILE_PIXELS, Window},
     settings::{Fetch, Integrator, Settings},
     slice::Slice,
-    whitted,
+    whitted::{self, Overrides},
 };
 use crate::{
     gpu::{AdapterChoice, Gpu, GpuError, Kernel, Source},
@@ -38,8 +38,8 @@ pub struct Device {
     pub layouts: Layouts,
     pub buffers: Buffers,
     pipeline: wgpu::ComputePipeline,
-    /// Whether the pipeline knows lights.
-    has_lights: bool,
+    /// What the pipeline was made for.
+    overrides: Overrides,
     pub developer: Option<Developer>,
     /// The window whose sums are in the film buffer.
     pub loaded_window: Option<usize>,
@@ -59,7 +59,7 @@ impl Device {
             layouts,
             buffers,
             pipeline,
-            has_lights: task.view.has_lights,
+            overrides: overrides(task).1,
             developer: None,
             loaded_window: None,
         })
@@ -69,7 +69,8 @@ impl Device {
     pub fn set_view(&mut self, task: Task, stats: &mut Stats) -> Result<(), GpuError> {
         self.buffers.set_view(&self.gpu, &self.layouts, task.view)?;
         self.loaded_window = None;
-        if self.has_lights != task.view.has_lights {
+        let (_, overrides) = overrides(task);
+        if self.overrides != overrides {
             let Self {
                 gpu,
                 fetch,
@@ -78,7 +79,7 @@ impl Device {
                 ..
             } = &*self;
             self.pipeline = compile(gpu, *fetch, layouts, buffers, task, stats)?;
-            self.has_lights = task.view.has_lights;
+            self.overrides = overrides;
         }
         Ok(())
     }
@@ -138,6 +139,14 @@ pub fn reopen(
     Device::new(Gpu::open(choice, needs)?, fetch, task, stats)
 }
 
+/// The integrator's kernel and what is chosen when its pipeline is made.
+fn overrides(task: Task) -> (Kernel, Overrides) {
+    match task.settings.integrator {
+        Integrator::Whitted | Integrator::Samples => (Kernel::WHITTED, whitted::overrides(task)),
+        _ => (Kernel::DEBUG_VIEW, debug_view::overrides(task)),
+    }
+}
+
 /// Makes the pipeline of the integrator and runs it once on nothing, which is when some drivers
 /// really compile.
 fn compile(
@@ -149,10 +158,7 @@ fn compile(
     stats: &mut Stats,
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let start = Instant::now();
-    let (kernel, overrides) = match task.settings.integrator {
-        Integrator::Whitted | Integrator::Samples => (Kernel::WHITTED, whitted::overrides(task)),
-        _ => (Kernel::DEBUG_VIEW, debug_view::overrides(task)),
-    };
+    let (kernel, overrides) = overrides(task);
     let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
     let layout = gpu
         .device

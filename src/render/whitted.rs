@@ -16,6 +16,7 @@ pub type Overrides = Vec<(&'static str, f64)>;
 pub fn overrides(task: Task) -> Overrides {
     let mut overrides = tracing(task);
     overrides.push(("9", flag(task.view.has_lights)));
+    overrides.push(("20", f64::from(task.view.background)));
     overrides
 }
 

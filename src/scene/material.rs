@@ -88,6 +88,36 @@ pub struct Textures {
     pub transmit: Option<usize>,
 }
 
+impl Textures {
+    /// Those of all colours.
+    pub fn all(&self) -> [Option<usize>; 6] {
+        let Self {
+            diffuse,
+            specular,
+            ambient,
+            emission,
+            reflect,
+            transmit,
+        } = *self;
+        [diffuse, specular, ambient, emission, reflect, transmit]
+    }
+
+    /// Adds `first` to every index, for textures that were put behind others.
+    pub fn shift(&mut self, first: usize) {
+        let Self {
+            diffuse,
+            specular,
+            ambient,
+            emission,
+            reflect,
+            transmit,
+        } = self;
+        for index in [diffuse, specular, ambient, emission, reflect, transmit] {
+            *index = index.map(|index| index + first);
+        }
+    }
+}
+
 impl Default for Material {
     /// A matte light grey, seen from both sides.
     fn default() -> Self {

@@ -15,7 +15,7 @@ pub struct Mesh {
     /// One (u, v) for each position, v upwards; empty when the file gives none.
     pub uvs: Vec<Vec2>,
     /// For each position, an index into [`super::Scene::materials`]. Where the three vertices of a
-    /// triangle differ, their coefficients are interpolated.
+    /// triangle differ, their coefficients are interpolated, and the first one's textures count.
     pub materials: Vec<u32>,
     /// Indices into the arrays above. Winding gives the geometric normal and nothing else.
     pub triangles: Vec<[u32; 3]>,

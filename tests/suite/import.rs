@@ -6,6 +6,8 @@ mod files;
 mod hostile;
 mod native;
 mod obj;
+mod pictures;
+mod textures;
 
 use glimray::import::{self, ImportError, Options};
 use glimray::scene::Scene;

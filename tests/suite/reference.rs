@@ -5,12 +5,13 @@
 pub mod compare;
 pub mod scenes;
 pub mod shapes;
+pub mod textures;
 
 use glam::{DAffine3, DVec2, DVec3};
 use glimray::image::Image;
 use glimray::render::Rays;
 use glimray::scene::{
-    Attenuation, Background, Camera, Form, Geometry, Light, LightKind, Material, Scene, Shape,
+    Attenuation, Camera, Form, Geometry, Light, LightKind, Material, Scene, Shape,
 };
 
 /// The picture and the number of rays it took.
@@ -86,6 +87,7 @@ struct Triangle {
     /// Perpendicular to the plane; its length is twice the area.
     cross: DVec3,
     normals: [DVec3; 3],
+    uvs: [DVec2; 3],
     materials: [u32; 3],
 }
 
@@ -122,6 +124,7 @@ impl<'a> Tracer<'a> {
                     cross: (corners[1] - corners[0]).cross(corners[2] - corners[0]),
                     normals: indices
                         .map(|i| (normal_matrix * mesh.normals[i].as_dvec3()).normalize()),
+                    uvs: indices.map(|i| mesh.uvs.get(i).copied().unwrap_or_default().as_dvec2()),
                     materials: indices.map(|i| mesh.materials[i]),
                 });
             }
@@ -143,14 +146,25 @@ impl<'a> Tracer<'a> {
             leaving: None,
         };
         let Some((t, primitive)) = self.nearest(ray) else {
-            return background(&self.scene.background);
+            return textures::background(self.scene, direction);
         };
         rays.primary_hits += 1;
         let p = ray.origin + t * direction;
-        let (normal, material) = match primitive {
-            Primitive::Shape(i) => self.shape_surface(&self.scene.shapes[i], p, direction),
-            Primitive::Triangle(i) => self.triangle_surface(&self.triangles[i], p, direction),
+        let (normal, material, uv) = match primitive {
+            Primitive::Shape(i) => {
+                let (normal, material) = self.shape_surface(&self.scene.shapes[i], p, direction);
+                (normal, material, DVec2::ZERO)
+            }
+            Primitive::Triangle(i) => {
+                let triangle = &self.triangles[i];
+                let weights = weights(triangle, p);
+                let [a, b, c] = triangle.uvs;
+                let uv = weights.x * a + weights.y * b + weights.z * c;
+                let (normal, material) = self.triangle_surface(triangle, p, direction);
+                (normal, material, uv)
+            }
         };
+        let material = textures::textured(self.scene, material, p, uv);
         let shadow = Ray {
             origin: p,
             t_min: 1e-9 * t,
@@ -275,13 +289,6 @@ impl<'a> Tracer<'a> {
         let facing = triangle.cross * -triangle.cross.dot(direction).signum();
         let turned = material.two_sided && normal.dot(facing) < 0.0;
         (if turned { -normal } else { normal }, material)
-    }
-}
-
-fn background(background: &Background) -> DVec3 {
-    match background {
-        Background::Color(color) => color.as_dvec3(),
-        _ => unimplemented!("no scene of the tests has one"),
     }
 }
 

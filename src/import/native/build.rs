@@ -4,6 +4,7 @@
 use super::file::{
     MaterialRef, MeshTable, ObjectTable, OutputTable, SceneFile, TransformTable, TriangleTable,
 };
+use super::textures::Textures;
 use super::values::Vector;
 use super::{Texts, cameras, lights, materials, shapes};
 use crate::import::error::ImportError;
@@ -12,9 +13,9 @@ use crate::import::paths::Files;
 use crate::import::source::quote;
 use crate::import::{obj, repair_notes, stage, suggest};
 use crate::scene::{
-    Background, Geometry, Instance, Material, Mesh, OutputDefaults, Scene, Shape, Textures,
+    self, Geometry, Instance, Material, Mesh, OutputDefaults, Scene, Shape, Space,
 };
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2};
 use std::collections::HashMap;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -27,7 +28,13 @@ pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Sce
         builder.object(object)?;
     }
     builder.finish_triangles();
-    let mut scene = builder.scene;
+    let background = builder.textures.background(&file.background)?;
+    let mut scene = Scene {
+        textures: builder.textures.textures,
+        pictures: builder.textures.pictures.pictures,
+        background,
+        ..builder.scene
+    };
     let lights = file.lights.iter().map(|table| lights::light(table, texts));
     scene.lights = lights.collect::<Result<_, _>>()?;
     let cameras = cameras::cameras(&file, texts)?;
@@ -51,7 +58,9 @@ type PlacedMesh = Option<(usize, DVec3)>;
 struct Builder<'a> {
     texts: &'a Texts<'a>,
     files: &'a Files,
+    /// Still without its textures, pictures and background.
     scene: Scene,
+    textures: Textures<'a>,
     names: HashMap<String, usize>,
     /// The material of objects that name none, once there is one.
     default_material: Option<usize>,
@@ -64,15 +73,16 @@ struct Builder<'a> {
 
 impl<'a> Builder<'a> {
     fn new(file: &SceneFile, texts: &'a Texts, files: &'a Files) -> Result<Self, ImportError> {
+        let mut textures = Textures::new(file, texts, files)?;
         let materials = (file.materials.iter())
-            .map(|(name, table)| materials::material(name, table, texts))
+            .map(|(name, table)| materials::material(name, table, &mut textures))
             .collect::<Result<_, _>>()?;
         Ok(Self {
             texts,
             files,
+            textures,
             scene: Scene {
                 materials,
-                background: Background::Color(file.background.0),
                 ambient: file.ambient.0,
                 shadows: file.shadows.into(),
                 output: output(&file.output),
@@ -127,7 +137,7 @@ impl<'a> Builder<'a> {
 
     fn shape(&mut self, placed: DAffine3, table: &ObjectTable) -> Result<Vec<DVec3>, ImportError> {
         let material = self.material_of(table)?;
-        let textured = self.scene.materials[material].textures != Textures::default();
+        let textured = self.scene.materials[material].textures != scene::Textures::default();
         let Some(geometry) = shapes::geometry(table, placed, textured, self.texts)? else {
             return Ok(Vec::new());
         };
@@ -228,7 +238,9 @@ impl<'a> Builder<'a> {
         name: &str,
         material: Option<usize>,
     ) -> Result<PlacedMesh, ImportError> {
-        let mut model = obj::read_model(path, self.files)?;
+        let wants_uvs = material.map(|index| self.wants_uvs(index));
+        let pictures = &mut self.textures.pictures;
+        let mut model = obj::read_model(path, self.files, pictures, wants_uvs)?;
         self.scene.skipped.extend(
             model
                 .skipped
@@ -247,6 +259,11 @@ impl<'a> Builder<'a> {
                     .materials
                     .iter_mut()
                     .for_each(|index| *index += first);
+                let first = self.textures.textures.len();
+                for material in &mut model.materials {
+                    material.textures.shift(first);
+                }
+                self.textures.textures.append(&mut model.textures);
                 self.scene.materials.append(&mut model.materials);
             }
         }
@@ -254,10 +271,23 @@ impl<'a> Builder<'a> {
         Ok(Some((self.scene.meshes.len() - 1, model.offset)))
     }
 
+    /// Whether a texture of the material with this index lies on u and v.
+    fn wants_uvs(&self, material: usize) -> bool {
+        let textures = self.scene.materials[material].textures.all();
+        let is_uv = |&index: &usize| self.textures.textures[index].space == Space::Uv;
+        textures.iter().flatten().any(is_uv)
+    }
+
     fn finish_triangles(&mut self) {
         let mut mesh = std::mem::take(&mut self.triangles);
         let (positions, offset) = Mesh::from_world_positions(&self.corners);
         mesh.positions = positions;
+        let is_wanted = |&material: &u32| self.wants_uvs(material as usize);
+        if mesh.materials.iter().any(is_wanted) {
+            // u goes from the first corner to the second, v to the third.
+            let own = [Vec2::ZERO, Vec2::X, Vec2::Y];
+            mesh.uvs = own.repeat(mesh.triangles.len());
+        }
         let repairs = mesh.repair();
         self.scene.skipped.extend(repair_notes(repairs));
         if !mesh.triangles.is_empty() {
@@ -280,7 +310,7 @@ impl<'a> Builder<'a> {
         match reference.get_ref() {
             MaterialRef::Name(name) => self.named(name, reference.span()),
             MaterialRef::Inline(table) => {
-                let material = materials::material("", table, self.texts)?;
+                let material = materials::material("", table, &mut self.textures)?;
                 self.scene.materials.push(material);
                 Ok(self.scene.materials.len() - 1)
             }
@@ -319,11 +349,15 @@ fn output(table: &OutputTable) -> OutputDefaults {
 }
 
 fn world_from_object(table: &TransformTable) -> DAffine3 {
-    let degrees = table.rotate_deg.0;
-    let [x, y, z] = degrees.to_array().map(f64::to_radians);
+    placement(table.scale.0, table.rotate_deg.0, table.translate.0)
+}
+
+/// Scales first, then rotates round x, y and z, then moves.
+pub(super) fn placement(scale: DVec3, rotate_deg: DVec3, translate: DVec3) -> DAffine3 {
+    let [x, y, z] = rotate_deg.to_array().map(f64::to_radians);
     let rotation =
         DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x);
-    DAffine3::from_scale_rotation_translation(table.scale.0, rotation, table.translate.0)
+    DAffine3::from_scale_rotation_translation(scale, rotation, translate)
 }
 
 /// What normals are multiplied by where points are by `transform`: the inverse transpose, up to a

@@ -4,12 +4,18 @@
 mod lights;
 mod materials;
 mod objects;
+mod textures;
 
 pub(super) use lights::{LightTable, SpotTable};
 pub(super) use materials::{MaterialRef, MaterialTable, RefractTable};
 pub(super) use objects::{
     BoxTable, ConeTable, CylinderTable, DiscTable, MeshTable, ObjectTable, PlaneTable,
     RectangleTable, SphereTable, TorusTable, TransformTable, TriangleTable,
+};
+
+pub(super) use textures::{
+    BackgroundTable, ColorOrBackground, ColorOrTexture, PairTable, PatternTables, PictureOrFile,
+    SpaceName, TextureTable,
 };
 
 use super::values::{
@@ -31,9 +37,11 @@ pub(super) struct SceneFile {
     /// The picture: its size, samples and tone. Flags of the command line win over it.
     #[serde(default)]
     pub output: OutputTable,
-    /// What rays see that hit nothing. Black if left out.
-    #[serde(default = "black")]
-    pub background: Color,
+    /// What rays see that hit nothing: a colour, `{ bottom, top }` or `{ picture }`. Black if left
+    /// out.
+    #[serde(default = "nothing")]
+    #[schemars(with = "ColorOrBackground")]
+    pub background: Spanned<ColorOrBackground>,
     /// Light that is everywhere, multiplied by the ambient coefficient of a material. None if left
     /// out.
     #[serde(default = "black")]
@@ -49,6 +57,10 @@ pub(super) struct SceneFile {
     #[serde(default)]
     #[schemars(with = "Vec<CameraTable>")]
     pub cameras: Vec<Spanned<CameraTable>>,
+    /// Textures by name, for `{ texture = "NAME" }` in place of a colour of a material.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, TextureTable>")]
+    pub textures: BTreeMap<String, Spanned<TextureTable>>,
     /// Materials by name.
     #[serde(default)]
     pub materials: BTreeMap<String, MaterialTable>,
@@ -111,6 +123,10 @@ pub(super) struct CameraTable {
     /// The vertical angle of view in degrees; 60 if left out.
     #[serde(default = "sixty")]
     pub fov_y_deg: ViewAngle,
+}
+
+fn nothing() -> Spanned<ColorOrBackground> {
+    Spanned::new(0..0, ColorOrBackground::Color(black()))
 }
 
 fn black() -> Color {

@@ -1,9 +1,9 @@
 //! The materials of a native scene.
 
-use super::Texts;
 use super::file::{MaterialTable, RefractTable};
+use super::textures::Textures;
 use crate::import::error::ImportError;
-use crate::scene::{Fresnel, Material};
+use crate::scene::{self, Fresnel, Material};
 use glam::Vec3;
 use toml::Spanned;
 
@@ -11,31 +11,49 @@ use toml::Spanned;
 pub(super) fn material(
     name: &str,
     table: &MaterialTable,
-    texts: &Texts,
+    textures: &mut Textures,
 ) -> Result<Material, ImportError> {
     let phong = &table.phong;
+    let diffuse = textures.color(&phong.diffuse)?;
+    let specular = textures.color(&phong.specular)?;
+    let ambient = match &phong.ambient {
+        Some(ambient) => textures.color(ambient)?,
+        None => diffuse,
+    };
+    let emission = textures.color(&table.emission)?;
     let mut material = Material {
         name: name.to_owned(),
-        diffuse: phong.diffuse.0,
-        specular: phong.specular.0,
+        diffuse: diffuse.0,
+        specular: specular.0,
         shininess: phong.shininess.0,
-        ambient: phong.ambient.unwrap_or(phong.diffuse).0,
+        ambient: ambient.0,
         two_sided: table.two_sided,
-        emission: table.emission.0,
+        emission: emission.0,
+        textures: scene::Textures {
+            diffuse: diffuse.1,
+            specular: specular.1,
+            ambient: ambient.1,
+            emission: emission.1,
+            ..scene::Textures::default()
+        },
         ..Material::default()
     };
     let mut mirrored = 0.0;
     if let Some(reflect) = &table.reflect {
         mirrored = reflect.amount.0;
-        material.reflect = mirrored * reflect.color.0;
+        let color = textures.color(&reflect.color)?;
+        material.reflect = mirrored * color.0;
+        material.textures.reflect = color.1;
         material.fresnel = reflect.fresnel.into();
         material.ior = reflect.ior.0;
     }
     if let Some(refract) = &table.refract {
-        check(table, refract, mirrored, texts)?;
+        check(table, refract, mirrored, textures)?;
         let refract = refract.get_ref();
         let amount = refract.amount.0;
-        material.transmit = amount * refract.color.0;
+        let color = textures.color(&refract.color)?;
+        material.transmit = amount * color.0;
+        material.textures.transmit = color.1;
         material.opacity = 1.0 - amount;
         material.ior = refract.ior.0;
         material.absorption = refract.absorption.0;
@@ -53,21 +71,21 @@ fn check(
     table: &MaterialTable,
     refract: &Spanned<RefractTable>,
     mirrored: f32,
-    texts: &Texts,
+    textures: &Textures,
 ) -> Result<(), ImportError> {
     let is_split = Fresnel::from(refract.get_ref().fresnel) != Fresnel::None;
     let (why, todo) = if table.reflect.is_some() && is_split {
         (
-            "Fresnel's equations say already how much a refracting surface mirrors".to_owned(),
+            "Fresnel's equations say already how much a refracting surface mirrors",
             "Leave out `reflect`, or add `fresnel = \"none\"` to `refract`",
         )
     } else if mirrored + refract.get_ref().amount.0 > 1.0 {
         (
-            "`amount` and that of `reflect` are more than 1 together".to_owned(),
+            "`amount` and that of `reflect` are more than 1 together",
             "Lower one of them",
         )
     } else {
         return Ok(());
     };
-    Err(texts.malformed(refract.span(), why, todo))
+    Err(textures.refuse(refract.span(), why, todo))
 }

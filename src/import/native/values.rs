@@ -2,6 +2,7 @@
 //! knows where in the file a bad one stands, and describes itself for the JSON Schema.
 
 use crate::import::number::in_range;
+use crate::import::picture::linear_from_srgb;
 use crate::import::source::quote;
 use crate::scene::{Attenuation, Fresnel, Shadows, ToneCurve, Transfer};
 use glam::{DVec3, Vec3};
@@ -189,6 +190,23 @@ value! {
 }
 
 value! {
+    /// Any number of degrees.
+    Angle(f64),
+    { "type": "number" },
+    |d| number(d, |_| true, "an angle")
+}
+
+value! {
+    /// A whole number from 1 to 16.
+    Octaves(u32),
+    { "type": "integer", "minimum": 1, "maximum": 16 },
+    |d| {
+        let holds = |x: f64| x.fract() == 0.0 && (1.0..=16.0).contains(&x);
+        number(d, holds, "a whole number from 1 to 16").map(|x| x as u32)
+    }
+}
+
+value! {
     /// Three numbers: x, y, z.
     Vector(DVec3),
     { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 },
@@ -311,15 +329,6 @@ impl<'de> Visitor<'de> for ColorVisitor {
             Some(x) => Err(de::Error::custom(format!("{x} in a colour is negative"))),
             None => Ok(DVec3::from(color).as_vec3()),
         }
-    }
-}
-
-/// The inverse of the sRGB transfer function, IEC 61966-2-1.
-fn linear_from_srgb(value: f64) -> f64 {
-    if value <= 0.04045 {
-        value / 12.92
-    } else {
-        ((value + 0.055) / 1.055).powf(2.4)
     }
 }
 

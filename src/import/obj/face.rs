@@ -17,6 +17,9 @@ pub(super) const MAX_CORNERS: usize = FACE_NORMAL as usize - 1;
 /// How many corners one face may have.
 const MAX_FACE_CORNERS: usize = 65_536;
 
+/// The place in a texture of a corner that has none, or needs none.
+pub(super) const NO_UV: u32 = NONE;
+
 /// One corner of a face. Ordered such that those without normals come last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Corner {
@@ -25,6 +28,8 @@ pub(super) struct Corner {
     /// Index of a `v`.
     pub position: u32,
     pub material: u32,
+    /// Index of a `vt`, or [`NO_UV`].
+    pub uv: u32,
 }
 
 /// The corners in `line`; `counts` are the numbers of positions, texture coordinates and normals so
@@ -76,6 +81,7 @@ fn corner(
         position: indices[0],
         normal: indices[2],
         material,
+        uv: indices[1],
     })
 }
 

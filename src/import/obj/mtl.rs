@@ -1,4 +1,5 @@
-//! Material libraries: `Kd`, `Ks`, `Ns` and `Ka` of MTL files. Colours are taken as linear.
+//! Material libraries: `Kd`, `Ks`, `Ns` and `Ka` of MTL files, and pictures in their place. Colours
+//! are taken as linear.
 
 use super::lines::{Line, Lines};
 use crate::import::error::ImportError;
@@ -7,19 +8,41 @@ use crate::import::source::{Source, Token};
 use crate::scene::Material;
 use glam::Vec3;
 use std::collections::{BTreeMap, HashMap};
+use std::path::PathBuf;
 
 /// The materials of one file.
 #[derive(Default)]
 pub(super) struct Library {
-    pub materials: HashMap<String, Material>,
+    pub materials: HashMap<String, Entry>,
     /// Notes for [`crate::scene::Scene::skipped`].
     pub skipped: Vec<String>,
 }
 
+/// A material, still without its pictures.
+#[derive(Clone)]
+pub(super) struct Entry {
+    pub material: Material,
+    pub maps: Maps,
+    /// The file that it stands in, which the names of pictures are relative to.
+    pub file: PathBuf,
+}
+
+/// File names of pictures that colours are multiplied by.
+#[derive(Clone, Default)]
+pub(super) struct Maps {
+    pub diffuse: Option<String>,
+    pub specular: Option<String>,
+    pub ambient: Option<String>,
+}
+
 /// A material while it is read.
 struct Draft {
-    material: Material,
+    name: String,
+    diffuse: Option<Vec3>,
+    specular: Option<Vec3>,
     ambient: Option<Vec3>,
+    shininess: f32,
+    maps: Maps,
 }
 
 /// The library in `source`.
@@ -32,21 +55,21 @@ pub(super) fn read(source: &Source) -> Result<Library, ImportError> {
             continue;
         };
         if keyword.bytes == b"newmtl" {
-            library.insert(draft.replace(begin(source, keyword, &line)?));
+            library.insert(source, draft.replace(begin(source, keyword, &line)?));
             continue;
         }
-        let Some(Draft { material, ambient }) = &mut draft else {
+        let Some(draft) = &mut draft else {
             let why = format!("{} stands before the first `newmtl`", keyword.quote());
             return Err(source.malformed(keyword.span(), why, "Begin with `newmtl NAME`"));
         };
         match keyword.bytes {
             b"Kd" | b"Ks" | b"Ka" => match color(source, keyword, &mut line)? {
                 None => *left_out.entry("spectral colours").or_default() += 1,
-                Some(color) if keyword.bytes == b"Kd" => material.diffuse = color,
-                Some(color) if keyword.bytes == b"Ks" => material.specular = color,
-                Some(color) => *ambient = Some(color),
+                color if keyword.bytes == b"Kd" => draft.diffuse = color,
+                color if keyword.bytes == b"Ks" => draft.specular = color,
+                color => draft.ambient = color,
             },
-            b"Ns" => material.shininess = at_least_zero(source, keyword, line.word())?,
+            b"Ns" => draft.shininess = at_least_zero(source, keyword, line.word())?,
             b"d" if line.rest().bytes.starts_with(b"-halo") => {}
             b"d" | b"Tr" => {
                 let opaque = if keyword.bytes == b"d" { 1.0 } else { 0.0 };
@@ -54,13 +77,25 @@ pub(super) fn read(source: &Source) -> Result<Library, ImportError> {
                     *left_out.entry("transparency").or_default() += 1;
                 }
             }
+            b"map_Kd" | b"map_Ks" | b"map_Ka" => {
+                if skip_options(&mut line) {
+                    *left_out.entry("options of textures").or_default() += 1;
+                }
+                let name = line.rest().bytes;
+                let name = (!name.is_empty()).then(|| String::from_utf8_lossy(name).into_owned());
+                match keyword.bytes {
+                    b"map_Kd" => draft.maps.diffuse = name,
+                    b"map_Ks" => draft.maps.specular = name,
+                    _ => draft.maps.ambient = name,
+                }
+            }
             word if word.starts_with(b"map_") || matches!(word, b"bump" | b"disp" | b"refl") => {
-                *left_out.entry("textures").or_default() += 1;
+                *left_out.entry("other textures").or_default() += 1;
             }
             _ => {}
         }
     }
-    library.insert(draft);
+    library.insert(source, draft);
     let notes = left_out
         .iter()
         .map(|(what, count)| format!("{what} of materials left out: {count}"));
@@ -68,19 +103,59 @@ pub(super) fn read(source: &Source) -> Result<Library, ImportError> {
     Ok(library)
 }
 
-impl Library {
-    fn insert(&mut self, draft: Option<Draft>) {
-        if let Some(Draft {
-            mut material,
-            ambient,
-        }) = draft
-        {
-            material.ambient = ambient.unwrap_or(material.diffuse);
-            // The first of two equal names is the one that viewers take.
-            self.materials
-                .entry(material.name.clone())
-                .or_insert(material);
+/// Moves behind the options of a texture and says whether there were any.
+fn skip_options(line: &mut Line) -> bool {
+    let mut found = false;
+    while line.rest().bytes.starts_with(b"-") {
+        let Some(option) = line.word() else { break };
+        found = true;
+        let (least, most) = match option.bytes {
+            b"-mm" => (2, 2),
+            b"-o" | b"-s" | b"-t" => (1, 3),
+            _ => (1, 1),
+        };
+        for i in 0..most {
+            let next = line.rest().bytes.split(u8::is_ascii_whitespace).next();
+            let text = next.and_then(|word| std::str::from_utf8(word).ok());
+            let is_number = text.is_some_and(|text| text.parse::<f64>().is_ok());
+            if i >= least && !is_number {
+                break;
+            }
+            line.word();
         }
+    }
+    found
+}
+
+impl Library {
+    fn insert(&mut self, source: &Source, draft: Option<Draft>) {
+        let Some(draft) = draft else { return };
+        // A picture alone is shown as it is.
+        let or_white = |color: Option<Vec3>, map: &Option<String>, default: Vec3| {
+            color.unwrap_or(if map.is_some() { Vec3::ONE } else { default })
+        };
+        let Maps {
+            diffuse, specular, ..
+        } = &draft.maps;
+        let diffuse = or_white(draft.diffuse, diffuse, Material::default().diffuse);
+        let specular = or_white(draft.specular, specular, Material::default().specular);
+        let material = Material {
+            name: draft.name,
+            diffuse,
+            specular,
+            ambient: draft.ambient.unwrap_or(diffuse),
+            shininess: draft.shininess,
+            ..Material::default()
+        };
+        let entry = Entry {
+            material,
+            maps: draft.maps,
+            file: source.path.clone(),
+        };
+        // The first of two equal names is the one that viewers take.
+        self.materials
+            .entry(entry.material.name.clone())
+            .or_insert(entry);
     }
 }
 
@@ -92,11 +167,12 @@ fn begin(source: &Source, keyword: Token, line: &Line) -> Result<Draft, ImportEr
     }
     let name = String::from_utf8_lossy(name).into_owned();
     Ok(Draft {
-        material: Material {
-            name,
-            ..Material::default()
-        },
+        name,
+        diffuse: None,
+        specular: None,
         ambient: None,
+        shininess: Material::default().shininess,
+        maps: Maps::default(),
     })
 }
 

@@ -435,9 +435,9 @@ bad scene (a.toml:1:21): 1e39 is out of range: at most 3.4e38 is allowed. See `g
 bad scene (a.toml:1:21): invalid type: string "blue", expected a number. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `blue` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `#12345` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:14): invalid type: floating point `0.5`, expected a colour: [r, g, b] or "#rrggbb". See `glimray schema` for what is allowed.
-bad scene (a.toml:1:1): unknown key `backgruond`, did you mean `background`? Known here: `output`, `background`, `ambient`, `shadows`, `camera`, `cameras`, `materials`, `objects`, `lights`.
-bad scene (a.toml:1:1): unknown key `zebra`. Known here: `output`, `background`, `ambient`, `shadows`, `camera`, `cameras`, `materials`, `objects`, `lights`.
+bad scene (a.toml:1:14): invalid type: floating point `0.5`, expected a colour ([r, g, b] or "#rrggbb"), a gradient or a picture. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:1): unknown key `backgruond`, did you mean `background`? Known here: `output`, `background`, `ambient`, `shadows`, `camera`, `cameras`, `textures`, `materials`, `objects`, `lights`.
+bad scene (a.toml:1:1): unknown key `zebra`. Known here: `output`, `background`, `ambient`, `shadows`, `camera`, `cameras`, `textures`, `materials`, `objects`, `lights`.
 bad scene (a.toml:1:15): 0 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:15): 640.5 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:15): expected two numbers [width, height], found more. See `glimray schema` for what is allowed.
@@ -539,6 +539,12 @@ fn the_schema_knows_every_key() {
         "materials.a.phong.?=1",
         "materials.a.reflect.?=1",
         "materials.a.refract.?=1",
+        "materials.a.phong.diffuse={?=1}",
+        "textures.a.?=1",
+        "textures.a.checker={?=1}",
+        "textures.a.noise={?=1}",
+        "textures.a.picture={?=1}",
+        "background={?=1}",
         "objects=[{?=1}]",
         "objects=[{sphere={?=1}}]",
         "objects=[{plane={?=1}}]",

@@ -157,8 +157,8 @@ fn materials_come_from_the_library() {
     assert_eq!((green.diffuse, green.ambient), (Vec3::Y, Vec3::Y));
     assert_snapshot!(scene.skipped.join("\n"), @r"
 spectral colours of materials left out: 1
-textures of materials left out: 1
 transparency of materials left out: 1
+texture left out: `red.png` does not exist
 ");
 }
 

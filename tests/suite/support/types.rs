@@ -53,6 +53,14 @@ pub struct Phong {
     pub reflect: [f32; 3],
 }
 
+/// Of texels; see `lib/picture.wesl`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Neighbours {
+    pub first: u32,
+    pub second: u32,
+    pub share: f32,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Incident {
     pub direction: [f32; 3],
@@ -98,6 +106,11 @@ shader_struct!(Incident = "package::types::Incident" {
     direction: [f32; 3],
     distance: f32,
     radiance: [f32; 3],
+});
+shader_struct!(Neighbours = "package::lib::picture::Neighbours" {
+    first: u32,
+    second: u32,
+    share: f32,
 });
 shader_struct!(PackedCamera = "package::types::PackedCamera" {
     origin: [f32; 3],

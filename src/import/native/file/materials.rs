@@ -1,7 +1,8 @@
 //! How a native scene describes what surfaces look like.
 
+use super::textures::{ColorOrTexture, plain};
 use crate::import::native::values::{
-    Absorption, Color, Fraction, FresnelName, NonNegative, Priority, RefractiveIndex,
+    Absorption, Fraction, FresnelName, NonNegative, Priority, RefractiveIndex,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -22,7 +23,8 @@ pub(in crate::import::native) struct MaterialTable {
     #[schemars(with = "Option<RefractTable>")]
     pub refract: Option<Spanned<RefractTable>>,
     /// The light that it gives off by itself; none if left out.
-    pub emission: Color,
+    #[schemars(with = "ColorOrTexture")]
+    pub emission: Spanned<ColorOrTexture>,
     /// Whether both sides are lit alike (true if left out), or only the one the normal points to.
     pub two_sided: bool,
 }
@@ -33,7 +35,7 @@ impl Default for MaterialTable {
             phong: PhongTable::default(),
             reflect: None,
             refract: None,
-            emission: Color(Vec3::ZERO),
+            emission: plain(Vec3::ZERO),
             two_sided: true,
         }
     }
@@ -46,7 +48,8 @@ pub(in crate::import::native) struct ReflectTable {
     /// How much, 0 to 1; 1 if left out.
     pub amount: Fraction,
     /// What mirrored light is multiplied by; white if left out.
-    pub color: Color,
+    #[schemars(with = "ColorOrTexture")]
+    pub color: Spanned<ColorOrTexture>,
     /// How much of it at which angle: none (all at every angle, as metals do; if left out), or exact
     /// or schlick, as varnish does.
     pub fresnel: FresnelName,
@@ -58,7 +61,7 @@ impl Default for ReflectTable {
     fn default() -> Self {
         Self {
             amount: Fraction(1.0),
-            color: Color(Vec3::ONE),
+            color: plain(Vec3::ONE),
             fresnel: FresnelName::None,
             ior: RefractiveIndex(1.5),
         }
@@ -75,7 +78,8 @@ pub(in crate::import::native) struct RefractTable {
     /// The index of refraction inside; 1.5 if left out.
     pub ior: RefractiveIndex,
     /// What light is multiplied by that goes through the surface; white if left out.
-    pub color: Color,
+    #[schemars(with = "ColorOrTexture")]
+    pub color: Spanned<ColorOrTexture>,
     /// How much a unit length swallows, for each channel: exp(-absorption * length) is left. None if
     /// left out.
     pub absorption: Absorption,
@@ -91,7 +95,7 @@ impl Default for RefractTable {
         Self {
             amount: Fraction(1.0),
             ior: RefractiveIndex(1.5),
-            color: Color(Vec3::ONE),
+            color: plain(Vec3::ONE),
             absorption: Absorption(Vec3::ZERO),
             fresnel: FresnelName::Exact,
             priority: Priority(0),
@@ -104,20 +108,23 @@ impl Default for RefractTable {
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct PhongTable {
     /// The colour of the surface; light grey if left out.
-    pub diffuse: Color,
+    #[schemars(with = "ColorOrTexture")]
+    pub diffuse: Spanned<ColorOrTexture>,
     /// The colour of highlights; none if left out.
-    pub specular: Color,
+    #[schemars(with = "ColorOrTexture")]
+    pub specular: Spanned<ColorOrTexture>,
     /// The exponent of highlights: the higher, the smaller; 32 if left out.
     pub shininess: NonNegative,
     /// What the ambient light is multiplied by; the diffuse colour if left out.
-    pub ambient: Option<Color>,
+    #[schemars(with = "Option<ColorOrTexture>")]
+    pub ambient: Option<Spanned<ColorOrTexture>>,
 }
 
 impl Default for PhongTable {
     fn default() -> Self {
         Self {
-            diffuse: Color(Vec3::splat(0.8)),
-            specular: Color(Vec3::ZERO),
+            diffuse: plain(Vec3::splat(0.8)),
+            specular: plain(Vec3::ZERO),
             shininess: NonNegative(32.0),
             ambient: None,
         }

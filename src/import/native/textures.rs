@@ -1,0 +1,227 @@
+//! The textures, pictures and the background of a native scene.
+
+use super::Texts;
+use super::build::placement;
+use super::file::{
+    BackgroundTable, ColorOrBackground, ColorOrTexture, PairTable, PatternTables, PictureOrFile,
+    SceneFile, SpaceName,
+};
+use crate::import::error::ImportError;
+use crate::import::paths::Files;
+use crate::import::picture::Pictures;
+use crate::import::suggest;
+use crate::scene::{Background, Pattern, Space, Texture};
+use glam::{DVec3, Vec3};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use toml::Spanned;
+
+/// The largest value of a texel: the GPU keeps them as half floats.
+const LARGEST_TEXEL: f32 = 65504.0;
+
+/// All textures of a scene while it is read.
+pub(super) struct Textures<'a> {
+    texts: &'a Texts<'a>,
+    files: &'a Files,
+    names: BTreeMap<String, usize>,
+    pub textures: Vec<Texture>,
+    pub pictures: Pictures,
+}
+
+impl<'a> Textures<'a> {
+    /// Those under `[textures]`.
+    pub fn new(
+        file: &SceneFile,
+        texts: &'a Texts<'a>,
+        files: &'a Files,
+    ) -> Result<Self, ImportError> {
+        let mut textures = Self {
+            texts,
+            files,
+            names: BTreeMap::new(),
+            textures: Vec::new(),
+            pictures: Pictures::default(),
+        };
+        for (name, table) in &file.textures {
+            let index = textures.texture(&table.get_ref().pattern(), table.span())?;
+            textures.names.insert(name.clone(), index);
+        }
+        Ok(textures)
+    }
+
+    /// An error about `span`.
+    pub fn refuse(&self, span: Range<usize>, why: &str, todo: &str) -> ImportError {
+        self.texts.malformed(span, why.to_owned(), todo)
+    }
+
+    /// The constant colour of a material, and the texture that it is multiplied by.
+    pub fn color(
+        &mut self,
+        color: &Spanned<ColorOrTexture>,
+    ) -> Result<(Vec3, Option<usize>), ImportError> {
+        let table = match color.get_ref() {
+            ColorOrTexture::Color(color) => return Ok((color.0, None)),
+            ColorOrTexture::Table(table) => table,
+        };
+        let pattern = table.pattern();
+        let index = match &table.texture {
+            Some(name) if pattern.count() == 0 && !pattern.is_placed() => self.named(name)?,
+            Some(name) => {
+                let todo = "Put them under [textures], or leave out `texture`";
+                let why = "a texture with a name brings its own pattern and place";
+                return Err(self.texts.malformed(name.span(), why.to_owned(), todo));
+            }
+            None => self.texture(&pattern, color.span())?,
+        };
+        let factor = table.color.map_or(Vec3::ONE, |color| color.0);
+        if !(factor * largest(&self.textures[index].pattern)).is_finite() {
+            let why = "color times texture is out of range: at most 3.4e38 is allowed".to_owned();
+            return Err(self.texts.malformed(color.span(), why, "Lower one of them"));
+        }
+        Ok((factor, Some(index)))
+    }
+
+    /// What rays see that hit nothing.
+    pub fn background(
+        &mut self,
+        background: &Spanned<ColorOrBackground>,
+    ) -> Result<Background, ImportError> {
+        let refuse = |why: &str, todo: &str| {
+            Err(self
+                .texts
+                .malformed(background.span(), why.to_owned(), todo))
+        };
+        let table: &BackgroundTable = match background.get_ref() {
+            ColorOrBackground::Color(color) => return Ok(Background::Color(color.0)),
+            ColorOrBackground::Table(table) => table,
+        };
+        let only_for_pictures = table.strength.is_some() || table.rotation_deg.is_some();
+        match (table.bottom, table.top, &table.picture) {
+            (Some(bottom), Some(top), None) if !only_for_pictures => Ok(Background::Gradient {
+                bottom: bottom.0,
+                top: top.0,
+            }),
+            (None, None, Some(name)) => {
+                let strength = table.strength.map_or(1.0, |strength| strength.0);
+                if !(strength * LARGEST_TEXEL).is_finite() {
+                    return refuse(
+                        "`strength` is out of range: at most 5e33 is allowed",
+                        "Lower it",
+                    );
+                }
+                let degrees = table.rotation_deg.map_or(0.0, |angle| angle.0);
+                Ok(Background::Picture {
+                    picture: self.picture(name.get_ref(), name.span())?,
+                    strength,
+                    rotation: (degrees % 360.0).to_radians(),
+                })
+            }
+            _ => refuse(
+                "a background is a colour, a gradient or a picture",
+                "Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`",
+            ),
+        }
+    }
+
+    fn named(&self, name: &Spanned<String>) -> Result<usize, ImportError> {
+        self.names.get(name.get_ref()).copied().ok_or_else(|| {
+            let known = self.names.keys().map(String::as_str);
+            let why = suggest::unknown("texture", name.get_ref(), known);
+            let todo = "Add it under [textures], or name one that is there";
+            self.texts.malformed(name.span(), why, todo)
+        })
+    }
+
+    fn texture(
+        &mut self,
+        tables: &PatternTables,
+        span: Range<usize>,
+    ) -> Result<usize, ImportError> {
+        let colors = |table: &PairTable| (table.a.0, table.b.0);
+        let pattern = if tables.count() > 1 {
+            None
+        } else if let Some((a, b)) = tables.checker.map(colors) {
+            Some(Pattern::Checker { a, b })
+        } else if let Some((a, b)) = tables.stripes.map(colors) {
+            Some(Pattern::Stripes { a, b })
+        } else if let Some((a, b)) = tables.gradient.map(colors) {
+            Some(Pattern::Gradient { a, b })
+        } else if let Some(noise) = tables.noise {
+            Some(Pattern::Noise {
+                a: noise.a.0,
+                b: noise.b.0,
+                octaves: noise.octaves.0,
+            })
+        } else if let Some(picture) = tables.picture {
+            let (name, span, nearest) = match picture.get_ref() {
+                PictureOrFile::File(name) => (name, picture.span(), false),
+                PictureOrFile::Table(table) => {
+                    (table.file.get_ref(), table.file.span(), table.nearest)
+                }
+            };
+            let picture = self.picture(name, span)?;
+            Some(Pattern::Picture { picture, nearest })
+        } else {
+            None
+        };
+        let Some(pattern) = pattern else {
+            let todo =
+                "Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`";
+            let why = "a texture has one pattern".to_owned();
+            return Err(self.texts.malformed(span, why, todo));
+        };
+        let space = match (tables.space, tables.picture) {
+            (Some(SpaceName::World), _) | (None, None) => Space::World,
+            (Some(SpaceName::Uv), _) | (None, Some(_)) => Space::Uv,
+        };
+        let space_from_pattern = placement(
+            tables.scale.map_or(DVec3::ONE, |scale| scale.0),
+            tables.rotate_deg.map_or(DVec3::ZERO, |degrees| degrees.0),
+            tables.translate.map_or(DVec3::ZERO, |offset| offset.0),
+        );
+        self.textures.push(Texture {
+            pattern,
+            space,
+            pattern_from_space: space_from_pattern.inverse(),
+        });
+        Ok(self.textures.len() - 1)
+    }
+
+    fn picture(&mut self, name: &str, span: Range<usize>) -> Result<usize, ImportError> {
+        let read = self.pictures.read(self.files, name);
+        read.map_err(|refused| {
+            refused.into_error(|why, todo| self.texts.malformed(span, why, todo))
+        })
+    }
+}
+
+impl PatternTables<'_> {
+    /// How many patterns there are.
+    fn count(&self) -> usize {
+        let given = [
+            self.checker.is_some(),
+            self.stripes.is_some(),
+            self.gradient.is_some(),
+            self.noise.is_some(),
+            self.picture.is_some(),
+        ];
+        given.into_iter().filter(|&given| given).count()
+    }
+
+    /// Whether it says where the pattern is.
+    fn is_placed(&self) -> bool {
+        let moved = self.rotate_deg.or(self.translate).is_some();
+        moved || self.scale.is_some() || self.space.is_some()
+    }
+}
+
+/// The largest that each channel of a pattern can be.
+fn largest(pattern: &Pattern) -> Vec3 {
+    match *pattern {
+        Pattern::Checker { a, b }
+        | Pattern::Stripes { a, b }
+        | Pattern::Gradient { a, b }
+        | Pattern::Noise { a, b, .. } => a.max(b),
+        Pattern::Picture { .. } => Vec3::splat(LARGEST_TEXEL),
+    }
+}

@@ -1,0 +1,63 @@
+//! Texture coordinates: the `vt` statement, and which vertices have them.
+
+use super::Reader;
+use super::face::{self, Corner};
+use super::lines::Line;
+use crate::import::error::ImportError;
+use crate::import::number;
+use crate::import::source::Token;
+use crate::scene::Material;
+use glam::Vec2;
+
+impl Reader<'_> {
+    /// u and perhaps v; w, which only solid textures use, is passed over.
+    pub(super) fn texture_coordinates(
+        &mut self,
+        keyword: Token,
+        line: &mut Line,
+    ) -> Result<(), ImportError> {
+        let Some(word) = line.word() else {
+            let why = format!("{} needs a number", keyword.quote());
+            let todo = "Write `vt U V`";
+            return Err(self.source.malformed(keyword.span(), why, todo));
+        };
+        let u = number::parse(self.source, word)?;
+        let v = match line.word() {
+            Some(word) => number::parse(self.source, word)?,
+            None => 0.0,
+        };
+        // Far beyond, where f32 has whole numbers only, all places in a texture are the same.
+        let place = |x: f64| x.clamp(-1e9, 1e9) as f32;
+        self.uvs.push(Vec2::new(place(u), place(v)));
+        Ok(())
+    }
+
+    /// Takes u and v from the corners whose material has no use for them, so that they part no
+    /// vertices.
+    pub(super) fn drop_unwanted_uvs(&mut self, materials: &[Material], index_of_id: &[u32]) {
+        for corner in &mut self.corners {
+            let material = &materials[index_of_id[corner.material as usize] as usize];
+            if !self.replaced.unwrap_or_else(|| is_textured(material)) {
+                corner.uv = face::NO_UV;
+            }
+        }
+    }
+
+    /// u and v of `vertices`: none at all if all have none. Says so where `materials` want some.
+    pub(super) fn uvs_of(&mut self, vertices: &[Corner], materials: &[Material]) -> Vec<Vec2> {
+        if vertices.iter().any(|v| v.uv != face::NO_UV) {
+            let uv = |v: &Corner| self.uvs.get(v.uv as usize).copied().unwrap_or_default();
+            return vertices.iter().map(uv).collect();
+        }
+        let own = || materials.iter().any(is_textured);
+        if self.replaced.unwrap_or_else(own) {
+            let note = "there are no texture coordinates: textures show one colour each";
+            self.skipped.push(note.to_owned());
+        }
+        Vec::new()
+    }
+}
+
+fn is_textured(material: &Material) -> bool {
+    material.textures.all().iter().any(Option::is_some)
+}

@@ -1,0 +1,193 @@
+//! Pictures that scenes name: PNG, JPEG, Radiance HDR and OpenEXR, told apart by their first bytes.
+//!
+//! PNG and JPEG are taken as sRGB, HDR and EXR as linear Rec. 709. Transparency is left out.
+
+use super::error::{Fault, ImportError};
+use super::paths::{self, Files, Refusal};
+use super::source::quote;
+use crate::scene::Picture;
+use glam::Vec3;
+use image::{DynamicImage, ImageError, ImageReader, Limits};
+use std::collections::HashMap;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+/// The largest picture file, in bytes.
+const MAX_BYTES: u64 = 512 << 20;
+
+/// Texels of all pictures of a scene together, which is what the GPU's side takes.
+const MAX_TEXELS: u64 = (8192 << 12) - 1;
+
+/// Bytes that decoding may take: four floats for each texel.
+const MAX_DECODED_BYTES: u64 = (MAX_TEXELS + 1) * 16;
+
+/// The pictures of a scene, each file read once.
+#[derive(Default)]
+pub(super) struct Pictures {
+    pub pictures: Vec<Picture>,
+    indices: HashMap<PathBuf, usize>,
+}
+
+/// Why a picture is not there.
+pub(super) enum Refused {
+    /// Its name leads to no file that may be read.
+    File(Refusal),
+    /// The file is there, but no picture that we can use.
+    Unfit {
+        kind: fn(Box<Fault>) -> ImportError,
+        why: String,
+        todo: String,
+    },
+}
+
+impl Refused {
+    /// As an error, which `malformed` puts in its place.
+    pub fn into_error(self, malformed: impl FnOnce(String, &str) -> ImportError) -> ImportError {
+        const WHAT: &str = "picture refused";
+        match self {
+            Self::File(refusal) => refusal.into_error("picture", malformed),
+            Self::Unfit { kind, why, todo } => {
+                let mut fault = malformed(why, &todo).into_fault();
+                fault.what = WHAT.to_owned();
+                kind(fault)
+            }
+        }
+    }
+
+    /// As a clause for [`crate::scene::Scene::skipped`].
+    pub fn into_note(self) -> String {
+        match self {
+            Self::File(Refusal::Missing(why) | Refusal::Outside(why) | Refusal::Unfit(why)) => why,
+            Self::Unfit { why, .. } => why,
+        }
+    }
+}
+
+impl Pictures {
+    /// The index of the picture in the file that is called `name`.
+    ///
+    /// # Errors
+    /// There is no such file, it may not be read, it is no picture, or it is too big.
+    pub fn read(&mut self, files: &Files, name: &str) -> Result<usize, Refused> {
+        let path = files.resolve(name).map_err(Refused::File)?;
+        if let Some(&index) = self.indices.get(&path) {
+            return Ok(index);
+        }
+        let taken = self.pictures.iter().map(|p| p.texels.len() as u64).sum();
+        let picture = decode(&path, name, taken)?;
+        self.pictures.push(picture);
+        self.indices.insert(path, self.pictures.len() - 1);
+        Ok(self.pictures.len() - 1)
+    }
+}
+
+/// The picture in the file at `path`, where `taken` texels are already in use.
+fn decode(path: &Path, name: &str, taken: u64) -> Result<Picture, Refused> {
+    let quoted = quote(name.as_bytes());
+    let too_big = |why: String| Refused::Unfit {
+        kind: ImportError::TooBig,
+        why: format!("{quoted} {why}"),
+        todo: "Use a smaller picture".to_owned(),
+    };
+    let bytes = paths::read(path, MAX_BYTES).map_err(|error| {
+        let is_too_big = error.is_too_big();
+        let fault = error.into_fault();
+        match is_too_big {
+            true => too_big(format!("has {}", fault.why)),
+            false => Refused::Unfit {
+                kind: ImportError::Unreadable,
+                why: format!("{quoted}: {}", fault.why),
+                todo: fault.todo,
+            },
+        }
+    })?;
+    let unfit = |why: String, todo: &str| Refused::Unfit {
+        kind: ImportError::Malformed,
+        why: format!("{quoted} {why}"),
+        todo: todo.to_owned(),
+    };
+    let reader = || {
+        let reader = ImageReader::new(Cursor::new(&bytes)).with_guessed_format();
+        reader.ok().filter(|reader| reader.format().is_some())
+    };
+    let explain = |error: ImageError| match error {
+        ImageError::Limits(_) => too_big("takes too much memory to decode".to_owned()),
+        ImageError::Unsupported(_) => {
+            let why = "is a picture of a kind that is not read";
+            unfit(why.to_owned(), "Save it as PNG, JPEG, HDR or EXR")
+        }
+        error => {
+            let why = format!("is broken: {}", one_line(&error.to_string()));
+            unfit(why, "Check that it was written completely")
+        }
+    };
+    let (Some(head), Some(mut body)) = (reader(), reader()) else {
+        let why = "is not a picture that is known";
+        return Err(unfit(why.to_owned(), "Name a PNG, JPEG, HDR or EXR file"));
+    };
+    // Asked first: headers are cheap to lie in, and memory is not.
+    let (width, height) = head.into_dimensions().map_err(explain)?;
+    let count = u64::from(width) * u64::from(height);
+    if count == 0 {
+        return Err(unfit("has no texels".to_owned(), "Save it again"));
+    }
+    if taken + count > MAX_TEXELS {
+        let others = match taken {
+            0 => String::new(),
+            _ => format!(", the others {taken} texels"),
+        };
+        let why =
+            format!("has {width} × {height}{others}, but at most {MAX_TEXELS} texels are read");
+        return Err(too_big(why));
+    }
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(MAX_DECODED_BYTES);
+    body.limits(limits);
+    let texels = linear(body.decode().map_err(explain)?);
+    Ok(Picture {
+        width,
+        height,
+        texels,
+    })
+}
+
+/// The texels of `image`, row by row from the top left, as linear colours that are finite and not
+/// negative.
+fn linear(image: DynamicImage) -> Vec<Vec3> {
+    let as_they_are = |c: f32| if c > 0.0 { c.min(f32::MAX) } else { 0.0 };
+    match image {
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
+            let image = image.into_rgb32f();
+            image
+                .pixels()
+                .map(|p| Vec3::from(p.0.map(as_they_are)))
+                .collect()
+        }
+        image => {
+            let curve: Vec<f32> = (0..=u16::MAX)
+                .map(|code| linear_from_srgb(f64::from(code) / f64::from(u16::MAX)) as f32)
+                .collect();
+            // 8 bits become 16 without loss: 65535 is 255 times 257.
+            let image = image.into_rgb16();
+            let texel = |p: &image::Rgb<u16>| Vec3::from(p.0.map(|code| curve[usize::from(code)]));
+            image.pixels().map(texel).collect()
+        }
+    }
+}
+
+/// The inverse of the sRGB transfer function, IEC 61966-2-1.
+pub(super) fn linear_from_srgb(value: f64) -> f64 {
+    if value <= 0.04045 {
+        value / 12.92
+    } else {
+        ((value + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// A decoder's message as a clause on one line.
+fn one_line(message: &str) -> String {
+    const LONGEST: usize = 160;
+    let visible = |c: char| if c.is_control() { ' ' } else { c };
+    let line: String = message.chars().take(LONGEST).map(visible).collect();
+    line.trim_end_matches('.').to_owned()
+}

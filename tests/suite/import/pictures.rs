@@ -1,0 +1,285 @@
+//! Pictures that scenes name: what their texels become, and what is wrong with those that are not.
+
+use super::{folder, message_in};
+use glam::Vec3;
+use glimray::import::{self, Options};
+use glimray::scene::{Background, Pattern, Picture, Scene, Space};
+use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb, Rgba};
+use insta::assert_snapshot;
+use std::io::Cursor;
+
+/// The bytes of a picture file.
+fn encode(image: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    image
+        .into()
+        .write_to(&mut bytes, format)
+        .expect("a picture");
+    bytes.into_inner()
+}
+
+/// A scene with this picture as its background.
+fn with_background(name: &str, bytes: &[u8]) -> Scene {
+    let text = format!("background = {{ picture = '{name}' }}");
+    let folder = folder(&[("a.toml", text.as_bytes()), (name, bytes)]);
+    import::load(&folder.path().join("a.toml")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn picture(name: &str, bytes: &[u8]) -> Picture {
+    with_background(name, bytes).pictures.remove(0)
+}
+
+/// IEC 61966-2-1, from its other side: the value whose code is `code` is found by halving.
+fn linear(code: f64) -> f64 {
+    let encoded = |x: f64| match x {
+        x if x <= 0.003_130_8 => 12.92 * x,
+        x => 1.055 * x.powf(1.0 / 2.4) - 0.055,
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let middle = (low + high) / 2.0;
+        if encoded(middle) < code {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (low + high) / 2.0
+}
+
+fn assert_near(picture: &Picture, expected: &[[f64; 3]], tolerance: f64) {
+    assert_eq!(picture.texels.len(), expected.len());
+    for (texel, expected) in picture.texels.iter().zip(expected) {
+        let off = (texel.as_dvec3() - glam::DVec3::from(*expected)).abs();
+        assert!(off.max_element() <= tolerance, "{texel}, not {expected:?}");
+    }
+}
+
+#[test]
+fn png_is_srgb_in_eight_and_sixteen_bits_from_the_top_left() {
+    let codes = [[0u8, 128, 255], [1, 10, 11], [64, 65, 200], [254, 3, 90]];
+    let image = ImageBuffer::from_fn(2, 2, |x, y| Rgb(codes[(2 * y + x) as usize]));
+    let read = picture("a.png", &encode(image, ImageFormat::Png));
+    assert_eq!((read.width, read.height), (2, 2));
+    let expected = codes.map(|texel| texel.map(|code| linear(f64::from(code) / 255.0)));
+    assert_near(&read, &expected, 2e-5);
+
+    let codes = [[0u16, 300, 65535], [4000, 33_333, 65_000]];
+    let image = ImageBuffer::from_fn(2, 1, |x, _| Rgb(codes[x as usize]));
+    let read = picture("a.png", &encode(image, ImageFormat::Png));
+    let expected = codes.map(|texel| texel.map(|code| linear(f64::from(code) / 65535.0)));
+    assert_near(&read, &expected, 2e-5);
+}
+
+#[test]
+fn grey_becomes_three_channels_and_transparency_is_left_out() {
+    let grey = ImageBuffer::from_pixel(1, 1, Luma([77u8]));
+    let value = linear(77.0 / 255.0);
+    let read = picture("a.png", &encode(grey, ImageFormat::Png));
+    assert_near(&read, &[[value; 3]], 2e-5);
+    let clear = ImageBuffer::from_pixel(1, 1, Rgba([77u8, 77, 77, 0]));
+    let read = picture("a.png", &encode(clear, ImageFormat::Png));
+    assert_near(&read, &[[value; 3]], 2e-5);
+}
+
+#[test]
+fn jpeg_is_srgb_whatever_its_name_ends_in() {
+    let image = ImageBuffer::from_pixel(8, 8, Rgb([200u8, 100, 50]));
+    let bytes = encode(image, ImageFormat::Jpeg);
+    let expected = [200.0, 100.0, 50.0].map(|code| linear(code / 255.0));
+    for name in ["a.jpg", "a.jpeg", "a.png", "a"] {
+        assert_near(&picture(name, &bytes), &[expected; 64], 0.02);
+    }
+}
+
+#[test]
+fn hdr_and_exr_are_linear_as_they_are() {
+    // Radiance's format holds three mantissas of eight bits under one exponent: these exactly.
+    let values = [
+        [0.5f32, 0.25, 1.0],
+        [12.0, 3.0, 0.0],
+        [0.0, 0.0, 0.0],
+        [1e3, 2e3, 4e3],
+    ];
+    let image = ImageBuffer::from_fn(4, 1, |x, _| Rgb(values[x as usize]));
+    let read = picture("a.hdr", &encode(image.clone(), ImageFormat::Hdr));
+    let expected = values.map(|texel| texel.map(f64::from));
+    assert_near(&read, &expected, 16.0);
+    assert_near(
+        &Picture {
+            texels: read.texels[..3].to_vec(),
+            ..read
+        },
+        &expected[..3],
+        0.04,
+    );
+
+    let values = [[0.1f32, 1.7, 60_000.0], [-3.0, f32::NAN, f32::INFINITY]];
+    let image = ImageBuffer::from_fn(2, 1, |x, _| Rgb(values[x as usize]));
+    let read = picture("a.exr", &encode(image, ImageFormat::OpenExr));
+    assert_eq!(read.texels[0], Vec3::from(values[0]));
+    // Negative light and what is no number count as none.
+    assert_eq!(read.texels[1].truncate(), glam::Vec2::ZERO);
+    assert!(read.texels[1].z.is_finite());
+}
+
+#[test]
+fn a_picture_that_is_named_twice_is_read_once() {
+    let image = ImageBuffer::from_pixel(3, 2, Rgb([9u8, 9, 9]));
+    let bytes = encode(image, ImageFormat::Png);
+    let text = b"
+        background = { picture = 'a.png', strength = 2, rotation_deg = 90 }
+        textures.t = { picture = { file = './a.png', nearest = true } }
+        materials.m.phong.diffuse = { picture = { file = 'sub/../a.png' }, space = 'world' }";
+    let folder = folder(&[("a.toml", text), ("a.png", &bytes), ("sub/b", b"")]);
+    let options = Options {
+        allow_dirs: vec![folder.path().to_owned()],
+        ..Options::default()
+    };
+    let scene = import::load_with(&folder.path().join("a.toml"), &options).expect("a scene");
+    assert_eq!(scene.pictures.len(), 1);
+    let background = Background::Picture {
+        picture: 0,
+        strength: 2.0,
+        rotation: 90f64.to_radians(),
+    };
+    assert_eq!(scene.background, background);
+    let shows = |i: usize, is_nearest| {
+        let Pattern::Picture { picture, nearest } = scene.textures[i].pattern else {
+            panic!("not a picture");
+        };
+        assert_eq!((picture, nearest), (0, is_nearest));
+        scene.textures[i].space
+    };
+    assert_eq!((shows(0, true), shows(1, false)), (Space::Uv, Space::World));
+}
+
+/// The header of a PNG of this size, and nothing behind it.
+fn png_header(width: u32, height: u32) -> Vec<u8> {
+    let mut chunk = b"IHDR".to_vec();
+    chunk.extend(width.to_be_bytes());
+    chunk.extend(height.to_be_bytes());
+    chunk.extend([8, 2, 0, 0, 0]);
+    // The polynomial of ISO 3309, bit by bit.
+    let crc = chunk.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
+            (crc >> 1) ^ (0xedb8_8320 & 0u32.wrapping_sub(crc & 1))
+        })
+    });
+    let mut bytes = b"\x89PNG\r\n\x1a\n\0\0\0\x0d".to_vec();
+    bytes.extend(chunk);
+    bytes.extend((!crc).to_be_bytes());
+    // Where the header ends: the first texels, none.
+    bytes.extend(b"\0\0\0\0IDAT\x35\xaf\x06\x1e");
+    bytes
+}
+
+#[test]
+fn every_picture_that_is_none_has_its_message() {
+    let good = encode(
+        ImageBuffer::from_pixel(9, 9, Rgb([1u8, 2, 3])),
+        ImageFormat::Png,
+    );
+    let files: [(&str, &[u8]); 9] = [
+        ("empty.png", b""),
+        ("text.png", b"this is no picture at all"),
+        ("cut.png", &good[..good.len() / 2]),
+        ("wide.png", &png_header(100_000, 100_000)),
+        ("huge.png", &png_header(u32::MAX, u32::MAX)),
+        ("flat.png", &png_header(0, 7)),
+        (
+            "huge.hdr",
+            b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n",
+        ),
+        ("cut.exr", b"\x76\x2f\x31\x01\x02\0\0\0chan"),
+        ("a.gif", b"GIF89a\x01\0\x01\0\0\0\0;"),
+    ];
+    let names = files.iter().map(|file| file.0);
+    let others = [
+        "gone.png",
+        "sub",
+        "../a.png",
+        "/etc/passwd",
+        "",
+        "http://a.org/a.png",
+    ];
+    let folder = folder(&[&files[..], &[("sub/b", b"")]].concat());
+    let lines: Vec<_> = (names.chain(others))
+        .map(|name| {
+            let text = format!("ambient = [0, 0, 0]\nbackground = {{ picture = '{name}' }}");
+            std::fs::write(folder.path().join("a.toml"), text).expect("a scene");
+            message_in(&folder, "a.toml", &Options::default())
+        })
+        .collect();
+    assert_snapshot!(lines.join("\n"), @r"
+picture refused (a.toml:2:26): `empty.png` is not a picture that is known. Name a PNG, JPEG, HDR or EXR file.
+picture refused (a.toml:2:26): `text.png` is not a picture that is known. Name a PNG, JPEG, HDR or EXR file.
+picture refused (a.toml:2:26): `cut.png` is broken: unexpected end of file. Check that it was written completely.
+picture refused (a.toml:2:26): `wide.png` has 100000 × 100000, but at most 33554431 texels are read. Use a smaller picture.
+picture refused (a.toml:2:26): `huge.png` takes too much memory to decode. Use a smaller picture.
+picture refused (a.toml:2:26): `flat.png` is broken: Format error decoding Png: Invalid image dimensions. Check that it was written completely.
+picture refused (a.toml:2:26): `huge.hdr` has 60000 × 60000, but at most 33554431 texels are read. Use a smaller picture.
+picture refused (a.toml:2:26): `cut.exr` is broken: Format error decoding OpenExr: invalid: reference to missing bytes. Check that it was written completely.
+picture refused (a.toml:2:26): `a.gif` is a picture of a kind that is not read. Save it as PNG, JPEG, HDR or EXR.
+picture refused (a.toml:2:26): `gone.png` does not exist. Check the name and the folder.
+picture refused (a.toml:2:26): `sub` is not a plain file. Name a plain file in the scene folder.
+picture refused (a.toml:2:26): `../a.png` points outside the scene folder. Use --allow-dir DIR to permit.
+picture refused (a.toml:2:26): `/etc/passwd` points outside the scene folder. Use --allow-dir DIR to permit.
+picture refused (a.toml:2:26): `` is not a file name. Name a plain file in the scene folder.
+picture refused (a.toml:2:26): `http://a.org/a.png` points outside the scene folder. Use --allow-dir DIR to permit.
+");
+}
+
+#[test]
+fn an_embedded_scene_has_no_pictures() {
+    let text = "background = { picture = 'a.png' }";
+    let error = import::parse("a.toml", text, &Options::default()).expect_err("refused");
+    assert_snapshot!(error, @"picture refused (a.toml:1:26): `a.png`: a built-in scene has no folder. Name a plain file in the scene folder.");
+}
+
+/// Good pictures of every kind, cut and garbled in ways that repeat.
+#[test]
+fn no_damage_to_a_picture_brings_the_importer_down() {
+    let color = ImageBuffer::from_fn(13, 9, |x, y| Rgb([(x * 19) as u8, (y * 27) as u8, 77u8]));
+    let light = ImageBuffer::from_fn(13, 9, |x, y| Rgb([x as f32, y as f32 / 9.0, 0.5f32]));
+    let files = [
+        ("a.png", encode(color.clone(), ImageFormat::Png)),
+        ("a.jpg", encode(color, ImageFormat::Jpeg)),
+        ("a.hdr", encode(light.clone(), ImageFormat::Hdr)),
+        ("a.exr", encode(light, ImageFormat::OpenExr)),
+    ];
+    let mut bits = 0x1357_9bdf_u32;
+    let mut random = |below: usize| {
+        bits ^= bits << 13;
+        bits ^= bits >> 17;
+        bits ^= bits << 5;
+        bits as usize % below
+    };
+    let folder = folder(&[]);
+    for (name, good) in files {
+        let text = format!("background = {{ picture = '{name}' }}");
+        std::fs::write(folder.path().join("a.toml"), text).expect("a scene");
+        for i in 0..400 {
+            let mut bad = good.clone();
+            if i % 2 == 0 {
+                bad.truncate(random(good.len()));
+            }
+            for _ in 0..1 + random(4) {
+                let at = random(bad.len() + 1).min(bad.len().saturating_sub(1));
+                if let Some(byte) = bad.get_mut(at) {
+                    *byte = [0, 1, 0x7f, 0x80, 0xff, random(256) as u8][random(6)];
+                }
+            }
+            std::fs::write(folder.path().join(name), bad).expect("a picture");
+            match import::load(&folder.path().join("a.toml")) {
+                Err(error) => assert_eq!(error.to_string().lines().count(), 1),
+                Ok(scene) => assert!(
+                    scene.pictures[0]
+                        .texels
+                        .iter()
+                        .all(|texel| { texel.is_finite() && texel.min_element() >= 0.0 })
+                ),
+            }
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! Textures and backgrounds in native scenes and in models.
+
+use super::{folder, messages, scene};
+use glam::{DVec3, Vec2, Vec3};
+use glimray::import;
+use glimray::scene::{Background, Pattern, Scene, Space, Textures};
+use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
+use insta::assert_snapshot;
+use std::io::Cursor;
+
+fn png() -> Vec<u8> {
+    let image = ImageBuffer::from_pixel(2, 1, Rgb([255u8, 0, 0]));
+    let mut bytes = Cursor::new(Vec::new());
+    let image = DynamicImage::from(image);
+    image
+        .write_to(&mut bytes, ImageFormat::Png)
+        .expect("a picture");
+    bytes.into_inner()
+}
+
+#[test]
+fn textures_have_names_or_stand_in_place_of_a_colour() {
+    let text = r##"
+        [textures.tiles]
+        checker = { a = [1, 0, 0], b = [0, 1, 0] }
+        scale = 2
+        rotate_deg = [0, 0, 90]
+        translate = [10, 0, 0]
+        [textures.sky]
+        noise = { octaves = 7 }
+        space = "uv"
+        [materials.a.phong]
+        diffuse = { texture = "tiles", color = [0.5, 0.5, 0.5] }
+        specular = { stripes = { a = "#000000", b = [3, 3, 3] }, scale = [1, 2, 4] }
+        [materials.b.phong]
+        diffuse = { texture = "tiles" }
+        ambient = { gradient = { b = [0.25, 0, 0] }, color = [2, 2, 2] }
+        [materials.c.phong]
+        diffuse = [0.1, 0.2, 0.3]
+        "##;
+    let scene = scene("a.toml", text);
+    let names: Vec<_> = scene.textures.iter().map(|t| t.pattern.clone()).collect();
+    // Names in their alphabetical order, then the nameless.
+    let (white, black) = (Vec3::ONE, Vec3::ZERO);
+    let expected = [
+        Pattern::Noise {
+            a: white,
+            b: black,
+            octaves: 7,
+        },
+        Pattern::Checker {
+            a: Vec3::X,
+            b: Vec3::Y,
+        },
+        Pattern::Stripes {
+            a: black,
+            b: Vec3::splat(3.0),
+        },
+        Pattern::Gradient {
+            a: white,
+            b: 0.25 * Vec3::X,
+        },
+    ];
+    assert_eq!(names, expected);
+    assert_eq!(scene.textures[0].space, Space::Uv);
+    assert_eq!(scene.textures[1].space, Space::World);
+    // (0.5, 0, 0) of the pattern is scaled to (1, 0, 0), turned to (0, 1, 0), moved to (10, 1, 0).
+    let place = scene.textures[1].pattern_from_space;
+    let p = place.transform_point3(DVec3::new(10.0, 1.0, 0.0));
+    assert!(p.distance(DVec3::new(0.5, 0.0, 0.0)) < 1e-12, "{p}");
+    let [a, b, c] = &scene.materials[..] else {
+        panic!("three materials");
+    };
+    // The ambient colour defaults to the diffuse one with its texture.
+    let both = Textures {
+        diffuse: Some(1),
+        specular: Some(2),
+        ambient: Some(1),
+        ..Textures::default()
+    };
+    assert_eq!(a.textures, both);
+    assert_eq!(
+        (a.diffuse, a.specular, a.ambient),
+        (Vec3::splat(0.5), white, Vec3::splat(0.5))
+    );
+    assert_eq!((b.diffuse, b.ambient), (white, Vec3::splat(2.0)));
+    assert_eq!((b.textures.diffuse, b.textures.ambient), (Some(1), Some(3)));
+    assert_eq!(c.textures, Textures::default());
+}
+
+#[test]
+fn a_background_may_be_a_gradient() {
+    let text = "background = { bottom = [1, 0.5, 0], top = '#0000ff' }";
+    let expected = Background::Gradient {
+        bottom: Vec3::new(1.0, 0.5, 0.0),
+        top: Vec3::Z,
+    };
+    assert_eq!(scene("a.toml", text).background, expected);
+}
+
+#[test]
+fn every_mistake_in_a_texture_has_its_message() {
+    let diffuse = |value: &str| format!("[materials.a]\nphong.diffuse = {value}");
+    let texts = [
+        diffuse("0.5"),
+        diffuse("'blue'"),
+        diffuse("[1, 0]"),
+        diffuse("{}"),
+        diffuse("{ color = [1, 0, 0] }"),
+        diffuse("{ checker = {}, stripes = {} }"),
+        diffuse("{ cheker = {} }"),
+        diffuse("{ checker = { c = [0, 0, 0] } }"),
+        diffuse("{ checker = { a = [0, 0, -1] } }"),
+        diffuse("{ noise = { octaves = 0 } }"),
+        diffuse("{ noise = { octaves = 17 } }"),
+        diffuse("{ noise = { octaves = 2.5 } }"),
+        diffuse("{ checker = {}, scale = 0 }"),
+        diffuse("{ checker = {}, space = 'object' }"),
+        diffuse("{ picture = 'gone.png' }"),
+        diffuse("{ picture = 3 }"),
+        diffuse("{ picture = { nearest = true } }"),
+        diffuse("{ picture = { file = 'gone.png' } }"),
+        diffuse("{ texture = 'tile' }\n[textures.tiles]\nchecker = {}"),
+        diffuse("{ texture = 'tiles' }"),
+        diffuse("{ texture = 'tiles', noise = {} }\n[textures.tiles]\nchecker = {}"),
+        diffuse("{ texture = 'tiles', scale = 3 }\n[textures.tiles]\nchecker = {}"),
+        diffuse("{ checker = { a = [1e30, 0, 0] }, color = [1e30, 0, 0] }"),
+        "[textures.a]".to_owned(),
+        "[textures.a]\ntexture = 'b'".to_owned(),
+        "textures = 3".to_owned(),
+        "background = {}".to_owned(),
+        "background = { bottom = [0, 0, 0] }".to_owned(),
+        "background = { bottom = [0, 0, 0], top = [0, 0, 0], strength = 2 }".to_owned(),
+        "background = { strength = 2 }".to_owned(),
+        "background = { up = [0, 0, 0] }".to_owned(),
+        "background = { picture = 'gone.hdr' }".to_owned(),
+        "background = { picture = 'gone.hdr', strength = -1 }".to_owned(),
+        "background = { picture = 'gone.hdr', strength = 1e37 }".to_owned(),
+        "background = { picture = 'gone.hdr', rotation_deg = 'left' }".to_owned(),
+    ];
+    assert_snapshot!(messages("a.toml", &texts), @r##"
+bad scene (a.toml:2:17): invalid type: floating point `0.5`, expected a colour ([r, g, b] or "#rrggbb") or a texture. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:17): `blue` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:17): expected three numbers [r, g, b], found fewer. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:17): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
+bad scene (a.toml:2:17): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
+bad scene (a.toml:2:17): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
+bad scene (a.toml:2:19): unknown key `cheker`, did you mean `checker`? Known here: `texture`, `color`, `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`.
+bad scene (a.toml:2:31): unknown key `c`, did you mean `a`? Known here: `a`, `b`.
+bad scene (a.toml:2:35): -1 in a colour is negative. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:39): 0 is not a whole number from 1 to 16. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:39): 17 is not a whole number from 1 to 16. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:39): 2.5 is not a whole number from 1 to 16. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:41): a scale cannot be 0. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:41): unknown value `object`. Known here: `world`, `uv`.
+picture refused (a.toml:2:29): `gone.png` does not exist. Check the name and the folder.
+bad scene (a.toml:2:29): invalid type: integer `3`, expected the name of a picture file, or a table. See `glimray schema` for what is allowed.
+bad scene (a.toml:2:29): the key `file` is missing. Add `file = …`.
+picture refused (a.toml:2:38): `gone.png` does not exist. Check the name and the folder.
+bad scene (a.toml:2:29): unknown texture `tile`, did you mean `tiles`? Add it under [textures], or name one that is there.
+bad scene (a.toml:2:29): unknown texture `tiles`. Add it under [textures], or name one that is there.
+bad scene (a.toml:2:29): a texture with a name brings its own pattern and place. Put them under [textures], or leave out `texture`.
+bad scene (a.toml:2:29): a texture with a name brings its own pattern and place. Put them under [textures], or leave out `texture`.
+bad scene (a.toml:2:17): color times texture is out of range: at most 3.4e38 is allowed. Lower one of them.
+bad scene (a.toml:1:1): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
+bad scene (a.toml:2:1): unknown key `texture`. Known here: `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`.
+bad scene (a.toml:1:12): invalid type: integer `3`, expected a map. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:16): unknown key `up`. Known here: `bottom`, `top`, `picture`, `strength`, `rotation_deg`.
+picture refused (a.toml:1:26): `gone.hdr` does not exist. Check the name and the folder.
+bad scene (a.toml:1:49): -1 is not 0 or more. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:14): `strength` is out of range: at most 5e33 is allowed. Lower it.
+bad scene (a.toml:1:53): invalid type: string "left", expected a number. See `glimray schema` for what is allowed.
+"##);
+}
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+
+fn model(files: &[(&str, &[u8])]) -> Scene {
+    let folder = folder(files);
+    let path = folder.path().join(files[0].0);
+    import::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn models_bring_their_pictures() {
+    let text =
+        format!("mtllib m/a.mtl\n{SQUARE}usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1/ 3/3/ 4/4/\n");
+    let library = b"newmtl a\nKd 0.5 1 1\nmap_Kd -clamp on -s 2 2 1 my red.png\nmap_bump x.png\n\
+                    newmtl b\nmap_Kd -mm 0 1 .\\my red.png\nmap_Ks my red.png\nKa 0.1 0.1 0.1\n\
+                    newmtl unused\nmap_Kd gone.png\n";
+    let png = png();
+    let scene = model(&[
+        ("a.obj", text.as_bytes()),
+        ("m/a.mtl", library),
+        ("m/my red.png", &png),
+    ]);
+    assert_eq!((scene.pictures.len(), scene.textures.len()), (1, 1));
+    let [a, b] = &scene.materials[..] else {
+        panic!("two materials");
+    };
+    assert_eq!(a.diffuse, Vec3::new(0.5, 1.0, 1.0));
+    assert_eq!((a.textures.diffuse, a.textures.specular), (Some(0), None));
+    assert_eq!(a.textures.ambient, Some(0));
+    // Colours that are not given are white where there is a picture.
+    assert_eq!((b.diffuse, b.specular), (Vec3::ONE, Vec3::ONE));
+    assert_eq!(b.textures.specular, Some(0));
+    let mesh = &scene.meshes[0];
+    assert_eq!(mesh.uvs.len(), mesh.positions.len());
+    for (p, uv) in mesh.positions.iter().zip(&mesh.uvs) {
+        assert_eq!(p.truncate(), *uv, "here u is x and v is y");
+    }
+    assert_snapshot!(scene.skipped.join("\n"), @r"
+options of textures of materials left out: 2
+other textures of materials left out: 1
+");
+}
+
+#[test]
+fn vertices_part_where_u_and_v_differ_only_if_a_picture_wants_them() {
+    let faces = "f 1/1 2/2 3/3\nf 1/4 3/2 4/1\n";
+    let plain = model(&[("a.obj", format!("{SQUARE}{faces}").as_bytes())]);
+    assert_eq!(plain.meshes[0].positions.len(), 4);
+    assert!(plain.meshes[0].uvs.is_empty());
+    let text = format!("mtllib a.mtl\n{SQUARE}usemtl a\n{faces}");
+    let library: &[u8] = b"newmtl a\nmap_Kd a.png\n";
+    let png = png();
+    let files = [
+        ("a.obj", text.as_bytes()),
+        ("a.mtl", library),
+        ("a.png", &png),
+    ];
+    let shown = model(&files);
+    assert_eq!(shown.meshes[0].positions.len(), 6);
+    assert!(shown.meshes[0].uvs.contains(&Vec2::Y));
+
+    // A native scene that gives the model another material decides anew.
+    for (space, vertices) in [("world", 4), ("uv", 6)] {
+        let native = format!(
+            "[[objects]]\nmesh = {{ file = 'a.obj' }}\nmaterial = {{ phong = {{ diffuse = {{ checker = {{}}, space = '{space}' }} }} }}"
+        );
+        let scene = model(&[("s.toml", native.as_bytes()), files[0], files[1], files[2]]);
+        assert_eq!(scene.meshes[0].positions.len(), vertices);
+        assert_eq!((scene.pictures.len(), scene.textures.len()), (0, 1));
+    }
+    let native = b"textures.t.checker = {}\nmaterials.m.phong.diffuse = { texture = 't' }\n\
+                   [[objects]]\nmesh = { file = 'a.obj' }\n";
+    let scene = model(&[("s.toml", native), files[0], files[1], files[2]]);
+    assert_eq!((scene.pictures.len(), scene.textures.len()), (1, 2));
+    assert_eq!(scene.materials[1].textures.diffuse, Some(1));
+}
+
+#[test]
+fn pictures_that_cannot_be_read_are_left_out_of_models() {
+    let text = format!(
+        "mtllib a.mtl\n{SQUARE}usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\nusemtl c\nf 1/1 2/2 4/4\nusemtl d\nf 2/2 3/3 4/4\n"
+    );
+    let library = b"newmtl a\nKd 1 0 0\nmap_Kd gone.png\nnewmtl b\nmap_Kd C:\\pictures\\x.png\n\
+                    newmtl c\nmap_Kd broken.png\nnewmtl d\nmap_Kd\nmap_Ks -s 1\n";
+    let scene = model(&[
+        ("a.obj", text.as_bytes()),
+        ("a.mtl", library),
+        ("broken.png", b"not a picture"),
+    ]);
+    assert_eq!(scene.triangle_count(), 4);
+    assert!(scene.textures.is_empty() && scene.meshes[0].uvs.is_empty());
+    assert_snapshot!(scene.skipped.join("\n"), @r"
+options of textures of materials left out: 1
+texture left out: `gone.png` does not exist
+texture left out: `C:\pictures\x.png` points outside the scene folder
+texture left out: `broken.png` is not a picture that is known
+");
+}
+
+#[test]
+fn texture_coordinates_are_numbers() {
+    let texts = [
+        "vt",
+        "vt a",
+        "vt 0 b",
+        "vt 1e400",
+        "vt 1e38 -1e38 5\nv 0 0 0",
+    ];
+    assert_snapshot!(messages("a.obj", &texts), @r"
+bad model (a.obj:1:1): `vt` needs a number. Write `vt U V`.
+bad model (a.obj:1:4): `a` is not a number. Write a decimal number such as -0.5 or 2e3.
+bad model (a.obj:1:6): `b` is not a number. Write a decimal number such as -0.5 or 2e3.
+bad model (a.obj:1:4): `1e400` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.
+no error
+");
+}
+
+#[test]
+fn single_triangles_have_u_and_v_of_their_own_where_a_texture_wants_them() {
+    for (space, expected) in [("uv", &[Vec2::ZERO, Vec2::X, Vec2::Y][..]), ("world", &[])] {
+        let text = format!(
+            "[[objects]]\ntriangle = {{ vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] }}\n\
+             material.phong.diffuse = {{ checker = {{}}, space = '{space}' }}"
+        );
+        assert_eq!(scene("a.toml", text).meshes[0].uvs, expected);
+    }
+}
+
+#[test]
+fn a_picture_on_a_model_without_texture_coordinates_is_reported() {
+    let files: [(&str, &[u8]); 2] = [
+        (
+            "s.toml",
+            b"[[objects]]\nmesh = { file = 'a.obj' }\nmaterial.phong.diffuse = { noise = {}, space = 'uv' }",
+        ),
+        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3"),
+    ];
+    assert_snapshot!(model(&files).skipped.join("\n"), @"`a.obj`: there are no texture coordinates: textures show one colour each");
+}

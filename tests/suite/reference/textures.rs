@@ -1,0 +1,158 @@
+//! Textures and backgrounds in f64, from their definitions in `glimray::scene`.
+
+use glam::{DVec2, DVec3, Vec3};
+use glimray::scene::{Background, Material, Pattern, Picture, Scene, Space, Texture};
+use std::f64::consts::{PI, TAU};
+
+/// Coordinates in a pattern at which a cell begins, as `lib/pattern.wesl` has them.
+const CELL_START: f64 = -0.00073;
+
+/// The material with its Phong coefficients as they are at a point.
+pub fn textured(scene: &Scene, material: Material, p: DVec3, uv: DVec2) -> Material {
+    let at = |color: Vec3, texture: Option<usize>| {
+        let factor = texture.map(|i| color_at(scene, &scene.textures[i], p, uv));
+        color * factor.unwrap_or(DVec3::ONE).as_vec3()
+    };
+    let textures = material.textures;
+    Material {
+        diffuse: at(material.diffuse, textures.diffuse),
+        specular: at(material.specular, textures.specular),
+        ambient: at(material.ambient, textures.ambient),
+        ..material
+    }
+}
+
+/// The colour of a texture at a point in the world or at (u, v).
+pub fn color_at(scene: &Scene, texture: &Texture, p: DVec3, uv: DVec2) -> DVec3 {
+    let at = match texture.space {
+        Space::World => p,
+        Space::Uv => uv.extend(0.0),
+    };
+    let q = texture.pattern_from_space.transform_point3(at);
+    let mix = |a: Vec3, b: Vec3, share: f64| a.as_dvec3().lerp(b.as_dvec3(), share);
+    match texture.pattern {
+        Pattern::Checker { a, b } => {
+            let cell = (q - CELL_START).floor();
+            mix(a, b, cell.element_sum().rem_euclid(2.0))
+        }
+        Pattern::Stripes { a, b } => mix(a, b, (2.0 * (q.x - CELL_START)).floor().rem_euclid(2.0)),
+        Pattern::Gradient { a, b } => mix(a, b, q.x.clamp(0.0, 1.0)),
+        Pattern::Noise { a, b, octaves } => mix(
+            a,
+            b,
+            (0.5 + 0.5 * noise_octaves(q, octaves)).clamp(0.0, 1.0),
+        ),
+        Pattern::Picture { picture, nearest } => {
+            picture_at(&scene.pictures[picture], q.truncate(), nearest, true)
+        }
+    }
+}
+
+/// Radiance from infinity against a unit direction.
+pub fn background(scene: &Scene, direction: DVec3) -> DVec3 {
+    match scene.background {
+        Background::Color(color) => color.as_dvec3(),
+        Background::Gradient { bottom, top } => {
+            (bottom.as_dvec3()).lerp(top.as_dvec3(), (1.0 + direction.y) / 2.0)
+        }
+        Background::Picture {
+            picture,
+            strength,
+            rotation,
+        } => {
+            // The picture is turned, so the direction is turned back before it is looked up.
+            let turned = glam::DQuat::from_rotation_y(-rotation) * direction;
+            let u = 0.5 + turned.x.atan2(-turned.z) / TAU;
+            let v = 0.5 + turned.y.clamp(-1.0, 1.0).asin() / PI;
+            let color = picture_at(&scene.pictures[picture], DVec2::new(u, v), false, false);
+            f64::from(strength) * color
+        }
+    }
+}
+
+/// A picture over [0, 1]², repeated along u and, if asked, along v; else its rows end.
+pub fn picture_at(picture: &Picture, uv: DVec2, nearest: bool, repeats_rows: bool) -> DVec3 {
+    let (width, height) = (i64::from(picture.width), i64::from(picture.height));
+    let texel = |column: i64, row_from_below: i64| {
+        let row = if repeats_rows {
+            row_from_below.rem_euclid(height)
+        } else {
+            row_from_below.clamp(0, height - 1)
+        };
+        let index = (height - 1 - row) * width + column.rem_euclid(width);
+        picture.texels[index as usize].as_dvec3()
+    };
+    let place = uv * DVec2::new(width as f64, height as f64);
+    if nearest {
+        return texel(place.x.floor() as i64, place.y.floor() as i64);
+    }
+    let place = place - 0.5;
+    let (low, share) = (place.floor(), place - place.floor());
+    let (x, y) = (low.x as i64, low.y as i64);
+    let lower = texel(x, y).lerp(texel(x + 1, y), share.x);
+    let upper = texel(x, y + 1).lerp(texel(x + 1, y + 1), share.x);
+    lower.lerp(upper, share.y)
+}
+
+/// Gradient noise (Perlin 2002), octaves of half the size and strength, over the lattice's hash.
+pub fn noise_octaves(p: DVec3, octaves: u32) -> f64 {
+    (0..octaves)
+        .map(|k| {
+            let scale = f64::from(1 << k);
+            let shift = f64::from(k) * DVec3::new(0.37f32 as f64, 0.59f32 as f64, 0.83f32 as f64);
+            gradient_noise(scale * p + shift, 256 << k) / scale
+        })
+        .sum()
+}
+
+pub fn gradient_noise(p: DVec3, period: i64) -> f64 {
+    let cell = p.floor();
+    let inside = p - cell;
+    let fade = |t: f64| t.powi(3) * (t * (6.0 * t - 15.0) + 10.0);
+    let mut sum = 0.0;
+    for corner in 0..8 {
+        let step = DVec3::new(
+            f64::from(corner & 1),
+            f64::from(corner >> 1 & 1),
+            f64::from(corner >> 2),
+        );
+        let place = (cell + step)
+            .to_array()
+            .map(|c| (c as i64).rem_euclid(period) as u32);
+        let away = inside - step;
+        let weight = 1.0 - away.abs();
+        sum += fade(weight.x) * fade(weight.y) * fade(weight.z) * gradient(place).dot(away);
+    }
+    sum
+}
+
+/// The middle of one of the twelve edges of a cube, as a direction of length √2.
+fn gradient([x, y, z]: [u32; 3]) -> DVec3 {
+    const EDGES: [[f64; 3]; 16] = [
+        [1.0, 1.0, 0.0],
+        [-1.0, 1.0, 0.0],
+        [1.0, -1.0, 0.0],
+        [-1.0, -1.0, 0.0],
+        [1.0, 0.0, 1.0],
+        [-1.0, 0.0, 1.0],
+        [1.0, 0.0, -1.0],
+        [-1.0, 0.0, -1.0],
+        [0.0, 1.0, 1.0],
+        [0.0, -1.0, 1.0],
+        [0.0, 1.0, -1.0],
+        [0.0, -1.0, -1.0],
+        [1.0, 1.0, 0.0],
+        [0.0, -1.0, 1.0],
+        [-1.0, 1.0, 0.0],
+        [0.0, -1.0, -1.0],
+    ];
+    let key = hash(x.wrapping_add(hash(y.wrapping_add(hash(z)))));
+    EDGES[(key & 15) as usize].into()
+}
+
+/// `lowbias32` of Wellons' hash-prospector.
+fn hash(x: u32) -> u32 {
+    let x = (x ^ x >> 16).wrapping_mul(0x7feb_352d);
+    let x = (x ^ x >> 15).wrapping_mul(0x846c_a68b);
+    x ^ x >> 16
+}
