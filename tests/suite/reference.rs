@@ -3,6 +3,7 @@
 //! packing. Beside it what tests of whole pictures need: scenes, rendering and comparing.
 
 pub mod compare;
+pub mod count;
 pub mod scenes;
 
 use glam::{DVec2, DVec3};
