@@ -187,7 +187,7 @@ fn no_damage_to_a_good_file_brings_the_importers_down() {
         bits ^= bits << 5;
         bits as usize % below
     };
-    const SNIPPETS: [&[u8]; 12] = [
+    const SNIPPETS: [&[u8]; 13] = [
         b"\0",
         b"\xff",
         b"\n",
@@ -200,12 +200,14 @@ fn no_damage_to_a_good_file_brings_the_importers_down() {
         b"/",
         b"f 1 2 3 4 5\n",
         b"pos:",
+        b"p 9 ",
     ];
     for name in [
         "sphere.scene",
         "spheres_and_triangles.scene",
         "shapes.toml",
         "lights.toml",
+        "neutral.nff",
         "lighthouse.obj",
     ] {
         let path = super::assets::path(name);

@@ -83,7 +83,7 @@ fn spiral(count: usize, turns: f64) -> Vec<DVec2> {
 }
 
 fn comb(count: usize) -> Vec<DVec2> {
-    let corner = |i: usize| DVec2::new(i as f64, if i / 2 % 2 == 0 { 0.0 } else { 9.0 });
+    let corner = |i: usize| DVec2::new(i as f64, if (i / 2).is_multiple_of(2) { 0.0 } else { 9.0 });
     let (first, last) = (DVec2::new(0.0, -1.0), DVec2::new(count as f64, -1.0));
     std::iter::once(first)
         .chain((1..count).map(corner))
