@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `.toml` | glimray's own | `native.rs` |
 //! | `.scene` | the course's | `course.rs` |
+//! | `.nff` | Haines' Neutral File Format | `nff.rs` |
 //! | `.obj` | Wavefront OBJ with MTL | `obj.rs` |
 //!
 //! Pictures that scenes and models name are read by `picture.rs`.
@@ -16,10 +17,12 @@
 mod course;
 mod error;
 mod native;
+mod nff;
 mod number;
 mod obj;
 mod paths;
 mod picture;
+mod polygon;
 mod source;
 mod stage;
 mod suggest;
@@ -43,7 +46,7 @@ pub struct Options {
     pub overrides: Vec<String>,
 }
 
-/// The largest geometry file (`.scene`, `.obj`) that is read, in bytes.
+/// The largest geometry file (`.scene`, `.nff`, `.obj`) that is read, in bytes.
 const MAX_GEOMETRY_BYTES: u64 = 2 << 30;
 
 /// The scene in the file at `path`, with default [`Options`].
@@ -63,7 +66,7 @@ pub fn load_with(path: &Path, options: &Options) -> Result<Scene, ImportError> {
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
     let is_native = match ending.to_str() {
         Some("toml") => true,
-        Some("scene" | "obj") => false,
+        Some("scene" | "nff" | "obj") => false,
         _ => return Err(unknown_format(path)),
     };
     if is_native {
@@ -79,22 +82,26 @@ pub fn load_with(path: &Path, options: &Options) -> Result<Scene, ImportError> {
     if ending == "scene" {
         return course::read(&Source::new("bad scene", path, bytes)?);
     }
+    if ending == "nff" {
+        return nff::read(&Source::new("bad scene", path, bytes)?);
+    }
     let files = Files::beside(path, &options.allow_dirs)?;
     obj::read_scene(&Source::new("bad model", path, bytes)?, &files)
 }
 
 /// The scene in `text`, which can name no files. `name` stands for the file's path in errors; if it
-/// ends in `.scene` the text is in the course's format, else in the native one.
+/// ends in `.scene` or `.nff` the text is in that format, else in the native one.
 ///
 /// # Errors
 /// `text` is malformed or names a file, or an override does not fit.
 pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportError> {
     let path = Path::new(name);
     let source = Source::new("bad scene", path, text.as_bytes().to_vec())?;
-    if path.extension().is_some_and(|ending| ending == "scene") {
-        return course::read(&source);
+    match path.extension().and_then(|ending| ending.to_str()) {
+        Some("scene") => course::read(&source),
+        Some("nff") => nff::read(&source),
+        _ => native::read(&source, options, &Files::none()),
     }
-    native::read(&source, options, &Files::none())
 }
 
 /// The JSON Schema (2020-12) of the native format, for editors that complete and check TOML.
@@ -117,7 +124,7 @@ fn unknown_format(path: &Path) -> ImportError {
         "unknown scene format",
         path,
         &ending,
-        "Name a .toml (native), .scene (course) or .obj (Wavefront) file",
+        "Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file",
     ))
 }
 

@@ -83,7 +83,7 @@ pub struct DemoArgs {
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// The scene: .scene (course format), .toml (native) or .obj
+    /// The scene: .scene (course format), .toml (native), .nff or .obj
     pub scene: PathBuf,
     #[command(flatten)]
     pub output: OutputFlags,
@@ -101,7 +101,7 @@ pub struct RenderArgs {
 
 #[derive(Debug, Args)]
 pub struct InspectArgs {
-    /// The scene: .scene (course format), .toml (native) or .obj
+    /// The scene: .scene (course format), .toml (native), .nff or .obj
     pub scene: PathBuf,
     /// Print JSON instead of text
     #[arg(long)]

@@ -9,13 +9,13 @@ mod face;
 mod lines;
 mod materials;
 mod mtl;
-mod triangulate;
 mod uv;
 mod weld;
 
 use super::error::ImportError;
 use super::paths::{self, Files, Refusal};
 use super::picture::Pictures;
+use super::polygon::{self, Cutter, Defect};
 use super::source::{Source, Token, quote};
 use super::{number, repair_notes, stage};
 use crate::scene::{Instance, Material, Mesh, OutputDefaults, Scene, Texture};
@@ -125,6 +125,8 @@ fn read(
         face_normals: Vec::new(),
         smooth_normals: Vec::new(),
         corners: Vec::new(),
+        cutter: Cutter::new(),
+        fan_count: 0,
         triangles: Vec::new(),
         material: 0,
         material_names: vec![String::new()],
@@ -166,6 +168,9 @@ struct Reader<'s> {
     /// `positions` where there are none at all.
     smooth_normals: Vec<DVec3>,
     corners: Vec<Corner>,
+    cutter: Cutter,
+    /// Faces that could only be cut into fans.
+    fan_count: usize,
     /// Indices into `corners`.
     triangles: Vec<[u32; 3]>,
     /// Index into `material_names` of the material in use; 0 before the first `usemtl`.
@@ -266,7 +271,7 @@ impl Reader<'_> {
             .iter()
             .map(|c| self.positions[c.position as usize])
             .collect();
-        self.complete_normals(&mut face, triangulate::normal(&points));
+        self.complete_normals(&mut face, polygon::normal(&points));
         let first = self.corners.len();
         if first + face.len() > face::MAX_CORNERS {
             let why = format!("more than {} corners of faces", face::MAX_CORNERS);
@@ -276,8 +281,12 @@ impl Reader<'_> {
             return Err(ImportError::TooBig(error.into_fault()));
         }
         let shift = |triangle: [u32; 3]| triangle.map(|i| first as u32 + i);
-        self.triangles
-            .extend(triangulate::triangles(&points).into_iter().map(shift));
+        let triangles = self.cutter.triangles(&points).unwrap_or_else(|defect| {
+            // Triangles without area are counted when the mesh is repaired.
+            self.fan_count += usize::from(defect != Defect::NoArea);
+            polygon::fan(points.len())
+        });
+        self.triangles.extend(triangles.into_iter().map(shift));
         self.corners.append(&mut face);
         Ok(())
     }
@@ -399,6 +408,13 @@ impl Reader<'_> {
         let left_out = self.left_out.iter();
         self.skipped
             .extend(left_out.map(|(what, count)| format!("{what} left out: {count}")));
+        if self.fan_count > 0 {
+            let note = format!(
+                "faces that cross themselves or are too large, cut into fans: {}",
+                self.fan_count
+            );
+            self.skipped.push(note);
+        }
         if let Some(span) = &self.unknown {
             let first = quote(&self.source.bytes[span.clone()]);
             self.skipped

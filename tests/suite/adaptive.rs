@@ -83,14 +83,23 @@ fn less_noise_takes_more_samples_and_none_takes_all_or_few() {
     let mut last = 0;
     for noise in [0.3, 0.03, 0.003] {
         let (_, stats) = render(&scene, &settings(Antialias::Adaptive, 64, noise));
-        assert!(stats.samples > last, "{noise}: {} after {last}", stats.samples);
+        assert!(
+            stats.samples > last,
+            "{noise}: {} after {last}",
+            stats.samples
+        );
         last = stats.samples;
     }
     let mut even = scenes::empty();
     even.background = Background::Color(Vec3::splat(0.3));
     let (image, stats) = render(&even, &settings(Antialias::Adaptive, 64, 0.01));
     assert_eq!(stats.samples, 4 * 96 * 96);
-    assert!(image.pixels.iter().all(|pixel| (pixel[0] - 0.3).abs() < 1e-6));
+    assert!(
+        image
+            .pixels
+            .iter()
+            .all(|pixel| (pixel[0] - 0.3).abs() < 1e-6)
+    );
 }
 
 #[test]
@@ -101,7 +110,11 @@ fn the_map_of_samples_shows_where_they_went() {
         ..settings(Antialias::Adaptive, 64, 0.01)
     };
     let (map, stats) = render(&scene, &settings);
-    let spent: f64 = map.pixels.iter().map(|pixel| f64::from(pixel[0]) * 64.0).sum();
+    let spent: f64 = map
+        .pixels
+        .iter()
+        .map(|pixel| f64::from(pixel[0]) * 64.0)
+        .sum();
     assert_eq!(spent as u64, stats.samples);
     let at = |x, y| map.pixel(x, y).expect("a pixel")[0] * 64.0;
     // Above and right of the balls there is nothing to find.
@@ -114,18 +127,24 @@ fn the_cut_of_the_work_and_a_crop_do_not_show() {
     let scene = detail_in_a_fifth();
     let whole = settings(Antialias::Adaptive, 300, 0.01);
     let expected = render(&scene, &whole).0;
-    assert_none([(1, 3, 2048), (50, 16, 16), (7, 1, 40)].map(|(max_tiles, max_samples, window_side)| {
-        let cut = Settings {
-            slicing: Slicing {
-                max_tiles,
-                max_samples,
-                window_side,
-                ..Slicing::default()
-            },
-            ..whole.clone()
-        };
-        check_same_bits(&format!("{max_tiles} tiles"), &expected, &render(&scene, &cut).0)
-    }));
+    assert_none([(1, 3, 2048), (50, 16, 16), (7, 1, 40)].map(
+        |(max_tiles, max_samples, window_side)| {
+            let cut = Settings {
+                slicing: Slicing {
+                    max_tiles,
+                    max_samples,
+                    window_side,
+                    ..Slicing::default()
+                },
+                ..whole.clone()
+            };
+            check_same_bits(
+                &format!("{max_tiles} tiles"),
+                &expected,
+                &render(&scene, &cut).0,
+            )
+        },
+    ));
 }
 
 #[test]
@@ -141,5 +160,9 @@ fn progress_reaches_1_and_a_picture_can_be_developed_on_the_way() {
     }
     assert_eq!(last, 1.0);
     let picture = renderer.develop(&Tone::LINEAR).expect("a picture");
-    assert_none([check_same_bits("developed", &picture, &render(&detail_in_a_fifth(), &settings).0)]);
+    assert_none([check_same_bits(
+        "developed",
+        &picture,
+        &render(&detail_in_a_fifth(), &settings).0,
+    )]);
 }

@@ -5,6 +5,7 @@ mod course;
 mod files;
 mod hostile;
 mod native;
+mod nff;
 mod obj;
 mod pictures;
 mod textures;

@@ -7,8 +7,8 @@ use glimray::image::Image;
 use glimray::pack::PackError;
 use glimray::render::{Fetch, Rays, Settings, Slicing};
 use glimray::scene::{
-    Background, Camera, Form, Fresnel, Geometry, Light, LightKind, Material, Mixing, Scene, Shadows,
-    Shape,
+    Background, Camera, Form, Fresnel, Geometry, Light, LightKind, Material, Mixing, Scene,
+    Shadows, Shape,
 };
 use glimray::{import, pack};
 
@@ -99,7 +99,11 @@ fn to_depth(max_depth: u32) -> Settings {
 }
 
 fn middle(image: &Image) -> f64 {
-    f64::from(image.pixel(image.width / 2, image.height / 2).expect("a pixel")[0])
+    f64::from(
+        image
+            .pixel(image.width / 2, image.height / 2)
+            .expect("a pixel")[0],
+    )
 }
 
 fn rays(scene: &Scene, settings: &Settings) -> Rays {
@@ -113,9 +117,21 @@ fn a_glass_slab_reflects_and_transmits_what_its_infinitely_many_bounces_add_up_t
     let reflected = 2.0 * r0 / (1.0 + r0);
     let slab = |in_front: f32, behind: f32| {
         let mut scene = dark();
-        add(&mut scene, cuboid(dvec3(-50.0, -50.0, -1.0), dvec3(50.0, 50.0, 0.0)), glass(1.5));
-        add(&mut scene, plane(dvec3(0.0, 0.0, 10.0), DVec3::NEG_Z), shining(in_front));
-        add(&mut scene, plane(dvec3(0.0, 0.0, -10.0), DVec3::Z), shining(behind));
+        add(
+            &mut scene,
+            cuboid(dvec3(-50.0, -50.0, -1.0), dvec3(50.0, 50.0, 0.0)),
+            glass(1.5),
+        );
+        add(
+            &mut scene,
+            plane(dvec3(0.0, 0.0, 10.0), DVec3::NEG_Z),
+            shining(in_front),
+        );
+        add(
+            &mut scene,
+            plane(dvec3(0.0, 0.0, -10.0), DVec3::Z),
+            shining(behind),
+        );
         scene.cameras[0].fov_y = 1e-3;
         middle(&render(&scene, &to_depth(30)).0)
     };
@@ -125,7 +141,9 @@ fn a_glass_slab_reflects_and_transmits_what_its_infinitely_many_bounces_add_up_t
         ("transmitted", slab(0.0, 1.0), 1.0 - reflected),
         ("all of it", slab(1.0, 1.0), 1.0),
     ] {
-        verdict.that(name, (got / expected - 1.0).abs() < 1e-3, || format!("{got} for {expected}"));
+        verdict.that(name, (got / expected - 1.0).abs() < 1e-3, || {
+            format!("{got} for {expected}")
+        });
     }
     verdict.close();
 }
@@ -137,14 +155,21 @@ fn an_absorbing_slab_leaves_what_beer_and_lambert_say() {
         absorption: Vec3::new(1.0, 2.0, 0.0),
         ..glass(1.0)
     };
-    add(&mut scene, cuboid(dvec3(-9.0, -9.0, -1.0), dvec3(9.0, 9.0, 0.0)), tinted);
+    add(
+        &mut scene,
+        cuboid(dvec3(-9.0, -9.0, -1.0), dvec3(9.0, 9.0, 0.0)),
+        tinted,
+    );
     scene.background = Background::Color(Vec3::ONE);
     scene.cameras[0].fov_y = 1e-3;
     let image = render(&scene, &to_depth(4)).0;
     let pixel = image.pixel(8, 8).expect("a pixel");
     for (channel, length) in [1.0_f64, 2.0, 0.0].into_iter().enumerate() {
         let got = f64::from(pixel[channel]);
-        assert!((got / (-length).exp() - 1.0).abs() < 1e-3, "{got} after {length}");
+        assert!(
+            (got / (-length).exp() - 1.0).abs() < 1e-3,
+            "{got} after {length}"
+        );
     }
 }
 
@@ -156,7 +181,11 @@ fn a_camera_inside_a_medium_sees_through_it() {
         absorption: Vec3::splat(0.5),
         ..glass(1.0)
     };
-    add(&mut scene, cuboid(DVec3::splat(-7.0), DVec3::splat(7.0)), water);
+    add(
+        &mut scene,
+        cuboid(DVec3::splat(-7.0), DVec3::splat(7.0)),
+        water,
+    );
     add(&mut scene, sphere(dvec3(0.0, 0.0, -4.0), 1.0), shining(1.0));
     scene.cameras[0].fov_y = 1e-3;
     // From z = 5 to the ball at z = -3.
@@ -172,7 +201,10 @@ fn a_white_furnace_shows_neither_mirror_nor_glass() {
         add(&mut scene, sphere(DVec3::ZERO, 1.5), material);
         let image = render(&scene, &to_depth(64)).0;
         for pixel in &image.pixels {
-            assert!((f64::from(pixel[0]) - 1.0).abs() < room, "{name}: {pixel:?}");
+            assert!(
+                (f64::from(pixel[0]) - 1.0).abs() < room,
+                "{name}: {pixel:?}"
+            );
         }
     }
 }
@@ -183,7 +215,11 @@ fn a_mirror_corridor_shows_one_image_more_with_every_bounce() {
     let mut scene = dark();
     scene.cameras[0] = camera(DVec3::ZERO, DVec3::NEG_Z, 2.0 * 0.16_f64.atan());
     add(&mut scene, plane(dvec3(0.0, 0.0, -2.0), DVec3::Z), mirror());
-    add(&mut scene, plane(dvec3(0.0, 0.0, 2.0), DVec3::NEG_Z), mirror());
+    add(
+        &mut scene,
+        plane(dvec3(0.0, 0.0, 2.0), DVec3::NEG_Z),
+        mirror(),
+    );
     add(&mut scene, sphere(dvec3(0.5, 0.0, 0.0), 0.05), shining(1.0));
     let mut verdict = Verdict::on("images");
     for depth in 0..=6 {
@@ -195,7 +231,9 @@ fn a_mirror_corridor_shows_one_image_more_with_every_bounce() {
         let row = render(&scene, &settings).0;
         let lit: Vec<bool> = row.pixels.iter().map(|pixel| pixel[0] > 0.5).collect();
         let images = lit.windows(2).filter(|pair| !pair[0] && pair[1]).count();
-        verdict.that(format!("depth {depth}"), images == depth as usize, || format!("{images} images"));
+        verdict.that(format!("depth {depth}"), images == depth as usize, || {
+            format!("{images} images")
+        });
     }
     verdict.close();
 }
@@ -205,7 +243,11 @@ fn every_bounce_between_mirrors_is_one_reflected_ray() {
     let mut scene = dark();
     scene.cameras[0] = camera(DVec3::ZERO, DVec3::NEG_Z, 0.1);
     add(&mut scene, plane(dvec3(0.0, 0.0, -2.0), DVec3::Z), mirror());
-    add(&mut scene, plane(dvec3(0.0, 0.0, 2.0), DVec3::NEG_Z), mirror());
+    add(
+        &mut scene,
+        plane(dvec3(0.0, 0.0, 2.0), DVec3::NEG_Z),
+        mirror(),
+    );
     for depth in [0, 1, 7, 100] {
         let counted = rays(&scene, &to_depth(depth));
         assert_eq!(counted.primary_hits, 256);
@@ -224,14 +266,22 @@ fn rays_below_the_least_share_are_not_sent() {
         reflect: Vec3::splat(0.5),
         ..black()
     };
-    add(&mut scene, plane(dvec3(0.0, 0.0, -2.0), DVec3::Z), half.clone());
+    add(
+        &mut scene,
+        plane(dvec3(0.0, 0.0, -2.0), DVec3::Z),
+        half.clone(),
+    );
     add(&mut scene, plane(dvec3(0.0, 0.0, 2.0), DVec3::NEG_Z), half);
     for (min_throughput, bounces) in [(1.0 / 512.0, 9), (0.25, 2), (0.6, 0)] {
         let settings = Settings {
             min_throughput,
             ..to_depth(50)
         };
-        assert_eq!(rays(&scene, &settings).reflection, 256 * bounces, "{min_throughput}");
+        assert_eq!(
+            rays(&scene, &settings).reflection,
+            256 * bounces,
+            "{min_throughput}"
+        );
     }
 }
 
@@ -246,7 +296,11 @@ fn a_tree_with_too_many_rays_is_cut_off_and_counted() {
     };
     for i in 0..40 {
         let z = -2.0 * f64::from(i);
-        add(&mut scene, cuboid(dvec3(-90.0, -90.0, z - 1.0), dvec3(90.0, 90.0, z)), endless.clone());
+        add(
+            &mut scene,
+            cuboid(dvec3(-90.0, -90.0, z - 1.0), dvec3(90.0, 90.0, z)),
+            endless.clone(),
+        );
     }
     scene.cameras[0].fov_y = 0.1;
     let (_, stats) = render(&scene, &to_depth(60));
@@ -268,16 +322,22 @@ fn counts_do_not_depend_on_how_the_work_is_cut() {
         color: Vec3::ONE,
         ..Light::default()
     });
-    add(&mut scene, plane(dvec3(0.0, -1.0, 0.0), DVec3::Y), Material::default());
+    add(
+        &mut scene,
+        plane(dvec3(0.0, -1.0, 0.0), DVec3::Y),
+        Material::default(),
+    );
     let whole = Settings {
         samples: 4,
         antialias: glimray::render::Antialias::Stratified,
         ..to_depth(5)
     };
     let (image, stats) = render(&scene, &whole);
-    for (max_tiles, max_samples, window_side, fetch) in
-        [(1, 1, 8, Fetch::Buffer), (3, 2, 2048, Fetch::Image), (2, 4, 16, Fetch::Auto)]
-    {
+    for (max_tiles, max_samples, window_side, fetch) in [
+        (1, 1, 8, Fetch::Buffer),
+        (3, 2, 2048, Fetch::Image),
+        (2, 4, 16, Fetch::Auto),
+    ] {
         let cut = Settings {
             slicing: Slicing {
                 max_tiles,
@@ -330,7 +390,10 @@ fn two_touching_blocks_of_one_glass_look_like_one() {
         scene
     };
     let one = across(&scene(&[whole]));
-    for (name, two) in [("left first", [left, right]), ("right first", [right, left])] {
+    for (name, two) in [
+        ("left first", [left, right]),
+        ("right first", [right, left]),
+    ] {
         let worst = across(&scene(&two))
             .iter()
             .zip(&one)
@@ -345,11 +408,23 @@ fn light_passes_from_one_body_into_another_that_touches_it() {
     // Straight through glass and water: three boundaries, none of them with air between.
     let (glass_ior, water_ior) = (1.5_f64, 1.33);
     let once = |a: f64, b: f64| ((a - b) / (a + b)).powi(2);
-    let straight = [once(1.0, glass_ior), once(glass_ior, water_ior), once(water_ior, 1.0)];
+    let straight = [
+        once(1.0, glass_ior),
+        once(glass_ior, water_ior),
+        once(water_ior, 1.0),
+    ];
     let mut scene = dark();
     scene.background = Background::Color(Vec3::ONE);
-    add(&mut scene, cuboid(dvec3(-9.0, -9.0, -1.0), dvec3(9.0, 9.0, 0.0)), glass(1.5));
-    add(&mut scene, cuboid(dvec3(-9.0, -9.0, -2.0), dvec3(9.0, 9.0, -1.0)), glass(1.33));
+    add(
+        &mut scene,
+        cuboid(dvec3(-9.0, -9.0, -1.0), dvec3(9.0, 9.0, 0.0)),
+        glass(1.5),
+    );
+    add(
+        &mut scene,
+        cuboid(dvec3(-9.0, -9.0, -2.0), dvec3(9.0, 9.0, -1.0)),
+        glass(1.33),
+    );
     scene.cameras[0].fov_y = 1e-3;
     // Only what is never mirrored: the tree is as deep as there are boundaries.
     let settings = Settings {
@@ -376,8 +451,16 @@ fn of_overlapping_bodies_the_one_with_the_higher_priority_counts() {
             priority: water_priority,
             ..glass(1.0)
         };
-        add(&mut scene, cuboid(dvec3(-9.0, -9.0, -1.5), dvec3(9.0, 9.0, 0.0)), wall);
-        add(&mut scene, cuboid(dvec3(-9.0, -9.0, -3.0), dvec3(9.0, 9.0, -1.0)), water);
+        add(
+            &mut scene,
+            cuboid(dvec3(-9.0, -9.0, -1.5), dvec3(9.0, 9.0, 0.0)),
+            wall,
+        );
+        add(
+            &mut scene,
+            cuboid(dvec3(-9.0, -9.0, -3.0), dvec3(9.0, 9.0, -1.0)),
+            water,
+        );
         scene.cameras[0].fov_y = 1e-3;
         -middle(&render(&scene, &to_depth(9)).0).ln()
     };
@@ -387,7 +470,10 @@ fn of_overlapping_bodies_the_one_with_the_higher_priority_counts() {
         ("the last entered", 0, 1.0 + 0.2),
     ] {
         let got = seen(priority);
-        assert!((got - expected).abs() < 2e-3, "{name}: {got} for {expected}");
+        assert!(
+            (got - expected).abs() < 2e-3,
+            "{name}: {got} for {expected}"
+        );
     }
 }
 
@@ -414,7 +500,11 @@ fn a_pane_on_a_table_shows_the_table() {
     let mut scene = dark();
     scene.cameras[0] = camera(dvec3(0.0, 4.0, 4.0), DVec3::ZERO, 0.5);
     add(&mut scene, plane(DVec3::ZERO, DVec3::Y), shining(1.0));
-    add(&mut scene, cuboid(dvec3(-9.0, 0.0, -9.0), dvec3(9.0, 0.2, 9.0)), glass(1.5));
+    add(
+        &mut scene,
+        cuboid(dvec3(-9.0, 0.0, -9.0), dvec3(9.0, 0.2, 9.0)),
+        glass(1.5),
+    );
     let settings = Settings {
         min_throughput: 0.5,
         ..to_depth(4)
@@ -432,7 +522,12 @@ fn a_ball_of_glass_bends_light_as_a_lens_does() {
     let (radius, n) = (1.0, 1.5);
     let f = n * radius / (2.0 * (n - 1.0));
     let mut verdict = Verdict::on("ball lens");
-    for (name, s) in [("at the focus", f), ("inverted image", 2.0 * f), ("near", 1.2), ("far", 10.0)] {
+    for (name, s) in [
+        ("at the focus", f),
+        ("inverted image", 2.0 * f),
+        ("near", 1.2),
+        ("far", 10.0),
+    ] {
         let mut scene = dark();
         // The brightness of the background tells the direction's y.
         scene.background = Background::Gradient {
@@ -453,7 +548,9 @@ fn a_ball_of_glass_bends_light_as_a_lens_does() {
         let seen = f64::from(image.pixel(8, 2).expect("a pixel")[0]) / through;
         let got = 2.0 * seen - 1.0;
         let expected = angle * (1.0 - s / f);
-        verdict.that(name, (got - expected).abs() < 0.01 * angle, || format!("{got} for {expected}"));
+        verdict.that(name, (got - expected).abs() < 0.01 * angle, || {
+            format!("{got} for {expected}")
+        });
     }
     verdict.close();
 }
@@ -481,9 +578,17 @@ fn filtered_shadows_let_through_what_transmission_and_absorption_leave() {
         let mut scene = dark();
         scene.shadows = shadows;
         scene.cameras[0] = camera(dvec3(0.0, 0.5, 4.0), DVec3::ZERO, 1e-3);
-        add(&mut scene, plane(DVec3::ZERO, DVec3::Y), Material::default());
+        add(
+            &mut scene,
+            plane(DVec3::ZERO, DVec3::Y),
+            Material::default(),
+        );
         if let Some(plate) = plate {
-            add(&mut scene, cuboid(dvec3(-1.0, 1.0, -1.0), dvec3(1.0, 1.5, 1.0)), plate);
+            add(
+                &mut scene,
+                cuboid(dvec3(-1.0, 1.0, -1.0), dvec3(1.0, 1.5, 1.0)),
+                plate,
+            );
         }
         scene.lights.push(Light {
             kind: LightKind::Point {
@@ -512,9 +617,20 @@ fn filtered_shadows_let_through_what_transmission_and_absorption_leave() {
 fn more_media_round_the_camera_than_a_ray_remembers_are_refused() {
     let mut scene = dark();
     for radius in 6..=10 {
-        add(&mut scene, sphere(DVec3::ZERO, f64::from(radius)), glass(1.5));
+        add(
+            &mut scene,
+            sphere(DVec3::ZERO, f64::from(radius)),
+            glass(1.5),
+        );
     }
     let packed = pack::scene(&scene).expect("a packed scene");
     let refused = packed.frame(&scene.frame(0.0));
-    assert!(matches!(refused, Err(PackError::TooMany { count: 5, limit: 4, .. })));
+    assert!(matches!(
+        refused,
+        Err(PackError::TooMany {
+            count: 5,
+            limit: 4,
+            ..
+        })
+    ));
 }

@@ -3,6 +3,8 @@
 //! packing. Beside it what tests of whole pictures need: scenes, rendering and comparing.
 
 pub mod compare;
+pub mod count;
+mod optics;
 pub mod scenes;
 pub mod shapes;
 pub mod textures;
@@ -13,6 +15,7 @@ use glimray::render::Rays;
 use glimray::scene::{
     Attenuation, Camera, Form, Geometry, Light, LightKind, Material, Scene, Shape,
 };
+use optics::Place;
 
 /// The picture and the number of rays it took.
 pub struct Traced {
@@ -62,6 +65,10 @@ pub fn trace(scene: &Scene, (width, height): (u32, u32)) -> Traced {
         rays.primary_hits += row.primary_hits;
         rays.shadow += row.shadow;
         rays.shadow_blocked += row.shadow_blocked;
+        rays.reflection += row.reflection;
+        rays.reflection_hits += row.reflection_hits;
+        rays.refraction += row.refraction;
+        rays.refraction_hits += row.refraction_hits;
     }
     Traced { image, rays }
 }
@@ -108,6 +115,18 @@ struct Ray {
     leaving: Option<Primitive>,
 }
 
+/// Where a ray meets a surface.
+struct Hit {
+    p: DVec3,
+    /// For shading.
+    n: DVec3,
+    /// Interpolated, and multiplied by its textures.
+    material: Material,
+    material_index: usize,
+    /// Whether the ray comes from the side that the surface's own normal points to.
+    enters: bool,
+}
+
 impl<'a> Tracer<'a> {
     fn new(scene: &'a Scene) -> Self {
         let mut triangles = Vec::new();
@@ -145,33 +164,46 @@ impl<'a> Tracer<'a> {
             t_max: f64::INFINITY,
             leaving: None,
         };
-        let Some((t, primitive)) = self.nearest(ray) else {
-            return textures::background(self.scene, direction);
+        let first = Place {
+            depth: 0,
+            share: DVec3::ONE,
+            media: Vec::new(),
         };
-        rays.primary_hits += 1;
-        let p = ray.origin + t * direction;
-        let (normal, material, uv) = match primitive {
+        let (color, is_hit) = self.follow(ray, &first, rays);
+        rays.primary_hits += u64::from(is_hit);
+        color
+    }
+
+    /// What there is to know of the place where a ray meets a surface.
+    fn hit(&self, ray: Ray, t: f64, primitive: Primitive) -> Hit {
+        let p = ray.origin + t * ray.direction;
+        let direction = ray.direction;
+        let (n, material, uv, material_index, outward) = match primitive {
             Primitive::Shape(i) => {
-                let (normal, material) = self.shape_surface(&self.scene.shapes[i], p, direction);
-                (normal, material, DVec2::ZERO)
+                let shape = &self.scene.shapes[i];
+                let (n, material) = self.shape_surface(shape, p, direction);
+                let outward = self.shape_normal(shape, p);
+                (n, material, DVec2::ZERO, shape.material, outward)
             }
             Primitive::Triangle(i) => {
                 let triangle = &self.triangles[i];
                 let weights = weights(triangle, p);
                 let [a, b, c] = triangle.uvs;
                 let uv = weights.x * a + weights.y * b + weights.z * c;
-                let (normal, material) = self.triangle_surface(triangle, p, direction);
-                (normal, material, uv)
+                let (n, material) = self.triangle_surface(triangle, p, direction);
+                let [na, nb, nc] = triangle.normals;
+                let given = weights.x * na + weights.y * nb + weights.z * nc;
+                let outward = triangle.cross * triangle.cross.dot(given).signum();
+                (n, material, uv, triangle.materials[0] as usize, outward)
             }
         };
-        let material = textures::textured(self.scene, material, p, uv);
-        let shadow = Ray {
-            origin: p,
-            t_min: 1e-9 * t,
-            leaving: Some(primitive),
-            ..ray
-        };
-        self.shade(shadow, normal, -direction, &material, rays)
+        Hit {
+            p,
+            n,
+            material: textures::textured(self.scene, material, p, uv),
+            material_index,
+            enters: outward.dot(direction) <= 0.0,
+        }
     }
 
     /// amb + Σ L (k_d max(l·n, 0) + k_s max(r·v, 0)^α) over the lights that are seen from `shadow`'s
@@ -249,16 +281,20 @@ impl<'a> Tracer<'a> {
 
     fn shape_surface(&self, shape: &Shape, p: DVec3, direction: DVec3) -> (DVec3, Material) {
         let material = self.scene.materials[shape.material].clone();
-        let normal = match shape.geometry {
+        let normal = self.shape_normal(shape, p);
+        let turned = material.two_sided && normal.dot(direction) > 0.0;
+        (if turned { -normal } else { normal }, material)
+    }
+
+    fn shape_normal(&self, shape: &Shape, p: DVec3) -> DVec3 {
+        match shape.geometry {
             Geometry::Sphere { center, radius } => (p - center) / radius,
             Geometry::Plane { normal, .. } => normal,
             Geometry::Placed {
                 form,
                 world_from_form,
             } => shapes::normal(form, world_from_form, p),
-        };
-        let turned = material.two_sided && normal.dot(direction) > 0.0;
-        (if turned { -normal } else { normal }, material)
+        }
     }
 
     /// Normal and coefficients are interpolated; the first corner says whether there are two sides.
@@ -281,6 +317,7 @@ impl<'a> Tracer<'a> {
             specular: mix(|m| m.specular),
             shininess: weights.dot(shininess) as f32,
             ambient: mix(|m| m.ambient),
+            reflect: mix(|m| m.reflect),
             ..a.clone()
         };
         let [na, nb, nc] = triangle.normals;

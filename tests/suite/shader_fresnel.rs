@@ -31,7 +31,19 @@ fn boundaries(rows: &[(f32, f32)]) -> Vec<[f32; 4]> {
 
 /// Angles of incidence over all of a quarter turn, and ratios of indices on both sides of 1.
 fn slopes() -> Vec<(f32, f32)> {
-    let etas = [0.2, 0.4, 1.0 / 1.5, 0.75, 0.99, 1.0, 1.01, 1.33, 1.5, 2.4, 10.0];
+    let etas = [
+        0.2,
+        0.4,
+        1.0 / 1.5,
+        0.75,
+        0.99,
+        1.0,
+        1.01,
+        1.33,
+        1.5,
+        2.4,
+        10.0,
+    ];
     let cosines = (0..=1000).map(|i| i as f32 / 1000.0);
     etas.iter()
         .flat_map(|&eta| cosines.clone().map(move |cos_i| (cos_i, eta)))
@@ -58,13 +70,19 @@ fn reflected_and_transmitted_light_are_all_of_it() {
         };
         let name = format!("cos {cos_i}, eta {eta}");
         // At the critical angle the slope is infinite.
-        let room = if (sin_t - 1.0).abs() < 1e-5 { 1e-2 } else { 1e-6 + 1e-6 / f64::from(cos_i.max(1e-3)) };
+        let room = if (sin_t - 1.0).abs() < 1e-5 {
+            1e-2
+        } else {
+            1e-6 + 1e-6 / f64::from(cos_i.max(1e-3))
+        };
         let sum = f64::from(r) + transmitted;
         verdict.that(&name, (sum - 1.0).abs() <= room, || format!("{sum}"));
         verdict.that(&name, (0.0..=1.0).contains(&r), || format!("R = {r}"));
-        verdict.that(&name, (total > 0.5) == (sin_t >= 1.0) || (sin_t - 1.0).abs() < 1e-5, || {
-            format!("total {total}, sin {sin_t}")
-        });
+        verdict.that(
+            &name,
+            (total > 0.5) == (sin_t >= 1.0) || (sin_t - 1.0).abs() < 1e-5,
+            || format!("total {total}, sin {sin_t}"),
+        );
     }
     verdict.close();
 }
@@ -78,14 +96,27 @@ fn known_angles_have_their_known_reflectance() {
     let rows = [
         ("straight into glass", 1.0, 1.0 / 1.5, 0.04),
         ("straight out of glass", 1.0, 1.5, 0.04),
-        ("straight into diamond", 1.0, 1.0 / 2.4, (1.4_f64 / 3.4).powi(2)),
-        ("at Brewster's angle", brewster.cos() as f32, 1.0 / 1.5, at_brewster),
+        (
+            "straight into diamond",
+            1.0,
+            1.0 / 2.4,
+            (1.4_f64 / 3.4).powi(2),
+        ),
+        (
+            "at Brewster's angle",
+            brewster.cos() as f32,
+            1.0 / 1.5,
+            at_brewster,
+        ),
         ("grazing", 0.0, 1.0 / 1.5, 1.0),
         ("beyond the critical angle", 0.5, 1.5, 1.0),
         ("between equal media", 0.3, 1.0, 0.0),
         ("grazing between equal media", 0.0, 1.0, 0.0),
     ];
-    let inputs: Vec<_> = rows.iter().map(|&(_, cos_i, eta, _)| (cos_i, eta)).collect();
+    let inputs: Vec<_> = rows
+        .iter()
+        .map(|&(_, cos_i, eta, _)| (cos_i, eta))
+        .collect();
     let mut verdict = Verdict::on("reflectance");
     for ((name, .., expected), [r, ..]) in rows.iter().zip(boundaries(&inputs)) {
         verdict.near(name, &r, expected, Tolerance::Absolute(2e-6));
@@ -101,7 +132,9 @@ fn schlick_is_exact_at_both_ends_and_near_between() {
         let name = format!("cos {cos_i}, eta {eta}");
         let is_end = cos_i == 1.0 || total > 0.5;
         let room = if is_end { 1e-6 } else { 0.16 };
-        verdict.that(name, (exact - schlick).abs() <= room, || format!("{schlick} for {exact}"));
+        verdict.that(name, (exact - schlick).abs() <= room, || {
+            format!("{schlick} for {exact}")
+        });
     }
     verdict.close();
 }
@@ -113,7 +146,11 @@ fn a_slab_returns_the_direction_and_snells_law_holds_inside() {
         .map(|_| {
             let n = random.direction();
             let direction = random.direction();
-            let direction = if direction.dot(n) > 0.0 { -direction } else { direction };
+            let direction = if direction.dot(n) > 0.0 {
+                -direction
+            } else {
+                direction
+            };
             let eta = 1.0 / random.between(1.0, 3.0);
             let [d, n] = [direction, n].map(|v| v.as_vec3().to_array());
             (d, n, eta as f32)
@@ -126,13 +163,19 @@ fn a_slab_returns_the_direction_and_snells_law_holds_inside() {
         let (direction, n) = (wide(*direction), wide(*n));
         let [into, back, mirrored] = result.map(wide);
         let name = format!("{direction} at {n}, eta {eta}");
-        verdict.that(&name, back.distance(direction) < 1e-5, || format!("out as {back}"));
-        let sines = (direction.cross(n) * f64::from(*eta) - into.cross(n)).length();
-        verdict.that(&name, sines < 1e-6 && into.dot(n) < 1e-6, || format!("inside {into}"));
-        let sum = (mirrored - direction).normalize_or(n);
-        verdict.that(&name, sum.cross(n).length() < 1e-3 && (mirrored.dot(n) + direction.dot(n)).abs() < 1e-6, || {
-            format!("mirrored {mirrored}")
+        verdict.that(&name, back.distance(direction) < 1e-5, || {
+            format!("out as {back}")
         });
+        let sines = (direction.cross(n) * f64::from(*eta) - into.cross(n)).length();
+        verdict.that(&name, sines < 1e-6 && into.dot(n) < 1e-6, || {
+            format!("inside {into}")
+        });
+        let sum = (mirrored - direction).normalize_or(n);
+        verdict.that(
+            &name,
+            sum.cross(n).length() < 1e-3 && (mirrored.dot(n) + direction.dot(n)).abs() < 1e-6,
+            || format!("mirrored {mirrored}"),
+        );
     }
     verdict.close();
 }

@@ -25,7 +25,11 @@ fn packed(list: &[u32]) -> [u32; 4] {
 /// Lists of up to four of three materials.
 fn lists() -> Vec<Vec<u32>> {
     let mut random = Random::new(3);
-    let mut list = || (0..random.below(5)).map(|_| random.below(3) as u32).collect();
+    let mut list = || {
+        (0..random.below(5))
+            .map(|_| random.below(3) as u32)
+            .collect()
+    };
     (0..2000).map(|_| list()).collect()
 }
 
@@ -52,7 +56,9 @@ fn bodies_are_entered_and_left_like_a_list() {
     let got: Vec<[u32; 4]> = gpu().map_source(STEP, &rows);
     let mut verdict = Verdict::on("media");
     for ((row, expected), got) in rows.iter().zip(&expected).zip(&got) {
-        verdict.that(format!("{row:?}"), got == expected, || format!("{got:?} for {expected:?}"));
+        verdict.that(format!("{row:?}"), got == expected, || {
+            format!("{got:?} for {expected:?}")
+        });
     }
     verdict.close();
 }
@@ -66,7 +72,10 @@ fn a_list_knows_what_is_in_it_and_whether_it_is_full() {
     let got: Vec<[u32; 2]> = gpu().map_source(ASK, &rows);
     let mut verdict = Verdict::on("media");
     for (row, got) in rows.iter().zip(&got) {
-        let expected = [u32::from(row.0.contains(&row.1)), u32::from(row.0[3] == NONE)];
+        let expected = [
+            u32::from(row.0.contains(&row.1)),
+            u32::from(row.0[3] == NONE),
+        ];
         verdict.that(format!("{row:?}"), *got == expected, || format!("{got:?}"));
     }
     verdict.close();

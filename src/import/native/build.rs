@@ -12,9 +12,7 @@ use crate::import::number::in_range;
 use crate::import::paths::Files;
 use crate::import::source::quote;
 use crate::import::{obj, repair_notes, stage, suggest};
-use crate::scene::{
-    self, Geometry, Instance, Material, Mesh, OutputDefaults, Scene, Shape, Space,
-};
+use crate::scene::{self, Geometry, Instance, Material, Mesh, OutputDefaults, Scene, Shape, Space};
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2};
 use std::collections::HashMap;
 use std::ops::Range;

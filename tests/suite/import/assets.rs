@@ -102,7 +102,7 @@ fn every_scene_of_the_project_loads_whole() {
     for entry in path("").read_dir().expect("the folder of scenes") {
         let path = entry.expect("an entry").path();
         let ending = path.extension().and_then(|ending| ending.to_str());
-        if !matches!(ending, Some("scene" | "toml" | "obj")) {
+        if !matches!(ending, Some("scene" | "toml" | "nff" | "obj")) {
             continue;
         }
         let scene = import::load(&path).unwrap_or_else(|error| panic!("{error}"));
@@ -115,7 +115,7 @@ fn every_scene_of_the_project_loads_whole() {
         );
         count += 1;
     }
-    assert!(count >= 10, "{count} scenes");
+    assert!(count >= 11, "{count} scenes");
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use super::{messages, scene};
 use glam::{DVec3, Vec3};
 use glimray::scene::{
-    Attenuation, Background, Camera, Geometry, Light, LightKind, Material, Mixing, Shape, ToneCurve,
-    Transfer,
+    Attenuation, Background, Camera, Geometry, Light, LightKind, Material, Mixing, Shape,
+    ToneCurve, Transfer,
 };
 use insta::assert_snapshot;
 

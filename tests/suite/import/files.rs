@@ -159,9 +159,9 @@ fn files_that_are_no_scenes_have_their_messages() {
         .map(|name| message_in(&folder, name, &Options::default()))
         .collect();
     assert_snapshot!(lines.join("\n"), @r"
-unknown scene format (a.gltf): the ending `.gltf` is not known. Name a .toml (native), .scene (course) or .obj (Wavefront) file.
-unknown scene format (plain): the name has no ending. Name a .toml (native), .scene (course) or .obj (Wavefront) file.
-unknown scene format (odd.��): the ending `.\u{7}\n` is not known. Name a .toml (native), .scene (course) or .obj (Wavefront) file.
+unknown scene format (a.gltf): the ending `.gltf` is not known. Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file.
+unknown scene format (plain): the name has no ending. Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file.
+unknown scene format (odd.��): the ending `.\u{7}\n` is not known. Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file.
 cannot read the file (d.toml): it is a folder. Name a scene file.
 cannot read the file (gone.toml): no such file or folder. Check the path and its permissions.
 cannot read the file (gone.scene): no such file or folder. Check the path and its permissions.

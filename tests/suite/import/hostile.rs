@@ -48,6 +48,16 @@ bad scene (a.scene:1:8): a zero byte: the file is binary, not text. Name a text 
 bad scene (a.scene:1:1): `�PNG` is not a number. Write a decimal number such as -0.5 or 2e3.
 bad scene (a.scene:1:1): `����` is not a number. Write a decimal number such as -0.5 or 2e3.
 ");
+    assert_snapshot!(messages("a.nff", &files), @r"
+bad scene (a.nff): the file is UTF-16. Save it as UTF-8.
+bad scene (a.nff): the file is UTF-16. Save it as UTF-8.
+bad scene (a.nff): the file is UTF-16. Save it as UTF-8.
+bad scene (a.nff): the file is UTF-16. Save it as UTF-8.
+bad scene (a.nff:1:10): a zero byte: the file is binary, not text. Name a text file.
+bad scene (a.nff:1:8): a zero byte: the file is binary, not text. Name a text file.
+bad scene (a.nff:1:1): unknown entity `�PNG`. Entities are `v`, `b`, `l`, `f`, `c`, `s`, `p` and `pp`.
+bad scene (a.nff:1:1): unknown entity `����`. Entities are `v`, `b`, `l`, `f`, `c`, `s`, `p` and `pp`.
+");
     assert_snapshot!(messages("a.toml", &files), @r"
 bad scene (a.toml): the file is UTF-16. Save it as UTF-8.
 bad scene (a.toml): the file is UTF-16. Save it as UTF-8.
@@ -122,6 +132,12 @@ fn one_long_line_is_refused_and_not_shown_whole() {
     assert_snapshot!(soon("a.obj", format!("mtllib {word}")), @"material file refused (a.obj:1:8): `aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…` is not a file name. Name a plain file in the scene folder.");
     assert_snapshot!(soon("a.obj", format!("v 0 0 {}", "9".repeat(LENGTH))), @"bad model (a.obj:1:7): `99999999999999999999999999999999…` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.");
     assert_snapshot!(soon("a.obj", "\\\n".repeat(LENGTH / 2)), @"no error");
+    assert_snapshot!(soon("a.nff", &word), @"bad scene (a.nff:1:1): unknown entity `aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…`. Entities are `v`, `b`, `l`, `f`, `c`, `s`, `p` and `pp`.");
+    assert_snapshot!(soon("a.nff", &spaces), @"bad scene (a.nff:1:1): the file has no view (`v`). A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`.");
+    assert_snapshot!(soon("a.nff", "#".repeat(LENGTH)), @"bad scene (a.nff:1:30000001): the file has no view (`v`). A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`.");
+    assert_snapshot!(soon("a.nff", format!("f 1 1 1 1 0 1 0 1 p 60000 {numbers}")), @"bad scene (a.nff:1:360027): an entity should begin here, not `1`. Count the numbers before it.");
+    assert_snapshot!(soon("a.nff", format!("f 1 1 1 1 0 1 0 1 p 3 0 0 {}", "9".repeat(LENGTH))), @"bad scene (a.nff:1:27): `99999999999999999999999999999999…` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.");
+    assert_snapshot!(soon("a.nff", format!("l {numbers}")), @"bad scene (a.nff:1:15): an entity should begin here, not `1`. Count the numbers before it.");
 }
 
 #[test]
@@ -171,7 +187,7 @@ fn no_damage_to_a_good_file_brings_the_importers_down() {
         bits ^= bits << 5;
         bits as usize % below
     };
-    const SNIPPETS: [&[u8]; 12] = [
+    const SNIPPETS: [&[u8]; 13] = [
         b"\0",
         b"\xff",
         b"\n",
@@ -184,12 +200,14 @@ fn no_damage_to_a_good_file_brings_the_importers_down() {
         b"/",
         b"f 1 2 3 4 5\n",
         b"pos:",
+        b"p 9 ",
     ];
     for name in [
         "sphere.scene",
         "spheres_and_triangles.scene",
         "shapes.toml",
         "lights.toml",
+        "neutral.nff",
         "lighthouse.obj",
     ] {
         let path = super::assets::path(name);

@@ -82,6 +82,33 @@ fn concave_polygons_are_cut_along_their_inside() {
 }
 
 #[test]
+fn faces_of_many_corners_may_be_concave() {
+    let mut text = String::new();
+    let mut face = String::from("f");
+    const COUNT: usize = 2000;
+    for i in 0..COUNT {
+        let (sin, cos) = (std::f64::consts::TAU * i as f64 / COUNT as f64).sin_cos();
+        let radius = if i % 2 == 0 { 1.0 } else { 0.5 };
+        text += &format!("v {} {} 1\n", radius * cos, radius * sin);
+        face += &format!(" {}", i + 1);
+    }
+    let scene = scene("a.obj", text + &face);
+    // Pairs of triangles from the middle, with 1 and 1/2 as sides.
+    let expected = 0.25 * COUNT as f64 * (std::f64::consts::TAU / COUNT as f64).sin();
+    assert!((f64::from(area(&scene)) - expected).abs() < 1e-4);
+    assert_eq!(scene.skipped, [""; 0]);
+}
+
+#[test]
+fn faces_that_cross_themselves_become_fans_and_are_reported() {
+    let text = "v 0 0 0\nv 3 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3 4\n";
+    let scene = scene("a.obj", text);
+    assert_eq!(scene.triangle_count(), 2);
+    let note = "faces that cross themselves or are too large, cut into fans: 1";
+    assert_eq!(scene.skipped, [note]);
+}
+
+#[test]
 fn missing_normals_are_smooth_across_faces_and_materials() {
     // Two faces of a roof, the right one twice as large.
     let roof = "v 0 1 0\nv 0 1 1\nv -1 0 0\nv -1 0 1\nv 2 -1 0\nv 2 -1 1\n";

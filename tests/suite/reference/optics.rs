@@ -1,6 +1,6 @@
 //! Recursive reflection and refraction as a textbook writes them: a function that calls itself.
 
-use super::{Hit, Ray, Rays, Tracer, background};
+use super::{Hit, Ray, Rays, Tracer, textures};
 use glam::DVec3;
 use glimray::render::MIN_THROUGHPUT;
 use glimray::scene::{Fresnel, Mixing};
@@ -25,7 +25,15 @@ impl Tracer<'_> {
     pub fn follow(&self, ray: Ray, place: &Place, rays: &mut Rays) -> (DVec3, bool) {
         let Some((t, primitive)) = self.nearest(ray) else {
             let left = self.absorbed(self.dominant(&place.media), 1e30);
-            return (left * background(self.scene, ray.direction), false);
+            let left = if self.scene.output.max_depth > 0 {
+                left
+            } else {
+                DVec3::ONE
+            };
+            return (
+                left * textures::background(self.scene, ray.direction),
+                false,
+            );
         };
         let hit = self.hit(ray, t, primitive);
         let is_deep = self.scene.output.max_depth > 0;
@@ -41,9 +49,14 @@ impl Tracer<'_> {
                 here = Some(hit.material_index);
             }
         }
-        let left = if is_deep { self.absorbed(here, t) } else { DVec3::ONE };
+        let left = if is_deep {
+            self.absorbed(here, t)
+        } else {
+            DVec3::ONE
+        };
         let share = place.share * left;
-        let (reflect, transmit, refracted) = self.split(&hit, ray.direction, here, &behind, is_clear);
+        let (reflect, transmit, refracted) =
+            self.split(&hit, ray.direction, here, &behind, is_clear);
 
         let mut color = DVec3::ZERO;
         let mut send = |kind: Kind, weight: DVec3, direction: DVec3, media: &[usize]| {
@@ -126,7 +139,10 @@ impl Tracer<'_> {
         let mut reflect = hit.material.reflect.as_dvec3();
         let mut transmit = hit.material.transmit.as_dvec3();
         if sine >= 1.0 {
-            if hit.material.fresnel == Fresnel::None && is_clear && hit.material.mixing != Mixing::Sum {
+            if hit.material.fresnel == Fresnel::None
+                && is_clear
+                && hit.material.mixing != Mixing::Sum
+            {
                 reflect += transmit;
             }
             return (reflect, DVec3::ZERO, direction);
@@ -138,7 +154,10 @@ impl Tracer<'_> {
             Fresnel::Exact if incidence < 1e-7 => Some(normal_share),
             Fresnel::Exact => {
                 let (sum, difference) = (incidence + refraction, incidence - refraction);
-                Some(0.5 * ((difference.sin() / sum.sin()).powi(2) + (difference.tan() / sum.tan()).powi(2)))
+                Some(
+                    0.5 * ((difference.sin() / sum.sin()).powi(2)
+                        + (difference.tan() / sum.tan()).powi(2)),
+                )
             }
             Fresnel::Schlick => {
                 let cos = incidence.max(refraction).cos();
@@ -150,7 +169,11 @@ impl Tracer<'_> {
             transmit *= 1.0 - share;
         }
         let along = (direction + incidence.cos() * n).normalize_or_zero();
-        (reflect, transmit, along * refraction.sin() - n * refraction.cos())
+        (
+            reflect,
+            transmit,
+            along * refraction.sin() - n * refraction.cos(),
+        )
     }
 
     fn dominant(&self, media: &[usize]) -> Option<usize> {
@@ -164,7 +187,9 @@ impl Tracer<'_> {
     }
 
     fn absorbed(&self, medium: Option<usize>, length: f64) -> DVec3 {
-        let absorption = medium.map_or(DVec3::ZERO, |m| self.scene.materials[m].absorption.as_dvec3());
+        let absorption = medium.map_or(DVec3::ZERO, |m| {
+            self.scene.materials[m].absorption.as_dvec3()
+        });
         (-absorption * length).exp()
     }
 }

@@ -1,0 +1,381 @@
+//! Haines' Neutral File Format (`.nff`), version 3.9 of 1996, in which the scenes of the Standard
+//! Procedural Database (SPD) come.
+//!
+//! ```text
+//! v  from X Y Z  at X Y Z  up X Y Z  angle DEGREES  hither DISTANCE  resolution X Y
+//! b  R G B                                   background, black without
+//! l  X Y Z [R G B]                           light
+//! f  R G B Kd Ks Shine T index               material of what follows
+//! s  X Y Z radius                            sphere
+//! c  X Y Z radius  X Y Z radius              cone or cylinder, from base to apex, open
+//! p  N  (X Y Z)*N                            polygon, counter-clockwise
+//! pp N  (X Y Z  X Y Z)*N                     the same with a normal at each corner
+//! #  comment up to the end of the line
+//! ```
+//!
+//! What the format leaves open is settled as SPD's own writers for other ray tracers settle it:
+//! Phong's highlight and the mirror are white and as strong as Ks, only the diffuse part has the
+//! colour; a light without a colour has 1/√(number of lights); there is no ambient light; rays go
+//! five levels deep. `angle` is the whole height of the picture. Values are stored without gamma, as
+//! was the custom of the format's time. The near plane (`hither`) cuts nothing off. Surfaces are
+//! seen from both sides; negative radii, for surfaces seen from inside only, are reported.
+
+mod mesh;
+mod view;
+mod words;
+
+use super::error::ImportError;
+use super::source::{Source, Token};
+use super::{number, suggest};
+use crate::scene::{
+    Background, Form, Fresnel, Geometry, Light, LightKind, Material, Mixing, OutputDefaults, Scene,
+    Shape, ToneCurve, Transfer,
+};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+use mesh::Surface;
+use std::collections::HashMap;
+use words::Words;
+
+/// Entities: what they are called in the file and in errors, and how they are written.
+const ENTITIES: [(&str, &str, &str); 8] = [
+    (
+        "v",
+        "view",
+        "A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`",
+    ),
+    ("b", "background", "A background is `b R G B`"),
+    ("l", "light", "A light is `l X Y Z` or `l X Y Z R G B`"),
+    (
+        "f",
+        "material",
+        "A material is `f R G B Kd Ks SHINE T INDEX`",
+    ),
+    (
+        "c",
+        "cone",
+        "A cone is `c X Y Z RADIUS` and the same of its other end",
+    ),
+    ("s", "sphere", "A sphere is `s X Y Z RADIUS`"),
+    (
+        "p",
+        "polygon",
+        "A polygon is `p N` and N corners of 3 numbers",
+    ),
+    (
+        "pp",
+        "patch",
+        "A patch is `pp N` and N corners of 6 numbers",
+    ),
+];
+
+/// Other words that people have for entities.
+const SYNONYMS: [(&str, &str); 8] = [
+    ("viewpoint", "v"),
+    ("camera", "v"),
+    ("color", "f"),
+    ("fill", "f"),
+    ("cylinder", "c"),
+    ("ball", "s"),
+    ("triangle", "p"),
+    ("polypatch", "pp"),
+];
+
+/// The smallest length that the GPU can tell from 0.
+const SHORTEST: f64 = f32::MIN_POSITIVE as f64;
+
+/// The scene in `source`, with the picture that it asks for.
+pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
+    let mut reader = Reader {
+        source,
+        words: Words::new(&source.bytes),
+        entity: 0,
+        scene: Scene {
+            output: OutputDefaults {
+                tone: ToneCurve::None,
+                transfer: Transfer::Linear,
+                ..OutputDefaults::default()
+            },
+            ..Scene::default()
+        },
+        plain_lights: Vec::new(),
+        backgrounds: 0,
+        material: None,
+        material_ids: HashMap::new(),
+        surface: Surface::new(),
+        inside_out: 0,
+    };
+    while let Some(word) = reader.words.next() {
+        reader.read_entity(word)?;
+    }
+    reader.finish()
+}
+
+struct Reader<'s> {
+    source: &'s Source,
+    words: Words<'s>,
+    /// Index into [`ENTITIES`] of the one being read.
+    entity: usize,
+    scene: Scene,
+    /// Indices of lights without a colour.
+    plain_lights: Vec<usize>,
+    backgrounds: usize,
+    /// Index into the scene's materials of the one in use.
+    material: Option<usize>,
+    /// By the bits of the numbers in the file.
+    material_ids: HashMap<[u64; 8], usize>,
+    /// Polygons and patches.
+    surface: Surface,
+    /// Shapes with negative radii.
+    inside_out: usize,
+}
+
+impl<'s> Reader<'s> {
+    fn read_entity(&mut self, word: Token<'s>) -> Result<(), ImportError> {
+        let is_named = |(name, ..): &(&str, &str, &str)| name.as_bytes() == word.bytes;
+        let Some(entity) = ENTITIES.iter().position(is_named) else {
+            return Err(self.unknown(word));
+        };
+        self.entity = entity;
+        match word.bytes {
+            b"v" => self.view(word),
+            b"b" => self.background(),
+            b"l" => self.light(),
+            b"f" => self.fill(word),
+            b"c" => self.cone(word),
+            b"s" => self.sphere(word),
+            patch_or_polygon => self.polygon(word, patch_or_polygon == b"pp"),
+        }
+    }
+
+    fn unknown(&self, word: Token) -> ImportError {
+        const TODO: &str = "Entities are `v`, `b`, `l`, `f`, `c`, `s`, `p` and `pp`";
+        let quoted = word.quote();
+        if looks_like_number(word) {
+            let why = format!("an entity should begin here, not {quoted}");
+            return self.refuse(word, why, "Count the numbers before it");
+        }
+        let text = String::from_utf8_lossy(word.bytes).to_lowercase();
+        if view::KEYS.contains(&text.as_str()) {
+            let why = format!("{quoted} stands outside a view");
+            return self.refuse(word, why, ENTITIES[0].2);
+        }
+        let letters = ENTITIES.map(|(letter, name, _)| (name, letter));
+        let names = letters.iter().chain(&SYNONYMS);
+        let closest = suggest::closest(&text, names.clone().map(|(name, _)| *name));
+        let by_name = names.clone().find(|(name, _)| closest == Some(name));
+        let by_letter = letters.iter().find(|(_, letter)| *letter == text);
+        let why = match by_letter.or(by_name) {
+            Some((_, letter)) => format!("unknown entity {quoted}, did you mean `{letter}`?"),
+            None => format!("unknown entity {quoted}"),
+        };
+        self.refuse(word, why, TODO)
+    }
+
+    fn background(&mut self) -> Result<(), ImportError> {
+        let color = self.color()?;
+        self.scene.background = Background::Color(color);
+        self.backgrounds += 1;
+        Ok(())
+    }
+
+    fn light(&mut self) -> Result<(), ImportError> {
+        let position = self.vector()?;
+        let color = if self.words.peek().is_some_and(looks_like_number) {
+            self.color()?
+        } else {
+            self.plain_lights.push(self.scene.lights.len());
+            Vec3::ZERO
+        };
+        self.scene.lights.push(Light {
+            kind: LightKind::Point { position },
+            color,
+            ..Light::default()
+        });
+        Ok(())
+    }
+
+    fn fill(&mut self, keyword: Token) -> Result<(), ImportError> {
+        let mut values = [0.0; 8];
+        for value in &mut values {
+            *value = self.at_least_zero()?;
+        }
+        let [r, g, b, kd, ks, shine, t, index] = values;
+        if t > 0.0 && index < SHORTEST {
+            let why = "what lets light through needs an index of refraction".to_owned();
+            return Err(self.refuse(keyword, why, "Write 1 or more as the last number"));
+        }
+        let diffuse = DVec3::new(r, g, b) * kd;
+        if !number::in_range(diffuse.max_element()) {
+            let why = "the colour times Kd is out of range".to_owned();
+            return Err(self.refuse(keyword, why, "Write colours from 0 to 1"));
+        }
+        // Adding 0 turns -0 into 0.
+        let key = values.map(|value| (value + 0.0).to_bits());
+        let id = *self.material_ids.entry(key).or_insert_with(|| {
+            self.scene.materials.push(Material {
+                diffuse: diffuse.as_vec3(),
+                specular: Vec3::splat(ks as f32),
+                shininess: shine as f32,
+                ambient: Vec3::ZERO,
+                two_sided: true,
+                reflect: Vec3::splat(ks as f32),
+                transmit: Vec3::splat(t as f32),
+                ior: if index < SHORTEST { 1.0 } else { index as f32 },
+                fresnel: Fresnel::None,
+                mixing: Mixing::Sum,
+                ..Material::default()
+            });
+            self.scene.materials.len() - 1
+        });
+        self.material = Some(id);
+        Ok(())
+    }
+
+    fn sphere(&mut self, keyword: Token) -> Result<(), ImportError> {
+        let material = self.material_in_use(keyword)?;
+        let center = self.vector()?;
+        let (token, radius) = self.number()?;
+        if radius.abs() < SHORTEST {
+            let why = format!("the radius {} is zero", token.quote());
+            return Err(self.refuse(token, why, "Write a positive number"));
+        }
+        self.inside_out += usize::from(radius < 0.0);
+        let radius = radius.abs();
+        let geometry = Geometry::Sphere { center, radius };
+        self.scene.shapes.push(Shape { geometry, material });
+        Ok(())
+    }
+
+    fn cone(&mut self, keyword: Token) -> Result<(), ImportError> {
+        let material = self.material_in_use(keyword)?;
+        let (base, (_, bottom)) = (self.vector()?, self.number()?);
+        let (apex, (token, top)) = (self.vector()?, self.number()?);
+        if bottom.abs().max(top.abs()) < SHORTEST {
+            let why = "both radii of a cone are zero".to_owned();
+            return Err(self.refuse(token, why, "Write one or two positive numbers"));
+        }
+        if bottom * top < 0.0 {
+            let why = "only one radius of a cone is negative".to_owned();
+            let todo = "Write both positive, or both negative for a surface seen from inside";
+            return Err(self.refuse(token, why, todo));
+        }
+        let axis = apex - base;
+        if axis.length() < SHORTEST {
+            let why = "both ends of a cone are one point".to_owned();
+            return Err(self.refuse(keyword, why, "Place them apart"));
+        }
+        self.inside_out += usize::from(bottom + top < 0.0);
+        // The height is scaled, the radii are not: circles stay round.
+        let up = axis.normalize();
+        let right = up.any_orthonormal_vector();
+        let turn = DMat3::from_cols(right, axis, right.cross(up));
+        let geometry = Geometry::Placed {
+            form: Form::Cone {
+                bottom: bottom.abs(),
+                top: top.abs(),
+                capped: false,
+            },
+            world_from_form: DAffine3::from_mat3_translation(turn, base),
+        };
+        self.scene.shapes.push(Shape { geometry, material });
+        Ok(())
+    }
+
+    fn material_in_use(&self, keyword: Token) -> Result<usize, ImportError> {
+        self.material.ok_or_else(|| {
+            let why = format!("no material (`f`) comes before this {}", self.name());
+            self.refuse(keyword, why, "Begin objects with `f`")
+        })
+    }
+
+    /// What the entity being read is called.
+    fn name(&self) -> &'static str {
+        ENTITIES[self.entity].1
+    }
+
+    fn vector(&mut self) -> Result<DVec3, ImportError> {
+        Ok(DVec3::new(
+            self.number()?.1,
+            self.number()?.1,
+            self.number()?.1,
+        ))
+    }
+
+    fn color(&mut self) -> Result<Vec3, ImportError> {
+        let [r, g, b] = [
+            self.at_least_zero()?,
+            self.at_least_zero()?,
+            self.at_least_zero()?,
+        ];
+        Ok(DVec3::new(r, g, b).as_vec3())
+    }
+
+    fn at_least_zero(&mut self) -> Result<f64, ImportError> {
+        match self.number()? {
+            (_, value) if value >= 0.0 => Ok(value),
+            (token, _) => {
+                let why = format!("{} in a {} is negative", token.quote(), self.name());
+                Err(self.refuse(token, why, "Write 0 or more"))
+            }
+        }
+    }
+
+    fn number(&mut self) -> Result<(Token<'s>, f64), ImportError> {
+        self.number_of("")
+    }
+
+    /// The next word, which must be a number; `progress` says how far the entity is.
+    fn number_of(&mut self, progress: &str) -> Result<(Token<'s>, f64), ImportError> {
+        let (name, todo) = (self.name(), ENTITIES[self.entity].2);
+        let Some(token) = self.words.next() else {
+            let why = format!("the file ends inside a {name}{progress}");
+            return Err(self.refuse(self.words.end(), why, todo));
+        };
+        let is_entity = |(letter, ..): &(&str, &str, &str)| letter.as_bytes() == token.bytes;
+        if ENTITIES.iter().any(is_entity) || view::is_key(token) {
+            let why = format!(
+                "{} begins something new inside a {name}{progress}",
+                token.quote()
+            );
+            return Err(self.refuse(token, why, todo));
+        }
+        Ok((token, number::parse(self.source, token)?))
+    }
+
+    fn refuse(&self, token: Token, why: String, todo: &str) -> ImportError {
+        self.source.malformed(token.span(), why, todo)
+    }
+
+    fn finish(mut self) -> Result<Scene, ImportError> {
+        if self.scene.cameras.is_empty() {
+            let why = "the file has no view (`v`)".to_owned();
+            return Err(self.refuse(self.words.end(), why, ENTITIES[0].2));
+        }
+        let strength = 1.0 / (self.scene.lights.len() as f32).sqrt();
+        for light in self.plain_lights {
+            self.scene.lights[light].color = Vec3::splat(strength);
+        }
+        let skipped = &mut self.scene.skipped;
+        if self.backgrounds > 1 {
+            let note = format!("{} backgrounds: the last of them counts", self.backgrounds);
+            skipped.push(note);
+        }
+        if self.inside_out > 0 {
+            let note = format!(
+                "shapes to be seen from inside only (negative radii), shown from both sides: {}",
+                self.inside_out
+            );
+            skipped.push(note);
+        }
+        if self.scene.materials.is_empty() {
+            self.scene.materials.push(Material::default());
+        }
+        self.surface.add_to(&mut self.scene);
+        Ok(self.scene)
+    }
+}
+
+/// Whether `token` is meant as a number.
+fn looks_like_number(token: Token) -> bool {
+    matches!(token.bytes.first(), Some(b'0'..=b'9' | b'+' | b'-' | b'.'))
+}

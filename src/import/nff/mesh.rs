@@ -1,0 +1,171 @@
+//! The `p` and `pp` entities: polygons and patches, as triangles of one mesh.
+
+use super::Reader;
+use crate::import::error::ImportError;
+use crate::import::polygon::{self, Cutter, Defect};
+use crate::import::repair_notes;
+use crate::import::source::Token;
+use crate::scene::{Instance, Mesh, Scene};
+use glam::{DAffine3, DVec3, Vec3};
+
+/// How many corners one polygon may have.
+const MAX_CORNERS: f64 = 65_536.0;
+
+/// All polygons so far, and one that is being read.
+pub(super) struct Surface {
+    /// Without positions.
+    mesh: Mesh,
+    positions: Vec<DVec3>,
+    cutter: Cutter,
+    /// Corners of one polygon, and their normals if it is a patch.
+    corners: Vec<DVec3>,
+    normals: Vec<Vec3>,
+    repeated_corners: usize,
+    too_few_corners: usize,
+    without_area: usize,
+}
+
+impl Surface {
+    pub fn new() -> Self {
+        Self {
+            mesh: Mesh::default(),
+            positions: Vec::new(),
+            cutter: Cutter::new(),
+            corners: Vec::new(),
+            normals: Vec::new(),
+            repeated_corners: 0,
+            too_few_corners: 0,
+            without_area: 0,
+        }
+    }
+
+    /// Adds a corner to the polygon, unless the last one was there too.
+    fn corner(&mut self, position: DVec3, normal: Option<Vec3>) {
+        if self.corners.last() == Some(&position) {
+            self.repeated_corners += 1;
+            return;
+        }
+        self.corners.push(position);
+        self.normals.extend(normal);
+    }
+
+    /// Cuts the polygon.
+    fn close(&mut self, announced: usize, material: u32) -> Result<(), Defect> {
+        if self.corners.len() > 1 && self.corners.first() == self.corners.last() {
+            self.repeated_corners += 1;
+            self.corners.pop();
+            self.normals.truncate(self.corners.len());
+        }
+        if announced < 3 {
+            self.too_few_corners += 1;
+            return Ok(());
+        }
+        let triangles = match self.cutter.triangles(&self.corners) {
+            Err(Defect::NoArea) => {
+                self.without_area += 1;
+                return Ok(());
+            }
+            result => result?,
+        };
+        let (first, count) = (self.positions.len() as u32, self.corners.len());
+        let shift = |triangle: [u32; 3]| triangle.map(|i| first + i);
+        self.mesh.triangles.extend(triangles.into_iter().map(shift));
+        if self.normals.is_empty() {
+            let normal = polygon::normal(&self.corners).normalize_or_zero().as_vec3();
+            self.normals.resize(count, normal);
+        }
+        self.mesh.normals.append(&mut self.normals);
+        self.positions.append(&mut self.corners);
+        self.mesh.materials.resize(self.positions.len(), material);
+        Ok(())
+    }
+
+    /// Adds the mesh to `scene`, and what there is to say about it.
+    pub fn add_to(mut self, scene: &mut Scene) {
+        let counts = [
+            (
+                "corners of polygons repeated at once, and dropped",
+                self.repeated_corners,
+            ),
+            (
+                "polygons of fewer than three corners left out",
+                self.too_few_corners,
+            ),
+            ("polygons without area left out", self.without_area),
+        ];
+        let counts = counts.iter().filter(|(_, count)| *count > 0);
+        let notes = counts.map(|(what, count)| format!("{what}: {count}"));
+        scene.skipped.extend(notes);
+
+        let (local, offset) = Mesh::from_world_positions(&self.positions);
+        self.mesh.positions = local;
+        scene.skipped.extend(repair_notes(self.mesh.repair()));
+        if !self.mesh.triangles.is_empty() {
+            scene.meshes.push(self.mesh);
+            scene.instances.push(Instance {
+                mesh: 0,
+                world_from_object: DAffine3::from_translation(offset),
+            });
+        }
+    }
+}
+
+impl<'s> Reader<'s> {
+    pub(super) fn polygon(
+        &mut self,
+        keyword: Token<'s>,
+        is_patch: bool,
+    ) -> Result<(), ImportError> {
+        let material = self.material_in_use(keyword)?;
+        let (token, count) = self.number()?;
+        if count.fract() != 0.0 || !(1.0..=MAX_CORNERS).contains(&count) {
+            let why = format!("{} is not a number of corners", token.quote());
+            return Err(self.refuse(token, why, "Write a whole number from 3 to 65536"));
+        }
+        let count = count as usize;
+        self.surface.corners.clear();
+        self.surface.normals.clear();
+        for i in 0..count {
+            let position = self.corner_vector(i, count)?;
+            let normal = match is_patch {
+                true => Some(self.corner_vector(i, count)?.as_vec3()),
+                false => None,
+            };
+            self.surface.corner(position, normal);
+        }
+        let name = self.name();
+        match self.surface.close(count, material as u32) {
+            Ok(()) | Err(Defect::NoArea) => Ok(()),
+            Err(Defect::Crossing) => {
+                let why = format!("the {name} crosses itself");
+                Err(self.refuse(keyword, why, "List its corners in order round its edge"))
+            }
+            Err(Defect::TooMuchWork) => {
+                let why = format!(
+                    "this {name}, with others before it, has too many corners without being convex"
+                );
+                let error = self.refuse(keyword, why, "Cut it into smaller ones");
+                Err(ImportError::TooBig(error.into_fault()))
+            }
+        }
+    }
+
+    /// Three numbers of the corner `i`, of `count`.
+    fn corner_vector(&mut self, i: usize, count: usize) -> Result<DVec3, ImportError> {
+        let mut vector = DVec3::ZERO;
+        for value in vector.as_mut() {
+            *value = self.corner_number(i, count)?;
+        }
+        Ok(vector)
+    }
+
+    fn corner_number(&mut self, i: usize, count: usize) -> Result<f64, ImportError> {
+        // The text is for an error only: this is the inner loop of large files.
+        match self.words.peek() {
+            Some(token) if super::looks_like_number(token) => Ok(self.number()?.1),
+            _ => Ok(self
+                .number_of(&format!(", after {i} of {count} corners"))?
+                .1),
+        }
+    }
+}

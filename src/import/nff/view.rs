@@ -1,0 +1,107 @@
+//! The `v` entity: camera and size of the picture.
+
+use super::Reader;
+use crate::import::error::ImportError;
+use crate::import::source::Token;
+use crate::import::suggest;
+use crate::scene::Camera;
+use glam::DVec3;
+
+/// The keys of a view, in the order of the specification.
+pub(super) const KEYS: [&str; 6] = ["from", "at", "up", "angle", "hither", "resolution"];
+
+/// What may be missing: only hidden-surface programs need the near plane.
+const OPTIONAL: usize = 4;
+
+/// The largest side of a picture, in pixels.
+const MAX_SIDE: f64 = 65_536.0;
+
+pub(super) fn is_key(token: Token) -> bool {
+    KEYS.iter().any(|key| key.as_bytes() == token.bytes)
+}
+
+impl<'s> Reader<'s> {
+    /// Reads the keys, in any order.
+    pub(super) fn view(&mut self, keyword: Token<'s>) -> Result<(), ImportError> {
+        if !self.scene.cameras.is_empty() {
+            let why = "a second view".to_owned();
+            return Err(self.refuse(keyword, why, "Leave one `v` in the file"));
+        }
+        let mut values: [Option<[f64; 3]>; 6] = Default::default();
+        while let Some(token) = self.words.peek() {
+            let Some(key) = KEYS.iter().position(|key| key.as_bytes() == token.bytes) else {
+                break;
+            };
+            self.words.next();
+            if values[key].is_some() {
+                let why = format!("a second `{}` in a view", KEYS[key]);
+                return Err(self.refuse(token, why, "Leave one of them"));
+            }
+            values[key] = Some(self.view_values(key)?);
+        }
+        for (key, name) in KEYS.iter().enumerate() {
+            if values[key].is_none() && key != OPTIONAL {
+                return Err(self.missing(name));
+            }
+        }
+        let [from, at, up, angle, _, resolution] = values.map(|value| value.unwrap_or_default());
+        let [from, at, up] = [from, at, up].map(DVec3::from);
+        let forward = (at - from).normalize_or_zero();
+        let why = if forward == DVec3::ZERO {
+            "`from` and `at` are one point"
+        } else if forward.cross(up.normalize_or_zero()).length() < 1e-6 {
+            "`up` is zero or along the line of sight"
+        } else {
+            self.scene.cameras.push(Camera {
+                look_from: from,
+                look_at: at,
+                up,
+                fov_y: angle[0].to_radians(),
+                ..Camera::default()
+            });
+            self.scene.output.size = (resolution[0] as u32, resolution[1] as u32);
+            return Ok(());
+        };
+        Err(self.refuse(keyword, why.to_owned(), "Look at something, upright"))
+    }
+
+    fn view_values(&mut self, key: usize) -> Result<[f64; 3], ImportError> {
+        match KEYS[key] {
+            "angle" => {
+                let (token, angle) = self.number()?;
+                if angle > 0.0 && angle < 180.0 {
+                    return Ok([angle, 0.0, 0.0]);
+                }
+                let why = format!("the angle {} is out of range", token.quote());
+                Err(self.refuse(token, why, "Write degrees between 0 and 180"))
+            }
+            "hither" => Ok([self.at_least_zero()?, 0.0, 0.0]),
+            "resolution" => Ok([self.side()?, self.side()?, 0.0]),
+            _ => Ok(self.vector()?.to_array()),
+        }
+    }
+
+    fn side(&mut self) -> Result<f64, ImportError> {
+        let (token, side) = self.number()?;
+        if side.fract() == 0.0 && (1.0..=MAX_SIDE).contains(&side) {
+            return Ok(side);
+        }
+        let why = format!("{} is not a number of pixels", token.quote());
+        Err(self.refuse(token, why, "Write a whole number from 1 to 65536"))
+    }
+
+    fn missing(&mut self, name: &str) -> ImportError {
+        let todo = super::ENTITIES[self.entity].2;
+        let Some(token) = self.words.peek() else {
+            let why = format!("the file ends inside a view, before `{name}`");
+            return self.refuse(self.words.end(), why, todo);
+        };
+        let word = String::from_utf8_lossy(token.bytes);
+        let why = if word.len() > 2 && !super::looks_like_number(token) {
+            suggest::unknown("key", &word, KEYS)
+        } else {
+            format!("the view before {} has no `{name}`", token.quote())
+        };
+        self.refuse(token, why, todo)
+    }
+}
