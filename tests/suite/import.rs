@@ -6,6 +6,7 @@ mod files;
 mod hostile;
 mod native;
 mod obj;
+mod shapes;
 
 use glimray::import::{self, ImportError, Options};
 use glimray::scene::Scene;
