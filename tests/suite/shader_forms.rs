@@ -290,11 +290,9 @@ fn check_hits(form: Form) {
                 _ => false,
             };
             let most = if tip { 1e-3 } else { 2.0 * tolerance };
-            verdict.that(
-                format!("ray {i} ends on it"),
-                off <= most,
-                || format!("{ray:?}\n    {got:?} is off by {off:e}, {tolerance:e} allowed"),
-            );
+            verdict.that(format!("ray {i} ends on it"), off <= most, || {
+                format!("{ray:?}\n    {got:?} is off by {off:e}, {tolerance:e} allowed")
+            });
         }
     }
     verdict.close();
