@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 pub struct Shape {
     /// Where it is and how large.
     pub geometry: Geometry,
-    /// Index into [`Scene::materials`].
+    /// Index into [`super::Scene::materials`].
     pub material: usize,
 }
 

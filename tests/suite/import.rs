@@ -9,6 +9,7 @@ mod nff;
 mod obj;
 mod pictures;
 mod textures;
+mod shapes;
 
 use glimray::import::{self, ImportError, Options};
 use glimray::scene::Scene;

@@ -6,7 +6,7 @@ use glimray::layout::{
     LIGHT_POINT, LIGHT_SPOT, MATERIAL_TWO_SIDED, PackedLight, SHAPE_PLANE, SHAPE_SPHERE,
 };
 use glimray::pack::{self, PackError, PackedScene};
-use glimray::scene::{Attenuation, Light, LightKind, Material, Scene};
+use glimray::scene::{Attenuation, Form, Geometry, Light, LightKind, Material, Scene, Shape};
 
 fn packed(scene: &Scene) -> PackedScene {
     pack::scene(scene).expect("a scene that can be packed")
@@ -289,4 +289,82 @@ fn a_scene_without_geometry_packs_to_a_root_without_children() {
     let packed = packed(&scenes::empty());
     assert_eq!(packed.nodes, [[0; 16]]);
     assert!(packed.triangles.is_empty() && packed.shapes.is_empty());
+}
+
+#[test]
+fn u_and_v_of_a_plane_are_lengths_from_its_point_to_the_right_and_up() {
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    // The normal, and where u and v grow.
+    let rows = [
+        ("a floor", DVec3::Y, DVec3::X, DVec3::NEG_Z),
+        ("a ceiling", DVec3::NEG_Y, DVec3::X, DVec3::Z),
+        ("a wall in front", DVec3::Z, DVec3::X, DVec3::Y),
+        ("a wall behind", DVec3::NEG_Z, DVec3::NEG_X, DVec3::Y),
+        ("a wall to the left", DVec3::X, DVec3::NEG_Z, DVec3::Y),
+        (
+            "a roof that leans back",
+            dvec3(0.0, 0.6, 0.8),
+            DVec3::X,
+            dvec3(0.0, 0.8, -0.6),
+        ),
+        (
+            "a slope to the right",
+            dvec3(half - 1e-3, half + 1e-3, 0.0).normalize(),
+            dvec3(half + 1e-3, -half + 1e-3, 0.0).normalize(),
+            DVec3::NEG_Z,
+        ),
+    ];
+    for (name, normal, u, v) in rows {
+        let point = dvec3(3.0, -4.0, 5.0);
+        let mut scene = scenes::empty();
+        scene.add_plane(point, normal, 0);
+        let packed = pack::scene(&scene).expect("a scene");
+        let plane = packed.shapes[0];
+        let at = |p: DVec3| {
+            let p = p - packed.origin;
+            let along = |row: [f32; 3]| DVec3::from(row.map(f64::from)).dot(p);
+            let (u, v) = (along(plane.row_x), along(plane.row_z));
+            (u + f64::from(plane.size0), v + f64::from(plane.size1))
+        };
+        let (got_u, got_v) = at(point + 2.0 * u + 3.0 * v);
+        assert!(
+            (got_u - 2.0).abs() < 1e-5 && (got_v - 3.0).abs() < 1e-5,
+            "{name}: {got_u}, {got_v}"
+        );
+    }
+}
+
+#[test]
+fn cones_are_packed_as_wide_as_they_are_high() {
+    let mut scene = scenes::empty();
+    scene.shapes.push(Shape {
+        geometry: Geometry::Placed {
+            form: Form::Cone {
+                bottom: 0.5,
+                top: 0.125,
+                capped: true,
+            },
+            world_from_form: DAffine3::from_scale(dvec3(2.0, 3.0, 4.0)),
+        },
+        material: 0,
+    });
+    let cone = pack::scene(&scene).expect("a scene").shapes[0];
+    assert_eq!((cone.size0, cone.size1), (1.0, 0.25));
+    assert_eq!(cone.row_x, [1.0, 0.0, 0.0]);
+    assert_eq!(cone.row_y, [0.0, 1.0 / 3.0, 0.0]);
+    assert_eq!(cone.row_z, [0.0, 0.0, 0.5]);
+}
+
+#[test]
+fn a_shape_too_thin_for_f32_is_refused() {
+    let mut scene = scenes::empty();
+    scene.shapes.push(Shape {
+        geometry: Geometry::Placed {
+            form: Form::Ellipsoid,
+            world_from_form: DAffine3::from_scale(dvec3(1.0, 1e-16, 1.0)),
+        },
+        material: 0,
+    });
+    let error = pack::scene(&scene).expect_err("too thin");
+    insta::assert_snapshot!(error, @"object too small (scaled size): 1e-16 units in one direction is below the range of f32 arithmetic, at least 1e-15. Make it larger, or scale the scene up.");
 }

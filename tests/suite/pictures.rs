@@ -45,6 +45,7 @@ fn the_native_scenes_match_an_independent_tracer() {
     // Brute force over the thousands of triangles of mesh.toml allows no larger picture.
     let rows = [
         ("shapes.toml", 320),
+        ("solids.toml", 320),
         ("lights.toml", 320),
         ("far_away.toml", 320),
         ("mesh.toml", 96),

@@ -128,8 +128,9 @@ fn on_surface(form: Form, random: &mut Random) -> DVec3 {
             top,
             capped,
         } => match random.below(if capped { 4 } else { 2 }) {
-            2 => turned(bottom * random.between(0.0, 1.0), 0.0),
-            3 => turned(top * random.between(0.0, 1.0), 1.0),
+            // A tip has no end.
+            2 if bottom > 0.0 => turned(bottom * random.between(0.0, 1.0), 0.0),
+            3 if top > 0.0 => turned(top * random.between(0.0, 1.0), 1.0),
             _ => {
                 let y = random.between(0.0, 1.0);
                 turned(bottom + (top - bottom) * y, y)
@@ -265,10 +266,13 @@ fn check_hits(form: Form) {
         let fits = |answers: &[Option<f64>]| {
             let found = answers.iter().flatten().copied();
             let (least, most) = found.fold((f64::INFINITY, 0f64), |(a, b), s| (a.min(s), b.max(s)));
+            // Where some miss, the others reach almost to the tangent point, half a chord away.
+            let tangent = answers.iter().any(Option::is_none);
+            let half_chord = if tangent { 2.0 * tolerance.sqrt() } else { 0.0 };
             if got.hit {
-                (least - tolerance..=most + tolerance).contains(&s)
+                (least - tolerance..=most + tolerance + half_chord).contains(&s)
             } else {
-                answers.iter().any(Option::is_none)
+                tangent
             }
         };
         let plain = answers(form, ray, tolerance, false);
@@ -278,12 +282,17 @@ fn check_hits(form: Form) {
             format!("{ray:?}\n    {got:?} at {s}, expected {plain:?} within {tolerance}")
         });
         if got.hit {
-            let off = off_surface(form, o + f64::from(got.t) * d);
-            verdict.that(
-                format!("ray {i} ends on it"),
-                off <= 2.0 * tolerance,
-                || format!("{ray:?}\n    {got:?} is off by {off:e}, {tolerance:e} allowed"),
-            );
+            let p = o + f64::from(got.t) * d;
+            let off = off_surface(form, p);
+            // f32 cannot tell a line along a cone's side from one beside its tip.
+            let tip = match form {
+                Form::Cone { bottom, top, .. } if bottom.min(top) == 0.0 => p.x.hypot(p.z) < 0.01,
+                _ => false,
+            };
+            let most = if tip { 1e-3 } else { 2.0 * tolerance };
+            verdict.that(format!("ray {i} ends on it"), off <= most, || {
+                format!("{ray:?}\n    {got:?} is off by {off:e}, {tolerance:e} allowed")
+            });
         }
     }
     verdict.close();
@@ -314,7 +323,7 @@ fn tori_are_hit_where_f64_says() {
 fn forms_are_hit_at_distances_known_in_closed_form() {
     let half = 0.5f64.sqrt();
     let o = [0f32, 0.0, 0.0];
-    let rows: [(&str, Form, Ray, Option<f64>); 24] = [
+    let rows: [(&str, Form, Ray, Option<f64>); 25] = [
         (
             "a disc from above",
             FORMS[0],
@@ -426,8 +435,14 @@ fn forms_are_hit_at_distances_known_in_closed_form() {
         (
             "a cone parallel to its side",
             FORMS[7],
-            ray([2.0, -1.0, 0.0], [-1.0, 1.0, 0.0]),
+            ray([1.5, -1.0, 0.0], [-1.0, 1.0, 0.0]),
             Some(1.0),
+        ),
+        (
+            "an open one parallel to its side",
+            FORMS[8],
+            ray([1.5, -1.0, 0.0], [-1.0, 1.0, 0.0]),
+            Some(1.75),
         ),
         (
             "the other half of the double cone is not there",
@@ -666,12 +681,13 @@ fn a_ray_that_leaves_a_form_does_not_hit_it_again_at_any_scale() {
     const LEAVE: &str = "
         fn probe(shape: PackedShape, ray: Ray, aside: vec3f, cosine: f32) -> vec2u {
             let hit = test(form_ray(ray, shape), shape.kind, sizes_of(shape));
-            let from = placed(ray, shape, hit);
-            let tangent = normalize(aside - dot(aside, from.ng) * from.ng);
-            let direction = normalize(tangent * sqrt(1.0 - cosine * cosine) + cosine * from.ng);
-            let origin = offset_origin(from.p, from.error, from.ng, direction);
+            let at = placed(ray, shape, hit);
+            let tangent = normalize(aside - dot(aside, at.ng) * at.ng);
+            let direction = normalize(tangent * sqrt(1.0 - cosine * cosine) + cosine * at.ng);
+            let origin = offset_origin(at.p, at.error, at.ng, direction);
             let again = test(form_ray(Ray(origin, 3e38, direction, NONE), shape), shape.kind, sizes_of(shape));
-            return vec2u(u32(hit.hit), u32(again.hit));
+            // Rounding may turn a ray that grazes to the other side.
+            return vec2u(u32(hit.hit & (dot(at.ng, direction) > 0.0)), u32(again.hit));
         }
     ";
     for form in FORMS {
@@ -727,10 +743,10 @@ fn a_ray_into_a_body_comes_out_of_it() {
     const ENTER: &str = "
         fn probe(shape: PackedShape, ray: Ray, aside: vec3f, cosine: f32) -> vec2u {
             let hit = test(form_ray(ray, shape), shape.kind, sizes_of(shape));
-            let from = placed(ray, shape, hit);
-            let tangent = normalize(aside - dot(aside, from.ng) * from.ng);
-            let direction = normalize(tangent * sqrt(1.0 - cosine * cosine) - cosine * from.ng);
-            let origin = offset_origin(from.p, from.error, from.ng, direction);
+            let at = placed(ray, shape, hit);
+            let tangent = normalize(aside - dot(aside, at.ng) * at.ng);
+            let direction = normalize(tangent * sqrt(1.0 - cosine * cosine) - cosine * at.ng);
+            let origin = offset_origin(at.p, at.error, at.ng, direction);
             let out = test(form_ray(Ray(origin, 3e38, direction, NONE), shape), shape.kind, sizes_of(shape));
             return vec2u(u32(hit.hit), u32(out.hit));
         }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
-use glimray::scene::{Background, Geometry, LightKind, Scene};
+use glimray::scene::{Background, Form, Geometry, LightKind, Scene};
 use std::path::{Path, PathBuf};
 
 /// The file `name` in the folder of scenes.
@@ -61,8 +61,17 @@ fn assert_promises(scene: &Scene) {
                 assert!(point.is_finite() && normal.is_normalized())
             }
             Geometry::Placed {
-                world_from_form, ..
+                form,
+                world_from_form,
             } => {
+                match form {
+                    Form::Disc { hole } => assert!((0.0..1.0).contains(&hole)),
+                    Form::Cone { bottom, top, .. } => {
+                        assert!(bottom >= 0.0 && top >= 0.0 && bottom + top > 0.0);
+                    }
+                    Form::Torus { minor } => assert!(minor > 0.0 && minor <= 1.0),
+                    Form::Rectangle | Form::Box | Form::Ellipsoid => {}
+                }
                 assert!(world_from_form.is_finite());
                 assert_ne!(world_from_form.matrix3.determinant(), 0.0);
             }
