@@ -3,6 +3,7 @@
 
 use crate::reference::compare::{assert_none, check_alike, open_gpu, sized};
 use crate::reference::scenes::{self, Build};
+use crate::textures;
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::image::Image;
 use glimray::output;
@@ -202,6 +203,8 @@ fn goldens() -> Vec<Golden> {
         golden("materials-sides", sides()),
         golden("inside-a-sphere", inside()),
         golden("background", scenes::empty()),
+        golden("background-gradient", textures::under_a_gradient()),
+        golden("background-picture", textures::under_a_picture()),
         golden("everything", scenes::everything()),
         golden("transfer-linear", lit()).linear(),
         golden("tone-none", bright.clone()),

@@ -12,6 +12,7 @@ use glimray::scene::{
 };
 use glimray::{import, pack};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::process::Command;
 
 /// Five by three texels of random colours that half floats hold exactly.
 fn picture(seed: u64) -> Picture {
@@ -99,22 +100,32 @@ fn textured_scene() -> Scene {
     scene
 }
 
+pub fn under_a_gradient() -> Scene {
+    Scene {
+        background: Background::Gradient {
+            bottom: vec3(0.9, 0.4, 0.1),
+            top: vec3(0.1, 0.2, 0.8),
+        },
+        ..textured_scene()
+    }
+}
+
+pub fn under_a_picture() -> Scene {
+    Scene {
+        background: Background::Picture {
+            picture: 0,
+            strength: 0.75,
+            rotation: 1.1,
+        },
+        ..textured_scene()
+    }
+}
+
 #[test]
 fn pictures_of_textured_scenes_match_an_independent_tracer() {
-    let mut noise = textured_scene();
-    noise.background = Background::Gradient {
-        bottom: vec3(0.9, 0.4, 0.1),
-        top: vec3(0.1, 0.2, 0.8),
-    };
-    let mut sky = textured_scene();
-    sky.background = Background::Picture {
-        picture: 0,
-        strength: 0.75,
-        rotation: 1.1,
-    };
     let rows = [
-        ("textures under a gradient", noise),
-        ("textures under a picture", sky),
+        ("textures under a gradient", under_a_gradient()),
+        ("textures under a picture", under_a_picture()),
     ];
     assert_none(rows.map(|(name, scene)| {
         let expected = trace(&scene, (256, 192)).image;
@@ -411,4 +422,29 @@ fn more_textures_than_materials_can_tell_apart_are_refused() {
     scene.textures.push(scene.textures[0].clone());
     let error = pack::scene(&scene).expect_err("too many");
     assert!(error.to_string().contains("65536 textures"), "{error}");
+}
+
+#[test]
+fn inspect_lists_textures_and_pictures() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/scenes/patterns.toml");
+    let inspect = |more: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glimray"));
+        let output = command.args(["inspect", path]).args(more).output();
+        String::from_utf8(output.expect("the program runs").stdout).expect("text")
+    };
+    let text = inspect(&[]);
+    for line in [
+        "noise over world, ",
+        "picture over world, number 0",
+        "128×128 texels",
+    ] {
+        assert!(text.contains(line), "{line} in\n{text}");
+    }
+    let json: serde_json::Value = serde_json::from_str(&inspect(&["--json"])).expect("JSON");
+    let list = json["texture_list"].as_array().expect("a list");
+    assert!(list.iter().any(|texture| texture["pattern"] == "checker"));
+    assert_eq!(
+        json["picture_list"][0]["size"],
+        serde_json::json!([128, 128])
+    );
 }
