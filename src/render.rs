@@ -10,8 +10,9 @@ mod settings;
 mod slice;
 mod whitted;
 
+pub use crate::scene::{Antialias, Filter};
 pub use develop::Tone;
-pub use settings::{Antialias, Fetch, Integrator, Settings, Slicing, TriangleTest};
+pub use settings::{Fetch, Integrator, Settings, Slicing, TriangleTest};
 
 use crate::{
     gpu::{AdapterChoice, AdapterReport, Gpu, GpuError},

@@ -8,7 +8,7 @@ use super::{
     film::{TILE_PIXELS, Window},
     settings::{Fetch, Integrator, Settings},
     slice::Slice,
-    whitted,
+    whitted::{self, Overrides},
 };
 use crate::{
     gpu::{AdapterChoice, Gpu, GpuError, Kernel, Source},
@@ -38,8 +38,8 @@ pub struct Device {
     pub layouts: Layouts,
     pub buffers: Buffers,
     pipeline: wgpu::ComputePipeline,
-    /// Whether the pipeline knows lights.
-    has_lights: bool,
+    /// What the pipeline was made with.
+    overrides: Overrides,
     pub developer: Option<Developer>,
     /// The window whose sums are in the film buffer.
     pub loaded_window: Option<usize>,
@@ -66,7 +66,7 @@ impl Device {
             layouts,
             buffers,
             pipeline,
-            has_lights: task.view.has_lights,
+            overrides: kernel(task).1,
             developer: None,
             loaded_window: None,
         })
@@ -76,7 +76,8 @@ impl Device {
     pub fn set_view(&mut self, task: Task, stats: &mut Stats) -> Result<(), GpuError> {
         self.buffers.set_view(&self.gpu, &self.layouts, task.view)?;
         self.loaded_window = None;
-        if self.has_lights != task.view.has_lights {
+        let overrides = kernel(task).1;
+        if self.overrides != overrides {
             let Self {
                 gpu,
                 fetch,
@@ -85,7 +86,7 @@ impl Device {
                 ..
             } = &*self;
             self.pipeline = compile(gpu, *fetch, layouts, buffers, task, stats)?;
-            self.has_lights = task.view.has_lights;
+            self.overrides = overrides;
         }
         Ok(())
     }
@@ -144,6 +145,14 @@ pub fn reopen(
     Device::new(Gpu::open(choice, needs)?, fetch, task, stats)
 }
 
+/// The integrator's kernel, and what the scene, the frame and the settings ask of it.
+fn kernel(task: Task) -> (Kernel, Overrides) {
+    match task.settings.integrator {
+        Integrator::Whitted => (Kernel::WHITTED, whitted::overrides(task)),
+        _ => (Kernel::DEBUG_VIEW, debug_view::overrides(task)),
+    }
+}
+
 /// Makes the pipeline of the integrator and runs it once on nothing, which is when some drivers
 /// really compile.
 fn compile(
@@ -155,10 +164,7 @@ fn compile(
     stats: &mut Stats,
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let start = Instant::now();
-    let (kernel, overrides) = match task.settings.integrator {
-        Integrator::Whitted => (Kernel::WHITTED, whitted::overrides(task)),
-        _ => (Kernel::DEBUG_VIEW, debug_view::overrides(task)),
-    };
+    let (kernel, overrides) = kernel(task);
     let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
     let layout = gpu
         .device

@@ -1,6 +1,9 @@
 //! What is to be rendered and how, apart from the scene.
 
-use crate::gpu::MEMORY_LIMIT_BYTES;
+use crate::{
+    gpu::MEMORY_LIMIT_BYTES,
+    scene::{Antialias, Filter},
+};
 
 /// Settings of one picture. Together with scene, frame and seed they determine every pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +16,12 @@ pub struct Settings {
     pub samples: u32,
     /// Where in a pixel its samples lie.
     pub antialias: Antialias,
+    /// What samples are weighted by; without effect where they all lie at the centre.
+    pub filter: Filter,
+    /// Half the filter's width in pixels, above 0.
+    pub filter_radius: f32,
+    /// Factor on the samples of every area light, above 0; each has at least one all the same.
+    pub light_samples: f32,
     /// What a camera ray brings back.
     pub integrator: Integrator,
     /// How rays meet triangles.
@@ -38,6 +47,9 @@ impl Default for Settings {
             crop: None,
             samples: 1,
             antialias: Antialias::None,
+            filter: Filter::Box,
+            filter_radius: Filter::Box.default_radius(),
+            light_samples: 1.0,
             integrator: Integrator::Whitted,
             triangle_test: TriangleTest::Watertight,
             brute_force: false,
@@ -56,16 +68,6 @@ impl Settings {
         let [x0, y0, x1, y1] = self.crop.unwrap_or([0, 0, self.size.0, self.size.1]);
         [x0, y0, x1 - x0, y1 - y0]
     }
-}
-
-/// Where in a pixel its samples lie.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Antialias {
-    /// All at the centre, as the course's pictures want it.
-    #[default]
-    None,
-    /// Well spread over the pixel's square, all of equal weight.
-    Stratified,
 }
 
 /// What a camera ray brings back.

@@ -83,6 +83,7 @@ impl Slice {
             first_sample: self.first_sample,
             end_sample: self.end_sample,
             seed: settings.seed,
+            light_samples: settings.light_samples,
             ..Default::default()
         }
     }

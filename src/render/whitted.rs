@@ -2,9 +2,15 @@
 
 use super::{
     device::Task,
-    settings::{Antialias, Integrator, TriangleTest},
+    settings::{Integrator, TriangleTest},
 };
-use crate::layout::{TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT};
+use crate::{
+    layout::{
+        FILTER_BLACKMAN_HARRIS, FILTER_BOX, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_TENT,
+        TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT,
+    },
+    scene::{Antialias, Filter},
+};
 
 /// Values for the `override`s of `bindings.wesl`, by their ids.
 pub type Overrides = Vec<(&'static str, f64)>;
@@ -13,6 +19,7 @@ pub type Overrides = Vec<(&'static str, f64)>;
 pub fn overrides(task: Task) -> Overrides {
     let mut overrides = tracing(task);
     overrides.push(("9", flag(task.view.has_lights)));
+    overrides.push(("16", flag(task.view.has_area_lights)));
     overrides
 }
 
@@ -29,6 +36,13 @@ pub fn tracing(task: Task) -> Overrides {
         TriangleTest::MollerTrumbore => TRIANGLE_TEST_MOLLER_TRUMBORE,
         TriangleTest::Watertight => TRIANGLE_TEST_WATERTIGHT,
     };
+    let filter = match settings.filter {
+        Filter::Box => FILTER_BOX,
+        Filter::Tent => FILTER_TENT,
+        Filter::Gaussian => FILTER_GAUSSIAN,
+        Filter::BlackmanHarris => FILTER_BLACKMAN_HARRIS,
+        Filter::Mitchell => FILTER_MITCHELL,
+    };
     let features = scene.features;
     vec![
         ("0", f64::from(triangle_test)),
@@ -37,11 +51,13 @@ pub fn tracing(task: Task) -> Overrides {
         ("3", flag(scene.plane_count > 0)),
         ("4", flag(scene.features.mixed_materials)),
         ("5", flag(settings.brute_force)),
-        ("6", flag(settings.antialias == Antialias::Stratified)),
+        ("6", flag(settings.antialias != Antialias::None)),
         ("7", flag(settings.count_rays)),
         ("8", flag(settings.integrator == Integrator::Heat)),
         ("11", f64::from(features.shape_kinds)),
         ("17", flag(view.frame.camera.lens_radius > 0.0)),
+        ("18", f64::from(filter)),
+        ("19", f64::from(settings.filter_radius)),
         ("21", flag(features.textures)),
     ]
 }

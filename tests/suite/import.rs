@@ -5,6 +5,7 @@ mod course;
 mod files;
 mod hostile;
 mod native;
+mod native_light_and_lens;
 mod obj;
 
 use glimray::import::{self, ImportError, Options};

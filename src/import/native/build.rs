@@ -344,6 +344,9 @@ fn output(table: &OutputTable) -> OutputDefaults {
     OutputDefaults {
         size: (width, height),
         samples: table.samples.0,
+        filter: table.filter.into(),
+        filter_radius: table.filter_radius.map(|radius| radius.0),
+        light_samples: table.light_samples.0,
         exposure_ev: table.exposure_ev.0,
         tone: table.tone.into(),
         transfer: table.transfer.into(),

@@ -1,18 +1,20 @@
 //! What a native scene may say. These types are the format: their docs are the JSON Schema's
 //! descriptions, so they speak to whoever writes a scene.
 
+mod cameras;
 mod lights;
 mod materials;
 mod objects;
 
-pub(super) use lights::{LightTable, SpotTable};
+pub(super) use cameras::{CameraTable, LensTable};
+pub(super) use lights::{DiscTable, LightTable, RectangleTable, SpotTable};
 pub(super) use materials::{MaterialRef, MaterialTable};
 pub(super) use objects::{
     MeshTable, ObjectTable, PlaneTable, SphereTable, TransformTable, TriangleTable,
 };
 
 use super::values::{
-    Color, Count, Direction, Size, Stops, ToneName, TransferName, Vector, ViewAngle,
+    Color, Count, Factor, FilterName, Radius, Size, Stops, ToneName, TransferName,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -64,6 +66,13 @@ pub(super) struct OutputTable {
     pub size: Size,
     /// Samples per pixel; 1 if left out.
     pub samples: Count,
+    /// What samples round a pixel's centre are weighted by; box if left out.
+    pub filter: FilterName,
+    /// How far the filter reaches, in pixels; if left out 0.5 for box, 1 for tent, 2 for mitchell and
+    /// 1.5 for the others.
+    pub filter_radius: Option<Radius>,
+    /// Multiplies the samples of every area light; 1 if left out.
+    pub light_samples: Factor,
     /// Exposure in stops, before the tone curve; 0 if left out.
     pub exposure_ev: Stops,
     /// The tone curve; none if left out.
@@ -77,6 +86,9 @@ impl Default for OutputTable {
         Self {
             size: Size([640, 480]),
             samples: Count(1),
+            filter: FilterName::Box,
+            filter_radius: None,
+            light_samples: Factor(1.0),
             exposure_ev: Stops(0.0),
             tone: ToneName::None,
             transfer: TransferName::Srgb,
@@ -84,30 +96,6 @@ impl Default for OutputTable {
     }
 }
 
-/// A pinhole camera.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct CameraTable {
-    /// The name for `--camera`.
-    #[serde(default)]
-    pub name: String,
-    /// Where it stands.
-    pub look_from: Vector,
-    /// What is in the middle of the picture.
-    #[schemars(with = "Vector")]
-    pub look_at: Spanned<Vector>,
-    /// What is upwards in the picture; [0, 1, 0] if left out.
-    #[schemars(with = "Option<Direction>")]
-    pub up: Option<Spanned<Direction>>,
-    /// The vertical angle of view in degrees; 60 if left out.
-    #[serde(default = "sixty")]
-    pub fov_y_deg: ViewAngle,
-}
-
 fn black() -> Color {
     Color(Vec3::ZERO)
-}
-
-fn sixty() -> ViewAngle {
-    ViewAngle(60.0)
 }
