@@ -1,12 +1,14 @@
 //! The thin lens in whole renders: what is out of focus becomes the picture of the opening, in the
 //! size that the lens formula gives.
 
-use crate::reference::compare::{assert_none, check_same_bits, render, sized};
+use crate::reference::compare::{assert_none, check_same_bits, open_gpu, render, sized};
 use crate::reference::scenes::Build;
 use glam::{DVec3, Vec3, dvec3};
 use glimray::image::Image;
-use glimray::render::{Antialias, Settings};
-use glimray::scene::{Background, Camera, Lens, Material, Scene};
+use glimray::pack;
+use glimray::render::{Antialias, Renderer, Settings, Tone};
+use glimray::scene::{Background, Camera, Lens, Light, LightKind, Material, Scene};
+use std::sync::Arc;
 
 const SIDE: u32 = 48;
 const FOCUS: f64 = 10.0;
@@ -147,4 +149,38 @@ fn a_lens_without_radius_is_a_pinhole_bit_for_bit() {
     };
     let [a, b] = [Some(closed), None].map(|lens| picture(&ball(5.0, 0.3, lens)));
     assert_none([check_same_bits("closed", &a, &b)]);
+}
+
+#[test]
+fn a_frame_may_bring_a_lens_and_a_light_with_extent() {
+    let first = ball(5.0, 0.3, None);
+    let mut second = ball(5.0, 0.3, Some(ROUND));
+    second.lights.push(Light {
+        kind: LightKind::Sphere {
+            center: dvec3(2.0, 2.0, 0.0),
+            radius: 0.5,
+        },
+        color: Vec3::ONE,
+        samples: 2,
+        ..Light::default()
+    });
+    let settings = Settings {
+        samples: 4,
+        antialias: Antialias::Stratified,
+        ..sized(SIDE, SIDE)
+    };
+    let packed = Arc::new(pack::scene(&first).expect("packed"));
+    let view = |scene: &Scene| packed.frame(&scene.frame(0.0)).expect("a frame");
+    let mut renderer = Renderer::new(open_gpu(), packed.clone(), &view(&first), settings.clone())
+        .expect("a renderer");
+    renderer.set_frame(&view(&second)).expect("a frame");
+    while !renderer.is_done() {
+        renderer.step().expect("a step");
+    }
+    let got = renderer.develop(&Tone::LINEAR).expect("a picture");
+    assert_none([check_same_bits(
+        "second frame",
+        &render(&second, &settings).0,
+        &got,
+    )]);
 }
