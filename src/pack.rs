@@ -3,6 +3,7 @@
 
 mod frame;
 mod geometry;
+mod light;
 mod material;
 mod media;
 mod nodes;
@@ -17,7 +18,7 @@ use crate::{
     },
     scene::{Scene, Shadows},
 };
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use std::time::Instant;
 
 /// Most primitives in a leaf.
@@ -153,6 +154,13 @@ pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
         filtered_shadows: scene.shadows == Shadows::Filtered,
         ..material::features(scene)
     };
+    let lamps: Vec<_> = light::light_surfaces(scene)
+        .map(|lamp| lamp.material)
+        .collect();
+    let features = Features {
+        emission: features.emission || lamps.iter().any(|lamp| lamp.emission != Vec3::ZERO),
+        ..features
+    };
     let pick_shape = |&i: &u32| bounded[i as usize - triangles.len()].0;
     Ok(PackedScene {
         nodes: bvh.nodes.iter().map(nodes::quantize).collect(),
@@ -165,7 +173,9 @@ pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
         plane_count: planes.len() as u32,
         vertices,
         uvs: if features.textures { uvs } else { Vec::new() },
-        materials: scene.materials.iter().map(material::material).collect(),
+        materials: (scene.materials.iter().chain(&lamps))
+            .map(material::material)
+            .collect(),
         textures,
         texels,
         pictures,

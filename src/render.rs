@@ -11,7 +11,7 @@ mod settings;
 mod slice;
 mod whitted;
 
-pub use crate::scene::Antialias;
+pub use crate::scene::{Antialias, Filter};
 pub use develop::Tone;
 pub use settings::{Fetch, Integrator, MIN_THROUGHPUT, Settings, Slicing, TriangleTest};
 

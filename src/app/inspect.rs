@@ -78,6 +78,12 @@ fn camera_json(camera: &Camera) -> Value {
         "look_at": camera.look_at.to_array(),
         "up": camera.up.to_array(),
         "fov_y_deg": camera.fov_y.to_degrees(),
+        "lens": camera.lens.map(|lens| json!({
+            "radius": lens.radius,
+            "focus_distance": lens.focus_distance,
+            "blades": lens.blade_count,
+            "blade_rotation_deg": lens.blade_rotation.to_degrees(),
+        })),
     })
 }
 
@@ -119,6 +125,8 @@ fn light_json(light: &Light) -> Value {
     value["kind"] = json!(kind(light));
     value["color"] = json!(light.color.to_array());
     value["attenuation"] = json!(attenuation(light));
+    value["samples"] = json!(light.samples);
+    value["visible"] = json!(light.visible);
     value
 }
 
@@ -227,7 +235,16 @@ fn camera_text(out: &mut String, camera: &Camera) -> fmt::Result {
         out,
         "{} from {from} to {at}, {fov:.2}° high",
         quoted(&camera.name)
-    )
+    )?;
+    match camera.lens {
+        Some(lens) => write!(
+            out,
+            ", lens of radius {} sharp at {}",
+            number(lens.radius),
+            number(lens.focus_distance)
+        ),
+        None => Ok(()),
+    }
 }
 
 fn light_text(out: &mut String, light: &Light) -> fmt::Result {
@@ -263,7 +280,14 @@ fn light_text(out: &mut String, light: &Light) -> fmt::Result {
             write!(out, " at {}, radius {}", point(center), number(radius))?;
         }
     }
-    write!(out, ", attenuation {}", attenuation(light))
+    write!(out, ", attenuation {}", attenuation(light))?;
+    match light.kind.radiance() {
+        Some(_) => {
+            let seen = if light.visible { "" } else { ", invisible" };
+            write!(out, ", {} sample(s){seen}", light.samples)
+        }
+        None => Ok(()),
+    }
 }
 
 fn material_text(out: &mut String, material: &Material) -> fmt::Result {

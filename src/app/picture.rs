@@ -189,11 +189,17 @@ fn settings(
         antialias: picture.antialias.or(scene.antialias),
         ..scene.clone()
     };
+    let filter = picture.filter.unwrap_or(scene.filter);
+    // A radius of the scene goes with the filter of the scene.
+    let scene_radius = scene.filter_radius.filter(|_| filter == scene.filter);
     let defaults = Settings::from(&output);
     Settings {
         size: picture.size.size.unwrap_or(scene.size),
         crop: picture.crop,
         noise: picture.noise.unwrap_or(defaults.noise),
+        filter,
+        filter_radius: (picture.filter_radius.or(scene_radius)).unwrap_or(filter.default_radius()),
+        light_samples: picture.light_samples.unwrap_or(scene.light_samples),
         integrator: picture.integrator.unwrap_or(defaults.integrator),
         triangle_test: picture.triangle_test.unwrap_or(defaults.triangle_test),
         brute_force: picture.no_bvh,

@@ -9,8 +9,10 @@
 //! light    := "light"    "pos:" x y z  "col:" r g b
 //! ```
 //! Read as found in the wild: keys of an object in any order and case, an `N` that does not count,
-//! `#` and `//` comments, and the extensions `ref:` and `area_light:`, which are not rendered yet.
+//! `#` and `//` comments, and the extensions `ref:`, which is not rendered yet, and `area_light:`,
+//! which makes a rectangle of a light: `pos:` is its middle, `area_u:` and `area_v:` are its sides.
 
+mod area;
 mod palette;
 mod tokens;
 
@@ -22,6 +24,7 @@ use crate::scene::{
     Background, Camera, Geometry, Instance, Light, LightKind, Mesh, OutputDefaults, Scene, Shape,
     ToneCurve, Transfer,
 };
+use area::Area;
 use glam::{DAffine3, DVec3, Vec3};
 use palette::Palette;
 use tokens::Tokens;
@@ -87,6 +90,7 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
         positions: Vec::new(),
         palette: Palette::default(),
         extensions: [0; 5],
+        area: Area::default(),
     };
     let announced = reader.header()?;
     let mut found = 0_u64;
@@ -94,6 +98,7 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
         reader.object(token)?;
         found += 1;
     }
+    reader.close_light()?;
     if announced != found as f64 {
         let note = format!(
             "the file announces {announced} objects, but has {found}: all of them are read"
@@ -111,8 +116,10 @@ struct Reader<'s> {
     mesh: Mesh,
     positions: Vec<DVec3>,
     palette: Palette,
-    /// How often each of [`EXTENSIONS`] was met.
+    /// How often each of [`EXTENSIONS`] was met without effect.
     extensions: [usize; 5],
+    /// What the current object says about its extent.
+    area: Area<'s>,
 }
 
 impl<'s> Reader<'s> {
@@ -144,6 +151,7 @@ impl<'s> Reader<'s> {
     }
 
     fn object(&mut self, keyword: Token<'s>) -> Result<(), ImportError> {
+        self.close_light()?;
         match keyword.bytes.to_ascii_lowercase().as_slice() {
             b"sphere" => self.sphere(),
             b"triangle" => self.triangle(),
@@ -191,7 +199,20 @@ impl<'s> Reader<'s> {
             color: Col.of(&fields).as_vec3(),
             ..Light::default()
         });
+        self.area.is_of_light = true;
         Ok(())
+    }
+
+    /// Gives the light that has just ended its extent, if it has one.
+    fn close_light(&mut self) -> Result<(), ImportError> {
+        let area = std::mem::take(&mut self.area);
+        match self.scene.lights.last_mut() {
+            Some(light) if area.is_of_light => area.apply(light, self.source, &mut self.extensions),
+            _ => {
+                area.count(&mut self.extensions);
+                Ok(())
+            }
+        }
     }
 
     fn material(&mut self, fields: &Fields) -> u32 {
@@ -303,27 +324,22 @@ impl<'s> Reader<'s> {
     }
 
     /// Whether `token` is an extension, whose words are then passed over.
-    fn is_extension(&mut self, token: Token) -> Result<bool, ImportError> {
+    fn is_extension(&mut self, token: Token<'s>) -> Result<bool, ImportError> {
         let known = |(name, _): &(&str, usize)| token.bytes.eq_ignore_ascii_case(name.as_bytes());
         let Some(index) = EXTENSIONS.iter().position(known) else {
             return Ok(false);
         };
         let (name, word_count) = EXTENSIONS[index];
+        let mut words = Vec::with_capacity(word_count);
         for _ in 0..word_count {
-            let word = self.expect("a value of ", name)?;
-            if name == "area_light:" {
-                if !matches!(
-                    word.bytes.to_ascii_lowercase().as_slice(),
-                    b"true" | b"false"
-                ) {
-                    let why = format!("expected `true` or `false`, found {}", word.quote());
-                    return Err(self.refuse(word, why, "Write `area_light: true`"));
-                }
-            } else {
-                number::parse(self.source, word)?;
-            }
+            words.push(self.expect("a value of ", name)?);
         }
-        self.extensions[index] += 1;
+        if name == "ref:" {
+            number::parse(self.source, words[0])?;
+            self.extensions[index] += 1;
+        } else {
+            self.area.read(index, token, &words, self.source)?;
+        }
         Ok(true)
     }
 
@@ -339,9 +355,14 @@ impl<'s> Reader<'s> {
                 } else {
                     format!("{count} times")
                 };
+                let why = if *name == "ref:" {
+                    "is not rendered yet"
+                } else {
+                    "has no effect without a light, `area_light: true`, `area_u:` and `area_v:`"
+                };
                 self.scene
                     .skipped
-                    .push(format!("`{name}` is not rendered yet (found {times})"));
+                    .push(format!("`{name}` {why} (found {times})"));
             }
         }
         let (local, offset) = Mesh::from_world_positions(&self.positions);

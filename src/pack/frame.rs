@@ -1,6 +1,10 @@
 //! What changes from frame to frame: camera and lights.
 
-use super::{PackError, PackedScene, geometry::render_point, media};
+use super::{
+    PackError, PackedScene,
+    geometry::{in_range, render_point},
+    media,
+};
 use crate::{
     layout::{
         ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, BACKGROUND_COLOR, BACKGROUND_GRADIENT,
@@ -161,6 +165,7 @@ fn light(light: &Light, origin: DVec3) -> Result<PackedLight, PackError> {
             edge_u,
             edge_v,
         } => {
+            in_range(edge_u.length().max(edge_v.length()))?;
             packed.kind = LIGHT_RECTANGLE;
             packed.direction = direct(edge_u.cross(edge_v).normalize_or(DVec3::NEG_Y));
             (packed.edge_u, packed.edge_v) = (direct(edge_u), direct(edge_v));
@@ -171,6 +176,7 @@ fn light(light: &Light, origin: DVec3) -> Result<PackedLight, PackError> {
             normal,
             radius,
         } => {
+            in_range(radius)?;
             packed.kind = LIGHT_DISC;
             packed.direction = direct(normal);
             let (u, v) = normal.any_orthonormal_pair();
@@ -178,6 +184,7 @@ fn light(light: &Light, origin: DVec3) -> Result<PackedLight, PackError> {
             center
         }
         LightKind::Sphere { center, radius } => {
+            in_range(radius)?;
             packed.kind = LIGHT_SPHERE;
             packed.radius = radius as f32;
             center

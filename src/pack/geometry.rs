@@ -1,6 +1,6 @@
 //! Instances and shapes flattened into render space.
 
-use super::PackError;
+use super::{PackError, light::light_surfaces};
 use crate::{
     bvh::Aabb,
     layout::{
@@ -42,6 +42,10 @@ pub fn flatten(scene: &Scene, origin: DVec3) -> Result<Flat, PackError> {
     }
     for (id, shape) in scene.shapes.iter().enumerate() {
         flat.add_shape(&shape.geometry, shape.material, id, origin)?;
+    }
+    for (i, surface) in light_surfaces(scene).enumerate() {
+        let (material, id) = (scene.materials.len() + i, scene.shapes.len() + i);
+        flat.add_shape(&surface.geometry, material, id, origin)?;
     }
     Ok(flat)
 }
@@ -181,7 +185,8 @@ pub fn render_point(world: DVec3, origin: DVec3) -> Result<Vec3, PackError> {
     Ok(p.as_vec3())
 }
 
-fn in_range(value: f64) -> Result<(), PackError> {
+/// Refuses a length whose square f32 cannot hold.
+pub fn in_range(value: f64) -> Result<(), PackError> {
     if value > COORDINATE_LIMIT {
         return Err(PackError::OutOfRange {
             value,

@@ -38,7 +38,7 @@ pub struct Device {
     pub layouts: Layouts,
     pub buffers: Buffers,
     pipeline: wgpu::ComputePipeline,
-    /// What the pipeline was made for.
+    /// What the pipeline was made with.
     overrides: Overrides,
     pub developer: Option<Developer>,
     /// The window whose sums are in the film buffer.
@@ -59,7 +59,7 @@ impl Device {
             layouts,
             buffers,
             pipeline,
-            overrides: overrides(task).1,
+            overrides: kernel(task).1,
             developer: None,
             loaded_window: None,
         })
@@ -69,7 +69,7 @@ impl Device {
     pub fn set_view(&mut self, task: Task, stats: &mut Stats) -> Result<(), GpuError> {
         self.buffers.set_view(&self.gpu, &self.layouts, task.view)?;
         self.loaded_window = None;
-        let (_, overrides) = overrides(task);
+        let overrides = kernel(task).1;
         if self.overrides != overrides {
             let Self {
                 gpu,
@@ -139,8 +139,8 @@ pub fn reopen(
     Device::new(Gpu::open(choice, needs)?, fetch, task, stats)
 }
 
-/// The integrator's kernel and what is chosen when its pipeline is made.
-fn overrides(task: Task) -> (Kernel, Overrides) {
+/// The integrator's kernel, and what the scene, the frame and the settings ask of it.
+fn kernel(task: Task) -> (Kernel, Overrides) {
     match task.settings.integrator {
         Integrator::Whitted | Integrator::Samples => (Kernel::WHITTED, whitted::overrides(task)),
         _ => (Kernel::DEBUG_VIEW, debug_view::overrides(task)),
@@ -158,7 +158,7 @@ fn compile(
     stats: &mut Stats,
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let start = Instant::now();
-    let (kernel, overrides) = overrides(task);
+    let (kernel, overrides) = kernel(task);
     let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
     let layout = gpu
         .device

@@ -2,7 +2,7 @@
 
 use crate::{
     gpu::MEMORY_LIMIT_BYTES,
-    scene::{Antialias, OutputDefaults},
+    scene::{Antialias, Filter, OutputDefaults},
 };
 
 /// The share in a sample below which rays are not sent, unless told otherwise: half of what shows
@@ -22,6 +22,12 @@ pub struct Settings {
     pub antialias: Antialias,
     /// The noise at which adaptive sampling stops; see [`Antialias::Adaptive`]. Above 0.
     pub noise: f32,
+    /// What samples are weighted by; without effect where they all lie at the centre.
+    pub filter: Filter,
+    /// Half the filter's width in pixels, above 0.
+    pub filter_radius: f32,
+    /// Factor on the samples of every area light, above 0; each has at least one all the same.
+    pub light_samples: f32,
     /// What a camera ray brings back.
     pub integrator: Integrator,
     /// How rays meet triangles.
@@ -52,6 +58,9 @@ impl Default for Settings {
             samples: 1,
             antialias: Antialias::None,
             noise: 0.01,
+            filter: Filter::Box,
+            filter_radius: Filter::Box.default_radius(),
+            light_samples: 1.0,
             integrator: Integrator::Whitted,
             triangle_test: TriangleTest::Watertight,
             brute_force: false,
@@ -79,6 +88,9 @@ impl From<&OutputDefaults> for Settings {
             samples: output.samples,
             antialias: output.antialias.unwrap_or(antialias),
             noise: output.noise,
+            filter: output.filter,
+            filter_radius: (output.filter_radius).unwrap_or(output.filter.default_radius()),
+            light_samples: output.light_samples,
             max_depth: output.max_depth,
             ..Self::default()
         }

@@ -85,7 +85,7 @@ impl Slice {
             seed: settings.seed,
             max_depth: settings.max_depth,
             min_throughput: settings.min_throughput,
-            light_samples: 1.0,
+            light_samples: settings.light_samples,
             ..Default::default()
         }
     }

@@ -5,8 +5,11 @@ use super::{
     settings::{Integrator, TriangleTest},
 };
 use crate::{
-    layout::{TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT},
-    scene::Antialias,
+    layout::{
+        FILTER_BLACKMAN_HARRIS, FILTER_BOX, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_TENT,
+        TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT,
+    },
+    scene::{Antialias, Filter},
 };
 
 /// Values for the `override`s of `bindings.wesl`, by their ids.
@@ -17,6 +20,7 @@ pub fn overrides(task: Task) -> Overrides {
     let mut overrides = tracing(task);
     overrides.push(("9", flag(task.view.has_lights)));
     overrides.push(("20", f64::from(task.view.background)));
+    overrides.push(("16", flag(task.view.has_area_lights)));
     overrides
 }
 
@@ -32,6 +36,13 @@ pub fn tracing(task: Task) -> Overrides {
         TriangleTest::Plane => TRIANGLE_TEST_PLANE,
         TriangleTest::MollerTrumbore => TRIANGLE_TEST_MOLLER_TRUMBORE,
         TriangleTest::Watertight => TRIANGLE_TEST_WATERTIGHT,
+    };
+    let filter = match settings.filter {
+        Filter::Box => FILTER_BOX,
+        Filter::Tent => FILTER_TENT,
+        Filter::Gaussian => FILTER_GAUSSIAN,
+        Filter::BlackmanHarris => FILTER_BLACKMAN_HARRIS,
+        Filter::Mitchell => FILTER_MITCHELL,
     };
     let features = scene.features;
     vec![
@@ -50,6 +61,8 @@ pub fn tracing(task: Task) -> Overrides {
         ("14", flag(features.contact)),
         ("15", flag(features.filtered_shadows)),
         ("17", flag(view.frame.camera.lens_radius > 0.0)),
+        ("18", f64::from(filter)),
+        ("19", f64::from(settings.filter_radius)),
         ("21", flag(features.textures)),
         ("22", flag(features.emission)),
         ("23", flag(settings.is_adaptive())),

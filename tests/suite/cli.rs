@@ -143,7 +143,7 @@ fn help_explains_every_promised_flag_with_an_example() {
     let device = "--adapter --backend --memory-limit";
     let log = "--report --count-rays --progress --quiet -q --verbose -v";
     let output = "-o --output --format --quality --no-clobber";
-    let picture = "--antialias --integrator --triangle-test --no-bvh --exposure --tone --transfer \
+    let picture = "--antialias --filter --filter-radius --light-samples --integrator --triangle-test --no-bvh --exposure --tone --transfer \
         --seed --crop --camera --fov-y --look-from --look-at --up --background";
     let reading = "--strict --set --allow-dir";
     let size = "--size --samples";
@@ -225,6 +225,20 @@ fn bad_command_lines_exit_2_and_say_why() {
         (
             "--integrator path",
             "[possible values: whitted, normals, depth, ids, heat]",
+        ),
+        (
+            "--filter lanczos",
+            "[possible values: box, tent, gaussian, blackman-harris, mitchell]",
+        ),
+        ("--filter-radius 0", "it must be a number from 0.01 to 16"),
+        ("--filter-radius NaN", "it must be a number from 0.01 to 16"),
+        (
+            "--light-samples 0",
+            "it must be a number from 0.001 to 1000",
+        ),
+        (
+            "--light-samples -1",
+            "it must be a number from 0.001 to 1000",
         ),
         ("--antialias some", "[possible values: none, stratified]"),
         (
@@ -735,4 +749,27 @@ fn sigterm_exits_143_and_leaves_the_old_picture() {
     assert_eq!(interrupted(&place, "-TERM"), Some(143));
     assert_eq!(fs::read(place.path("a.png")).expect("a file"), b"old");
     assert_eq!(place.made(), ["a.png"]);
+}
+
+#[test]
+fn inspect_tells_of_lenses_and_area_lights() {
+    let place = Workplace::new();
+    let text = "[camera]\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\nlens = { radius = 0.5, blades = 7 }\n\
+        [[lights]]\ndisc = { center = [0, 4, 0], normal = [0, -1, 0], radius = 2, samples = 9, visible = false }";
+    fs::write(place.path("lens.toml"), text).expect("a scene");
+    let scene = place.run("inspect lens.toml --json").expect(0).json();
+    let lens = &scene["cameras"][0]["lens"];
+    assert_eq!(
+        (&lens["radius"], &lens["focus_distance"], &lens["blades"]),
+        (&0.5.into(), &5.0.into(), &7.into())
+    );
+    let light = &scene["lights"][0];
+    assert!(light.is_null() || light["samples"] == 9, "{scene}");
+    let text = place.run("inspect lens.toml").expect(0);
+    for part in [
+        "lens of radius 0.5 sharp at 5",
+        "radius 2, attenuation inverse-square, 9 sample(s), invisible",
+    ] {
+        assert!(text.text().contains(part), "{}", text.text());
+    }
 }

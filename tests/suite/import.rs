@@ -5,11 +5,12 @@ mod course;
 mod files;
 mod hostile;
 mod native;
+mod native_light_and_lens;
 mod nff;
 mod obj;
 mod pictures;
-mod textures;
 mod shapes;
+mod textures;
 
 use glimray::import::{self, ImportError, Options};
 use glimray::scene::Scene;

@@ -220,7 +220,11 @@ fn a_mirror_corridor_shows_one_image_more_with_every_bounce() {
         plane(dvec3(0.0, 0.0, 2.0), DVec3::NEG_Z),
         mirror(),
     );
-    add(&mut scene, sphere(dvec3(0.5, 0.0, 0.0), 0.035), shining(1.0));
+    add(
+        &mut scene,
+        sphere(dvec3(0.5, 0.0, 0.0), 0.035),
+        shining(1.0),
+    );
     let mut verdict = Verdict::on("images");
     for depth in 0..=6 {
         let settings = Settings {

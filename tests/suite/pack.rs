@@ -3,7 +3,8 @@
 use crate::reference::scenes::{self, Build};
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::layout::{
-    LIGHT_POINT, LIGHT_SPOT, MATERIAL_TWO_SIDED, PackedLight, SHAPE_PLANE, SHAPE_SPHERE,
+    LIGHT_POINT, LIGHT_SPOT, MATERIAL_TWO_SIDED, PackedLight, SHAPE_DISC, SHAPE_PLANE,
+    SHAPE_RECTANGLE, SHAPE_SPHERE,
 };
 use glimray::pack::{self, PackError, PackedScene};
 use glimray::scene::{Attenuation, Form, Geometry, Light, LightKind, Material, Scene, Shape};
@@ -367,4 +368,73 @@ fn a_shape_too_thin_for_f32_is_refused() {
     });
     let error = pack::scene(&scene).expect_err("too thin");
     insta::assert_snapshot!(error, @"object too small (scaled size): 1e-16 units in one direction is below the range of f32 arithmetic, at least 1e-15. Make it larger, or scale the scene up.");
+}
+
+#[test]
+fn visible_lights_are_surfaces_that_shine_on_their_front() {
+    let mut scene = scenes::spheres();
+    let (materials, shapes) = (scene.materials.len(), packed(&scene).shapes.len());
+    let center = dvec3(1.0, 4.0, 2.0);
+    let lamp = |kind, visible| Light {
+        kind,
+        visible,
+        color: vec3(3.0, 2.0, 1.0),
+        attenuation: Attenuation::InverseSquare,
+        samples: 4,
+    };
+    let rectangle = LightKind::Rectangle {
+        center,
+        edge_u: DVec3::Z * 2.0,
+        edge_v: DVec3::X,
+    };
+    let disc = LightKind::Disc {
+        center,
+        normal: DVec3::NEG_Z,
+        radius: 0.5,
+    };
+    let sphere = LightKind::Sphere {
+        center,
+        radius: 0.5,
+    };
+    assert!(!packed(&scene).features.emission);
+    scene.lights = vec![lamp(sphere, false)];
+    let hidden = packed(&scene);
+    assert!(!hidden.features.emission && hidden.shapes.len() == shapes);
+
+    scene.lights = [rectangle, disc, sphere]
+        .map(|kind| lamp(kind, true))
+        .to_vec();
+    let packed = packed(&scene);
+    assert!(packed.features.emission);
+    assert_eq!(packed.shapes.len(), shapes + 3);
+    // (kind, radiance of colour 1, which way it faces): π over the area, 1/r² for round ones.
+    let expected = [
+        (
+            SHAPE_RECTANGLE,
+            std::f32::consts::PI / 8.0,
+            Some([0.0, 1.0, 0.0]),
+        ),
+        (SHAPE_DISC, 4.0, Some([0.0, 0.0, -1.0])),
+        (SHAPE_SPHERE, 4.0, None),
+    ];
+    for (i, (kind, radiance, facing)) in expected.into_iter().enumerate() {
+        let index = materials + i;
+        let material = packed.materials[index];
+        let off = Vec3::from(material.emission) - radiance * vec3(3.0, 2.0, 1.0);
+        assert!(off.length() < 1e-5, "{material:?}");
+        assert_eq!(
+            (material.diffuse, material.specular, material.ambient),
+            ([0.0; 3], [0.0; 3], [0.0; 3])
+        );
+        assert_eq!(material.flags & MATERIAL_TWO_SIDED, 0);
+        let shape = packed
+            .shapes
+            .iter()
+            .find(|shape| shape.material == index as u32);
+        let shape = shape.expect("its surface");
+        assert_eq!(shape.kind, kind);
+        if let Some(facing) = facing {
+            assert_eq!(Vec3::from(shape.row_y).normalize(), Vec3::from(facing));
+        }
+    }
 }

@@ -16,6 +16,7 @@ use glimray::scene::{
     Attenuation, Camera, Form, Geometry, Light, LightKind, Material, Scene, Shape,
 };
 use optics::Place;
+use std::f64::consts::TAU;
 
 /// The picture and the number of rays it took.
 pub struct Traced {
@@ -218,27 +219,29 @@ impl<'a> Tracer<'a> {
     ) -> DVec3 {
         let mut sum = self.scene.ambient.as_dvec3() * material.ambient.as_dvec3();
         for light in &self.scene.lights {
-            let (l, distance, arriving) = light_at(light, shadow.origin);
-            let cos = l.dot(n);
-            if cos <= 0.0 || arriving == DVec3::ZERO {
-                continue;
+            for (l, distance, arriving) in light_points(light, shadow.origin) {
+                let cos = l.dot(n);
+                if cos <= 0.0 || arriving == DVec3::ZERO {
+                    continue;
+                }
+                rays.shadow += 1;
+                if self
+                    .nearest(Ray {
+                        direction: l,
+                        t_max: distance,
+                        ..shadow
+                    })
+                    .is_some()
+                {
+                    rays.shadow_blocked += 1;
+                    continue;
+                }
+                let r = 2.0 * cos * n - l;
+                let highlight = r.dot(v).max(0.0).powf(material.shininess.into());
+                sum += arriving
+                    * (material.diffuse.as_dvec3() * cos
+                        + material.specular.as_dvec3() * highlight);
             }
-            rays.shadow += 1;
-            if self
-                .nearest(Ray {
-                    direction: l,
-                    t_max: distance,
-                    ..shadow
-                })
-                .is_some()
-            {
-                rays.shadow_blocked += 1;
-                continue;
-            }
-            let r = 2.0 * cos * n - l;
-            let highlight = r.dot(v).max(0.0).powf(material.shininess.into());
-            sum += arriving
-                * (material.diffuse.as_dvec3() * cos + material.specular.as_dvec3() * highlight);
         }
         sum
     }
@@ -329,6 +332,71 @@ impl<'a> Tracer<'a> {
     }
 }
 
+/// Points that stand for a light: direction and distance to each, and what arrives without shadow.
+fn light_points(light: &Light, p: DVec3) -> Vec<(DVec3, f64, DVec3)> {
+    /// Along either of a surface's coordinates.
+    const PARTS: u32 = 24;
+    let parts = || (0..PARTS).map(|i| (f64::from(i) + 0.5) / f64::from(PARTS));
+    // Points of equal shares of the surface, and the normal there.
+    let on_surface = |(u, v): (f64, f64)| {
+        let (sin, cos) = (TAU * v).sin_cos();
+        match light.kind {
+            LightKind::Rectangle {
+                center,
+                edge_u,
+                edge_v,
+            } => {
+                let q = center + (2.0 * u - 1.0) * edge_u + (2.0 * v - 1.0) * edge_v;
+                (q, edge_u.cross(edge_v).normalize())
+            }
+            LightKind::Disc {
+                center,
+                normal,
+                radius,
+            } => {
+                let x = normal.any_orthonormal_vector();
+                let around = cos * x + sin * normal.cross(x);
+                (center + radius * u.sqrt() * around, normal)
+            }
+            // Archimedes: equal heights of a sphere have equal areas.
+            LightKind::Sphere { center, radius } => {
+                let y = 2.0 * u - 1.0;
+                let r = (1.0 - y * y).sqrt();
+                let normal = DVec3::new(r * cos, y, r * sin);
+                (center + radius * normal, normal)
+            }
+            _ => unreachable!("it has no surface"),
+        }
+    };
+    // A Lambertian surface, from A color cos / (π d²) L down to what `color` means: for flat lights
+    // the mean of color cos / d²; a sphere has four times the area of its disc.
+    let factor = match light.kind {
+        LightKind::Rectangle { .. } | LightKind::Disc { .. } => 1.0,
+        LightKind::Sphere { .. } => 4.0,
+        _ => return vec![light_at(light, p)],
+    };
+    assert_eq!(
+        light.attenuation,
+        Attenuation::InverseSquare,
+        "no scene of the tests has another"
+    );
+    let share = factor / f64::from(PARTS * PARTS);
+    parts()
+        .flat_map(|u| parts().map(move |v| (u, v)))
+        .map(on_surface)
+        .map(|(q, normal)| {
+            let distance = q.distance(p);
+            let l = (q - p) / distance;
+            let strength = share * (-l.dot(normal)).max(0.0) / (distance * distance);
+            (
+                l,
+                distance * (1.0 - 1e-9),
+                strength * light.color.as_dvec3(),
+            )
+        })
+        .collect()
+}
+
 /// Direction to the light, distance to it, and what arrives without shadow.
 fn light_at(light: &Light, p: DVec3) -> (DVec3, f64, DVec3) {
     let color = light.color.as_dvec3();
@@ -346,7 +414,7 @@ fn light_at(light: &Light, p: DVec3) -> (DVec3, f64, DVec3) {
             (position, x * x * (3.0 - 2.0 * x))
         }
         LightKind::Rectangle { .. } | LightKind::Disc { .. } | LightKind::Sphere { .. } => {
-            unimplemented!("no scene of the tests has one")
+            unreachable!("lights of many points")
         }
     };
     let distance = position.distance(p);

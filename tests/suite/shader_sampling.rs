@@ -39,6 +39,75 @@ fn sobol_begins_with_the_published_points() {
     verdict.close();
 }
 
+/// Dimensions 3 and 4 of the same.
+const FIRST_POINTS_34: [[f64; 2]; 16] = [
+    [0.0, 0.0],
+    [0.5, 0.5],
+    [0.75, 0.75],
+    [0.25, 0.25],
+    [0.375, 0.125],
+    [0.875, 0.625],
+    [0.625, 0.875],
+    [0.125, 0.375],
+    [0.5625, 0.3125],
+    [0.0625, 0.8125],
+    [0.3125, 0.5625],
+    [0.8125, 0.0625],
+    [0.9375, 0.4375],
+    [0.4375, 0.9375],
+    [0.1875, 0.6875],
+    [0.6875, 0.1875],
+];
+
+#[test]
+fn the_third_and_fourth_dimension_begin_with_the_published_points() {
+    let indices: Vec<u32> = (0..16).collect();
+    let points: Vec<[u32; 2]> = gpu().map("lib::sampling::sobol_34", &indices);
+    let mut verdict = Verdict::on("sobol_34");
+    for (i, (point, expected)) in points.iter().zip(FIRST_POINTS_34).enumerate() {
+        let expected = expected.map(|x| (x * 4_294_967_296.0) as u32);
+        verdict.near(format!("point {i}"), point, &expected, Tolerance::Exact);
+    }
+    verdict.close();
+}
+
+/// Sobol's property A for the points of the two-dimensional and the further pair together: each of
+/// the 16 quarters of halves of the four-dimensional cube has one of 16.
+#[test]
+fn sixteen_samples_are_in_sixteen_parts_of_the_four_dimensional_cube() {
+    let mut random = Random::new(9);
+    let mut verdict = Verdict::on("stratified_34");
+    for key in (0..64).map(|_| random.word()) {
+        let inputs: Vec<_> = (0..1024u32).map(|index| (index, key)).collect();
+        let xy: Vec<[f32; 2]> = gpu().map("lib::sampling::stratified_2d", &inputs);
+        let zw: Vec<[f32; 2]> = gpu().map("lib::sampling::stratified_34", &inputs);
+        for (block, (xy, zw)) in xy.chunks(16).zip(zw.chunks(16)).enumerate() {
+            let mut found = [0; 16];
+            for ([x, y], [z, w]) in xy.iter().zip(zw) {
+                let half = |c: &f32| usize::from(*c >= 0.5);
+                found[half(x) * 8 + half(y) * 4 + half(z) * 2 + half(w)] += 1;
+            }
+            verdict.that(
+                format!("key {key:#x}, block {block}"),
+                found == [1; 16],
+                || format!("{found:?}"),
+            );
+        }
+        for axis in 0..2 {
+            let mut strata = [0; 1024];
+            for point in &zw {
+                strata[(point[axis] * 1024.0) as usize] += 1;
+            }
+            verdict.that(
+                format!("key {key:#x}, axis {axis}"),
+                strata == [1; 1024],
+                || "uneven",
+            );
+        }
+    }
+    verdict.close();
+}
+
 /// How many of the elementary intervals (boxes of 2^-a by 2^-b, a + b = k) of 2^k points do not
 /// hold exactly one.
 fn crowded_or_empty(points: &[[f64; 2]]) -> usize {

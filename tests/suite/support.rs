@@ -3,6 +3,7 @@
 
 pub mod harness;
 pub mod random;
+pub mod statistics;
 pub mod types;
 pub mod verdict;
 pub mod words;

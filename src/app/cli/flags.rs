@@ -1,13 +1,14 @@
 //! Flags that several commands share, in groups as the help shows them.
 
 use super::values::{
-    self, ANTIALIAS, BACKENDS, FORMATS, INTEGRATORS, PROGRESS, TONES, TRANSFERS, TRIANGLE_TESTS,
+    self, ANTIALIAS, BACKENDS, FILTERS, FORMATS, INTEGRATORS, PROGRESS, TONES, TRANSFERS,
+    TRIANGLE_TESTS,
 };
 use crate::gpu::{AdapterChoice, Backend};
 use crate::import;
 use crate::output::Format;
 use crate::render::{Antialias, Integrator, TriangleTest};
-use crate::scene::{ToneCurve, Transfer};
+use crate::scene::{Filter, ToneCurve, Transfer};
 use clap::Args;
 use glam::{DVec3, Vec3};
 use std::path::PathBuf;
@@ -65,6 +66,15 @@ pub struct PictureFlags {
     /// [default: 1/512]
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = values::share)]
     pub min_throughput: Option<f32>,
+    /// What samples round a pixel are weighted by [default: the scene's, else box]
+    #[arg(long, value_parser = FILTERS.parser())]
+    pub filter: Option<Filter>,
+    /// How far the filter reaches, 0.01 to 16 [default: box 0.5, tent 1, mitchell 2, others 1.5]
+    #[arg(long, value_name = "PIXELS", allow_hyphen_values = true, value_parser = values::filter_radius)]
+    pub filter_radius: Option<f32>,
+    /// Multiplies the samples of every area light, 0.001 to 1000 [default: the scene's, else 1]
+    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = values::light_samples)]
+    pub light_samples: Option<f32>,
     /// What is computed for a ray [default: whitted]
     #[arg(long, value_parser = INTEGRATORS.parser())]
     pub integrator: Option<Integrator>,

@@ -4,7 +4,7 @@ use super::ProgressMode;
 use crate::gpu::Backend;
 use crate::output::Format;
 use crate::render::{Antialias, Integrator, TriangleTest};
-use crate::scene::{ToneCurve, Transfer};
+use crate::scene::{Filter, ToneCurve, Transfer};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec3, Vec3};
 use std::fmt::Display;
@@ -32,6 +32,26 @@ pub static ANTIALIAS: Words<Antialias> = Words(&[
         "adaptive",
         "the same, until the pixel is good enough",
         Antialias::Adaptive,
+    ),
+]);
+
+pub static FILTERS: Words<Filter> = Words(&[
+    ("box", "all alike", Filter::Box),
+    ("tent", "linearly down to nothing", Filter::Tent),
+    (
+        "gaussian",
+        "a normal distribution of half a pixel, cut",
+        Filter::Gaussian,
+    ),
+    (
+        "blackman-harris",
+        "much like it, ends in nothing",
+        Filter::BlackmanHarris,
+    ),
+    (
+        "mitchell",
+        "sharpens: Mitchell and Netravali 1988",
+        Filter::Mitchell,
     ),
 ]);
 
@@ -171,6 +191,14 @@ pub fn exposure(text: &str) -> Result<f32, String> {
 
 pub fn fov_y(text: &str) -> Result<f64, String> {
     within(text, 0.001, 179.9, "it")
+}
+
+pub fn filter_radius(text: &str) -> Result<f32, String> {
+    within(text, 0.01, 16.0, "it")
+}
+
+pub fn light_samples(text: &str) -> Result<f32, String> {
+    within(text, 0.001, 1000.0, "it")
 }
 
 pub fn tolerance(text: &str) -> Result<f64, String> {

@@ -1,12 +1,17 @@
 //! The cameras of a native scene.
 
 use super::Texts;
-use super::file::{CameraTable, SceneFile};
+use super::file::{CameraTable, LensTable, SceneFile};
 use crate::import::error::ImportError;
+use crate::import::number::in_range;
 use crate::import::source::quote;
-use crate::scene::Camera;
+use crate::scene::{Camera, Lens};
 use glam::DVec3;
 use toml::Spanned;
+
+/// What f32 can still do something with: the radius of a lens, and what it is to the focus distance.
+const MAX_RADIUS: f64 = 1e9;
+const MAX_RATIO: f64 = 1e6;
 
 /// The cameras of `file`, of which there may be none.
 pub(super) fn cameras(file: &SceneFile, texts: &Texts) -> Result<Vec<Camera>, ImportError> {
@@ -44,12 +49,79 @@ fn camera(table: &CameraTable, texts: &Texts) -> Result<Camera, ImportError> {
         let why = "`up` is parallel to the viewing direction".to_owned();
         return Err(texts.malformed(span, why, "Give the camera another `up`"));
     }
+    let lens = table
+        .lens
+        .as_ref()
+        .map(|lens| self::lens(lens, table, forward, texts));
     Ok(Camera {
         name: table.name.clone(),
         look_from,
         look_at,
         up,
         fov_y: table.fov_y_deg.0.to_radians(),
-        lens: None,
+        lens: lens.transpose()?,
+    })
+}
+
+/// The lens of a camera that looks `forward`.
+fn lens(
+    lens: &Spanned<LensTable>,
+    camera: &CameraTable,
+    forward: DVec3,
+    texts: &Texts,
+) -> Result<Lens, ImportError> {
+    let refuse = |span, why: &str, todo| Err(texts.malformed(span, why.to_owned(), todo));
+    let table = lens.get_ref();
+    let radius = match (table.radius, table.f_number) {
+        (Some(radius), None) => {
+            if let Some(height) = &table.sensor_height_mm {
+                let why = "`sensor_height_mm` is of no use beside `radius`";
+                return refuse(height.span(), why, "Give `f_number` instead of `radius`");
+            }
+            radius.0
+        }
+        (None, Some(f_number)) => {
+            let height_mm = table
+                .sensor_height_mm
+                .as_ref()
+                .map_or(24.0, |h| h.get_ref().0);
+            let focal_length_mm = height_mm / 2.0 / (camera.fov_y_deg.0.to_radians() / 2.0).tan();
+            focal_length_mm / (2.0 * f_number.0) / 1000.0
+        }
+        _ => {
+            let why = "a lens has one opening";
+            return refuse(
+                lens.span(),
+                why,
+                "Give it exactly one of `radius` and `f_number`",
+            );
+        }
+    };
+    let focus_distance = match (table.focus_distance, &table.focus_on) {
+        (None, None) => camera.look_at.get_ref().0.distance(camera.look_from.0),
+        (Some(distance), None) => distance.0,
+        (None, Some(point)) => {
+            let distance = (point.get_ref().0 - camera.look_from.0).dot(forward);
+            if distance < f64::from(f32::MIN_POSITIVE) {
+                let why = "`focus_on` is not in front of the camera";
+                return refuse(point.span(), why, "Give a point that it looks towards");
+            }
+            distance
+        }
+        (Some(_), Some(point)) => {
+            let why = "there are both `focus_distance` and `focus_on`";
+            return refuse(point.span(), why, "Leave out one of them");
+        }
+    };
+    if radius > MAX_RADIUS.min(focus_distance * MAX_RATIO) || !in_range(focus_distance) {
+        let why = "the lens is out of proportion: its radius can be 1e9, and a million times its \
+                   focus distance, at most";
+        return refuse(lens.span(), why, "Make it smaller");
+    }
+    Ok(Lens {
+        radius,
+        focus_distance,
+        blade_count: table.blades.map_or(0, |blades| blades.0),
+        blade_rotation: table.blade_rotation_deg.0.to_radians(),
     })
 }

@@ -1,12 +1,14 @@
 //! What a native scene may say. These types are the format: their docs are the JSON Schema's
 //! descriptions, so they speak to whoever writes a scene.
 
+mod cameras;
 mod lights;
 mod materials;
 mod objects;
 mod textures;
 
-pub(super) use lights::{LightTable, SpotTable};
+pub(super) use cameras::{CameraTable, LensTable};
+pub(super) use lights::{DiscLightTable, LightTable, RectangleLightTable, SpotTable};
 pub(super) use materials::{MaterialRef, MaterialTable, RefractTable};
 pub(super) use objects::{
     BoxTable, ConeTable, CylinderTable, DiscTable, MeshTable, ObjectTable, PlaneTable,
@@ -19,8 +21,8 @@ pub(super) use textures::{
 };
 
 use super::values::{
-    Bounces, Color, Count, Direction, ShadowsName, Size, Stops, ToneName, TransferName, Vector,
-    ViewAngle,
+    Bounces, Color, Count, Factor, FilterName, Radius, ShadowsName, Size, Stops, ToneName,
+    TransferName,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -84,6 +86,13 @@ pub(super) struct OutputTable {
     pub samples: Count,
     /// Bounces after the first hit, 0 to 1000; 0 is local shading only. 5 if left out.
     pub max_depth: Bounces,
+    /// What samples round a pixel's centre are weighted by; box if left out.
+    pub filter: FilterName,
+    /// How far the filter reaches, in pixels; if left out 0.5 for box, 1 for tent, 2 for mitchell and
+    /// 1.5 for the others.
+    pub filter_radius: Option<Radius>,
+    /// Multiplies the samples of every area light; 1 if left out.
+    pub light_samples: Factor,
     /// Exposure in stops, before the tone curve; 0 if left out.
     pub exposure_ev: Stops,
     /// The tone curve; none if left out.
@@ -98,31 +107,14 @@ impl Default for OutputTable {
             size: Size([640, 480]),
             samples: Count(1),
             max_depth: Bounces(5),
+            filter: FilterName::Box,
+            filter_radius: None,
+            light_samples: Factor(1.0),
             exposure_ev: Stops(0.0),
             tone: ToneName::None,
             transfer: TransferName::Srgb,
         }
     }
-}
-
-/// A pinhole camera.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct CameraTable {
-    /// The name for `--camera`.
-    #[serde(default)]
-    pub name: String,
-    /// Where it stands.
-    pub look_from: Vector,
-    /// What is in the middle of the picture.
-    #[schemars(with = "Vector")]
-    pub look_at: Spanned<Vector>,
-    /// What is upwards in the picture; [0, 1, 0] if left out.
-    #[schemars(with = "Option<Direction>")]
-    pub up: Option<Spanned<Direction>>,
-    /// The vertical angle of view in degrees; 60 if left out.
-    #[serde(default = "sixty")]
-    pub fov_y_deg: ViewAngle,
 }
 
 fn nothing() -> Spanned<ColorOrBackground> {
@@ -131,8 +123,4 @@ fn nothing() -> Spanned<ColorOrBackground> {
 
 fn black() -> Color {
     Color(Vec3::ZERO)
-}
-
-fn sixty() -> ViewAngle {
-    ViewAngle(60.0)
 }

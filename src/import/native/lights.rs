@@ -1,61 +1,226 @@
 //! The lights of a native scene.
 
 use super::Texts;
-use super::file::{LightTable, SpotTable};
-use super::values::{Color, NonNegative};
+use super::file::{DiscLightTable, LightTable, RectangleLightTable, SpotTable};
+use super::values::{AttenuationName, Color, Count, NonNegative, Vector};
 use crate::import::error::ImportError;
 use crate::scene::{Light, LightKind};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
+use std::ops::Range;
 use toml::Spanned;
 
 /// The light that `table` describes.
 pub(super) fn light(table: &Spanned<LightTable>, texts: &Texts) -> Result<Light, ImportError> {
-    let radiance = |color: Color, intensity: NonNegative| -> Result<Vec3, ImportError> {
-        let radiance = color.0 * intensity.0;
-        if radiance.is_finite() {
-            return Ok(radiance);
-        }
-        let why = "color times intensity is out of range: at most 3.4e38 is allowed".to_owned();
-        Err(texts.malformed(table.span(), why, "Lower one of them"))
+    let reader = Reader {
+        texts,
+        span: table.span(),
     };
-    match table.get_ref() {
-        LightTable {
-            point: Some(point),
-            directional: None,
-            spot: None,
-        } => Ok(Light {
-            kind: LightKind::Point {
-                position: point.position.0,
-            },
-            color: radiance(point.color, point.intensity)?,
-            attenuation: point.attenuation.into(),
+    let table = table.get_ref();
+    let mut found = Vec::new();
+    if let Some(point) = &table.point {
+        let position = point.position.0;
+        let kind = LightKind::Point { position };
+        found.push(reader.small(kind, point.color, point.intensity, point.attenuation)?);
+    }
+    if let Some(sun) = &table.directional {
+        let direction = sun.direction.0;
+        let kind = LightKind::Directional { direction };
+        found.push(reader.small(kind, sun.color, sun.intensity, AttenuationName::None)?);
+    }
+    if let Some(spot) = &table.spot {
+        let kind = cone(spot, texts)?;
+        found.push(reader.small(kind, spot.color, spot.intensity, spot.attenuation)?);
+    }
+    // The same members of different tables.
+    macro_rules! large {
+        ($kind:expr, $table:expr) => {{
+            let brightness = reader.brightness($table.intensity, $table.radiance)?;
+            let (kind, attenuation) = ($kind, $table.attenuation);
+            let seen = ($table.samples, $table.visible);
+            found.push(reader.large(kind, $table.color, brightness, attenuation, seen)?);
+        }};
+    }
+    if let Some(rectangle) = &table.rectangle {
+        large!(reader.rectangle(rectangle)?, rectangle);
+    }
+    if let Some(disc) = &table.disc {
+        large!(reader.disc(disc)?, disc);
+    }
+    if let Some(sphere) = &table.sphere {
+        let (center, radius) = (sphere.center.0, sphere.radius.0);
+        large!(LightKind::Sphere { center, radius }, sphere);
+    }
+    match <[Light; 1]>::try_from(found) {
+        Ok([light]) => Ok(light),
+        Err(_) => Err(reader.refuse(
+            "a light is of one kind",
+            "Give it exactly one of `point`, `directional`, `spot`, `rectangle`, `disc` and `sphere`",
+        )),
+    }
+}
+
+/// How bright a light with extent is.
+enum Brightness {
+    Intensity(f32),
+    Radiance(f32),
+}
+
+/// Reads one light.
+struct Reader<'a> {
+    texts: &'a Texts<'a>,
+    /// The whole light.
+    span: Range<usize>,
+}
+
+impl Reader<'_> {
+    fn refuse(&self, why: &str, todo: &str) -> ImportError {
+        self.texts
+            .malformed(self.span.clone(), why.to_owned(), todo)
+    }
+
+    /// A light without extent.
+    fn small(
+        &self,
+        kind: LightKind,
+        color: Color,
+        intensity: NonNegative,
+        attenuation: AttenuationName,
+    ) -> Result<Light, ImportError> {
+        Ok(Light {
+            kind,
+            color: self.product(color, intensity.0)?,
+            attenuation: attenuation.into(),
             ..Light::default()
-        }),
-        LightTable {
-            point: None,
-            directional: Some(sun),
-            spot: None,
-        } => Ok(Light {
-            kind: LightKind::Directional {
-                direction: sun.direction.0,
-            },
-            color: radiance(sun.color, sun.intensity)?,
-            ..Light::default()
-        }),
-        LightTable {
-            point: None,
-            directional: None,
-            spot: Some(spot),
-        } => Ok(Light {
-            kind: cone(spot, texts)?,
-            color: radiance(spot.color, spot.intensity)?,
-            attenuation: spot.attenuation.into(),
-            ..Light::default()
-        }),
-        _ => {
-            let todo = "Give it exactly one of `point`, `directional` and `spot`";
-            Err(texts.malformed(table.span(), "a light is of one kind".to_owned(), todo))
+        })
+    }
+
+    /// A light with extent.
+    fn large(
+        &self,
+        kind: LightKind,
+        color: Color,
+        brightness: Brightness,
+        attenuation: AttenuationName,
+        (samples, visible): (Count, bool),
+    ) -> Result<Light, ImportError> {
+        let radiance_of_one = kind.radiance().unwrap_or(1.0);
+        let color = match brightness {
+            Brightness::Intensity(intensity) => self.product(color, intensity)?.as_dvec3(),
+            Brightness::Radiance(radiance) => {
+                self.product(color, radiance)?.as_dvec3() / radiance_of_one
+            }
+        };
+        let surface = color * radiance_of_one;
+        if !color.as_vec3().is_finite() || !surface.as_vec3().is_finite() {
+            let why = "its surface is out of range: at most 3.4e38 is allowed in size and radiance";
+            return Err(self.refuse(why, "Make it darker, or change its size"));
         }
+        Ok(Light {
+            kind,
+            color: color.as_vec3(),
+            attenuation: attenuation.into(),
+            samples: samples.0,
+            visible,
+        })
+    }
+
+    fn product(&self, color: Color, factor: f32) -> Result<Vec3, ImportError> {
+        let product = color.0 * factor;
+        if product.is_finite() {
+            return Ok(product);
+        }
+        let why = "color times intensity is out of range: at most 3.4e38 is allowed";
+        Err(self.refuse(why, "Lower one of them"))
+    }
+
+    fn brightness(
+        &self,
+        intensity: Option<NonNegative>,
+        radiance: Option<NonNegative>,
+    ) -> Result<Brightness, ImportError> {
+        match (intensity, radiance) {
+            (None, None) => Ok(Brightness::Intensity(1.0)),
+            (Some(intensity), None) => Ok(Brightness::Intensity(intensity.0)),
+            (None, Some(radiance)) => Ok(Brightness::Radiance(radiance.0)),
+            (Some(_), Some(_)) => Err(self.refuse(
+                "there are both `intensity` and `radiance`",
+                "Leave out one of them",
+            )),
+        }
+    }
+
+    fn rectangle(&self, table: &RectangleLightTable) -> Result<LightKind, ImportError> {
+        let center = table.center.0;
+        let (edge_u, edge_v) = match (&table.edge_u, table.edge_v, &table.look_at, table.size) {
+            (Some(edge_u), Some(Vector(edge_v)), None, None) => {
+                let span = edge_u.span();
+                let edge_u = edge_u.get_ref().0;
+                if is_flat(edge_u, edge_v) {
+                    let why = "`edge_u` and `edge_v` span no area".to_owned();
+                    let todo = "Give two edges that are not parallel";
+                    return Err(self.texts.malformed(span, why, todo));
+                }
+                (edge_u, edge_v)
+            }
+            (None, None, Some(look_at), Some(size)) => {
+                let normal = self.towards(center, look_at)?;
+                // A level side, and what completes it to u × v = normal.
+                let level = DVec3::Y.cross(normal);
+                let u = if level.length() > 1e-6 {
+                    level.normalize()
+                } else {
+                    DVec3::X
+                };
+                let [width, height] = size.0;
+                (u * width / 2.0, normal.cross(u) * height / 2.0)
+            }
+            _ => {
+                return Err(self.refuse(
+                    "a rectangle has two sides",
+                    "Give it either `edge_u` and `edge_v`, or `look_at` and `size`",
+                ));
+            }
+        };
+        Ok(LightKind::Rectangle {
+            center,
+            edge_u,
+            edge_v,
+        })
+    }
+
+    fn disc(&self, table: &DiscLightTable) -> Result<LightKind, ImportError> {
+        let center = table.center.0;
+        let normal = match (&table.look_at, table.normal) {
+            (Some(look_at), None) => self.towards(center, look_at)?,
+            (None, Some(normal)) => normal.0,
+            _ => {
+                let todo = "Give it exactly one of `look_at` and `normal`";
+                return Err(self.refuse("a disc shines one way", todo));
+            }
+        };
+        Ok(LightKind::Disc {
+            center,
+            normal,
+            radius: table.radius.0,
+        })
+    }
+
+    fn towards(&self, center: DVec3, look_at: &Spanned<Vector>) -> Result<DVec3, ImportError> {
+        (look_at.get_ref().0 - center)
+            .try_normalize()
+            .ok_or_else(|| {
+                let why = "`look_at` is the middle of the light itself".to_owned();
+                let todo = "Move one of them";
+                self.texts.malformed(look_at.span(), why, todo)
+            })
+    }
+}
+
+/// Whether two edges span no area that is worth the name.
+fn is_flat(u: DVec3, v: DVec3) -> bool {
+    match (u.try_normalize(), v.try_normalize()) {
+        (Some(u), Some(v)) => u.cross(v).length() < 1e-6,
+        _ => true,
     }
 }
 

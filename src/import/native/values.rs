@@ -4,7 +4,7 @@
 use crate::import::number::in_range;
 use crate::import::picture::linear_from_srgb;
 use crate::import::source::quote;
-use crate::scene::{Attenuation, Fresnel, Shadows, ToneCurve, Transfer};
+use crate::scene::{Attenuation, Filter, Fresnel, Shadows, ToneCurve, Transfer};
 use glam::{DVec3, Vec3};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
@@ -119,6 +119,37 @@ value! {
     Positive(f64),
     { "type": "number", "exclusiveMinimum": 0 },
     |d| number(d, |x| x >= f64::from(f32::MIN_POSITIVE), "greater than 0")
+}
+
+value! {
+    /// A number of pixels.
+    Radius(f32),
+    { "type": "number", "minimum": 0.01, "maximum": 16 },
+    |d| number(d, |x| (0.01..=16.0).contains(&x), "between 0.01 and 16").map(|x| x as f32)
+}
+
+value! {
+    /// A factor on a number of samples.
+    Factor(f32),
+    { "type": "number", "minimum": 0.001, "maximum": 1000 },
+    |d| number(d, |x| (1e-3..=1e3).contains(&x), "between 0.001 and 1000").map(|x| x as f32)
+}
+
+value! {
+    /// A number of corners.
+    Corners(u32),
+    { "type": "integer", "minimum": 3, "maximum": 64 },
+    |d| {
+        let holds = |x: f64| x.fract() == 0.0 && (3.0..=64.0).contains(&x);
+        number(d, holds, "a whole number from 3 to 64").map(|x| x as u32)
+    }
+}
+
+value! {
+    /// Width and height, above 0.
+    Extent([f64; 2]),
+    { "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 2, "maxItems": 2 },
+    |d| elements::<Positive, 2, D>(d, "two numbers [width, height]").map(|size| size.map(|side| side.0))
 }
 
 value! {
@@ -414,6 +445,35 @@ impl From<ShadowsName> for Shadows {
         match name {
             ShadowsName::Opaque => Self::Opaque,
             ShadowsName::Filtered => Self::Filtered,
+        }
+    }
+}
+
+/// What samples round a pixel's centre are weighted by.
+#[derive(Clone, Copy, Debug, Default, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum FilterName {
+    /// All alike.
+    #[default]
+    Box,
+    /// Linearly down to nothing.
+    Tent,
+    /// A normal distribution with a standard deviation of half a pixel, cut.
+    Gaussian,
+    /// The window of Blackman and Harris: much like it, but ends in nothing.
+    BlackmanHarris,
+    /// The cubic of Mitchell and Netravali, which sharpens.
+    Mitchell,
+}
+
+impl From<FilterName> for Filter {
+    fn from(name: FilterName) -> Self {
+        match name {
+            FilterName::Box => Self::Box,
+            FilterName::Tent => Self::Tent,
+            FilterName::Gaussian => Self::Gaussian,
+            FilterName::BlackmanHarris => Self::BlackmanHarris,
+            FilterName::Mitchell => Self::Mitchell,
         }
     }
 }

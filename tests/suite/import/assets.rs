@@ -78,7 +78,7 @@ fn assert_promises(scene: &Scene) {
         }
     }
     for light in &scene.lights {
-        assert!(is_color(light.color));
+        assert!(is_color(light.color) && light.samples >= 1);
         match light.kind {
             LightKind::Point { position } => assert!(position.is_finite()),
             LightKind::Directional { direction } => assert!(direction.is_normalized()),
@@ -102,6 +102,10 @@ fn assert_promises(scene: &Scene) {
     for camera in &scene.cameras {
         let forward: DVec3 = camera.look_at - camera.look_from;
         assert!(forward.cross(camera.up).length() > 0.0);
+        if let Some(lens) = camera.lens {
+            assert!(lens.radius > 0.0 && lens.focus_distance > 0.0);
+            assert!(lens.blade_count == 0 || lens.blade_count >= 3);
+        }
     }
 }
 

@@ -336,7 +336,7 @@ override refused (--set:1:18): invalid type: string "wide", expected a number. S
 override refused (--set:1:18): `[` is not a TOML value. Write it as in a scene file, strings in quotes.
 override refused (--set:1:18): `1\nambient=[1,1,1]` is not a TOML value. Write it as in a scene file, strings in quotes.
 override refused (--set:1:20): invalid type: map, expected a number. See `glimray schema` for what is allowed.
-override refused (--set:1:1): unknown key `fov`. Known here: `name`, `look_from`, `look_at`, `up`, `fov_y_deg`.
+override refused (--set:1:1): unknown key `fov`. Known here: `name`, `look_from`, `look_at`, `up`, `fov_y_deg`, `lens`.
 override refused (--set:1:9): invalid type: integer `3`, expected a sequence. See `glimray schema` for what is allowed.
 override refused (--set:1:1): `objects` is a list. See the scene for its keys.
 override refused (--set:1:1): there is no `objects.1`: the list has 1, counted from 0. See the scene for its keys.
@@ -447,7 +447,7 @@ bad scene (a.toml:1:22): 99 is not between -32 and 32. See `glimray schema` for 
 bad scene (a.toml:1:15): unknown value `filmic`. Known here: `none`, `aces`, `agx`, `reinhard`.
 bad scene (a.toml:1:19): unknown value `sRGB`, did you mean `srgb`? Known here: `srgb`, `linear`.
 bad scene (a.toml:1:68): 180 is not an angle between 0.001 and 179.999 degrees. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:56): unknown key `fov`. Known here: `name`, `look_from`, `look_at`, `up`, `fov_y_deg`.
+bad scene (a.toml:1:56): unknown key `fov`. Known here: `name`, `look_from`, `look_at`, `up`, `fov_y_deg`, `lens`.
 bad scene (a.toml:1:10): the key `look_from` is missing. Add `look_from = …`.
 bad scene (a.toml:1:31): -1 is not 0 or more. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:19): unknown key `colour`. Known here: `diffuse`, `specular`, `shininess`, `ambient`.
@@ -514,8 +514,8 @@ bad scene (a.toml:4:12): unknown material `glod`, did you mean `gold`? Add it un
 bad scene (a.toml:3:12): unknown material `gold`. Add it under [materials], or name one that is there.
 bad scene (a.toml:3:89): unknown material `old`, did you mean `gold`? Add it under [materials], or name one that is there.
 bad scene (a.toml:3:13): the object reaches out of range: at most 3.4e38 is allowed. Make it smaller, or leave it nearer to the origin.
-bad scene (a.toml:1:1): a light is of one kind. Give it exactly one of `point`, `directional` and `spot`.
-bad scene (a.toml:1:1): a light is of one kind. Give it exactly one of `point`, `directional` and `spot`.
+bad scene (a.toml:1:1): a light is of one kind. Give it exactly one of `point`, `directional`, `spot`, `rectangle`, `disc` and `sphere`.
+bad scene (a.toml:1:1): a light is of one kind. Give it exactly one of `point`, `directional`, `spot`, `rectangle`, `disc` and `sphere`.
 bad scene (a.toml:1:1): color times intensity is out of range: at most 3.4e38 is allowed. Lower one of them.
 bad scene (a.toml:2:42): `look_at` is where the spot light itself is. Move one of them.
 bad scene (a.toml:2:65): `inner_deg` is greater than `outer_deg`, which is 30. Give the inner cone the smaller angle.

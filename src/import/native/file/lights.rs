@@ -1,14 +1,14 @@
 //! How a native scene describes lights.
 
 use crate::import::native::values::{
-    AttenuationName, AxisAngle, Color, Direction, NonNegative, Vector,
+    AttenuationName, AxisAngle, Color, Count, Direction, Extent, NonNegative, Positive, Vector,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// One light: exactly one of point, directional and spot.
+/// One light: exactly one of the kinds.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct LightTable {
@@ -18,6 +18,12 @@ pub(in crate::import::native) struct LightTable {
     pub directional: Option<DirectionalTable>,
     /// Shines from a point into a cone.
     pub spot: Option<SpotTable>,
+    /// Shines from a rectangle or parallelogram, on one side.
+    pub rectangle: Option<RectangleLightTable>,
+    /// Shines from a disc, on one side.
+    pub disc: Option<DiscLightTable>,
+    /// Shines from a sphere to all sides.
+    pub sphere: Option<SphereLightTable>,
 }
 
 /// A point light.
@@ -77,8 +83,114 @@ pub(in crate::import::native) struct SpotTable {
     pub attenuation: AttenuationName,
 }
 
+/// A light with the extent of a rectangle or parallelogram.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct RectangleLightTable {
+    /// Its middle.
+    pub center: Vector,
+    /// From its middle to the middle of one side. It shines along edge_u × edge_v. Either both edges
+    /// or `look_at` and `size`.
+    #[schemars(with = "Option<Vector>")]
+    pub edge_u: Option<Spanned<Vector>>,
+    /// From its middle to the middle of the other side.
+    pub edge_v: Option<Vector>,
+    /// What it shines at. It then lies level.
+    #[schemars(with = "Option<Vector>")]
+    pub look_at: Option<Spanned<Vector>>,
+    /// Its width and its height.
+    pub size: Option<Extent>,
+    /// Its colour; white if left out.
+    #[serde(default = "white")]
+    pub color: Color,
+    /// What the colour is multiplied by to be what a point light at its middle would give, seen from
+    /// far away along its normal; 1 if left out, unless there is `radiance`.
+    pub intensity: Option<NonNegative>,
+    /// What the colour is multiplied by to be the brightness of its surface.
+    pub radiance: Option<NonNegative>,
+    /// Shadow rays for each shaded point; 16 if left out. With many samples per pixel fewer will do.
+    #[serde(default = "sixteen")]
+    pub samples: Count,
+    /// Whether the light itself is seen; it is if left out.
+    #[serde(default = "yes")]
+    pub visible: bool,
+    /// How it fades with distance; inverse-square if left out, which lets it weaken with the angle
+    /// off its normal too.
+    #[serde(default)]
+    pub attenuation: AttenuationName,
+}
+
+/// A light with the extent of a disc.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct DiscLightTable {
+    /// Its middle.
+    pub center: Vector,
+    /// What it shines at. Either this or `normal`.
+    #[schemars(with = "Option<Vector>")]
+    pub look_at: Option<Spanned<Vector>>,
+    /// The direction in which it shines.
+    pub normal: Option<Direction>,
+    /// Its radius.
+    pub radius: Positive,
+    /// Its colour; white if left out.
+    #[serde(default = "white")]
+    pub color: Color,
+    /// What the colour is multiplied by to be what a point light at its middle would give, seen from
+    /// far away along its normal; 1 if left out, unless there is `radiance`.
+    pub intensity: Option<NonNegative>,
+    /// What the colour is multiplied by to be the brightness of its surface.
+    pub radiance: Option<NonNegative>,
+    /// Shadow rays for each shaded point; 16 if left out. With many samples per pixel fewer will do.
+    #[serde(default = "sixteen")]
+    pub samples: Count,
+    /// Whether the light itself is seen; it is if left out.
+    #[serde(default = "yes")]
+    pub visible: bool,
+    /// How it fades with distance; inverse-square if left out, which lets it weaken with the angle
+    /// off its normal too.
+    #[serde(default)]
+    pub attenuation: AttenuationName,
+}
+
+/// A light with the extent of a sphere.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct SphereLightTable {
+    /// Its middle.
+    pub center: Vector,
+    /// Its radius.
+    pub radius: Positive,
+    /// Its colour; white if left out.
+    #[serde(default = "white")]
+    pub color: Color,
+    /// What the colour is multiplied by to be what a point light at its middle would give, seen from
+    /// far away along its normal; 1 if left out, unless there is `radiance`.
+    pub intensity: Option<NonNegative>,
+    /// What the colour is multiplied by to be the brightness of its surface.
+    pub radiance: Option<NonNegative>,
+    /// Shadow rays for each shaded point; 16 if left out. With many samples per pixel fewer will do.
+    #[serde(default = "sixteen")]
+    pub samples: Count,
+    /// Whether the light itself is seen; it is if left out.
+    #[serde(default = "yes")]
+    pub visible: bool,
+    /// How it fades with distance; inverse-square if left out, which lets it weaken with the angle
+    /// off its normal too.
+    #[serde(default)]
+    pub attenuation: AttenuationName,
+}
+
 fn white() -> Color {
     Color(Vec3::ONE)
+}
+
+fn sixteen() -> Count {
+    Count(16)
+}
+
+fn yes() -> bool {
+    true
 }
 
 fn one() -> NonNegative {

@@ -1,0 +1,115 @@
+//! The extension that gives a light the extent of a rectangle.
+
+use crate::import::error::ImportError;
+use crate::import::number;
+use crate::import::source::{Source, Token};
+use crate::scene::{Light, LightKind};
+use glam::DVec3;
+
+/// Shadow rays for each point where `samples:` is left out.
+const SAMPLES: u32 = 16;
+
+/// What one object says about its extent.
+#[derive(Default)]
+pub(super) struct Area<'s> {
+    /// Whether the object is a light.
+    pub is_of_light: bool,
+    /// `area_light:`.
+    wanted: Option<bool>,
+    /// `area_u:` and where it stands.
+    side_u: Option<(DVec3, Token<'s>)>,
+    side_v: Option<DVec3>,
+    samples: Option<u32>,
+    /// Indices of all the keys met, as the importer lists them.
+    found: Vec<usize>,
+}
+
+impl<'s> Area<'s> {
+    /// Reads the key with this index, `area_light:` being 1, and the words that follow it.
+    pub fn read(
+        &mut self,
+        index: usize,
+        key: Token<'s>,
+        words: &[Token],
+        source: &Source,
+    ) -> Result<(), ImportError> {
+        let refuse = |word: Token, why, todo| Err(source.malformed(word.span(), why, todo));
+        self.found.push(index);
+        match (index, words) {
+            (1, [word]) => match word.bytes.to_ascii_lowercase().as_slice() {
+                b"true" => self.wanted = Some(true),
+                b"false" => self.wanted = Some(false),
+                _ => {
+                    let why = format!("expected `true` or `false`, found {}", word.quote());
+                    return refuse(*word, why, "Write `area_light: true`");
+                }
+            },
+            (2 | 3, &[x, y, z]) => {
+                let parse = |word| number::parse(source, word);
+                let side = DVec3::new(parse(x)?, parse(y)?, parse(z)?);
+                if index == 2 {
+                    self.side_u = Some((side, key));
+                } else {
+                    self.side_v = Some(side);
+                }
+            }
+            (_, [word]) => {
+                let count = number::parse(source, *word)?;
+                if count.fract() != 0.0 || !(1.0..=65536.0).contains(&count) {
+                    let why = format!("{} is not a number of samples", word.quote());
+                    return refuse(*word, why, "Write a whole number from 1 to 65536");
+                }
+                self.samples = Some(count as u32);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Makes a rectangle of a light that asks for it.
+    pub fn apply(
+        self,
+        light: &mut Light,
+        source: &Source,
+        unused: &mut [usize],
+    ) -> Result<(), ImportError> {
+        match (self.wanted, self.side_u, self.side_v, light.kind) {
+            // What is switched off is not missed.
+            (Some(false), ..) => Ok(()),
+            (
+                Some(true),
+                Some((side_u, key)),
+                Some(side_v),
+                LightKind::Point { position: center },
+            ) => {
+                let sine = match (side_u.try_normalize(), side_v.try_normalize()) {
+                    (Some(u), Some(v)) => u.cross(v).length(),
+                    _ => 0.0,
+                };
+                if sine < 1e-6 {
+                    let why = "`area_u:` and `area_v:` span no area".to_owned();
+                    let todo = "Give two sides that are not parallel";
+                    return Err(source.malformed(key.span(), why, todo));
+                }
+                light.kind = LightKind::Rectangle {
+                    center,
+                    edge_u: side_u / 2.0,
+                    edge_v: side_v / 2.0,
+                };
+                light.samples = self.samples.unwrap_or(SAMPLES);
+                Ok(())
+            }
+            _ => {
+                self.count(unused);
+                Ok(())
+            }
+        }
+    }
+
+    /// Counts all that was said as without effect.
+    pub fn count(&self, unused: &mut [usize]) {
+        for &index in &self.found {
+            unused[index] += 1;
+        }
+    }
+}

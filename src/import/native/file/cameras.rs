@@ -1,0 +1,65 @@
+//! How a native scene describes cameras.
+
+use crate::import::native::values::{Corners, Direction, Number, Positive, Vector, ViewAngle};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use toml::Spanned;
+
+/// A camera: a pinhole, or with a lens.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct CameraTable {
+    /// The name for `--camera`.
+    #[serde(default)]
+    pub name: String,
+    /// Where it stands.
+    pub look_from: Vector,
+    /// What is in the middle of the picture.
+    #[schemars(with = "Vector")]
+    pub look_at: Spanned<Vector>,
+    /// What is upwards in the picture; [0, 1, 0] if left out.
+    #[schemars(with = "Option<Direction>")]
+    pub up: Option<Spanned<Direction>>,
+    /// The vertical angle of view in degrees; 60 if left out.
+    #[serde(default = "sixty")]
+    pub fov_y_deg: ViewAngle,
+    /// What lets only one distance be sharp; all is sharp if left out.
+    #[schemars(with = "Option<LensTable>")]
+    pub lens: Option<Spanned<LensTable>>,
+}
+
+/// A thin lens. What lies nearer or farther than the focus is blurred.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct LensTable {
+    /// The radius of its opening, in scene units. Either this or `f_number`.
+    pub radius: Option<Positive>,
+    /// The focal length over the diameter of the opening, as on a photographic lens; scene units are
+    /// then metres. The smaller, the more blur.
+    pub f_number: Option<Positive>,
+    /// The height of the film or sensor in millimetres, which with the angle of view gives the focal
+    /// length for `f_number`; 24 if left out, as in a 35 mm camera.
+    #[schemars(with = "Option<Positive>")]
+    pub sensor_height_mm: Option<Spanned<Positive>>,
+    /// The distance of what is sharp, along the viewing direction. Either this or `focus_on`; without
+    /// both it is that of `look_at`.
+    pub focus_distance: Option<Positive>,
+    /// A point that is sharp.
+    #[schemars(with = "Option<Vector>")]
+    pub focus_on: Option<Spanned<Vector>>,
+    /// The corners of its opening, 3 or more, which `radius` then reaches to; round if left out.
+    pub blades: Option<Corners>,
+    /// Degrees by which the opening is turned, counter-clockwise; 0, with a corner to the right, if
+    /// left out.
+    #[serde(default = "zero")]
+    #[schemars(with = "f64")]
+    pub blade_rotation_deg: Number,
+}
+
+fn sixty() -> ViewAngle {
+    ViewAngle(60.0)
+}
+
+fn zero() -> Number {
+    Number(0.0)
+}

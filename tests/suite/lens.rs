@@ -1,0 +1,186 @@
+//! The thin lens in whole renders: what is out of focus becomes the picture of the opening, in the
+//! size that the lens formula gives.
+
+use crate::reference::compare::{assert_none, check_same_bits, open_gpu, render, sized};
+use crate::reference::scenes::Build;
+use glam::{DVec3, Vec3, dvec3};
+use glimray::image::Image;
+use glimray::pack;
+use glimray::render::{Antialias, Renderer, Settings, Tone};
+use glimray::scene::{Background, Camera, Lens, Light, LightKind, Material, Scene};
+use std::sync::Arc;
+
+const SIDE: u32 = 48;
+const FOCUS: f64 = 10.0;
+/// Of the picture, seen at distance 1.
+const HALF_HEIGHT: f64 = 0.1;
+
+const ROUND: Lens = Lens {
+    radius: 0.25,
+    focus_distance: FOCUS,
+    blade_count: 0,
+    blade_rotation: 0.0,
+};
+
+/// A ball that glows at `depth` in the middle of a dark picture, `share` of whose height it takes.
+fn ball(depth: f64, share: f64, lens: Option<Lens>) -> Scene {
+    let mut scene = Scene {
+        cameras: vec![Camera {
+            look_from: DVec3::ZERO,
+            look_at: DVec3::NEG_Z,
+            fov_y: 2.0 * HALF_HEIGHT.atan(),
+            lens,
+            ..Camera::default()
+        }],
+        materials: vec![Material {
+            ambient: Vec3::ONE,
+            ..Material::default()
+        }],
+        background: Background::Color(Vec3::ZERO),
+        ambient: Vec3::ONE,
+        ..Scene::default()
+    };
+    scene.add_sphere(dvec3(0.0, 0.0, -depth), share * HALF_HEIGHT * depth, 0);
+    scene
+}
+
+fn picture(scene: &Scene) -> Image {
+    let settings = Settings {
+        samples: 256,
+        antialias: Antialias::Stratified,
+        ..sized(SIDE, SIDE)
+    };
+    render(scene, &settings).0
+}
+
+/// The mean of x^i y^j over the picture's light, with x to the right, y up and the edges at ±1.
+fn moment(image: &Image, i: i32, j: i32) -> f64 {
+    let (mut sum, mut light) = (0.0, 0.0);
+    for (index, pixel) in (0..).zip(&image.pixels) {
+        let at = |index: u32| (f64::from(index) + 0.5) / f64::from(SIDE) * 2.0 - 1.0;
+        let (x, y) = (at(index % SIDE), -at(index / SIDE));
+        sum += f64::from(pixel[1]) * x.powi(i) * y.powi(j);
+        light += f64::from(pixel[1]);
+    }
+    sum / light
+}
+
+#[test]
+fn the_circle_of_confusion_has_the_size_of_the_thin_lens_formula() {
+    let share = 0.2;
+    assert_none([4.0, 5.0, 40.0, 1000.0].map(|depth| {
+        let image = picture(&ball(depth, share, Some(ROUND)));
+        // A disc spreads by a quarter of its squared radius along each axis. The ball's own does so on
+        // top, and a pixel's square by a twelfth of its side's.
+        let pixel = 2.0 / f64::from(SIDE);
+        let spread = moment(&image, 2, 0) + moment(&image, 0, 2) - pixel * pixel / 6.0;
+        let measured = 2.0 * (2.0 * spread - share * share).sqrt();
+        let expected = 2.0 * ROUND.radius * (1.0 / FOCUS - 1.0 / depth).abs() / HALF_HEIGHT;
+        if (measured / expected - 1.0).abs() < 0.01 {
+            return Ok(());
+        }
+        Err(format!(
+            "depth {depth}: {measured} wide, expected {expected}"
+        ))
+    }));
+}
+
+#[test]
+fn what_is_in_focus_is_as_sharp_as_through_a_pinhole() {
+    let spread = |lens| {
+        let image = picture(&ball(FOCUS, 0.5, lens));
+        moment(&image, 2, 0) + moment(&image, 0, 2)
+    };
+    let (sharp, pinhole) = (spread(Some(ROUND)), spread(None));
+    assert!(
+        (sharp / pinhole - 1.0).abs() < 2e-3,
+        "{sharp} and {pinhole}"
+    );
+}
+
+#[test]
+fn the_blur_is_the_opening_upright_behind_the_focus_and_turned_before_it() {
+    let triangle = |rotation: f64| Lens {
+        blade_count: 3,
+        blade_rotation: rotation.to_radians(),
+        radius: 0.35,
+        ..ROUND
+    };
+    let shape = |lens, depth| {
+        let image = picture(&ball(depth, 0.3, Some(lens)));
+        [
+            moment(&image, 3, 0),
+            moment(&image, 0, 3),
+            moment(&image, 1, 0),
+        ]
+    };
+    // A triangle with a corner to the right: the mean of x³ is r³/40, and none in y.
+    let r: f64 = 0.35 * (1.0 / FOCUS - 1.0 / 1e3) / HALF_HEIGHT;
+    let [x, y, middle] = shape(triangle(0.0), 1e3);
+    assert!((x / (r.powi(3) / 40.0) - 1.0).abs() < 0.05, "{x}");
+    assert!(y.abs() < 0.1 * x && middle.abs() < 0.01, "{y}, {middle}");
+    let [x, y, _] = shape(triangle(90.0), 1e3);
+    assert!(y > 0.0 && x.abs() < 0.1 * y, "a corner above: {x}, {y}");
+    let [x, y, _] = shape(triangle(0.0), FOCUS / 2.0);
+    assert!(
+        x < 0.0 && y.abs() < -0.1 * x,
+        "a corner to the left: {x}, {y}"
+    );
+}
+
+#[test]
+fn many_blades_are_a_round_opening() {
+    let spread = |lens| moment(&picture(&ball(40.0, 0.3, Some(lens))), 2, 0);
+    let (many, round) = (
+        spread(Lens {
+            blade_count: 64,
+            ..ROUND
+        }),
+        spread(ROUND),
+    );
+    assert!((many / round - 1.0).abs() < 0.01, "{many} and {round}");
+}
+
+#[test]
+fn a_lens_without_radius_is_a_pinhole_bit_for_bit() {
+    let closed = Lens {
+        radius: 0.0,
+        ..ROUND
+    };
+    let [a, b] = [Some(closed), None].map(|lens| picture(&ball(5.0, 0.3, lens)));
+    assert_none([check_same_bits("closed", &a, &b)]);
+}
+
+#[test]
+fn a_frame_may_bring_a_lens_and_a_light_with_extent() {
+    let first = ball(5.0, 0.3, None);
+    let mut second = ball(5.0, 0.3, Some(ROUND));
+    second.lights.push(Light {
+        kind: LightKind::Sphere {
+            center: dvec3(2.0, 2.0, 0.0),
+            radius: 0.5,
+        },
+        color: Vec3::ONE,
+        samples: 2,
+        ..Light::default()
+    });
+    let settings = Settings {
+        samples: 4,
+        antialias: Antialias::Stratified,
+        ..sized(SIDE, SIDE)
+    };
+    let packed = Arc::new(pack::scene(&first).expect("packed"));
+    let view = |scene: &Scene| packed.frame(&scene.frame(0.0)).expect("a frame");
+    let mut renderer = Renderer::new(open_gpu(), packed.clone(), &view(&first), settings.clone())
+        .expect("a renderer");
+    renderer.set_frame(&view(&second)).expect("a frame");
+    while !renderer.is_done() {
+        renderer.step().expect("a step");
+    }
+    let got = renderer.develop(&Tone::LINEAR).expect("a picture");
+    assert_none([check_same_bits(
+        "second frame",
+        &render(&second, &settings).0,
+        &got,
+    )]);
+}
