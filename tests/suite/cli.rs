@@ -224,7 +224,7 @@ fn bad_command_lines_exit_2_and_say_why() {
         ),
         (
             "--integrator path",
-            "[possible values: whitted, normals, depth, ids, heat]",
+            "[possible values: whitted, normals, depth, ids, heat, samples]",
         ),
         (
             "--filter lanczos",
@@ -240,7 +240,14 @@ fn bad_command_lines_exit_2_and_say_why() {
             "--light-samples -1",
             "it must be a number from 0.001 to 1000",
         ),
-        ("--antialias some", "[possible values: none, stratified]"),
+        (
+            "--antialias some",
+            "[possible values: none, stratified, adaptive]",
+        ),
+        ("--noise 0", "it must be a number from 0.000001 to 1"),
+        ("--max-depth 1001", "1001 is not in 0..=1000"),
+        ("--max-depth -1", "invalid value '-1'"),
+        ("--min-throughput 2", "it must be a number from 0 to 1"),
         (
             "--format bmp",
             "[possible values: png, jpeg, jpg, exr, hdr]",

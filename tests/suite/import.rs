@@ -8,6 +8,7 @@ mod native;
 mod native_light_and_lens;
 mod nff;
 mod obj;
+mod optics;
 mod pictures;
 mod shapes;
 mod textures;

@@ -67,6 +67,35 @@ fn scenes_with_every_surface_and_light_match_an_independent_tracer() {
 }
 
 #[test]
+fn mirrors_and_glass_match_a_tracer_that_calls_itself() {
+    let mut course = project_scene("spheres_and_triangles.scene");
+    course.output.max_depth = 3;
+    let rows = [("glass", scenes::mirrors_and_glass()), ("course", course)];
+    assert_none(rows.map(|(name, scene)| {
+        let settings = Settings {
+            max_depth: scene.output.max_depth,
+            count_rays: true,
+            ..sized(256, 192)
+        };
+        let expected = trace(&scene, settings.size);
+        let (image, stats) = render(&scene, &settings);
+        let counted = stats.rays.expect("counts");
+        let near = |a: u64, b: u64| a.abs_diff(b) as f64 <= 0.002 * b as f64;
+        let counts = [
+            (counted.reflection, expected.rays.reflection),
+            (counted.reflection_hits, expected.rays.reflection_hits),
+            (counted.refraction, expected.rays.refraction),
+            (counted.refraction_hits, expected.rays.refraction_hits),
+        ];
+        if !counts.iter().all(|&(got, wanted)| near(got, wanted)) {
+            return Err(format!("{name}: rays {counts:?}"));
+        }
+        // Edges seen through a lens or in a ball are edges all the same.
+        check_alike(name, &expected.image, &image, LEVELS, 0.004)
+    }));
+}
+
+#[test]
 fn every_form_alone_is_what_it_is_among_others() {
     // Each picture has a pipeline for one kind of shape.
     let all = scenes::solids();

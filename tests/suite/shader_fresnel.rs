@@ -58,7 +58,9 @@ fn reflected_and_transmitted_light_are_all_of_it() {
         let incidence = f64::from(cos_i).acos();
         let sin_t = f64::from(eta) * incidence.sin();
         // Fresnel's own form of 1823, in sines and tangents of sums and differences.
-        let transmitted = if sin_t >= 1.0 {
+        let transmitted = if eta == 1.0 {
+            1.0
+        } else if sin_t >= 1.0 {
             0.0
         } else if incidence < 1e-6 {
             4.0 * f64::from(eta) / (1.0 + f64::from(eta)).powi(2)
@@ -70,11 +72,8 @@ fn reflected_and_transmitted_light_are_all_of_it() {
         };
         let name = format!("cos {cos_i}, eta {eta}");
         // At the critical angle the slope is infinite.
-        let room = if (sin_t - 1.0).abs() < 1e-5 {
-            1e-2
-        } else {
-            1e-6 + 1e-6 / f64::from(cos_i.max(1e-3))
-        };
+        let cos_t = (1.0 - sin_t * sin_t).max(1e-12).sqrt();
+        let room = 1e-6 + 5e-7 * f64::from(eta * eta) / cos_t;
         let sum = f64::from(r) + transmitted;
         verdict.that(&name, (sum - 1.0).abs() <= room, || format!("{sum}"));
         verdict.that(&name, (0.0..=1.0).contains(&r), || format!("R = {r}"));
@@ -126,12 +125,14 @@ fn known_angles_have_their_known_reflectance() {
 
 #[test]
 fn schlick_is_exact_at_both_ends_and_near_between() {
-    let rows = slopes();
+    // It is meant for the indices of glass and water.
+    let mut rows = slopes();
+    rows.retain(|(_, eta)| [1.0 / 1.5, 0.75, 1.33, 1.5, 2.4].contains(eta));
     let mut verdict = Verdict::on("Schlick");
     for (&(cos_i, eta), [exact, _, total, schlick]) in rows.iter().zip(boundaries(&rows)) {
         let name = format!("cos {cos_i}, eta {eta}");
         let is_end = cos_i == 1.0 || total > 0.5;
-        let room = if is_end { 1e-6 } else { 0.16 };
+        let room = if is_end { 1e-6 } else { 0.08 };
         verdict.that(name, (exact - schlick).abs() <= room, || {
             format!("{schlick} for {exact}")
         });
@@ -164,7 +165,7 @@ fn a_slab_returns_the_direction_and_snells_law_holds_inside() {
         let [into, back, mirrored] = result.map(wide);
         let name = format!("{direction} at {n}, eta {eta}");
         // Grazing, the last bit of the direction inside is worth more than that.
-        let room = 1e-5_f64.max(1e-6 / direction.dot(n).abs());
+        let room = 1e-5_f64.max(2e-6 / direction.dot(n).abs());
         verdict.that(&name, back.distance(direction) < room, || {
             format!("out as {back}")
         });
@@ -172,12 +173,10 @@ fn a_slab_returns_the_direction_and_snells_law_holds_inside() {
         verdict.that(&name, sines < 1e-6 && into.dot(n) < 1e-6, || {
             format!("inside {into}")
         });
-        let sum = (mirrored - direction).normalize_or(n);
-        verdict.that(
-            &name,
-            sum.cross(n).length() < 1e-3 && (mirrored.dot(n) + direction.dot(n)).abs() < 1e-6,
-            || format!("mirrored {mirrored}"),
-        );
+        let turned = mirrored.cross(n) - direction.cross(n);
+        let is_mirrored =
+            turned.length() < 1e-6 && (mirrored.dot(n) + direction.dot(n)).abs() < 1e-6;
+        verdict.that(&name, is_mirrored, || format!("mirrored {mirrored}"));
     }
     verdict.close();
 }

@@ -1,10 +1,15 @@
 //! The single values of a native scene. Each checks itself when it is read, so that the parser
 //! knows where in the file a bad one stands, and describes itself for the JSON Schema.
 
+mod names;
+
+pub(super) use names::{
+    AttenuationName, FilterName, FresnelName, ShadowsName, ToneName, TransferName,
+};
+
 use crate::import::number::in_range;
 use crate::import::picture::linear_from_srgb;
 use crate::import::source::quote;
-use crate::scene::{Attenuation, Filter, Fresnel, Shadows, ToneCurve, Transfer};
 use glam::{DVec3, Vec3};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
@@ -359,141 +364,6 @@ impl<'de> Visitor<'de> for ColorVisitor {
         match color.iter().find(|&&x| x < 0.0) {
             Some(x) => Err(de::Error::custom(format!("{x} in a colour is negative"))),
             None => Ok(DVec3::from(color).as_vec3()),
-        }
-    }
-}
-
-/// How display-linear values become stored ones.
-#[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum TransferName {
-    /// The sRGB curve, IEC 61966-2-1.
-    Srgb,
-    /// As they are.
-    Linear,
-}
-
-impl From<TransferName> for Transfer {
-    fn from(name: TransferName) -> Self {
-        match name {
-            TransferName::Srgb => Self::Srgb,
-            TransferName::Linear => Self::Linear,
-        }
-    }
-}
-
-/// How scene-linear radiance becomes display-linear.
-#[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum ToneName {
-    /// Clamp.
-    None,
-    /// Filmic, contrasty: a fit of ACES.
-    Aces,
-    /// Filmic, soft, keeps hues: AgX.
-    Agx,
-    /// x / (1 + x) on luminance.
-    Reinhard,
-}
-
-impl From<ToneName> for ToneCurve {
-    fn from(name: ToneName) -> Self {
-        match name {
-            ToneName::None => Self::None,
-            ToneName::Aces => Self::Aces,
-            ToneName::Agx => Self::Agx,
-            ToneName::Reinhard => Self::Reinhard,
-        }
-    }
-}
-
-/// How much is mirrored at which angle.
-#[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum FresnelName {
-    /// The same at every angle.
-    None,
-    /// By Fresnel's equations.
-    Exact,
-    /// By Schlick's approximation of them.
-    Schlick,
-}
-
-impl From<FresnelName> for Fresnel {
-    fn from(name: FresnelName) -> Self {
-        match name {
-            FresnelName::None => Self::None,
-            FresnelName::Exact => Self::Exact,
-            FresnelName::Schlick => Self::Schlick,
-        }
-    }
-}
-
-/// How shadow rays meet what is transparent.
-#[derive(Clone, Copy, Debug, Default, serde::Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum ShadowsName {
-    /// It throws a full shadow.
-    #[default]
-    Opaque,
-    /// Light goes straight through, coloured and weakened.
-    Filtered,
-}
-
-impl From<ShadowsName> for Shadows {
-    fn from(name: ShadowsName) -> Self {
-        match name {
-            ShadowsName::Opaque => Self::Opaque,
-            ShadowsName::Filtered => Self::Filtered,
-        }
-    }
-}
-
-/// What samples round a pixel's centre are weighted by.
-#[derive(Clone, Copy, Debug, Default, serde::Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum FilterName {
-    /// All alike.
-    #[default]
-    Box,
-    /// Linearly down to nothing.
-    Tent,
-    /// A normal distribution with a standard deviation of half a pixel, cut.
-    Gaussian,
-    /// The window of Blackman and Harris: much like it, but ends in nothing.
-    BlackmanHarris,
-    /// The cubic of Mitchell and Netravali, which sharpens.
-    Mitchell,
-}
-
-impl From<FilterName> for Filter {
-    fn from(name: FilterName) -> Self {
-        match name {
-            FilterName::Box => Self::Box,
-            FilterName::Tent => Self::Tent,
-            FilterName::Gaussian => Self::Gaussian,
-            FilterName::BlackmanHarris => Self::BlackmanHarris,
-            FilterName::Mitchell => Self::Mitchell,
-        }
-    }
-}
-
-/// How a light fades with the distance r to it.
-#[derive(Clone, Copy, Debug, Default, serde::Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum AttenuationName {
-    /// Not at all.
-    None,
-    /// 1/r², as light does.
-    #[default]
-    InverseSquare,
-}
-
-impl From<AttenuationName> for Attenuation {
-    fn from(name: AttenuationName) -> Self {
-        match name {
-            AttenuationName::None => Self::None,
-            AttenuationName::InverseSquare => Self::InverseSquare,
         }
     }
 }

@@ -58,6 +58,24 @@ impl Tracer<'_> {
         let (reflect, transmit, refracted) =
             self.split(&hit, ray.direction, here, &behind, is_clear);
 
+        if is_clear && here == self.dominant(&behind) {
+            // A boundary within a body that goes before is not there.
+            let onwards = Ray {
+                origin: hit.p,
+                t_min: 1e-9 * t.max(1.0),
+                leaving: Some(primitive),
+                ..ray
+            };
+            let next = Place {
+                share,
+                media: behind,
+                ..*place
+            };
+            rays.refraction += 1;
+            let (arriving, is_hit) = self.follow(onwards, &next, rays);
+            rays.refraction_hits += u64::from(is_hit);
+            return (left * arriving, true);
+        }
         let mut color = DVec3::ZERO;
         let mut send = |kind: Kind, weight: DVec3, direction: DVec3, media: &[usize]| {
             let next = Place {

@@ -2,7 +2,8 @@
 
 use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::scene::{
-    Attenuation, Camera, Form, Geometry, Instance, Light, LightKind, Material, Mesh, Scene, Shape,
+    Attenuation, Background, Camera, Form, Fresnel, Geometry, Instance, Light, LightKind, Material,
+    Mesh, Scene, Shape,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -117,6 +118,78 @@ pub fn everything() -> Scene {
         attenuation: Attenuation::InverseSquare,
         ..Light::default()
     });
+    scene
+}
+
+/// Mirrors, varnish, glass, one glass in another and a medium that counts before its surroundings.
+pub fn mirrors_and_glass() -> Scene {
+    let mut scene = spheres();
+    scene.shapes.truncate(1);
+    scene.background = Background::Gradient {
+        bottom: vec3(0.2, 0.15, 0.1),
+        top: vec3(0.3, 0.5, 0.9),
+    };
+    let mut ball = |center: DVec3, radius: f64, material: Material| {
+        let material = scene.add_material(material);
+        scene.add_sphere(center, radius, material);
+    };
+    let glass = Material {
+        reflect: Vec3::ONE,
+        transmit: Vec3::ONE,
+        opacity: 0.0,
+        ior: 1.5,
+        absorption: vec3(0.4, 0.1, 0.2),
+        fresnel: Fresnel::Exact,
+        ..shiny(Vec3::ZERO)
+    };
+    ball(dvec3(-1.6, 0.8, 0.3), 0.8, glass.clone());
+    ball(
+        dvec3(0.2, 0.9, -0.6),
+        0.9,
+        Material {
+            reflect: vec3(0.9, 0.7, 0.4),
+            ..shiny(Vec3::splat(0.2))
+        },
+    );
+    ball(
+        dvec3(1.9, 0.7, 0.1),
+        0.7,
+        Material {
+            reflect: Vec3::ONE,
+            ior: 1.6,
+            fresnel: Fresnel::Schlick,
+            ..shiny(vec3(0.7, 0.1, 0.1))
+        },
+    );
+    // A bubble, a drop of another liquid, and one that overlaps with glass and goes before it.
+    ball(
+        dvec3(-1.7, 0.9, 0.5),
+        0.3,
+        Material {
+            ior: 1.0,
+            ..glass.clone()
+        },
+    );
+    ball(
+        dvec3(0.4, 0.4, 1.1),
+        0.4,
+        Material {
+            priority: -1,
+            ..glass.clone()
+        },
+    );
+    ball(
+        dvec3(0.7, 0.4, 1.0),
+        0.35,
+        Material {
+            ior: 1.2,
+            fresnel: Fresnel::None,
+            reflect: Vec3::splat(0.2),
+            transmit: vec3(0.3, 0.8, 0.6),
+            opacity: 0.2,
+            ..glass
+        },
+    );
     scene
 }
 
