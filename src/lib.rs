@@ -37,17 +37,24 @@
 //!   degrees only in files and flags, where the name ends in `_deg` (or the help says so).
 //! * **Colours**: linear Rec. 709 radiance from the importer to the film. Only [`output`]'s PNG and
 //!   JPEG hold what exposure, tone curve and transfer made of it ([`render::Tone`]).
-//! * **Spaces**: a mesh is f32 in object space; instances, shapes, lights and cameras are f64 in
-//!   world space; on the GPU everything is f32 in render space, which is world space moved so that
-//!   the scene's default camera is at the origin ([`pack::PackedScene::origin`]).
+//! * **Spaces**: a mesh is f32 in object space; instances, shapes, lights, cameras and the places of
+//!   textures are f64 in world space; shapes other than spheres and planes are canonical in a space
+//!   of their own ([`scene::Form`]); on the GPU everything else is f32 in render space, which is world
+//!   space moved so that the scene's default camera is at the origin
+//!   ([`pack::PackedScene::origin`]).
 //! * **Normals**: `n` is for shading, `ng` is the geometric one; a triangle's winding gives `ng` and
 //!   nothing else. Directions have unit length and point away from the surface.
+//! * **Bodies**: the inside of what is transparent is where its normals point away from.
+//!   [`scene::Material::ior`], `absorption` and `priority` are those of the inside.
 //! * **Absence** is `Option` on the host and [`layout::NONE`] on the GPU, never a NaN or an infinity.
 //! * **Ownership**: the caller owns the [`scene::Scene`]; the packed scene is shared, because a
 //!   [`render::Renderer`] uploads it again when a device is lost; the renderer owns the device and
 //!   the film; an [`image::Image`] belongs to whoever asked for it.
 //! * **Determinism**: a pixel is a function of scene, frame, settings, seed and sample index. How the
-//!   work is cut into steps does not show.
+//!   work is cut into steps does not show. Adaptive sampling ([`scene::Antialias::Adaptive`]) lets the
+//!   first samples of a pixel and its neighbours choose how many it gets.
+//! * **Limits are told**: what had to be left out of a picture is counted ([`render::Stats`]), what
+//!   had to be left out of a scene is named ([`scene::Scene::skipped`]).
 //! * **Errors**: one enum for each module that can fail, with what a user needs to know. Only
 //!   [`app`] prints or exits. There is no panic on a bad file, a missing GPU or a full disk.
 //!
@@ -61,7 +68,7 @@
 //! | [`layout`] | the structs and tags that shaders also see | |
 //! | [`pack`] | `Scene` → arrays for the GPU; no device needed | `scene`, `bvh`, `layout` |
 //! | [`gpu`] | the device, its memory, its loss, its errors | |
-//! | [`render`] | steps, film, developing | `pack`, `layout`, `gpu`, `image`, `scene` |
+//! | [`render`] | steps, film, adaptive rounds, developing | `pack`, `layout`, `gpu`, `image`, `scene` |
 //! | [`image`](mod@image) | a finished picture in memory | |
 //! | [`output`] | `Image` → file, complete or absent | `image` |
 //! | [`app`] | the command line | everything |

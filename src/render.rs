@@ -79,7 +79,8 @@ pub struct Stats {
     pub rays: Option<Rays>,
 }
 
-/// Rays by kind. Shadow rays count one for each light that the surface faces.
+/// Rays by kind. Shadow rays count one for each light, or sample of a light with extent, that the
+/// surface faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rays {
     /// From the camera, one for each sample.

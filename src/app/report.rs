@@ -22,7 +22,7 @@ pub struct Report {
     pub submissions: Submissions,
     /// Samples that were dropped because they were infinite or no number.
     pub nonfinite_samples: u64,
-    /// Samples whose ray tree was cut off because it had too many rays.
+    /// Samples whose ray tree was cut off: it outgrew its stack, or had too many rays.
     pub cut_off_trees: u64,
     pub memory: Memory,
 }

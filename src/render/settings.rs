@@ -114,7 +114,7 @@ impl Settings {
 /// What a camera ray brings back.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Integrator {
-    /// Phong's illumination with shadow rays.
+    /// Phong's illumination with shadow rays, and recursive reflection and refraction.
     #[default]
     Whitted,
     /// Shading normals, components from -1..1 to 0..1; black where nothing is hit.
