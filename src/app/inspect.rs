@@ -49,7 +49,8 @@ fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
     value["background"] = background_json(&scene.background);
     value["ambient"] = json!(scene.ambient.to_array());
     value["output"] = json!({
-        "size": output.size, "samples": output.samples, "exposure_ev": output.exposure_ev,
+        "size": output.size, "samples": output.samples, "max_depth": output.max_depth,
+        "exposure_ev": output.exposure_ev,
         "tone": TONES.word(&output.tone), "transfer": TRANSFERS.word(&output.transfer),
     });
     Ok(value)
@@ -138,6 +139,12 @@ fn material_json(material: &Material) -> Value {
         "shininess": material.shininess,
         "ambient": material.ambient.to_array(),
         "two_sided": material.two_sided,
+        "emission": material.emission.to_array(),
+        "reflect": material.reflect.to_array(),
+        "transmit": material.transmit.to_array(),
+        "ior": material.ior,
+        "absorption": material.absorption.to_array(),
+        "priority": material.priority,
     })
 }
 
@@ -159,10 +166,11 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
     let output = &scene.output;
     writeln!(
         out,
-        "picture    {}×{}, {} sample(s), exposure {} EV, tone {}, transfer {}",
+        "picture    {}×{}, {} sample(s), depth {}, exposure {} EV, tone {}, transfer {}",
         output.size.0,
         output.size.1,
         output.samples,
+        output.max_depth,
         output.exposure_ev,
         TONES.word(&output.tone),
         TRANSFERS.word(&output.transfer),
@@ -298,7 +306,21 @@ fn material_text(out: &mut String, material: &Material) -> fmt::Result {
         color(material.diffuse),
         color(material.specular),
         material.shininess
-    )
+    )?;
+    for (what, share) in [
+        ("reflect", material.reflect),
+        ("transmit", material.transmit),
+        ("absorption", material.absorption),
+        ("emission", material.emission),
+    ] {
+        if share != Vec3::ZERO {
+            write!(out, ", {what} {}", color(share))?;
+        }
+    }
+    if material.transmit != Vec3::ZERO {
+        write!(out, ", ior {}", material.ior)?;
+    }
+    Ok(())
 }
 
 fn kind(light: &Light) -> &'static str {

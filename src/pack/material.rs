@@ -66,10 +66,13 @@ pub fn material(material: &Material) -> PackedMaterial {
 /// What the materials, textures and pictures of a scene ask for.
 pub fn features(scene: &Scene) -> Features {
     let is_lit = |color: Vec3| color != Vec3::ZERO;
+    let refraction = scene.materials.iter().any(|m| is_lit(m.transmit));
+    let bodies = scene.shapes.len() + scene.instances.len();
     Features {
         reflection: (scene.materials.iter()).any(|m| is_lit(m.reflect)),
-        refraction: scene.materials.iter().any(|m| is_lit(m.transmit)),
-        contact: scene.shapes.len() + scene.instances.len() > 1,
+        refraction,
+        // One mesh may hold several bodies, which then mostly differ in material.
+        contact: refraction && (bodies > 1 || scene.materials.len() > 1),
         textures: !scene.textures.is_empty(),
         emission: scene.materials.iter().any(|m| is_lit(m.emission)),
         ..Features::default()

@@ -89,7 +89,7 @@ impl Adaptive {
     /// The pixel's mean, as the film has it for one sample.
     pub fn mean(&self, pixel: [u32; 2]) -> [f32; 4] {
         let account = &self.pixels[self.index(pixel)];
-        let share = 1.0 / account.weight.max(1e-9);
+        let share = account.share();
         let [r, g, b] = account.sum.map(|c| (c * share) as f32);
         [r, g, b, 1.0]
     }
@@ -130,10 +130,20 @@ impl Adaptive {
 }
 
 impl Account {
+    /// What its sum is multiplied by for the mean. Weights of both signs may cancel; what is left
+    /// then says nothing, as in the shader that develops (lib/filter.wesl).
+    fn share(&self) -> f64 {
+        if self.weight.abs() > 0.5 {
+            1.0 / self.weight
+        } else {
+            0.0
+        }
+    }
+
     fn luminance(&self) -> f64 {
         let [r, g, b] = self.sum;
         let sum = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-        (sum / self.weight.max(1e-9)).max(0.0)
+        (sum * self.share()).max(0.0)
     }
 
     /// The square root of luminance, which is nearer to what the eye sees.

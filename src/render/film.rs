@@ -160,6 +160,7 @@ impl Window {
         }
         let mean = |(total, sum): (&[f64; 4], &[f32; 4])| {
             let [r, g, b, count] = std::array::from_fn(|i| total[i] + f64::from(sum[i]));
+            // More than a chunk of samples: their weights do not cancel.
             let share = 1.0 / count.max(1.0);
             [r * share, g * share, b * share, 1.0].map(|c| c as f32)
         };

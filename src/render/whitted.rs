@@ -58,7 +58,7 @@ pub fn tracing(task: Task) -> Overrides {
         ("11", f64::from(features.shape_kinds)),
         ("12", flag(features.reflection && settings.max_depth > 0)),
         ("13", flag(features.refraction && settings.max_depth > 0)),
-        ("14", flag(features.contact)),
+        ("14", flag(features.contact && settings.max_depth > 0)),
         ("15", flag(features.filtered_shadows)),
         ("17", flag(view.frame.camera.lens_radius > 0.0)),
         ("18", f64::from(filter)),

@@ -4,7 +4,7 @@ use crate::reference::compare::{assert_none, check_same_bits, render, start};
 use crate::reference::scenes;
 use glam::{Vec3, dvec3};
 use glimray::image::Image;
-use glimray::render::{Antialias, Integrator, Settings, Slicing, Stats, Tone};
+use glimray::render::{Antialias, Filter, Integrator, Settings, Slicing, Stats, Tone};
 use glimray::scene::{Background, Camera, Geometry, Light, LightKind, Material, Scene, Shape};
 
 /// Rows of small balls in the lower left of the picture, and nothing elsewhere.
@@ -145,6 +145,23 @@ fn the_cut_of_the_work_and_a_crop_do_not_show() {
             )
         },
     ));
+}
+
+#[test]
+fn negative_lobes_make_no_pixel_glow() {
+    let mitchell = Settings {
+        filter: Filter::Mitchell,
+        filter_radius: 2.0,
+        ..settings(Antialias::Adaptive, 8, 0.01)
+    };
+    let (image, _) = render(&detail_in_a_fifth(), &mitchell);
+    let brightest = image
+        .pixels
+        .iter()
+        .flat_map(|p| &p[..3])
+        .copied()
+        .fold(0.0, f32::max);
+    assert!(brightest < 4.0, "{brightest}");
 }
 
 #[test]

@@ -8,8 +8,10 @@ use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::image::Image;
 use glimray::output;
 use glimray::pack;
-use glimray::render::{Antialias, Integrator, Renderer, Settings, Tone, TriangleTest};
-use glimray::scene::{Attenuation, Light, LightKind, Material, Scene, ToneCurve, Transfer};
+use glimray::render::{Antialias, Filter, Integrator, Renderer, Settings, Tone, TriangleTest};
+use glimray::scene::{
+    Attenuation, Lens, Light, LightKind, Material, Scene, Shadows, ToneCurve, Transfer,
+};
 use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -165,6 +167,36 @@ fn inside() -> Scene {
     scene
 }
 
+fn filtered() -> Scene {
+    let mut scene = scenes::mirrors_and_glass();
+    scene.shadows = Shadows::Filtered;
+    scene
+}
+
+fn lamp() -> LightKind {
+    LightKind::Disc {
+        center: dvec3(1.0, 3.0, 1.5),
+        normal: DVec3::NEG_Y,
+        radius: 0.6,
+    }
+}
+
+fn blurred() -> Scene {
+    let mut scene = lit();
+    scene.cameras[0].lens = Some(Lens {
+        radius: 0.15,
+        focus_distance: 6.0,
+        blade_count: 6,
+        blade_rotation: 0.3,
+    });
+    scene
+}
+
+fn sixteen(settings: &mut Settings) {
+    settings.samples = 16;
+    settings.antialias = Antialias::Stratified;
+}
+
 fn goldens() -> Vec<Golden> {
     let none = Attenuation::None;
     let aslant = LightKind::Directional {
@@ -206,6 +238,29 @@ fn goldens() -> Vec<Golden> {
         golden("background-gradient", textures::under_a_gradient()),
         golden("background-picture", textures::under_a_picture()),
         golden("everything", scenes::everything()),
+        golden("mirrors-and-glass", scenes::mirrors_and_glass()),
+        golden("shadows-filtered", filtered()),
+        golden("forms", scenes::solids()),
+        golden(
+            "light-area",
+            lit_by(lamp(), 3.0, Attenuation::InverseSquare),
+        )
+        .set(sixteen),
+        golden("lens", blurred()).set(sixteen),
+        golden("filter-blackman-harris", lit()).set(|s| {
+            sixteen(s);
+            s.filter = Filter::BlackmanHarris;
+            s.filter_radius = 1.5;
+        }),
+        golden("adaptive", lit()).set(|s| {
+            sixteen(s);
+            s.antialias = Antialias::Adaptive;
+        }),
+        golden("samples", lit()).set(|s| {
+            sixteen(s);
+            s.antialias = Antialias::Adaptive;
+            s.integrator = Integrator::Samples;
+        }),
         golden("transfer-linear", lit()).linear(),
         golden("tone-none", bright.clone()),
         golden("tone-aces", bright.clone()).toned(0.0, ToneCurve::Aces),

@@ -482,6 +482,44 @@ fn of_overlapping_bodies_the_one_with_the_higher_priority_counts() {
 }
 
 #[test]
+fn bodies_of_one_mesh_touch_and_overlap_like_others() {
+    // Two cubes as triangles of a native scene, one inside the other: together they are one mesh.
+    let cube = |half: f64, material: &str| {
+        let corner = |i: usize| {
+            let sign = |bit: usize| if i >> bit & 1 == 1 { half } else { -half };
+            format!("[{}, {}, {}]", sign(0), sign(1), sign(2))
+        };
+        let faces = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        let triangle = |[a, b, c]: [usize; 3]| {
+            let corners = [a, b, c].map(corner).join(", ");
+            format!(
+                "[[objects]]\ntriangle = {{ vertices = [{corners}] }}\nmaterial = '{material}'\n"
+            )
+        };
+        faces
+            .map(|[a, b, c, d]| triangle([a, b, c]) + &triangle([a, c, d]))
+            .concat()
+    };
+    let head = "background = [1, 1, 1]\n\
+                camera = { look_from = [0.2, 0.1, 9], look_at = [0.2, 0.1, 0], fov_y_deg = 0.01 }\n\
+                materials.outer = { refract = { ior = 1, absorption = [0.1, 0.1, 0.1] } }\n\
+                materials.inner = { refract = { ior = 1, absorption = [1, 1, 1] } }\n";
+    let text = format!("{head}{}{}", cube(2.0, "outer"), cube(0.5, "inner"));
+    let scene = import::parse("a.toml", &text, &import::Options::default()).expect("a scene");
+    assert_eq!(scene.instances.len(), 1);
+    let got = -middle(&render(&scene, &to_depth(9)).0).ln();
+    // 3 units of the outer and 1 of the inner.
+    assert!((got - (0.3 + 1.0)).abs() < 2e-3, "{got}");
+}
+
+#[test]
 fn a_bubble_in_glass_is_entered_from_glass() {
     // At normal incidence four boundaries of the same R₀; the sphere of air counts as a medium of its own.
     let r0 = (0.5_f64 / 2.5).powi(2);

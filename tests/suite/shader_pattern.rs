@@ -1,4 +1,4 @@
-//! Level 5: `lib/pattern.wesl` and `lib/noise.wesl` against values by hand, an f64 twin, and what is
+//! `lib/pattern.wesl` and `lib/noise.wesl` against values by hand, an f64 twin, and what is
 //! known of gradient noise.
 
 use crate::reference::textures;

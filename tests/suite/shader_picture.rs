@@ -1,4 +1,4 @@
-//! Level 5: `lib/picture.wesl`, where to look in pictures.
+//! `lib/picture.wesl`, where to look in pictures.
 
 use crate::support::{
     harness::gpu,

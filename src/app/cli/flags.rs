@@ -59,7 +59,8 @@ pub struct PictureFlags {
     /// [default: the scene's, else 0.01]
     #[arg(long, value_name = "NOISE", allow_hyphen_values = true, value_parser = values::noise)]
     pub noise: Option<f32>,
-    /// Bounces after the first hit, 0 to 1000; 0 is local shading only [default: the scene's, else 5]
+    /// Bounces after the first hit, 0 to 1000; 0 is local shading only [default: the
+    /// scene's, else 5, for .scene 0]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub max_depth: Option<u32>,
     /// Send mirrored and refracted rays only if their share in the sample is at least this, 0 to 1

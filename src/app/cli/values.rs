@@ -30,7 +30,7 @@ pub static ANTIALIAS: Words<Antialias> = Words(&[
     ),
     (
         "adaptive",
-        "the same, until the pixel is good enough",
+        "the same, until --noise is reached, up to --samples",
         Antialias::Adaptive,
     ),
 ]);
@@ -56,7 +56,11 @@ pub static FILTERS: Words<Filter> = Words(&[
 ]);
 
 pub static INTEGRATORS: Words<Integrator> = Words(&[
-    ("whitted", "Phong shading with shadows", Integrator::Whitted),
+    (
+        "whitted",
+        "Phong shading, shadows, mirrors and glass",
+        Integrator::Whitted,
+    ),
     ("normals", "shading normals as colours", Integrator::Normals),
     ("depth", "distance along the ray", Integrator::Depth),
     ("ids", "one colour for each primitive", Integrator::Ids),
@@ -67,7 +71,7 @@ pub static INTEGRATORS: Words<Integrator> = Words(&[
     ),
     (
         "samples",
-        "the samples that adaptive sampling spent",
+        "the samples that --antialias adaptive spent",
         Integrator::Samples,
     ),
 ]);

@@ -338,6 +338,8 @@ fn output(table: &OutputTable) -> OutputDefaults {
     OutputDefaults {
         size: (width, height),
         samples: table.samples.0,
+        antialias: table.antialias.map(Into::into),
+        noise: table.noise.0,
         max_depth: table.max_depth.0,
         filter: table.filter.into(),
         filter_radius: table.filter_radius.map(|radius| radius.0),

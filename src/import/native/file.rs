@@ -21,8 +21,8 @@ pub(super) use textures::{
 };
 
 use super::values::{
-    Bounces, Color, Count, Factor, FilterName, Radius, ShadowsName, Size, Stops, ToneName,
-    TransferName,
+    AntialiasName, Bounces, Color, Count, Factor, FilterName, Noise, Radius, ShadowsName, Size,
+    Stops, ToneName, TransferName,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -84,6 +84,12 @@ pub(super) struct OutputTable {
     pub size: Size,
     /// Samples per pixel; 1 if left out.
     pub samples: Count,
+    /// Where samples lie: none (all at the centre), stratified, or adaptive, which spends up to
+    /// `samples` where there is noise. Stratified for more than one sample if left out.
+    pub antialias: Option<AntialiasName>,
+    /// Adaptive sampling goes on where the estimated error is more than this, on the square root of
+    /// luminance, on which 1 is white; 0.01 if left out.
+    pub noise: Noise,
     /// Bounces after the first hit, 0 to 1000; 0 is local shading only. 5 if left out.
     pub max_depth: Bounces,
     /// What samples round a pixel's centre are weighted by; box if left out.
@@ -106,6 +112,8 @@ impl Default for OutputTable {
         Self {
             size: Size([640, 480]),
             samples: Count(1),
+            antialias: None,
+            noise: Noise(0.01),
             max_depth: Bounces(5),
             filter: FilterName::Box,
             filter_radius: None,

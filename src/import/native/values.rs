@@ -4,7 +4,7 @@
 mod names;
 
 pub(super) use names::{
-    AttenuationName, FilterName, FresnelName, ShadowsName, ToneName, TransferName,
+    AntialiasName, AttenuationName, FilterName, FresnelName, ShadowsName, ToneName, TransferName,
 };
 
 use crate::import::number::in_range;
@@ -169,6 +169,13 @@ value! {
     Fraction(f32),
     { "type": "number", "minimum": 0, "maximum": 1 },
     |d| number(d, |x| (0.0..=1.0).contains(&x), "between 0 and 1").map(|x| x as f32)
+}
+
+value! {
+    /// An error that is allowed, above 0.
+    Noise(f32),
+    { "type": "number", "minimum": 1e-6, "maximum": 1 },
+    |d| number(d, |x| (1e-6..=1.0).contains(&x), "between 1e-6 and 1").map(|x| x as f32)
 }
 
 value! {

@@ -2,7 +2,7 @@
 
 use super::{messages, scene};
 use glam::Vec3;
-use glimray::scene::{Fresnel, Material, Mixing, Shadows};
+use glimray::scene::{Antialias, Fresnel, Material, Mixing, Shadows};
 use insta::assert_snapshot;
 
 fn material(text: &str) -> Material {
@@ -56,11 +56,16 @@ fn shadows_and_depth_are_the_scenes() {
     );
     let chosen = scene(
         "a.toml",
-        "shadows = 'filtered'\noutput = { max_depth = 12 }",
+        "shadows = 'filtered'\noutput = { max_depth = 12, antialias = 'adaptive', noise = 0.5 }",
     );
     assert_eq!(
         (chosen.shadows, chosen.output.max_depth),
         (Shadows::Filtered, 12)
+    );
+    let output = chosen.output;
+    assert_eq!(
+        (output.antialias, output.noise),
+        (Some(Antialias::Adaptive), 0.5)
     );
 }
 

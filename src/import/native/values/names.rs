@@ -1,6 +1,6 @@
 //! Words that a native scene chooses from.
 
-use crate::scene::{Attenuation, Filter, Fresnel, Shadows, ToneCurve, Transfer};
+use crate::scene::{Antialias, Attenuation, Filter, Fresnel, Shadows, ToneCurve, Transfer};
 use schemars::JsonSchema;
 
 /// How display-linear values become stored ones.
@@ -85,6 +85,28 @@ impl From<ShadowsName> for Shadows {
         match name {
             ShadowsName::Opaque => Self::Opaque,
             ShadowsName::Filtered => Self::Filtered,
+        }
+    }
+}
+
+/// Where in a pixel its samples lie.
+#[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(in crate::import::native) enum AntialiasName {
+    /// All at the centre.
+    None,
+    /// Well spread.
+    Stratified,
+    /// Well spread, and only as many as the pixel needs.
+    Adaptive,
+}
+
+impl From<AntialiasName> for Antialias {
+    fn from(name: AntialiasName) -> Self {
+        match name {
+            AntialiasName::None => Self::None,
+            AntialiasName::Stratified => Self::Stratified,
+            AntialiasName::Adaptive => Self::Adaptive,
         }
     }
 }
