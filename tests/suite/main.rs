@@ -43,5 +43,6 @@ mod shader_tone;
 mod shader_triangles;
 mod shader_warp;
 mod soft_shadows;
+mod spd;
 mod support;
 mod textures;

@@ -676,3 +676,130 @@ fn more_media_round_the_camera_than_a_ray_remembers_are_refused() {
         })
     ));
 }
+
+/// A ball round the origin in Haines' format, in front of a background of one colour.
+fn nff_ball(material: &str) -> Scene {
+    let text = format!(
+        "b 0.25 0.5 1\nv\nfrom 0 -5 0\nat 0 0 0\nup 0 0 1\nangle 30\nhither 1\nresolution 64 64\n\
+         l 3 -4 5\nf {material}\ns 0 0 0 1\n"
+    );
+    import::parse("a.nff", &text, &import::Options::default()).expect("a scene")
+}
+
+/// Every pixel of a picture through the camera of [`nff_ball`], with what its ray shows in f64. Rays
+/// that pass the edge of the ball nearer than roundings reach are left out.
+fn check_nff_ball(image: &Image, expected: impl Fn(DVec3, Option<DVec3>) -> DVec3) {
+    let mut verdict = Verdict::on("a ball");
+    let eye = dvec3(0.0, -5.0, 0.0);
+    let side = f64::from(image.width);
+    for (i, pixel) in image.pixels.iter().enumerate() {
+        let (x, y) = (i as u32 % image.width, i as u32 / image.width);
+        let at = |i: u32| (f64::from(2 * i + 1) / side - 1.0) * 15_f64.to_radians().tan();
+        let direction = dvec3(at(x), 1.0, -at(y)).normalize();
+        let b = eye.dot(direction);
+        let square = b * b - eye.length_squared() + 1.0;
+        if square.abs() < 1e-4 {
+            continue;
+        }
+        let n = (square > 0.0).then(|| eye - (b + square.sqrt()) * direction);
+        let expected = expected(direction, n);
+        let got = Vec3::from_slice(&pixel[..3]).as_dvec3();
+        let off = (got - expected).abs().max_element();
+        verdict.that(format!("({x}, {y})"), off < 1e-4, || {
+            format!("{got} for {expected}")
+        });
+    }
+    verdict.close();
+}
+
+#[test]
+fn a_ball_of_haines_adds_phongs_light_its_mirror_and_what_comes_through() {
+    // What is mirrored outside comes from the background, and what was let in arrives at the wall
+    // under the angle that it came in by, so that it always gets out: with d bounces left, the light
+    // along a ray inside is I(d) = T B + Ks I(d - 1), I(0) = 0. No lamp shines on the inside.
+    let (mirror, through, depth) = (0.25_f64, 0.5_f64, 5);
+    let scene = nff_ball("1 0.5 0.25 0.5 0.25 12 0.5 1.5");
+    let image = render(
+        &scene,
+        &Settings {
+            size: (64, 64),
+            ..to_depth(depth)
+        },
+    )
+    .0;
+    let back = dvec3(0.25, 0.5, 1.0);
+    let inside = through * (1.0 - mirror.powi(depth as i32 - 1)) / (1.0 - mirror);
+    let lamp = dvec3(3.0, -4.0, 5.0);
+    check_nff_ball(&image, |direction, n| {
+        let Some(n) = n else {
+            return back;
+        };
+        let l = (lamp - n).normalize();
+        let cos = l.dot(n);
+        let highlight = (2.0 * cos * n - l).dot(-direction).max(0.0).powi(12);
+        let diffuse = 0.5 * dvec3(1.0, 0.5, 0.25) * cos;
+        let local = match cos > 0.0 {
+            true => diffuse + mirror * highlight,
+            false => DVec3::ZERO,
+        };
+        local + (mirror + through * inside) * back
+    });
+}
+
+#[test]
+fn a_clear_ball_of_haines_turns_every_ray_by_twice_the_angle_that_snell_bends_it() {
+    let mut scene = nff_ball("1 1 1 0 0 1 1 1.5");
+    // The brightness tells y, and so how far a ray was turned: the camera looks along it.
+    scene.background = Background::Gradient {
+        bottom: Vec3::ZERO,
+        top: Vec3::ONE,
+    };
+    let image = render(
+        &scene,
+        &Settings {
+            size: (64, 64),
+            ..to_depth(2)
+        },
+    )
+    .0;
+    check_nff_ball(&image, |direction, n| {
+        let direction = n.map_or(direction, |n| {
+            let incidence = (-n.dot(direction)).acos();
+            let turn = 2.0 * (incidence - (incidence.sin() / 1.5).asin());
+            let inwards = (-n).reject_from(direction).normalize_or_zero();
+            turn.cos() * direction + turn.sin() * inwards
+        });
+        DVec3::splat(0.5 + 0.5 * direction.y)
+    });
+}
+
+#[test]
+fn inside_a_ball_of_haines_only_rays_within_the_critical_angle_go_on() {
+    // From the distance s off the middle the wall is met under sin φ = s sin θ; without a mirror
+    // nothing comes back from beyond the critical angle.
+    let mut scene = nff_ball("1 1 1 0 0 1 0.5 1.25");
+    let eye = dvec3(0.9, 0.0, 0.0);
+    scene.cameras[0] = camera(eye, eye + DVec3::NEG_Z, 1.0);
+    scene.background = Background::Color(Vec3::ONE);
+    let settings = Settings {
+        size: (64, 64),
+        ..to_depth(5)
+    };
+    let (image, stats) = render(&scene, &settings);
+    let (mut lit, mut dark) = (0, 0);
+    for (i, pixel) in image.pixels.iter().enumerate() {
+        let at = |i: usize| ((2 * i + 1) as f64 / 64.0 - 1.0) * 0.5_f64.tan();
+        let direction = dvec3(at(i % 64), -at(i / 64), -1.0).normalize();
+        let sine = direction.cross(eye).length();
+        if (sine - 0.8).abs() < 1e-5 {
+            continue;
+        }
+        let leaves = sine < 0.8;
+        assert_eq!(pixel[0], if leaves { 0.5 } else { 0.0 }, "pixel {i}");
+        lit += u64::from(leaves);
+        dark += u64::from(!leaves);
+    }
+    assert!(lit > 50 && dark > 50 && lit + dark == 4096, "{lit} {dark}");
+    let rays = stats.rays.expect("counts");
+    assert_eq!((rays.refraction, rays.refraction_hits), (lit, 0));
+}

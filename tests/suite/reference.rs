@@ -7,6 +7,7 @@ pub mod count;
 mod optics;
 pub mod scenes;
 pub mod shapes;
+pub mod spd;
 pub mod textures;
 
 use glam::{DAffine3, DVec2, DVec3};

@@ -43,15 +43,30 @@ impl AddAssign for Rays {
     }
 }
 
+/// What becomes of a ray that an interpolated normal would mirror into the surface.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Inwards {
+    /// It goes there, as in POV-Ray.
+    Sent,
+    /// The geometric normal takes the other's place, for the mirrored and the refracted ray, as in
+    /// the renderer.
+    Turned,
+}
+
 /// The rays of a picture of `scene` through its default camera, one primary ray through the centre
 /// of each pixel, `max_depth` bounces after it.
 pub fn count(scene: &Scene, size: (u32, u32), max_depth: u32) -> Rays {
-    trace(scene, size, max_depth).1
+    trace(scene, size, max_depth, Inwards::Sent).1
 }
 
 /// The picture too: linear radiance, not clamped.
-pub fn trace(scene: &Scene, (width, height): (u32, u32), max_depth: u32) -> (Image, Rays) {
-    let tree = Tree::new(scene);
+pub fn trace(
+    scene: &Scene,
+    (width, height): (u32, u32),
+    max_depth: u32,
+    inwards: Inwards,
+) -> (Image, Rays) {
+    let tree = Tree::new(scene, inwards);
     let camera = &scene.cameras[scene.camera_index];
     let forward = (camera.look_at - camera.look_from).normalize();
     let right = forward.cross(camera.up).normalize();
@@ -146,6 +161,7 @@ struct Node {
 
 struct Tree<'a> {
     scene: &'a Scene,
+    inwards: Inwards,
     background: DVec3,
     primitives: Vec<Primitive>,
     /// The root is the last.
@@ -153,7 +169,7 @@ struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    fn new(scene: &'a Scene) -> Self {
+    fn new(scene: &'a Scene, inwards: Inwards) -> Self {
         let Background::Color(background) = scene.background else {
             panic!("only backgrounds of one colour are known here");
         };
@@ -166,6 +182,7 @@ impl<'a> Tree<'a> {
         build(&mut primitives, all, &mut nodes);
         Self {
             scene,
+            inwards,
             background: background.as_dvec3(),
             primitives,
             nodes,
@@ -232,9 +249,12 @@ impl<'a> Tree<'a> {
         let goes_on = |share: DVec3| {
             share.max_element() > 0.0 && (throughput * share).max_element() >= MIN_THROUGHPUT
         };
+        let mirrored = |n: DVec3| ray.direction - 2.0 * ray.direction.dot(n) * n;
+        let is_turned = self.inwards == Inwards::Turned && mirrored(n).dot(side) <= 0.0;
+        let n = if is_turned { side } else { n };
         let mirror = material.reflect.as_dvec3();
         if goes_on(mirror) {
-            let direction = ray.direction - 2.0 * ray.direction.dot(n) * n;
+            let direction = mirrored(n);
             rays.reflection += 1;
             let (seen, is_hit) =
                 self.radiance(&leave(direction), throughput * mirror, bounces - 1, rays);

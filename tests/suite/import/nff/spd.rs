@@ -1,32 +1,10 @@
-//! Scenes of the Standard Procedural Database, where they are at hand: in the folder that
-//! `GLIMRAY_SPD` names, or beside the repository.
+//! What is in the scenes of the Standard Procedural Database.
 
 use super::triangles;
 use crate::reference::count;
+use crate::reference::spd::{files, load};
 use glam::{DVec3, Vec3};
-use glimray::import;
-use glimray::scene::{Background, Form, Geometry, Scene};
-use std::path::PathBuf;
-
-fn folder() -> PathBuf {
-    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data/spd");
-    std::env::var_os("GLIMRAY_SPD").map_or_else(beside, PathBuf::from)
-}
-
-/// The scene and the text of its file.
-fn load(name: &str) -> Option<(Scene, String)> {
-    let path = folder().join(name);
-    let text = std::fs::read_to_string(&path).ok()?;
-    let scene = import::load(&path).unwrap_or_else(|error| panic!("{error}"));
-    Some((scene, text))
-}
-
-fn files() -> Vec<String> {
-    let names = std::fs::read_dir(folder()).into_iter().flatten();
-    let names = names.map(|entry| entry.expect("an entry").file_name());
-    let names = names.map(|name| name.to_string_lossy().into_owned());
-    names.filter(|name| name.ends_with(".nff")).collect()
-}
+use glimray::scene::{Background, Form, Geometry};
 
 /// Counted line by line, without our reader: SPD begins every entity on a line of its own.
 #[test]
@@ -149,7 +127,12 @@ fn rays_of_the_files() {
     for name in files() {
         let (scene, _) = load(&name).expect("a file that was just listed");
         let start = std::time::Instant::now();
-        let (image, rays) = count::trace(&scene, scene.output.size, scene.output.max_depth);
+        let (image, rays) = count::trace(
+            &scene,
+            scene.output.size,
+            scene.output.max_depth,
+            count::Inwards::Sent,
+        );
         println!("{name}: {rays:?} in {:.1?}", start.elapsed());
         let path = std::env::temp_dir().join(format!("glimray-spd-{name}.png"));
         glimray::output::save(&path, &image).expect("a picture");
