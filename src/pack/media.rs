@@ -40,7 +40,11 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
         });
     let meshes = scene.instances.iter().filter_map(|instance| {
         let mesh = &scene.meshes[instance.mesh];
+        // A mesh of several materials is several bodies, which nothing tells apart.
         let material = *mesh.materials.first()?;
+        if mesh.materials.iter().any(|&other| other != material) {
+            return None;
+        }
         let corner = |&i: &u32| {
             let p = mesh.positions[i as usize].as_dvec3();
             instance.world_from_object.transform_point3(p)

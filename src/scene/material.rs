@@ -14,7 +14,7 @@ pub struct Material {
     pub specular: Vec3,
     /// The exponent α, 0 or more.
     pub shininess: f32,
-    /// Multiplies [`Scene::ambient`]. The course's format wants 1, others the diffuse colour.
+    /// Multiplies [`super::Scene::ambient`]. The course's format wants 1, others the diffuse colour.
     pub ambient: Vec3,
     /// Whether the shading normal is turned to the side that the ray comes from. The course's
     /// format wants it left as given: a surface lit from behind gets the ambient term only.

@@ -347,7 +347,6 @@ fn output(table: &OutputTable) -> OutputDefaults {
         exposure_ev: table.exposure_ev.0,
         tone: table.tone.into(),
         transfer: table.transfer.into(),
-        ..OutputDefaults::default()
     }
 }
 

@@ -6,7 +6,7 @@ use glimray::scene::{Antialias, Fresnel, Material, Mixing, Shadows};
 use insta::assert_snapshot;
 
 fn material(text: &str) -> Material {
-    scene("a.toml", &format!("materials.a = {text}")).materials[0].clone()
+    scene("a.toml", format!("materials.a = {text}")).materials[0].clone()
 }
 
 #[test]

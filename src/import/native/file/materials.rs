@@ -136,7 +136,7 @@ impl Default for PhongTable {
 #[schemars(untagged)]
 pub(in crate::import::native) enum MaterialRef {
     Name(String),
-    Inline(MaterialTable),
+    Inline(Box<MaterialTable>),
 }
 
 impl<'de> Deserialize<'de> for MaterialRef {
@@ -153,7 +153,7 @@ impl<'de> Deserialize<'de> for MaterialRef {
             }
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<MaterialRef, A::Error> {
                 let table = de::value::MapAccessDeserializer::new(map);
-                MaterialTable::deserialize(table).map(MaterialRef::Inline)
+                MaterialTable::deserialize(table).map(|table| MaterialRef::Inline(Box::new(table)))
             }
         }
         deserializer.deserialize_any(NameOrTable)
