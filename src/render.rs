@@ -23,7 +23,7 @@ use crate::{
 use device::{Device, Task};
 use film::{CHUNK, Film};
 use slice::{Planner, Slice};
-use std::{sync::Arc, time::Instant};
+use std::{ops::Range, sync::Arc, time::Instant};
 
 /// How often a lost device is replaced before the render gives up.
 const MAX_LOSSES: u32 = 3;
@@ -231,11 +231,10 @@ impl Renderer {
         };
         let sweep = f64::from(self.cursor.sweep_samples) * f64::from(self.cursor.tile)
             / f64::from(window.tile_count());
-        let round = self.film.round();
-        let length = f64::from(round.end - round.start);
-        let within = (f64::from(self.cursor.sample - round.start) + sweep) / length;
-        let rounds = (self.cursor.window as f64 + within) / self.film.windows.len() as f64;
-        (f64::from(round.start) + rounds * length) / f64::from(self.settings.samples)
+        let Range { start, end } = window.samples;
+        let within = (f64::from(self.cursor.sample - start) + sweep) / f64::from(end - start);
+        let share = (self.cursor.window as f64 + within) / self.film.windows.len() as f64;
+        self.film.progress(share)
     }
 
     /// What the render has cost so far.
@@ -258,7 +257,7 @@ impl Renderer {
         }
         let tile_count = window.tile_count();
         if self.cursor.tile == 0 {
-            let left = self.film.round().end - self.cursor.sample;
+            let left = window.samples.end - self.cursor.sample;
             let in_chunk = CHUNK - self.cursor.sample % CHUNK;
             self.cursor.sweep_samples = self.planner.sweep_samples(tile_count, left.min(in_chunk));
         }
@@ -312,7 +311,6 @@ impl Renderer {
     }
 
     fn advance(&mut self, slice: &Slice) {
-        let round = self.film.round();
         let window = &mut self.film.windows[self.cursor.window];
         self.cursor.tile = slice.end_tile;
         if self.cursor.tile < window.tile_count() {
@@ -322,7 +320,7 @@ impl Renderer {
         self.stats.samples += u64::from(taken) * window.sampled_pixels();
         self.cursor.tile = 0;
         self.cursor.sample = slice.end_sample;
-        if self.cursor.sample < round.end {
+        if self.cursor.sample < window.samples.end {
             if self.cursor.sample.is_multiple_of(CHUNK) {
                 window.close_chunk();
                 self.device.loaded_window = None;
@@ -330,13 +328,12 @@ impl Renderer {
             return;
         }
         self.cursor.window += 1;
-        self.cursor.sample = round.start;
         if self.is_done() && self.film.next_round() {
             self.device.loaded_window = None;
-            self.cursor = Cursor {
-                sample: self.film.round().start,
-                ..Cursor::default()
-            };
+            self.cursor.window = 0;
+        }
+        if let Some(next) = self.film.windows.get(self.cursor.window) {
+            self.cursor.sample = next.samples.start;
         }
     }
 

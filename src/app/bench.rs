@@ -84,7 +84,7 @@ fn measure(workload: &Workload, arguments: &BenchArgs) -> Result<Row, AppError> 
     let median = |part: fn(&Times) -> f64| median(times.iter().map(part).collect());
     let (bvh, trace) = (median(|t| t.bvh), median(|t| t.trace));
     let rays = rays.ok_or_else(|| AppError::Internal("bench: rays were not counted".into()))?;
-    let all = rays.primary + rays.shadow;
+    let all = rays.primary + rays.shadow + rays.reflection + rays.refraction;
     let (width, height) = workload.size;
     let triangles = workload.scene.triangle_count();
     Ok(Row {
@@ -113,6 +113,7 @@ fn render(
     let gpu = Gpu::new(&arguments.device.choice())?;
     let settings = Settings {
         size: workload.size,
+        max_depth: workload.scene.output.max_depth,
         count_rays,
         memory_limit_bytes: arguments.device.memory_limit_bytes(),
         ..Settings::default()

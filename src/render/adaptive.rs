@@ -1,10 +1,13 @@
 //! Adaptive sampling: which pixels go on after a round.
 
 use super::{film::Window, settings::Settings};
-use std::ops::Range;
+use std::{collections::BTreeMap, ops::Range};
 
 /// Samples of the first round; later rounds double them.
 const FIRST_SAMPLES: u32 = 4;
+
+/// A pixel with this many times fewer samples than a noisy neighbour is behind it.
+const BEHIND: u32 = 4;
 
 /// What all rounds have gathered, pixel by pixel of the region.
 #[derive(Clone, Debug)]
@@ -15,6 +18,8 @@ pub struct Adaptive {
     /// Most pixels of a window.
     window_pixels: usize,
     pixels: Vec<Account>,
+    /// The samples of the pixels that have most of them, in this round.
+    front: Range<u32>,
 }
 
 /// What is known of a pixel.
@@ -37,40 +42,54 @@ impl Adaptive {
             noise: f64::from(settings.noise),
             samples: settings.samples,
             window_pixels: side * side,
+            front: 0..FIRST_SAMPLES.min(settings.samples),
             pixels: vec![Account::default(); width as usize * height as usize],
         }
     }
 
-    /// The samples of the first round, and windows over all the pixels.
-    pub fn first_round(&self, pixels: Vec<[u32; 2]>) -> (Range<u32>, Vec<Window>) {
-        (0..FIRST_SAMPLES.min(self.samples), self.windows(pixels))
+    /// Windows over all the pixels.
+    pub fn first_round(&self, pixels: Vec<[u32; 2]>) -> Vec<Window> {
+        self.windows(pixels, 0..FIRST_SAMPLES.min(self.samples))
     }
 
-    /// The samples of the round after `last`, and windows over the pixels that need them, in the
-    /// order of before; `None` when all are done.
-    pub fn next_round(&self, last: &Range<u32>) -> Option<(Range<u32>, Vec<Window>)> {
-        let round = last.end..(2 * last.end).min(self.samples);
+    /// Windows over the pixels that need more samples, those that have as many together; none when
+    /// all are done. A round doubles the samples of a pixel.
+    pub fn next_round(&mut self) -> Vec<Window> {
         let [x0, y0, width, height] = self.region;
         let tiles = |length: u32| 0..length.div_ceil(8);
-        let mut going_on = Vec::new();
+        let mut going_on: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
         for (ty, tx) in tiles(height).flat_map(|y| tiles(width).map(move |x| (y, x))) {
             for (y, x) in (0..8).flat_map(|y| (0..8).map(move |x| (8 * ty + y, 8 * tx + x))) {
-                if x < width && y < height && self.goes_on(x, y, last.end) {
-                    going_on.push([x0 + x, y0 + y]);
+                if x < width && y < height && self.goes_on(x, y) {
+                    let list = going_on.entry(self.account(x, y).count).or_default();
+                    list.push([x0 + x, y0 + y]);
                 }
             }
         }
-        (!round.is_empty() && !going_on.is_empty()).then(|| (round, self.windows(going_on)))
+        if let Some((&count, _)) = going_on.last_key_value() {
+            self.front = self.front.end..(2 * count).min(self.samples).max(self.front.end);
+        }
+        let windows = |(count, pixels)| self.windows(pixels, count..(2 * count).min(self.samples));
+        going_on.into_iter().flat_map(windows).collect()
     }
 
-    fn windows(&self, pixels: Vec<[u32; 2]>) -> Vec<Window> {
+    /// Goes by the most samples that any pixel has.
+    pub fn progress(&self, share: f64) -> f64 {
+        let Range { start, end } = self.front;
+        (f64::from(start) + share * f64::from(end - start)) / f64::from(self.samples)
+    }
+
+    fn windows(&self, pixels: Vec<[u32; 2]>, samples: Range<u32>) -> Vec<Window> {
         let lists = pixels.chunks(self.window_pixels);
-        lists.map(|list| Window::list(list.to_vec())).collect()
+        lists
+            .map(|list| Window::list(list.to_vec(), samples.clone()))
+            .collect()
     }
 
     /// Adds what a round has gathered.
-    pub fn take(&mut self, windows: Vec<Window>, round: &Range<u32>) {
+    pub fn take(&mut self, windows: Vec<Window>) {
         for window in windows {
+            let taken = window.samples.end - window.samples.start;
             let places = window.places().to_vec();
             let rows = window.totals();
             for (place, rows) in places.into_iter().zip(rows.chunks_exact(2)) {
@@ -81,7 +100,7 @@ impl Adaptive {
                 }
                 account.weight += rows[0][3];
                 account.squares += rows[1][0];
-                account.count += round.end - round.start;
+                account.count += taken;
             }
         }
     }
@@ -103,25 +122,29 @@ impl Adaptive {
         (y - y0) as usize * width as usize + (x - x0) as usize
     }
 
-    /// Whether a pixel that had part in the round that ended at sample `end` needs another. After
-    /// the first round a difference from a neighbour is enough: few samples may all have missed what
-    /// is there, and then agree.
-    fn goes_on(&self, x: u32, y: u32, end: u32) -> bool {
+    /// Whether a pixel needs another round: its own error is too large, or it may have missed what
+    /// its neighbours have found. Few samples may all have missed what is there, and then agree: so
+    /// after the first round a difference from a neighbour is enough, and later a neighbour that
+    /// still needs samples and has many more.
+    fn goes_on(&self, x: u32, y: u32) -> bool {
         let account = self.account(x, y);
-        if account.count != end {
+        if account.count >= self.samples {
             return false;
         }
-        account.error() > self.noise || (end <= FIRST_SAMPLES && self.differs(x, y))
+        let missed = |other: &Account| {
+            let differs = (other.brightness() - account.brightness()).abs() > self.noise;
+            let is_ahead = other.count >= BEHIND * account.count && other.error() > self.noise;
+            differs && (account.count <= FIRST_SAMPLES || is_ahead)
+        };
+        account.error() > self.noise || self.around(x, y).any(missed)
     }
 
-    fn differs(&self, x: u32, y: u32) -> bool {
+    /// The pixel and its neighbours.
+    fn around(&self, x: u32, y: u32) -> impl Iterator<Item = &Account> {
         let [.., width, height] = self.region;
-        let own = self.account(x, y).brightness();
-        let around =
+        let near =
             |center: u32, length: u32| center.saturating_sub(1)..=(center + 1).min(length - 1);
-        around(y, height).any(|ny| {
-            around(x, width).any(|nx| (self.account(nx, ny).brightness() - own).abs() > self.noise)
-        })
+        near(y, height).flat_map(move |y| near(x, width).map(move |x| self.account(x, y)))
     }
 
     fn account(&self, x: u32, y: u32) -> &Account {

@@ -25,6 +25,8 @@ pub struct Window {
     pub y: u32,
     pub width: u32,
     pub height: u32,
+    /// The samples that its pixels are to get.
+    pub samples: Range<u32>,
     /// The pixels of a list, in film order; empty for a rectangle.
     places: Vec<[u32; 2]>,
     /// Rows of the film in the current chunk: for each pixel its radiance sum and in the fourth
@@ -36,12 +38,13 @@ pub struct Window {
 
 impl Window {
     /// A rectangle of the picture.
-    pub fn new(x: u32, y: u32, width: u32, height: u32) -> Self {
+    pub fn new([x, y, width, height]: [u32; 4], samples: Range<u32>) -> Self {
         Self {
             x,
             y,
             width,
             height,
+            samples,
             places: Vec::new(),
             sums: Vec::new(),
             totals: Vec::new(),
@@ -49,8 +52,8 @@ impl Window {
     }
 
     /// A list of pixels of the picture, at least one.
-    pub fn list(places: Vec<[u32; 2]>) -> Self {
-        let mut window = Self::new(0, 0, TILE_SIDE, TILE_SIDE);
+    pub fn list(places: Vec<[u32; 2]>, samples: Range<u32>) -> Self {
+        let mut window = Self::new([0, 0, TILE_SIDE, TILE_SIDE], samples);
         window.places = places;
         window
     }
@@ -172,7 +175,6 @@ impl Window {
 #[derive(Clone, Debug)]
 pub struct Film {
     pub windows: Vec<Window>,
-    round: Range<u32>,
     adaptive: Option<Adaptive>,
     /// In film rows, of all rounds.
     largest_window: usize,
@@ -183,7 +185,6 @@ impl Film {
     pub fn new(settings: &Settings) -> Self {
         let mut film = Self {
             windows: rectangles(settings),
-            round: 0..settings.samples,
             adaptive: settings.is_adaptive().then(|| Adaptive::new(settings)),
             largest_window: 0,
         };
@@ -194,15 +195,18 @@ impl Film {
             let pixels = rectangles.flat_map(|window| {
                 (0..window.pixel_count()).filter_map(|index| window.pixel_at(index))
             });
-            (film.round, film.windows) = adaptive.first_round(pixels.collect());
+            film.windows = adaptive.first_round(pixels.collect());
             film.largest_window = film.largest_window.max(film.largest_row_count());
         }
         film
     }
 
-    /// The samples that the windows are to get.
-    pub fn round(&self) -> Range<u32> {
-        self.round.clone()
+    /// How far the sampling is in all when `share` of the windows of this round are done, in 0..=1.
+    pub fn progress(&self, share: f64) -> f64 {
+        match &self.adaptive {
+            None => share,
+            Some(adaptive) => adaptive.progress(share),
+        }
     }
 
     /// Ends the round. If there is another, the windows are what goes on.
@@ -210,12 +214,9 @@ impl Film {
         let Some(adaptive) = &mut self.adaptive else {
             return false;
         };
-        adaptive.take(std::mem::take(&mut self.windows), &self.round);
-        match adaptive.next_round(&self.round) {
-            Some(next) => (self.round, self.windows) = next,
-            None => return false,
-        }
-        true
+        adaptive.take(std::mem::take(&mut self.windows));
+        self.windows = adaptive.next_round();
+        !self.windows.is_empty()
     }
 
     /// The windows to develop: rectangles with what has been gathered so far.
@@ -243,7 +244,7 @@ impl Film {
     /// The samples that a pixel of the picture has got.
     pub fn samples_at(&self, pixel: [u32; 2]) -> u32 {
         match &self.adaptive {
-            None => self.round.end,
+            None => self.windows.first().map_or(0, |window| window.samples.end),
             Some(adaptive) => adaptive.samples_at(pixel),
         }
     }
@@ -269,7 +270,9 @@ fn rectangles(settings: &Settings) -> Vec<Window> {
             (start + offset, side.min(length - offset))
         })
     };
-    let row = |(wy, wh)| cuts(x, width).map(move |(wx, ww)| Window::new(wx, wy, ww, wh));
+    let row = |(wy, wh)| {
+        cuts(x, width).map(move |(wx, ww)| Window::new([wx, wy, ww, wh], 0..settings.samples))
+    };
     cuts(y, height).flat_map(row).collect()
 }
 

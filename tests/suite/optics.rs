@@ -656,6 +656,63 @@ fn filtered_shadows_let_through_what_transmission_and_absorption_leave() {
 }
 
 #[test]
+fn light_comes_through_bodies_that_touch_and_through_balls_up_to_their_rim() {
+    let lit = |bodies: &[(Geometry, Material)], x: f64| {
+        let mut scene = dark();
+        scene.shadows = Shadows::Filtered;
+        scene.cameras[0] = camera(dvec3(x, 0.5, 4.0), dvec3(x, 0.0, 0.0), 1e-3);
+        add(
+            &mut scene,
+            plane(DVec3::ZERO, DVec3::Y),
+            Material::default(),
+        );
+        for (body, material) in bodies {
+            add(&mut scene, *body, material.clone());
+        }
+        scene.lights.push(Light {
+            kind: LightKind::Directional {
+                direction: DVec3::NEG_Y,
+            },
+            color: Vec3::ONE,
+            ..Light::default()
+        });
+        middle(&render(&scene, &to_depth(5)).0)
+    };
+    let open = lit(&[], 0.0);
+    // Half a unit of a tinted medium under another one that swallows nothing.
+    let tinted = Material {
+        absorption: Vec3::splat(2.0),
+        ..glass(1.0)
+    };
+    let stack = [
+        (cuboid(dvec3(-1.0, 0.5, -1.0), dvec3(1.0, 1.0, 1.0)), tinted),
+        (
+            cuboid(dvec3(-1.0, 1.0, -1.0), dvec3(1.0, 1.5, 1.0)),
+            glass(1.0),
+        ),
+    ];
+    let got = lit(&stack, 0.0) / open;
+    assert!((got / (-1.0_f64).exp() - 1.0).abs() < 2e-3, "{got}");
+    // Both boundaries at the angle whose sine is x: never less than grazing light leaves.
+    for x in [0.0, 0.5, 0.7, 0.9_f64] {
+        let ball = [(sphere(dvec3(0.0, 2.0, 0.0), 1.0), glass(1.5))];
+        let (incidence, refraction) = (x.asin(), (x / 1.5).asin());
+        let (sum, difference) = (incidence + refraction, incidence - refraction);
+        let reflected = if x == 0.0 {
+            0.04
+        } else {
+            0.5 * ((difference.sin() / sum.sin()).powi(2) + (difference.tan() / sum.tan()).powi(2))
+        };
+        let got = lit(&ball, x) / open;
+        let expected = (1.0 - reflected).powi(2);
+        assert!(
+            (got / expected - 1.0).abs() < 5e-3,
+            "{got} for {expected} at {x}"
+        );
+    }
+}
+
+#[test]
 fn more_media_round_the_camera_than_a_ray_remembers_are_refused() {
     let mut scene = dark();
     for radius in 6..=10 {
