@@ -38,7 +38,8 @@ pub struct Settings {
     pub seed: u32,
     /// Bounces after the first hit; 0 is local shading only.
     pub max_depth: u32,
-    /// Mirrored and refracted rays are sent whose share in a sample is at least this, 0 to 1.
+    /// Mirrored and refracted rays are sent whose share in a sample, the mean of the channels, is at
+    /// least this, 0 to 1.
     pub min_throughput: f32,
     /// Whether [`super::Stats::rays`] is kept.
     pub count_rays: bool,

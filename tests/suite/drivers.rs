@@ -4,7 +4,8 @@ use crate::reference::compare::{assert_none, check_alike, render};
 use glimray::gpu::{AdapterChoice, Backend, Gpu};
 use glimray::import;
 use glimray::render::{Antialias, Renderer, Settings, Tone};
-use glimray::{image::Image, pack, scene::Scene};
+use glimray::scene::{Scene, Shadows};
+use glimray::{image::Image, pack};
 use std::{path::Path, sync::Arc};
 
 /// The scene through OpenGL, in linear radiance; `None` without such an adapter.
@@ -48,6 +49,12 @@ fn every_scene_looks_the_same_through_opengl() {
             return Ok(());
         };
         let (expected, _) = render(&scene, &settings);
-        check_alike(&path.display().to_string(), &expected, &actual, 3.0, 0.001)
+        // Light that grazes many boundaries on its way to a lamp is let through by one rounding and
+        // mirrored by the next.
+        let share = match scene.shadows {
+            Shadows::Opaque => 0.001,
+            Shadows::Filtered => 0.01,
+        };
+        check_alike(&path.display().to_string(), &expected, &actual, 3.0, share)
     }));
 }

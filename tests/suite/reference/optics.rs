@@ -83,7 +83,7 @@ impl Tracer<'_> {
                 share: share * weight,
                 media: media.to_vec(),
             };
-            let matters = next.share.max_element() >= f64::from(MIN_THROUGHPUT);
+            let matters = next.share.element_sum() / 3.0 >= f64::from(MIN_THROUGHPUT);
             if place.depth >= self.scene.output.max_depth || !matters {
                 return false;
             }
