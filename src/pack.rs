@@ -18,6 +18,7 @@ use crate::{
     },
     scene::{Scene, Shadows},
 };
+use bytemuck::cast_slice;
 use glam::{DVec3, Vec3};
 use std::time::Instant;
 
@@ -187,6 +188,20 @@ pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
 }
 
 impl PackedScene {
+    /// Every byte that a picture depends on but for the view: what a fingerprint is made of.
+    pub fn parts(&self) -> Vec<&[u8]> {
+        vec![
+            cast_slice(&self.nodes),
+            cast_slice(&self.triangles),
+            cast_slice(&self.shapes),
+            cast_slice(&self.vertices),
+            cast_slice(&self.uvs),
+            cast_slice(&self.materials),
+            cast_slice(&self.textures),
+            cast_slice(&self.texels),
+        ]
+    }
+
     /// Number of shapes in the tree.
     pub fn bounded_shape_count(&self) -> u32 {
         self.shapes.len() as u32 - self.plane_count

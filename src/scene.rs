@@ -9,19 +9,26 @@
 //! Placement (cameras, lights, instances, analytic shapes) is kept in f64 and mesh vertices in f32
 //! near their own origin, so that a scene far from the world's origin loses nothing.
 
+mod animation;
 mod frame;
 mod light;
 mod material;
 mod mesh;
+mod node;
 mod output;
 mod shape;
 mod texture;
 
-pub use frame::Frame;
+pub use animation::{
+    Beyond, CameraProperty, Curve, Easing, Interpolation, LightProperty, MaterialProperty,
+    NodeProperty, Target, Track, Values,
+};
+pub use frame::{Frame, NodeState};
 pub use light::{Attenuation, Light, LightKind};
 pub use material::{Fresnel, Material, Mixing, Textures};
 pub use mesh::{Mesh, Repairs};
-pub use output::{Antialias, Filter, OutputDefaults, ToneCurve, Transfer};
+pub use node::Node;
+pub use output::{Antialias, Filter, OutputDefaults, Shutter, ToneCurve, Transfer};
 pub use shape::{Form, Geometry, Shape};
 pub use texture::{Pattern, Picture, Space, Texture};
 
@@ -32,9 +39,9 @@ use glam::{DAffine3, DVec3, Vec3};
 pub struct Scene {
     /// Triangle meshes, each in its own object space.
     pub meshes: Vec<Mesh>,
-    /// Placements of meshes in the world.
+    /// Placements of meshes.
     pub instances: Vec<Instance>,
-    /// Analytic shapes, in world space.
+    /// Analytic shapes.
     pub shapes: Vec<Shape>,
     /// At least one.
     pub materials: Vec<Material>,
@@ -54,19 +61,25 @@ pub struct Scene {
     pub ambient: Vec3,
     /// How shadow rays meet what is transparent.
     pub shadows: Shadows,
+    /// What instances, shapes, lights and cameras may be attached to; parents before their children.
+    pub nodes: Vec<Node>,
+    /// What changes over time.
+    pub tracks: Vec<Track>,
     /// What the file says about the picture; flags win over it.
     pub output: OutputDefaults,
     /// What the importer left out or repaired, one sentence each, in file order.
     pub skipped: Vec<String>,
 }
 
-/// One mesh in the world.
+/// One mesh in the world. Its triangles are in memory once, however many instances there are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instance {
     /// Index into [`Scene::meshes`].
     pub mesh: usize,
-    /// Invertible; may scale unevenly or mirror.
-    pub world_from_object: DAffine3,
+    /// From object space to the space of `node`. Invertible; may scale unevenly or mirror.
+    pub placement: DAffine3,
+    /// Index into [`Scene::nodes`]; `None` is the world.
+    pub node: Option<usize>,
 }
 
 /// What rays see that hit nothing, as linear radiance.
@@ -115,9 +128,9 @@ pub enum Shadows {
 pub struct Camera {
     /// Empty when the file gives none.
     pub name: String,
-    /// The pinhole, in world space.
+    /// The pinhole, in the space of `node`.
     pub look_from: DVec3,
-    /// A point in the middle of the picture, in world space; differs from `look_from`.
+    /// A point in the middle of the picture, in the space of `node`; differs from `look_from`.
     pub look_at: DVec3,
     /// Upwards in the picture, of any length; not parallel to the viewing direction.
     pub up: DVec3,
@@ -125,6 +138,11 @@ pub struct Camera {
     pub fov_y: f64,
     /// Absent for a pinhole, to which everything is sharp.
     pub lens: Option<Lens>,
+    /// Index into [`Scene::nodes`] of what carries it; `None` is the world.
+    pub node: Option<usize>,
+    /// Index into [`Scene::nodes`] of what it looks at, the origin of that node's space, in place of
+    /// `look_at`.
+    pub target: Option<usize>,
 }
 
 /// The opening of a thin lens.
@@ -150,6 +168,8 @@ impl Default for Camera {
             up: DVec3::Y,
             fov_y: std::f64::consts::FRAC_PI_3,
             lens: None,
+            node: None,
+            target: None,
         }
     }
 }
@@ -163,7 +183,7 @@ impl Scene {
             self.meshes[instance.mesh]
                 .positions
                 .iter()
-                .map(|p| instance.world_from_object.transform_point3(p.as_dvec3()))
+                .map(|p| instance.placement.transform_point3(p.as_dvec3()))
                 .map(|p| (p, p))
                 .reduce(union)
         });

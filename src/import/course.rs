@@ -172,6 +172,7 @@ impl<'s> Reader<'s> {
                 radius: Rad.of(&fields).x,
             },
             material: self.material(&fields) as usize,
+            node: None,
         };
         self.scene.shapes.push(shape);
         Ok(())
@@ -374,7 +375,8 @@ impl<'s> Reader<'s> {
             self.scene.meshes.push(self.mesh);
             self.scene.instances.push(Instance {
                 mesh: 0,
-                world_from_object,
+                placement: world_from_object,
+                node: None,
             });
         }
         self.scene.materials = self.palette.into_materials();

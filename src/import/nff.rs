@@ -242,7 +242,11 @@ impl<'s> Reader<'s> {
         self.inside_out += usize::from(radius < 0.0);
         let radius = radius.abs();
         let geometry = Geometry::Sphere { center, radius };
-        self.scene.shapes.push(Shape { geometry, material });
+        self.scene.shapes.push(Shape {
+            geometry,
+            material,
+            node: None,
+        });
         Ok(())
     }
 
@@ -277,7 +281,11 @@ impl<'s> Reader<'s> {
             },
             world_from_form: DAffine3::from_mat3_translation(turn, base),
         };
-        self.scene.shapes.push(Shape { geometry, material });
+        self.scene.shapes.push(Shape {
+            geometry,
+            material,
+            node: None,
+        });
         Ok(())
     }
 

@@ -86,7 +86,8 @@ pub(super) fn read_scene(source: &Source, files: &Files) -> Result<Scene, Import
         scene.meshes.push(model.mesh);
         scene.instances.push(Instance {
             mesh: 0,
-            world_from_object,
+            placement: world_from_object,
+            node: None,
         });
     }
     stage::light(&mut scene);

@@ -13,6 +13,7 @@ use crate::{
     },
     scene::{Attenuation, Background, Camera, Frame, Light, LightKind},
 };
+use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
 
 /// A [`Frame`] as the GPU wants it.
@@ -31,6 +32,11 @@ pub struct PackedView {
 }
 
 impl PackedScene {
+    /// Packs what [`crate::scene::Scene::shot`] of the scene that this was made from gives.
+    pub fn shot(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
+        self.frame(&frames[0])
+    }
+
     /// Packs a frame of the scene that this was made from.
     pub fn frame(&self, frame: &Frame) -> Result<PackedView, PackError> {
         let mut lights = (frame.lights.iter())
@@ -92,6 +98,11 @@ impl PackedScene {
 }
 
 impl PackedView {
+    /// Every byte that a picture of this scene depends on.
+    pub fn parts(&self) -> Vec<&[u8]> {
+        vec![bytes_of(&self.frame), cast_slice(&self.lights)]
+    }
+
     /// The view for a picture of `width` × `height` pixels: aspect = width / height.
     pub fn with_aspect(&self, width: u32, height: u32) -> Self {
         let mut view = self.clone();

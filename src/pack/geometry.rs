@@ -135,7 +135,7 @@ impl Flat {
         instance: &Instance,
         origin: DVec3,
     ) -> Result<(), PackError> {
-        let world_from_object = instance.world_from_object;
+        let world_from_object = instance.placement;
         // Normals go by the inverse transpose; a mirroring keeps them on their side.
         let normal_matrix: DMat3 = world_from_object.matrix3.inverse().transpose();
         let first_vertex = self.vertices.len();

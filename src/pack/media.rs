@@ -47,7 +47,7 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
         }
         let corner = |&i: &u32| {
             let p = mesh.positions[i as usize].as_dvec3();
-            instance.world_from_object.transform_point3(p)
+            instance.placement.transform_point3(p)
         };
         let triangles: Vec<[DVec3; 3]> = (mesh.triangles.iter())
             .map(|t| [corner(&t[0]), corner(&t[1]), corner(&t[2])])

@@ -16,6 +16,8 @@ pub struct Light {
     pub samples: u32,
     /// Whether rays see the light itself; makes sense for area lights only.
     pub visible: bool,
+    /// Index into [`super::Scene::nodes`] of what carries it; `None` is the world.
+    pub node: Option<usize>,
 }
 
 impl Default for Light {
@@ -29,11 +31,12 @@ impl Default for Light {
             attenuation: Attenuation::None,
             samples: 1,
             visible: false,
+            node: None,
         }
     }
 }
 
-/// Place and direction of a [`Light`], in world space.
+/// Place and direction of a [`Light`], in the space of its node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightKind {
     /// Shines evenly all round.

@@ -25,6 +25,22 @@ pub struct OutputDefaults {
     pub tone: ToneCurve,
     /// Applied last.
     pub transfer: Transfer,
+    /// Frames per second of an animation, above 0.
+    pub fps: f64,
+    /// Seconds that an animation lasts, above 0; `None`: until the last key of any track.
+    pub duration: Option<f64>,
+    /// When the shutter is open.
+    pub shutter: Shutter,
+}
+
+/// When the shutter is open, counted from a frame's own time, in frames: `open` ≤ `close`. Equal
+/// ones freeze all movement.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Shutter {
+    /// When it opens.
+    pub open: f64,
+    /// When it closes.
+    pub close: f64,
 }
 
 impl Default for OutputDefaults {
@@ -41,6 +57,9 @@ impl Default for OutputDefaults {
             exposure_ev: 0.0,
             tone: ToneCurve::None,
             transfer: Transfer::Srgb,
+            fps: 24.0,
+            duration: None,
+            shutter: Shutter::default(),
         }
     }
 }

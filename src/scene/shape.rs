@@ -9,9 +9,11 @@ pub struct Shape {
     pub geometry: Geometry,
     /// Index into [`super::Scene::materials`].
     pub material: usize,
+    /// Index into [`super::Scene::nodes`] of what carries it; `None` is the world. Planes stand still.
+    pub node: Option<usize>,
 }
 
-/// The surface of a [`Shape`], in world space.
+/// The surface of a [`Shape`], in the space of its node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Geometry {
     /// All points at one distance from a centre. u and v are those of [`Form::Ellipsoid`].
@@ -72,7 +74,7 @@ pub enum Form {
 }
 
 impl Geometry {
-    /// The smallest axis-aligned box (min, max) in world space; `None` for planes.
+    /// The smallest axis-aligned box (min, max) in its own space; `None` for planes.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         match *self {
             Self::Sphere { center, radius } => Some((center - radius, center + radius)),

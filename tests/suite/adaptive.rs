@@ -38,6 +38,7 @@ fn detail_in_a_fifth() -> Scene {
                     radius: 0.12,
                 },
                 material: 0,
+                node: None,
             });
         }
     }
@@ -176,6 +177,7 @@ fn no_pixel_of_a_blurred_light_stays_black_beside_bright_ones() {
             radius: 0.05,
         },
         material: 0,
+        node: None,
     });
     let disc = |antialias| render(&scene, &settings(antialias, 1024, 0.02)).0;
     let (even, adaptive) = (disc(Antialias::Stratified), disc(Antialias::Adaptive));

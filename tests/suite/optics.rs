@@ -33,6 +33,7 @@ fn add(scene: &mut Scene, geometry: Geometry, material: Material) {
     scene.shapes.push(Shape {
         geometry,
         material: scene.materials.len(),
+        node: None,
     });
     scene.materials.push(material);
 }

@@ -348,6 +348,7 @@ fn cones_are_packed_as_wide_as_they_are_high() {
             world_from_form: DAffine3::from_scale(dvec3(2.0, 3.0, 4.0)),
         },
         material: 0,
+        node: None,
     });
     let cone = pack::scene(&scene).expect("a scene").shapes[0];
     assert_eq!((cone.size0, cone.size1), (1.0, 0.25));
@@ -365,6 +366,7 @@ fn a_shape_too_thin_for_f32_is_refused() {
             world_from_form: DAffine3::from_scale(dvec3(1.0, 1e-16, 1.0)),
         },
         material: 0,
+        node: None,
     });
     let error = pack::scene(&scene).expect_err("too thin");
     insta::assert_snapshot!(error, @"object too small (scaled size): 1e-16 units in one direction is below the range of f32 arithmetic, at least 1e-15. Make it larger, or scale the scene up.");
@@ -381,6 +383,7 @@ fn visible_lights_are_surfaces_that_shine_on_their_front() {
         color: vec3(3.0, 2.0, 1.0),
         attenuation: Attenuation::InverseSquare,
         samples: 4,
+        node: None,
     };
     let rectangle = LightKind::Rectangle {
         center,

@@ -134,7 +134,7 @@ impl<'a> Tracer<'a> {
         let mut triangles = Vec::new();
         for instance in &scene.instances {
             let mesh = &scene.meshes[instance.mesh];
-            let placement = instance.world_from_object;
+            let placement = instance.placement;
             let normal_matrix = placement.matrix3.inverse().transpose();
             for indices in &mesh.triangles {
                 let indices = indices.map(|i| i as usize);

@@ -38,6 +38,7 @@ fn soft_shadow() -> Scene {
         attenuation: Attenuation::InverseSquare,
         samples: 1,
         visible: false,
+        node: None,
     }];
     scene
 }

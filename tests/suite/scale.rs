@@ -33,7 +33,7 @@ fn placed(scene: &Scene, scale: f64, offset: DVec3) -> Scene {
     }
     let placement = DAffine3::from_translation(offset) * DAffine3::from_scale(DVec3::splat(scale));
     for instance in &mut placed.instances {
-        instance.world_from_object = placement * instance.world_from_object;
+        instance.placement = placement * instance.placement;
     }
     for light in &mut placed.lights {
         if light.attenuation == Attenuation::InverseSquare {
@@ -135,7 +135,7 @@ fn a_mesh_with_large_or_small_vertices_gives_the_same_picture() {
         // The scale is taken out of the placement and put into the vertices.
         let mut scene = placed(&scenes::meshes(), scale, DVec3::ZERO);
         for instance in &mut scene.instances {
-            instance.world_from_object *= DAffine3::from_scale(DVec3::splat(1.0 / scale));
+            instance.placement *= DAffine3::from_scale(DVec3::splat(1.0 / scale));
         }
         for position in scene.meshes.iter_mut().flat_map(|mesh| &mut mesh.positions) {
             *position *= scale as f32;

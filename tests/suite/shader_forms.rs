@@ -646,6 +646,7 @@ fn packed(form: Form, world_from_form: DAffine3) -> PackedShape {
         shapes: vec![Shape {
             geometry,
             material: 0,
+            node: None,
         }],
         ..Scene::default()
     };

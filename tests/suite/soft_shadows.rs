@@ -37,6 +37,7 @@ fn glowing(kind: LightKind) -> Light {
         attenuation: Attenuation::InverseSquare,
         samples: 64,
         visible: true,
+        node: None,
     }
 }
 
@@ -396,6 +397,7 @@ fn soft_shadows_of_every_kind_of_light_match_an_independent_tracer() {
         attenuation: Attenuation::InverseSquare,
         samples: 64,
         visible: false,
+        node: None,
     };
     let kinds = [
         (

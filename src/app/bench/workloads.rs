@@ -94,7 +94,8 @@ fn height_field(quads: u32, lights: Vec<Light>) -> Scene {
         meshes: vec![mesh],
         instances: vec![Instance {
             mesh: 0,
-            world_from_object: DAffine3::IDENTITY,
+            placement: DAffine3::IDENTITY,
+            node: None,
         }],
         materials: vec![Material::default()],
         lights,

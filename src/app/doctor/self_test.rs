@@ -70,6 +70,7 @@ fn scene() -> Scene {
                 radius: RADIUS,
             },
             material: 0,
+            node: None,
         }],
         materials: vec![Material {
             diffuse: Vec3::splat(DIFFUSE as f32),

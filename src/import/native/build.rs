@@ -139,7 +139,11 @@ impl<'a> Builder<'a> {
         let Some(geometry) = shapes::geometry(table, placed, textured, self.texts)? else {
             return Ok(Vec::new());
         };
-        self.scene.shapes.push(Shape { geometry, material });
+        self.scene.shapes.push(Shape {
+            geometry,
+            material,
+            node: None,
+        });
         Ok(match (geometry, geometry.bounds()) {
             (Geometry::Plane { point, .. }, _) => vec![point],
             (_, Some((min, max))) => vec![min, max],
@@ -213,7 +217,8 @@ impl<'a> Builder<'a> {
         let world_from_object = placed * DAffine3::from_translation(offset);
         self.scene.instances.push(Instance {
             mesh,
-            world_from_object,
+            placement: world_from_object,
+            node: None,
         });
         let positions = self.scene.meshes[mesh]
             .positions
@@ -292,7 +297,8 @@ impl<'a> Builder<'a> {
             let world_from_object = DAffine3::from_translation(offset);
             self.scene.instances.push(Instance {
                 mesh: self.scene.meshes.len(),
-                world_from_object,
+                placement: world_from_object,
+                node: None,
             });
             self.scene.meshes.push(mesh);
         }
@@ -347,6 +353,7 @@ fn output(table: &OutputTable) -> OutputDefaults {
         exposure_ev: table.exposure_ev.0,
         tone: table.tone.into(),
         transfer: table.transfer.into(),
+        ..OutputDefaults::default()
     }
 }
 

@@ -60,6 +60,8 @@ fn camera(table: &CameraTable, texts: &Texts) -> Result<Camera, ImportError> {
         up,
         fov_y: table.fov_y_deg.0.to_radians(),
         lens: lens.transpose()?,
+        node: None,
+        target: None,
     })
 }
 

@@ -121,6 +121,7 @@ impl Reader<'_> {
             attenuation: attenuation.into(),
             samples: samples.0,
             visible,
+            node: None,
         })
     }
 

@@ -104,7 +104,8 @@ impl Surface {
             scene.meshes.push(self.mesh);
             scene.instances.push(Instance {
                 mesh: 0,
-                world_from_object: DAffine3::from_translation(offset),
+                placement: DAffine3::from_translation(offset),
+                node: None,
             });
         }
     }

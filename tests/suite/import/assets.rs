@@ -50,8 +50,8 @@ fn assert_promises(scene: &Scene) {
     }
     for instance in &scene.instances {
         assert!(instance.mesh < scene.meshes.len());
-        assert!(instance.world_from_object.is_finite());
-        assert_ne!(instance.world_from_object.matrix3.determinant(), 0.0);
+        assert!(instance.placement.is_finite());
+        assert_ne!(instance.placement.matrix3.determinant(), 0.0);
     }
     for shape in &scene.shapes {
         assert!(shape.material < scene.materials.len());

@@ -39,7 +39,8 @@ fn a_plain_file_reads_as_written() {
         scene.shapes,
         [Shape {
             geometry,
-            material: 0
+            material: 0,
+            node: None
         }]
     );
     assert_eq!(
@@ -148,6 +149,7 @@ fn area_lights_of_students_are_rectangles_that_do_not_fade() {
         attenuation: Attenuation::None,
         samples: 9,
         visible: false,
+        node: None,
     };
     let sphere = "sphere pos: 0 0 -3 rad: 1 dif: 1 1 1 spe: 0 0 0 shi: 1";
     let texts = [
@@ -200,7 +202,7 @@ fn triangles_become_one_mesh_with_a_material_at_each_corner() {
     let scene = scene("a.scene", text);
     let mesh = &scene.meshes[0];
     assert_eq!(mesh.triangles, [[0, 1, 2]]);
-    let offset = scene.instances[0].world_from_object.translation;
+    let offset = scene.instances[0].placement.translation;
     let corner = mesh.positions[1].as_dvec3() + offset;
     assert_eq!(corner, DVec3::new(1.0, 0.0, -5.0));
     assert_eq!(mesh.normals, [Vec3::Z, Vec3::Z, Vec3::new(0.0, 0.6, 0.8)]);
@@ -244,7 +246,7 @@ fn triangles_far_away_keep_their_shape() {
     let instance = &scene.instances[0];
     let corner = |i: usize| scene.meshes[0].positions[i].as_dvec3();
     assert_eq!(corner(1) - corner(0), DVec3::new(0.25, 0.0, 0.0));
-    let world = instance.world_from_object.transform_point3(corner(0));
+    let world = instance.placement.transform_point3(corner(0));
     assert!(world.distance(DVec3::new(1e6, 0.0, -5.0)) < 1e-6);
 }
 

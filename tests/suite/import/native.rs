@@ -193,7 +193,7 @@ fn transforms_scale_then_rotate_about_x_y_z_then_move() {
     let mesh = &scene.meshes[0];
     let world = |i: usize| {
         scene.instances[0]
-            .world_from_object
+            .placement
             .transform_point3(mesh.positions[i].as_dvec3())
     };
     assert!(world(1).distance(DVec3::new(0.0, 1.0, 5.0)) < 1e-6);
@@ -266,7 +266,7 @@ fn meshes_come_from_files_beside_the_scene() {
     let scene = import::load(&folder.path().join("a.toml")).expect("a scene");
     assert_eq!(scene.instances.len(), 3);
     assert_eq!(scene.meshes.len(), 2, "the same mesh is read once");
-    assert_eq!(scene.instances[1].world_from_object.translation.x, 5.0);
+    assert_eq!(scene.instances[1].placement.translation.x, 5.0);
     let diffuse = |mesh: usize| scene.materials[scene.meshes[mesh].materials[0] as usize].diffuse;
     assert_eq!(diffuse(1), Vec3::Z);
     assert_eq!(

@@ -31,6 +31,7 @@ fn what_is_left_out_of_an_area_light_has_its_default() {
             attenuation: Attenuation::InverseSquare,
             samples: 16,
             visible: true,
+            node: None
         }
     );
 }
@@ -54,6 +55,7 @@ fn every_key_of_area_lights_is_heard() {
             attenuation: Attenuation::None,
             samples: 5,
             visible: false,
+            node: None
         }
     );
     let got = light("disc = { center = [0, 4, 0], look_at = [0, 4, -9], radius = 2 }");

@@ -27,7 +27,11 @@ fn sphere(x: f64, radius: f64, material: usize) -> Shape {
         center: DVec3::new(x, 0.0, 0.0),
         radius,
     };
-    Shape { geometry, material }
+    Shape {
+        geometry,
+        material,
+        node: None,
+    }
 }
 
 fn light(position: DVec3, color: Vec3) -> Light {
@@ -379,7 +383,7 @@ fn triangles(scene: &Scene) -> Vec<[DVec3; 3]> {
         let mesh = &scene.meshes[instance.mesh];
         let corner = |i: u32| {
             let position = mesh.positions[i as usize].as_dvec3();
-            instance.world_from_object.transform_point3(position)
+            instance.placement.transform_point3(position)
         };
         let triangles = mesh.triangles.iter();
         triangles.map(|t| t.map(corner)).collect::<Vec<_>>()

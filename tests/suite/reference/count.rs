@@ -427,7 +427,7 @@ fn primitives(scene: &Scene) -> Vec<Primitive> {
     }
     for instance in &scene.instances {
         let mesh = &scene.meshes[instance.mesh];
-        let placement = instance.world_from_object;
+        let placement = instance.placement;
         let normal_matrix = placement.matrix3.inverse().transpose();
         for indices in &mesh.triangles {
             let indices = indices.map(|i| i as usize);
@@ -518,6 +518,7 @@ fn ball(eye: DVec3, reflect: f32, transmit: f32, ior: f32) -> Scene {
                 radius: 1.0,
             },
             material: 0,
+            node: None,
         }],
         materials: vec![material],
         cameras: vec![glimray::scene::Camera {

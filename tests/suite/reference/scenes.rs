@@ -231,6 +231,7 @@ pub fn solids() -> Scene {
                 world_from_form,
             },
             material,
+            node: None,
         });
     }
     scene.add_sphere(dvec3(2.6, 0.6, 1.2), 0.3, 0);
@@ -268,6 +269,7 @@ impl Build for Scene {
         self.shapes.push(Shape {
             geometry: Geometry::Sphere { center, radius },
             material,
+            node: None,
         });
     }
 
@@ -275,6 +277,7 @@ impl Build for Scene {
         self.shapes.push(Shape {
             geometry: Geometry::Plane { point, normal },
             material,
+            node: None,
         });
     }
 
@@ -282,7 +285,8 @@ impl Build for Scene {
         self.meshes.push(mesh);
         self.instances.push(Instance {
             mesh: self.meshes.len() - 1,
-            world_from_object,
+            placement: world_from_object,
+            node: None,
         });
     }
 
