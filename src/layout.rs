@@ -3,142 +3,9 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// "None" for any index.
-pub const NONE: u32 = u32::MAX;
+mod tags;
 
-/// Marks a child reference as a leaf; see [`leaf_reference`].
-pub const LEAF: u32 = 0x8000_0000;
-/// Marks a leaf's or a primitive's index as a [`PackedShape`]'s; without it, it is a triangle's.
-pub const SHAPE: u32 = 0x4000_0000;
-/// Lowest bit of a leaf reference's count less one, which has three bits.
-pub const LEAF_COUNT_SHIFT: u32 = 27;
-/// One more primitive in a leaf reference.
-pub const LEAF_COUNT_ONE: u32 = 1 << LEAF_COUNT_SHIFT;
-/// The bits of a leaf reference's count less one.
-pub const LEAF_COUNT_MASK: u32 = 7 << LEAF_COUNT_SHIFT;
-/// The bits of a leaf reference's first primitive.
-pub const LEAF_FIRST_MASK: u32 = LEAF_COUNT_ONE - 1;
-/// Entries of the traversal stack.
-pub const STACK_SIZE: u32 = 96;
-/// Texels in a row of the geometry images, as a power of two.
-pub const IMAGE_WIDTH_LOG2: u32 = 12;
-
-/// [`PackedShape::kind`]: a sphere.
-pub const SHAPE_SPHERE: u32 = 0;
-/// [`PackedShape::kind`]: an infinite plane.
-pub const SHAPE_PLANE: u32 = 1;
-/// [`PackedShape::kind`]: [`crate::scene::Form::Disc`].
-pub const SHAPE_DISC: u32 = 2;
-/// [`PackedShape::kind`]: [`crate::scene::Form::Rectangle`].
-pub const SHAPE_RECTANGLE: u32 = 3;
-/// [`PackedShape::kind`]: [`crate::scene::Form::Box`].
-pub const SHAPE_BOX: u32 = 4;
-/// [`PackedShape::kind`]: [`crate::scene::Form::Cone`].
-pub const SHAPE_CONE: u32 = 5;
-/// [`PackedShape::kind`]: [`crate::scene::Form::Torus`].
-pub const SHAPE_TORUS: u32 = 6;
-/// [`PackedShape::kind`]: [`crate::scene::Form::Ellipsoid`].
-pub const SHAPE_ELLIPSOID: u32 = 7;
-/// Bit of [`PackedShape::flags`]: a cone has both of its caps.
-pub const SHAPE_CAPPED: u32 = 1;
-
-/// [`PackedLight::kind`]: shines from a point, evenly all round.
-pub const LIGHT_POINT: u32 = 0;
-/// [`PackedLight::kind`]: shines along one direction, from infinitely far.
-pub const LIGHT_DIRECTIONAL: u32 = 1;
-/// [`PackedLight::kind`]: shines from a point into a cone.
-pub const LIGHT_SPOT: u32 = 2;
-/// [`PackedLight::kind`]: a parallelogram that shines to the side of its normal.
-pub const LIGHT_RECTANGLE: u32 = 3;
-/// [`PackedLight::kind`]: a disc that shines to the side of its normal.
-pub const LIGHT_DISC: u32 = 4;
-/// [`PackedLight::kind`]: a sphere.
-pub const LIGHT_SPHERE: u32 = 5;
-
-/// [`PackedLight::attenuation`]: the same at every distance.
-pub const ATTENUATION_NONE: u32 = 0;
-/// [`PackedLight::attenuation`]: 1/r² at distance r.
-pub const ATTENUATION_INVERSE_SQUARE: u32 = 1;
-
-/// Bit of [`PackedMaterial::flags`]: the shading normal is turned to the side the ray comes from.
-pub const MATERIAL_TWO_SIDED: u32 = 1;
-/// Bit of [`PackedMaterial::flags`]: Fresnel's equations split reflected and transmitted light.
-pub const MATERIAL_FRESNEL: u32 = 2;
-/// Bit of [`PackedMaterial::flags`]: with [`MATERIAL_FRESNEL`], by Schlick's approximation.
-pub const MATERIAL_SCHLICK: u32 = 4;
-/// Bit of [`PackedMaterial::flags`]: [`crate::scene::Mixing::Sum`].
-pub const MATERIAL_SUM: u32 = 8;
-/// Bit of [`PackedMaterial::flags`]: [`crate::scene::Mixing::Blend`].
-pub const MATERIAL_BLEND: u32 = 16;
-/// Rows of 16 bytes of a [`PackedMaterial`].
-pub const MATERIAL_ROWS: u32 = 8;
-/// Rows of 16 bytes of a [`PackedTexture`].
-pub const TEXTURE_ROWS: u32 = 6;
-/// No texture, in the 16 bits that a [`PackedMaterial`] has for each.
-pub const NO_TEXTURE: u32 = 0xffff;
-
-/// [`PackedTexture::kind`]: cubes of two colours.
-pub const PATTERN_CHECKER: u32 = 0;
-/// [`PackedTexture::kind`]: layers of two colours along x.
-pub const PATTERN_STRIPES: u32 = 1;
-/// [`PackedTexture::kind`]: from one colour to another along x.
-pub const PATTERN_GRADIENT: u32 = 2;
-/// [`PackedTexture::kind`]: clouds of two colours.
-pub const PATTERN_NOISE: u32 = 3;
-/// [`PackedTexture::kind`]: a picture over u and v.
-pub const PATTERN_PICTURE: u32 = 4;
-/// Bit of [`PackedTexture::flags`]: the pattern lies in u and v, not in space.
-pub const TEXTURE_UV: u32 = 1;
-/// Bit of [`PackedTexture::flags`]: texels have hard edges.
-pub const TEXTURE_NEAREST: u32 = 2;
-
-/// Override `BACKGROUND`: [`crate::scene::Background::Color`].
-pub const BACKGROUND_COLOR: u32 = 0;
-/// Override `BACKGROUND`: [`crate::scene::Background::Gradient`].
-pub const BACKGROUND_GRADIENT: u32 = 1;
-/// Override `BACKGROUND`: [`crate::scene::Background::Picture`].
-pub const BACKGROUND_PICTURE: u32 = 2;
-
-/// Override `FILTER`: [`crate::scene::Filter::Box`].
-pub const FILTER_BOX: u32 = 0;
-/// Override `FILTER`: [`crate::scene::Filter::Tent`].
-pub const FILTER_TENT: u32 = 1;
-/// Override `FILTER`: [`crate::scene::Filter::Gaussian`].
-pub const FILTER_GAUSSIAN: u32 = 2;
-/// Override `FILTER`: [`crate::scene::Filter::BlackmanHarris`].
-pub const FILTER_BLACKMAN_HARRIS: u32 = 3;
-/// Override `FILTER`: [`crate::scene::Filter::Mitchell`].
-pub const FILTER_MITCHELL: u32 = 4;
-
-/// Override `TRIANGLE_TEST`: [`crate::render::TriangleTest::Plane`].
-pub const TRIANGLE_TEST_PLANE: u32 = 0;
-/// Override `TRIANGLE_TEST`: [`crate::render::TriangleTest::MollerTrumbore`].
-pub const TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1;
-/// Override `TRIANGLE_TEST`: [`crate::render::TriangleTest::Watertight`].
-pub const TRIANGLE_TEST_WATERTIGHT: u32 = 2;
-
-/// Override `VIEW`: [`crate::render::Integrator::Normals`].
-pub const VIEW_NORMALS: u32 = 0;
-/// Override `VIEW`: [`crate::render::Integrator::Depth`].
-pub const VIEW_DEPTH: u32 = 1;
-/// Override `VIEW`: [`crate::render::Integrator::Ids`].
-pub const VIEW_IDS: u32 = 2;
-/// Override `VIEW`: [`crate::render::Integrator::Heat`].
-pub const VIEW_HEAT: u32 = 3;
-
-/// [`PackedTone::curve`]: [`crate::scene::ToneCurve::None`].
-pub const TONE_NONE: u32 = 0;
-/// [`PackedTone::curve`]: [`crate::scene::ToneCurve::Aces`].
-pub const TONE_ACES: u32 = 1;
-/// [`PackedTone::curve`]: [`crate::scene::ToneCurve::Agx`].
-pub const TONE_AGX: u32 = 2;
-/// [`PackedTone::curve`]: [`crate::scene::ToneCurve::Reinhard`].
-pub const TONE_REINHARD: u32 = 3;
-
-/// [`PackedTone::transfer`]: [`crate::scene::Transfer::Srgb`].
-pub const TRANSFER_SRGB: u32 = 0;
-/// [`PackedTone::transfer`]: [`crate::scene::Transfer::Linear`].
-pub const TRANSFER_LINEAR: u32 = 1;
+pub use tags::*;
 
 /// A node as the shader's `decode_node` reads it: four rows of four words.
 pub type PackedNode = [u32; 16];
@@ -223,6 +90,60 @@ packed! {
         _pad0: u32,
         #[doc(hidden)]
         _pad1: u32,
+    }
+    /// A tree of its own, placed in render space by `linear` and `translation`.
+    PackedInstance {
+        /// Where its origin is.
+        translation: [f32; 3],
+        /// Child reference to its root.
+        root: u32,
+        /// Row of the inverse of `linear`.
+        inverse_x: [f32; 3],
+        /// Its first primitive, with [`SHAPE`] for shapes.
+        first: u32,
+        /// Row of the inverse of `linear`.
+        inverse_y: [f32; 3],
+        /// Number of its primitives.
+        count: u32,
+        /// Row of the inverse of `linear`.
+        inverse_z: [f32; 3],
+        /// More than 1 where it moves while the shutter is open.
+        key_count: u32,
+        /// Row of the matrix from object to render space.
+        linear_x: [f32; 3],
+        /// Index of its first [`PackedKey`].
+        first_key: u32,
+        /// Row of the matrix from object to render space.
+        linear_y: [f32; 3],
+        /// Tells instances apart in pictures of ids.
+        id: u32,
+        /// Row of the matrix from object to render space.
+        linear_z: [f32; 3],
+        #[doc(hidden)]
+        _pad: u32,
+        /// Affine row from object space to where patterns in space are looked up.
+        pattern_x: [f32; 4],
+        /// The same for y.
+        pattern_y: [f32; 4],
+        /// The same for z.
+        pattern_z: [f32; 4],
+    }
+    /// Where a moving instance is at one time: stretched, rotated, translated.
+    PackedKey {
+        /// Into render space.
+        translation: [f32; 3],
+        #[doc(hidden)]
+        _pad0: u32,
+        /// Unit quaternion x, y, z, w.
+        rotation: [f32; 4],
+        /// xx, yy and zz of a symmetric matrix.
+        stretch: [f32; 3],
+        #[doc(hidden)]
+        _pad1: u32,
+        /// yz, xz and xy of it.
+        shear: [f32; 3],
+        #[doc(hidden)]
+        _pad2: u32,
     }
     /// How a surface answers light; colours per channel, 0 or more.
     PackedMaterial {
@@ -367,10 +288,26 @@ packed! {
         background_width: u32,
         /// Picture: in texels.
         background_height: u32,
-        #[doc(hidden)]
-        _pad: u32,
+        /// Reference to the first node of the tree.
+        root: u32,
         /// Materials of the media round the camera, outermost first, then [`NONE`].
         camera_media: [u32; 4],
+        /// Row of the first [`PackedInstance`] among those of the nodes.
+        instance_row: u32,
+        /// Number of instances.
+        instance_count: u32,
+        /// Row of the first [`PackedKey`].
+        key_row: u32,
+        /// Row of the first [`PackedCamera`] of a moving one.
+        camera_row: u32,
+        /// Of the camera, evenly spaced over the shot; more than 1 where it moves.
+        camera_key_count: u32,
+        /// Of the lights; more than 1 where one moves. Each key has all lights.
+        light_key_count: u32,
+        #[doc(hidden)]
+        _pad0: u32,
+        #[doc(hidden)]
+        _pad1: u32,
     }
     /// What one submission is to do, and from `tiles_done` on what came of it.
     PackedSlice {

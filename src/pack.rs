@@ -1,42 +1,53 @@
 //! From the host model to the arrays that the GPU reads. Pure: no device is involved, the same
 //! scene gives the same bytes.
 
+mod forest;
 mod frame;
 mod geometry;
 mod light;
 mod material;
 mod media;
 mod nodes;
+mod placed;
+mod placement;
+mod view;
 
 pub use frame::PackedView;
+pub use placed::MOST_LAID_OUT;
 
 use crate::{
-    bvh,
+    bvh::Aabb,
     layout::{
         LEAF_FIRST_MASK, PackedMaterial, PackedNode, PackedShape, PackedTexture, PackedTriangle,
         PackedVertex, STACK_SIZE,
     },
-    scene::{Scene, Shadows},
+    scene::{Material, Scene, Shadows},
 };
 use bytemuck::cast_slice;
-use glam::{DVec3, Vec3};
+use forest::Forest;
+use geometry::Flat;
+use glam::DVec3;
+use placed::{Placed, PlacedTree, Plan};
 use std::time::Instant;
-
-/// Most primitives in a leaf.
-const LEAF_SIZE: u32 = 4;
 
 /// A scene as the GPU wants it.
 #[derive(Clone, Debug)]
 pub struct PackedScene {
-    /// Four-way nodes with boxes of 8 bits a plane; node 0 is the root.
+    /// Four-way nodes with boxes of 8 bits a plane: the tree of what stands still, whose root is node
+    /// 0, then those that instances place.
     pub nodes: Vec<PackedNode>,
-    /// In leaf order.
+    /// In leaf order, tree by tree.
     pub triangles: Vec<PackedTriangle>,
-    /// Bounded shapes in leaf order, then `plane_count` planes.
+    /// Those of them that are in the first tree, in render space; others are in a space of their own.
+    pub still_triangle_count: u32,
+    /// Bounded shapes of the first tree in leaf order, then `plane_count` planes, then those of other
+    /// trees.
     pub shapes: Vec<PackedShape>,
-    /// Shapes at the end of `shapes` that are not in the tree.
+    /// Shapes of the first tree.
+    pub still_shape_count: u32,
+    /// Shapes behind them that are in no tree.
     pub plane_count: u32,
-    /// In scene order, instances one after the other.
+    /// In scene order, mesh by mesh.
     pub vertices: Vec<PackedVertex>,
     /// (u, v, 0, 0) of each vertex; empty where no texture asks for them.
     pub uvs: Vec<[f32; 4]>,
@@ -52,11 +63,27 @@ pub struct PackedScene {
     pub features: Features,
     /// Transparent bodies, which the camera may be inside of.
     bodies: Vec<media::Body>,
+    /// Boxes near the root of the first tree, where there are others beside it.
+    still_parts: Vec<(Aabb, u32)>,
+    placed_trees: Vec<PlacedTree>,
+    placed: Vec<Placed>,
+    /// Whether no node moves.
+    is_still: bool,
+    /// The scene's materials where its visible lights or a track may change some.
+    changing: Option<Changing>,
     /// Where render space has its origin, in world space: at the scene's default camera, where the
     /// picture needs f32 to be finest.
     pub origin: DVec3,
     /// Seconds that building the tree took.
     pub build_seconds: f64,
+}
+
+/// What [`PackedScene::materials`] are made of.
+#[derive(Clone, Debug)]
+struct Changing {
+    materials: Vec<Material>,
+    /// Indices of the visible lights.
+    lamps: Vec<usize>,
 }
 
 /// What is in a scene that a kernel needs code for.
@@ -78,6 +105,8 @@ pub struct Features {
     pub textures: bool,
     /// Something shines that rays can see.
     pub emission: bool,
+    /// There are trees that instances place.
+    pub instances: bool,
 }
 
 /// Why a scene cannot be packed: it is too big for the formats the GPU reads.
@@ -117,73 +146,96 @@ pub enum PackError {
     },
 }
 
-/// Packs a scene and builds its tree.
+/// Packs a scene and builds its trees.
 pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
-    let origin = scene.cameras[scene.camera_index].look_from;
-    let geometry::Flat {
-        triangles,
-        vertices,
-        uvs,
-        bounded,
-        planes,
-        mixed_materials,
-    } = geometry::flatten(scene, origin)?;
+    scene_with(scene, MOST_LAID_OUT)
+}
+
+/// The same, where meshes that stand still in several places are laid out in the world if their copies
+/// have at most this many triangles, and else are one tree with many instances.
+pub fn scene_with(scene: &Scene, most_laid_out: usize) -> Result<PackedScene, PackError> {
+    let rest = scene.frame(0.0);
+    let origin = rest.camera.look_from;
+    let plan = Plan::new(scene, &rest, most_laid_out);
+    let mut flat = Flat::of_still(&plan, scene, &rest, origin)?;
+
+    let start = Instant::now();
+    let mut forest = Forest::default();
+    let stack_size = match plan.is_still() {
+        // The last store of a traversal step lies one beyond the entries that count.
+        true => STACK_SIZE as usize - 1,
+        false => placed::PLACED_STACK,
+    };
+    let still = forest.plant(&flat.triangles, &flat.bounded, stack_size);
+    let (still_triangle_count, still_shape_count) = (flat.triangles.len(), flat.bounded.len());
+    forest.shapes.extend_from_slice(&flat.planes);
+    let (placed_trees, placed) = plan.plant(scene, &mut flat, &mut forest)?;
+    let build_seconds = start.elapsed().as_secs_f64();
+
     let limit = LEAF_FIRST_MASK as usize;
-    for (what, count) in [("triangles", triangles.len()), ("shapes", bounded.len())] {
+    let counts = [
+        ("triangles", flat.triangles.len()),
+        ("shapes", flat.bounded.len()),
+    ];
+    for (what, count) in counts {
         if count > limit {
             return Err(PackError::TooMany { what, count, limit });
         }
     }
-
-    let start = Instant::now();
-    let boxes: Vec<_> = (triangles.iter().map(geometry::triangle_box))
-        .chain(bounded.iter().map(|(_, bounds)| *bounds))
-        .collect();
-    let mut groups = vec![nodes::TRIANGLES; triangles.len()];
-    groups.resize(boxes.len(), nodes::SHAPES);
-    let limits = bvh::Limits {
-        leaf_size: LEAF_SIZE,
-        // The last store of a traversal step lies one beyond the entries that count.
-        stack_size: STACK_SIZE as usize - 1,
-    };
-    let bvh = bvh::build(&boxes, &groups, nodes::GROUP_COUNT, limits);
     let (texels, pictures) = material::texels(scene)?;
     let textures = material::textures(scene, origin, &pictures)?;
     let features = Features {
-        shape_kinds: (bounded.iter()).fold(0, |kinds, (shape, _)| kinds | 1 << shape.kind),
-        mixed_materials,
+        shape_kinds: (flat.bounded.iter()).fold(0, |kinds, (shape, _)| kinds | 1 << shape.kind),
+        mixed_materials: flat.mixed_materials,
         filtered_shadows: scene.shadows == Shadows::Filtered,
+        instances: !placed.is_empty(),
         ..material::features(scene)
     };
-    let lamps: Vec<_> = light::light_surfaces(scene)
-        .map(|lamp| lamp.material)
-        .collect();
-    let features = Features {
-        emission: features.emission || lamps.iter().any(|lamp| lamp.emission != Vec3::ZERO),
-        ..features
+    let lamps: Vec<usize> = light::visible(scene).collect();
+    let lamp_materials = lamps
+        .iter()
+        .map(|&index| light::material(&rest.lights[index]));
+    let rest_materials = match &rest.materials[..] {
+        [] => &scene.materials,
+        changed => changed,
     };
-    let pick_shape = |&i: &u32| bounded[i as usize - triangles.len()].0;
+    let materials = (rest_materials.iter().map(material::material))
+        .chain(lamp_materials.map(|lamp| material::material(&lamp)))
+        .collect();
+    let is_changing = !rest.materials.is_empty() || (!lamps.is_empty() && !scene.tracks.is_empty());
     Ok(PackedScene {
-        nodes: bvh.nodes.iter().map(nodes::quantize).collect(),
-        triangles: (bvh.order[nodes::TRIANGLES as usize].iter())
-            .map(|&i| triangles[i as usize])
-            .collect(),
-        shapes: (bvh.order[nodes::SHAPES as usize].iter().map(pick_shape))
-            .chain(planes.iter().copied())
-            .collect(),
-        plane_count: planes.len() as u32,
-        vertices,
-        uvs: if features.textures { uvs } else { Vec::new() },
-        materials: (scene.materials.iter().chain(&lamps))
-            .map(material::material)
-            .collect(),
+        nodes: forest.nodes,
+        triangles: forest.triangles,
+        still_triangle_count: still_triangle_count as u32,
+        shapes: forest.shapes,
+        still_shape_count: still_shape_count as u32,
+        plane_count: flat.planes.len() as u32,
+        vertices: flat.vertices,
+        uvs: if features.textures {
+            flat.uvs
+        } else {
+            Vec::new()
+        },
+        materials,
         textures,
         texels,
         pictures,
         features,
-        bodies: media::bodies(scene),
+        bodies: media::bodies(scene, &rest),
+        still_parts: if placed.is_empty() {
+            Vec::new()
+        } else {
+            still.parts
+        },
+        placed_trees,
+        placed,
+        is_still: !scene.moving_nodes().contains(&true),
+        changing: is_changing.then(|| Changing {
+            materials: scene.materials.clone(),
+            lamps,
+        }),
         origin,
-        build_seconds: start.elapsed().as_secs_f64(),
+        build_seconds,
     })
 }
 
@@ -202,8 +254,13 @@ impl PackedScene {
         ]
     }
 
-    /// Number of shapes in the tree.
+    /// Number of shapes in all trees.
     pub fn bounded_shape_count(&self) -> u32 {
         self.shapes.len() as u32 - self.plane_count
+    }
+
+    /// Number of instances that a view can have.
+    pub fn instance_count(&self) -> usize {
+        self.placed.len()
     }
 }

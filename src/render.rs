@@ -184,8 +184,8 @@ impl Renderer {
             settings: &settings,
             film_rows: film.largest_window(),
         };
-        let fetch = bindings::choose_fetch(settings.fetch, &gpu, &scene);
-        let gpu = gpu.serving(bindings::needs(&scene, fetch, task.film_rows))?;
+        let fetch = bindings::choose_fetch(settings.fetch, &gpu, &scene, &view);
+        let gpu = gpu.serving(bindings::needs(&scene, &view, fetch, task.film_rows))?;
         let choice = gpu.choice().clone();
         let device = match Device::new(gpu, fetch, task, &mut stats) {
             Err(GpuError::Lost) => replacement(&choice, fetch, task, &mut stats)?,

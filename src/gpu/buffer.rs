@@ -99,25 +99,31 @@ impl Gpu {
         width: u32,
         format: wgpu::TextureFormat,
     ) -> Result<wgpu::TextureView, GpuError> {
+        let image = self.allocate_image(what, contents.len() as u64, width, format)?;
+        self.write_image(&image, 0, contents)?;
+        Ok(image)
+    }
+
+    /// The same with room for so many bytes, all zero.
+    pub(crate) fn allocate_image(
+        &self,
+        what: &'static str,
+        bytes: u64,
+        width: u32,
+        format: wgpu::TextureFormat,
+    ) -> Result<wgpu::TextureView, GpuError> {
         if fault::strikes(fault::Site::Allocation) {
             return Err(GpuError::OutOfMemory { what: what.into() });
         }
-        let texel_bytes = format.block_copy_size(None).unwrap_or(16);
-        let row_bytes = (texel_bytes * width) as usize;
         let binding = match format {
             wgpu::TextureFormat::Rgba32Uint => wgpu::TextureUsages::STORAGE_BINDING,
             _ => wgpu::TextureUsages::TEXTURE_BINDING,
         };
-        let height = contents.len().div_ceil(row_bytes).max(1) as u32;
-        let size = |height| wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        };
+        let height = bytes.div_ceil(row_bytes(width, format)).max(1) as u32;
         let texture = self.scoped(what, || {
             self.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(what),
-                size: size(height),
+                size: extent(width, height),
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
@@ -126,17 +132,30 @@ impl Gpu {
                 view_formats: &[],
             })
         })?;
+        Ok(texture.create_view(&Default::default()))
+    }
+
+    /// Writes rows of an image from `first_row` on; what the last of them lacks is zero.
+    pub(crate) fn write_image(
+        &self,
+        image: &wgpu::TextureView,
+        first_row: u32,
+        contents: &[u8],
+    ) -> Result<(), GpuError> {
         const ROWS: usize = 512;
-        self.scoped(what, || {
+        let texture = image.texture();
+        let width = texture.width();
+        let row_bytes = row_bytes(width, texture.format()) as usize;
+        self.scoped("write", || {
             for (i, part) in contents.chunks(ROWS * row_bytes).enumerate() {
                 let mut padded = part.to_vec();
                 padded.resize(part.len().next_multiple_of(row_bytes), 0);
                 let target = wgpu::TexelCopyTextureInfo {
-                    texture: &texture,
+                    texture,
                     mip_level: 0,
                     origin: wgpu::Origin3d {
                         x: 0,
-                        y: (i * ROWS) as u32,
+                        y: first_row + (i * ROWS) as u32,
                         z: 0,
                     },
                     aspect: wgpu::TextureAspect::All,
@@ -146,11 +165,22 @@ impl Gpu {
                     bytes_per_row: Some(row_bytes as u32),
                     rows_per_image: None,
                 };
-                let rows = padded.len() / row_bytes;
+                let rows = (padded.len() / row_bytes) as u32;
                 self.queue
-                    .write_texture(target, &padded, layout, size(rows as u32));
+                    .write_texture(target, &padded, layout, extent(width, rows));
             }
-        })?;
-        Ok(texture.create_view(&Default::default()))
+        })
+    }
+}
+
+fn row_bytes(width: u32, format: wgpu::TextureFormat) -> u64 {
+    u64::from(format.block_copy_size(None).unwrap_or(16) * width)
+}
+
+fn extent(width: u32, height: u32) -> wgpu::Extent3d {
+    wgpu::Extent3d {
+        width,
+        height,
+        depth_or_array_layers: 1,
     }
 }

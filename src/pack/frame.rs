@@ -1,28 +1,38 @@
-//! What changes from frame to frame: camera and lights.
+//! What changes from frame to frame: camera, lights, materials and what is placed.
 
 use super::{
     PackError, PackedScene,
     geometry::{in_range, render_point},
-    media,
+    light, material, media,
+    view::Placements,
 };
 use crate::{
     layout::{
         ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, BACKGROUND_COLOR, BACKGROUND_GRADIENT,
-        BACKGROUND_PICTURE, LIGHT_DIRECTIONAL, LIGHT_DISC, LIGHT_POINT, LIGHT_RECTANGLE,
-        LIGHT_SPHERE, LIGHT_SPOT, PackedCamera, PackedFrame, PackedLight,
+        BACKGROUND_PICTURE, IMAGE_WIDTH_LOG2, INSTANCE_ROWS, KEY_ROWS, LIGHT_DIRECTIONAL,
+        LIGHT_DISC, LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, MOVING, NODE_ROWS,
+        PackedCamera, PackedFrame, PackedLight, PackedMaterial,
     },
     scene::{Attenuation, Background, Camera, Frame, Light, LightKind},
 };
 use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
+use std::slice;
 
 /// A [`Frame`] as the GPU wants it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedView {
     /// Its camera's `right` is still that of a square picture; [`PackedView::with_aspect`] widens it.
     pub frame: PackedFrame,
-    /// At least one: a dark light stands in where there is none.
+    /// At least one: a dark light stands in where there is none. Where one moves, all of them for each
+    /// key.
     pub lights: Vec<PackedLight>,
+    /// Keys of a moving camera, whose `right` is that of a square picture too; else empty.
+    pub cameras: Vec<PackedCamera>,
+    /// Trees that instances place.
+    placements: Placements,
+    /// In place of the scene's, if any changes over time; else empty.
+    pub materials: Vec<PackedMaterial>,
     /// Whether there is a light that is not dark.
     pub has_lights: bool,
     /// Whether there is a light that has extent.
@@ -32,42 +42,111 @@ pub struct PackedView {
 }
 
 impl PackedScene {
-    /// Packs what [`crate::scene::Scene::shot`] of the scene that this was made from gives.
-    pub fn shot(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
-        self.frame(&frames[0])
-    }
-
     /// Packs a frame of the scene that this was made from.
     pub fn frame(&self, frame: &Frame) -> Result<PackedView, PackError> {
-        let mut lights = (frame.lights.iter())
-            .map(|l| light(l, self.origin))
+        self.shot(slice::from_ref(frame))
+    }
+
+    /// Packs what [`crate::scene::Scene::shot`] of the scene that this was made from gives: at least
+    /// one frame, evenly spaced over the time in which the shutter is open.
+    pub fn shot(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
+        let first = &frames[0];
+        let mut cameras = (frames.iter())
+            .map(|frame| camera(&frame.camera, self.origin))
             .collect::<Result<Vec<_>, _>>()?;
-        let has_lights = lights.iter().any(|light| light.color != [0.0; 3]);
+        if cameras.iter().all(|camera| *camera == cameras[0]) {
+            cameras.truncate(1);
+        }
+        let mut lights = Vec::new();
+        for frame in frames {
+            let packed = frame
+                .lights
+                .iter()
+                .map(|light| packed_light(light, self.origin));
+            let key = packed.collect::<Result<Vec<_>, _>>()?;
+            lights.push(key);
+        }
+        if lights.iter().all(|key| *key == lights[0]) {
+            lights.truncate(1);
+        }
+        let light_key_count = lights.len() as u32;
+        let mut lights = lights.concat();
         if lights.is_empty() {
             lights.push(PackedLight::default());
         }
+        let light_count = lights.len() as u32 / light_key_count;
+
+        let first_node = self.first_view_node();
+        let placements = match self.features.instances {
+            true => self.placements(frames, first_node)?,
+            false => Placements::default(),
+        };
+        let moving = if placements.moves { MOVING } else { 0 };
+        let instance_row = NODE_ROWS * (first_node + placements.nodes.len() as u32);
+        let key_row = instance_row + INSTANCE_ROWS * placements.instances.len() as u32;
+        let camera_row = key_row + KEY_ROWS * placements.keys.len() as u32;
         Ok(PackedView {
             frame: PackedFrame {
-                camera: camera(&frame.camera, self.origin)?,
-                light_count: lights.len() as u32,
-                ambient: frame.ambient.into(),
-                triangle_count: self.triangles.len() as u32,
-                shape_count: self.bounded_shape_count(),
+                camera: cameras[0],
+                light_count,
+                ambient: first.ambient.into(),
+                triangle_count: self.still_triangle_count,
+                shape_count: self.still_shape_count,
                 plane_count: self.plane_count,
                 vertex_count: self.vertices.len() as u32,
                 material_count: self.materials.len() as u32,
-                camera_media: media::around(&self.bodies, frame.camera.look_from)?,
-                ..self.background(&frame.background)
+                camera_media: media::around(&self.bodies, &first.nodes, first.camera.look_from)?,
+                root: if self.features.instances {
+                    first_node | moving
+                } else {
+                    0
+                },
+                instance_row,
+                instance_count: placements.instances.len() as u32,
+                key_row,
+                camera_row,
+                camera_key_count: cameras.len() as u32,
+                light_key_count,
+                ..self.background(&first.background)
             },
-            background: match frame.background {
+            background: match first.background {
                 Background::Color(_) => BACKGROUND_COLOR,
                 Background::Gradient { .. } => BACKGROUND_GRADIENT,
                 Background::Picture { .. } => BACKGROUND_PICTURE,
             },
+            has_lights: lights.iter().any(|light| light.color != [0.0; 3]),
             has_area_lights: lights.iter().any(|light| light.kind >= LIGHT_RECTANGLE),
             lights,
-            has_lights,
+            cameras: if cameras.len() > 1 {
+                cameras
+            } else {
+                Vec::new()
+            },
+            placements,
+            materials: self.materials_of(first),
         })
+    }
+
+    /// Index of the first node of a view: behind all of the scene's, at the beginning of a row of an
+    /// image.
+    pub fn first_view_node(&self) -> u32 {
+        (self.nodes.len() as u32).next_multiple_of((1 << IMAGE_WIDTH_LOG2) / NODE_ROWS)
+    }
+
+    /// The materials at the time of a frame; empty if they never change.
+    fn materials_of(&self, frame: &Frame) -> Vec<PackedMaterial> {
+        let Some(changing) = &self.changing else {
+            return Vec::new();
+        };
+        let materials = match &frame.materials[..] {
+            [] => &changing.materials,
+            changed => changed,
+        };
+        let lamps = changing.lamps.iter();
+        let lamps = lamps.map(|&index| light::material(&frame.lights[index]));
+        (materials.iter().map(material::material))
+            .chain(lamps.map(|lamp| material::material(&lamp)))
+            .collect()
     }
 
     /// The members of a frame that belong to the background.
@@ -100,18 +179,38 @@ impl PackedScene {
 impl PackedView {
     /// Every byte that a picture of this scene depends on.
     pub fn parts(&self) -> Vec<&[u8]> {
-        vec![bytes_of(&self.frame), cast_slice(&self.lights)]
+        let mut parts = vec![
+            bytes_of(&self.frame),
+            cast_slice(&self.lights),
+            cast_slice(&self.materials),
+        ];
+        parts.extend(self.node_parts());
+        parts
+    }
+
+    /// What follows the scene's nodes on the GPU.
+    pub fn node_parts(&self) -> [&[u8]; 4] {
+        [
+            cast_slice(&self.placements.nodes),
+            cast_slice(&self.placements.instances),
+            cast_slice(&self.placements.keys),
+            cast_slice(&self.cameras),
+        ]
+    }
+
+    /// Whether instances move while the shutter is open.
+    pub fn has_moving_instances(&self) -> bool {
+        self.placements.moves
     }
 
     /// The view for a picture of `width` × `height` pixels: aspect = width / height.
     pub fn with_aspect(&self, width: u32, height: u32) -> Self {
         let mut view = self.clone();
         let aspect = f64::from(width) / f64::from(height);
-        view.frame.camera.right = self
-            .frame
-            .camera
-            .right
-            .map(|c| (f64::from(c) * aspect) as f32);
+        let cameras = view.cameras.iter_mut().chain([&mut view.frame.camera]);
+        for camera in cameras {
+            camera.right = camera.right.map(|c| (f64::from(c) * aspect) as f32);
+        }
         view
     }
 }
@@ -136,7 +235,7 @@ fn camera(camera: &Camera, origin: DVec3) -> Result<PackedCamera, PackError> {
     })
 }
 
-fn light(light: &Light, origin: DVec3) -> Result<PackedLight, PackError> {
+fn packed_light(light: &Light, origin: DVec3) -> Result<PackedLight, PackError> {
     let mut packed = PackedLight {
         direction: DVec3::NEG_Y.as_vec3().into(),
         color: light.color.into(),

@@ -1,20 +1,26 @@
-//! Instances and shapes flattened into render space.
+//! Instances and shapes laid out in render space, or in the space of a tree that is placed.
 
-use super::{PackError, light::light_surfaces};
+use super::{
+    Forest, PackError,
+    forest::Tree,
+    light,
+    placed::{PLACED_STACK, Plan},
+};
 use crate::{
     bvh::Aabb,
     layout::{
         PackedShape, PackedTriangle, PackedVertex, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC,
         SHAPE_ELLIPSOID, SHAPE_PLANE, SHAPE_RECTANGLE, SHAPE_SPHERE, SHAPE_TORUS,
     },
-    scene::{Form, Geometry, Instance, Mesh, Scene},
+    scene::{Form, Frame, Geometry, Mesh, Scene},
 };
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// Beyond this, squares of coordinates leave the range of f32.
 const COORDINATE_LIMIT: f64 = 1e15;
 
-/// A scene's geometry in render space, in scene order.
+/// Geometry in scene order.
+#[derive(Default)]
 pub struct Flat {
     pub triangles: Vec<PackedTriangle>,
     pub vertices: Vec<PackedVertex>,
@@ -26,32 +32,57 @@ pub struct Flat {
     pub mixed_materials: bool,
 }
 
-/// Places every instance and shape. All arithmetic before the last rounding is f64.
-pub fn flatten(scene: &Scene, origin: DVec3) -> Result<Flat, PackError> {
-    let mut flat = Flat {
-        triangles: Vec::with_capacity(scene.triangle_count()),
-        vertices: Vec::new(),
-        uvs: Vec::new(),
-        bounded: Vec::new(),
-        planes: Vec::new(),
-        mixed_materials: false,
-    };
-    for instance in &scene.instances {
-        let mesh = &scene.meshes[instance.mesh];
-        flat.add_mesh(mesh, instance, origin)?;
-    }
-    for (id, shape) in scene.shapes.iter().enumerate() {
-        flat.add_shape(&shape.geometry, shape.material, id, origin)?;
-    }
-    for (i, surface) in light_surfaces(scene).enumerate() {
-        let (material, id) = (scene.materials.len() + i, scene.shapes.len() + i);
-        flat.add_shape(&surface.geometry, material, id, origin)?;
-    }
-    Ok(flat)
-}
+/// How far a [`Flat`] was filled at some time: triangles and bounded shapes.
+pub type Mark = (usize, usize);
 
 impl Flat {
-    fn add_shape(
+    /// Lays out all that the plan says stands still. All arithmetic before the last rounding is f64.
+    pub fn of_still(
+        plan: &Plan,
+        scene: &Scene,
+        rest: &Frame,
+        origin: DVec3,
+    ) -> Result<Self, PackError> {
+        let mut flat = Self::default();
+        let world_from = |node: Option<usize>| {
+            node.map_or(DAffine3::IDENTITY, |node| rest.nodes[node].world_from_node)
+        };
+        for &index in &plan.still_instances {
+            let instance = &scene.instances[index];
+            let world_from_object = world_from(instance.node) * instance.placement;
+            flat.add_mesh(&scene.meshes[instance.mesh], world_from_object, origin)?;
+        }
+        for &id in &plan.still_shapes {
+            let shape = &scene.shapes[id];
+            let geometry = match shape.node {
+                None => shape.geometry,
+                Some(_) => shape.geometry.transformed(world_from(shape.node)),
+            };
+            flat.add_shape(&geometry, shape.material, id, origin)?;
+        }
+        for &index in &plan.still_lamps {
+            let (material, id) = light::material_and_id(scene, index);
+            if let Some(surface) = light::surface(&rest.lights[index].kind) {
+                flat.add_shape(&surface, material, id, origin)?;
+            }
+        }
+        Ok(flat)
+    }
+
+    pub fn mark(&self) -> Mark {
+        (self.triangles.len(), self.bounded.len())
+    }
+
+    /// A tree of all that came since the mark.
+    pub fn plant_from(&self, (triangles, shapes): Mark, forest: &mut Forest) -> Tree {
+        forest.plant(
+            &self.triangles[triangles..],
+            &self.bounded[shapes..],
+            PLACED_STACK,
+        )
+    }
+
+    pub fn add_shape(
         &mut self,
         geometry: &Geometry,
         material: usize,
@@ -129,13 +160,12 @@ impl Flat {
         Ok(())
     }
 
-    fn add_mesh(
+    pub fn add_mesh(
         &mut self,
         mesh: &Mesh,
-        instance: &Instance,
+        world_from_object: DAffine3,
         origin: DVec3,
     ) -> Result<(), PackError> {
-        let world_from_object = instance.placement;
         // Normals go by the inverse transpose; a mirroring keeps them on their side.
         let normal_matrix: DMat3 = world_from_object.matrix3.inverse().transpose();
         let first_vertex = self.vertices.len();

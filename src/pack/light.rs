@@ -1,50 +1,81 @@
 //! The surfaces of lights that rays can see.
 
-use crate::scene::{Form, Geometry, LightKind, Material, Scene};
+use crate::scene::{Form, Geometry, Light, LightKind, Material, Scene};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
-/// What rays see of a light.
-pub struct LightSurface {
-    pub geometry: Geometry,
-    /// Answers no light, and shines on the side that the light shines on.
-    pub material: Material,
+/// Those lights' indices, in scene order.
+pub fn visible(scene: &Scene) -> impl Iterator<Item = usize> + '_ {
+    let has_surface = |light: &Light| light.visible && unit_surface(&light.kind).is_some();
+    (0..scene.lights.len()).filter(move |&index| has_surface(&scene.lights[index]))
 }
 
-/// Those of all visible lights, in scene order.
-pub fn light_surfaces(scene: &Scene) -> impl Iterator<Item = LightSurface> + '_ {
-    let visible = scene.lights.iter().filter(|light| light.visible);
-    visible.filter_map(|light| {
-        let radiance = light.kind.radiance()?;
-        Some(LightSurface {
-            geometry: geometry(&light.kind)?,
-            material: Material {
-                diffuse: Vec3::ZERO,
-                ambient: Vec3::ZERO,
-                emission: (light.color.as_dvec3() * radiance).as_vec3(),
-                two_sided: false,
-                ..Material::default()
-            },
-        })
+/// Index of the material of a visible light's surface, behind those of the scene, and its id, behind
+/// those of the shapes.
+pub fn material_and_id(scene: &Scene, light: usize) -> (usize, usize) {
+    let place = visible(scene).take_while(|&other| other != light).count();
+    (scene.materials.len() + place, scene.shapes.len() + place)
+}
+
+/// What rays see of a light: it answers no light, and shines on the side that the light shines on.
+pub fn material(light: &Light) -> Material {
+    let radiance = light.kind.radiance().unwrap_or(0.0);
+    Material {
+        diffuse: Vec3::ZERO,
+        ambient: Vec3::ZERO,
+        emission: (light.color.as_dvec3() * radiance).as_vec3(),
+        two_sided: false,
+        ..Material::default()
+    }
+}
+
+/// The surface of a light in the world.
+pub fn surface(kind: &LightKind) -> Option<Geometry> {
+    if let LightKind::Sphere { center, radius } = *kind {
+        return Some(Geometry::Sphere { center, radius });
+    }
+    match unit_surface(kind)? {
+        Geometry::Placed { form, .. } => Some(Geometry::Placed {
+            form,
+            world_from_form: world_from_unit(kind)?,
+        }),
+        other => Some(other),
+    }
+}
+
+/// The surface of a light of this kind in a space of its own, from which [`world_from_unit`] leads.
+pub fn unit_surface(kind: &LightKind) -> Option<Geometry> {
+    let form = match kind {
+        LightKind::Point { .. } | LightKind::Directional { .. } | LightKind::Spot { .. } => {
+            return None;
+        }
+        LightKind::Rectangle { .. } => Form::Rectangle,
+        LightKind::Disc { .. } => Form::Disc { hole: 0.0 },
+        LightKind::Sphere { .. } => {
+            return Some(Geometry::Sphere {
+                center: DVec3::ZERO,
+                radius: 1.0,
+            });
+        }
+    };
+    Some(Geometry::Placed {
+        form,
+        world_from_form: DAffine3::IDENTITY,
     })
 }
 
-fn geometry(kind: &LightKind) -> Option<Geometry> {
-    let placed = |form, x_axis: DVec3, y_axis: DVec3, z_axis: DVec3, center| Geometry::Placed {
-        form,
-        world_from_form: DAffine3::from_mat3_translation(
-            DMat3::from_cols(x_axis, y_axis, z_axis),
-            center,
-        ),
-    };
-    match *kind {
-        LightKind::Point { .. } | LightKind::Directional { .. } | LightKind::Spot { .. } => None,
+/// From the space of [`unit_surface`] to the world.
+pub fn world_from_unit(kind: &LightKind) -> Option<DAffine3> {
+    let (matrix, center) = match *kind {
+        LightKind::Point { .. } | LightKind::Directional { .. } | LightKind::Spot { .. } => {
+            return None;
+        }
         LightKind::Rectangle {
             center,
             edge_u,
             edge_v,
         } => {
             let normal = edge_u.cross(edge_v).try_normalize()?;
-            Some(placed(Form::Rectangle, edge_v, normal, edge_u, center))
+            (DMat3::from_cols(edge_v, normal, edge_u), center)
         }
         LightKind::Disc {
             center,
@@ -52,9 +83,11 @@ fn geometry(kind: &LightKind) -> Option<Geometry> {
             radius,
         } => {
             let (x, z) = normal.any_orthonormal_pair();
-            let form = Form::Disc { hole: 0.0 };
-            Some(placed(form, x * radius, normal, z * radius, center))
+            (DMat3::from_cols(x * radius, normal, z * radius), center)
         }
-        LightKind::Sphere { center, radius } => Some(Geometry::Sphere { center, radius }),
-    }
+        LightKind::Sphere { center, radius } => {
+            (DMat3::from_diagonal(DVec3::splat(radius)), center)
+        }
+    };
+    Some(DAffine3::from_mat3_translation(matrix, center))
 }

@@ -1,6 +1,6 @@
 //! Materials, textures and pictures as the GPU reads them.
 
-use super::{Features, PackError};
+use super::{Features, PackError, light};
 use crate::{
     layout::{
         IMAGE_WIDTH_LOG2, MATERIAL_BLEND, MATERIAL_FRESNEL, MATERIAL_SCHLICK, MATERIAL_SUM,
@@ -8,7 +8,9 @@ use crate::{
         PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial, PackedTexture, TEXTURE_NEAREST,
         TEXTURE_UV,
     },
-    scene::{Fresnel, Material, Mixing, Pattern, Scene, Space, Texture},
+    scene::{
+        Fresnel, Material, MaterialProperty, Mixing, Pattern, Scene, Space, Target, Texture, Values,
+    },
 };
 use glam::{DAffine3, DVec3, Vec3};
 use half::f16;
@@ -66,15 +68,27 @@ pub fn material(material: &Material) -> PackedMaterial {
 /// What the materials, textures and pictures of a scene ask for.
 pub fn features(scene: &Scene) -> Features {
     let is_lit = |color: Vec3| color != Vec3::ZERO;
-    let refraction = scene.materials.iter().any(|m| is_lit(m.transmit));
+    // What a track may switch on at some time counts too.
+    let becomes_lit = |property| {
+        (scene.tracks.iter()).any(|track| {
+            let is_it = |target: &Target| matches!(target, Target::Material(_, p) if *p == property);
+            let is_nothing = matches!(&track.curve.values, Values::Vector(v) if v.iter().all(|v| *v == DVec3::ZERO));
+            track.targets.iter().any(is_it) && !is_nothing
+        })
+    };
+    let reflection = becomes_lit(MaterialProperty::Reflect);
+    let refraction = becomes_lit(MaterialProperty::Transmit)
+        || scene.materials.iter().any(|m| is_lit(m.transmit));
     let bodies = scene.shapes.len() + scene.instances.len();
     Features {
-        reflection: (scene.materials.iter()).any(|m| is_lit(m.reflect)),
+        reflection: reflection || (scene.materials.iter()).any(|m| is_lit(m.reflect)),
         refraction,
         // One mesh may hold several bodies, which then mostly differ in material.
         contact: refraction && (bodies > 1 || scene.materials.len() > 1),
         textures: !scene.textures.is_empty(),
-        emission: scene.materials.iter().any(|m| is_lit(m.emission)),
+        emission: becomes_lit(MaterialProperty::Emission)
+            || scene.materials.iter().any(|m| is_lit(m.emission))
+            || light::visible(scene).next().is_some(),
         ..Features::default()
     }
 }

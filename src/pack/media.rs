@@ -3,16 +3,18 @@
 use super::PackError;
 use crate::{
     layout::NONE,
-    scene::{Form, Geometry, Scene},
+    scene::{Form, Frame, Geometry, NodeState, Scene},
 };
 use glam::{DVec3, Vec3};
 
 /// Most media that a ray remembers.
 pub const MEDIA_SIZE: usize = 4;
 
-/// A closed surface of a transparent material, in world space.
+/// A closed surface of a transparent material.
 #[derive(Clone, Debug)]
 pub struct Body {
+    /// In whose space it is; `None` is the world.
+    node: Option<usize>,
     material: u32,
     /// Of its bounds, to tell what lies inside what.
     volume: f64,
@@ -26,15 +28,22 @@ enum Surface {
 }
 
 /// The transparent bodies of a scene, the largest first.
-pub fn bodies(scene: &Scene) -> Vec<Body> {
+pub fn bodies(scene: &Scene, rest: &Frame) -> Vec<Body> {
+    let size = |node: Option<usize>| {
+        node.map_or(1.0, |node| {
+            rest.nodes[node].world_from_node.matrix3.determinant().abs()
+        })
+    };
     let is_clear = |material: usize| scene.materials[material].transmit != Vec3::ZERO;
     let shapes = (scene.shapes.iter())
         .filter(|shape| is_clear(shape.material) && is_closed(&shape.geometry))
         .map(|shape| {
             let bounds = shape.geometry.bounds();
+            let volume = bounds.map_or(f64::INFINITY, |(min, max)| (max - min).element_product());
             Body {
+                node: shape.node,
                 material: shape.material as u32,
-                volume: bounds.map_or(f64::INFINITY, |(min, max)| (max - min).element_product()),
+                volume: volume * size(shape.node),
                 surface: Surface::Shape(shape.geometry),
             }
         });
@@ -58,8 +67,9 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
             .zip(points)
             .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
         is_clear(material as usize).then_some(Body {
+            node: instance.node,
             material,
-            volume: (max - min).element_product(),
+            volume: (max - min).element_product() * size(instance.node),
             surface: Surface::Mesh(triangles),
         })
     });
@@ -68,13 +78,23 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
     bodies
 }
 
-/// The materials of the bodies round a point, the outermost first, then [`NONE`].
+/// The materials of the bodies round a point in the world, the outermost first, then [`NONE`].
 ///
 /// # Errors
 /// More than [`MEDIA_SIZE`] are nested there.
-pub fn around(bodies: &[Body], point: DVec3) -> Result<[u32; MEDIA_SIZE], PackError> {
+pub fn around(
+    bodies: &[Body],
+    nodes: &[NodeState],
+    point: DVec3,
+) -> Result<[u32; MEDIA_SIZE], PackError> {
     let mut media = [NONE; MEDIA_SIZE];
-    let inside = bodies.iter().filter(|body| body.contains(point));
+    let inside = bodies.iter().filter(|body| match body.node {
+        None => body.contains(point),
+        Some(node) => {
+            let state = nodes[node];
+            state.visible && body.contains(state.world_from_node.inverse().transform_point3(point))
+        }
+    });
     let materials: Vec<u32> = inside.map(|body| body.material).collect();
     if materials.len() > MEDIA_SIZE {
         return Err(PackError::TooMany {

@@ -17,8 +17,9 @@ pub const GROUP_COUNT: usize = 2;
 /// rounds off when the ray starts inside the node.
 const SLACK: f64 = 1.0 / (1 << 20) as f64;
 
-/// Packs one node. Every quantised box contains its exact one.
-pub fn quantize(node: &WideNode) -> PackedNode {
+/// Packs one node, whose children get the references that the function gives. Every quantised box
+/// contains its exact one.
+pub fn quantize(node: &WideNode, reference: impl Fn(&Child) -> u32) -> PackedNode {
     let (lo, hi) = node.children.iter().fold(
         (Vec3::INFINITY, Vec3::NEG_INFINITY),
         |(lo, hi), (aabb, _)| (lo.min(aabb.min), hi.max(aabb.max)),
@@ -35,16 +36,21 @@ pub fn quantize(node: &WideNode) -> PackedNode {
         words[7 + 2 * axis] = u32::from_le_bytes(planes.map(|[_, max]| max));
     }
     for (i, (_, child)) in node.children.iter().enumerate() {
-        words[12 + i] = match *child {
-            Child::Node(index) => index,
-            Child::Leaf {
-                group,
-                first,
-                count,
-            } => leaf_reference(first, count, group == SHAPES),
-        };
+        words[12 + i] = reference(child);
     }
     words
+}
+
+/// The reference to a leaf whose group's primitives begin at `offset`.
+pub fn leaf(leaf: &Child, offset: u32) -> u32 {
+    match *leaf {
+        Child::Leaf {
+            group,
+            first,
+            count,
+        } => leaf_reference(offset + first, count, group == SHAPES),
+        Child::Node(index) => index,
+    }
 }
 
 /// Corner, step and for each child the numbers of its lower and upper plane.

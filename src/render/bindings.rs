@@ -2,7 +2,7 @@
 
 use crate::{
     gpu::{Gpu, GpuError, Ledger, Needs},
-    layout::{IMAGE_WIDTH_LOG2, PackedFrame, PackedLight, PackedSlice, PackedTone},
+    layout::{IMAGE_WIDTH_LOG2, PackedFrame, PackedLight, PackedNode, PackedSlice, PackedTone},
     pack::{PackedScene, PackedView},
     render::settings::Fetch,
 };
@@ -82,6 +82,7 @@ pub struct Buffers {
     pub slice: Buffer,
     pub film: Buffer,
     pub staging: Buffer,
+    scene: SceneBuffers,
 }
 
 impl Buffers {
@@ -94,18 +95,8 @@ impl Buffers {
         view: &PackedView,
         film_rows: usize,
     ) -> Result<Self, GpuError> {
-        let shapes = gpu.upload("shapes", cast_slice(&scene.shapes))?;
-        let rows = scene_rows(scene)
-            .into_iter()
-            .map(|(what, bytes)| Rows::upload(gpu, fetch, what, &bytes))
-            .collect::<Result<Vec<_>, _>>()?;
-        let texels = cast_slice(&scene.texels);
-        let texels = gpu.upload_image("texels", texels, IMAGE_WIDTH, TEXEL_FORMAT)?;
-        let mut resources: Vec<_> = rows.iter().map(Rows::resource).collect();
-        resources.push(shapes.as_entire_binding());
-        resources.push(wgpu::BindingResource::TextureView(&texels));
-        let scene_group = group(gpu, &layouts.scene, &resources);
-
+        let buffers = SceneBuffers::new(gpu, fetch, scene, view)?;
+        let scene_group = buffers.group(gpu, layouts);
         let storage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let slice = gpu.allocate("slice", size_of::<PackedSlice>() as u64, storage)?;
         let film_bytes = film_rows as u64 * ROW_BYTES;
@@ -124,17 +115,108 @@ impl Buffers {
             slice,
             film,
             staging,
+            scene: buffers,
         })
     }
 
-    /// Puts another frame in place.
+    /// Puts another frame in place: of the scene only what it places, and materials that change.
     pub fn set_view(
         &mut self,
         gpu: &Gpu,
         layouts: &Layouts,
+        scene: &PackedScene,
         view: &PackedView,
     ) -> Result<(), GpuError> {
+        if self.scene.has_room_for(scene, view) {
+            self.scene.write_view(gpu, scene, view)?;
+        } else {
+            self.scene = SceneBuffers::new(gpu, self.scene.fetch, scene, view)?;
+            self.scene_group = self.scene.group(gpu, layouts);
+        }
         self.frame_group = frame_group(gpu, layouts, view, &self.slice)?;
+        Ok(())
+    }
+}
+
+/// What kernels read of a scene, and of what a view places in it.
+struct SceneBuffers {
+    fetch: Fetch,
+    nodes: Rows,
+    /// Bytes that fit behind the scene's nodes.
+    view_room: u64,
+    triangles: Rows,
+    vertices: Rows,
+    materials: Rows,
+    shapes: Buffer,
+    texels: wgpu::TextureView,
+}
+
+impl SceneBuffers {
+    fn new(
+        gpu: &Gpu,
+        fetch: Fetch,
+        scene: &PackedScene,
+        view: &PackedView,
+    ) -> Result<Self, GpuError> {
+        let rows = |what, first: &[u8], second: &[u8]| {
+            let rows = Rows::allocate(gpu, fetch, what, (first.len() + second.len()) as u64)?;
+            rows.write(gpu, 0, &both(first, second))?;
+            Ok::<_, GpuError>(rows)
+        };
+        // Views differ in how much they place.
+        let view_room = view_bytes(view) * 5 / 4;
+        let node_bytes = node_bytes(scene, view_room);
+        let nodes = Rows::allocate(gpu, fetch, "nodes", node_bytes)?;
+        nodes.write(gpu, 0, cast_slice(&scene.nodes))?;
+        let vertices = cast_slice(&scene.vertices);
+        let materials = cast_slice(&scene.materials);
+        let texels = cast_slice(&scene.texels);
+        let buffers = Self {
+            fetch,
+            nodes,
+            view_room,
+            triangles: rows("triangles", cast_slice(&scene.triangles), &[])?,
+            vertices: rows("vertices", vertices, cast_slice(&scene.uvs))?,
+            materials: rows("materials", materials, cast_slice(&scene.textures))?,
+            shapes: gpu.upload("shapes", cast_slice(&scene.shapes))?,
+            texels: gpu.upload_image("texels", texels, IMAGE_WIDTH, TEXEL_FORMAT)?,
+        };
+        buffers.write_view(gpu, scene, view)?;
+        Ok(buffers)
+    }
+
+    fn group(&self, gpu: &Gpu, layouts: &Layouts) -> wgpu::BindGroup {
+        let rows = [
+            &self.nodes,
+            &self.triangles,
+            &self.vertices,
+            &self.materials,
+        ];
+        let mut resources: Vec<_> = rows.into_iter().map(Rows::resource).collect();
+        resources.push(self.shapes.as_entire_binding());
+        resources.push(wgpu::BindingResource::TextureView(&self.texels));
+        group(gpu, &layouts.scene, &resources)
+    }
+
+    fn has_room_for(&self, scene: &PackedScene, view: &PackedView) -> bool {
+        let bytes = view_bytes(view);
+        bytes <= self.view_room && node_bytes(scene, bytes) <= node_bytes(scene, self.view_room)
+    }
+
+    fn write_view(
+        &self,
+        gpu: &Gpu,
+        scene: &PackedScene,
+        view: &PackedView,
+    ) -> Result<(), GpuError> {
+        if view_bytes(view) > 0 {
+            let offset = u64::from(scene.first_view_node()) * size_of::<PackedNode>() as u64;
+            self.nodes.write(gpu, offset, &view.node_parts().concat())?;
+        }
+        if !view.materials.is_empty() {
+            let (materials, textures) = (cast_slice(&view.materials), cast_slice(&scene.textures));
+            self.materials.write(gpu, 0, &both(materials, textures))?;
+        }
         Ok(())
     }
 }
@@ -152,30 +234,31 @@ fn frame_group(
     Ok(group(gpu, &layouts.frame, &resources))
 }
 
-/// What the shaders fetch as rows of 16 bytes, in the order of their bindings.
-fn scene_rows(scene: &PackedScene) -> [(&'static str, Cow<'_, [u8]>); 4] {
-    let both = |first, second: &'_ [u8]| match second.is_empty() {
+/// Two slices one after the other.
+fn both<'a>(first: &'a [u8], second: &[u8]) -> Cow<'a, [u8]> {
+    match second.is_empty() {
         true => Cow::Borrowed(first),
         false => Cow::Owned([first, second].concat()),
-    };
-    [
-        ("nodes", Cow::Borrowed(cast_slice(&scene.nodes))),
-        ("triangles", Cow::Borrowed(cast_slice(&scene.triangles))),
-        (
-            "vertices",
-            both(cast_slice(&scene.vertices), cast_slice(&scene.uvs)),
-        ),
-        (
-            "materials",
-            both(cast_slice(&scene.materials), cast_slice(&scene.textures)),
-        ),
-    ]
+    }
+}
+
+/// What a view adds to the scene's nodes.
+fn view_bytes(view: &PackedView) -> u64 {
+    view.node_parts().iter().map(|part| part.len() as u64).sum()
+}
+
+/// The scene's nodes, and behind them room for a view.
+fn node_bytes(scene: &PackedScene, view_room: u64) -> u64 {
+    match view_room {
+        0 => size_of_val(&scene.nodes[..]) as u64,
+        _ => u64::from(scene.first_view_node()) * size_of::<PackedNode>() as u64 + view_room,
+    }
 }
 
 /// How many bytes of each there are.
-fn row_bytes(scene: &PackedScene) -> [(&'static str, u64); 4] {
+fn row_bytes(scene: &PackedScene, view: &PackedView) -> [(&'static str, u64); 4] {
     [
-        ("nodes", size_of_val(&scene.nodes[..]) as u64),
+        ("nodes", node_bytes(scene, view_bytes(view) * 5 / 4)),
         ("triangles", size_of_val(&scene.triangles[..]) as u64),
         (
             "vertices",
@@ -195,11 +278,26 @@ enum Rows {
 }
 
 impl Rows {
-    fn upload(gpu: &Gpu, fetch: Fetch, what: &'static str, bytes: &[u8]) -> Result<Self, GpuError> {
+    fn allocate(gpu: &Gpu, fetch: Fetch, what: &'static str, bytes: u64) -> Result<Self, GpuError> {
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
         Ok(match fetch {
-            Fetch::Image => Self::Image(gpu.upload_image(what, bytes, IMAGE_WIDTH, ROW_FORMAT)?),
-            _ => Self::Buffer(gpu.upload(what, bytes)?),
+            Fetch::Image => {
+                Self::Image(gpu.allocate_image(what, bytes, IMAGE_WIDTH, ROW_FORMAT)?)
+            }
+            // WebGPU wants a binding to hold at least one element.
+            _ => Self::Buffer(gpu.allocate(what, bytes.max(ROW_BYTES), usage)?),
         })
+    }
+
+    /// Writes from `offset` on, which is the beginning of a row of an image.
+    fn write(&self, gpu: &Gpu, offset: u64, bytes: &[u8]) -> Result<(), GpuError> {
+        match self {
+            Self::Image(view) => {
+                let row = offset / (ROW_BYTES * u64::from(IMAGE_WIDTH));
+                gpu.write_image(view, row as u32, bytes)
+            }
+            Self::Buffer(buffer) => gpu.write(buffer, offset, bytes),
+        }
     }
 
     fn resource(&self) -> wgpu::BindingResource<'_> {
@@ -232,8 +330,8 @@ pub fn group(
 
 /// The fetch to use: as asked, or images on software adapters, where they are twice as fast.
 /// Elsewhere buffers, unless only images are large enough.
-pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene) -> Fetch {
-    let fits = largest_row_bytes(scene) <= gpu.adapter().max_binding_bytes;
+pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene, view: &PackedView) -> Fetch {
+    let fits = largest_row_bytes(scene, view) <= gpu.adapter().max_binding_bytes;
     match wanted {
         Fetch::Auto if gpu.is_cpu() || !fits => Fetch::Image,
         Fetch::Auto => Fetch::Buffer,
@@ -242,10 +340,10 @@ pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene) -> Fetch {
 }
 
 /// What the device must be able to do for this scene and this film.
-pub fn needs(scene: &PackedScene, fetch: Fetch, film_rows: usize) -> Needs {
+pub fn needs(scene: &PackedScene, view: &PackedView, fetch: Fetch, film_rows: usize) -> Needs {
     let shapes = size_of_val(&scene.shapes[..]) as u64;
     let film = film_rows as u64 * ROW_BYTES;
-    let rows = largest_row_bytes(scene);
+    let rows = largest_row_bytes(scene, view);
     if fetch != Fetch::Image {
         return Needs {
             binding_bytes: shapes.max(film).max(rows),
@@ -260,8 +358,8 @@ pub fn needs(scene: &PackedScene, fetch: Fetch, film_rows: usize) -> Needs {
     }
 }
 
-fn largest_row_bytes(scene: &PackedScene) -> u64 {
-    let sizes = row_bytes(scene).map(|(_, bytes)| bytes);
+fn largest_row_bytes(scene: &PackedScene, view: &PackedView) -> u64 {
+    let sizes = row_bytes(scene, view).map(|(_, bytes)| bytes);
     sizes.into_iter().max().unwrap_or(0)
 }
 
@@ -273,7 +371,7 @@ pub fn ledger(
     picture_pixels: u64,
 ) -> Ledger {
     let mut ledger = Ledger::default();
-    for (what, bytes) in row_bytes(scene) {
+    for (what, bytes) in row_bytes(scene, view) {
         ledger.plan(what, bytes);
     }
     ledger.plan("texels", size_of_val(&scene.texels[..]) as u64);

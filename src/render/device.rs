@@ -37,9 +37,11 @@ pub struct Device {
     pub fetch: Fetch,
     pub layouts: Layouts,
     pub buffers: Buffers,
-    pipeline: wgpu::ComputePipeline,
-    /// What the pipeline was made with.
-    overrides: Overrides,
+    /// What was compiled so far, with what it was made with. Views of one scene differ in what moves
+    /// and shines.
+    pipelines: Vec<(Overrides, wgpu::ComputePipeline)>,
+    /// Index of the one that the view needs.
+    current: usize,
     pub developer: Option<Developer>,
     /// The window whose sums are in the film buffer.
     pub loaded_window: Option<usize>,
@@ -58,8 +60,8 @@ impl Device {
             fetch,
             layouts,
             buffers,
-            pipeline,
-            overrides: kernel(task).1,
+            pipelines: vec![(kernel(task).1, pipeline)],
+            current: 0,
             developer: None,
             loaded_window: None,
         })
@@ -67,20 +69,28 @@ impl Device {
 
     /// Puts another frame in place.
     pub fn set_view(&mut self, task: Task, stats: &mut Stats) -> Result<(), GpuError> {
-        self.buffers.set_view(&self.gpu, &self.layouts, task.view)?;
+        let Task { scene, view, .. } = task;
+        let start = Instant::now();
+        (self.buffers).set_view(&self.gpu, &self.layouts, scene, view)?;
+        stats.upload_seconds += start.elapsed().as_secs_f64();
         self.loaded_window = None;
         let overrides = kernel(task).1;
-        if self.overrides != overrides {
-            let Self {
-                gpu,
-                fetch,
-                layouts,
-                buffers,
-                ..
-            } = &*self;
-            self.pipeline = compile(gpu, *fetch, layouts, buffers, task, stats)?;
-            self.overrides = overrides;
-        }
+        let known = self.pipelines.iter().position(|(of, _)| *of == overrides);
+        self.current = match known {
+            Some(index) => index,
+            None => {
+                let Self {
+                    gpu,
+                    fetch,
+                    layouts,
+                    buffers,
+                    ..
+                } = &*self;
+                let pipeline = compile(gpu, *fetch, layouts, buffers, task, stats)?;
+                self.pipelines.push((overrides, pipeline));
+                self.pipelines.len() - 1
+            }
+        };
         Ok(())
     }
 
@@ -102,7 +112,8 @@ impl Device {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let (columns, rows) = slice.grid();
         let grid = (gpu.dispatched(columns), rows);
-        dispatch(&mut encoder, &self.pipeline, buffers, grid);
+        let (_, pipeline) = &self.pipelines[self.current];
+        dispatch(&mut encoder, pipeline, buffers, grid);
         let tile_rows = TILE_PIXELS * window.rows_per_pixel();
         let tile_bytes = tile_rows as u64 * ROW_BYTES;
         let accounts = Source {
@@ -135,7 +146,7 @@ pub fn reopen(
     task: Task,
     stats: &mut Stats,
 ) -> Result<Device, GpuError> {
-    let needs = bindings::needs(task.scene, fetch, task.film_rows);
+    let needs = bindings::needs(task.scene, task.view, fetch, task.film_rows);
     Device::new(Gpu::open(choice, needs)?, fetch, task, stats)
 }
 

@@ -45,6 +45,7 @@ pub fn tracing(task: Task) -> Overrides {
         Filter::Mitchell => FILTER_MITCHELL,
     };
     let features = scene.features;
+    let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
     vec![
         ("0", f64::from(triangle_test)),
         ("1", flag(!scene.triangles.is_empty())),
@@ -60,12 +61,16 @@ pub fn tracing(task: Task) -> Overrides {
         ("13", flag(features.refraction && settings.max_depth > 0)),
         ("14", flag(features.contact && settings.max_depth > 0)),
         ("15", flag(features.filtered_shadows)),
-        ("17", flag(view.frame.camera.lens_radius > 0.0)),
+        ("17", flag(cameras.any(|camera| camera.lens_radius > 0.0))),
         ("18", f64::from(filter)),
         ("19", f64::from(settings.filter_radius)),
         ("21", flag(features.textures)),
         ("22", flag(features.emission)),
         ("23", flag(settings.is_adaptive())),
+        ("24", flag(features.instances)),
+        ("25", flag(view.has_moving_instances())),
+        ("26", flag(!view.cameras.is_empty())),
+        ("27", flag(view.frame.light_key_count > 1)),
     ]
 }
 

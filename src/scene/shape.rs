@@ -86,6 +86,48 @@ impl Geometry {
         }
     }
 
+    /// The same surface in the space that `transform`, which is invertible, leads to. A sphere stays one
+    /// where it is scaled evenly, else it becomes an ellipsoid.
+    pub fn transformed(&self, transform: DAffine3) -> Self {
+        match *self {
+            Self::Sphere { center, radius } => {
+                let center = transform.transform_point3(center);
+                let [x, y, z] = [
+                    transform.matrix3.x_axis,
+                    transform.matrix3.y_axis,
+                    transform.matrix3.z_axis,
+                ];
+                let scale = x.length();
+                let skew = x.dot(y).abs() + y.dot(z).abs() + z.dot(x).abs();
+                let uneven = (y.length() - scale).abs() + (z.length() - scale).abs();
+                if skew <= 1e-12 * scale * scale && uneven <= 1e-12 * scale {
+                    return Self::Sphere {
+                        center,
+                        radius: radius * scale,
+                    };
+                }
+                Self::Placed {
+                    form: Form::Ellipsoid,
+                    world_from_form: DAffine3 {
+                        matrix3: transform.matrix3 * radius,
+                        translation: center,
+                    },
+                }
+            }
+            Self::Plane { point, normal } => Self::Plane {
+                point: transform.transform_point3(point),
+                normal: (transform.matrix3.inverse().transpose() * normal).normalize_or(normal),
+            },
+            Self::Placed {
+                form,
+                world_from_form,
+            } => Self::Placed {
+                form,
+                world_from_form: transform * world_from_form,
+            },
+        }
+    }
+
     /// The unit vectors along which u and v of a plane grow with the distance from its point: to the
     /// right and up for one who looks at its front with +Y upwards. Where it is rather level, seen
     /// from above −Z is upwards instead, and seen from below +Z.

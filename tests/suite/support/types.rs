@@ -1,7 +1,7 @@
 //! The structs of `shaders/types.wesl` that functions take and return.
 
 use super::words::shader_struct;
-use glimray::layout::{NONE, PackedCamera, PackedLight, PackedShape, PackedTone};
+use glimray::layout::{NO_INSTANCE, NONE, PackedCamera, PackedLight, PackedShape, PackedTone};
 
 pub const T_FAR: f32 = 3e38;
 
@@ -11,6 +11,7 @@ pub struct Ray {
     pub t_max: f32,
     pub direction: [f32; 3],
     pub leaving: u32,
+    pub leaving_instance: u32,
 }
 
 /// A ray without end.
@@ -20,6 +21,7 @@ pub fn ray(origin: [f32; 3], direction: [f32; 3]) -> Ray {
         t_max: T_FAR,
         direction,
         leaving: NONE,
+        leaving_instance: NO_INSTANCE,
     }
 }
 
@@ -82,6 +84,7 @@ shader_struct!(Ray = "package::types::Ray" {
     t_max: f32,
     direction: [f32; 3],
     leaving: u32,
+    leaving_instance: u32,
 });
 shader_struct!(Candidate = "package::types::Candidate" { hit: bool, t: f32, b1: f32, b2: f32, });
 shader_struct!(Node = "package::types::Node" {

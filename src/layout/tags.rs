@@ -1,0 +1,152 @@
+//! Tags, bits and counts that a shader also sees: the constants of `shaders/types.wesl`.
+
+/// "None" for any index.
+pub const NONE: u32 = u32::MAX;
+
+/// Marks a child reference as a leaf; see [`super::leaf_reference`].
+pub const LEAF: u32 = 0x8000_0000;
+/// Marks a leaf's or a primitive's index as a [`super::PackedShape`]'s; without it, it is a triangle's.
+pub const SHAPE: u32 = 0x4000_0000;
+/// Lowest bit of a leaf reference's count less one, which has three bits.
+pub const LEAF_COUNT_SHIFT: u32 = 27;
+/// One more primitive in a leaf reference.
+pub const LEAF_COUNT_ONE: u32 = 1 << LEAF_COUNT_SHIFT;
+/// The bits of a leaf reference's count less one.
+pub const LEAF_COUNT_MASK: u32 = 7 << LEAF_COUNT_SHIFT;
+/// The bits of a leaf reference's first primitive.
+pub const LEAF_FIRST_MASK: u32 = LEAF_COUNT_ONE - 1;
+/// Marks a child reference as an instance, whose index is in the bits of [`LEAF_FIRST_MASK`].
+pub const INSTANCE: u32 = LEAF | SHAPE | LEAF_COUNT_MASK;
+/// Marks the reference to a node that is followed by the same node at the end of the shot.
+pub const MOVING: u32 = 0x4000_0000;
+/// The instance of what stands in the world itself; the most instances there can be.
+pub const NO_INSTANCE: u32 = (1 << 20) - 1;
+/// Rows of 16 bytes of a [`super::PackedNode`].
+pub const NODE_ROWS: u32 = 4;
+/// Rows of 16 bytes of a [`super::PackedInstance`].
+pub const INSTANCE_ROWS: u32 = 10;
+/// Rows of 16 bytes of a [`super::PackedKey`].
+pub const KEY_ROWS: u32 = 4;
+/// Rows of 16 bytes of a [`super::PackedCamera`].
+pub const CAMERA_ROWS: u32 = 4;
+/// Entries of the traversal stack.
+pub const STACK_SIZE: u32 = 96;
+/// Texels in a row of the geometry images, as a power of two.
+pub const IMAGE_WIDTH_LOG2: u32 = 12;
+
+/// [`super::PackedShape::kind`]: a sphere.
+pub const SHAPE_SPHERE: u32 = 0;
+/// [`super::PackedShape::kind`]: an infinite plane.
+pub const SHAPE_PLANE: u32 = 1;
+/// [`super::PackedShape::kind`]: [`crate::scene::Form::Disc`].
+pub const SHAPE_DISC: u32 = 2;
+/// [`super::PackedShape::kind`]: [`crate::scene::Form::Rectangle`].
+pub const SHAPE_RECTANGLE: u32 = 3;
+/// [`super::PackedShape::kind`]: [`crate::scene::Form::Box`].
+pub const SHAPE_BOX: u32 = 4;
+/// [`super::PackedShape::kind`]: [`crate::scene::Form::Cone`].
+pub const SHAPE_CONE: u32 = 5;
+/// [`super::PackedShape::kind`]: [`crate::scene::Form::Torus`].
+pub const SHAPE_TORUS: u32 = 6;
+/// [`super::PackedShape::kind`]: [`crate::scene::Form::Ellipsoid`].
+pub const SHAPE_ELLIPSOID: u32 = 7;
+/// Bit of [`super::PackedShape::flags`]: a cone has both of its caps.
+pub const SHAPE_CAPPED: u32 = 1;
+
+/// [`super::PackedLight::kind`]: shines from a point, evenly all round.
+pub const LIGHT_POINT: u32 = 0;
+/// [`super::PackedLight::kind`]: shines along one direction, from infinitely far.
+pub const LIGHT_DIRECTIONAL: u32 = 1;
+/// [`super::PackedLight::kind`]: shines from a point into a cone.
+pub const LIGHT_SPOT: u32 = 2;
+/// [`super::PackedLight::kind`]: a parallelogram that shines to the side of its normal.
+pub const LIGHT_RECTANGLE: u32 = 3;
+/// [`super::PackedLight::kind`]: a disc that shines to the side of its normal.
+pub const LIGHT_DISC: u32 = 4;
+/// [`super::PackedLight::kind`]: a sphere.
+pub const LIGHT_SPHERE: u32 = 5;
+
+/// [`super::PackedLight::attenuation`]: the same at every distance.
+pub const ATTENUATION_NONE: u32 = 0;
+/// [`super::PackedLight::attenuation`]: 1/r² at distance r.
+pub const ATTENUATION_INVERSE_SQUARE: u32 = 1;
+
+/// Bit of [`super::PackedMaterial::flags`]: the shading normal is turned to the side the ray comes from.
+pub const MATERIAL_TWO_SIDED: u32 = 1;
+/// Bit of [`super::PackedMaterial::flags`]: Fresnel's equations split reflected and transmitted light.
+pub const MATERIAL_FRESNEL: u32 = 2;
+/// Bit of [`super::PackedMaterial::flags`]: with [`MATERIAL_FRESNEL`], by Schlick's approximation.
+pub const MATERIAL_SCHLICK: u32 = 4;
+/// Bit of [`super::PackedMaterial::flags`]: [`crate::scene::Mixing::Sum`].
+pub const MATERIAL_SUM: u32 = 8;
+/// Bit of [`super::PackedMaterial::flags`]: [`crate::scene::Mixing::Blend`].
+pub const MATERIAL_BLEND: u32 = 16;
+/// Rows of 16 bytes of a [`super::PackedMaterial`].
+pub const MATERIAL_ROWS: u32 = 8;
+/// Rows of 16 bytes of a [`super::PackedTexture`].
+pub const TEXTURE_ROWS: u32 = 6;
+/// No texture, in the 16 bits that a [`super::PackedMaterial`] has for each.
+pub const NO_TEXTURE: u32 = 0xffff;
+
+/// [`super::PackedTexture::kind`]: cubes of two colours.
+pub const PATTERN_CHECKER: u32 = 0;
+/// [`super::PackedTexture::kind`]: layers of two colours along x.
+pub const PATTERN_STRIPES: u32 = 1;
+/// [`super::PackedTexture::kind`]: from one colour to another along x.
+pub const PATTERN_GRADIENT: u32 = 2;
+/// [`super::PackedTexture::kind`]: clouds of two colours.
+pub const PATTERN_NOISE: u32 = 3;
+/// [`super::PackedTexture::kind`]: a picture over u and v.
+pub const PATTERN_PICTURE: u32 = 4;
+/// Bit of [`super::PackedTexture::flags`]: the pattern lies in u and v, not in space.
+pub const TEXTURE_UV: u32 = 1;
+/// Bit of [`super::PackedTexture::flags`]: texels have hard edges.
+pub const TEXTURE_NEAREST: u32 = 2;
+
+/// Override `BACKGROUND`: [`crate::scene::Background::Color`].
+pub const BACKGROUND_COLOR: u32 = 0;
+/// Override `BACKGROUND`: [`crate::scene::Background::Gradient`].
+pub const BACKGROUND_GRADIENT: u32 = 1;
+/// Override `BACKGROUND`: [`crate::scene::Background::Picture`].
+pub const BACKGROUND_PICTURE: u32 = 2;
+
+/// Override `FILTER`: [`crate::scene::Filter::Box`].
+pub const FILTER_BOX: u32 = 0;
+/// Override `FILTER`: [`crate::scene::Filter::Tent`].
+pub const FILTER_TENT: u32 = 1;
+/// Override `FILTER`: [`crate::scene::Filter::Gaussian`].
+pub const FILTER_GAUSSIAN: u32 = 2;
+/// Override `FILTER`: [`crate::scene::Filter::BlackmanHarris`].
+pub const FILTER_BLACKMAN_HARRIS: u32 = 3;
+/// Override `FILTER`: [`crate::scene::Filter::Mitchell`].
+pub const FILTER_MITCHELL: u32 = 4;
+
+/// Override `TRIANGLE_TEST`: [`crate::render::TriangleTest::Plane`].
+pub const TRIANGLE_TEST_PLANE: u32 = 0;
+/// Override `TRIANGLE_TEST`: [`crate::render::TriangleTest::MollerTrumbore`].
+pub const TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1;
+/// Override `TRIANGLE_TEST`: [`crate::render::TriangleTest::Watertight`].
+pub const TRIANGLE_TEST_WATERTIGHT: u32 = 2;
+
+/// Override `VIEW`: [`crate::render::Integrator::Normals`].
+pub const VIEW_NORMALS: u32 = 0;
+/// Override `VIEW`: [`crate::render::Integrator::Depth`].
+pub const VIEW_DEPTH: u32 = 1;
+/// Override `VIEW`: [`crate::render::Integrator::Ids`].
+pub const VIEW_IDS: u32 = 2;
+/// Override `VIEW`: [`crate::render::Integrator::Heat`].
+pub const VIEW_HEAT: u32 = 3;
+
+/// [`super::PackedTone::curve`]: [`crate::scene::ToneCurve::None`].
+pub const TONE_NONE: u32 = 0;
+/// [`super::PackedTone::curve`]: [`crate::scene::ToneCurve::Aces`].
+pub const TONE_ACES: u32 = 1;
+/// [`super::PackedTone::curve`]: [`crate::scene::ToneCurve::Agx`].
+pub const TONE_AGX: u32 = 2;
+/// [`super::PackedTone::curve`]: [`crate::scene::ToneCurve::Reinhard`].
+pub const TONE_REINHARD: u32 = 3;
+
+/// [`super::PackedTone::transfer`]: [`crate::scene::Transfer::Srgb`].
+pub const TRANSFER_SRGB: u32 = 0;
+/// [`super::PackedTone::transfer`]: [`crate::scene::Transfer::Linear`].
+pub const TRANSFER_LINEAR: u32 = 1;
