@@ -10,6 +10,7 @@
 //! near their own origin, so that a scene far from the world's origin loses nothing.
 
 mod animation;
+mod curve;
 mod frame;
 mod light;
 mod material;
@@ -17,12 +18,14 @@ mod mesh;
 mod node;
 mod output;
 mod shape;
+mod shot;
 mod texture;
 
 pub use animation::{
     Beyond, CameraProperty, Curve, Easing, Interpolation, LightProperty, MaterialProperty,
     NodeProperty, Target, Track, Values,
 };
+pub use curve::Value;
 pub use frame::{Frame, NodeState};
 pub use light::{Attenuation, Light, LightKind};
 pub use material::{Fresnel, Material, Mixing, Textures};
@@ -175,15 +178,24 @@ impl Default for Camera {
 }
 
 impl Scene {
-    /// The axis-aligned box (min, max) round everything bounded, in world space; `None` when there
-    /// is nothing bounded.
+    /// The axis-aligned box (min, max) round everything bounded, visible or not, in world space, at
+    /// time 0; `None` when there is nothing bounded.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let shapes = (self.shapes.iter()).filter_map(|shape| shape.geometry.bounds());
+        let nodes = self.nodes_at(0.0, 0.0);
+        let world_from = |node: Option<usize>| match node {
+            Some(node) => nodes[node].world_from_node,
+            None => DAffine3::IDENTITY,
+        };
+        let shapes = self.shapes.iter().filter_map(|shape| match shape.node {
+            Some(_) => shape.geometry.placed(world_from(shape.node)).bounds(),
+            None => shape.geometry.bounds(),
+        });
         let instances = self.instances.iter().filter_map(|instance| {
+            let world_from_object = world_from(instance.node) * instance.placement;
             self.meshes[instance.mesh]
                 .positions
                 .iter()
-                .map(|p| instance.placement.transform_point3(p.as_dvec3()))
+                .map(|p| world_from_object.transform_point3(p.as_dvec3()))
                 .map(|p| (p, p))
                 .reduce(union)
         });

@@ -86,6 +86,29 @@ impl Geometry {
         }
     }
 
+    /// The same surface in the space that `space_from_node` leads to; a sphere becomes an ellipsoid.
+    /// Planes stand still.
+    pub fn placed(&self, space_from_node: DAffine3) -> Self {
+        let (form, world_from_form) = match *self {
+            Self::Sphere { center, radius } => {
+                let place = DAffine3::from_translation(center);
+                (
+                    Form::Ellipsoid,
+                    place * DAffine3::from_scale(DVec3::splat(radius)),
+                )
+            }
+            Self::Plane { .. } => return *self,
+            Self::Placed {
+                form,
+                world_from_form,
+            } => (form, world_from_form),
+        };
+        Self::Placed {
+            form,
+            world_from_form: space_from_node * world_from_form,
+        }
+    }
+
     /// The unit vectors along which u and v of a plane grow with the distance from its point: to the
     /// right and up for one who looks at its front with +Y upwards. Where it is rather level, seen
     /// from above −Z is upwards instead, and seen from below +Z.

@@ -20,6 +20,8 @@ mod render;
 mod sampling;
 mod scale;
 mod scene;
+mod scene_animation;
+mod scene_shot;
 mod shader_area_light;
 mod shader_camera;
 mod shader_colormap;
