@@ -20,6 +20,7 @@ mod output;
 mod shape;
 mod shot;
 mod texture;
+mod turntable;
 
 pub use animation::{
     Beyond, CameraProperty, Curve, Easing, Interpolation, LightProperty, MaterialProperty,
@@ -34,6 +35,7 @@ pub use node::Node;
 pub use output::{Antialias, Filter, OutputDefaults, Shutter, ToneCurve, Transfer};
 pub use shape::{Form, Geometry, Shape};
 pub use texture::{Pattern, Picture, Space, Texture};
+pub use turntable::{MAX_ELEVATION, Turntable, turntable};
 
 use glam::{DAffine3, DVec3, Vec3};
 
@@ -62,6 +64,9 @@ pub struct Scene {
     pub background: Background,
     /// Linear radiance of the ambient term, multiplied by [`Material::ambient`].
     pub ambient: Vec3,
+    /// Whether lights, background and ambient light are not the file's, whose format has none, but
+    /// such as show a bare model.
+    pub staged: bool,
     /// How shadow rays meet what is transparent.
     pub shadows: Shadows,
     /// What instances, shapes, lights and cameras may be attached to; parents before their children.

@@ -34,7 +34,8 @@ impl Scene {
     /// which lights are on, and materials are in all frames as they are when the shutter opens.
     ///
     /// There are 2ᵏ + 1 with the least k ≤ 8 for which, from one frame to the next, no node turns by
-    /// more than 0.1 radians and the camera by no more than 0.02, and no chord is off by more than
+    /// more than 0.1 radians and the camera by no more than 0.02, were they always as fast as they
+    /// ever are meanwhile, and no chord is off by more than
     /// * 10⁻³ of their distance from the camera for the places of nodes and lights, where a node that
     ///   is nearer than a tenth of what the camera looks at counts as being there;
     /// * what a turn by 0.1 radians makes of them for the axes of nodes and of lights;
@@ -42,14 +43,16 @@ impl Scene {
     /// * 10⁻³ of their size for the field of view, the lens, and the colours of lights.
     ///
     /// A jump cannot be told by interpolation: it takes all frames, and is spread over the distance
-    /// of two.
+    /// of two. What jumps at the very moment when the shutter closes has not done so yet.
     pub fn shot(&self, open: f64, close: f64) -> Vec<Frame> {
         let first = self.frame(open);
         let mut frames = vec![first];
         if close <= open {
             return frames;
         }
-        let Some(doublings) = Motion::new(self, open, close, &frames[0]).doublings() else {
+        let motion = Motion::new(self, open, close, &frames[0]);
+        let close = motion.close;
+        let Some(doublings) = motion.doublings() else {
             return frames;
         };
         let count = 1_u32 << doublings;
@@ -138,11 +141,13 @@ impl<'a> Motion<'a> {
         camera |= is_moving(seen_by.node) || is_moving(seen_by.target);
         lights.sort_unstable();
         lights.dedup();
+        let just = 1e-9 * (close - open);
+        let jumps = (curves.iter()).any(|curve| curve.jumps_within(close - just, close + just));
         Self {
             scene,
             rig,
             open,
-            close,
+            close: if jumps { close - just } else { close },
             nodes: (0..moving.len()).filter(|&node| moving[node]).collect(),
             camera,
             lights,
@@ -340,6 +345,12 @@ impl Curve {
             Interpolation::Linear => self.easing == Easing::None,
             Interpolation::CatmullRom | Interpolation::Hermite => false,
         }
+    }
+
+    /// Whether it may jump between `open` and `close`.
+    fn jumps_within(&self, open: f64, close: f64) -> bool {
+        (self.interpolation == Interpolation::Step || self.beyond == Beyond::Repeat)
+            && (self.keys_within(open, close)).is_some_and(|keys| !keys.is_empty())
     }
 
     /// The times in (`open`, `close`) at which it passes a key, in any order; `None` if they are too

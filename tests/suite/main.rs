@@ -22,6 +22,7 @@ mod scale;
 mod scene;
 mod scene_animation;
 mod scene_shot;
+mod scene_turntable;
 mod shader_area_light;
 mod shader_camera;
 mod shader_colormap;

@@ -617,7 +617,7 @@ fn overshooting_cubics_stay_in_range() {
                 Target::Camera(0, CameraProperty::LensRadius),
                 Target::Light(0, LightProperty::Intensity),
             ],
-            curve: plunge([3.0, 0.01, 0.01, 3.0]),
+            curve: plunge([3.0, 0.001, 0.001, 3.0]),
         },
         track(
             material(MaterialProperty::Opacity),
