@@ -10,6 +10,7 @@
 //! near their own origin, so that a scene far from the world's origin loses nothing.
 
 mod animation;
+mod curve;
 mod frame;
 mod light;
 mod material;
@@ -17,12 +18,15 @@ mod mesh;
 mod node;
 mod output;
 mod shape;
+mod shot;
 mod texture;
+mod turntable;
 
 pub use animation::{
     Beyond, CameraProperty, Curve, Easing, Interpolation, LightProperty, MaterialProperty,
     NodeProperty, Target, Track, Values,
 };
+pub use curve::Value;
 pub use frame::{Frame, NodeState};
 pub use light::{Attenuation, Light, LightKind};
 pub use material::{Fresnel, Material, Mixing, Textures};
@@ -31,6 +35,7 @@ pub use node::Node;
 pub use output::{Antialias, Filter, OutputDefaults, Shutter, ToneCurve, Transfer};
 pub use shape::{Form, Geometry, Shape};
 pub use texture::{Pattern, Picture, Space, Texture};
+pub use turntable::{MAX_ELEVATION, Turntable, turntable};
 
 use glam::{DAffine3, DVec3, Vec3};
 
@@ -59,6 +64,9 @@ pub struct Scene {
     pub background: Background,
     /// Linear radiance of the ambient term, multiplied by [`Material::ambient`].
     pub ambient: Vec3,
+    /// Whether lights, background and ambient light are not the file's, whose format has none, but
+    /// such as show a bare model.
+    pub staged: bool,
     /// How shadow rays meet what is transparent.
     pub shadows: Shadows,
     /// What instances, shapes, lights and cameras may be attached to; parents before their children.
@@ -175,15 +183,24 @@ impl Default for Camera {
 }
 
 impl Scene {
-    /// The axis-aligned box (min, max) round everything bounded, in world space; `None` when there
-    /// is nothing bounded.
+    /// The axis-aligned box (min, max) round everything bounded, visible or not, in world space, at
+    /// time 0; `None` when there is nothing bounded.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let shapes = (self.shapes.iter()).filter_map(|shape| shape.geometry.bounds());
+        let nodes = self.nodes_at(0.0, 0.0);
+        let world_from = |node: Option<usize>| match node {
+            Some(node) => nodes[node].world_from_node,
+            None => DAffine3::IDENTITY,
+        };
+        let shapes = self.shapes.iter().filter_map(|shape| match shape.node {
+            Some(_) => shape.geometry.placed(world_from(shape.node)).bounds(),
+            None => shape.geometry.bounds(),
+        });
         let instances = self.instances.iter().filter_map(|instance| {
+            let world_from_object = world_from(instance.node) * instance.placement;
             self.meshes[instance.mesh]
                 .positions
                 .iter()
-                .map(|p| instance.placement.transform_point3(p.as_dvec3()))
+                .map(|p| world_from_object.transform_point3(p.as_dvec3()))
                 .map(|p| (p, p))
                 .reduce(union)
         });

@@ -50,4 +50,5 @@ pub(super) fn light(scene: &mut Scene) {
     ];
     scene.background = Background::Color(Vec3::new(0.54, 0.62, 0.72));
     scene.ambient = Vec3::new(0.14, 0.15, 0.17);
+    scene.staged = true;
 }

@@ -56,7 +56,7 @@ impl Flat {
             let shape = &scene.shapes[id];
             let geometry = match shape.node {
                 None => shape.geometry,
-                Some(_) => shape.geometry.transformed(world_from(shape.node)),
+                Some(_) => shape.geometry.placed(world_from(shape.node)),
             };
             flat.add_shape(&geometry, shape.material, id, origin)?;
         }

@@ -86,45 +86,26 @@ impl Geometry {
         }
     }
 
-    /// The same surface in the space that `transform`, which is invertible, leads to. A sphere stays one
-    /// where it is scaled evenly, else it becomes an ellipsoid.
-    pub fn transformed(&self, transform: DAffine3) -> Self {
-        match *self {
+    /// The same surface in the space that `space_from_node` leads to; a sphere becomes an ellipsoid.
+    /// Planes stand still.
+    pub fn placed(&self, space_from_node: DAffine3) -> Self {
+        let (form, world_from_form) = match *self {
             Self::Sphere { center, radius } => {
-                let center = transform.transform_point3(center);
-                let [x, y, z] = [
-                    transform.matrix3.x_axis,
-                    transform.matrix3.y_axis,
-                    transform.matrix3.z_axis,
-                ];
-                let scale = x.length();
-                let skew = x.dot(y).abs() + y.dot(z).abs() + z.dot(x).abs();
-                let uneven = (y.length() - scale).abs() + (z.length() - scale).abs();
-                if skew <= 1e-12 * scale * scale && uneven <= 1e-12 * scale {
-                    return Self::Sphere {
-                        center,
-                        radius: radius * scale,
-                    };
-                }
-                Self::Placed {
-                    form: Form::Ellipsoid,
-                    world_from_form: DAffine3 {
-                        matrix3: transform.matrix3 * radius,
-                        translation: center,
-                    },
-                }
+                let place = DAffine3::from_translation(center);
+                (
+                    Form::Ellipsoid,
+                    place * DAffine3::from_scale(DVec3::splat(radius)),
+                )
             }
-            Self::Plane { point, normal } => Self::Plane {
-                point: transform.transform_point3(point),
-                normal: (transform.matrix3.inverse().transpose() * normal).normalize_or(normal),
-            },
+            Self::Plane { .. } => return *self,
             Self::Placed {
                 form,
                 world_from_form,
-            } => Self::Placed {
-                form,
-                world_from_form: transform * world_from_form,
-            },
+            } => (form, world_from_form),
+        };
+        Self::Placed {
+            form,
+            world_from_form: space_from_node * world_from_form,
         }
     }
 

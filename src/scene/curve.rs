@@ -1,0 +1,287 @@
+//! What a curve is worth at a time.
+
+use super::{Beyond, Curve, Easing, Interpolation, Values};
+use glam::{DQuat, DVec3};
+use std::ops::{Add, Mul, Sub};
+
+/// What a [`Curve`] is worth at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// Of [`Values::Scalar`].
+    Scalar(f64),
+    /// Of [`Values::Vector`].
+    Vector(DVec3),
+    /// Of [`Values::Rotation`]; of unit length.
+    Rotation(DQuat),
+}
+
+impl Curve {
+    /// The value at `time` seconds, any finite number. At a key's time it is exactly that key's
+    /// value; what repeats has the first key's value where its last key is.
+    ///
+    /// Cubics of rotations are cubics of the quaternions' components, normalised, as glTF 2.0
+    /// (section 3.11, appendix C.5) has them; [`Interpolation::CatmullRom`] first takes the sign of
+    /// each that is nearer to its neighbour's, so that it too goes the shorter way.
+    pub fn at(&self, time: f64) -> Value {
+        match &self.values {
+            Values::Scalar(values) => Value::Scalar(self.value(values, time)),
+            Values::Vector(values) => Value::Vector(self.value(values, time)),
+            Values::Rotation(values) => Value::Rotation(self.value(values, time)),
+        }
+    }
+
+    /// The times of the first and of the last key.
+    pub fn span(&self) -> (f64, f64) {
+        (self.times[0], self.times[self.times.len() - 1])
+    }
+
+    /// Whether its value is the same at all times.
+    pub fn is_constant(&self) -> bool {
+        match &self.values {
+            Values::Scalar(values) => self.is_flat(values),
+            Values::Vector(values) => self.is_flat(values),
+            Values::Rotation(values) => self.is_flat(values),
+        }
+    }
+
+    fn is_flat<V: Blend>(&self, values: &[V]) -> bool {
+        let still = |tangent: V| tangent + tangent == tangent;
+        match self.interpolation {
+            Interpolation::Hermite => (values.chunks_exact(3))
+                .all(|key| key[1] == values[1] && still(key[0]) && still(key[2])),
+            _ => values.iter().all(|key| *key == values[0]),
+        }
+    }
+
+    /// The time between the first and the last key at which the value at `time` is found.
+    pub(super) fn clock(&self, time: f64) -> f64 {
+        let (first, last) = self.span();
+        let is_within = (first..last).contains(&time);
+        if is_within || first >= last {
+            return time.clamp(first, last);
+        }
+        let period = last - first;
+        let after = time - first;
+        let clock = match self.beyond {
+            Beyond::Hold => time,
+            Beyond::Repeat => first + after.rem_euclid(period),
+            Beyond::PingPong => {
+                let there = after.rem_euclid(2.0 * period);
+                first + there.min(2.0 * period - there)
+            }
+        };
+        // At times so far out that they have no meaning any more the remainder may be none.
+        if clock.is_nan() {
+            first
+        } else {
+            clock.clamp(first, last)
+        }
+    }
+
+    fn value<V: Blend>(&self, values: &[V], time: f64) -> V {
+        let key = |i: usize| match self.interpolation {
+            Interpolation::Hermite => values[3 * i + 1],
+            _ => values[i],
+        };
+        let count = self.times.len();
+        if count == 1 {
+            return key(0);
+        }
+        let time = self.clock(time);
+        let after = self.times.partition_point(|key| *key <= time);
+        let index = after.clamp(1, count - 1) - 1;
+        let (start, end) = (self.times[index], self.times[index + 1]);
+        let share = share(start, end, time);
+        if share <= 0.0 {
+            return key(index);
+        }
+        if share >= 1.0 {
+            return key(index + 1);
+        }
+
+        let (from, to) = (key(index), key(index + 1));
+        let length = end - start;
+        match self.interpolation {
+            Interpolation::Step => from,
+            Interpolation::Linear => from.mix(to, self.easing.way(share)),
+            Interpolation::CatmullRom => {
+                let to = to.near(from);
+                let [leave, reach] = self.parabolic_tangents(values, index, [from, to]);
+                cubic(from, leave * length, reach * length, to, share)
+            }
+            Interpolation::Hermite => {
+                let (leave, reach) = (values[3 * index + 2], values[3 * index + 3]);
+                cubic(from, leave * length, reach * length, to, share)
+            }
+        }
+    }
+
+    /// The tangents at both ends of the way from key `index` to the next, whose values are `ends`.
+    fn parabolic_tangents<V: Blend>(&self, keys: &[V], index: usize, ends: [V; 2]) -> [V; 2] {
+        let times = &self.times;
+        let last = keys.len() - 1;
+        let goes_on = self.beyond == Beyond::Repeat && keys[0].is_same(keys[last]);
+        let length = times[index + 1] - times[index];
+        let slope = (ends[1] - ends[0]) * (1.0 / length);
+        // The tangent at `end` of the parabola through it, its neighbour in this piece and the one
+        // beyond, `gap` away, to which the slope is `other`.
+        let tangent = |gap: f64, other: V| {
+            let share = length / (length + gap);
+            other * share + slope * (1.0 - share)
+        };
+        let before = match index {
+            0 if goes_on => Some(last - 1),
+            _ => index.checked_sub(1),
+        };
+        let before = before.map(|i| {
+            let gap = times[i + 1] - times[i];
+            tangent(gap, (ends[0] - keys[i].near(ends[0])) * (1.0 / gap))
+        });
+        let after = match index + 2 {
+            i if i > last => goes_on.then_some(1),
+            i => Some(i),
+        };
+        let after = after.map(|i| {
+            let gap = times[i] - times[i - 1];
+            tangent(gap, (keys[i].near(ends[1]) - ends[1]) * (1.0 / gap))
+        });
+        // Where there is no key beyond, the parabola of the other end goes on to this one.
+        match (before, after) {
+            (Some(before), Some(after)) => [before, after],
+            (Some(before), None) => [before, slope * 2.0 - before],
+            (None, Some(after)) => [slope * 2.0 - after, after],
+            (None, None) => [slope; 2],
+        }
+    }
+}
+
+/// The share of the time from `start` to `end` that has passed at `time`.
+fn share(start: f64, end: f64, time: f64) -> f64 {
+    let length = end - start;
+    if length.is_finite() {
+        (time - start) / length
+    } else {
+        (time / 2.0 - start / 2.0) / (end / 2.0 - start / 2.0)
+    }
+}
+
+/// Hermite's cubic by its ends and its tangents there, per length of the way.
+fn cubic<V: Blend>(from: V, leave: V, reach: V, to: V, share: f64) -> V {
+    let s = share;
+    let rest = 1.0 - s;
+    let bend = leave * (s * rest * rest) - reach * (s * s * rest);
+    let value = from + (to - from) * (s * s * (3.0 - 2.0 * s)) + bend;
+    // Tangents may be too large for numbers to tell.
+    value.settled().unwrap_or_else(|| from.mix(to, share))
+}
+
+impl Easing {
+    /// The share of the way that is done after `share` of the time, which is in [0, 1].
+    pub fn way(self, share: f64) -> f64 {
+        let Self::Bezier([x1, y1, x2, y2]) = self else {
+            return share;
+        };
+        let (x1, x2) = (x1.clamp(0.0, 1.0), x2.clamp(0.0, 1.0));
+        let at = |a: f64, b: f64, s: f64| {
+            let rest = 1.0 - s;
+            3.0 * rest * rest * s * a + 3.0 * rest * s * s * b + s * s * s
+        };
+        // x never falls. Newton's steps, and halving where they leave what is known to hold it.
+        let (mut low, mut high, mut s) = (0.0, 1.0, share);
+        for _ in 0..100 {
+            let error = at(x1, x2, s) - share;
+            if error == 0.0 {
+                break;
+            }
+            *(if error > 0.0 { &mut high } else { &mut low }) = s;
+            let rest = 1.0 - s;
+            let slope = 3.0 * (rest * rest * x1 + 2.0 * rest * s * (x2 - x1) + s * s * (1.0 - x2));
+            let newton = s - error / slope;
+            let next = if newton > low && newton < high {
+                newton
+            } else {
+                low.midpoint(high)
+            };
+            if next == s {
+                break;
+            }
+            s = next;
+        }
+        at(y1, y2, s)
+    }
+}
+
+/// What can be blended.
+trait Blend:
+    Copy + PartialEq + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
+{
+    /// Linearly, or at constant speed along an arc; `share` may leave [0, 1].
+    fn mix(self, to: Self, share: f64) -> Self;
+
+    /// Itself; of two that mean the same, the one nearer to `other`.
+    fn near(self, _other: Self) -> Self {
+        self
+    }
+
+    /// Whether both mean the same.
+    fn is_same(self, other: Self) -> bool {
+        self == other
+    }
+
+    /// Itself, if it means anything.
+    fn settled(self) -> Option<Self>;
+}
+
+impl Blend for f64 {
+    fn mix(self, to: Self, share: f64) -> Self {
+        let value = self + (to - self) * share;
+        value.settled().unwrap_or_else(|| {
+            // Ends too far apart for their difference.
+            (self * (1.0 - share) + to * share).clamp(f64::MIN, f64::MAX)
+        })
+    }
+
+    fn settled(self) -> Option<Self> {
+        self.is_finite().then_some(self)
+    }
+}
+
+impl Blend for DVec3 {
+    fn mix(self, to: Self, share: f64) -> Self {
+        let mix = |i: usize| self[i].mix(to[i], share);
+        Self::new(mix(0), mix(1), mix(2))
+    }
+
+    fn settled(self) -> Option<Self> {
+        self.is_finite().then_some(self)
+    }
+}
+
+impl Blend for DQuat {
+    /// Shoemake's slerp (1985) on the shorter arc, its angle by Kahan's formula, which is exact for
+    /// small ones too.
+    fn mix(self, to: Self, share: f64) -> Self {
+        let to = to.near(self);
+        let angle = 2.0 * (to - self).length().atan2((to + self).length());
+        let mixed = if angle < 1e-9 {
+            self + (to - self) * share
+        } else {
+            (self * ((1.0 - share) * angle).sin() + to * (share * angle).sin())
+                * angle.sin().recip()
+        };
+        mixed.settled().unwrap_or(self)
+    }
+
+    fn near(self, other: Self) -> Self {
+        if self.dot(other) < 0.0 { -self } else { self }
+    }
+
+    fn is_same(self, other: Self) -> bool {
+        (self.near(other) - other).length_squared() < 1e-20
+    }
+
+    fn settled(self) -> Option<Self> {
+        let length = self.length();
+        (length.is_finite() && length > 1e-9).then(|| self * length.recip())
+    }
+}

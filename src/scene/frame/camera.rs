@@ -1,0 +1,115 @@
+//! The camera at one moment.
+
+use super::NodeState;
+use crate::scene::{Camera, CameraProperty, Scene, Target, Value};
+use glam::{DAffine3, DVec3};
+use std::f64::consts::PI;
+
+/// How near to 0 and π the field of view may come.
+const MIN_FOV: f64 = 1e-6;
+
+/// The sine of the least angle between the viewing direction and upwards.
+const MIN_TILT: f64 = 1e-9;
+
+impl Scene {
+    /// The default camera in world space. A camera that is carried by a node sees what lies in the
+    /// node's space as it would see it there, unless the node scales unevenly: its viewing direction
+    /// and its upwards go along, its field of view stays.
+    pub(in crate::scene) fn camera_at(&self, time: f64, nodes: &[NodeState]) -> Camera {
+        let rest = &self.cameras[self.camera_index];
+        let mut camera = rest.clone();
+        for track in &self.tracks {
+            for target in &track.targets {
+                if let Target::Camera(index, property) = *target
+                    && index == self.camera_index
+                {
+                    change(&mut camera, rest, property, track.curve.at(time));
+                }
+            }
+        }
+
+        let mut before = rest.look_at - rest.look_from;
+        if let Some(node) = camera.node.take() {
+            let world_from_node = nodes[node].world_from_node;
+            place(&mut camera, world_from_node);
+            before = world_from_node.transform_vector3(before);
+        }
+        if let Some(node) = camera.target.take() {
+            // Where the target is where the camera is, the camera's own direction remains.
+            before = camera.look_at - camera.look_from;
+            camera.look_at = nodes[node].world_from_node.translation;
+        }
+        straighten(&mut camera, before);
+        camera
+    }
+}
+
+fn change(camera: &mut Camera, rest: &Camera, property: CameraProperty, value: Value) {
+    match (property, value) {
+        (CameraProperty::LookFrom, Value::Vector(value)) => camera.look_from = value,
+        (CameraProperty::LookAt, Value::Vector(value)) => camera.look_at = value,
+        (CameraProperty::Up, Value::Vector(value)) => camera.up = value,
+        (CameraProperty::FovY, Value::Scalar(value)) => {
+            camera.fov_y = value.clamp(MIN_FOV, PI - MIN_FOV);
+        }
+        (CameraProperty::FocusDistance, Value::Scalar(value)) => {
+            if let (Some(lens), Some(rest)) = (&mut camera.lens, rest.lens) {
+                lens.focus_distance = value.max(1e-6 * rest.focus_distance);
+            }
+        }
+        (CameraProperty::LensRadius, Value::Scalar(value)) => {
+            if let (Some(lens), Some(rest)) = (&mut camera.lens, rest.lens) {
+                lens.radius = value.max(1e-6 * rest.radius);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Brings a camera into the space that `world_from_node` leads to. What was sharp stays sharp, and
+/// the opening keeps its share of the scene's size: the mean of its width and height.
+fn place(camera: &mut Camera, world_from_node: DAffine3) {
+    let vector = |v: DVec3| world_from_node.transform_vector3(v);
+    let forward = (camera.look_at - camera.look_from).normalize_or(DVec3::NEG_Z);
+    if let Some(lens) = &mut camera.lens {
+        let right = forward.cross(camera.up).try_normalize();
+        let right = right.unwrap_or_else(|| forward.any_orthonormal_vector());
+        let opening = vector(right).cross(vector(right.cross(forward))).length();
+        lens.focus_distance *= vector(forward).length();
+        lens.radius *= opening.sqrt();
+    }
+    camera.look_from = world_from_node.transform_point3(camera.look_from);
+    camera.look_at = world_from_node.transform_point3(camera.look_at);
+    camera.up = vector(camera.up);
+}
+
+/// Gives a camera a direction and an upwards where movement left it without, as if it had just come
+/// from looking along `before`.
+fn straighten(camera: &mut Camera, before: DVec3) {
+    let size = camera
+        .look_from
+        .abs()
+        .max(camera.look_at.abs())
+        .max_element();
+    let forward = camera.look_at - camera.look_from;
+    let forward = if forward.length() > f64::EPSILON * size {
+        forward.normalize_or(DVec3::NEG_Z)
+    } else {
+        let forward = before.normalize_or(DVec3::NEG_Z);
+        // Far enough away for the sum to tell.
+        camera.look_at = camera.look_from + forward * size.max(1.0);
+        forward
+    };
+    let is_clear = |up: DVec3| forward.cross(up).length() > MIN_TILT;
+    let up = camera.up.normalize_or_zero();
+    if is_clear(up) {
+        return;
+    }
+    // A camera that tilts down until it looks straight down has upwards in the picture what it
+    // looked at before; one that tilts up has it downwards.
+    let level = before.normalize_or_zero() * -forward.dot(up);
+    camera.up = [level, DVec3::Y, DVec3::Z]
+        .into_iter()
+        .find(|up| is_clear(*up))
+        .unwrap_or(DVec3::X);
+}

@@ -1,0 +1,441 @@
+//! The scene while the shutter is open: how many frames it takes to tell what moves.
+//!
+//! What lies between two frames is interpolated linearly, so the frames must be close enough for the
+//! chord between two states to stand for the way. A curve that comes back to where it was shows
+//! nothing of that in any two states; that is why turning is measured along the curves, from key
+//! to key, and why states are compared at the keys too.
+
+use super::frame::{Rig, rotation_from};
+use super::{
+    Beyond, Camera, Curve, Easing, Frame, Interpolation, Light, LightKind, LightProperty,
+    NodeProperty, NodeState, Scene, Target, Value,
+};
+use glam::DVec3;
+
+/// A shot has at most 2 to this intervals.
+const MAX_DOUBLINGS: u32 = 8;
+
+/// Radians by which a node may turn from one frame to the next.
+const MAX_TURN: f64 = 0.1;
+
+/// Radians by which the camera may turn from one frame to the next.
+const MAX_CAMERA_TURN: f64 = 0.02;
+
+/// How far off a chord may be, as a share of the distance that it is seen from.
+const TOLERANCE: f64 = 1e-3;
+
+/// How many keys in a shot are looked at one by one; more get all frames that there can be.
+const MAX_KEYS: usize = 1024;
+
+impl Scene {
+    /// The scene while the shutter is open, from `open` to `close` in seconds: frames at equal
+    /// distances of time, the first at `open` and the last at `close`, so close together that what
+    /// lies between two may be interpolated; a single one where nothing moves. What is visible,
+    /// which lights are on, and materials are in all frames as they are when the shutter opens.
+    ///
+    /// There are 2ᵏ + 1 with the least k ≤ 8 for which, from one frame to the next, no node turns by
+    /// more than 0.1 radians and the camera by no more than 0.02, were they always as fast as they
+    /// ever are meanwhile, and no chord is off by more than
+    /// * 10⁻³ of their distance from the camera for the places of nodes and lights, where a node that
+    ///   is nearer than a tenth of what the camera looks at counts as being there;
+    /// * what a turn by 0.1 radians makes of them for the axes of nodes and of lights;
+    /// * 10⁻³ of the distance to what it looks at for the camera's place;
+    /// * 10⁻³ of their size for the field of view, the lens, and the colours of lights.
+    ///
+    /// A jump cannot be told by interpolation: it takes all frames, and is spread over the distance
+    /// of two. What jumps at the very moment when the shutter closes has not done so yet.
+    pub fn shot(&self, open: f64, close: f64) -> Vec<Frame> {
+        let first = self.frame(open);
+        let mut frames = vec![first];
+        if close <= open {
+            return frames;
+        }
+        let motion = Motion::new(self, open, close, &frames[0]);
+        let close = motion.close;
+        let Some(doublings) = motion.doublings() else {
+            return frames;
+        };
+        let count = 1_u32 << doublings;
+        frames.reserve(count as usize);
+        for i in 1..=count {
+            frames.push(self.frame_while(moment(open, close, i, count), open));
+        }
+        frames
+    }
+}
+
+/// The time of frame `index` out of 0..=`count`.
+fn moment(open: f64, close: f64, index: u32, count: u32) -> f64 {
+    if index == count {
+        close
+    } else {
+        open + (close - open) * (f64::from(index) / f64::from(count))
+    }
+}
+
+/// A number or vector of a state, and how far interpolation may be off it.
+struct Probe {
+    value: DVec3,
+    tolerance: f64,
+}
+
+/// What moves in a shot.
+struct Motion<'a> {
+    scene: &'a Scene,
+    rig: Rig<'a>,
+    open: f64,
+    close: f64,
+    /// The nodes that move, parents first.
+    nodes: Vec<usize>,
+    camera: bool,
+    /// The lights that move by themselves.
+    lights: Vec<usize>,
+    /// All nodes when the shutter opens.
+    states: Vec<NodeState>,
+    /// The curves that make it move.
+    curves: Vec<&'a Curve>,
+}
+
+impl<'a> Motion<'a> {
+    fn new(scene: &'a Scene, open: f64, close: f64, first: &Frame) -> Self {
+        let moves = |curve: &Curve| {
+            let (start, end) = curve.span();
+            let is_held = curve.beyond == Beyond::Hold && (close <= start || open >= end);
+            !is_held && !curve.is_constant()
+        };
+        let rig = Rig::new(scene);
+        let mut moving = vec![false; scene.nodes.len()];
+        let mut lights = Vec::new();
+        let mut camera = false;
+        let mut curves = Vec::new();
+        for track in scene.tracks.iter().filter(|track| moves(&track.curve)) {
+            let mut counts = false;
+            for target in &track.targets {
+                counts |= match *target {
+                    Target::Node(_, NodeProperty::Visible)
+                    | Target::Light(_, LightProperty::On)
+                    | Target::Material(..) => false,
+                    Target::Node(index, _) => {
+                        moving[index] = true;
+                        true
+                    }
+                    Target::Light(index, _) => {
+                        lights.push(index);
+                        true
+                    }
+                    Target::Camera(index, _) => {
+                        camera |= index == scene.camera_index;
+                        index == scene.camera_index
+                    }
+                };
+            }
+            if counts {
+                curves.push(&track.curve);
+            }
+        }
+        for (index, node) in scene.nodes.iter().enumerate() {
+            moving[index] |= node.parent.is_some_and(|parent| moving[parent]);
+        }
+        let seen_by = &scene.cameras[scene.camera_index];
+        let is_moving = |node: Option<usize>| node.is_some_and(|node| moving[node]);
+        camera |= is_moving(seen_by.node) || is_moving(seen_by.target);
+        lights.sort_unstable();
+        lights.dedup();
+        let just = 1e-9 * (close - open);
+        let jumps = (curves.iter()).any(|curve| curve.jumps_within(close - just, close + just));
+        Self {
+            scene,
+            rig,
+            open,
+            close: if jumps { close - just } else { close },
+            nodes: (0..moving.len()).filter(|&node| moving[node]).collect(),
+            camera,
+            lights,
+            states: first.nodes.clone(),
+            curves,
+        }
+    }
+
+    /// How often the time must be halved; `None` where nothing moves.
+    fn doublings(mut self) -> Option<u32> {
+        if self.curves.is_empty() {
+            return None;
+        }
+        let (Some(stops), Some(intervals)) = (self.stops(), self.intervals_by_turning()) else {
+            return Some(MAX_DOUBLINGS);
+        };
+        let mut doublings = 0;
+        while doublings < MAX_DOUBLINGS && f64::from(1_u32 << doublings) < intervals {
+            doublings += 1;
+        }
+        while doublings < MAX_DOUBLINGS && !self.is_told_by(1 << doublings, &stops) {
+            doublings += 1;
+        }
+        (doublings > 0 || self.differs(&stops)).then_some(doublings)
+    }
+
+    /// When any curve has a key, in order.
+    fn stops(&self) -> Option<Vec<f64>> {
+        let mut stops = Vec::new();
+        for curve in &self.curves {
+            stops.extend(curve.keys_within(self.open, self.close)?);
+            stops.sort_unstable_by(f64::total_cmp);
+            stops.dedup();
+            if stops.len() > MAX_KEYS {
+                return None;
+            }
+        }
+        Some(stops)
+    }
+
+    /// How many intervals turning takes by itself: the most that a node and those above it turn in
+    /// the time of the shot, were they always as fast as they ever are.
+    fn intervals_by_turning(&self) -> Option<f64> {
+        let mut turns = vec![0.0; self.scene.nodes.len()];
+        for &index in &self.nodes {
+            let above = self.scene.nodes[index]
+                .parent
+                .map_or(0.0, |parent| turns[parent]);
+            let mut own = 0.0_f64;
+            for (_, property, curve) in self.rig.curves_of(index) {
+                if matches!(property, NodeProperty::Rotation | NodeProperty::Angles) {
+                    own = own.max(curve.fastest_turn(self.open, self.close)?);
+                }
+            }
+            turns[index] = above + own * (self.close - self.open);
+        }
+        let camera = &self.scene.cameras[self.scene.camera_index];
+        let camera_turn = camera.node.map_or(0.0, |node| turns[node]);
+        let node_turn = turns.into_iter().fold(0.0, f64::max);
+        // Less what rounding may have added to a turn that fits exactly.
+        Some((node_turn / MAX_TURN).max(camera_turn / MAX_CAMERA_TURN) * (1.0 - 1e-9))
+    }
+
+    /// Whether chords over `count` equal intervals stay where they should. States are compared at
+    /// each quarter of an interval and at the keys in it.
+    fn is_told_by(&mut self, count: u32, stops: &[f64]) -> bool {
+        let mut from = self.probes(self.open);
+        let mut start = self.open;
+        for i in 1..=count {
+            let end = moment(self.open, self.close, i, count);
+            let to = self.probes(end);
+            let keys = {
+                let first = stops.partition_point(|key| *key <= start);
+                let last = stops.partition_point(|key| *key < end);
+                &stops[first.min(last)..last]
+            };
+            let quarters = [0.25, 0.5, 0.75].map(|share| start + (end - start) * share);
+            for &time in quarters.iter().chain(keys) {
+                let share = (time - start) / (end - start);
+                for (probe, (from, to)) in self.probes(time).iter().zip(from.iter().zip(&to)) {
+                    let chord = from.value + (to.value - from.value) * share;
+                    let rounding = 1e-12 * probe.value.length();
+                    // Not the other way round: what is no number is not told by any chord.
+                    if !(chord.distance(probe.value) <= probe.tolerance + rounding) {
+                        return false;
+                    }
+                }
+            }
+            (from, start) = (to, end);
+        }
+        true
+    }
+
+    /// Whether anything is different at any time of the shot from what it is when it starts.
+    fn differs(&mut self, stops: &[f64]) -> bool {
+        let (open, close) = (self.open, self.close);
+        let first = self.probes(open);
+        let moments = [1, 2, 3, 4].map(|i| moment(open, close, i, 4));
+        (moments.iter().chain(stops)).any(|&time| {
+            let probes = self.probes(time);
+            probes.iter().zip(&first).any(|(a, b)| a.value != b.value)
+        })
+    }
+
+    /// All that moves, at one time.
+    fn probes(&mut self, time: f64) -> Vec<Probe> {
+        for &index in &self.nodes {
+            self.states[index] = self.rig.state(index, &self.states, time, self.open);
+        }
+        let camera = self.scene.camera_at(time, &self.states);
+        let reach = camera.look_from.distance(camera.look_at);
+        let from_camera = |p: DVec3| TOLERANCE * camera.look_from.distance(p).max(0.1 * reach);
+        let mut probes = Vec::new();
+        for &index in &self.nodes {
+            let place = self.states[index].world_from_node;
+            let origin = place.translation;
+            probes.push(Probe::new(origin, from_camera(origin)));
+            for axis in [
+                place.matrix3.x_axis,
+                place.matrix3.y_axis,
+                place.matrix3.z_axis,
+            ] {
+                probes.push(Probe::axis(axis, MAX_TURN));
+            }
+        }
+        if self.camera {
+            probes.extend(camera_probes(&camera));
+        }
+        if !self.lights.is_empty() {
+            let lights = self.scene.lights_at(time, self.open, &self.states);
+            for &index in &self.lights {
+                light_probes(&lights[index], &from_camera, &mut probes);
+            }
+        }
+        probes
+    }
+}
+
+impl Probe {
+    fn new(value: DVec3, tolerance: f64) -> Self {
+        Self { value, tolerance }
+    }
+
+    /// Which may be off by as much as the chord of an arc of `turn`.
+    fn axis(value: DVec3, turn: f64) -> Self {
+        let sagitta = 1.0 - (turn / 2.0).cos();
+        Self::new(value, sagitta * value.length())
+    }
+
+    /// Which may be off by a share of itself.
+    fn size(value: DVec3) -> Self {
+        Self::new(value, TOLERANCE * value.length())
+    }
+}
+
+fn camera_probes(camera: &Camera) -> Vec<Probe> {
+    let forward = camera.look_at - camera.look_from;
+    let right = forward.cross(camera.up).normalize_or_zero();
+    let mut probes = vec![
+        Probe::new(camera.look_from, TOLERANCE * forward.length()),
+        Probe::axis(forward.normalize_or_zero(), MAX_CAMERA_TURN),
+        Probe::axis(right, MAX_CAMERA_TURN),
+        Probe::size(DVec3::splat((camera.fov_y / 2.0).tan())),
+    ];
+    if let Some(lens) = camera.lens {
+        probes.push(Probe::size(DVec3::splat(lens.focus_distance)));
+        probes.push(Probe::size(DVec3::splat(lens.radius)));
+    }
+    probes
+}
+
+fn light_probes(light: &Light, from_camera: impl Fn(DVec3) -> f64, probes: &mut Vec<Probe>) {
+    let mut place = |p: DVec3| probes.push(Probe::new(p, from_camera(p)));
+    match light.kind {
+        LightKind::Point { position } | LightKind::Spot { position, .. } => place(position),
+        LightKind::Directional { .. } => {}
+        LightKind::Rectangle { center, .. }
+        | LightKind::Disc { center, .. }
+        | LightKind::Sphere { center, .. } => place(center),
+    }
+    let axis = match light.kind {
+        LightKind::Directional { direction } | LightKind::Spot { direction, .. } => direction,
+        LightKind::Disc { normal, .. } => normal,
+        _ => DVec3::ZERO,
+    };
+    probes.push(Probe::axis(axis, MAX_TURN));
+    probes.push(Probe::size(light.color.as_dvec3()));
+}
+
+impl Curve {
+    /// Whether its course between two keys is straight and even, or none.
+    fn is_even(&self) -> bool {
+        match self.interpolation {
+            Interpolation::Step => true,
+            Interpolation::Linear => self.easing == Easing::None,
+            Interpolation::CatmullRom | Interpolation::Hermite => false,
+        }
+    }
+
+    /// Whether it may jump between `open` and `close`.
+    fn jumps_within(&self, open: f64, close: f64) -> bool {
+        (self.interpolation == Interpolation::Step || self.beyond == Beyond::Repeat)
+            && (self.keys_within(open, close)).is_some_and(|keys| !keys.is_empty())
+    }
+
+    /// The times in (`open`, `close`) at which it passes a key, in any order; `None` if they are too
+    /// many to look at.
+    fn keys_within(&self, open: f64, close: f64) -> Option<Vec<f64>> {
+        let (first, last) = self.span();
+        let period = last - first;
+        let run = |time: f64| ((time - first) / period).floor();
+        let (low, high) = match self.beyond {
+            _ if period <= 0.0 => return Some(Vec::new()),
+            Beyond::Hold => (0.0, 0.0),
+            Beyond::Repeat | Beyond::PingPong => (run(open), run(close)),
+        };
+        let mut found = Vec::new();
+        if !(high - low <= MAX_KEYS as f64) {
+            return None;
+        }
+        for i in 0..=(high - low) as u32 {
+            let start = first + (low + f64::from(i)) * period;
+            let is_back = self.beyond == Beyond::PingPong && (low + f64::from(i)) % 2.0 != 0.0;
+            // From the curve's own times to these.
+            let at = |key: f64| start + if is_back { last - key } else { key - first };
+            let from_run = |time: f64| {
+                if is_back {
+                    last - (time - start)
+                } else {
+                    time - start + first
+                }
+            };
+            let (a, b) = (from_run(open), from_run(close));
+            let begin = self.times.partition_point(|key| *key < a.min(b));
+            let end = self.times.partition_point(|key| *key <= a.max(b));
+            if end - begin + found.len() > MAX_KEYS {
+                return None;
+            }
+            let keys = self.times[begin..end.max(begin)].iter().map(|key| at(*key));
+            found.extend(keys.filter(|time| *time > open && *time < close));
+        }
+        Some(found)
+    }
+
+    /// The most radians per second that a curve of rotations or angles turns by between `open` and
+    /// `close`, jumps at keys aside.
+    fn fastest_turn(&self, open: f64, close: f64) -> Option<f64> {
+        /// Pieces that the way between two keys is looked at in where it is not even.
+        const PIECES: u32 = 16;
+        let mut stops = self.keys_within(open, close)?;
+        stops.extend([open, close]);
+        stops.sort_unstable_by(f64::total_cmp);
+        let count = if self.is_even() { 1 } else { PIECES };
+        let mut fastest = 0.0_f64;
+        for pair in stops.windows(2) {
+            for i in 0..count {
+                let (a, b) = (
+                    moment(pair[0], pair[1], i, count),
+                    moment(pair[0], pair[1], i + 1, count),
+                );
+                // A little inside, as there may be a jump at the end.
+                let inset = (b - a) / 4096.0;
+                let (a, b) = (a + inset, b - inset);
+                let turn = match (self.at(a), self.at(b)) {
+                    (Value::Rotation(a), Value::Rotation(b)) => angle_between(a, b),
+                    (Value::Vector(a), Value::Vector(b)) => turn_between(a, b),
+                    _ => 0.0,
+                };
+                let speed = turn / (b - a);
+                if speed.is_finite() {
+                    fastest = fastest.max(speed);
+                }
+            }
+        }
+        Some(fastest)
+    }
+}
+
+/// Radians of the shorter way from one rotation to the other.
+fn angle_between(a: glam::DQuat, b: glam::DQuat) -> f64 {
+    let b = if a.dot(b) < 0.0 { -b } else { b };
+    4.0 * (a - b).length().atan2((a + b).length())
+}
+
+/// Radians of the way from one triple of angles to the other, which may be several turns: about one
+/// axis exactly, else at most. The shorter way cannot be less.
+fn turn_between(a: DVec3, b: DVec3) -> f64 {
+    let way = b - a;
+    let sum = way.abs().element_sum();
+    sum.max(angle_between(rotation_from(a), rotation_from(b)))
+}

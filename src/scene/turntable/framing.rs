@@ -1,0 +1,196 @@
+//! How near a camera may come that goes round an axis.
+//!
+//! While the camera goes round, a point at height h and distance ρ from the axis sweeps a circle in
+//! the camera's eyes. The camera looks at height s of the axis from a distance d, at an elevation e.
+//! With α going round, the point is
+//!
+//! * x = ρ cos α to the right,
+//! * y = (h − s) cos e − ρ sin α sin e upwards,
+//! * z = d − (h − s) sin e − ρ sin α cos e away
+//!
+//! from it. It is below the upper edge of a picture whose tangent is t if y ≤ t z for all α, that is,
+//! with the largest value that a cos α + b sin α takes, √(a² + b²), if
+//!
+//! * t d + s (cos e + t sin e) ≥ h (cos e + t sin e) + ρ |t cos e − sin e|, likewise above the lower
+//!   edge if
+//! * t d − s (cos e − t sin e) ≥ −h (cos e − t sin e) + ρ |t cos e + sin e|, and between the sides,
+//!   whose tangent is w, if
+//! * w d + s w sin e ≥ h w sin e + ρ √(1 + (w cos e)²).
+//!
+//! These are linear in d and s, and so only the largest right-hand side among all points counts. A
+//! sphere of radius r adds r √(1 + t²), or r √(1 + w²), its distance from a plane. The middle of the
+//! picture is chosen such that above and below the same is left free: both first conditions hold with
+//! equality for one t, which is the picture's unless the sides want a larger d; then it is the t for
+//! which they too hold with equality.
+
+use super::Turntable;
+use crate::scene::{Form, Geometry, Scene};
+use glam::{DAffine3, DVec3};
+
+/// What goes round the axis, which is y.
+pub(super) struct Swept {
+    /// Distance from the axis and height: the convex hull, as far as it matters.
+    points: Vec<[f64; 2]>,
+    /// The same of centres, and the radius.
+    spheres: Vec<[f64; 3]>,
+}
+
+/// Where the camera is.
+pub(super) struct View {
+    /// From what it looks at.
+    pub distance: f64,
+    /// Of what it looks at.
+    pub height: f64,
+}
+
+impl Swept {
+    /// All that is bounded in `scene`, visible or not, at time 0: vertices, spheres, and the corners
+    /// of boxes round other shapes.
+    pub fn new(scene: &Scene, pivot_from_world: DAffine3) -> Self {
+        let nodes = scene.nodes_at(0.0, 0.0);
+        let pivot_from = |node: Option<usize>| match node {
+            Some(node) => pivot_from_world * nodes[node].world_from_node,
+            None => pivot_from_world,
+        };
+        let mut swept = Self {
+            points: Vec::new(),
+            spheres: Vec::new(),
+        };
+        for instance in &scene.instances {
+            let pivot_from_object = pivot_from(instance.node) * instance.placement;
+            let positions = &scene.meshes[instance.mesh].positions;
+            (swept.points).extend(positions.iter().map(|p| {
+                let p = pivot_from_object.transform_point3(p.as_dvec3());
+                [p.x.hypot(p.z), p.y]
+            }));
+            swept.points = hull(swept.points);
+        }
+        for shape in &scene.shapes {
+            swept.add(shape.geometry.placed(pivot_from(shape.node)));
+        }
+        swept.points = hull(swept.points);
+        swept
+    }
+
+    fn add(&mut self, geometry: Geometry) {
+        let Geometry::Placed {
+            form,
+            world_from_form: place,
+        } = geometry
+        else {
+            return;
+        };
+        if let (Form::Ellipsoid, Some(radius)) = (form, even_scale(place)) {
+            let center = place.translation;
+            self.spheres
+                .push([center.x.hypot(center.z), center.y, radius]);
+            return;
+        }
+        let at_home = Geometry::Placed {
+            form,
+            world_from_form: DAffine3::IDENTITY,
+        };
+        if let Some((min, max)) = at_home.bounds() {
+            self.points.extend((0..8).map(|i| {
+                let side = |bit: usize| {
+                    if i >> bit & 1 == 0 {
+                        min[bit]
+                    } else {
+                        max[bit]
+                    }
+                };
+                let p = place.transform_point3(DVec3::new(side(0), side(1), side(2)));
+                [p.x.hypot(p.z), p.y]
+            }));
+        }
+    }
+
+    /// The largest of `by_height` · h + `by_distance` · ρ + `by_radius` · r.
+    fn most(&self, by_height: f64, by_distance: f64, by_radius: f64) -> f64 {
+        let points = (self.points.iter()).map(|[rho, h]| by_height * h + by_distance * rho);
+        let spheres = (self.spheres.iter())
+            .map(|[rho, h, r]| by_height * h + by_distance * rho + by_radius * r);
+        points.chain(spheres).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// How far anything is from the point of the axis at `height`.
+    pub fn radius(&self, height: f64) -> f64 {
+        let points = (self.points.iter()).map(|[rho, h]| rho.hypot(h - height));
+        let spheres = (self.spheres.iter()).map(|[rho, h, r]| rho.hypot(h - height) + r);
+        points.chain(spheres).fold(0.0, f64::max)
+    }
+
+    /// The nearest view with as much free above as below.
+    pub fn view(&self, elevation: f64, options: &Turntable) -> View {
+        let (sin, cos) = elevation.sin_cos();
+        let tangent = (options.fov_y / 2.0).tan() * (1.0 - options.margin);
+        let side = tangent * options.aspect;
+
+        let centred = |t: f64| {
+            let by_radius = (1.0 + t * t).sqrt();
+            let above = self.most(cos + t * sin, (t * cos - sin).abs(), by_radius);
+            let below = self.most(t * sin - cos, (t * cos + sin).abs(), by_radius);
+            let height = (above - below) / (2.0 * cos);
+            View {
+                distance: (above - height * (cos + t * sin)) / t,
+                height,
+            }
+        };
+        let across = self.most(side * sin, 1.0_f64.hypot(side * cos), 1.0_f64.hypot(side));
+        let distance_by_sides = |height: f64| across / side - height * sin;
+        let is_between_sides = |view: &View| view.distance >= distance_by_sides(view.height);
+
+        let view = centred(tangent);
+        if is_between_sides(&view) {
+            return view;
+        }
+        let (mut low, mut high) = (1e-6 * tangent, tangent);
+        for _ in 0..100 {
+            let middle = low.midpoint(high);
+            *(if is_between_sides(&centred(middle)) {
+                &mut low
+            } else {
+                &mut high
+            }) = middle;
+        }
+        let height = centred(high).height;
+        View {
+            distance: distance_by_sides(height),
+            height,
+        }
+    }
+}
+
+/// The factor of a map that scales evenly.
+fn even_scale(map: DAffine3) -> Option<f64> {
+    let [x, y, z] = [map.matrix3.x_axis, map.matrix3.y_axis, map.matrix3.z_axis];
+    let square = x.length_squared();
+    let off = [
+        y.length_squared() - square,
+        z.length_squared() - square,
+        x.dot(y),
+        y.dot(z),
+        z.dot(x),
+    ];
+    let is_even = off.iter().all(|off| off.abs() <= 1e-12 * square);
+    is_even.then(|| square.sqrt())
+}
+
+/// The points of the convex hull between the lowest and the highest on the side that is away from the
+/// axis (Andrew's monotone chain, 1979): all that can be largest in a direction away from it.
+fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.sort_unstable_by(|a, b| a[1].total_cmp(&b[1]).then(a[0].total_cmp(&b[0])));
+    let mut kept: Vec<[f64; 2]> = Vec::new();
+    for point in points {
+        while let [.., a, b] = kept[..] {
+            // Whether b is outside of the way from a to the point.
+            let is_outside = (b[0] - a[0]) * (point[1] - a[1]) > (point[0] - a[0]) * (b[1] - a[1]);
+            if is_outside {
+                break;
+            }
+            kept.pop();
+        }
+        kept.push(point);
+    }
+    kept
+}
