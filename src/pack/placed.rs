@@ -5,9 +5,9 @@ use super::{Forest, PackError, forest::Tree, geometry::Flat, light};
 use crate::{
     bvh::Aabb,
     layout::NO_INSTANCE,
-    scene::{Form, Frame, Geometry, LightProperty, Scene, Target},
+    scene::{Frame, Geometry, LightProperty, Scene, Target},
 };
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DVec3};
 
 /// Copies of a mesh are laid out in the world if they have at most this many triangles together: rays
 /// need no way into the space of an instance then.
@@ -212,24 +212,7 @@ impl PlacedTree {
     /// The box round it in the space that the transform leads to.
     pub fn bounds(&self, transform: DAffine3) -> (DVec3, DVec3) {
         if let Some(geometry) = &self.shape {
-            let (form, own) = match *geometry {
-                Geometry::Sphere { center, radius } => {
-                    let own = DAffine3::from_translation(center)
-                        * DAffine3::from_mat3(DMat3::from_diagonal(DVec3::splat(radius)));
-                    (Form::Ellipsoid, own)
-                }
-                Geometry::Placed {
-                    form,
-                    world_from_form,
-                } => (form, world_from_form),
-                // Planes are never placed.
-                Geometry::Plane { point, .. } => return (point, point),
-            };
-            let placed = Geometry::Placed {
-                form,
-                world_from_form: transform * own,
-            };
-            return placed.bounds().unwrap_or_default();
+            return geometry.placed(transform).bounds().unwrap_or_default();
         }
         let parts = self
             .tree
