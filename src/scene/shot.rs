@@ -230,8 +230,9 @@ impl<'a> Motion<'a> {
                 for (probe, (from, to)) in self.probes(time).iter().zip(from.iter().zip(&to)) {
                     let chord = from.value + (to.value - from.value) * share;
                     let rounding = 1e-12 * probe.value.length();
-                    // Not the other way round: what is no number is not told by any chord.
-                    if !(chord.distance(probe.value) <= probe.tolerance + rounding) {
+                    // False too for what is no number, which no chord tells.
+                    let is_near = chord.distance(probe.value) <= probe.tolerance + rounding;
+                    if !is_near {
                         return false;
                     }
                 }
@@ -279,7 +280,7 @@ impl<'a> Motion<'a> {
         if !self.lights.is_empty() {
             let lights = self.scene.lights_at(time, self.open, &self.states);
             for &index in &self.lights {
-                light_probes(&lights[index], &from_camera, &mut probes);
+                light_probes(&lights[index], from_camera, &mut probes);
             }
         }
         probes
@@ -365,7 +366,8 @@ impl Curve {
             Beyond::Repeat | Beyond::PingPong => (run(open), run(close)),
         };
         let mut found = Vec::new();
-        if !(high - low <= MAX_KEYS as f64) {
+        let are_few = high - low <= MAX_KEYS as f64;
+        if !are_few {
             return None;
         }
         for i in 0..=(high - low) as u32 {

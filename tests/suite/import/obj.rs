@@ -33,6 +33,7 @@ fn a_model_alone_is_framed_and_lit() {
     assert_eq!(scene.triangle_count(), 2);
     assert_eq!(scene.meshes[0].name, "a");
     assert!(scene.lights.len() >= 2);
+    assert!(scene.staged, "these lights are not the file's");
     assert_ne!(scene.background, Background::Color(Vec3::ZERO));
     assert_eq!(scene.cameras[0].look_at, DVec3::new(0.5, 0.5, 0.0));
     assert_eq!(scene.materials, [Material::default()]);
