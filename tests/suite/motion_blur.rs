@@ -113,7 +113,7 @@ fn a_sphere_that_crosses_the_picture_covers_it_as_its_profile_says() {
     let way = vec![dvec3(from, 0.0, 0.0), dvec3(to, 0.0, 0.0)];
     let target = Target::Node(0, NodeProperty::Translation);
     scene.tracks.push(track(target, Values::Vector(way)));
-    let image = exposed(&scene, &blurred(256));
+    let image = exposed(&scene, &blurred(1024));
     // A point at (x, y) is covered while the centre is within the chord's half of it.
     let covered = |x: f64, y: f64| {
         let half = (radius * radius - y * y).max(0.0).sqrt();
