@@ -3,12 +3,14 @@
 //! to directly and never replaced.
 //!
 //! What the values of an [`Image`] mean is settled before they get here: PNG and JPEG take them as
-//! display values in [0, 1], OpenEXR and Radiance HDR as linear light ([`Format::is_linear`]).
+//! display values in [0, 1], OpenEXR and Radiance HDR as linear light ([`Format::is_linear`]). Frames
+//! become one file in [`video`].
 
 mod atomic;
 mod encode;
 mod error;
 mod format;
+pub mod video;
 
 pub use error::OutputError;
 pub(crate) use error::reason;

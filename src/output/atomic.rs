@@ -3,7 +3,7 @@
 
 use super::OutputError;
 use std::fs::{self, File, OpenOptions, Permissions};
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tempfile::NamedTempFile;
@@ -36,21 +36,43 @@ pub(super) fn check(path: &Path, clobber: bool) -> Result<(), OutputError> {
 }
 
 pub(super) fn write(path: &Path, bytes: &[u8], clobber: bool) -> Result<(), OutputError> {
+    write_with(path, clobber, |file| {
+        file.write_all(bytes).map_err(|source| failed(path, source))
+    })
+}
+
+/// Like [`write`], for what is too long to be held in memory: `fill` writes it bit by bit. Its
+/// errors leave what was at `path` as it was.
+pub(super) fn write_with(
+    path: &Path,
+    clobber: bool,
+    fill: impl FnOnce(&mut dyn Write) -> Result<(), OutputError>,
+) -> Result<(), OutputError> {
     match target(path, clobber)? {
-        Target::Stream => OpenOptions::new()
-            .write(true)
-            .open(path)
-            .and_then(|mut stream| stream.write_all(bytes).and_then(|()| stream.flush()))
-            .map_err(|source| failed(path, source)),
+        Target::Stream => {
+            let mut stream = OpenOptions::new()
+                .write(true)
+                .open(path)
+                .map_err(|source| failed(path, source))?;
+            fill(&mut stream)?;
+            stream.flush().map_err(|source| failed(path, source))
+        }
         Target::File {
             path: file,
             permissions,
         } => {
-            replace(&file, bytes, permissions, clobber).map_err(|source| match source.kind() {
-                ErrorKind::AlreadyExists if !clobber => OutputError::Exists { path: path.into() },
-                _ => failed(path, source),
-            })?;
-            verify(path, &file, bytes.len() as u64)
+            let mut part = part_file(&file).map_err(|source| failed(path, source))?;
+            fill(&mut part)?;
+            let length =
+                replace(&file, part, permissions, clobber).map_err(|source| {
+                    match source.kind() {
+                        ErrorKind::AlreadyExists if !clobber => {
+                            OutputError::Exists { path: path.into() }
+                        }
+                        _ => failed(path, source),
+                    }
+                })?;
+            verify(path, &file, length)
         }
     }
 }
@@ -99,19 +121,19 @@ fn new_target(path: &Path) -> Result<Target, OutputError> {
     })
 }
 
+/// Puts a part that has been filled in its place, and returns how many bytes went into it.
 fn replace(
     path: &Path,
-    bytes: &[u8],
+    mut part: NamedTempFile,
     permissions: Option<Permissions>,
     clobber: bool,
-) -> io::Result<()> {
-    let mut part = part_file(path)?;
+) -> io::Result<u64> {
     if let Some(permissions) = permissions {
         part.as_file().set_permissions(permissions)?;
     }
-    part.write_all(bytes)?;
     part.flush()?;
     part.as_file().sync_all()?;
+    let length = part.stream_position()?;
     // An error from here on drops, and thereby removes, the part.
     if clobber {
         part.persist(path)?;
@@ -119,7 +141,7 @@ fn replace(
         part.persist_noclobber(path)?;
     }
     sync_folder(folder_of(path));
-    Ok(())
+    Ok(length)
 }
 
 /// A new empty file beside `path`, gone when it is dropped.

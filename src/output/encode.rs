@@ -60,6 +60,6 @@ fn rgb([r, g, b, _]: [f32; 4]) -> [f32; 3] {
 }
 
 /// The nearest of the 256 levels to a value in [0, 1]; values beyond go to its ends, a NaN to 0.
-fn level(value: f32) -> u8 {
+pub(super) fn level(value: f32) -> u8 {
     (value.clamp(0.0, 1.0) * 255.0).round() as u8
 }

@@ -1,6 +1,7 @@
-//! Why a picture could not be written, in one line each.
+//! Why a picture or a video could not be written, in one line each.
 
 use super::Format;
+use super::video::{FrameRate, VideoFormat};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -142,6 +143,126 @@ pub enum OutputError {
         /// What the encoder said.
         source: ::image::ImageError,
     },
+
+    /// The name's ending says no known video format.
+    #[error(
+        "cannot tell the video format ({}): the name has none of the endings {}. \
+         Choose one of them.",
+        show(path),
+        VideoFormat::ENDINGS
+    )]
+    UnknownVideoFormat {
+        /// Where the video was to go.
+        path: PathBuf,
+    },
+
+    /// The program was built without the encoders of videos.
+    #[error(
+        "cannot write the video ({format}): this program was built without its encoder, the cargo \
+         feature `video`. Choose .y4m, or numbered pictures."
+    )]
+    VideoLeftOut {
+        /// The format asked for.
+        format: VideoFormat,
+    },
+
+    /// The format cannot hold frames of that size. All figures are pixels.
+    #[error(
+        "cannot write the video ({width}×{height} pixels): {format} holds at most {long}×{short}, \
+         or upright. Choose a smaller size or another format."
+    )]
+    VideoTooLarge {
+        /// The format asked for.
+        format: VideoFormat,
+        /// The frames' width.
+        width: u32,
+        /// The frames' height.
+        height: u32,
+        /// The greatest longer side.
+        long: u32,
+        /// The greatest shorter side.
+        short: u32,
+    },
+
+    /// The format cannot play frames at that rate.
+    #[error(
+        "cannot write the video ({rate} frames per second): {format} plays {least} to {most}. \
+         Choose a rate between them or another format."
+    )]
+    VideoRate {
+        /// The format asked for.
+        format: VideoFormat,
+        /// The rate asked for.
+        rate: FrameRate,
+        /// The lowest rate, in frames per second.
+        least: f64,
+        /// The highest rate, in frames per second.
+        most: f64,
+    },
+
+    /// A frame has not the size of the first. All figures are pixels.
+    #[error(
+        "cannot write the video (frame {index}, counted from 0): it has {width}×{height} pixels, \
+         the first one {first_width}×{first_height}. Render it again in that size."
+    )]
+    FrameSize {
+        /// Which frame, from 0 on.
+        index: usize,
+        /// Its width.
+        width: u32,
+        /// Its height.
+        height: u32,
+        /// The first frame's width.
+        first_width: u32,
+        /// The first frame's height.
+        first_height: u32,
+    },
+
+    /// A frame could not be read back.
+    #[error("cannot read the frame ({}): {reason}. Render it again.", show(path))]
+    UnreadableFrame {
+        /// The frame's file.
+        path: PathBuf,
+        /// What the system or the decoder said.
+        reason: String,
+    },
+
+    /// The encoder refused a frame.
+    #[error("cannot write the video ({format}): {reason}. Choose another format.")]
+    VideoEncode {
+        /// The format asked for.
+        format: VideoFormat,
+        /// What the encoder said.
+        reason: String,
+    },
+}
+
+impl OutputError {
+    /// Whether another name, format, size or rate is all it takes.
+    pub fn is_usage(&self) -> bool {
+        matches!(
+            self,
+            Self::UnknownFormat { .. }
+                | Self::TooLarge { .. }
+                | Self::UnknownVideoFormat { .. }
+                | Self::VideoLeftOut { .. }
+                | Self::VideoTooLarge { .. }
+                | Self::VideoRate { .. }
+        )
+    }
+
+    /// Whether a frame that was to be read back is at fault.
+    pub fn is_refused_input(&self) -> bool {
+        matches!(self, Self::FrameSize { .. } | Self::UnreadableFrame { .. })
+    }
+
+    /// Whether it can only be our bug.
+    pub fn is_internal(&self) -> bool {
+        matches!(
+            self,
+            Self::Encode { .. } | Self::Misshapen { .. } | Self::VideoEncode { .. }
+        )
+    }
 }
 
 /// A path for a one-line message: control characters are escaped, so that no file name can break

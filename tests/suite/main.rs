@@ -51,3 +51,5 @@ mod soft_shadows;
 mod spd;
 mod support;
 mod textures;
+#[cfg(feature = "video")]
+mod video;

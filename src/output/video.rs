@@ -1,0 +1,265 @@
+//! Numbered frames → a video: MP4, GIF or Y4M, one file for each. A frame is a [`Picture8`]; all
+//! of a video have the size of the first.
+
+#[cfg(feature = "video")]
+mod gif;
+#[cfg(feature = "video")]
+mod mp4;
+#[cfg(feature = "video")]
+mod palette;
+mod picture;
+mod rate;
+mod y4m;
+mod yuv;
+
+pub use picture::{Picture8, read_frame};
+pub use rate::FrameRate;
+pub use y4m::Y4mWriter;
+pub use yuv::Planes;
+
+use super::{OutputError, atomic};
+use std::fmt;
+use std::path::Path;
+
+/// A video file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum VideoFormat {
+    /// H.264 in MP4: small, lossy, plays nearly everywhere.
+    Mp4,
+    /// 255 colours and no sound, plays wherever pictures show.
+    Gif,
+    /// YUV4MPEG2, uncompressed: what other programs' encoders read from a pipe.
+    Y4m,
+}
+
+impl VideoFormat {
+    /// Every ending that [`VideoFormat::from_path`] knows, for messages.
+    pub const ENDINGS: &str = ".mp4, .gif, .y4m";
+
+    /// The format that the ending of `path` says, in upper or lower case.
+    pub fn from_path(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        match ending.as_str() {
+            "mp4" => Some(Self::Mp4),
+            "gif" => Some(Self::Gif),
+            "y4m" => Some(Self::Y4m),
+            _ => None,
+        }
+    }
+
+    /// Width and height, in pixels, of the video that frames of `width` × `height` make. Colour at
+    /// half the resolution needs even sides in MP4, and its encoder sides of 16 at least: the last
+    /// column and row are repeated.
+    pub fn padded_size(self, width: u32, height: u32) -> (u32, u32) {
+        let padded = |side: u32| side.max(16).next_multiple_of(2);
+        match self {
+            Self::Mp4 => (padded(width), padded(height)),
+            Self::Gif | Self::Y4m => (width, height),
+        }
+    }
+
+    /// The greatest longer and shorter side, in pixels.
+    fn max_sides(self) -> (u32, u32) {
+        match self {
+            // OpenH264's own: level 5.2.
+            Self::Mp4 => (3840, 2160),
+            Self::Gif => (0xFFFF, 0xFFFF),
+            Self::Y4m => (i32::MAX as u32, i32::MAX as u32),
+        }
+    }
+
+    /// Frames per second, the least and the most.
+    fn rates(self) -> (f64, f64) {
+        match self {
+            // Delays are counted in 1/100 s, in 16 bits; players take a single one for ten.
+            Self::Gif => (0.01, 50.0),
+            Self::Mp4 | Self::Y4m => (0.0, f64::INFINITY),
+        }
+    }
+
+    fn check(self, rate: FrameRate, width: u32, height: u32) -> Result<(), OutputError> {
+        if cfg!(not(feature = "video")) && self != Self::Y4m {
+            return Err(OutputError::VideoLeftOut { format: self });
+        }
+        let (long, short) = self.max_sides();
+        if width.max(height) > long || width.min(height) > short {
+            return Err(OutputError::VideoTooLarge {
+                format: self,
+                width,
+                height,
+                long,
+                short,
+            });
+        }
+        let (least, most) = self.rates();
+        if !(least..=most).contains(&rate.as_f64()) {
+            return Err(OutputError::VideoRate {
+                format: self,
+                rate,
+                least,
+                most,
+            });
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for VideoFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Mp4 => "MP4",
+            Self::Gif => "GIF",
+            Self::Y4m => "Y4M",
+        })
+    }
+}
+
+/// How to write a video.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VideoOptions {
+    /// Frames per second.
+    pub rate: FrameRate,
+    /// Of an MP4: 1 (smallest) to 100 (best), the same for every frame. Values outside are clamped.
+    pub quality: u8,
+    /// Of a GIF: whether it starts over for ever.
+    pub repeat: bool,
+    /// Whether a file of that name may be replaced.
+    pub clobber: bool,
+}
+
+impl Default for VideoOptions {
+    /// 24 frames per second, quality 75, repeating, replacing what is there.
+    fn default() -> Self {
+        Self {
+            rate: FrameRate::FILM,
+            quality: 75,
+            repeat: true,
+            clobber: true,
+        }
+    }
+}
+
+/// Encodes `count` frames, which `frame` fetches by their number from 0 on (in order; some of a GIF
+/// once more beforehand), and writes the file like every other: complete or absent. The same frames
+/// and options give the same bytes.
+///
+/// # Errors
+/// Those of `frame`; frames of different sizes, sizes and rates that the format cannot hold, and
+/// whatever keeps the file from being written.
+pub fn encode(
+    path: &Path,
+    format: VideoFormat,
+    options: &VideoOptions,
+    count: usize,
+    frame: &mut dyn FnMut(usize) -> Result<Picture8, OutputError>,
+) -> Result<(), OutputError> {
+    let frames = Frames::new(format, options.rate, count, frame)?;
+    match format {
+        #[cfg(feature = "video")]
+        VideoFormat::Mp4 => super::write(path, &mp4::encode(frames, options)?, options.clobber),
+        #[cfg(feature = "video")]
+        VideoFormat::Gif => super::write(path, &gif::encode(frames, options)?, options.clobber),
+        #[cfg(not(feature = "video"))]
+        VideoFormat::Mp4 | VideoFormat::Gif => Err(OutputError::VideoLeftOut { format }),
+        // The only one that need not be held in memory, and is too long to be.
+        VideoFormat::Y4m => atomic::write_with(path, options.clobber, |file| {
+            y4m::encode(frames, options.rate, path, file)
+        }),
+    }
+}
+
+/// Finds out, before frames of `width` × `height` pixels are rendered, whether [`encode`] can write
+/// them to `path`.
+///
+/// # Errors
+/// Those of [`encode`] that can be known beforehand.
+pub fn check(
+    path: &Path,
+    format: VideoFormat,
+    options: &VideoOptions,
+    width: u32,
+    height: u32,
+) -> Result<(), OutputError> {
+    format.check(options.rate, width, height)?;
+    super::check_file(path, options.clobber)
+}
+
+/// The frames of one video, held against the first.
+struct Frames<'a> {
+    count: usize,
+    fetch: &'a mut dyn FnMut(usize) -> Result<Picture8, OutputError>,
+    /// In pixels.
+    width: u32,
+    height: u32,
+    first: Option<Picture8>,
+}
+
+impl<'a> Frames<'a> {
+    fn new(
+        format: VideoFormat,
+        rate: FrameRate,
+        count: usize,
+        fetch: &'a mut dyn FnMut(usize) -> Result<Picture8, OutputError>,
+    ) -> Result<Self, OutputError> {
+        if count == 0 {
+            return Err(failed(format, "there is no frame"));
+        }
+        let first = fetch(0)?;
+        let (width, height) = (first.width, first.height);
+        if width == 0 || height == 0 {
+            return Err(failed(format, "the first frame has no pixels"));
+        }
+        format.check(rate, width, height)?;
+        let mut frames = Self {
+            count,
+            fetch,
+            width,
+            height,
+            first: None,
+        };
+        frames.check(0, &first)?;
+        frames.first = Some(first);
+        Ok(frames)
+    }
+
+    fn get(&mut self, index: usize) -> Result<Picture8, OutputError> {
+        if index == 0
+            && let Some(first) = self.first.take()
+        {
+            return Ok(first);
+        }
+        let picture = (self.fetch)(index)?;
+        self.check(index, &picture)?;
+        Ok(picture)
+    }
+
+    fn check(&self, index: usize, picture: &Picture8) -> Result<(), OutputError> {
+        let (width, height) = (picture.width, picture.height);
+        if (width, height) != (self.width, self.height) {
+            return Err(OutputError::FrameSize {
+                index,
+                width,
+                height,
+                first_width: self.width,
+                first_height: self.height,
+            });
+        }
+        if picture.pixels.len() as u64 != u64::from(width) * u64::from(height) {
+            return Err(OutputError::Misshapen {
+                width,
+                height,
+                pixel_count: picture.pixels.len(),
+            });
+        }
+        Ok(())
+    }
+}
+
+/// What an encoder said, as a part of a sentence.
+fn failed(format: VideoFormat, reason: impl fmt::Display) -> OutputError {
+    let reason = reason.to_string();
+    OutputError::VideoEncode {
+        format,
+        reason: reason.trim_end_matches('.').into(),
+    }
+}
