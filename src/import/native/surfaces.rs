@@ -9,8 +9,9 @@ use super::values::Vector;
 use crate::import::error::ImportError;
 use crate::import::source::quote;
 use crate::import::{obj, repair_notes};
-use crate::scene::{self, Geometry, Instance, Mesh, Shape, Space};
+use crate::scene::{self, Geometry, Instance, Mesh, Repairs, Shape, Space};
 use glam::{DAffine3, DVec3, Vec2};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
@@ -235,8 +236,10 @@ impl Builder<'_> {
         textures.iter().flatten().any(is_uv)
     }
 
-    /// Makes meshes of all single triangles.
+    /// Makes meshes of all single triangles: one for each node, unless it is a copy of another.
     pub fn finish_triangles(&mut self) {
+        let mut known: HashMap<Vec<u32>, usize> = HashMap::new();
+        let mut all = Repairs::default();
         for (node, Triangles { mut mesh, corners }) in std::mem::take(&mut self.triangles) {
             let (positions, offset) = Mesh::from_world_positions(&corners);
             mesh.positions = positions;
@@ -247,15 +250,25 @@ impl Builder<'_> {
                 mesh.uvs = own.repeat(mesh.triangles.len());
             }
             let repairs = mesh.repair();
-            self.scene.skipped.extend(repair_notes(repairs));
-            if !mesh.triangles.is_empty() {
-                self.scene.instances.push(Instance {
-                    mesh: self.scene.meshes.len(),
-                    placement: DAffine3::from_translation(offset),
-                    node,
-                });
+            all.dropped_triangles += repairs.dropped_triangles;
+            all.recomputed_normals += repairs.recomputed_normals;
+            if mesh.triangles.is_empty() {
+                continue;
+            }
+            let numbers = mesh.positions.iter().chain(&mesh.normals);
+            let bits = numbers.flat_map(|p| p.to_array()).map(f32::to_bits);
+            let contents = bits.chain(mesh.materials.iter().copied()).collect();
+            let next = self.scene.meshes.len();
+            let index = *known.entry(contents).or_insert(next);
+            if index == next {
                 self.scene.meshes.push(mesh);
             }
+            self.scene.instances.push(Instance {
+                mesh: index,
+                placement: DAffine3::from_translation(offset),
+                node,
+            });
         }
+        self.scene.skipped.extend(repair_notes(all));
     }
 }

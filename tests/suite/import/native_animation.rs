@@ -186,7 +186,7 @@ fn meshes_and_triangles_hang_on_the_nodes_above_them() {
             (0, 1, Some(1)),
             (1, 1, None),
             (2, 2, Some(0)),
-            (3, 2, Some(1))
+            (2, 2, Some(1))
         ]
     );
     assert_eq!(
