@@ -10,7 +10,8 @@
 //! Pictures that scenes and models name are read by `picture.rs`.
 //!
 //! Files are hostile until read: nothing here panics, follows a path out of the scene's folder, or
-//! takes more memory than a few times the file's size. What cannot be rendered but does no harm is
+//! takes more memory than a few times the file's size and that of what it places, which is counted
+//! first. What cannot be rendered but does no harm is
 //! left out and named in [`Scene::skipped`]; everything else is one [`ImportError`] with the place
 //! it happened at.
 

@@ -1,15 +1,22 @@
 //! glimray's own format (`.toml`): written by hand, checked to the last key.
 //!
 //! [`file`] is the format: its types are what a scene may say, and their docs become the JSON
-//! Schema. [`values`] checks single values, [`build`] what only shows when several are put together.
+//! Schema. [`values`] checks single values, [`build`] what only shows when several are put together:
+//! [`objects`] knows who is who and how many there will be, then everything is placed, and at last
+//! [`animation`] moves it.
 
+mod animation;
 mod build;
 mod cameras;
 mod file;
 mod lights;
 mod materials;
+mod nodes;
+mod objects;
+mod repeat;
 mod set;
 mod shapes;
+mod surfaces;
 mod textures;
 mod values;
 
@@ -112,7 +119,11 @@ fn refuse_excess(source: &Source) -> Result<(), ImportError> {
         }
         if marks > MAX_MARKS {
             let why = "a native scene cannot have so many keys and values".to_owned();
-            return Err(source.malformed(at..at + 1, why, "Keep geometry in OBJ files"));
+            return Err(source.malformed(
+                at..at + 1,
+                why,
+                "Keep geometry in OBJ files, and let fewer keys move it",
+            ));
         }
     }
     Ok(())

@@ -5,6 +5,8 @@ mod course;
 mod files;
 mod hostile;
 mod native;
+mod native_animation;
+mod native_groups;
 mod native_light_and_lens;
 mod nff;
 mod obj;

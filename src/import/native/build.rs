@@ -1,41 +1,39 @@
 //! From the tables of a native scene to a [`Scene`]: names are looked up, objects placed, files
 //! read, and everything checked that takes more than one value to see.
 
-use super::file::{
-    MaterialRef, MeshTable, ObjectTable, OutputTable, SceneFile, TransformTable, TriangleTable,
-};
+use super::file::{MaterialRef, OutputTable, SceneFile, TransformTable};
+use super::nodes::{Nodes, Place};
+use super::objects::{Object, Objects};
+use super::surfaces::{MeshKey, PlacedMesh, Triangles};
 use super::textures::Textures;
-use super::values::Vector;
-use super::{Texts, cameras, lights, materials, shapes};
+use super::{Texts, animation, cameras, lights, materials};
 use crate::import::error::ImportError;
 use crate::import::number::in_range;
 use crate::import::paths::Files;
-use crate::import::source::quote;
-use crate::import::{obj, repair_notes, stage, suggest};
-use crate::scene::{self, Geometry, Instance, Material, Mesh, OutputDefaults, Scene, Shape, Space};
-use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2};
-use std::collections::HashMap;
+use crate::import::{stage, suggest};
+use crate::scene::{Material, OutputDefaults, Scene, Shutter};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
-use std::path::PathBuf;
 use toml::Spanned;
 
 /// The scene that `file` describes.
 pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Scene, ImportError> {
-    let mut builder = Builder::new(&file, texts, files)?;
-    for object in &file.objects {
-        builder.object(object)?;
-    }
+    let objects = Objects::new(&file, texts)?;
+    let mut builder = Builder::new(&file, &objects, texts, files)?;
+    builder.list(objects.roots.clone(), Place::default())?;
     builder.finish_triangles();
     let background = builder.textures.background(&file.background)?;
+    let (mut nodes, names) = (builder.nodes, builder.names);
     let mut scene = Scene {
+        nodes: std::mem::take(&mut nodes.nodes),
         textures: builder.textures.textures,
         pictures: builder.textures.pictures.pictures,
         background,
         ..builder.scene
     };
-    let lights = file.lights.iter().map(|table| lights::light(table, texts));
-    scene.lights = lights.collect::<Result<_, _>>()?;
-    let cameras = cameras::cameras(&file, texts)?;
+    let mut lights = lights::lights(&file, &nodes, texts)?;
+    let cameras = cameras::cameras(&file, &nodes, texts)?;
     scene.cameras = if cameras.is_empty() {
         vec![stage::camera(&scene)]
     } else {
@@ -44,33 +42,48 @@ pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Sce
     if scene.materials.is_empty() {
         scene.materials.push(Material::default());
     }
+    let found = animation::Found {
+        nodes: &nodes,
+        cameras: &scene.cameras,
+        lights: &mut lights,
+        materials: &names,
+    };
+    let tracks = animation::tracks(&file, found, texts)?;
+    scene.tracks = tracks.tracks;
+    scene.skipped.extend(tracks.skipped);
+    scene.lights = lights.into_iter().map(|named| named.light).collect();
     Ok(scene)
 }
 
-/// A mesh file and the material it was given in place of its own.
-type MeshKey = (PathBuf, Option<usize>);
-
-/// The index of a mesh and its offset; `None` when the file has no triangles.
-type PlacedMesh = Option<(usize, DVec3)>;
-
-struct Builder<'a> {
-    texts: &'a Texts<'a>,
-    files: &'a Files,
-    /// Still without its textures, pictures and background.
-    scene: Scene,
-    textures: Textures<'a>,
+pub(super) struct Builder<'a> {
+    pub texts: &'a Texts<'a>,
+    pub files: &'a Files,
+    objects: &'a Objects<'a>,
+    pub nodes: Nodes<'a>,
+    /// Still without its textures, pictures, background and nodes.
+    pub scene: Scene,
+    pub textures: Textures<'a>,
+    /// Of materials.
     names: HashMap<String, usize>,
     /// The material of objects that name none, once there is one.
     default_material: Option<usize>,
-    /// Meshes already read, by file and the material they were given, and their offsets.
-    meshes: HashMap<MeshKey, PlacedMesh>,
-    /// All single triangles, in world space, as one mesh without its positions.
-    triangles: Mesh,
-    corners: Vec<DVec3>,
+    /// The materials that are written inside objects, by the object's index.
+    inline_materials: HashMap<usize, usize>,
+    /// Meshes already read, by file and the material they were given.
+    pub meshes: HashMap<MeshKey, PlacedMesh>,
+    /// The same by the object's index, so that copies look for no files.
+    pub meshes_of_objects: HashMap<usize, PlacedMesh>,
+    /// All single triangles, by the node that they are attached to.
+    pub triangles: BTreeMap<Option<usize>, Triangles>,
 }
 
 impl<'a> Builder<'a> {
-    fn new(file: &SceneFile, texts: &'a Texts, files: &'a Files) -> Result<Self, ImportError> {
+    fn new(
+        file: &SceneFile,
+        objects: &'a Objects<'a>,
+        texts: &'a Texts<'a>,
+        files: &'a Files,
+    ) -> Result<Self, ImportError> {
         let mut textures = Textures::new(file, texts, files)?;
         let materials = (file.materials.iter())
             .map(|(name, table)| materials::material(name, table, &mut textures))
@@ -78,6 +91,8 @@ impl<'a> Builder<'a> {
         Ok(Self {
             texts,
             files,
+            objects,
+            nodes: Nodes::new(objects),
             textures,
             scene: Scene {
                 materials,
@@ -88,224 +103,87 @@ impl<'a> Builder<'a> {
             },
             names: file.materials.keys().cloned().zip(0..).collect(),
             default_material: None,
+            inline_materials: HashMap::new(),
             meshes: HashMap::new(),
-            triangles: Mesh::default(),
-            corners: Vec::new(),
+            meshes_of_objects: HashMap::new(),
+            triangles: BTreeMap::new(),
         })
     }
 
-    fn refuse(&self, span: Range<usize>, why: impl Into<String>, todo: &str) -> ImportError {
+    pub fn refuse(&self, span: Range<usize>, why: impl Into<String>, todo: &str) -> ImportError {
         self.texts.malformed(span, why.into(), todo)
     }
 
-    fn object(&mut self, object: &Spanned<ObjectTable>) -> Result<(), ImportError> {
-        let table = object.get_ref();
-        if shapes::count(table) + meshes_in(table) != 1 {
-            let todo = "Give it exactly one of `sphere`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle` and `mesh`";
-            return Err(self.refuse(object.span(), "an object is one surface", todo));
-        }
-        if !table.visible {
-            return Ok(());
-        }
-        let transform = table.transform.as_ref();
-        let placed = transform.map_or(DAffine3::IDENTITY, |t| world_from_object(t.get_ref()));
-        let reached = if let Some(triangle) = &table.triangle {
-            self.triangle(triangle, placed, table)?
-        } else if let Some(mesh) = &table.mesh {
-            self.mesh(mesh, placed, table)?
-        } else {
-            self.shape(placed, table)?
-        };
-        if reached
-            .iter()
-            .all(|p| p.to_array().into_iter().all(in_range))
-        {
-            return Ok(());
-        }
-        let span = transform.map_or(object.span(), Spanned::span);
-        let why = "the object reaches out of range: at most 3.4e38 is allowed";
-        Err(self.refuse(
-            span,
-            why,
-            "Make it smaller, or leave it nearer to the origin",
-        ))
-    }
-
-    // Each of the following returns points that the placed object reaches to.
-
-    fn shape(&mut self, placed: DAffine3, table: &ObjectTable) -> Result<Vec<DVec3>, ImportError> {
-        let material = self.material_of(table)?;
-        let textured = self.scene.materials[material].textures != scene::Textures::default();
-        let Some(geometry) = shapes::geometry(table, placed, textured, self.texts)? else {
-            return Ok(Vec::new());
-        };
-        self.scene.shapes.push(Shape {
-            geometry,
-            material,
-            node: None,
-        });
-        Ok(match (geometry, geometry.bounds()) {
-            (Geometry::Plane { point, .. }, _) => vec![point],
-            (_, Some((min, max))) => vec![min, max],
-            (_, None) => Vec::new(),
-        })
-    }
-
-    fn triangle(
-        &mut self,
-        triangle: &TriangleTable,
-        placed: DAffine3,
-        table: &ObjectTable,
-    ) -> Result<Vec<DVec3>, ImportError> {
-        let first = self.corners.len() as u32;
-        let corners = triangle
-            .vertices
-            .map(|Vector(p)| placed.transform_point3(p));
-        let flat = (corners[1] - corners[0])
-            .cross(corners[2] - corners[0])
-            .normalize_or(DVec3::Y);
-        let turn = normal_matrix(placed);
-        let normals = match triangle.normals {
-            Some(normals) => normals.map(|n| (turn * n.0).normalize_or(flat)),
-            None => [flat; 3],
-        };
-        let materials = match &triangle.materials {
-            None => [self.material_of(table)?; 3],
-            Some([a, b, c]) => [
-                self.named(a.get_ref(), a.span())?,
-                self.named(b.get_ref(), b.span())?,
-                self.named(c.get_ref(), c.span())?,
-            ],
-        };
-        self.corners.extend(corners);
-        self.triangles.normals.extend(normals.map(|n| n.as_vec3()));
-        self.triangles
-            .materials
-            .extend(materials.map(|index| index as u32));
-        self.triangles.triangles.push([first, first + 1, first + 2]);
-        Ok(corners.to_vec())
-    }
-
-    fn mesh(
-        &mut self,
-        mesh: &MeshTable,
-        placed: DAffine3,
-        table: &ObjectTable,
-    ) -> Result<Vec<DVec3>, ImportError> {
-        let name = mesh.file.get_ref();
-        let path = self.files.resolve(name).map_err(|refusal| {
-            refusal.into_error("mesh file", |why, todo| {
-                self.refuse(mesh.file.span(), why, todo)
-            })
-        })?;
-        let material = match table.material {
-            Some(_) => Some(self.material_of(table)?),
-            None => None,
-        };
-        let key = (path, material);
-        let read = match self.meshes.get(&key) {
-            Some(&read) => read,
-            None => {
-                let read = self.read_mesh(&key.0, name, material)?;
-                self.meshes.insert(key, read);
-                read
-            }
-        };
-        let Some((mesh, offset)) = read else {
-            return Ok(Vec::new());
-        };
-        let world_from_object = placed * DAffine3::from_translation(offset);
-        self.scene.instances.push(Instance {
-            mesh,
-            placement: world_from_object,
-            node: None,
-        });
-        let positions = self.scene.meshes[mesh]
-            .positions
-            .iter()
-            .map(|p| p.as_dvec3());
-        let reach = positions
-            .map(DVec3::abs)
-            .reduce(DVec3::max)
-            .unwrap_or_default();
-        let corner = |i: u8| {
-            let side = |bit: u8| if i & bit == 0 { -1.0 } else { 1.0 };
-            world_from_object.transform_point3(reach * DVec3::new(side(1), side(2), side(4)))
-        };
-        Ok((0..8).map(corner).collect())
-    }
-
-    fn read_mesh(
-        &mut self,
-        path: &std::path::Path,
-        name: &str,
-        material: Option<usize>,
-    ) -> Result<PlacedMesh, ImportError> {
-        let wants_uvs = material.map(|index| self.wants_uvs(index));
-        let pictures = &mut self.textures.pictures;
-        let mut model = obj::read_model(path, self.files, pictures, wants_uvs)?;
-        self.scene.skipped.extend(
-            model
-                .skipped
-                .into_iter()
-                .map(|note| format!("{}: {note}", quote(name.as_bytes()))),
-        );
-        if model.mesh.triangles.is_empty() {
-            return Ok(None);
-        }
-        match material {
-            Some(index) => model.mesh.materials.fill(index as u32),
-            None => {
-                let first = self.scene.materials.len() as u32;
-                model
-                    .mesh
-                    .materials
-                    .iter_mut()
-                    .for_each(|index| *index += first);
-                let first = self.textures.textures.len();
-                for material in &mut model.materials {
-                    material.textures.shift(first);
+    /// Places a list of objects.
+    fn list(&mut self, list: Range<usize>, place: Place) -> Result<(), ImportError> {
+        let objects = self.objects;
+        for index in list {
+            let object = objects.get(index);
+            if object.is_shown() || object.has_node {
+                // At most as many as are allowed to be placed, or it is an empty group.
+                for copy in 0..object.repeat.count() as u64 {
+                    self.copy(index, object, copy, place)?;
                 }
-                self.textures.textures.append(&mut model.textures);
-                self.scene.materials.append(&mut model.materials);
             }
         }
-        self.scene.meshes.push(model.mesh);
-        Ok(Some((self.scene.meshes.len() - 1, model.offset)))
+        Ok(())
     }
 
-    /// Whether a texture of the material with this index lies on u and v.
-    fn wants_uvs(&self, material: usize) -> bool {
-        let textures = self.scene.materials[material].textures.all();
-        let is_uv = |&index: &usize| self.textures.textures[index].space == Space::Uv;
-        textures.iter().flatten().any(is_uv)
-    }
-
-    fn finish_triangles(&mut self) {
-        let mut mesh = std::mem::take(&mut self.triangles);
-        let (positions, offset) = Mesh::from_world_positions(&self.corners);
-        mesh.positions = positions;
-        let is_wanted = |&material: &u32| self.wants_uvs(material as usize);
-        if mesh.materials.iter().any(is_wanted) {
-            // u goes from the first corner to the second, v to the third.
-            let own = [Vec2::ZERO, Vec2::X, Vec2::Y];
-            mesh.uvs = own.repeat(mesh.triangles.len());
+    /// Places one copy of an object.
+    fn copy(
+        &mut self,
+        index: usize,
+        object: &Object,
+        copy: u64,
+        place: Place,
+    ) -> Result<(), ImportError> {
+        let table = object.table.get_ref();
+        let transform = table.transform.as_ref();
+        let repeated = place.node_from_here * object.repeat.placement(copy);
+        let inner = if object.has_node {
+            self.nodes.add(index, object, repeated, place)
+        } else {
+            let own = transform.map_or(DAffine3::IDENTITY, |t| world_from_object(t.get_ref()));
+            Place {
+                node_from_here: repeated * own,
+                ..place
+            }
+        };
+        let span = || {
+            let repeat = table.repeat.as_ref().map(Spanned::span);
+            let span = transform.map(Spanned::span).or(repeat);
+            span.unwrap_or(object.table.span())
+        };
+        if !is_invertible(inner.world_from_here().matrix3) {
+            let why = "nothing is left of the object, or all of it is out of range, after all scales on the way to it";
+            return Err(self.refuse(span(), why, "Check the scales of its groups"));
         }
-        let repairs = mesh.repair();
-        self.scene.skipped.extend(repair_notes(repairs));
-        if !mesh.triangles.is_empty() {
-            let world_from_object = DAffine3::from_translation(offset);
-            self.scene.instances.push(Instance {
-                mesh: self.scene.meshes.len(),
-                placement: world_from_object,
-                node: None,
-            });
-            self.scene.meshes.push(mesh);
+        if !object.is_shown() {
+            return Ok(());
         }
+        if let Some(group) = object.group {
+            return self.list(self.objects.members(group), inner);
+        }
+        let world_from_node = inner.world_from_node;
+        let reached = self.surface(index, inner, object.table)?;
+        let reached = reached
+            .into_iter()
+            .map(|p| world_from_node.transform_point3(p));
+        if reached.flat_map(|p| p.to_array()).all(in_range) {
+            return Ok(());
+        }
+        let why = "the object reaches out of range: at most 3.4e38 is allowed";
+        let todo = "Make it smaller, or leave it nearer to the origin";
+        Err(self.refuse(span(), why, todo))
     }
 
-    fn material_of(&mut self, object: &ObjectTable) -> Result<usize, ImportError> {
-        let Some(reference) = &object.material else {
+    /// The material of the object with this index.
+    pub fn material_of(
+        &mut self,
+        index: usize,
+        material: Option<&Spanned<MaterialRef>>,
+    ) -> Result<usize, ImportError> {
+        let Some(reference) = material else {
             return Ok(*self.default_material.get_or_insert_with(|| {
                 self.scene.materials.push(Material::default());
                 self.scene.materials.len() - 1
@@ -314,33 +192,43 @@ impl<'a> Builder<'a> {
         match reference.get_ref() {
             MaterialRef::Name(name) => self.named(name, reference.span()),
             MaterialRef::Inline(table) => {
+                if let Some(&known) = self.inline_materials.get(&index) {
+                    return Ok(known);
+                }
                 let material = materials::material("", table, &mut self.textures)?;
                 self.scene.materials.push(material);
-                Ok(self.scene.materials.len() - 1)
+                let last = self.scene.materials.len() - 1;
+                self.inline_materials.insert(index, last);
+                Ok(last)
             }
         }
     }
 
-    fn named(&self, name: &str, span: Range<usize>) -> Result<usize, ImportError> {
-        self.names.get(name).copied().ok_or_else(|| {
-            let mut known: Vec<&str> = self.names.keys().map(String::as_str).collect();
-            known.sort_unstable();
-            let why = suggest::unknown("material", name, known);
-            self.refuse(
-                span,
-                why,
-                "Add it under [materials], or name one that is there",
-            )
-        })
+    /// The material of this name.
+    pub fn named(&self, name: &str, span: Range<usize>) -> Result<usize, ImportError> {
+        named_material(&self.names, name, span, self.texts)
     }
 }
 
-fn meshes_in(table: &ObjectTable) -> usize {
-    usize::from(table.triangle.is_some()) + usize::from(table.mesh.is_some())
+/// The index of the material of this name.
+pub(super) fn named_material(
+    names: &HashMap<String, usize>,
+    name: &str,
+    span: Range<usize>,
+    texts: &Texts,
+) -> Result<usize, ImportError> {
+    names.get(name).copied().ok_or_else(|| {
+        let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
+        known.sort_unstable();
+        let why = suggest::unknown("material", name, known);
+        let todo = "Add it under [materials], or name one that is there";
+        texts.malformed(span, why, todo)
+    })
 }
 
 fn output(table: &OutputTable) -> OutputDefaults {
     let [width, height] = table.size.0;
+    let [open, close] = table.shutter.0;
     OutputDefaults {
         size: (width, height),
         samples: table.samples.0,
@@ -353,7 +241,9 @@ fn output(table: &OutputTable) -> OutputDefaults {
         exposure_ev: table.exposure_ev.0,
         tone: table.tone.into(),
         transfer: table.transfer.into(),
-        ..OutputDefaults::default()
+        fps: table.fps.0,
+        duration: table.duration.map(|duration| duration.0),
+        shutter: Shutter { open, close },
     }
 }
 
@@ -363,10 +253,13 @@ fn world_from_object(table: &TransformTable) -> DAffine3 {
 
 /// Scales first, then rotates round x, y and z, then moves.
 pub(super) fn placement(scale: DVec3, rotate_deg: DVec3, translate: DVec3) -> DAffine3 {
+    DAffine3::from_scale_rotation_translation(scale, rotation(rotate_deg), translate)
+}
+
+/// Rotates by degrees round x, then y, then z.
+pub(super) fn rotation(rotate_deg: DVec3) -> DQuat {
     let [x, y, z] = rotate_deg.to_array().map(f64::to_radians);
-    let rotation =
-        DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x);
-    DAffine3::from_scale_rotation_translation(scale, rotation, translate)
+    DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x)
 }
 
 /// What normals are multiplied by where points are by `transform`: the inverse transpose, up to a
@@ -379,4 +272,15 @@ pub(super) fn normal_matrix(transform: DAffine3) -> DMat3 {
     ];
     let sign = x.cross(y).dot(z).signum();
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
+}
+
+/// Whether an inverse of `matrix` means anything: its axes are in range and far from one plane.
+fn is_invertible(matrix: DMat3) -> bool {
+    let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+    let is_good = |axis: &DVec3| {
+        let length = axis.length();
+        length >= f64::from(f32::MIN_POSITIVE) && in_range(axis.abs().max_element())
+    };
+    let [x, y, z] = axes.map(DVec3::normalize_or_zero);
+    axes.iter().all(is_good) && x.cross(y).dot(z).abs() > 1e-12
 }

@@ -1,7 +1,8 @@
 //! The cameras of a native scene.
 
 use super::Texts;
-use super::file::{CameraTable, LensTable, SceneFile};
+use super::file::{CameraTable, LensTable, LookAt, SceneFile};
+use super::nodes::Nodes;
 use crate::import::error::ImportError;
 use crate::import::number::in_range;
 use crate::import::source::quote;
@@ -10,18 +11,22 @@ use glam::DVec3;
 use toml::Spanned;
 
 /// What f32 can still do something with: the radius of a lens, and what it is to the focus distance.
-const MAX_RADIUS: f64 = 1e9;
-const MAX_RATIO: f64 = 1e6;
+pub(super) const MAX_RADIUS: f64 = 1e9;
+pub(super) const MAX_RATIO: f64 = 1e6;
 
 /// The cameras of `file`, of which there may be none.
-pub(super) fn cameras(file: &SceneFile, texts: &Texts) -> Result<Vec<Camera>, ImportError> {
+pub(super) fn cameras(
+    file: &SceneFile,
+    nodes: &Nodes,
+    texts: &Texts,
+) -> Result<Vec<Camera>, ImportError> {
     if let (Some(camera), false) = (&file.camera, file.cameras.is_empty()) {
         let why = "there are both `camera` and `cameras`".to_owned();
         return Err(texts.malformed(camera.span(), why, "Use [[cameras]] for all of them"));
     }
     let mut cameras: Vec<Camera> = Vec::new();
     for table in file.camera.iter().chain(&file.cameras) {
-        let camera = camera(table.get_ref(), texts)?;
+        let camera = camera(table.get_ref(), nodes, texts)?;
         if !camera.name.is_empty() && cameras.iter().any(|other| other.name == camera.name) {
             let why = format!(
                 "a second camera is called {}",
@@ -34,8 +39,21 @@ pub(super) fn cameras(file: &SceneFile, texts: &Texts) -> Result<Vec<Camera>, Im
     Ok(cameras)
 }
 
-fn camera(table: &CameraTable, texts: &Texts) -> Result<Camera, ImportError> {
-    let (look_from, look_at) = (table.look_from.0, table.look_at.get_ref().0);
+fn camera(table: &CameraTable, nodes: &Nodes, texts: &Texts) -> Result<Camera, ImportError> {
+    let look_from = table.look_from.0;
+    let node = match &table.carried_by {
+        Some(name) => Some(nodes.one(name.get_ref(), name.span(), texts)?),
+        None => None,
+    };
+    let (look_at, target) = match table.look_at.get_ref() {
+        LookAt::Point(point) => (point.0, None),
+        LookAt::Object(name) => {
+            let target = nodes.one(name, table.look_at.span(), texts)?;
+            let world = nodes.world_from(Some(target)).translation;
+            let look_at = nodes.world_from(node).inverse().transform_point3(world);
+            (look_at, Some(target))
+        }
+    };
     let Some(forward) = (look_at - look_from).try_normalize() else {
         let why = "`look_at` is the same point as `look_from`".to_owned();
         return Err(texts.malformed(table.look_at.span(), why, "Move one of them"));
@@ -52,7 +70,7 @@ fn camera(table: &CameraTable, texts: &Texts) -> Result<Camera, ImportError> {
     let lens = table
         .lens
         .as_ref()
-        .map(|lens| self::lens(lens, table, forward, texts));
+        .map(|lens| self::lens(lens, table, look_at, texts));
     Ok(Camera {
         name: table.name.clone(),
         look_from,
@@ -60,20 +78,22 @@ fn camera(table: &CameraTable, texts: &Texts) -> Result<Camera, ImportError> {
         up,
         fov_y: table.fov_y_deg.0.to_radians(),
         lens: lens.transpose()?,
-        node: None,
-        target: None,
+        node,
+        target,
     })
 }
 
-/// The lens of a camera that looks `forward`.
+/// The lens of a camera that looks to `look_at`.
 fn lens(
     lens: &Spanned<LensTable>,
     camera: &CameraTable,
-    forward: DVec3,
+    look_at: DVec3,
     texts: &Texts,
 ) -> Result<Lens, ImportError> {
     let refuse = |span, why: &str, todo| Err(texts.malformed(span, why.to_owned(), todo));
     let table = lens.get_ref();
+    let look_from = camera.look_from.0;
+    let forward = (look_at - look_from).normalize();
     let radius = match (table.radius, table.f_number) {
         (Some(radius), None) => {
             if let Some(height) = &table.sensor_height_mm {
@@ -100,10 +120,10 @@ fn lens(
         }
     };
     let focus_distance = match (table.focus_distance, &table.focus_on) {
-        (None, None) => camera.look_at.get_ref().0.distance(camera.look_from.0),
+        (None, None) => look_at.distance(look_from),
         (Some(distance), None) => distance.0,
         (None, Some(point)) => {
-            let distance = (point.get_ref().0 - camera.look_from.0).dot(forward);
+            let distance = (point.get_ref().0 - look_from).dot(forward);
             if distance < f64::from(f32::MIN_POSITIVE) {
                 let why = "`focus_on` is not in front of the camera";
                 return refuse(point.span(), why, "Give a point that it looks towards");

@@ -1,13 +1,19 @@
 //! What a native scene may say. These types are the format: their docs are the JSON Schema's
 //! descriptions, so they speak to whoever writes a scene.
 
+mod animation;
 mod cameras;
+mod groups;
+mod keys;
 mod lights;
 mod materials;
 mod objects;
 mod textures;
 
-pub(super) use cameras::{CameraTable, LensTable};
+pub(super) use animation::{AnimationTable, InterpolationName, PropertyName};
+pub(super) use cameras::{CameraTable, LensTable, LookAt};
+pub(super) use groups::{GridTable, RepeatTable, RingTable, ScatterTable};
+pub(super) use keys::{Key, KeyValue};
 pub(super) use lights::{DiscLightTable, LightTable, RectangleLightTable, SpotTable};
 pub(super) use materials::{MaterialRef, MaterialTable, RefractTable};
 pub(super) use objects::{
@@ -21,8 +27,8 @@ pub(super) use textures::{
 };
 
 use super::values::{
-    AntialiasName, Bounces, Color, Count, Factor, FilterName, Noise, Radius, ShadowsName, Size,
-    Stops, ToneName, TransferName,
+    AntialiasName, Bounces, Color, Count, Duration, Factor, FilterName, FrameRate, Noise, Radius,
+    ShadowsName, ShutterTimes, Size, Stops, ToneName, TransferName,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -66,7 +72,11 @@ pub(super) struct SceneFile {
     /// Materials by name.
     #[serde(default)]
     pub materials: BTreeMap<String, MaterialTable>,
-    /// The surfaces.
+    /// Groups of objects by name, to be placed by `group = "NAME"` in place of a surface.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Vec<ObjectTable>>")]
+    pub groups: BTreeMap<String, Vec<Spanned<ObjectTable>>>,
+    /// The surfaces, and the groups that are placed.
     #[serde(default)]
     #[schemars(with = "Vec<ObjectTable>")]
     pub objects: Vec<Spanned<ObjectTable>>,
@@ -74,6 +84,10 @@ pub(super) struct SceneFile {
     #[serde(default)]
     #[schemars(with = "Vec<LightTable>")]
     pub lights: Vec<Spanned<LightTable>>,
+    /// What changes over time, one property each.
+    #[serde(default)]
+    #[schemars(with = "Vec<AnimationTable>")]
+    pub animation: Vec<Spanned<AnimationTable>>,
 }
 
 /// The picture.
@@ -105,6 +119,13 @@ pub(super) struct OutputTable {
     pub tone: ToneName,
     /// The transfer function of stored values; srgb if left out.
     pub transfer: TransferName,
+    /// Frames per second of an animation; 24 if left out.
+    pub fps: FrameRate,
+    /// How many seconds an animation lasts; until the last key if left out.
+    pub duration: Option<Duration>,
+    /// How long the shutter is open while things move: a fraction of the time from frame to frame, an
+    /// angle such as "180deg", or [open, close] in frames. 0, without blur, if left out.
+    pub shutter: ShutterTimes,
 }
 
 impl Default for OutputTable {
@@ -121,6 +142,9 @@ impl Default for OutputTable {
             exposure_ev: Stops(0.0),
             tone: ToneName::None,
             transfer: TransferName::Srgb,
+            fps: FrameRate(24.0),
+            duration: None,
+            shutter: ShutterTimes([0.0, 0.0]),
         }
     }
 }

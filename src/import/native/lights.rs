@@ -1,16 +1,57 @@
 //! The lights of a native scene.
 
 use super::Texts;
-use super::file::{DiscLightTable, LightTable, RectangleLightTable, SpotTable};
+use super::file::{DiscLightTable, LightTable, RectangleLightTable, SceneFile, SpotTable};
+use super::nodes::Nodes;
 use super::values::{AttenuationName, Color, Count, NonNegative, Vector};
 use crate::import::error::ImportError;
+use crate::import::source::quote;
 use crate::scene::{Light, LightKind};
 use glam::{DVec3, Vec3};
+use std::collections::HashSet;
 use std::ops::Range;
 use toml::Spanned;
 
-/// The light that `table` describes.
-pub(super) fn light(table: &Spanned<LightTable>, texts: &Texts) -> Result<Light, ImportError> {
+/// A light that animations can find.
+pub(super) struct NamedLight {
+    pub name: Option<String>,
+    pub light: Light,
+    /// Its colour, and what that is multiplied by to be the light's.
+    pub color: Vec3,
+    pub factor: f64,
+    /// The greatest channel that its colour ever has.
+    pub peak: f64,
+}
+
+/// The lights of `file`.
+pub(super) fn lights(
+    file: &SceneFile,
+    nodes: &Nodes,
+    texts: &Texts,
+) -> Result<Vec<NamedLight>, ImportError> {
+    let mut names = HashSet::new();
+    let mut lights = Vec::with_capacity(file.lights.len());
+    for spanned in &file.lights {
+        let table = spanned.get_ref();
+        let mut light = light(spanned, texts)?;
+        if let Some(name) = &table.name {
+            if !names.insert(name.get_ref()) {
+                let quoted = quote(name.get_ref().as_bytes());
+                let why = format!("a second light is called {quoted}");
+                return Err(texts.malformed(name.span(), why, "Rename one of them"));
+            }
+            light.name = Some(name.get_ref().clone());
+        }
+        if let Some(name) = &table.carried_by {
+            light.light.node = Some(nodes.one(name.get_ref(), name.span(), texts)?);
+        }
+        lights.push(light);
+    }
+    Ok(lights)
+}
+
+/// The light that `table` describes, without its name.
+fn light(table: &Spanned<LightTable>, texts: &Texts) -> Result<NamedLight, ImportError> {
     let reader = Reader {
         texts,
         span: table.span(),
@@ -50,7 +91,7 @@ pub(super) fn light(table: &Spanned<LightTable>, texts: &Texts) -> Result<Light,
         let (center, radius) = (sphere.center.0, sphere.radius.0);
         large!(LightKind::Sphere { center, radius }, sphere);
     }
-    match <[Light; 1]>::try_from(found) {
+    match <[NamedLight; 1]>::try_from(found) {
         Ok([light]) => Ok(light),
         Err(_) => Err(reader.refuse(
             "a light is of one kind",
@@ -85,12 +126,19 @@ impl Reader<'_> {
         color: Color,
         intensity: NonNegative,
         attenuation: AttenuationName,
-    ) -> Result<Light, ImportError> {
-        Ok(Light {
+    ) -> Result<NamedLight, ImportError> {
+        let light = Light {
             kind,
             color: self.product(color, intensity.0)?,
             attenuation: attenuation.into(),
             ..Light::default()
+        };
+        Ok(NamedLight {
+            name: None,
+            light,
+            color: color.0,
+            factor: intensity.0.into(),
+            peak: color.0.max_element().into(),
         })
     }
 
@@ -102,12 +150,17 @@ impl Reader<'_> {
         brightness: Brightness,
         attenuation: AttenuationName,
         (samples, visible): (Count, bool),
-    ) -> Result<Light, ImportError> {
+    ) -> Result<NamedLight, ImportError> {
         let radiance_of_one = kind.radiance().unwrap_or(1.0);
-        let color = match brightness {
-            Brightness::Intensity(intensity) => self.product(color, intensity)?.as_dvec3(),
+        let plain = color.0;
+        let (color, factor) = match brightness {
+            Brightness::Intensity(intensity) => {
+                let color = self.product(color, intensity)?.as_dvec3();
+                (color, f64::from(intensity))
+            }
             Brightness::Radiance(radiance) => {
-                self.product(color, radiance)?.as_dvec3() / radiance_of_one
+                let color = self.product(color, radiance)?.as_dvec3() / radiance_of_one;
+                (color, f64::from(radiance) / radiance_of_one)
             }
         };
         let surface = color * radiance_of_one;
@@ -115,13 +168,20 @@ impl Reader<'_> {
             let why = "its surface is out of range: at most 3.4e38 is allowed in size and radiance";
             return Err(self.refuse(why, "Make it darker, or change its size"));
         }
-        Ok(Light {
+        let light = Light {
             kind,
             color: color.as_vec3(),
             attenuation: attenuation.into(),
             samples: samples.0,
             visible,
             node: None,
+        };
+        Ok(NamedLight {
+            name: None,
+            light,
+            color: plain,
+            factor,
+            peak: plain.max_element().into(),
         })
     }
 

@@ -30,17 +30,17 @@ pub(super) fn count(table: &ObjectTable) -> usize {
 }
 
 /// The analytic surface that `table` gives, brought into the world by `placed`. `textured` says
-/// whether its u and v show.
+/// whether its u and v show, and `moves` whether it is attached to a node.
 pub(super) fn geometry(
     table: &ObjectTable,
     placed: DAffine3,
-    textured: bool,
+    (textured, moves): (bool, bool),
     texts: &Texts,
 ) -> Result<Option<Geometry>, ImportError> {
     let (form, object_from_form) = if let Some(plane) = &table.plane {
         return Ok(Some(self::plane(plane, placed)));
     } else if let Some(sphere) = &table.sphere {
-        return Ok(Some(self::sphere(sphere, placed, textured)));
+        return Ok(Some(self::sphere(sphere, placed, (textured, moves))));
     } else if let Some(disc) = &table.disc {
         self::disc(disc, texts)?
     } else if let Some(rectangle) = &table.rectangle {
@@ -70,9 +70,9 @@ fn plane(plane: &PlaneTable, placed: DAffine3) -> Geometry {
     }
 }
 
-/// A sphere as long as its transform leaves it one; where a texture shows that it is turned, or it is
-/// scaled unevenly, an ellipsoid.
-fn sphere(sphere: &SphereTable, placed: DAffine3, textured: bool) -> Geometry {
+/// A sphere as long as its transform leaves it one; where a texture shows that it is or may be turned,
+/// or it is scaled unevenly, an ellipsoid.
+fn sphere(sphere: &SphereTable, placed: DAffine3, (textured, moves): (bool, bool)) -> Geometry {
     let (center, radius) = (sphere.center.0, sphere.radius.0);
     let matrix = placed.matrix3;
     let lengths = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(DVec3::length);
@@ -80,10 +80,16 @@ fn sphere(sphere: &SphereTable, placed: DAffine3, textured: bool) -> Geometry {
         lengths.into_iter().fold(f64::INFINITY, f64::min),
         lengths.into_iter().fold(0.0, f64::max),
     );
-    // Transforms scale before they turn, so the axes stay perpendicular.
-    let is_sphere = most - least <= 1e-9 * most;
+    // Where groups turn what they scale, axes do not stay perpendicular.
+    let slant = [
+        matrix.x_axis.dot(matrix.y_axis),
+        matrix.y_axis.dot(matrix.z_axis),
+        matrix.z_axis.dot(matrix.x_axis),
+    ];
+    let is_straight = slant.into_iter().all(|dot| dot.abs() <= 1e-9 * most * most);
+    let is_sphere = most - least <= 1e-9 * most && is_straight;
     let is_turned = matrix != DMat3::from_diagonal(DVec3::splat(lengths[0]));
-    if is_sphere && !(textured && is_turned) {
+    if is_sphere && !(textured && (is_turned || moves)) {
         return Geometry::Sphere {
             center: placed.transform_point3(center),
             radius: lengths[0] * radius,

@@ -3,6 +3,10 @@
 
 mod names;
 
+pub(super) use moving::{
+    Copies, Duration, FrameRate, GridCount, Pace, Quaternion, ScaleRange, Seed, Share,
+    ShutterTimes, Time,
+};
 pub(super) use names::{
     AntialiasName, AttenuationName, FilterName, FresnelName, ShadowsName, ToneName, TransferName,
 };
@@ -87,7 +91,7 @@ macro_rules! value {
     ($(#[doc = $doc:literal])* $name:ident($inner:ty), $schema:tt, $read:expr) => {
         $(#[doc = $doc])*
         #[derive(Clone, Copy, Debug)]
-        pub(super) struct $name(pub $inner);
+        pub(in crate::import::native) struct $name(pub $inner);
 
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -106,6 +110,9 @@ macro_rules! value {
         }
     };
 }
+
+// Below the macro, which it uses.
+mod moving;
 
 /// Reads a number that `holds`, or says that it `is not …`.
 fn number<'de, D: Deserializer<'de>>(
@@ -317,7 +324,8 @@ value! {
     }
 }
 
-struct NumberOrVector;
+/// Reads three numbers, or one that stands for all three.
+pub(super) struct NumberOrVector;
 
 impl<'de> Visitor<'de> for NumberOrVector {
     type Value = DVec3;

@@ -2,7 +2,9 @@
 
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
-use glimray::scene::{Background, Form, Geometry, LightKind, Scene};
+use glimray::scene::{
+    Background, Form, Geometry, Interpolation, LightKind, Scene, Target, Track, Values,
+};
 use std::path::{Path, PathBuf};
 
 /// The file `name` in the folder of scenes.
@@ -109,6 +111,46 @@ fn assert_promises(scene: &Scene) {
     }
 }
 
+/// Asserts what the docs say of nodes, tracks and what hangs on them.
+fn assert_promises_of_movement(scene: &Scene) {
+    for (index, node) in scene.nodes.iter().enumerate() {
+        assert!(node.parent.is_none_or(|parent| parent < index));
+        assert!(node.rotation.is_normalized() && node.scale.abs().min_element() > 0.0);
+        assert_ne!(node.placement.matrix3.determinant(), 0.0);
+    }
+    let instances = scene.instances.iter().map(|instance| instance.node);
+    let shapes = scene.shapes.iter().map(|shape| shape.node);
+    let lights = scene.lights.iter().map(|light| light.node);
+    let cameras = (scene.cameras.iter()).flat_map(|camera| [camera.node, camera.target]);
+    let carriers = instances.chain(shapes).chain(lights).chain(cameras);
+    assert!(carriers.flatten().all(|node| node < scene.nodes.len()));
+    let mut driven = Vec::new();
+    for Track { targets, curve } in &scene.tracks {
+        let values = match &curve.values {
+            Values::Scalar(values) => values.len(),
+            Values::Vector(values) => values.len(),
+            Values::Rotation(values) => values.len(),
+        };
+        let per_key = match curve.interpolation {
+            Interpolation::Hermite => 3,
+            _ => 1,
+        };
+        assert!(!targets.is_empty() && !curve.times.is_empty());
+        assert_eq!(values, per_key * curve.times.len());
+        assert!(curve.times.is_sorted_by(|a, b| a < b));
+        for &target in targets {
+            assert!(!driven.contains(&target), "{target:?} has one track");
+            driven.push(target);
+            assert!(match target {
+                Target::Node(index, _) => index < scene.nodes.len(),
+                Target::Camera(index, _) => index < scene.cameras.len(),
+                Target::Light(index, _) => index < scene.lights.len(),
+                Target::Material(index, _) => index < scene.materials.len(),
+            });
+        }
+    }
+}
+
 #[test]
 fn every_scene_of_the_project_loads_whole() {
     let mut count = 0;
@@ -120,6 +162,7 @@ fn every_scene_of_the_project_loads_whole() {
         }
         let scene = import::load(&path).unwrap_or_else(|error| panic!("{error}"));
         assert_promises(&scene);
+        assert_promises_of_movement(&scene);
         assert_eq!(scene.skipped, [""; 0], "{}", path.display());
         assert!(
             !scene.lights.is_empty() && scene.bounds().is_some(),

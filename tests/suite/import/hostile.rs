@@ -105,10 +105,10 @@ bad scene (a.toml:1:101): tables are nested more than 32 deep. Look for a missin
 bad scene (a.toml:1:66): tables are nested more than 32 deep. Look for a missing bracket.
 bad scene (a.toml:1:67): tables are nested more than 32 deep. Look for a missing bracket.
 bad scene (a.toml:1:71): tables are nested more than 32 deep. Look for a missing bracket.
-bad scene (a.toml:100001:1): a native scene cannot have so many keys and values. Keep geometry in OBJ files.
-bad scene (a.toml:125001:1): a native scene cannot have so many keys and values. Keep geometry in OBJ files.
-bad scene (a.toml:1:1000003): a native scene cannot have so many keys and values. Keep geometry in OBJ files.
-bad scene (a.toml:1:500001): a native scene cannot have so many keys and values. Keep geometry in OBJ files.
+bad scene (a.toml:100001:1): a native scene cannot have so many keys and values. Keep geometry in OBJ files, and let fewer keys move it.
+bad scene (a.toml:125001:1): a native scene cannot have so many keys and values. Keep geometry in OBJ files, and let fewer keys move it.
+bad scene (a.toml:1:1000003): a native scene cannot have so many keys and values. Keep geometry in OBJ files, and let fewer keys move it.
+bad scene (a.toml:1:500001): a native scene cannot have so many keys and values. Keep geometry in OBJ files, and let fewer keys move it.
 bad scene (a.toml:1:2000001): key with no value, expected `=`. See https://toml.io for the syntax.
 ");
 }
@@ -207,6 +207,7 @@ fn no_damage_to_a_good_file_brings_the_importers_down() {
         "spheres_and_triangles.scene",
         "shapes.toml",
         "lights.toml",
+        "orbits.toml",
         "neutral.nff",
         "lighthouse.obj",
     ] {

@@ -3,20 +3,27 @@
 use crate::import::native::values::{Corners, Direction, Number, Positive, Vector, ViewAngle};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use serde::de::{self, Deserializer, SeqAccess, Visitor};
+use std::fmt;
 use toml::Spanned;
 
 /// A camera: a pinhole, or with a lens.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct CameraTable {
-    /// The name for `--camera`.
+    /// The name for `--camera` and for animations.
     #[serde(default)]
     pub name: String,
-    /// Where it stands.
+    /// Where it is.
     pub look_from: Vector,
-    /// What is in the middle of the picture.
-    #[schemars(with = "Vector")]
-    pub look_at: Spanned<Vector>,
+    /// What is in the middle of the picture: a point, or the name of an object, whose own origin it
+    /// then follows.
+    #[schemars(with = "LookAt")]
+    pub look_at: Spanned<LookAt>,
+    /// The name of an object that carries it: `look_from`, `look_at` and `up` are then as seen from
+    /// that object.
+    #[schemars(with = "Option<String>")]
+    pub carried_by: Option<Spanned<String>>,
     /// What is upwards in the picture; [0, 1, 0] if left out.
     #[schemars(with = "Option<Direction>")]
     pub up: Option<Spanned<Direction>>,
@@ -26,6 +33,35 @@ pub(in crate::import::native) struct CameraTable {
     /// What lets only one distance be sharp; all is sharp if left out.
     #[schemars(with = "Option<LensTable>")]
     pub lens: Option<Spanned<LensTable>>,
+}
+
+/// A point, or the name of an object.
+#[derive(Debug, JsonSchema)]
+#[schemars(untagged)]
+pub(in crate::import::native) enum LookAt {
+    Point(Vector),
+    Object(String),
+}
+
+impl<'de> Deserialize<'de> for LookAt {
+    // By hand: serde's untagged enums lose the place of an error.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct PointOrName;
+        impl<'de> Visitor<'de> for PointOrName {
+            type Value = LookAt;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a point [x, y, z], or the name of an object")
+            }
+            fn visit_str<E: de::Error>(self, name: &str) -> Result<LookAt, E> {
+                Ok(LookAt::Object(name.to_owned()))
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<LookAt, A::Error> {
+                let seq = de::value::SeqAccessDeserializer::new(seq);
+                Vector::deserialize(seq).map(LookAt::Point)
+            }
+        }
+        deserializer.deserialize_any(PointOrName)
+    }
 }
 
 /// A thin lens. What lies nearer or farther than the focus is blurred.
@@ -42,7 +78,7 @@ pub(in crate::import::native) struct LensTable {
     #[schemars(with = "Option<Positive>")]
     pub sensor_height_mm: Option<Spanned<Positive>>,
     /// The distance of what is sharp, along the viewing direction. Either this or `focus_on`; without
-    /// both it is that of `look_at`.
+    /// both it is that of `look_at`, at first.
     pub focus_distance: Option<Positive>,
     /// A point that is sharp.
     #[schemars(with = "Option<Vector>")]

@@ -12,6 +12,13 @@ use toml::Spanned;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct LightTable {
+    /// The name by which animations find it. No other light has it.
+    #[schemars(with = "Option<String>")]
+    pub name: Option<Spanned<String>>,
+    /// The name of an object that carries it: its place and direction are then as seen from that
+    /// object.
+    #[schemars(with = "Option<String>")]
+    pub carried_by: Option<Spanned<String>>,
     /// Shines from a point to all sides.
     pub point: Option<PointTable>,
     /// Shines along one direction everywhere, like the sun.

@@ -1,5 +1,6 @@
 //! How a native scene describes surfaces and where they are.
 
+use super::groups::RepeatTable;
 use super::materials::MaterialRef;
 use crate::import::native::values::{Direction, NonNegative, Positive, Scale, Vector, elements};
 use glam::DVec3;
@@ -8,11 +9,14 @@ use serde::Deserialize;
 use serde::de::Deserializer;
 use toml::Spanned;
 
-/// One surface: exactly one of sphere, plane, disc, rectangle, box, cylinder, cone, torus, triangle
-/// and mesh.
+/// One surface, or a group of objects: exactly one of sphere, plane, disc, rectangle, box, cylinder,
+/// cone, torus, triangle, mesh and group.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct ObjectTable {
+    /// The name by which animations, cameras and lights find it. No other object has it.
+    #[schemars(with = "Option<String>")]
+    pub name: Option<Spanned<String>>,
     /// A sphere.
     pub sphere: Option<SphereTable>,
     /// An infinite plane.
@@ -34,13 +38,19 @@ pub(in crate::import::native) struct ObjectTable {
     pub triangle: Option<Box<TriangleTable>>,
     /// The triangles of an OBJ file.
     pub mesh: Option<MeshTable>,
-    /// The name of a material, or a material. Light grey if left out, or what the mesh file says.
+    /// The name of a group under [groups], whose objects it places.
+    #[schemars(with = "Option<String>")]
+    pub group: Option<Spanned<String>>,
+    /// The name of a material, or a material; not for groups. Light grey if left out, or what the mesh file says.
     #[schemars(with = "Option<MaterialRef>")]
     pub material: Option<Spanned<MaterialRef>>,
     /// Where to put it.
     #[schemars(with = "Option<TransformTable>")]
     pub transform: Option<Spanned<TransformTable>>,
-    /// Whether it is in the scene at all (true if left out).
+    /// Copies of it, placed by `transform` each.
+    #[schemars(with = "Option<RepeatTable>")]
+    pub repeat: Option<Spanned<RepeatTable>>,
+    /// Whether it is in the scene at all (true if left out), at first if that is animated.
     #[serde(default = "yes")]
     pub visible: bool,
 }

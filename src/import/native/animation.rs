@@ -1,0 +1,341 @@
+//! The animations of a native scene: whom they move, and whether that can be moved so.
+
+mod curve;
+
+use super::Texts;
+use super::build::named_material;
+use super::cameras::{MAX_RADIUS, MAX_RATIO};
+use super::file::{AnimationTable, PropertyName, SceneFile};
+use super::lights::NamedLight;
+use super::nodes::Nodes;
+use crate::import::error::ImportError;
+use crate::import::source::quote;
+use crate::import::suggest;
+use crate::scene::{
+    Camera, CameraProperty, Curve, LightKind, LightProperty, MaterialProperty, NodeProperty,
+    Target, Track, Values,
+};
+use PropertyName as P;
+use std::collections::{HashMap, HashSet};
+use toml::Spanned;
+
+/// What animations may name.
+pub(super) struct Found<'a> {
+    pub nodes: &'a Nodes<'a>,
+    pub cameras: &'a [Camera],
+    /// The colours of those whose intensity moves become what the intensity multiplies.
+    pub lights: &'a mut [NamedLight],
+    /// Materials by name.
+    pub materials: &'a HashMap<String, usize>,
+}
+
+/// All tracks, and what came of no use.
+#[derive(Default)]
+pub(super) struct Tracks {
+    pub tracks: Vec<Track>,
+    pub skipped: Vec<String>,
+}
+
+/// The properties of one kind of thing, and what the host model calls them.
+type Properties<T> = &'static [(PropertyName, &'static str, T)];
+
+const OF_OBJECTS: Properties<NodeProperty> = &[
+    (P::Translate, "translate", NodeProperty::Translation),
+    (P::Rotation, "rotation", NodeProperty::Rotation),
+    (P::RotateDeg, "rotate_deg", NodeProperty::Angles),
+    (P::Scale, "scale", NodeProperty::Scale),
+    (P::Visible, "visible", NodeProperty::Visible),
+];
+
+const OF_CAMERAS: Properties<CameraProperty> = &[
+    (P::LookFrom, "look_from", CameraProperty::LookFrom),
+    (P::LookAt, "look_at", CameraProperty::LookAt),
+    (P::Up, "up", CameraProperty::Up),
+    (P::FovYDeg, "fov_y_deg", CameraProperty::FovY),
+    (
+        P::FocusDistance,
+        "focus_distance",
+        CameraProperty::FocusDistance,
+    ),
+    (P::LensRadius, "lens_radius", CameraProperty::LensRadius),
+];
+
+const OF_LIGHTS: Properties<LightProperty> = &[
+    (P::Position, "position", LightProperty::Position),
+    (P::Direction, "direction", LightProperty::Direction),
+    (P::Color, "color", LightProperty::Color),
+    (P::Intensity, "intensity", LightProperty::Intensity),
+    (P::On, "on", LightProperty::On),
+];
+
+const OF_MATERIALS: Properties<MaterialProperty> = &[
+    (P::Diffuse, "diffuse", MaterialProperty::Diffuse),
+    (P::Specular, "specular", MaterialProperty::Specular),
+    (P::Shininess, "shininess", MaterialProperty::Shininess),
+    (P::Ambient, "ambient", MaterialProperty::Ambient),
+    (P::Emission, "emission", MaterialProperty::Emission),
+    (P::Reflect, "reflect", MaterialProperty::Reflect),
+    (P::Transmit, "transmit", MaterialProperty::Transmit),
+    (P::Opacity, "opacity", MaterialProperty::Opacity),
+    (P::Ior, "ior", MaterialProperty::Ior),
+    (P::Absorption, "absorption", MaterialProperty::Absorption),
+];
+
+/// The tracks of all animations in `file`.
+pub(super) fn tracks(file: &SceneFile, found: Found, texts: &Texts) -> Result<Tracks, ImportError> {
+    let mut reader = Reader {
+        file,
+        found,
+        texts,
+        given: HashSet::new(),
+        made: Tracks::default(),
+    };
+    for table in &file.animation {
+        reader.note(table)?;
+    }
+    for table in &file.animation {
+        reader.track(table.get_ref())?;
+    }
+    Ok(reader.made)
+}
+
+/// What an animation moves: "object", "camera", "light" or "material", and its name.
+type Subject<'a> = (&'static str, &'a Spanned<String>);
+
+struct Reader<'a> {
+    file: &'a SceneFile,
+    found: Found<'a>,
+    texts: &'a Texts<'a>,
+    /// Every property that is animated.
+    given: HashSet<(&'static str, &'a str, PropertyName)>,
+    made: Tracks,
+}
+
+impl<'a> Reader<'a> {
+    /// Notes what `table` moves, which nothing else may.
+    fn note(&mut self, table: &'a Spanned<AnimationTable>) -> Result<(), ImportError> {
+        let subjects = subjects(table.get_ref());
+        let &[(kind, name)] = &subjects[..] else {
+            let why = "an animation moves one thing".to_owned();
+            let todo = "Give it exactly one of `object`, `camera`, `light` and `material`";
+            return Err(self.texts.malformed(table.span(), why, todo));
+        };
+        let property = &table.get_ref().property;
+        // Both turn the object.
+        let moved = match *property.get_ref() {
+            P::Rotation => P::RotateDeg,
+            other => other,
+        };
+        if self.given.insert((kind, name.get_ref(), moved)) {
+            return Ok(());
+        }
+        let quoted = quote(name.get_ref().as_bytes());
+        let why = format!("a second animation of the same property of the {kind} {quoted}");
+        let todo = "Put all keys into one of them";
+        Err(self.texts.malformed(property.span(), why, todo))
+    }
+
+    fn track(&mut self, table: &'a AnimationTable) -> Result<(), ImportError> {
+        let mut curve = curve::curve(table, self.texts)?;
+        let Some(&(kind, name)) = subjects(table).first() else {
+            return Ok(());
+        };
+        let targets = match kind {
+            "object" => {
+                let property = self.property(table, kind, OF_OBJECTS)?;
+                let nodes = self
+                    .found
+                    .nodes
+                    .all(name.get_ref(), name.span(), self.texts)?;
+                nodes
+                    .iter()
+                    .map(|&node| Target::Node(node, property))
+                    .collect()
+            }
+            "camera" => self.camera(table, name, &curve)?,
+            "light" => self.light(table, name, &mut curve)?,
+            _ => self.material(table, name)?,
+        };
+        if targets.is_empty() {
+            let quoted = quote(name.get_ref().as_bytes());
+            self.made.skipped.push(format!(
+                "animation of {quoted} left out: it is in no part of the scene"
+            ));
+            return Ok(());
+        }
+        self.made.tracks.push(Track { targets, curve });
+        Ok(())
+    }
+
+    fn camera(
+        &self,
+        table: &AnimationTable,
+        name: &Spanned<String>,
+        curve: &Curve,
+    ) -> Result<Vec<Target>, ImportError> {
+        let cameras = self.found.cameras.iter().map(|camera| camera.name.as_str());
+        let index = self.named(name, "camera", cameras)?;
+        let camera = &self.found.cameras[index];
+        let property = self.property(table, "camera", OF_CAMERAS)?;
+        let refuse = |why: &str, todo| {
+            let why = format!("{why}, which {} has not", quote(camera.name.as_bytes()));
+            Err(self.texts.malformed(table.property.span(), why, todo))
+        };
+        if property == CameraProperty::LookAt && camera.target.is_some() {
+            let why = "the camera looks at an object already".to_owned();
+            let todo = "Animate that object, or give `look_at` a point";
+            return Err(self.texts.malformed(table.property.span(), why, todo));
+        }
+        let is_of_lens = matches!(
+            property,
+            CameraProperty::FocusDistance | CameraProperty::LensRadius
+        );
+        let Some(lens) = &camera.lens else {
+            return match is_of_lens {
+                true => refuse("this takes a lens", "Give the camera a `lens`"),
+                false => Ok(vec![Target::Camera(index, property)]),
+            };
+        };
+        let Values::Scalar(values) = &curve.values else {
+            return Ok(vec![Target::Camera(index, property)]);
+        };
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = values.iter().copied().fold(0.0, f64::max);
+        let is_bad = match property {
+            CameraProperty::FocusDistance => lens.radius > MAX_RATIO * least,
+            CameraProperty::LensRadius => most > MAX_RADIUS.min(MAX_RATIO * lens.focus_distance),
+            _ => false,
+        };
+        if is_bad {
+            let why = "the lens gets out of proportion: its radius can be 1e9, and a million times \
+                       its focus distance, at most";
+            let todo = "Make the lens smaller, or its focus distance greater";
+            return Err(self
+                .texts
+                .malformed(table.keys.span(), why.to_owned(), todo));
+        }
+        Ok(vec![Target::Camera(index, property)])
+    }
+
+    fn light(
+        &mut self,
+        table: &AnimationTable,
+        name: &Spanned<String>,
+        curve: &mut Curve,
+    ) -> Result<Vec<Target>, ImportError> {
+        let lights = self.found.lights.iter();
+        let lights = lights.map(|light| light.name.as_deref().unwrap_or_default());
+        let index = self.named(name, "light", lights)?;
+        let property = self.property(table, "light", OF_LIGHTS)?;
+        let is_paced = self
+            .given
+            .contains(&("light", name.get_ref().as_str(), P::Intensity));
+        let light = &mut self.found.lights[index];
+        let kind = light.light.kind;
+        let is_without = match property {
+            LightProperty::Position => matches!(kind, LightKind::Directional { .. }),
+            LightProperty::Direction => !matches!(
+                kind,
+                LightKind::Directional { .. } | LightKind::Spot { .. } | LightKind::Disc { .. }
+            ),
+            _ => false,
+        };
+        if is_without {
+            let why = "a light of this kind has no such property".to_owned();
+            let todo = "Animate what its own table has";
+            return Err(self.texts.malformed(table.property.span(), why, todo));
+        }
+        match (&mut curve.values, property) {
+            // In place of what the light's own table multiplies the colour by.
+            (Values::Scalar(values), LightProperty::Intensity) => {
+                light.light.color = light.color;
+                light.factor = values.iter().copied().fold(0.0, f64::max);
+            }
+            (Values::Vector(values), LightProperty::Color) => {
+                let most = values.iter().map(|color| color.max_element());
+                light.peak = most.fold(0.0, f64::max);
+                if !is_paced {
+                    values.iter_mut().for_each(|color| *color *= light.factor);
+                }
+            }
+            _ => {}
+        }
+        let radiance = kind.radiance().unwrap_or(1.0).max(1.0);
+        if light.peak * light.factor * radiance > f64::from(f32::MAX) {
+            let why =
+                "color times intensity gets out of range: at most 3.4e38 is allowed".to_owned();
+            return Err(self
+                .texts
+                .malformed(table.keys.span(), why, "Lower one of them"));
+        }
+        Ok(vec![Target::Light(index, property)])
+    }
+
+    fn material(
+        &self,
+        table: &AnimationTable,
+        name: &Spanned<String>,
+    ) -> Result<Vec<Target>, ImportError> {
+        let text = name.get_ref().as_str();
+        let index = named_material(self.found.materials, text, name.span(), self.texts)?;
+        let property = self.property(table, "material", OF_MATERIALS)?;
+        let mut targets = vec![Target::Material(index, property)];
+        // What a material without an own ambient colour shows is its diffuse one, always.
+        let own = self.file.materials.get(text);
+        let has_own = own.is_some_and(|material| material.phong.ambient.is_some());
+        let is_animated = self.given.contains(&("material", text, P::Ambient));
+        if property == MaterialProperty::Diffuse && !has_own && !is_animated {
+            targets.push(Target::Material(index, MaterialProperty::Ambient));
+        }
+        Ok(targets)
+    }
+
+    /// The index of `name` among `names`, which are unique or empty.
+    fn named<'n>(
+        &self,
+        name: &Spanned<String>,
+        kind: &str,
+        names: impl Iterator<Item = &'n str> + Clone,
+    ) -> Result<usize, ImportError> {
+        let text = name.get_ref().as_str();
+        let found = names.clone().position(|known| known == text);
+        found.filter(|_| !text.is_empty()).ok_or_else(|| {
+            let known = names.filter(|name| !name.is_empty());
+            let why = suggest::unknown(kind, text, known);
+            let todo = format!("Give a {kind} that `name`, or name one that has it");
+            self.texts.malformed(name.span(), why, &todo)
+        })
+    }
+
+    /// What the host model calls the property that `table` moves.
+    fn property<T: Copy>(
+        &self,
+        table: &AnimationTable,
+        kind: &str,
+        properties: Properties<T>,
+    ) -> Result<T, ImportError> {
+        let wanted = *table.property.get_ref();
+        let found = properties.iter().find(|(name, ..)| *name == wanted);
+        found.map(|&(.., property)| property).ok_or_else(|| {
+            let names = properties.iter().map(|(_, name, _)| format!("`{name}`"));
+            let names: Vec<_> = names.collect();
+            let article = if kind == "object" { "an" } else { "a" };
+            let why = format!("{article} {kind} has no such property");
+            let todo = format!("Known here: {}", names.join(", "));
+            self.texts.malformed(table.property.span(), why, &todo)
+        })
+    }
+}
+
+fn subjects(table: &AnimationTable) -> Vec<Subject<'_>> {
+    let named = [
+        ("object", &table.object),
+        ("camera", &table.camera),
+        ("light", &table.light),
+        ("material", &table.material),
+    ];
+    let given = named.into_iter();
+    given
+        .filter_map(|(kind, name)| Some((kind, name.as_ref()?)))
+        .collect()
+}

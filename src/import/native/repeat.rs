@@ -1,0 +1,127 @@
+//! Where the copies of a repeated object are.
+
+use super::Texts;
+use super::build::placement;
+use super::file::{GridTable, RepeatTable, RingTable, ScatterTable};
+use crate::import::error::ImportError;
+use glam::{DAffine3, DQuat, DVec3};
+use std::f64::consts::TAU;
+use toml::Spanned;
+
+/// Copies of an object, in the order of their indices.
+pub(super) enum Repeat<'a> {
+    /// The object itself.
+    Once,
+    Grid(&'a GridTable),
+    Ring(&'a RingTable),
+    Scatter(&'a ScatterTable),
+}
+
+impl<'a> Repeat<'a> {
+    /// The repetition that `table` describes.
+    pub fn new(
+        table: Option<&'a Spanned<RepeatTable>>,
+        texts: &Texts,
+    ) -> Result<Self, ImportError> {
+        let Some(table) = table else {
+            return Ok(Self::Once);
+        };
+        let RepeatTable {
+            grid,
+            ring,
+            scatter,
+        } = table.get_ref();
+        match (grid, ring, scatter) {
+            (Some(grid), None, None) => Ok(Self::Grid(grid)),
+            (None, Some(ring), None) => Ok(Self::Ring(ring)),
+            (None, None, Some(scatter)) => {
+                let (min, max) = (scatter.min.0, scatter.max.get_ref().0);
+                let names = ["x", "y", "z"].into_iter().enumerate();
+                if let Some((_, name)) = names.into_iter().find(|&(i, _)| max[i] < min[i]) {
+                    let why = format!("{name} of `max` is less than that of `min`");
+                    let todo = "Exchange them";
+                    return Err(texts.malformed(scatter.max.span(), why, todo));
+                }
+                Ok(Self::Scatter(scatter))
+            }
+            _ => {
+                let why = "copies are arranged in one way".to_owned();
+                let todo = "Give exactly one of `grid`, `ring` and `scatter`; groups can be repeated again";
+                Err(texts.malformed(table.span(), why, todo))
+            }
+        }
+    }
+
+    /// How many copies there are, at least 1.
+    pub fn count(&self) -> u128 {
+        match self {
+            Self::Once => 1,
+            Self::Grid(grid) => grid.count.0.map(u128::from).iter().product(),
+            Self::Ring(ring) => ring.count.0.into(),
+            Self::Scatter(scatter) => scatter.count.0.into(),
+        }
+    }
+
+    /// What brings an object to the place of the copy with this index.
+    pub fn placement(&self, index: u64) -> DAffine3 {
+        match self {
+            Self::Once => DAffine3::IDENTITY,
+            Self::Grid(table) => grid(table, index),
+            Self::Ring(table) => ring(table, index),
+            Self::Scatter(table) => scatter(table, index),
+        }
+    }
+}
+
+/// x runs fastest, then y.
+fn grid(table: &GridTable, index: u64) -> DAffine3 {
+    let [x, y, z] = table.count.0;
+    let steps = [index % x, index / x % y, index / x / y].map(|step| step as f64);
+    let middle = if table.centered {
+        DVec3::from([x, y, z].map(|count| (count - 1) as f64)) / 2.0
+    } else {
+        DVec3::ZERO
+    };
+    DAffine3::from_translation((DVec3::from(steps) - middle) * table.step.0)
+}
+
+fn ring(table: &RingTable, index: u64) -> DAffine3 {
+    let axis = table.axis.0;
+    let (index, count) = (index as f64, table.count.0 as f64);
+    let turn = match table.arc_deg {
+        // One alone stands at the beginning of its arc.
+        Some(arc) => index * arc.0.to_radians() / (count - 1.0).max(1.0),
+        None => index * TAU / count,
+    };
+    let turn = DQuat::from_axis_angle(axis, table.start_deg.0.to_radians() + turn);
+    let outwards = DQuat::from_rotation_arc(DVec3::Y, axis) * DVec3::X;
+    let moved = turn * (f64::from(table.radius.0) * outwards);
+    let turn = if table.turned { turn } else { DQuat::IDENTITY };
+    DAffine3::from_rotation_translation(turn, moved)
+}
+
+/// Scaled first, then turned, then moved. Every copy has random numbers of its own.
+fn scatter(table: &ScatterTable, index: u64) -> DAffine3 {
+    const DRAWS: u64 = 7;
+    let draw = |i: u64| random(table.seed.0, index * DRAWS + i);
+    let three = |first: u64| DVec3::new(draw(first), draw(first + 1), draw(first + 2));
+    let (min, max) = (table.min.0, table.max.get_ref().0);
+    let turn = (2.0 * three(3) - 1.0) * table.turn_deg.0;
+    let [least, most] = table.scale.0;
+    let scale = least + (most - least) * draw(6);
+    placement(DVec3::splat(scale), turn, min + (max - min) * three(0))
+}
+
+/// A number in [0, 1) for each seed and index: SplitMix64 (Steele, Lea and Flood 2014) of both, so
+/// that any one can be had without those before it.
+fn random(seed: u64, index: u64) -> f64 {
+    const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
+    let mix = |z: u64| {
+        let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    };
+    let stream = mix(seed.wrapping_add(1).wrapping_mul(GAMMA));
+    let bits = mix(stream.wrapping_add(index.wrapping_add(1).wrapping_mul(GAMMA)));
+    (bits >> 11) as f64 / (1_u64 << 53) as f64
+}
