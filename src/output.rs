@@ -9,6 +9,8 @@ mod atomic;
 mod encode;
 mod error;
 mod format;
+#[cfg(feature = "video")]
+pub mod video;
 
 pub use error::OutputError;
 pub(crate) use error::reason;
