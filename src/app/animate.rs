@@ -123,7 +123,7 @@ impl<'a> Sequence<'a> {
         let lock = files.map(|files| Lock::take(files.pattern.folder()));
         let lock = lock.transpose()?;
         let mut journal = files.map(|files| Journal::open(&files.pattern));
-        let plan = Plan::new(self, &studio, journal.as_ref())?;
+        let plan = Plan::new(self, &studio, journal.as_ref(), &interrupt)?;
         let sink = match (&self.target.video, &video) {
             (Some(Video::Stream), Some(options)) => Some(Sink::new(size, options)?),
             _ => None,

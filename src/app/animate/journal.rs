@@ -107,18 +107,20 @@ impl Journal {
     ) -> Result<State, AppError> {
         let path = pattern.path(number);
         let exists = fs::symlink_metadata(&path).is_ok();
-        let record = match self.frames.get(&number) {
+        let known = self.frames.get(&number);
+        // A record of a name with more or fewer digits is about another file.
+        let name = pattern.name(number);
+        let known = known.filter(|known| (known.as_ref()).is_none_or(|record| record.file == name));
+        let record = match known {
             None if exists => return Ok(State::Foreign),
             None => return Ok(State::Absent),
             Some(None) if exists => {
                 return Ok(State::Stale("it was being written when a run ended"));
             }
             Some(None) => return Ok(State::Absent),
+            Some(Some(_)) if !exists => return Ok(State::Stale("its file is missing")),
             Some(Some(record)) => record,
         };
-        if !exists || record.file != pattern.name(number) {
-            return Ok(State::Stale("its file is missing"));
-        }
         let origin = origin()?;
         let was = &record.origin;
         Ok(if was.scene != origin.scene {

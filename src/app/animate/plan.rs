@@ -1,6 +1,7 @@
 //! What is to be done: which frames are there, and why others are not good enough.
 
 use super::super::exit::AppError;
+use super::super::interrupt::Interrupt;
 use super::super::report::Redone;
 use super::Sequence;
 use super::journal::{Journal, State};
@@ -16,14 +17,17 @@ impl Plan {
     /// Looks at every frame; says what is there and what is to be done again.
     ///
     /// # Errors
-    /// A file may not be replaced, or frames are missing that may not be rendered.
+    /// A file may not be replaced, frames are missing that may not be rendered, or a signal asked
+    /// for the end.
     pub fn new(
         sequence: &Sequence,
         studio: &Studio,
         journal: Option<&Journal>,
+        interrupt: &Interrupt,
     ) -> Result<Self, AppError> {
         let numbers = sequence.timeline.numbers();
         let states = numbers.map(|number| {
+            interrupt.check()?;
             let state = match (&sequence.target.frames, journal) {
                 (Some(files), Some(journal)) => journal.state(&files.pattern, number, || {
                     Ok(studio.origin(&studio.view(number)?))

@@ -130,6 +130,19 @@ fn names_of_frames_are_what_the_pattern_says() {
 }
 
 #[test]
+fn frames_of_another_number_of_digits_are_others() {
+    let place = Place::new();
+    place.animate("--frames 8..10 -o f_%d.png", 0);
+    let run = place.animate("--frames 8..10 -o f_%02d.png", 0);
+    // Frame 10 has two digits either way.
+    assert_eq!(run.counts(), (2, 1));
+    assert_eq!(
+        place.frames("."),
+        ["f_08.png", "f_09.png", "f_10.png", "f_8.png", "f_9.png"]
+    );
+}
+
+#[test]
 fn render_makes_the_same_frame_as_animate() {
     let place = Place::new();
     let flags = "--size 32x24 --samples 3 --fps 10 --shutter 180deg";
