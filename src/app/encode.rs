@@ -99,6 +99,7 @@ mod absent {
         }
     }
 
+    #[expect(dead_code, reason = "there is no writer to read them")]
     pub struct VideoOptions {
         pub rate: FrameRate,
         pub quality: u8,
@@ -132,15 +133,9 @@ mod absent {
     pub fn check(
         path: &Path,
         _: VideoFormat,
-        options: &VideoOptions,
+        _: &VideoOptions,
         _: (u32, u32),
     ) -> Result<(), AppError> {
-        let VideoOptions {
-            rate: FrameRate,
-            quality: _,
-            repeat: _,
-            clobber: _,
-        } = options;
         Err(AppError::Usage(format!(
             "cannot write a video ({}): this build of glimray has no feature `video`. Write numbered \
              frames, such as frame_%04d.png.",
