@@ -1,8 +1,10 @@
 //! The command line: one file per command, and what they share. Nothing below this module prints,
 //! exits or reads arguments.
 
+mod animate;
 mod bench;
 mod cli;
+mod clock;
 mod compare;
 mod completions;
 mod console;
@@ -13,6 +15,7 @@ mod doctor;
 pub mod exit;
 mod inspect;
 mod interrupt;
+mod job;
 pub mod mesa;
 mod overrides;
 mod picture;
@@ -20,6 +23,7 @@ mod progress;
 mod render;
 mod report;
 mod schema;
+mod turntable;
 
 use clap::Parser;
 use cli::{Cli, Command};
@@ -46,6 +50,8 @@ fn dispatch(command: Command, started: Instant) -> Result<(), AppError> {
     match command {
         Command::Demo(arguments) => demo::run(&arguments, started),
         Command::Render(arguments) => render::run(&arguments, started),
+        Command::Animate(arguments) => animate::run(&arguments, started),
+        Command::Turntable(arguments) => turntable::run(&arguments, started),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),

@@ -118,7 +118,7 @@ fn render(
         memory_limit_bytes: arguments.device.memory_limit_bytes(),
         ..Settings::default()
     };
-    let (mut renderer, bvh) = device::renderer(gpu, &workload.scene, settings)?;
+    let (mut renderer, bvh) = device::renderer(gpu, &workload.scene, (0.0, 0.0), settings)?;
     while !renderer.is_done() {
         renderer.step()?;
     }

@@ -1,13 +1,15 @@
 //! The command line as clap sees it. Names here are promises: add to them, rename nothing.
 
 mod flags;
+mod motion;
 mod values;
 
 pub use flags::{
     CameraFlags, DeviceFlags, LogFlags, OutputFlags, PictureFlags, ProgressMode, SceneFlags,
     SizeFlags,
 };
-pub use values::{INTEGRATORS, TONES, TRANSFERS};
+pub use motion::{MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags};
+pub use values::{INTEGRATORS, MAX_FRAME, TONES, TRANSFERS};
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
@@ -39,8 +41,29 @@ pub enum Command {
     #[command(after_help = "Examples:\n  \
             glimray render scene.toml -o picture.png\n  \
             glimray render model.obj --look-from 0,1,4 --look-at 0,0,0 --samples 16 -o model.exr\n  \
+            glimray render scene.toml --frame 12 --shutter 0.5 -o frame.png\n  \
             glimray render scene.scene --quiet -o - --format png | display")]
     Render(Box<RenderArgs>),
+    /// Render the frames of a moving scene, as numbered files or as a video. A run that was stopped
+    /// goes on where it stopped, by the same command.
+    #[command(after_help = "Examples:\n  \
+            glimray animate scene.toml -o walk.mp4\n  \
+            glimray animate scene.toml --frames 0..47 --shutter 180deg -o walk_%04d.png\n  \
+            glimray animate scene.toml --loop --fps 12 -o walk.gif\n  \
+            glimray animate scene.toml -o walk.mp4 --encode-only --quality 60\n  \
+            glimray animate scene.toml --quiet -o - --format y4m | mpv -\n\n\
+            The frames of a video are kept as files (walk.mp4.frames/frame_0000.png …), so that it can \
+            be written again without rendering. A frame that is there is used if it was written \
+            completely, by the same scene, settings, adapter and version; NAME_journal.png.jsonl beside \
+            the frames knows. Delete a frame to have just that one rendered again.")]
+    Animate(Box<AnimateArgs>),
+    /// Render a turn round a model, which repeats without a seam.
+    #[command(after_help = "Examples:\n  \
+            glimray turntable model.obj -o model.mp4\n  \
+            glimray turntable model.obj --seconds 2 --axis z --elevation 30 -o model.gif\n\n\
+            The camera goes round the model at a distance from which all of it is seen. Frames are \
+            kept and runs go on as with `animate`.")]
+    Turntable(Box<TurntableArgs>),
     /// Say what is in a scene: counts, bounds, cameras, lights, materials, what was skipped.
     #[command(after_help = "Example: glimray inspect scene.toml --json")]
     Inspect(InspectArgs),
@@ -91,6 +114,54 @@ pub struct RenderArgs {
     pub picture: PictureFlags,
     #[command(flatten)]
     pub camera: CameraFlags,
+    /// Take the picture at this frame of the scene's animation
+    #[arg(long, value_name = "N", help_heading = "Motion", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(..=i64::from(values::MAX_FRAME)))]
+    pub frame: Option<u32>,
+    /// Take the picture at this time of the scene's animation, -1e6 to 1e6 [default: 0]
+    #[arg(long, value_name = "SECONDS", help_heading = "Motion", allow_hyphen_values = true, value_parser = values::time, conflicts_with = "frame")]
+    pub time: Option<f64>,
+    #[command(flatten)]
+    pub motion: MotionFlags,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+    #[command(flatten)]
+    pub log: LogFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct AnimateArgs {
+    /// The scene: .scene (course format), .toml (native), .nff or .obj
+    pub scene: PathBuf,
+    #[command(flatten)]
+    pub output: SequenceFlags,
+    #[command(flatten)]
+    pub range: RangeFlags,
+    #[command(flatten)]
+    pub motion: MotionFlags,
+    #[command(flatten)]
+    pub picture: PictureFlags,
+    #[command(flatten)]
+    pub camera: CameraFlags,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+    #[command(flatten)]
+    pub log: LogFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct TurntableArgs {
+    /// The model: any scene that `render` reads
+    pub scene: PathBuf,
+    #[command(flatten)]
+    pub output: SequenceFlags,
+    #[command(flatten)]
+    pub turn: TurnFlags,
+    #[command(flatten)]
+    pub picture: PictureFlags,
     #[command(flatten)]
     pub reading: SceneFlags,
     #[command(flatten)]

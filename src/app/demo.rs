@@ -3,7 +3,8 @@
 use super::cli::{DemoArgs, PictureFlags, SizeFlags};
 use super::destination::Destination;
 use super::exit::AppError;
-use super::picture::Job;
+use super::job::Job;
+use super::picture;
 use crate::import;
 use crate::scene::Scene;
 use std::path::Path;
@@ -20,11 +21,10 @@ pub fn run(arguments: &DemoArgs, started: Instant) -> Result<(), AppError> {
     let loading = Instant::now();
     let scene = scene()?;
     let SizeFlags { size, samples } = arguments.size;
-    Job {
+    let job = Job {
         command: "demo",
         scene_path: NAME.into(),
         scene,
-        destination: Destination::new(&arguments.output, Path::new("glimray")),
         picture: &PictureFlags {
             size: SizeFlags { size, samples },
             ..PictureFlags::default()
@@ -33,8 +33,9 @@ pub fn run(arguments: &DemoArgs, started: Instant) -> Result<(), AppError> {
         log: &arguments.log,
         started,
         load_seconds: loading.elapsed().as_secs_f64(),
-    }
-    .run()
+    };
+    let destination = Destination::new(&arguments.output, Path::new("glimray"));
+    picture::run(&job, &destination, (0.0, 0.0))
 }
 
 /// The showcase scene, read anew.

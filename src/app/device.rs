@@ -7,11 +7,17 @@ use crate::render::{Renderer, Settings};
 use crate::scene::Scene;
 use std::sync::Arc;
 
-/// A renderer of `scene`'s first moment on `gpu`, and the seconds that building the tree took.
-pub fn renderer(gpu: Gpu, scene: &Scene, settings: Settings) -> Result<(Renderer, f64), AppError> {
+/// A renderer of `scene` while the shutter is open, from `shot.0` to `shot.1` in seconds, and the
+/// seconds that building the tree took.
+pub fn renderer(
+    gpu: Gpu,
+    scene: &Scene,
+    shot: (f64, f64),
+    settings: Settings,
+) -> Result<(Renderer, f64), AppError> {
     let packed = Arc::new(pack::scene(scene)?);
     let build_seconds = packed.build_seconds;
-    let view = packed.frame(&scene.frame(0.0))?;
+    let view = packed.shot(&scene.shot(shot.0, shot.1))?;
     Ok((Renderer::new(gpu, packed, &view, settings)?, build_seconds))
 }
 

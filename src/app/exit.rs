@@ -40,6 +40,17 @@ pub enum AppError {
     /// The standard output takes no more.
     #[error("cannot write the result (standard output): {}. Send it elsewhere.", output::reason(.0))]
     Stdout(#[source] io::Error),
+    /// Files of ours or of others are in the way.
+    #[error("{0}")]
+    Unwritable(String),
+    /// Work of many steps ended early.
+    #[error("{}{kept}", lead(error))]
+    Stopped {
+        /// What ended it.
+        error: Box<AppError>,
+        /// What is kept and how to go on, as a sentence.
+        kept: String,
+    },
     /// `compare` found the pictures different.
     #[error("{0}")]
     Different(String),
@@ -65,7 +76,8 @@ impl AppError {
             Self::Output(error) if error.is_usage() => 2,
             Self::Output(error) if error.is_refused_input() => 3,
             Self::Output(error) if error.is_internal() => 1,
-            Self::Output(_) | Self::Stdout(_) => 4,
+            Self::Output(_) | Self::Stdout(_) | Self::Unwritable(_) => 4,
+            Self::Stopped { error, .. } => error.exit_code(),
             Self::SelfTest(_) => 5,
             Self::Pack(_) => 7,
             Self::Different(_) => 8,
@@ -73,6 +85,14 @@ impl AppError {
             Self::Render(error) => error.exit_code(),
             Self::Interrupted { exit_code } => *exit_code,
         }
+    }
+}
+
+/// What stands before the sentence of what is kept.
+fn lead(error: &AppError) -> String {
+    match error {
+        AppError::Interrupted { .. } => "interrupted: ".into(),
+        other => format!("{other} "),
     }
 }
 

@@ -1,5 +1,6 @@
 //! `glimray inspect SCENE`: what is in a scene, as the renderer will see it.
 
+mod motion;
 mod textures;
 
 use super::cli::{InspectArgs, TONES, TRANSFERS};
@@ -53,6 +54,7 @@ fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
         "exposure_ev": output.exposure_ev,
         "tone": TONES.word(&output.tone), "transfer": TRANSFERS.word(&output.transfer),
     });
+    value["animation"] = motion::to_json(scene);
     Ok(value)
 }
 
@@ -181,6 +183,7 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
         background(&scene.background),
         color(scene.ambient)
     )?;
+    motion::write_text(out, scene)?;
     list(out, "cameras", &scene.cameras, |out, index, camera| {
         let used = if index == scene.camera_index {
             " (used)"

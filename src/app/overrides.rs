@@ -2,7 +2,7 @@
 
 use super::cli::CameraFlags;
 use super::exit::AppError;
-use crate::scene::{Background, Camera, Scene};
+use crate::scene::{Background, Camera, CameraProperty, Scene, Target};
 
 /// Chooses and changes the scene's camera and background as the flags say.
 ///
@@ -15,13 +15,49 @@ pub fn apply(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
     if let Some(background) = flags.background {
         scene.background = Background::Color(background);
     }
-    let camera = &mut scene.cameras[scene.camera_index];
-    camera.look_from = flags.look_from.unwrap_or(camera.look_from);
-    camera.look_at = flags.look_at.unwrap_or(camera.look_at);
-    camera.up = flags.up.unwrap_or(camera.up);
-    camera.fov_y = flags.fov_y.map_or(camera.fov_y, f64::to_radians);
     let moved = flags.look_from.or(flags.look_at).or(flags.up).is_some();
-    if moved { check(camera) } else { Ok(()) }
+    if moved {
+        let carried = scene.cameras[scene.camera_index].node.is_some();
+        for (property, flag) in [
+            (CameraProperty::LookFrom, flags.look_from),
+            (CameraProperty::LookAt, flags.look_at),
+            (CameraProperty::Up, flags.up),
+        ] {
+            // What a carried camera's tracks say is in the space of what carries it.
+            if carried || flag.is_some() {
+                stop(scene, property);
+            }
+        }
+        place(scene, flags)?;
+    }
+    if let Some(fov_y) = flags.fov_y {
+        stop(scene, CameraProperty::FovY);
+        scene.cameras[scene.camera_index].fov_y = fov_y.to_radians();
+    }
+    Ok(())
+}
+
+/// Puts the camera where the flags say, in the world: whatever carried it goes on without it.
+fn place(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
+    let start = scene.frame(0.0).camera;
+    let camera = &mut scene.cameras[scene.camera_index];
+    camera.look_from = flags.look_from.unwrap_or(start.look_from);
+    camera.look_at = flags.look_at.unwrap_or(start.look_at);
+    camera.up = flags.up.unwrap_or(start.up);
+    camera.node = None;
+    if flags.look_at.is_some() {
+        camera.target = None;
+    }
+    check(camera)
+}
+
+/// Takes away the track that drives this property of the camera in use.
+fn stop(scene: &mut Scene, property: CameraProperty) {
+    let driven = Target::Camera(scene.camera_index, property);
+    for track in &mut scene.tracks {
+        track.targets.retain(|target| *target != driven);
+    }
+    scene.tracks.retain(|track| !track.targets.is_empty());
 }
 
 /// By name, else by number.

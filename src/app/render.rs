@@ -1,10 +1,12 @@
 //! `glimray render SCENE`: a scene file → a picture.
 
 use super::cli::{RenderArgs, SceneFlags};
+use super::clock::Clock;
 use super::destination::Destination;
 use super::exit::AppError;
+use super::job::Job;
 use super::overrides;
-use super::picture::Job;
+use super::picture;
 use crate::import;
 use crate::scene::Scene;
 use std::path::Path;
@@ -15,19 +17,24 @@ pub fn run(arguments: &RenderArgs, started: Instant) -> Result<(), AppError> {
     let mut scene = load(&arguments.scene, &arguments.reading)?;
     let load_seconds = loading.elapsed().as_secs_f64();
     overrides::apply(&mut scene, &arguments.camera)?;
+    let clock = Clock::new(&scene.output, &arguments.motion);
+    let shot = match arguments.frame {
+        Some(frame) => clock.frame(frame),
+        None => clock.shot(arguments.time.unwrap_or(0.0)),
+    };
     let stem = arguments.scene.file_stem().unwrap_or("picture".as_ref());
-    Job {
+    let destination = Destination::new(&arguments.output, Path::new(stem));
+    let job = Job {
         command: "render",
         scene_path: arguments.scene.display().to_string(),
         scene,
-        destination: Destination::new(&arguments.output, Path::new(stem)),
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,
         started,
         load_seconds,
-    }
-    .run()
+    };
+    picture::run(&job, &destination, shot)
 }
 
 /// Reads a scene; `--strict` refuses one of which anything had to be skipped.

@@ -15,7 +15,8 @@ pub struct Report {
     pub command: &'static str,
     pub scene: SceneReport,
     pub image: ImageReport,
-    pub adapter: Adapter,
+    /// Null where none was needed.
+    pub adapter: Option<Adapter>,
     pub seconds: Seconds,
     /// Absent unless they were to be counted.
     pub rays: Option<RayCounts>,
@@ -25,6 +26,50 @@ pub struct Report {
     /// Samples whose ray tree was cut off: it outgrew its stack, or had too many rays.
     pub cut_off_trees: u64,
     pub memory: Memory,
+    /// Of `animate` and `turntable`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub animation: Option<AnimationReport>,
+}
+
+/// The frames, and the video if there is one.
+#[derive(Debug, Serialize)]
+pub struct AnimationReport {
+    /// Number of the first frame.
+    pub first: u32,
+    /// Number of the last frame.
+    pub last: u32,
+    /// From one frame's number to the next one's.
+    pub step: u32,
+    /// Frames in the range.
+    pub frames: usize,
+    /// Frame n is at n / `fps` seconds.
+    pub fps: f64,
+    /// When the shutter opens and closes, in frames from a frame's own time.
+    pub shutter: [f64; 2],
+    /// Frames that this run rendered.
+    pub rendered: usize,
+    /// Frames that an earlier run had rendered.
+    pub reused: usize,
+    /// Why frames were rendered again.
+    pub redone: Vec<Redone>,
+    /// The frames' names with their placeholder; null where none are kept.
+    pub frame_files: Option<String>,
+    /// Null where there is none; `-` is the standard output.
+    pub video: Option<String>,
+    /// Writing the video; 0 without one.
+    pub encode_seconds: f64,
+    /// Rendered frames for each second that it took to compile, upload, render and write them; null
+    /// when there were none.
+    pub frames_per_second: Option<f64>,
+}
+
+/// Frames that were there but could not be used.
+#[derive(Debug, Serialize)]
+pub struct Redone {
+    /// Such as "the scene has changed".
+    pub why: &'static str,
+    /// Their numbers.
+    pub frames: Vec<u32>,
 }
 
 /// How much is in the scene.

@@ -147,12 +147,33 @@ fn help_explains_every_promised_flag_with_an_example() {
         --seed --crop --camera --fov-y --look-from --look-at --up --background";
     let reading = "--strict --set --allow-dir";
     let size = "--size --samples";
+    let motion = "--fps --shutter";
+    let frames = "--frames --step --loop --frames-dir --discard-frames --encode-only";
+    let turn = "--seconds --axis --elevation --fov-y --margin --clockwise --background";
     let place = Workplace::new();
     for (command, flags) in [
         ("demo", [output, size, device, log].join(" ")),
         (
             "render",
-            [output, size, picture, reading, device, log].join(" "),
+            [
+                output,
+                size,
+                picture,
+                "--frame --time",
+                motion,
+                reading,
+                device,
+                log,
+            ]
+            .join(" "),
+        ),
+        (
+            "animate",
+            [output, frames, size, picture, motion, reading, device, log].join(" "),
+        ),
+        (
+            "turntable",
+            [output, turn, size, motion, reading, device, log].join(" "),
         ),
         ("inspect", ["--json", reading].join(" ")),
         ("doctor", ["--json", device].join(" ")),

@@ -181,7 +181,11 @@ fn rays_that_leave_a_triangle_hit_the_same_one_of_another_instance() {
     let (instanced, _) = shot(&packed(&scene, 0), &frame, &settings);
     assert_eq!(differing(&laid_out, &instanced, 1.0), 0);
     let dark = |image: &Image| image.pixels.iter().filter(|p| p[..3] == [0.0; 3]).count();
-    assert!(dark(&instanced) > 100, "{} pixels in the shade", dark(&instanced));
+    assert!(
+        dark(&instanced) > 100,
+        "{} pixels in the shade",
+        dark(&instanced)
+    );
 }
 
 #[test]

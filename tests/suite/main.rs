@@ -1,6 +1,7 @@
 //! All tests in one binary: linking wgpu once is slow enough.
 
 mod adaptive;
+mod animate;
 mod bvh;
 mod cli;
 mod drivers;

@@ -138,7 +138,10 @@ fn a_sphere_that_crosses_the_picture_covers_it_as_its_profile_says() {
     // All of its light is there: its silhouette's share of the picture.
     let energy = mean(&image, (0..SIDE * SIDE).map(|i| (i % SIDE, i / SIDE)));
     let expected = PI * radius * radius / (4.0 * HALF * HALF);
-    assert!((energy / expected - 1.0).abs() < 0.005, "{energy} for {expected}");
+    assert!(
+        (energy / expected - 1.0).abs() < 0.005,
+        "{energy} for {expected}"
+    );
 }
 
 #[test]
@@ -175,7 +178,10 @@ fn a_disc_that_turns_about_a_point_beside_it_is_an_annulus_and_does_not_shrink()
         });
         let expected = points.map(covered).sum::<f64>() / (64 * pixels.len()) as f64;
         let actual = mean(&image, pixels.into_iter());
-        assert!((actual - expected).abs() < 0.01, "{inner}: {actual}, not {expected}");
+        assert!(
+            (actual - expected).abs() < 0.01,
+            "{inner}: {actual}, not {expected}"
+        );
     }
 }
 
@@ -212,7 +218,9 @@ fn a_camera_that_moves_blurs_as_an_object_that_moves_the_other_way() {
         (CameraProperty::LookAt, camera.cameras[0].look_at),
     ] {
         let values = Values::Vector(vec![rest + step, rest - step]);
-        camera.tracks.push(track(Target::Camera(0, property), values));
+        camera
+            .tracks
+            .push(track(Target::Camera(0, property), values));
     }
     let settings = blurred(64);
     let (object, camera) = (exposed(&object, &settings), exposed(&camera, &settings));
@@ -250,7 +258,10 @@ fn a_light_that_moves_leaves_the_mean_of_its_places() {
     for (x, y) in [(8, 8), (32, 32), (60, 20), (10, 50)] {
         let actual = mean(&image, [(x, y)].into_iter());
         let expected = expected(place(x), place(y));
-        assert!((actual / expected - 1.0).abs() < 0.01, "{x} {y}: {actual}, not {expected}");
+        assert!(
+            (actual / expected - 1.0).abs() < 0.01,
+            "{x} {y}: {actual}, not {expected}"
+        );
     }
 }
 
@@ -278,12 +289,21 @@ fn boxes_that_follow_the_movement_lose_nothing() {
     // Shapes that tumble, swing and grow, against every primitive in turn.
     let mut scene = scenes::empty();
     let material = scene.add_material(scenes::shiny(Vec3::splat(0.7)));
-    scene.meshes.push(scenes::torus(0.7, 0.3, glam::UVec2::new(16, 8), material as u32));
+    scene.meshes.push(scenes::torus(
+        0.7,
+        0.3,
+        glam::UVec2::new(16, 8),
+        material as u32,
+    ));
     for i in 0..12 {
         let phase = f64::from(i);
         scene.nodes.push(Node::default());
         let node = Some(i as usize);
-        let at = dvec3(phase.sin() * 2.2, 1.0 + (2.0 * phase).cos() * 0.7, (3.0 * phase).sin());
+        let at = dvec3(
+            phase.sin() * 2.2,
+            1.0 + (2.0 * phase).cos() * 0.7,
+            (3.0 * phase).sin(),
+        );
         let placement = DAffine3::from_scale_rotation_translation(
             dvec3(0.3, 0.5, if i % 4 == 0 { -0.4 } else { 0.4 }),
             DQuat::from_rotation_x(phase),

@@ -1,10 +1,11 @@
 //! What may follow a flag, and the words for what may not.
 
-use super::ProgressMode;
+use super::{ProgressMode, Range, SequenceFormat};
 use crate::gpu::Backend;
 use crate::output::Format;
+use crate::output::video::VideoFormat;
 use crate::render::{Antialias, Integrator, TriangleTest};
-use crate::scene::{Filter, ToneCurve, Transfer};
+use crate::scene::{Filter, Shutter, ToneCurve, Transfer};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec3, Vec3};
 use std::fmt::Display;
@@ -19,6 +20,49 @@ pub static FORMATS: Words<Format> = Words(&[
     ("jpg", "the same as jpeg", Format::Jpeg),
     ("exr", "OpenEXR, linear float", Format::Exr),
     ("hdr", "Radiance RGBE, linear", Format::Hdr),
+]);
+
+pub static SEQUENCE_FORMATS: Words<SequenceFormat> = Words(&[
+    (
+        "png",
+        "frames of 8 bits a channel, lossless",
+        SequenceFormat::Frames(Format::Png),
+    ),
+    (
+        "jpeg",
+        "frames of 8 bits a channel, lossy",
+        SequenceFormat::Frames(Format::Jpeg),
+    ),
+    (
+        "jpg",
+        "the same as jpeg",
+        SequenceFormat::Frames(Format::Jpeg),
+    ),
+    (
+        "exr",
+        "frames in OpenEXR, linear float",
+        SequenceFormat::Frames(Format::Exr),
+    ),
+    (
+        "hdr",
+        "frames in Radiance RGBE, linear",
+        SequenceFormat::Frames(Format::Hdr),
+    ),
+    (
+        "mp4",
+        "a video of H.264",
+        SequenceFormat::Video(VideoFormat::Mp4),
+    ),
+    (
+        "gif",
+        "an animated GIF of 256 colours",
+        SequenceFormat::Video(VideoFormat::Gif),
+    ),
+    (
+        "y4m",
+        "YUV4MPEG2, not compressed, for other programs",
+        SequenceFormat::Video(VideoFormat::Y4m),
+    ),
 ]);
 
 pub static ANTIALIAS: Words<Antialias> = Words(&[
@@ -211,6 +255,91 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
 
 pub fn percent(text: &str) -> Result<f64, String> {
     within(text, 0.0, 100.0, "it")
+}
+
+/// The highest number of a frame.
+pub const MAX_FRAME: u32 = 9_999_999;
+
+pub fn fps(text: &str) -> Result<f64, String> {
+    within(text, 0.01, 1000.0, "it")
+}
+
+pub fn seconds(text: &str) -> Result<f64, String> {
+    within(text, 0.01, 1e4, "it")
+}
+
+pub fn time(text: &str) -> Result<f64, String> {
+    within(text, -1e6, 1e6, "it")
+}
+
+pub fn elevation(text: &str) -> Result<f64, String> {
+    within(text, -89.0, 89.0, "it")
+}
+
+pub fn turn_fov_y(text: &str) -> Result<f64, String> {
+    within(text, 1.0, 170.0, "it")
+}
+
+pub fn margin(text: &str) -> Result<f64, String> {
+    within(text, 0.0, 0.9, "it")
+}
+
+/// A direction of unit length.
+pub fn axis(text: &str) -> Result<DVec3, String> {
+    match text.trim() {
+        "x" | "X" => Ok(DVec3::X),
+        "y" | "Y" => Ok(DVec3::Y),
+        "z" | "Z" => Ok(DVec3::Z),
+        other => (vector(other).ok())
+            .and_then(DVec3::try_normalize)
+            .ok_or_else(|| {
+                format!("it must be x, y, z or a direction such as 0,1,0, not `{other}`")
+            }),
+    }
+}
+
+/// Longest time that the shutter may be open, and furthest from a frame's own time, in frames.
+const MAX_SHUTTER: f64 = 16.0;
+
+/// `0.5`, `180deg` or `-0.25..0.25`.
+pub fn shutter(text: &str) -> Result<Shutter, String> {
+    if let Some((open, close)) = text.split_once("..") {
+        let end = |text: &str| within(text, -MAX_SHUTTER, MAX_SHUTTER, "opening and closing");
+        let (open, close) = (end(open)?, end(close)?);
+        return if open <= close {
+            Ok(Shutter { open, close })
+        } else {
+            Err("it closes before it opens: write the earlier time first, as in -0.25..0.25".into())
+        };
+    }
+    let close = match text.trim().strip_suffix("deg") {
+        Some(degrees) => within(degrees, 0.0, MAX_SHUTTER * 360.0, "the angle")? / 360.0,
+        None => within(text, 0.0, MAX_SHUTTER, "it")?,
+    };
+    Ok(Shutter { open: 0.0, close })
+}
+
+/// `A..B`, `A..`, `..B` or `A`.
+pub fn frames(text: &str) -> Result<Range, String> {
+    let number = |text: &str| within(text, 0, MAX_FRAME, "a frame's number");
+    let Some((first, last)) = text.split_once("..") else {
+        let first = number(text)?;
+        return Ok(Range {
+            first,
+            last: Some(first),
+        });
+    };
+    let is_given = |text: &str| !text.trim().is_empty();
+    // Rust's way of saying that the end is included.
+    let last = last.strip_prefix('=').unwrap_or(last);
+    let first = if is_given(first) { number(first)? } else { 0 };
+    let last = is_given(last).then(|| number(last)).transpose()?;
+    match last {
+        Some(last) if last < first => Err(format!(
+            "it is empty: {last} is before {first}. Write the smaller number first"
+        )),
+        _ => Ok(Range { first, last }),
+    }
 }
 
 pub fn override_of(text: &str) -> Result<String, String> {

@@ -44,7 +44,7 @@ pub fn run(gpu: Gpu, memory_limit_bytes: u64) -> Result<Outcome, AppError> {
         memory_limit_bytes,
         ..Settings::default()
     };
-    let (mut renderer, _) = device::renderer(gpu, &scene(), settings)?;
+    let (mut renderer, _) = device::renderer(gpu, &scene(), (0.0, 0.0), settings)?;
     while !renderer.is_done() {
         renderer.step()?;
     }

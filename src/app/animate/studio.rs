@@ -1,0 +1,278 @@
+//! Renders frames: one renderer for all of them, so that only what moves is uploaded for each.
+
+use super::super::exit::AppError;
+use super::super::interrupt::Interrupt;
+use super::super::progress::FrameProgress;
+use super::fingerprint::{self, Fingerprint};
+use super::journal::{Journal, Origin};
+use super::plan::Plan;
+use super::target::Files;
+use super::{Frames, Sequence};
+use crate::gpu::{AdapterReport, Gpu};
+use crate::image::Image;
+use crate::output::video::{self, Picture8, VideoOptions, Y4mWriter};
+use crate::output::{self, Format, OutputError};
+use crate::pack::{self, PackedScene, PackedView};
+use crate::render::{Fetch, Renderer, Settings, Slicing, Stats, Tone};
+use std::io::{self, Stdout};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// All that frames are made with.
+pub struct Studio<'a> {
+    sequence: &'a Sequence<'a>,
+    settings: Settings,
+    tone: Tone,
+    scene: Arc<PackedScene>,
+    adapter: Option<AdapterReport>,
+    /// Until there is a renderer; `None` from the start where nothing may be rendered.
+    gpu: Option<Gpu>,
+    renderer: Option<Renderer>,
+    /// Of the scene, and of the settings.
+    fingerprints: (Fingerprint, Fingerprint),
+    write_seconds: f64,
+}
+
+impl<'a> Studio<'a> {
+    /// Packs the scene. Without `gpu` there will be nothing to render.
+    pub fn new(
+        sequence: &'a Sequence<'a>,
+        settings: Settings,
+        gpu: Option<Gpu>,
+    ) -> Result<Self, AppError> {
+        let scene = Arc::new(pack::scene(&sequence.job.scene)?);
+        let tone = (sequence.job).tone(&settings, sequence.target.is_linear());
+        Ok(Self {
+            fingerprints: (
+                fingerprint::of_scene(&scene),
+                of_settings(&settings, &tone, sequence.target.frames.as_ref()),
+            ),
+            adapter: gpu.as_ref().map(|gpu| gpu.adapter().clone()),
+            sequence,
+            settings,
+            tone,
+            scene,
+            gpu,
+            renderer: None,
+            write_seconds: 0.0,
+        })
+    }
+
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Seconds that building the tree took.
+    pub fn build_seconds(&self) -> f64 {
+        self.scene.build_seconds
+    }
+
+    /// Seconds that writing frames took.
+    pub fn write_seconds(&self) -> f64 {
+        self.write_seconds
+    }
+
+    /// What a frame sees.
+    pub fn view(&self, number: u32) -> Result<PackedView, AppError> {
+        let (open, close) = self.sequence.timeline.clock.frame(number);
+        Ok(self
+            .scene
+            .shot(&self.sequence.job.scene.shot(open, close))?)
+    }
+
+    /// What a frame with this view depends on.
+    pub fn origin(&self, view: &PackedView) -> Origin {
+        let (scene, settings) = self.fingerprints.clone();
+        Origin {
+            scene,
+            view: fingerprint::of_view(view),
+            settings,
+            renderer: self.adapter.as_ref().map(|adapter| {
+                let AdapterReport {
+                    name,
+                    backend,
+                    driver,
+                    ..
+                } = adapter;
+                let version = env!("CARGO_PKG_VERSION");
+                format!("glimray {version}, {backend}, {name}, {driver}")
+            }),
+        }
+    }
+
+    /// Renders every frame that is not done, and sends all of them to `sink`.
+    ///
+    /// # Errors
+    /// Whatever ended the work early, with how much of it is kept.
+    pub fn render(
+        &mut self,
+        plan: Plan,
+        mut journal: Option<&mut Journal>,
+        mut sink: Option<Sink>,
+        interrupt: &Interrupt,
+    ) -> Result<Frames, AppError> {
+        let (count, reused) = (plan.count(), plan.done_count());
+        if let Some(adapter) = self.adapter.as_ref().filter(|_| reused < count) {
+            let what = format!("{} frames of ", count - reused);
+            (self.sequence.job).announce(&what, &self.settings, adapter);
+        }
+        let started = Instant::now();
+        let mut progress = FrameProgress::new(self.sequence.job.log, count, reused);
+        let mut rendered = 0;
+        for (sent, (number, done)) in plan.frames().enumerate() {
+            let mut step = || {
+                interrupt.check()?;
+                if !done {
+                    let view = self.view(number)?;
+                    let image = self.frame(number, &view, &mut progress, interrupt)?;
+                    self.save(number, &view, &image, journal.as_deref_mut())?;
+                    rendered += 1;
+                    progress.finish_frame();
+                    if let Some(sink) = &mut sink {
+                        sink.send(&Picture8::from(&image))?;
+                    }
+                } else if let (Some(sink), Some(files)) = (&mut sink, &self.sequence.target.frames)
+                {
+                    sink.send(&video::read_frame(&files.pattern.path(number))?)?;
+                }
+                Ok(())
+            };
+            if let Err(error) = step() {
+                if let Some(journal) = journal {
+                    journal.close();
+                }
+                let kept = (self.sequence.target.frames.is_some()).then_some(reused + rendered);
+                return Err(stopped(error, number, kept, sent, count));
+            }
+        }
+        if let Some(sink) = sink {
+            sink.finish()?;
+        }
+        Ok(Frames {
+            rendered,
+            seconds: started.elapsed().as_secs_f64(),
+            adapter: self.adapter.clone(),
+            stats: self.stats(),
+            plan,
+        })
+    }
+
+    fn frame(
+        &mut self,
+        number: u32,
+        view: &PackedView,
+        progress: &mut FrameProgress,
+        interrupt: &Interrupt,
+    ) -> Result<Image, AppError> {
+        let renderer = match (&mut self.renderer, self.gpu.take()) {
+            (Some(renderer), _) => {
+                renderer.set_frame(view)?;
+                renderer
+            }
+            (empty, Some(gpu)) => {
+                let settings = self.settings.clone();
+                empty.insert(Renderer::new(gpu, self.scene.clone(), view, settings)?)
+            }
+            (None, None) => return Err(AppError::Internal("there is no adapter".into())),
+        };
+        while !renderer.is_done() {
+            interrupt.check()?;
+            renderer.step()?;
+            progress.update(number, renderer.progress());
+        }
+        Ok(renderer.develop(&self.tone)?)
+    }
+
+    fn save(
+        &mut self,
+        number: u32,
+        view: &PackedView,
+        image: &Image,
+        journal: Option<&mut Journal>,
+    ) -> Result<(), AppError> {
+        let (Some(files), Some(journal)) = (&self.sequence.target.frames, journal) else {
+            return Ok(());
+        };
+        let started = Instant::now();
+        let path = files.pattern.path(number);
+        if journal.has_begun(number) {
+            // Removes what a run that was killed at this frame left.
+            output::check(&path, &files.options, image.width, image.height)?;
+        }
+        journal.begin(number)?;
+        output::save_with(&path, image, &files.options)?;
+        journal.finish(&files.pattern, number, self.origin(view))?;
+        self.write_seconds += started.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    fn stats(&self) -> Stats {
+        (self.renderer.as_ref()).map_or_else(Stats::default, |renderer| renderer.stats().clone())
+    }
+}
+
+/// Frames on their way to the standard output.
+pub struct Sink(Y4mWriter<Stdout>);
+
+impl Sink {
+    pub fn new((width, height): (u32, u32), options: &VideoOptions) -> Result<Self, AppError> {
+        let writer = Y4mWriter::new(io::stdout(), width, height, options.rate);
+        Ok(Self(writer.map_err(no_more)?))
+    }
+
+    fn send(&mut self, picture: &Picture8) -> Result<(), AppError> {
+        Ok(self.0.write(picture).map_err(no_more)?)
+    }
+
+    fn finish(self) -> Result<(), AppError> {
+        Ok(self.0.finish().map_err(no_more)?)
+    }
+}
+
+fn no_more(source: io::Error) -> OutputError {
+    OutputError::Stdout { source }
+}
+
+/// Of everything but scene and view that can show in a frame's file.
+fn of_settings(settings: &Settings, tone: &Tone, files: Option<&Files>) -> Fingerprint {
+    let plain = Settings::default();
+    let settings = Settings {
+        count_rays: plain.count_rays,
+        memory_limit_bytes: plain.memory_limit_bytes,
+        fetch: Fetch::Auto,
+        slicing: Slicing::default(),
+        ..settings.clone()
+    };
+    let format = files.map(|files| files.format);
+    // Only what is lossy has a quality.
+    let quality =
+        (files.filter(|files| files.format == Format::Jpeg)).map(|files| files.options.quality);
+    fingerprint::of_text(&format!("{settings:?} {tone:?} {format:?} {quality:?}"))
+}
+
+/// An error that ended the work at frame `number`, with how to go on: `kept` frames are in files, or
+/// `sent` were sent where none are.
+fn stopped(
+    error: AppError,
+    number: u32,
+    kept: Option<usize>,
+    sent: usize,
+    count: usize,
+) -> AppError {
+    let kept = match kept {
+        Some(0) if !matches!(error, AppError::Interrupted { .. }) => return error,
+        Some(kept) => {
+            format!("{kept} of {count} frames are kept; the same command goes on from there.")
+        }
+        None => format!("{sent} of {count} frames were sent."),
+    };
+    let is_interrupted = matches!(error, AppError::Interrupted { .. });
+    AppError::Stopped {
+        error: Box::new(error),
+        kept: if is_interrupted {
+            kept
+        } else {
+            format!("This was frame {number}; {kept}")
+        },
+    }
+}

@@ -1,0 +1,282 @@
+//! What `render`, `demo` and `animate` share: a scene, what the command line says about it, and the
+//! words and figures at the end.
+
+use super::cli::{DeviceFlags, INTEGRATORS, LogFlags, PictureFlags};
+use super::console::{self, Console};
+use super::device;
+use super::exit::AppError;
+use super::report::{self, AnimationReport, ImageReport, Memory, Report, SceneReport, Seconds};
+use crate::gpu::{AdapterReport, Gpu};
+use crate::output;
+use crate::render::{Integrator, Settings, Stats, Tone};
+use crate::scene::{OutputDefaults, Scene, ToneCurve, Transfer};
+use std::path::Path;
+use std::time::Instant;
+
+/// A scene to be rendered, and everything the command line says about how.
+pub struct Job<'a> {
+    /// The command's name, for the report.
+    pub command: &'static str,
+    /// The scene's name, for the report.
+    pub scene_path: String,
+    /// With flags that win over it applied.
+    pub scene: Scene,
+    pub picture: &'a PictureFlags,
+    pub device: &'a DeviceFlags,
+    pub log: &'a LogFlags,
+    /// When the process began.
+    pub started: Instant,
+    /// What it took to read the scene.
+    pub load_seconds: f64,
+}
+
+/// What came of a job.
+pub struct Outcome<'a> {
+    /// Where it went; `-` is the standard output.
+    pub path: &'a Path,
+    /// Width and height of every picture.
+    pub size: (u32, u32),
+    /// Pictures that were rendered.
+    pub pictures: usize,
+    /// `None` where none was needed.
+    pub adapter: Option<&'a AdapterReport>,
+    pub stats: &'a Stats,
+    pub seconds: Seconds,
+    /// Of a moving picture.
+    pub animation: Option<AnimationReport>,
+}
+
+impl Job<'_> {
+    pub fn console(&self) -> Console {
+        Console::new(self.log)
+    }
+
+    /// Says what was left out of the scene.
+    pub fn warn_of_skipped(&self) {
+        for skipped in &self.scene.skipped {
+            console::warning(skipped);
+        }
+    }
+
+    pub fn settings(&self) -> Settings {
+        settings(&self.scene.output, self.picture, self.device, self.log)
+    }
+
+    /// How a picture is developed, for a format that holds linear light or one that does not.
+    pub fn tone(&self, settings: &Settings, linear_format: bool) -> Tone {
+        let output = &self.scene.output;
+        tone(output, self.picture, settings.integrator, linear_format)
+    }
+
+    /// Times of the job so far.
+    pub fn seconds(&self) -> Seconds {
+        Seconds {
+            load: self.load_seconds,
+            ..Seconds::default()
+        }
+    }
+
+    /// Opens the adapter.
+    pub fn open_gpu(&self, seconds: &mut Seconds) -> Result<Gpu, AppError> {
+        let started = Instant::now();
+        let gpu = Gpu::new(&self.device.choice())?;
+        seconds.gpu = started.elapsed().as_secs_f64();
+        Ok(gpu)
+    }
+
+    /// Says what is about to be rendered, and on what.
+    pub fn announce(&self, what: &str, settings: &Settings, adapter: &AdapterReport) {
+        let (width, height) = settings.size;
+        let adapter = device::describe(adapter);
+        let console = self.console();
+        console.status(format_args!(
+            "rendering {what}{width}×{height} on {adapter}"
+        ));
+    }
+
+    /// Refuses a report that would replace what goes to `path`, or that cannot be written.
+    pub fn check_report(&self, path: &Path) -> Result<(), AppError> {
+        match self.log.report.as_deref() {
+            Some(report) if report == path => Err(AppError::Usage(format!(
+                "cannot write the report ({}): the picture goes there. Choose another name.",
+                path.display()
+            ))),
+            Some(report) if report != Path::new("-") => Ok(output::check_file(report, true)?),
+            _ => Ok(()),
+        }
+    }
+
+    /// Warns of what is missing in the pictures.
+    pub fn warn_of_losses(stats: &Stats) {
+        if stats.device_losses > 0 {
+            console::warning(format_args!(
+                "the GPU was lost {} time(s); the work went on from the last finished slice.",
+                stats.device_losses
+            ));
+        }
+        if stats.nonfinite_samples > 0 {
+            console::warning(format_args!(
+                "{} samples were not finite and were dropped.",
+                stats.nonfinite_samples
+            ));
+        }
+        if stats.cut_off_trees > 0 {
+            console::warning(format_args!(
+                "{} samples had too many rays and were cut off. Lower --max-depth, or raise \
+                 --min-throughput.",
+                stats.cut_off_trees
+            ));
+        }
+    }
+
+    /// Reports what came of it, if a report is asked for.
+    pub fn report(&self, settings: &Settings, outcome: Outcome) -> Result<(), AppError> {
+        let stats = outcome.stats;
+        let (width, height) = outcome.size;
+        let samples = outcome.pictures as f64 * f64::from(width) * f64::from(height);
+        let report = Report {
+            glimray: env!("CARGO_PKG_VERSION"),
+            command: self.command,
+            scene: SceneReport::new(&self.scene_path, &self.scene),
+            image: ImageReport {
+                path: outcome.path.display().to_string(),
+                width,
+                height,
+                samples: settings.samples,
+                // Nothing rendered has nothing to average.
+                mean_samples: stats.samples as f64 / samples.max(1.0),
+                integrator: INTEGRATORS.word(&settings.integrator),
+                max_depth: settings.max_depth,
+                seed: settings.seed,
+            },
+            adapter: outcome.adapter.map(Into::into),
+            seconds: outcome.seconds,
+            rays: stats.rays.as_ref().map(Into::into),
+            submissions: stats.into(),
+            nonfinite_samples: stats.nonfinite_samples,
+            cut_off_trees: stats.cut_off_trees,
+            memory: Memory {
+                gpu_bytes: stats.gpu_bytes,
+                host_peak_bytes: report::host_peak_bytes(),
+            },
+            animation: outcome.animation,
+        };
+        details(self.console(), &report);
+        match &self.log.report {
+            Some(path) => write_report(path, &report),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Seconds {
+    /// Takes over what the renderer measured.
+    pub fn take(&mut self, stats: &Stats) {
+        self.compile = stats.compile_seconds;
+        self.upload = stats.upload_seconds;
+        self.trace = stats.trace_seconds;
+        self.develop = stats.develop_seconds;
+    }
+}
+
+fn settings(
+    scene: &OutputDefaults,
+    picture: &PictureFlags,
+    device: &DeviceFlags,
+    log: &LogFlags,
+) -> Settings {
+    let output = OutputDefaults {
+        samples: picture.size.samples.unwrap_or(scene.samples),
+        antialias: picture.antialias.or(scene.antialias),
+        ..scene.clone()
+    };
+    let filter = picture.filter.unwrap_or(scene.filter);
+    // A radius of the scene goes with the filter of the scene.
+    let scene_radius = scene.filter_radius.filter(|_| filter == scene.filter);
+    let defaults = Settings::from(&output);
+    Settings {
+        size: picture.size.size.unwrap_or(scene.size),
+        crop: picture.crop,
+        noise: picture.noise.unwrap_or(defaults.noise),
+        filter,
+        filter_radius: (picture.filter_radius.or(scene_radius)).unwrap_or(filter.default_radius()),
+        light_samples: picture.light_samples.unwrap_or(scene.light_samples),
+        integrator: picture.integrator.unwrap_or(defaults.integrator),
+        triangle_test: picture.triangle_test.unwrap_or(defaults.triangle_test),
+        brute_force: picture.no_bvh,
+        seed: picture.seed,
+        max_depth: picture.max_depth.unwrap_or(defaults.max_depth),
+        min_throughput: picture.min_throughput.unwrap_or(defaults.min_throughput),
+        count_rays: log.count_rays,
+        memory_limit_bytes: device.memory_limit_bytes(),
+        ..defaults
+    }
+}
+
+/// Width and height of what is written: the crop's where there is one.
+pub fn picture_size(settings: &Settings) -> Result<(u32, u32), AppError> {
+    let (width, height) = settings.size;
+    match settings.crop {
+        None => Ok((width, height)),
+        Some([x0, y0, x1, y1]) if x1 <= width && y1 <= height => Ok((x1 - x0, y1 - y0)),
+        Some([.., x1, y1]) => Err(AppError::Usage(format!(
+            "cannot crop (--crop): it ends at {x1},{y1}, outside of {width}×{height} pixels. \
+             Move its corner inside."
+        ))),
+    }
+}
+
+/// Flags win. Without them, linear formats get what was traced, debug views are stored as they
+/// are, and pictures are developed as the scene says.
+fn tone(
+    scene: &OutputDefaults,
+    flags: &PictureFlags,
+    integrator: Integrator,
+    linear_format: bool,
+) -> Tone {
+    let default = if linear_format || integrator != Integrator::Whitted {
+        (0.0, ToneCurve::None, Transfer::Linear)
+    } else {
+        (scene.exposure_ev, scene.tone, scene.transfer)
+    };
+    Tone {
+        exposure_ev: flags.exposure.unwrap_or(default.0),
+        curve: flags.tone.unwrap_or(default.1),
+        transfer: flags.transfer.unwrap_or(default.2),
+    }
+}
+
+fn write_report(path: &Path, report: &Report) -> Result<(), AppError> {
+    let mut text = serde_json::to_string_pretty(report)
+        .map_err(|error| AppError::Internal(format!("report: {error}")))?;
+    text.push('\n');
+    if path == Path::new("-") {
+        console::print_bytes(text.as_bytes())
+    } else {
+        Ok(output::write(path, text.as_bytes(), true)?)
+    }
+}
+
+fn details(console: Console, report: &Report) {
+    let Seconds {
+        load,
+        bvh,
+        gpu,
+        compile,
+        upload,
+        trace,
+        develop,
+        write,
+        ..
+    } = &report.seconds;
+    console.detail(format_args!(
+        "seconds: load {load:.3}, bvh {bvh:.3}, gpu {gpu:.3}, compile {compile:.3}, \
+         upload {upload:.3}, trace {trace:.3}, develop {develop:.3}, write {write:.3}"
+    ));
+    console.detail(format_args!(
+        "{} submissions, the longest {:.1} ms; {:.1} MiB on the GPU",
+        report.submissions.count,
+        report.submissions.longest_ms,
+        report.memory.gpu_bytes as f64 / f64::from(1 << 20)
+    ));
+}

@@ -1,0 +1,90 @@
+//! `glimray turntable MODEL`: a turn round a model, as a video or as frames.
+
+use super::animate::{Sequence, Timeline};
+use super::cli::{MotionFlags, Range, RangeFlags, TurnFlags, TurntableArgs};
+use super::clock::Clock;
+use super::exit::AppError;
+use super::job::Job;
+use super::render;
+use crate::scene::{self, Background, Scene, Turntable};
+use std::path::Path;
+use std::time::Instant;
+
+/// Samples per pixel where the model does not ask for more than one.
+const SAMPLES: u32 = 4;
+
+/// Most frames of a turn.
+const MAX_FRAMES: f64 = 1e6;
+
+pub fn run(arguments: &TurntableArgs, started: Instant) -> Result<(), AppError> {
+    let loading = Instant::now();
+    let mut scene = render::load(&arguments.scene, &arguments.reading)?;
+    let load_seconds = loading.elapsed().as_secs_f64();
+    let turn = &arguments.turn;
+    if scene.output.samples == 1 {
+        scene.output.samples = SAMPLES;
+    }
+    let frames = (turn.seconds * turn.fps).round().max(1.0);
+    if frames > MAX_FRAMES {
+        return Err(AppError::Usage(format!(
+            "too many frames (--seconds, --fps): a turn of {frames} frames. At most {MAX_FRAMES} \
+             are possible."
+        )));
+    }
+    let size = arguments.picture.size.size.unwrap_or(scene.output.size);
+    // A whole number of frames, so that the last one is as far from the first as from its neighbour.
+    let mut scene = turned(scene, turn, frames / turn.fps, size)?;
+    if let Some(background) = turn.background {
+        scene.background = Background::Color(background);
+    }
+    let flags = MotionFlags {
+        fps: Some(turn.fps),
+        shutter: turn.shutter,
+    };
+    let range = RangeFlags {
+        frames: Some(Range {
+            first: 0,
+            last: Some(frames as u32),
+        }),
+        step: 1,
+        repeat: true,
+    };
+    let timeline = Timeline::new(&scene, &range, Clock::new(&scene.output, &flags))?;
+    let job = Job {
+        command: "turntable",
+        scene_path: arguments.scene.display().to_string(),
+        scene,
+        picture: &arguments.picture,
+        device: &arguments.device,
+        log: &arguments.log,
+        started,
+        load_seconds,
+    };
+    let stem = arguments.scene.file_stem().unwrap_or("turntable".as_ref());
+    Sequence::new(job, timeline, &arguments.output, Path::new(stem))?.run()
+}
+
+/// The scene with a camera that goes once round it in `seconds`.
+fn turned(
+    mut scene: Scene,
+    turn: &TurnFlags,
+    seconds: f64,
+    (width, height): (u32, u32),
+) -> Result<Scene, AppError> {
+    let options = Turntable {
+        axis: turn.axis,
+        elevation: turn.elevation.to_radians(),
+        seconds,
+        fov_y: turn.fov_y.to_radians(),
+        aspect: f64::from(width) / f64::from(height),
+        margin: turn.margin,
+        clockwise: turn.clockwise,
+    };
+    if scene::turntable(&mut scene, &options) {
+        return Ok(scene);
+    }
+    Err(AppError::Refused(
+        "cannot turn round the scene: nothing in it has an end. Give it an object other than a plane."
+            .into(),
+    ))
+}

@@ -1,0 +1,134 @@
+//! A folder with a scene, and runs of the program in it.
+
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use tempfile::TempDir;
+
+/// A red sphere and a light, in the course's format.
+pub const SCENE: &str = "2
+amb: 0.1 0.1 0.1
+sphere
+pos: 0 0 -3
+rad: 1
+dif: 0.7 0.1 0.1
+spe: 0.2 0.2 0.2
+shi: 20
+light
+pos: 2 2 1
+col: 1 1 1
+";
+
+/// Names of files and what is in them.
+pub type Files = BTreeMap<String, Vec<u8>>;
+
+pub struct Place(TempDir);
+
+/// What a run of the program left.
+pub struct Run {
+    pub code: Option<i32>,
+    pub stdout: Vec<u8>,
+    pub stderr: String,
+    /// Null unless one was asked for on the standard output.
+    pub report: Value,
+}
+
+impl Place {
+    pub fn new() -> Self {
+        let place = Self(tempfile::tempdir().expect("a temporary folder"));
+        place.write("a.scene", SCENE);
+        place
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        fs::write(self.path(name), bytes).expect("a file");
+    }
+
+    pub fn read(&self, name: &str) -> Vec<u8> {
+        fs::read(self.path(name)).expect(name)
+    }
+
+    pub fn command(&self, line: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glimray"));
+        command.current_dir(self.0.path());
+        command.args(line.split_whitespace()).stdin(Stdio::null());
+        command
+    }
+
+    pub fn run(&self, line: &str) -> Run {
+        let output = self.command(line).output().expect("glimray runs");
+        Run {
+            code: output.status.code(),
+            report: serde_json::from_slice(&output.stdout).unwrap_or_default(),
+            stdout: output.stdout,
+            stderr: String::from_utf8(output.stderr).expect("messages are text"),
+        }
+    }
+
+    /// `animate a.scene` with small pictures, a report and more flags; it must end with `code`.
+    #[track_caller]
+    pub fn animate(&self, flags: &str, code: i32) -> Run {
+        let line = format!("animate a.scene --size 32x24 --report - {flags}");
+        self.run(&line).expect(code)
+    }
+
+    pub fn start(&self, line: &str) -> Child {
+        let mut command = self.command(line);
+        command.stdout(Stdio::null()).stderr(Stdio::piped());
+        command.spawn().expect("glimray runs")
+    }
+
+    /// Everything in a folder, hidden files too.
+    pub fn files(&self, folder: &str) -> Files {
+        read_folder(&self.path(folder))
+    }
+
+    /// The names of frames in a folder.
+    pub fn frames(&self, folder: &str) -> Vec<String> {
+        let names = self.files(folder).into_keys();
+        names
+            .filter(|name| name.ends_with(".png") && !name.starts_with('.'))
+            .collect()
+    }
+}
+
+impl Run {
+    /// Fails unless the run ended with `code`.
+    #[track_caller]
+    pub fn expect(self, code: i32) -> Self {
+        assert_eq!(self.code, Some(code), "{}", self.stderr);
+        self
+    }
+
+    /// Frames rendered, and frames that were there.
+    pub fn counts(&self) -> (u64, u64) {
+        let number = |name: &str| self.report["animation"][name].as_u64().expect(name);
+        (number("rendered"), number("reused"))
+    }
+
+    #[track_caller]
+    pub fn says(&self, words: &str) {
+        assert!(self.stderr.contains(words), "{words}: {}", self.stderr);
+    }
+}
+
+pub fn read_folder(folder: &Path) -> Files {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return Files::new();
+    };
+    entries
+        .map(|entry| entry.expect("an entry"))
+        // A file may be gone again while another process writes.
+        .filter(|entry| entry.path().is_file())
+        .map(|entry| {
+            let bytes = fs::read(entry.path()).unwrap_or_default();
+            (entry.file_name().to_string_lossy().into_owned(), bytes)
+        })
+        .collect()
+}

@@ -1,0 +1,236 @@
+//! Runs that go on where another one stopped.
+
+use super::place::{Place, SCENE};
+use crate::support::random::Random;
+use std::fs;
+use std::io::{BufRead, BufReader, Read};
+use std::process::Command;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// Waits until a folder has `count` frames.
+fn wait_for(place: &Place, folder: &str, count: usize) {
+    let patience = Instant::now();
+    while place.frames(folder).len() < count {
+        assert!(patience.elapsed() < Duration::from_secs(60), "no frames");
+        sleep(Duration::from_millis(2));
+    }
+}
+
+#[test]
+fn five_kills_at_random_moments_leave_whole_frames_and_cost_nothing_in_the_end() {
+    let place = Place::new();
+    for folder in ["whole", "killed"] {
+        fs::create_dir(place.path(folder)).expect("a folder");
+    }
+    let flags = "--size 96x72 --samples 2 --frames 0..23";
+    let line = |folder| format!("animate a.scene {flags} -o {folder}/f_%04d.png");
+    place.run(&line("whole")).expect(0);
+    let whole = place.files("whole");
+    assert_eq!(whole.len(), 25, "24 frames and their journal");
+
+    let mut random = Random::new(17);
+    for kill in 0..5 {
+        let mut run = place.start(&line("killed"));
+        wait_for(&place, "killed", 1 + kill * 4 + random.below(4));
+        sleep(Duration::from_micros(random.below(40_000) as u64));
+        run.kill().expect("killed");
+        run.wait().expect("it ends");
+        for (name, bytes) in place.files("killed") {
+            let is_frame = name.starts_with("f_0");
+            assert!(!is_frame || whole[&name] == bytes, "{name} is not whole");
+        }
+    }
+    let there = place.frames("killed").len() as u64;
+    let last = place
+        .run(&format!("{} --report -", line("killed")))
+        .expect(0);
+    let (rendered, reused) = last.counts();
+    assert_eq!(rendered + reused, 24);
+    // Of each killed run one frame can be whole and not yet known to be.
+    assert!(reused + 5 >= there && rendered < 24, "{reused} of {there}");
+    assert!(place.files("killed") == whole);
+}
+
+#[test]
+fn a_frame_that_is_deleted_cut_or_changed_is_the_only_one_to_be_rendered_again() {
+    let place = Place::new();
+    let flags = "--frames 0..5 -o f_%d.png";
+    assert_eq!(place.animate(flags, 0).counts(), (6, 0));
+    let whole = place.files(".");
+    assert_eq!(place.animate(flags, 0).counts(), (0, 6));
+
+    fs::remove_file(place.path("f_3.png")).expect("removed");
+    let run = place.animate(flags, 0);
+    assert_eq!(run.counts(), (1, 5));
+    run.says("5 of 6 frames are done already");
+    run.says("again frame 3: its file is missing");
+
+    let bytes = place.read("f_4.png");
+    place.write("f_4.png", &bytes[..bytes.len() / 2]);
+    let run = place.animate(flags, 0);
+    assert_eq!(run.counts(), (1, 5));
+    run.says("again frame 4: its file is not what was written");
+
+    // The same length, one bit.
+    let mut bytes = place.read("f_0.png");
+    *bytes.last_mut().expect("bytes") ^= 1;
+    place.write("f_0.png", bytes);
+    assert_eq!(place.animate(flags, 0).counts(), (1, 5));
+    assert!(place.files(".") == whole);
+}
+
+#[test]
+fn what_has_changed_is_named_and_all_that_depends_on_it_is_rendered_again() {
+    let place = Place::new();
+    let flags = "--frames 0..3 -o f_%d.png";
+    place.animate(flags, 0);
+    let redone = |more: &str, why: &str| {
+        let run = place.animate(&format!("{flags} {more}"), 0);
+        assert_eq!(run.counts(), (4, 0), "{more}");
+        run.says(&format!("again frames 0..3: {why}"));
+        let redone = &run.report["animation"]["redone"];
+        assert_eq!(redone[0]["why"], why);
+        assert_eq!(redone[0]["frames"], serde_json::json!([0, 1, 2, 3]));
+    };
+    redone("--samples 2", "the settings have changed");
+    redone("--samples 2 --exposure 1", "the settings have changed");
+    redone(
+        "--samples 2 --exposure 1 --fov-y 40",
+        "what moves, the camera or the lights have changed",
+    );
+    place.write("a.scene", SCENE.replace("rad: 1", "rad: 2"));
+    redone(
+        "--samples 2 --exposure 1 --fov-y 40",
+        "the scene has changed",
+    );
+    let journal = String::from_utf8(place.read("f_journal.png.jsonl")).expect("text");
+    let version = concat!("glimray ", env!("CARGO_PKG_VERSION"));
+    let older = journal.replace(version, "glimray 0.0.1");
+    assert_ne!(older, journal);
+    place.write("f_journal.png.jsonl", older);
+    redone(
+        "--samples 2 --exposure 1 --fov-y 40",
+        "it is from another adapter, driver or version of glimray",
+    );
+    // What cannot show in a picture does not count.
+    let more = "--samples 2 --exposure 1 --fov-y 40 --count-rays --memory-limit 512 --quality 5";
+    assert_eq!(
+        place.animate(&format!("{flags} {more}"), 0).counts(),
+        (0, 4)
+    );
+    // Nothing moves here, so other frames of the same pattern stay as they are.
+    let other = flags.replace("0..3", "2..5") + " " + more;
+    assert_eq!(place.animate(&other, 0).counts(), (2, 2));
+}
+
+#[test]
+fn a_journal_that_cannot_be_read_costs_frames_and_no_more() {
+    let place = Place::new();
+    let flags = "--frames 0..2 -o f_%d.png";
+    place.animate(flags, 0);
+    let whole = place.files(".");
+    let journal = "f_journal.png.jsonl";
+    for (text, rendered) in [
+        // Half a line at the end is what a killed run may leave.
+        (whole[journal][..whole[journal].len() - 20].to_vec(), 1),
+        (b"{\"glimray_journal\":999}\n".to_vec(), 3),
+        (b"\xff\0 no journal".to_vec(), 3),
+        (Vec::new(), 3),
+    ] {
+        place.write(journal, &text);
+        let run = place.animate(flags, 0);
+        assert_eq!(run.counts(), (rendered, 3 - rendered), "{}", run.stderr);
+        assert!(place.files(".") == whole);
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_disk_that_is_full_at_frame_17_keeps_sixteen_and_the_same_command_goes_on() {
+    let place = Place::new();
+    fs::create_dir(place.path("f")).expect("a folder");
+    let flags = "--frames 1..24 -o f/f_%02d.png";
+    // A device without room, where the frame is to go.
+    std::os::unix::fs::symlink("/dev/full", place.path("f/f_17.png")).expect("a link");
+    let run = place.animate(flags, 4);
+    let lines: Vec<_> = run.stderr.lines().collect();
+    assert_eq!(
+        lines.last().copied(),
+        Some(
+            "error: cannot write the file (f/f_17.png): no space left on device. Free some space or \
+             choose another disk. This was frame 17; 16 of 24 frames are kept; the same command goes \
+             on from there."
+        )
+    );
+    fs::remove_file(place.path("f/f_17.png")).expect("removed");
+    assert_eq!(place.frames("f").len(), 16);
+    assert_eq!(place.animate(flags, 0).counts(), (8, 16));
+    assert_eq!(place.files("f").len(), 25);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_second_run_into_a_folder_is_refused_and_ctrl_c_keeps_what_the_first_one_did() {
+    let place = Place::new();
+    fs::create_dir(place.path("f")).expect("a folder");
+    let line = "animate a.scene --size 32x24 --frames 0..99999 -o f/f_%d.png";
+    let mut first = place.start(line);
+    wait_for(&place, "f", 3);
+    let second = place.animate("--frames 0..3 -o f/other_%d.png", 4);
+    second.says("error: cannot write frames (folder f): another run is writing there.");
+    assert!(
+        place
+            .files("f")
+            .keys()
+            .all(|name| !name.starts_with("other"))
+    );
+
+    let id = first.id().to_string();
+    let kill = Command::new("kill").args(["-INT", &id]).status();
+    assert!(kill.expect("kill runs").success());
+    let mut text = String::new();
+    let mut stderr = BufReader::new(first.stderr.take().expect("a pipe"));
+    stderr.read_to_string(&mut text).expect("text");
+    assert_eq!(first.wait().expect("it ends").code(), Some(130));
+    let frames = place.frames("f").len();
+    let last = text.lines().last().expect("a line");
+    assert_eq!(
+        last,
+        format!(
+            "error: interrupted: {frames} of 100000 frames are kept; the same command goes on from there."
+        )
+    );
+    // Frames and the journal, no lock and no parts.
+    assert_eq!(place.files("f").len(), frames + 1);
+    let again = format!("--frames 0..{} -o f/f_%d.png", frames - 1);
+    assert_eq!(place.animate(&again, 0).counts(), (0, frames as u64));
+}
+
+#[test]
+fn progress_in_json_counts_frames_and_knows_the_time_left() {
+    let place = Place::new();
+    let line = "animate a.scene --size 128x96 --samples 8 --frames 0..9 --quiet --progress json -o f_%d.png";
+    let mut run = place.start(line);
+    let stderr = BufReader::new(run.stderr.take().expect("a pipe"));
+    let lines: Vec<serde_json::Value> = stderr
+        .lines()
+        .map(|line| serde_json::from_str(&line.expect("text")).expect("JSON"))
+        .collect();
+    assert!(run.wait().expect("it ends").success());
+    let last = lines.last().expect("a line");
+    assert_eq!(
+        (&last["progress"], &last["frames"]),
+        (&1.0.into(), &10.into())
+    );
+    assert_eq!(
+        (&last["frame"], &last["frames_done"]),
+        (&9.into(), &9.into())
+    );
+    assert_eq!(last["seconds_left"], 0.0);
+    assert!(
+        last["frames_per_second"]
+            .as_f64()
+            .is_some_and(|rate| rate > 0.0)
+    );
+}
