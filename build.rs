@@ -1,5 +1,6 @@
-//! Links every kernel under `shaders/` to plain WGSL, once for each way of fetching geometry, so
-//! that the binary carries its shaders and a broken import stops the build.
+//! Links every kernel under `shaders/` to plain WGSL, once for each way of fetching geometry with and
+//! without what places instances and moves, so that the binary carries its shaders and a broken import
+//! stops the build.
 
 use std::{error::Error, path::Path, process::ExitCode};
 
@@ -17,9 +18,16 @@ fn main() -> ExitCode {
 fn link_kernels() -> Result<(), Box<dyn Error>> {
     let out = std::env::var("OUT_DIR")?;
     for kernel in ["whitted", "debug_view", "develop"] {
-        for (variant, image_fetch) in [("image", true), ("buffer", false)] {
+        let variants = [
+            ("image", true, false),
+            ("buffer", false, false),
+            ("moving_image", true, true),
+            ("moving_buffer", false, true),
+        ];
+        for (variant, image_fetch, moving) in variants {
             let mut compiler = wesl::Wesl::new("shaders");
             compiler.set_feature("image_fetch", image_fetch);
+            compiler.set_feature("moving", moving);
             let linked = compiler.compile(&format!("package::kernels::{kernel}").parse()?)?;
             let path = Path::new(&out).join(format!("{kernel}_{variant}.wgsl"));
             std::fs::write(path, linked.to_string())?;

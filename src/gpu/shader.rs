@@ -7,18 +7,22 @@ use super::{Gpu, GpuError};
 pub struct Kernel {
     /// Also its file's in `shaders/kernels/`, and the entry point's.
     pub name: &'static str,
-    /// Geometry read from images.
-    pub image_source: &'static str,
-    /// Geometry read from buffers.
-    pub buffer_source: &'static str,
+    /// Its variants, by name: geometry is read from images or from buffers, and those called moving can
+    /// place instances and move while the shutter is open. The others are shorter, which drivers
+    /// compile sooner.
+    pub sources: [(&'static str, &'static str); 4],
 }
 
 macro_rules! kernels {
     ($($(#[$doc:meta])* $constant:ident $name:literal)*) => {
         $($(#[$doc])* pub const $constant: Kernel = Kernel {
             name: $name,
-            image_source: include_str!(concat!(env!("OUT_DIR"), "/", $name, "_image.wgsl")),
-            buffer_source: include_str!(concat!(env!("OUT_DIR"), "/", $name, "_buffer.wgsl")),
+            sources: [
+                ("image", include_str!(concat!(env!("OUT_DIR"), "/", $name, "_image.wgsl"))),
+                ("buffer", include_str!(concat!(env!("OUT_DIR"), "/", $name, "_buffer.wgsl"))),
+                ("moving_image", include_str!(concat!(env!("OUT_DIR"), "/", $name, "_moving_image.wgsl"))),
+                ("moving_buffer", include_str!(concat!(env!("OUT_DIR"), "/", $name, "_moving_buffer.wgsl"))),
+            ],
         };)*
         /// All kernels.
         pub const ALL: &[Kernel] = &[$(Self::$constant),*];
@@ -33,6 +37,12 @@ impl Kernel {
         DEBUG_VIEW "debug_view"
         /// Turns the film into a picture.
         DEVELOP "develop"
+    }
+
+    /// The variant that reads geometry from images or from buffers, and can move or cannot.
+    pub fn source(&self, from_images: bool, moving: bool) -> &'static str {
+        let index = usize::from(!from_images) + 2 * usize::from(moving);
+        self.sources[index].1
     }
 }
 

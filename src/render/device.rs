@@ -178,10 +178,7 @@ fn compile(
             bind_group_layouts: &groups,
             immediate_size: 0,
         });
-    let source = match fetch {
-        Fetch::Image => kernel.image_source,
-        _ => kernel.buffer_source,
-    };
+    let source = kernel.source(fetch == Fetch::Image, whitted::moves(task));
     // The linker leaves out overrides that a kernel has no use for.
     let known = |(id, _): &(&str, f64)| source.contains(&format!("@id({id})"));
     let overrides: Vec<_> = overrides.into_iter().filter(known).collect();

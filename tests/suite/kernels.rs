@@ -4,14 +4,11 @@ use crate::support::verdict::Verdict;
 use glimray::gpu::Kernel;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-/// Both forms of every kernel: (name, WGSL).
+/// All variants of every kernel: (name, WGSL).
 fn sources() -> impl Iterator<Item = (String, &'static str)> {
     Kernel::ALL.iter().flat_map(|kernel| {
-        let forms = [
-            ("image", kernel.image_source),
-            ("buffer", kernel.buffer_source),
-        ];
-        forms.map(|(fetch, source)| (format!("{} ({fetch})", kernel.name), source))
+        let named = |(variant, source)| (format!("{} ({variant})", kernel.name), source);
+        kernel.sources.map(named)
     })
 }
 

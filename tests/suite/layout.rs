@@ -22,17 +22,12 @@ fn shared_types() -> Module {
     )
 }
 
-/// Every linked kernel, with both ways of fetching geometry.
+/// Every variant of every kernel.
 fn linked() -> Vec<(String, Module)> {
     Kernel::ALL
         .iter()
-        .flat_map(|kernel| {
-            [
-                (kernel.name, "image", kernel.image_source),
-                (kernel.name, "buffer", kernel.buffer_source),
-            ]
-        })
-        .map(|(name, fetch, source)| (format!("{name} ({fetch})"), parse(name, source)))
+        .flat_map(|kernel| (kernel.sources).map(|(variant, source)| (kernel.name, variant, source)))
+        .map(|(name, variant, source)| (format!("{name} ({variant})"), parse(name, source)))
         .collect()
 }
 
@@ -275,7 +270,7 @@ fn bindings_are_where_the_host_puts_them() {
     let mut verdict = Verdict::on("bindings");
     let mut used = BTreeSet::new();
     for (kernel, module) in linked() {
-        let geometry = if kernel.ends_with("(image)") {
+        let geometry = if kernel.ends_with("image)") {
             "image"
         } else {
             "read"
