@@ -9,8 +9,10 @@ use super::device;
 use super::exit::AppError;
 use super::interrupt::Interrupt;
 use crate::gpu::{AdapterReport, Gpu};
-use crate::render::{Rays, Settings, Tone};
+use crate::pack;
+use crate::render::{Rays, Renderer, Settings, Tone};
 use serde::Serialize;
+use std::sync::Arc;
 use std::time::Instant;
 use workloads::Workload;
 
@@ -111,14 +113,17 @@ fn render(
 ) -> Result<(Times, Option<Rays>), AppError> {
     let started = Instant::now();
     let gpu = Gpu::new(&arguments.device.choice())?;
+    let Workload { scene, shot, .. } = workload;
     let settings = Settings {
         size: workload.size,
-        max_depth: workload.scene.output.max_depth,
         count_rays,
         memory_limit_bytes: arguments.device.memory_limit_bytes(),
-        ..Settings::default()
+        ..Settings::from(&scene.output)
     };
-    let (mut renderer, bvh) = device::renderer(gpu, &workload.scene, (0.0, 0.0), settings)?;
+    let packed = Arc::new(pack::scene_with(scene, workload.most_laid_out)?);
+    let bvh = packed.build_seconds;
+    let view = packed.shot(&scene.shot(shot.0, shot.1))?;
+    let mut renderer = Renderer::new(gpu, packed, &view, settings)?;
     while !renderer.is_done() {
         renderer.step()?;
     }

@@ -3,9 +3,10 @@
 use super::PackError;
 use crate::{
     layout::NONE,
-    scene::{Form, Frame, Geometry, NodeState, Scene},
+    scene::{Form, Frame, Geometry, Mesh, NodeState, Scene},
 };
-use glam::{DVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+use std::sync::Arc;
 
 /// Most media that a ray remembers.
 pub const MEDIA_SIZE: usize = 4;
@@ -24,15 +25,43 @@ pub struct Body {
 #[derive(Clone, Debug)]
 enum Surface {
     Shape(Geometry),
-    Mesh(Vec<[DVec3; 3]>),
+    /// Shared by all instances, with what leads into its space.
+    Mesh(Arc<BodyMesh>, DAffine3),
+}
+
+/// A mesh in its own space.
+#[derive(Debug)]
+struct BodyMesh {
+    min: DVec3,
+    max: DVec3,
+    triangles: Vec<[DVec3; 3]>,
+}
+
+impl BodyMesh {
+    /// `None` for a mesh without triangles.
+    fn new(mesh: &Mesh) -> Option<Self> {
+        let corner = |&i: &u32| mesh.positions[i as usize].as_dvec3();
+        let triangles: Vec<[DVec3; 3]> = (mesh.triangles.iter())
+            .map(|t| [corner(&t[0]), corner(&t[1]), corner(&t[2])])
+            .collect();
+        let points = triangles.iter().flatten().copied();
+        let (min, max) = points
+            .clone()
+            .zip(points)
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
+        Some(Self {
+            min,
+            max,
+            triangles,
+        })
+    }
 }
 
 /// The transparent bodies of a scene, the largest first.
 pub fn bodies(scene: &Scene, rest: &Frame) -> Vec<Body> {
-    let size = |node: Option<usize>| {
-        node.map_or(1.0, |node| {
-            rest.nodes[node].world_from_node.matrix3.determinant().abs()
-        })
+    let size = |matrix: DMat3| matrix.determinant().abs();
+    let size_of_node = |node: Option<usize>| {
+        node.map_or(1.0, |node| size(rest.nodes[node].world_from_node.matrix3))
     };
     let is_clear = |material: usize| scene.materials[material].transmit != Vec3::ZERO;
     let shapes = (scene.shapes.iter())
@@ -43,37 +72,30 @@ pub fn bodies(scene: &Scene, rest: &Frame) -> Vec<Body> {
             Body {
                 node: shape.node,
                 material: shape.material as u32,
-                volume: volume * size(shape.node),
+                volume: volume * size_of_node(shape.node),
                 surface: Surface::Shape(shape.geometry),
             }
         });
-    let meshes = scene.instances.iter().filter_map(|instance| {
-        let mesh = &scene.meshes[instance.mesh];
-        // A mesh of several materials is several bodies, which nothing tells apart.
-        let material = *mesh.materials.first()?;
-        if mesh.materials.iter().any(|&other| other != material) {
-            return None;
-        }
-        let corner = |&i: &u32| {
-            let p = mesh.positions[i as usize].as_dvec3();
-            instance.placement.transform_point3(p)
-        };
-        let triangles: Vec<[DVec3; 3]> = (mesh.triangles.iter())
-            .map(|t| [corner(&t[0]), corner(&t[1]), corner(&t[2])])
-            .collect();
-        let points = triangles.iter().flatten().copied();
-        let (min, max) = points
-            .clone()
-            .zip(points)
-            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
-        is_clear(material as usize).then_some(Body {
+    // A mesh of several materials is several bodies, which nothing tells apart.
+    let material_of = |mesh: &Mesh| {
+        let first = *mesh.materials.first()?;
+        let is_one = mesh.materials.iter().all(|&other| other == first);
+        (is_one && is_clear(first as usize)).then_some(first)
+    };
+    let meshes: Vec<_> = (scene.meshes.iter())
+        .map(|mesh| Some((material_of(mesh)?, Arc::new(BodyMesh::new(mesh)?))))
+        .collect();
+    let instances = scene.instances.iter().filter_map(|instance| {
+        let (material, mesh) = meshes[instance.mesh].as_ref()?;
+        let volume = (mesh.max - mesh.min).element_product() * size(instance.placement.matrix3);
+        Some(Body {
             node: instance.node,
-            material,
-            volume: (max - min).element_product() * size(instance.node),
-            surface: Surface::Mesh(triangles),
+            material: *material,
+            volume: volume * size_of_node(instance.node),
+            surface: Surface::Mesh(mesh.clone(), instance.placement.inverse()),
         })
     });
-    let mut bodies: Vec<_> = shapes.chain(meshes).collect();
+    let mut bodies: Vec<_> = shapes.chain(instances).collect();
     bodies.sort_by(|a, b| b.volume.total_cmp(&a.volume));
     bodies
 }
@@ -121,7 +143,9 @@ impl Body {
     fn contains(&self, point: DVec3) -> bool {
         match &self.surface {
             Surface::Shape(geometry) => shape_contains(geometry, point),
-            Surface::Mesh(triangles) => mesh_contains(triangles, point),
+            Surface::Mesh(mesh, object_from_node) => {
+                mesh_contains(mesh, object_from_node.transform_point3(point))
+            }
         }
     }
 }
@@ -155,7 +179,10 @@ fn shape_contains(geometry: &Geometry, point: DVec3) -> bool {
 
 /// Whether a ray from the point crosses the mesh an odd number of times. Its direction is no axis
 /// and no diagonal, so that it hardly meets an edge.
-fn mesh_contains(triangles: &[[DVec3; 3]], point: DVec3) -> bool {
+fn mesh_contains(mesh: &BodyMesh, point: DVec3) -> bool {
+    if point.cmplt(mesh.min).any() || point.cmpgt(mesh.max).any() {
+        return false;
+    }
     let direction = DVec3::new(0.541_196, 0.723_607, 0.428_571);
     let crosses = |&[a, b, c]: &[DVec3; 3]| {
         let (edge1, edge2, from) = (b - a, c - a, point - a);
@@ -169,5 +196,5 @@ fn mesh_contains(triangles: &[[DVec3; 3]], point: DVec3) -> bool {
             && u + v <= 1.0
             && edge2.dot(q) / determinant > 0.0
     };
-    triangles.iter().filter(|t| crosses(t)).count() % 2 == 1
+    mesh.triangles.iter().filter(|t| crosses(t)).count() % 2 == 1
 }

@@ -3,8 +3,12 @@
 use crate::app::demo;
 use crate::app::exit::AppError;
 use crate::import;
-use crate::scene::{Background, Camera, Instance, Light, LightKind, Material, Mesh, Scene};
-use glam::{DAffine3, DVec3, Vec3};
+use crate::pack;
+use crate::scene::{
+    Background, Beyond, Camera, CameraProperty, Curve, Easing, Instance, Interpolation, Light,
+    LightKind, Material, Mesh, Scene, Target, Track, Values,
+};
+use glam::{DAffine3, DQuat, DVec3, Vec3};
 use std::f32::consts::TAU;
 use std::fmt::Write;
 
@@ -14,32 +18,65 @@ pub struct Workload {
     pub scene: Scene,
     /// Width and height in pixels.
     pub size: (u32, u32),
+    /// When the shutter opens and closes, in seconds.
+    pub shot: (f64, f64),
+    /// See [`pack::scene_with`].
+    pub most_laid_out: usize,
+}
+
+impl Workload {
+    fn new(name: &'static str, scene: Scene, size: (u32, u32)) -> Self {
+        Self {
+            name,
+            scene,
+            size,
+            shot: (0.0, 0.0),
+            most_laid_out: pack::MOST_LAID_OUT,
+        }
+    }
 }
 
 /// Every workload, from small to large.
 pub fn all() -> Result<Vec<Workload>, AppError> {
-    let demo = demo::scene()?;
+    let mut demo = demo::scene()?;
+    demo.output.samples = 1;
     let course = course_text(1500, 3);
+    let course = import::parse("course.scene", &course, &import::Options::default())?;
+    let size = demo.output.size;
+    let quick = (512, 512);
     Ok(vec![
+        Workload::new("course", course, (640, 480)),
+        Workload::new("demo", demo, size),
+        Workload::new(
+            "heightfield-primary",
+            height_field(300, Vec::new()),
+            (1024, 1024),
+        ),
+        Workload::new(
+            "heightfield-shadow",
+            height_field(300, vec![sun()]),
+            (1024, 1024),
+        ),
+        Workload::new(
+            "heightfield-16",
+            sampled(height_field(300, Vec::new())),
+            quick,
+        ),
         Workload {
-            name: "course",
-            scene: import::parse("course.scene", &course, &import::Options::default())?,
-            size: (640, 480),
+            shot: (0.0, 1.0),
+            ..Workload::new(
+                "heightfield-pan",
+                sampled(panned(height_field(300, Vec::new()))),
+                quick,
+            )
         },
         Workload {
-            name: "demo",
-            size: demo.output.size,
-            scene: demo,
+            most_laid_out: usize::MAX,
+            ..Workload::new("crowd-laid-out", crowd(), (640, 480))
         },
         Workload {
-            name: "heightfield-primary",
-            scene: height_field(300, Vec::new()),
-            size: (1024, 1024),
-        },
-        Workload {
-            name: "heightfield-shadow",
-            scene: height_field(300, vec![sun()]),
-            size: (1024, 1024),
+            most_laid_out: 0,
+            ..Workload::new("crowd-instanced", crowd(), (640, 480))
         },
     ])
 }
@@ -108,6 +145,59 @@ fn height_field(quads: u32, lights: Vec<Light>) -> Scene {
         ambient: Vec3::splat(0.2),
         ..Scene::default()
     }
+}
+
+/// The same scene with 16 samples a pixel.
+fn sampled(mut scene: Scene) -> Scene {
+    scene.output.samples = 16;
+    scene
+}
+
+/// The same scene with a camera that passes by in a second, an eighth of the picture to the right.
+fn panned(mut scene: Scene) -> Scene {
+    let camera = &scene.cameras[0];
+    let (from, at) = (camera.look_from, camera.look_at);
+    let way = (at - from).cross(camera.up).normalize() * 0.125;
+    for (property, rest) in [
+        (CameraProperty::LookFrom, from),
+        (CameraProperty::LookAt, at),
+    ] {
+        scene.tracks.push(Track {
+            targets: vec![Target::Camera(0, property)],
+            curve: Curve {
+                times: vec![0.0, 1.0],
+                values: Values::Vector(vec![rest, rest + way]),
+                interpolation: Interpolation::Linear,
+                easing: Easing::None,
+                beyond: Beyond::Hold,
+            },
+        });
+    }
+    scene
+}
+
+/// A hundred hills of 7,200 triangles in a field, each turned and stretched in its own way, in the sun.
+fn crowd() -> Scene {
+    let mut scene = height_field(60, vec![sun()]);
+    let mut random = Random(3);
+    let mut next = || f64::from(random.next());
+    scene.instances = (0..100)
+        .map(|i| {
+            let place = DVec3::new(
+                f64::from(i % 10) - 4.5,
+                next() * 0.2,
+                f64::from(i / 10) - 4.5,
+            );
+            let scale = DVec3::new(0.1 + 0.06 * next(), 0.2 + 0.2 * next(), 0.1 + 0.06 * next());
+            let turn = DQuat::from_rotation_y(6.0 * next());
+            Instance {
+                mesh: 0,
+                placement: DAffine3::from_scale_rotation_translation(scale, turn, place * 0.12),
+                node: None,
+            }
+        })
+        .collect();
+    scene
 }
 
 fn sun() -> Light {
