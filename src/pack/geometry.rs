@@ -4,7 +4,7 @@ use super::{
     Forest, PackError,
     forest::Tree,
     light,
-    placed::{PLACED_STACK, Plan},
+    placed::{PLACED_STACK, Plan, world_from},
 };
 use crate::{
     bvh::Aabb,
@@ -44,19 +44,16 @@ impl Flat {
         origin: DVec3,
     ) -> Result<Self, PackError> {
         let mut flat = Self::default();
-        let world_from = |node: Option<usize>| {
-            node.map_or(DAffine3::IDENTITY, |node| rest.nodes[node].world_from_node)
-        };
         for &index in &plan.still_instances {
             let instance = &scene.instances[index];
-            let world_from_object = world_from(instance.node) * instance.placement;
+            let world_from_object = world_from(rest, instance.node) * instance.placement;
             flat.add_mesh(&scene.meshes[instance.mesh], world_from_object, origin)?;
         }
         for &id in &plan.still_shapes {
             let shape = &scene.shapes[id];
             let geometry = match shape.node {
                 None => shape.geometry,
-                Some(_) => shape.geometry.placed(world_from(shape.node)),
+                Some(_) => shape.geometry.placed(world_from(rest, shape.node)),
             };
             flat.add_shape(&geometry, shape.material, id, origin)?;
         }

@@ -29,8 +29,10 @@ pub struct Placed {
 /// What says where a placed tree is.
 #[derive(Clone, Copy, Debug)]
 pub enum Carrier {
-    /// A node of the scene, or the world, and a transform into its space.
-    Node(Option<usize>, DAffine3),
+    /// A transform into the world.
+    World(DAffine3),
+    /// A node that moves, and a transform into its space.
+    Node(usize, DAffine3),
     /// A light that rays can see.
     Lamp(usize),
 }
@@ -52,8 +54,10 @@ pub struct Plan {
     pub still_shapes: Vec<usize>,
     /// Lights whose surfaces are laid out.
     pub still_lamps: Vec<usize>,
-    meshes: Vec<(usize, usize)>,
-    shapes: Vec<usize>,
+    /// Indices of meshes, and what carries their instances.
+    meshes: Vec<(usize, Carrier)>,
+    /// Indices of shapes, and their nodes.
+    shapes: Vec<(usize, usize)>,
     lamps: Vec<usize>,
 }
 
@@ -61,7 +65,7 @@ impl Plan {
     /// Lays out what stands still, but for meshes of which there are many large copies.
     pub fn new(scene: &Scene, rest: &Frame, most_laid_out: usize) -> Self {
         let moving = scene.moving_nodes();
-        let moves = |node: Option<usize>| node.is_some_and(|node| moving[node]);
+        let moving_node = |node: Option<usize>| node.filter(|&node| moving[node]);
         let is_there = |node: Option<usize>| node.is_none_or(|node| rest.nodes[node].visible);
         let mut copies = vec![0_usize; scene.meshes.len()];
         for instance in &scene.instances {
@@ -71,27 +75,28 @@ impl Plan {
         for (index, instance) in scene.instances.iter().enumerate() {
             let triangles = copies[instance.mesh] * scene.meshes[instance.mesh].triangles.len();
             let is_shared = copies[instance.mesh] > 1 && triangles > most_laid_out;
-            if moves(instance.node) {
-                plan.meshes.push((index, instance.mesh));
+            if let Some(node) = moving_node(instance.node) {
+                let carrier = Carrier::Node(node, instance.placement);
+                plan.meshes.push((instance.mesh, carrier));
+            } else if is_there(instance.node) && is_shared {
+                let carrier = Carrier::World(world_from(rest, instance.node) * instance.placement);
+                plan.meshes.push((instance.mesh, carrier));
             } else if is_there(instance.node) {
-                if is_shared {
-                    plan.meshes.push((index, instance.mesh));
-                } else {
-                    plan.still_instances.push(index);
-                }
+                plan.still_instances.push(index);
             }
         }
         for (index, shape) in scene.shapes.iter().enumerate() {
-            if moves(shape.node) {
-                plan.shapes.push(index);
+            if let Some(node) = moving_node(shape.node) {
+                plan.shapes.push((index, node));
             } else if is_there(shape.node) {
                 plan.still_shapes.push(index);
             }
         }
         for index in light::visible(scene) {
-            if moves(scene.lights[index].node) || has_moving_surface(scene, index) {
+            let node = scene.lights[index].node;
+            if moving_node(node).is_some() || has_moving_surface(scene, index) {
                 plan.lamps.push(index);
-            } else if is_there(scene.lights[index].node) {
+            } else if is_there(node) {
                 plan.still_lamps.push(index);
             }
         }
@@ -123,8 +128,7 @@ impl Plan {
         let mut trees = Vec::new();
         let mut placed = Vec::with_capacity(count);
         let mut tree_of_mesh = vec![None; scene.meshes.len()];
-        for &(index, mesh) in &self.meshes {
-            let instance = &scene.instances[index];
+        for &(mesh, carrier) in &self.meshes {
             let tree = match tree_of_mesh[mesh] {
                 Some(tree) => tree,
                 None => {
@@ -137,7 +141,6 @@ impl Plan {
                     *tree_of_mesh[mesh].insert(trees.len() - 1)
                 }
             };
-            let carrier = Carrier::Node(instance.node, instance.placement);
             placed.push(Placed { tree, carrier });
         }
         let mut add_shape = |geometry: &Geometry, material, id, carrier| {
@@ -151,9 +154,9 @@ impl Plan {
             placed.push(Placed { tree, carrier });
             Ok(())
         };
-        for &index in &self.shapes {
+        for &(index, node) in &self.shapes {
             let shape = &scene.shapes[index];
-            let carrier = Carrier::Node(shape.node, DAffine3::IDENTITY);
+            let carrier = Carrier::Node(node, DAffine3::IDENTITY);
             add_shape(&shape.geometry, shape.material, index, carrier)?;
         }
         for &index in &self.lamps {
@@ -165,6 +168,11 @@ impl Plan {
         }
         Ok((trees, placed))
     }
+}
+
+/// From the space of a node to the world's.
+pub fn world_from(frame: &Frame, node: Option<usize>) -> DAffine3 {
+    node.map_or(DAffine3::IDENTITY, |node| frame.nodes[node].world_from_node)
 }
 
 /// Whether a track changes where a light is or whether it is there.
@@ -182,10 +190,8 @@ impl Carrier {
     /// From the tree's space to the world's, or `None` where it is hidden.
     pub fn world_from_tree(&self, frame: &Frame) -> Option<DAffine3> {
         match *self {
-            Self::Node(None, placement) => Some(placement),
-            Self::Node(Some(node), placement) => {
-                Some(frame.nodes[node].world_from_node * placement)
-            }
+            Self::World(placement) => Some(placement),
+            Self::Node(node, placement) => Some(frame.nodes[node].world_from_node * placement),
             Self::Lamp(index) => light::world_from_unit(&frame.lights[index].kind),
         }
     }
@@ -193,17 +199,18 @@ impl Carrier {
     /// Whether it is there at all.
     pub fn is_visible(&self, frame: &Frame) -> bool {
         match *self {
-            Self::Node(node, _) => node.is_none_or(|node| frame.nodes[node].visible),
+            Self::World(_) => true,
+            Self::Node(node, _) => frame.nodes[node].visible,
             Self::Lamp(index) => frame.lights[index].visible,
         }
     }
 
     /// From the tree's space to where patterns in space are looked up: they stand still for what
     /// carries the tree.
-    pub fn pattern_from_tree(&self, is_still: bool, world_from_tree: DAffine3) -> DAffine3 {
+    pub fn pattern_from_tree(&self, world_from_tree: DAffine3) -> DAffine3 {
         match *self {
-            Self::Node(Some(_), placement) if !is_still => placement,
-            _ => world_from_tree,
+            Self::Node(_, placement) => placement,
+            Self::World(_) | Self::Lamp(_) => world_from_tree,
         }
     }
 }
