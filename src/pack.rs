@@ -65,6 +65,8 @@ pub struct PackedScene {
     bodies: Vec<media::Body>,
     /// Boxes near the root of the first tree, where there are others beside it.
     still_parts: Vec<(Aabb, u32)>,
+    /// The most entries on the stack in any of the trees.
+    stack_need: usize,
     placed_trees: Vec<PlacedTree>,
     placed: Vec<Placed>,
     /// The scene's materials where its visible lights or a track may change some.
@@ -141,6 +143,16 @@ pub enum PackError {
         size: f64,
         /// The smallest allowed.
         limit: f64,
+    },
+    /// The trees of what is placed and the one above them need more of a stack than shaders have.
+    #[error(
+        "scene too deep (tree over instances): walking it takes a stack of {need} entries, at most {limit} are possible. Use fewer objects, or spread them more evenly."
+    )]
+    TooDeep {
+        /// Entries needed.
+        need: usize,
+        /// Entries there are.
+        limit: usize,
     },
 }
 
@@ -220,6 +232,8 @@ pub fn scene_with(scene: &Scene, most_laid_out: usize) -> Result<PackedScene, Pa
         pictures,
         features,
         bodies: media::bodies(scene, &rest),
+        stack_need: (placed_trees.iter().map(|placed| placed.tree.stack_need))
+            .fold(still.stack_need, usize::max),
         still_parts: if placed.is_empty() {
             Vec::new()
         } else {

@@ -29,6 +29,8 @@ pub struct Tree {
     pub first: u32,
     /// Number of primitives.
     pub count: u32,
+    /// The most entries that a walk through it has on the stack.
+    pub stack_need: usize,
     /// Boxes that hold it together, in its own space, with references to what is in them.
     pub parts: Vec<(Aabb, u32)>,
 }
@@ -86,6 +88,7 @@ impl Forest {
                 first_triangle
             },
             count: boxes.len() as u32,
+            stack_need: bvh.stack_need,
             parts: top(&bvh.nodes, reference),
         }
     }

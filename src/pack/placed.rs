@@ -13,10 +13,8 @@ use glam::{DAffine3, DVec3};
 /// need no way into the space of an instance then.
 pub const MOST_LAID_OUT: usize = 1 << 14;
 
-/// Bound on the traversal stack of a tree that instances place, and of the one above it. With the
-/// entry between them they fit into the shader's stack.
-pub const PLACED_STACK: usize = 50;
-pub const VIEW_STACK: usize = 42;
+/// Bound on the traversal stack of trees that have another above them, for which it leaves room.
+pub const PLACED_STACK: usize = 60;
 
 /// A tree and how it comes into the world.
 #[derive(Clone, Debug)]

@@ -5,12 +5,12 @@ use super::{
     PackError, PackedScene,
     geometry::in_range,
     nodes,
-    placed::{Placed, PlacedTree, VIEW_STACK},
+    placed::{Placed, PlacedTree},
     placement::{Placement, aligned},
 };
 use crate::{
-    bvh::{self, Aabb, Child},
-    layout::{INSTANCE, MOVING, PackedInstance, PackedKey, PackedNode},
+    bvh::{self, Aabb, Bvh, Child},
+    layout::{INSTANCE, MOVING, PackedInstance, PackedKey, PackedNode, STACK_SIZE},
     scene::Frame,
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
@@ -62,7 +62,21 @@ impl PackedScene {
         view.moves = view.instances.iter().any(|instance| instance.key_count > 1);
         let mut groups = vec![PARTS; self.still_parts.len()];
         groups.resize(boxes.len(), INSTANCES);
-        view.nodes = tree(&boxes, &groups, &references, first_node, view.moves);
+        // One entry leads back from a tree that is placed, and the last store of a step lies one beyond.
+        let limit = STACK_SIZE as usize - 2;
+        let limits = bvh::Limits {
+            leaf_size: 1,
+            stack_size: limit.saturating_sub(self.stack_need),
+        };
+        let unions: Vec<_> = (boxes.iter())
+            .map(|swept| swept.open.union(swept.close))
+            .collect();
+        let bvh = bvh::build(&unions, &groups, references.len(), limits);
+        let need = bvh.stack_need + self.stack_need;
+        if need > limit {
+            return Err(PackError::TooDeep { need, limit });
+        }
+        view.nodes = pack_nodes(&bvh, &boxes, &references, first_node, view.moves);
         Ok(view)
     }
 
@@ -194,22 +208,13 @@ fn sweep(tree: &PlacedTree, keys: &[Placement]) -> Swept {
 }
 
 /// The nodes over all boxes. References to the nodes themselves count from `first_node`.
-fn tree(
+fn pack_nodes(
+    bvh: &Bvh,
     boxes: &[Swept],
-    groups: &[u8],
     references: &[Vec<u32>; 2],
     first_node: u32,
     moves: bool,
 ) -> Vec<PackedNode> {
-    let unions: Vec<_> = boxes
-        .iter()
-        .map(|swept| swept.open.union(swept.close))
-        .collect();
-    let limits = bvh::Limits {
-        leaf_size: 1,
-        stack_size: VIEW_STACK,
-    };
-    let bvh = bvh::build(&unions, groups, references.len(), limits);
     let place = |group: u8, first: u32| bvh.order[group as usize][first as usize] as usize;
     let part_count = references[PARTS as usize].len();
     let reference = |child: &Child| match *child {
