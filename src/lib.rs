@@ -7,6 +7,10 @@
 //! file ─import▶ Scene ─frame▶ Frame ─pack▶ PackedScene, PackedView ─Renderer▶ film ─develop▶ Image ─output▶ file
 //! ```
 //!
+//! For a moving picture the river runs from [`scene::Scene::frame`] on once for each frame, or from
+//! [`scene::Scene::shot`] on where the shutter is open for a while: [`render::Renderer::set_frame`] takes
+//! the next [`pack::PackedView`].
+//!
 //! ```
 //! use glimray::gpu::{AdapterChoice, Gpu};
 //! use glimray::render::{Renderer, Settings, Tone};
@@ -38,10 +42,14 @@
 //! * **Colours**: linear Rec. 709 radiance from the importer to the film. Only [`output`]'s PNG and
 //!   JPEG hold what exposure, tone curve and transfer made of it ([`render::Tone`]).
 //! * **Spaces**: a mesh is f32 in object space; instances, shapes, lights, cameras and the places of
-//!   textures are f64 in world space; shapes other than spheres and planes are canonical in a space
-//!   of their own ([`scene::Form`]); on the GPU everything else is f32 in render space, which is world
-//!   space moved so that the scene's default camera is at the origin
-//!   ([`pack::PackedScene::origin`]).
+//!   textures are f64 in the space of the [`scene::Node`] that carries them, or in world space; shapes
+//!   other than spheres and planes are canonical in a space of their own ([`scene::Form`]). On the GPU
+//!   what instances place (what moves, and large meshes that stand in several places) is f32 in the
+//!   space of its own tree, and everything else f32 in render space, which is world space moved so that
+//!   the scene's default camera is at the origin ([`pack::PackedScene::origin`]).
+//! * **Movement**: a [`scene::Scene`] stands still; its [`scene::Track`]s say how nodes, cameras, lights
+//!   and materials change, and a [`scene::Frame`] is all of that at one moment. The GPU gets the frames of
+//!   a shot at equal distances of time, and every sample has a moment between the first and the last.
 //! * **Normals**: `n` is for shading, `ng` is the geometric one; a triangle's winding gives `ng` and
 //!   nothing else. Directions have unit length and point away from the surface.
 //! * **Bodies**: the inside of what is transparent is where its normals point away from.
@@ -70,7 +78,7 @@
 //! | [`gpu`] | the device, its memory, its loss, its errors | |
 //! | [`render`] | steps, film, adaptive rounds, developing | `pack`, `layout`, `gpu`, `image`, `scene` |
 //! | [`image`](mod@image) | a finished picture in memory | |
-//! | [`output`] | `Image` → file, complete or absent | `image` |
+//! | [`output`] | `Image` → file, frames → video, complete or absent | `image` |
 //! | [`app`] | the command line | everything |
 //!
 //! The shaders are in `shaders/`: `types.wesl` (shared structs), `bindings.wesl` (all bindings and
