@@ -12,7 +12,9 @@ use glimray::{
     image::Image,
     pack::{self, PackedScene},
     render::{Renderer, Settings, Stats, Tone},
-    scene::{Frame, Instance, Material, Mesh, Pattern, Scene, Space, Texture, Textures},
+    scene::{
+        Frame, Instance, Light, LightKind, Material, Mesh, Pattern, Scene, Space, Texture, Textures,
+    },
 };
 use std::sync::Arc;
 
@@ -203,4 +205,56 @@ fn an_empty_crowd_and_a_hidden_one_are_background() {
     let (image, _) = shot(&packed(&scene, 0), &[scene.frame(0.0)], &sized(8, 8));
     let background = [0.2_f32, 0.4, 0.6];
     assert!(image.pixels.iter().all(|pixel| pixel[..3] == background));
+}
+
+#[test]
+fn a_lamp_throws_no_shadow_of_itself_on_instances() {
+    let center = dvec3(0.0, 2.5, 0.0);
+    let lamps = [
+        LightKind::Sphere {
+            center,
+            radius: 0.4,
+        },
+        LightKind::Rectangle {
+            center,
+            edge_u: DVec3::X * 0.4,
+            edge_v: DVec3::Z * 0.4,
+        },
+        LightKind::Disc {
+            center,
+            normal: DVec3::NEG_Y,
+            radius: 0.4,
+        },
+    ];
+    for kind in lamps {
+        // Floors side by side, far from the origin of their own space.
+        let mut scene = scenes::empty();
+        let mut floor = scenes::quad(0.5, 0);
+        for position in &mut floor.positions {
+            position.x += 40.0;
+        }
+        scene.meshes.push(floor);
+        scene.instances = [-1.2, 0.0, 1.2]
+            .map(|x| Instance {
+                mesh: 0,
+                placement: DAffine3::from_translation(dvec3(x - 40.0, 0.0, 0.0)),
+                node: None,
+            })
+            .into();
+        scene.lights.push(Light {
+            kind,
+            color: Vec3::ONE,
+            samples: 4,
+            visible: true,
+            ..Light::default()
+        });
+        let settings = Settings {
+            count_rays: true,
+            ..sized(160, 120)
+        };
+        let (_, stats) = shot(&packed(&scene, 0), &[scene.frame(0.0)], &settings);
+        let rays = stats.rays.expect("rays are counted");
+        assert!(rays.shadow > 1000, "{kind:?}: {rays:?}");
+        assert_eq!(rays.shadow_blocked, 0, "{kind:?}: {rays:?}");
+    }
 }
