@@ -30,7 +30,12 @@ pub struct Placed {
 #[derive(Clone, Copy, Debug)]
 pub enum Carrier {
     /// A node of the scene, or the world, and a transform into its space.
-    Node(Option<usize>, DAffine3),
+    Node {
+        node: Option<usize>,
+        placement: DAffine3,
+        /// Whether the node ever moves.
+        moves: bool,
+    },
     /// A light that rays can see.
     Lamp(usize),
 }
@@ -120,6 +125,12 @@ impl Plan {
             let what = "instances";
             return Err(PackError::TooMany { what, count, limit });
         }
+        let moving = scene.moving_nodes();
+        let carried = |node: Option<usize>, placement| Carrier::Node {
+            node,
+            placement,
+            moves: node.is_some_and(|node| moving[node]),
+        };
         let mut trees = Vec::new();
         let mut placed = Vec::with_capacity(count);
         let mut tree_of_mesh = vec![None; scene.meshes.len()];
@@ -137,7 +148,7 @@ impl Plan {
                     *tree_of_mesh[mesh].insert(trees.len() - 1)
                 }
             };
-            let carrier = Carrier::Node(instance.node, instance.placement);
+            let carrier = carried(instance.node, instance.placement);
             placed.push(Placed { tree, carrier });
         }
         let mut add_shape = |geometry: &Geometry, material, id, carrier| {
@@ -153,7 +164,7 @@ impl Plan {
         };
         for &index in &self.shapes {
             let shape = &scene.shapes[index];
-            let carrier = Carrier::Node(shape.node, DAffine3::IDENTITY);
+            let carrier = carried(shape.node, DAffine3::IDENTITY);
             add_shape(&shape.geometry, shape.material, index, carrier)?;
         }
         for &index in &self.lamps {
@@ -182,10 +193,12 @@ impl Carrier {
     /// From the tree's space to the world's, or `None` where it is hidden.
     pub fn world_from_tree(&self, frame: &Frame) -> Option<DAffine3> {
         match *self {
-            Self::Node(None, placement) => Some(placement),
-            Self::Node(Some(node), placement) => {
-                Some(frame.nodes[node].world_from_node * placement)
-            }
+            Self::Node {
+                node, placement, ..
+            } => Some(match node {
+                None => placement,
+                Some(node) => frame.nodes[node].world_from_node * placement,
+            }),
             Self::Lamp(index) => light::world_from_unit(&frame.lights[index].kind),
         }
     }
@@ -193,16 +206,20 @@ impl Carrier {
     /// Whether it is there at all.
     pub fn is_visible(&self, frame: &Frame) -> bool {
         match *self {
-            Self::Node(node, _) => node.is_none_or(|node| frame.nodes[node].visible),
+            Self::Node { node, .. } => node.is_none_or(|node| frame.nodes[node].visible),
             Self::Lamp(index) => frame.lights[index].visible,
         }
     }
 
-    /// From the tree's space to where patterns in space are looked up: they stand still for what
-    /// carries the tree.
-    pub fn pattern_from_tree(&self, is_still: bool, world_from_tree: DAffine3) -> DAffine3 {
+    /// From the tree's space to where patterns in space are looked up: they travel with what moves,
+    /// and stand still in the world for all else.
+    pub fn pattern_from_tree(&self, world_from_tree: DAffine3) -> DAffine3 {
         match *self {
-            Self::Node(Some(_), placement) if !is_still => placement,
+            Self::Node {
+                placement,
+                moves: true,
+                ..
+            } => placement,
             _ => world_from_tree,
         }
     }
