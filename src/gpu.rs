@@ -102,15 +102,19 @@ impl Gpu {
 
     /// This device if it serves `needs`, else one on the same adapter with higher limits.
     pub(crate) fn serving(self, needs: Needs) -> Result<Self, GpuError> {
-        let limits = self.device.limits();
-        let serves = needs.binding_bytes <= limits.max_storage_buffer_binding_size
-            && needs.binding_bytes <= limits.max_buffer_size
-            && needs.texture_side <= limits.max_texture_dimension_2d;
-        if serves {
+        if self.serves(needs) {
             return Ok(self);
         }
         limits_for(needs, &self.adapter_limits)?;
         Self::open(&self.choice, needs)
+    }
+
+    /// Whether this device's limits allow for `needs`.
+    pub(crate) fn serves(&self, needs: Needs) -> bool {
+        let limits = self.device.limits();
+        needs.binding_bytes <= limits.max_storage_buffer_binding_size
+            && needs.binding_bytes <= limits.max_buffer_size
+            && needs.texture_side <= limits.max_texture_dimension_2d
     }
 
     /// What this device was asked for by.

@@ -61,7 +61,7 @@ pub struct PackedScene {
     pub pictures: Vec<[u32; 3]>,
     /// What the scene has, so that all else is compiled out.
     pub features: Features,
-    /// Transparent bodies, which the camera may be inside of.
+    /// Bodies that are transparent at some time, which the camera may be inside of.
     bodies: Vec<media::Body>,
     /// Boxes near the root of the first tree, where there are others beside it.
     still_parts: Vec<(Aabb, u32)>,
@@ -231,7 +231,7 @@ pub fn scene_with(scene: &Scene, most_laid_out: usize) -> Result<PackedScene, Pa
         texels,
         pictures,
         features,
-        bodies: media::bodies(scene, &rest),
+        bodies: media::bodies(scene),
         stack_need: (placed_trees.iter().map(|placed| placed.tree.stack_need))
             .fold(still.stack_need, usize::max),
         still_parts: if placed.is_empty() {

@@ -16,7 +16,7 @@ pub use develop::Tone;
 pub use settings::{Fetch, Integrator, MIN_THROUGHPUT, Settings, Slicing, TriangleTest};
 
 use crate::{
-    gpu::{AdapterChoice, AdapterReport, Gpu, GpuError},
+    gpu::{AdapterReport, Gpu, GpuError},
     layout::PackedSlice,
     pack::{PackedScene, PackedView},
 };
@@ -25,7 +25,7 @@ use film::{CHUNK, Film};
 use slice::{Planner, Slice};
 use std::{ops::Range, sync::Arc, time::Instant};
 
-/// How often a lost device is replaced before the render gives up.
+/// How often a lost device is replaced before a picture is given up.
 const MAX_LOSSES: u32 = 3;
 
 /// Renders one frame after another of one scene.
@@ -38,6 +38,8 @@ pub struct Renderer {
     planner: Planner,
     cursor: Cursor,
     stats: Stats,
+    /// Losses before the picture that is under way.
+    earlier_losses: u32,
 }
 
 /// How far the render is: the tile and the samples of the sweep that is under way.
@@ -69,7 +71,7 @@ pub struct Stats {
     /// Samples whose ray tree outgrew its stack or had too many rays; what was cut off is missing
     /// in the picture.
     pub cut_off_trees: u64,
-    /// Planned memory in bytes; see [`Settings::memory_limit_bytes`].
+    /// Planned memory in bytes, of the frame that takes most; see [`Settings::memory_limit_bytes`].
     pub gpu_bytes: u64,
     /// How often the device was lost and replaced.
     pub device_losses: u32,
@@ -147,11 +149,12 @@ impl Stats {
         }
     }
 
-    /// Counts a failure of the device; too many of them are the end.
-    fn count_loss(&mut self) -> Result<(), RenderError> {
+    /// Counts a failure of the device; too many of them in one picture, before which there were
+    /// `earlier` ones, are the end.
+    fn count_loss(&mut self, earlier: u32) -> Result<(), RenderError> {
         self.device_losses += 1;
-        if self.device_losses > MAX_LOSSES {
-            let count = self.device_losses;
+        let count = self.device_losses - earlier;
+        if count > MAX_LOSSES {
             return Err(GpuError::KeptFailing { count }.into());
         }
         Ok(())
@@ -169,12 +172,8 @@ impl Renderer {
     ) -> Result<Self, RenderError> {
         let view = view.with_aspect(settings.size.0, settings.size.1);
         let film = Film::new(&settings);
-        let [.., width, height] = settings.region();
-        let picture_pixels = u64::from(width) * u64::from(height);
-        let ledger = bindings::ledger(&scene, &view, film.largest_window(), picture_pixels);
-        ledger.check(settings.memory_limit_bytes)?;
         let mut stats = Stats {
-            gpu_bytes: ledger.total(),
+            gpu_bytes: planned_bytes(&scene, &view, &settings, &film)?,
             rays: settings.count_rays.then(Rays::default),
             ..Default::default()
         };
@@ -187,10 +186,10 @@ impl Renderer {
         let fetch = bindings::choose_fetch(settings.fetch, &gpu, &scene, &view);
         let gpu = gpu.serving(bindings::needs(&scene, &view, fetch, task.film_rows))?;
         let choice = gpu.choice().clone();
-        let device = match Device::new(gpu, fetch, task, &mut stats) {
-            Err(GpuError::Lost) => replacement(&choice, fetch, task, &mut stats)?,
-            other => other?,
-        };
+        let device = Device::new(gpu, fetch, task, &mut stats);
+        let device = or_replacement(device, &mut stats, 0, |stats| {
+            device::reopen(&choice, fetch, task, stats)
+        })?;
         Ok(Self {
             planner: Planner::new(settings.slicing),
             scene,
@@ -200,14 +199,29 @@ impl Renderer {
             film,
             cursor: Cursor::default(),
             stats,
+            earlier_losses: 0,
         })
     }
 
     /// Starts over with another frame of the same scene.
+    ///
+    /// # Errors
+    /// The device failed, or the frame places more than the memory limit or the adapter allows.
     pub fn set_frame(&mut self, view: &PackedView) -> Result<(), RenderError> {
-        self.view = view.with_aspect(self.settings.size.0, self.settings.size.1);
-        self.film = Film::new(&self.settings);
+        let view = view.with_aspect(self.settings.size.0, self.settings.size.1);
+        let film = Film::new(&self.settings);
+        let bytes = planned_bytes(&self.scene, &view, &self.settings, &film)?;
+        self.stats.gpu_bytes = self.stats.gpu_bytes.max(bytes);
+        self.earlier_losses = self.stats.device_losses;
+        self.view = view;
+        self.film = film;
         self.cursor = Cursor::default();
+        let (scene, view, film_rows) = (&self.scene, &self.view, self.film.largest_window());
+        let needs = bindings::needs(scene, view, self.device.fetch, film_rows);
+        if !self.device.gpu.serves(needs) {
+            let fetch = bindings::choose_fetch(self.settings.fetch, &self.device.gpu, scene, view);
+            return self.replace_device(fetch);
+        }
         self.surviving_losses(|renderer| {
             let task = Task {
                 scene: &renderer.scene,
@@ -295,7 +309,7 @@ impl Renderer {
             self.device.loaded_window = None;
             if !part.is_signed_off(&tally) {
                 self.planner.cut_short();
-                self.stats.count_loss()?;
+                self.stats.count_loss(self.earlier_losses)?;
                 match part.tile_halves() {
                     Some((first, last)) => parts.extend([last, first]),
                     None => parts.push(part),
@@ -345,38 +359,58 @@ impl Renderer {
     ) -> Result<T, RenderError> {
         loop {
             match attempt(self) {
-                Err(GpuError::Lost) => self.replace_device()?,
+                Err(GpuError::Lost) => {
+                    self.stats.count_loss(self.earlier_losses)?;
+                    self.replace_device(self.device.fetch)?;
+                }
                 other => return Ok(other?),
             }
         }
     }
 
-    fn replace_device(&mut self) -> Result<(), RenderError> {
+    /// Goes on with a device whose limits serve the view.
+    fn replace_device(&mut self, fetch: Fetch) -> Result<(), RenderError> {
         let choice = self.device.gpu.choice().clone();
-        let fetch = self.device.fetch;
         let task = Task {
             scene: &self.scene,
             view: &self.view,
             settings: &self.settings,
             film_rows: self.film.largest_window(),
         };
-        self.device = replacement(&choice, fetch, task, &mut self.stats)?;
+        let reopen = |stats: &mut Stats| device::reopen(&choice, fetch, task, stats);
+        let device = reopen(&mut self.stats);
+        self.device = or_replacement(device, &mut self.stats, self.earlier_losses, reopen)?;
         Ok(())
     }
 }
 
-/// A new device in place of a lost one, which may be lost in turn.
-fn replacement(
-    choice: &AdapterChoice,
-    fetch: Fetch,
-    task: Task,
+/// The device, or another one if it was lost while it was made; that may be lost in turn.
+fn or_replacement(
+    mut device: Result<Device, GpuError>,
     stats: &mut Stats,
+    earlier_losses: u32,
+    mut reopen: impl FnMut(&mut Stats) -> Result<Device, GpuError>,
 ) -> Result<Device, RenderError> {
-    loop {
-        stats.count_loss()?;
-        match device::reopen(choice, fetch, task, stats) {
-            Err(GpuError::Lost) => {}
-            other => return Ok(other?),
-        }
+    while let Err(GpuError::Lost) = device {
+        stats.count_loss(earlier_losses)?;
+        device = reopen(stats);
     }
+    Ok(device?)
+}
+
+/// What a frame will take, in bytes.
+///
+/// # Errors
+/// It is more than the settings allow.
+fn planned_bytes(
+    scene: &PackedScene,
+    view: &PackedView,
+    settings: &Settings,
+    film: &Film,
+) -> Result<u64, GpuError> {
+    let [.., width, height] = settings.region();
+    let pixels = u64::from(width) * u64::from(height);
+    let ledger = bindings::ledger(scene, view, film.largest_window(), pixels);
+    ledger.check(settings.memory_limit_bytes)?;
+    Ok(ledger.total())
 }

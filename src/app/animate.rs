@@ -104,7 +104,10 @@ impl<'a> Sequence<'a> {
         let settings = self.job.settings();
         let size = job::picture_size(&settings)?;
         let video = self.video_options()?;
-        self.job.check_report(&self.target.path)?;
+        let files = self.target.frames.as_ref();
+        self.job.check_report(&self.target.path, |report| {
+            files.is_some_and(|files| files.pattern.names(report))
+        })?;
         let mut seconds = self.job.seconds();
         let gpu = if self.flags.encode_only {
             None
@@ -119,7 +122,6 @@ impl<'a> Sequence<'a> {
 
         // From here on nothing may end at once: the folder is locked.
         let _deferred = interrupt.defer();
-        let files = self.target.frames.as_ref();
         let lock = files.map(|files| Lock::take(files.pattern.folder()));
         let lock = lock.transpose()?;
         let mut journal = files.map(|files| Journal::open(&files.pattern));

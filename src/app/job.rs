@@ -94,13 +94,20 @@ impl Job<'_> {
         ));
     }
 
-    /// Refuses a report that would replace what goes to `path`, or that cannot be written.
-    pub fn check_report(&self, path: &Path) -> Result<(), AppError> {
+    /// Refuses a report that would replace what goes to `path` or is `taken` otherwise, or that cannot
+    /// be written.
+    pub fn check_report(
+        &self,
+        path: &Path,
+        taken: impl FnOnce(&Path) -> bool,
+    ) -> Result<(), AppError> {
         match self.log.report.as_deref() {
-            Some(report) if report == path => Err(AppError::Usage(format!(
-                "cannot write the report ({}): the picture goes there. Choose another name.",
-                path.display()
-            ))),
+            Some(report) if is_same(report, path) || taken(report) => {
+                Err(AppError::Usage(format!(
+                    "cannot write the report ({}): the picture goes there. Choose another name.",
+                    report.display()
+                )))
+            }
             Some(report) if report != Path::new("-") => Ok(output::check_file(report, true)?),
             _ => Ok(()),
         }
@@ -279,4 +286,13 @@ fn details(console: Console, report: &Report) {
         report.submissions.longest_ms,
         report.memory.gpu_bytes as f64 / f64::from(1 << 20)
     ));
+}
+
+/// Whether two names mean the same file, which need not exist.
+pub fn is_same(a: &Path, b: &Path) -> bool {
+    let folder = |path: &Path| match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.canonicalize().ok(),
+        _ => Path::new(".").canonicalize().ok(),
+    };
+    a == b || (a.file_name() == b.file_name() && folder(a).is_some() && folder(a) == folder(b))
 }

@@ -21,7 +21,7 @@ pub fn run(job: &Job, destination: &Destination, shot: (f64, f64)) -> Result<(),
     let settings = job.settings();
     let size = job::picture_size(&settings)?;
     destination.check(size.0, size.1)?;
-    job.check_report(destination.path())?;
+    job.check_report(destination.path(), |_| false)?;
 
     let mut seconds = job.seconds();
     let gpu = job.open_gpu(&mut seconds)?;

@@ -1,5 +1,5 @@
 //! Faults on demand, to rehearse what a user would meet: `GLIMRAY_FAULT=device@3` loses the device
-//! at the third submission, `allocation@2` refuses the second allocation, `dispatch@2` leaves out a
+//! at the third submission, `device@3,7` at the seventh as well, `allocation@2` refuses the second allocation, `dispatch@2` leaves out a
 //! part of the second dispatch that traces, `device@*` fails always.
 
 use std::sync::{
@@ -16,8 +16,8 @@ pub(super) enum Site {
 
 struct Plan {
     site: Site,
-    /// The occasion that fails, counted from 1; `None` is every one.
-    at: Option<u32>,
+    /// The occasions that fail, counted from 1; `None` is every one.
+    at: Option<Vec<u32>>,
     seen: AtomicU32,
 }
 
@@ -29,7 +29,7 @@ pub(super) fn strikes(site: Site) -> bool {
         return false;
     };
     let occasion = plan.seen.fetch_add(1, Ordering::Relaxed) + 1;
-    plan.at.is_none_or(|at| at == occasion)
+    plan.at.as_ref().is_none_or(|at| at.contains(&occasion))
 }
 
 fn parse(text: &str) -> Option<Plan> {
@@ -43,7 +43,12 @@ fn parse(text: &str) -> Option<Plan> {
     let at = if at == "*" {
         None
     } else {
-        Some(at.parse().ok()?)
+        Some(
+            at.split(',')
+                .map(str::parse)
+                .collect::<Result<_, _>>()
+                .ok()?,
+        )
     };
     Some(Plan {
         site,

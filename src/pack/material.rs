@@ -65,30 +65,43 @@ pub fn material(material: &Material) -> PackedMaterial {
     }
 }
 
+/// For each material of a scene whether its `color` is not black at some time: its own, or one
+/// that a track gives to `property`.
+fn is_lit(scene: &Scene, color: fn(&Material) -> Vec3, property: MaterialProperty) -> Vec<bool> {
+    let own = scene.materials.iter().map(|m| color(m) != Vec3::ZERO);
+    let mut lit: Vec<bool> = own.collect();
+    for track in &scene.tracks {
+        let is_nothing =
+            matches!(&track.curve.values, Values::Vector(v) if v.iter().all(|v| *v == DVec3::ZERO));
+        for target in &track.targets {
+            if let Target::Material(index, p) = *target
+                && p == property
+            {
+                lit[index] |= !is_nothing;
+            }
+        }
+    }
+    lit
+}
+
+/// For each material of a scene whether it is transparent at some time.
+pub fn clear(scene: &Scene) -> Vec<bool> {
+    is_lit(scene, |m| m.transmit, MaterialProperty::Transmit)
+}
+
 /// What the materials, textures and pictures of a scene ask for.
 pub fn features(scene: &Scene) -> Features {
-    let is_lit = |color: Vec3| color != Vec3::ZERO;
-    // What a track may switch on at some time counts too.
-    let becomes_lit = |property| {
-        (scene.tracks.iter()).any(|track| {
-            let is_it = |target: &Target| matches!(target, Target::Material(_, p) if *p == property);
-            let is_nothing = matches!(&track.curve.values, Values::Vector(v) if v.iter().all(|v| *v == DVec3::ZERO));
-            track.targets.iter().any(is_it) && !is_nothing
-        })
-    };
-    let reflection = becomes_lit(MaterialProperty::Reflect);
-    let refraction = becomes_lit(MaterialProperty::Transmit)
-        || scene.materials.iter().any(|m| is_lit(m.transmit));
+    let reflection = is_lit(scene, |m| m.reflect, MaterialProperty::Reflect).contains(&true);
+    let refraction = clear(scene).contains(&true);
+    let emission = is_lit(scene, |m| m.emission, MaterialProperty::Emission).contains(&true);
     let bodies = scene.shapes.len() + scene.instances.len();
     Features {
-        reflection: reflection || (scene.materials.iter()).any(|m| is_lit(m.reflect)),
+        reflection,
         refraction,
         // One mesh may hold several bodies, which then mostly differ in material.
         contact: refraction && (bodies > 1 || scene.materials.len() > 1),
         textures: !scene.textures.is_empty(),
-        emission: becomes_lit(MaterialProperty::Emission)
-            || scene.materials.iter().any(|m| is_lit(m.emission))
-            || light::visible(scene).next().is_some(),
+        emission: emission || light::visible(scene).next().is_some(),
         ..Features::default()
     }
 }

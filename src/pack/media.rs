@@ -1,103 +1,69 @@
 //! Which transparent bodies the camera is inside of.
 
-use super::PackError;
+use super::{PackError, material};
 use crate::{
     layout::NONE,
-    scene::{Form, Frame, Geometry, Mesh, NodeState, Scene},
+    scene::{Form, Frame, Geometry, Mesh, Scene},
 };
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
 /// Most media that a ray remembers.
 pub const MEDIA_SIZE: usize = 4;
 
-/// A closed surface of a transparent material.
+/// A closed surface of a material that is transparent at some time.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// In whose space it is; `None` is the world.
     node: Option<usize>,
     material: u32,
-    /// Of its bounds, to tell what lies inside what.
-    volume: f64,
     surface: Surface,
 }
 
 #[derive(Clone, Debug)]
 enum Surface {
     Shape(Geometry),
-    /// Shared by all instances, with what leads into its space.
-    Mesh(Arc<BodyMesh>, DAffine3),
+    /// All instances of a mesh share it; the transform leads to their own space.
+    Mesh(Arc<Shell>, DAffine3),
 }
 
-/// A mesh in its own space.
+/// The triangles of a mesh, in its own space.
 #[derive(Debug)]
-struct BodyMesh {
-    min: DVec3,
-    max: DVec3,
-    triangles: Vec<[DVec3; 3]>,
+struct Shell {
+    corners: Vec<[Vec3; 3]>,
+    min: Vec3,
+    max: Vec3,
 }
 
-impl BodyMesh {
-    /// `None` for a mesh without triangles.
-    fn new(mesh: &Mesh) -> Option<Self> {
-        let corner = |&i: &u32| mesh.positions[i as usize].as_dvec3();
-        let triangles: Vec<[DVec3; 3]> = (mesh.triangles.iter())
-            .map(|t| [corner(&t[0]), corner(&t[1]), corner(&t[2])])
-            .collect();
-        let points = triangles.iter().flatten().copied();
-        let (min, max) = points
-            .clone()
-            .zip(points)
-            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
-        Some(Self {
-            min,
-            max,
-            triangles,
-        })
-    }
-}
-
-/// The transparent bodies of a scene, the largest first.
-pub fn bodies(scene: &Scene, rest: &Frame) -> Vec<Body> {
-    let size = |matrix: DMat3| matrix.determinant().abs();
-    let size_of_node = |node: Option<usize>| {
-        node.map_or(1.0, |node| size(rest.nodes[node].world_from_node.matrix3))
-    };
-    let is_clear = |material: usize| scene.materials[material].transmit != Vec3::ZERO;
+/// The bodies of a scene that are transparent at some time.
+pub fn bodies(scene: &Scene) -> Vec<Body> {
+    let may_be_clear = material::clear(scene);
     let shapes = (scene.shapes.iter())
-        .filter(|shape| is_clear(shape.material) && is_closed(&shape.geometry))
-        .map(|shape| {
-            let bounds = shape.geometry.bounds();
-            let volume = bounds.map_or(f64::INFINITY, |(min, max)| (max - min).element_product());
-            Body {
-                node: shape.node,
-                material: shape.material as u32,
-                volume: volume * size_of_node(shape.node),
-                surface: Surface::Shape(shape.geometry),
-            }
+        .filter(|shape| may_be_clear[shape.material] && is_closed(&shape.geometry))
+        .map(|shape| Body {
+            node: shape.node,
+            material: shape.material as u32,
+            surface: Surface::Shape(shape.geometry),
         });
-    // A mesh of several materials is several bodies, which nothing tells apart.
-    let material_of = |mesh: &Mesh| {
-        let first = *mesh.materials.first()?;
-        let is_one = mesh.materials.iter().all(|&other| other == first);
-        (is_one && is_clear(first as usize)).then_some(first)
-    };
-    let meshes: Vec<_> = (scene.meshes.iter())
-        .map(|mesh| Some((material_of(mesh)?, Arc::new(BodyMesh::new(mesh)?))))
+    let shells: Vec<_> = (scene.meshes.iter())
+        .map(|mesh| {
+            // A mesh of several materials is several bodies, which nothing tells apart.
+            let material = *mesh.materials.first()?;
+            let is_body = may_be_clear[material as usize]
+                && mesh.materials.iter().all(|&other| other == material);
+            let shell = if is_body { Shell::of(mesh) } else { None };
+            Some((Arc::new(shell?), material))
+        })
         .collect();
-    let instances = scene.instances.iter().filter_map(|instance| {
-        let (material, mesh) = meshes[instance.mesh].as_ref()?;
-        let volume = (mesh.max - mesh.min).element_product() * size(instance.placement.matrix3);
+    let meshes = scene.instances.iter().filter_map(|instance| {
+        let (shell, material) = shells[instance.mesh].as_ref()?;
         Some(Body {
             node: instance.node,
             material: *material,
-            volume: volume * size_of_node(instance.node),
-            surface: Surface::Mesh(mesh.clone(), instance.placement.inverse()),
+            surface: Surface::Mesh(shell.clone(), instance.placement),
         })
     });
-    let mut bodies: Vec<_> = shapes.chain(instances).collect();
-    bodies.sort_by(|a, b| b.volume.total_cmp(&a.volume));
-    bodies
+    shapes.chain(meshes).collect()
 }
 
 /// The materials of the bodies round a point in the world, the outermost first, then [`NONE`].
@@ -106,26 +72,37 @@ pub fn bodies(scene: &Scene, rest: &Frame) -> Vec<Body> {
 /// More than [`MEDIA_SIZE`] are nested there.
 pub fn around(
     bodies: &[Body],
-    nodes: &[NodeState],
+    frame: &Frame,
     point: DVec3,
 ) -> Result<[u32; MEDIA_SIZE], PackError> {
-    let mut media = [NONE; MEDIA_SIZE];
-    let inside = bodies.iter().filter(|body| match body.node {
-        None => body.contains(point),
-        Some(node) => {
-            let state = nodes[node];
-            state.visible && body.contains(state.world_from_node.inverse().transform_point3(point))
-        }
-    });
-    let materials: Vec<u32> = inside.map(|body| body.material).collect();
-    if materials.len() > MEDIA_SIZE {
+    let is_clear = |material: u32| {
+        let now = frame.materials.get(material as usize);
+        now.is_none_or(|material| material.transmit != Vec3::ZERO)
+    };
+    let mut inside: Vec<(f64, u32)> = (bodies.iter())
+        .filter(|body| is_clear(body.material))
+        .filter_map(|body| {
+            let world_from_body = match body.node.map(|node| frame.nodes[node]) {
+                None => DAffine3::IDENTITY,
+                Some(state) if state.visible => state.world_from_node,
+                Some(_) => return None,
+            };
+            let is_inside = body.contains(world_from_body.inverse().transform_point3(point));
+            is_inside.then(|| (body.extent(world_from_body), body.material))
+        })
+        .collect();
+    if inside.len() > MEDIA_SIZE {
         return Err(PackError::TooMany {
             what: "transparent bodies round the camera",
-            count: materials.len(),
+            count: inside.len(),
             limit: MEDIA_SIZE,
         });
     }
-    media[..materials.len()].copy_from_slice(&materials);
+    inside.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut media = [NONE; MEDIA_SIZE];
+    for (place, (_, material)) in media.iter_mut().zip(inside) {
+        *place = material;
+    }
     Ok(media)
 }
 
@@ -143,10 +120,68 @@ impl Body {
     fn contains(&self, point: DVec3) -> bool {
         match &self.surface {
             Surface::Shape(geometry) => shape_contains(geometry, point),
-            Surface::Mesh(mesh, object_from_node) => {
-                mesh_contains(mesh, object_from_node.transform_point3(point))
+            Surface::Mesh(shell, placement) => {
+                shell.contains(placement.inverse().transform_point3(point))
             }
         }
+    }
+
+    /// The volume of its box in the world: what lies inside another body has the smaller one.
+    fn extent(&self, world_from_body: DAffine3) -> f64 {
+        let bounds = match &self.surface {
+            Surface::Shape(geometry) => geometry.placed(world_from_body).bounds(),
+            Surface::Mesh(shell, placement) => Some(shell.bounds(world_from_body * *placement)),
+        };
+        bounds.map_or(f64::INFINITY, |(min, max)| (max - min).element_product())
+    }
+}
+
+impl Shell {
+    /// Of a mesh with triangles.
+    fn of(mesh: &Mesh) -> Option<Self> {
+        let corner = |&i: &u32| mesh.positions[i as usize];
+        let corners: Vec<[Vec3; 3]> = (mesh.triangles.iter())
+            .map(|t| [corner(&t[0]), corner(&t[1]), corner(&t[2])])
+            .collect();
+        let points = corners.iter().flatten().copied();
+        Some(Self {
+            min: points.clone().reduce(Vec3::min)?,
+            max: points.reduce(Vec3::max)?,
+            corners,
+        })
+    }
+
+    /// The box round it where it is placed.
+    fn bounds(&self, placement: DAffine3) -> (DVec3, DVec3) {
+        let corners = self.corners.iter().flatten();
+        let placed = corners.map(|corner| placement.transform_point3(corner.as_dvec3()));
+        placed.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| {
+            (min.min(p), max.max(p))
+        })
+    }
+
+    /// Whether a ray from the point crosses it an odd number of times. Its direction is no axis and
+    /// no diagonal, so that it hardly meets an edge.
+    fn contains(&self, point: DVec3) -> bool {
+        let (min, max) = (self.min.as_dvec3(), self.max.as_dvec3());
+        if point.cmplt(min).any() || point.cmpgt(max).any() {
+            return false;
+        }
+        let direction = DVec3::new(0.541_196, 0.723_607, 0.428_571);
+        let crosses = |corners: &[Vec3; 3]| {
+            let [a, b, c] = corners.map(Vec3::as_dvec3);
+            let (edge1, edge2, from) = (b - a, c - a, point - a);
+            let p = direction.cross(edge2);
+            let determinant = edge1.dot(p);
+            let q = from.cross(edge1);
+            let (u, v) = (from.dot(p) / determinant, direction.dot(q) / determinant);
+            determinant != 0.0
+                && u >= 0.0
+                && v >= 0.0
+                && u + v <= 1.0
+                && edge2.dot(q) / determinant > 0.0
+        };
+        self.corners.iter().filter(|c| crosses(c)).count() % 2 == 1
     }
 }
 
@@ -175,26 +210,4 @@ fn shape_contains(geometry: &Geometry, point: DVec3) -> bool {
             }
         }
     }
-}
-
-/// Whether a ray from the point crosses the mesh an odd number of times. Its direction is no axis
-/// and no diagonal, so that it hardly meets an edge.
-fn mesh_contains(mesh: &BodyMesh, point: DVec3) -> bool {
-    if point.cmplt(mesh.min).any() || point.cmpgt(mesh.max).any() {
-        return false;
-    }
-    let direction = DVec3::new(0.541_196, 0.723_607, 0.428_571);
-    let crosses = |&[a, b, c]: &[DVec3; 3]| {
-        let (edge1, edge2, from) = (b - a, c - a, point - a);
-        let p = direction.cross(edge2);
-        let determinant = edge1.dot(p);
-        let q = from.cross(edge1);
-        let (u, v) = (from.dot(p) / determinant, direction.dot(q) / determinant);
-        determinant != 0.0
-            && u >= 0.0
-            && v >= 0.0
-            && u + v <= 1.0
-            && edge2.dot(q) / determinant > 0.0
-    };
-    mesh.triangles.iter().filter(|t| crosses(t)).count() % 2 == 1
 }

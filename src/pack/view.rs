@@ -172,38 +172,57 @@ fn rounded_outwards(min: DVec3, max: DVec3) -> Aabb {
     }
 }
 
-/// Boxes between which a tree stays. They hold it at all keys and half-way between, and half as much
-/// more as it strays between from where the boxes of the keys would have it.
+/// Boxes between which a tree stays. They hold it at all keys and at steps in between, and half as much
+/// more as it strays from one step to the next from where the boxes beside it would have it.
 fn sweep(tree: &PlacedTree, keys: &[Placement]) -> Swept {
-    let last = 2 * (keys.len() - 1);
-    let at = |step: usize| {
-        let placement = match step % 2 {
-            0 => keys[step / 2],
-            _ => keys[step / 2].between(&keys[step / 2 + 1], 0.5),
-        };
-        tree.bounds(placement.transform())
-    };
-    let boxes: Vec<_> = (0..=last).map(at).collect();
+    let last = (keys.len() - 1) as f64;
+    let mut boxes = vec![(0.0, tree.bounds(keys[0].transform()))];
+    let mut stray = DVec3::ZERO;
+    for (i, pair) in keys.windows(2).enumerate() {
+        let start = boxes.len() - 1;
+        let steps = steps_between(&pair[0], &pair[1]);
+        for step in 1..=steps {
+            let share = f64::from(step) / f64::from(steps);
+            let placement = match step == steps {
+                true => pair[1],
+                false => pair[0].between(&pair[1], share),
+            };
+            boxes.push((
+                (i as f64 + share) / last,
+                tree.bounds(placement.transform()),
+            ));
+        }
+        for three in boxes[start..].windows(3) {
+            let [(_, before), (_, (min, max)), (_, after)] = [three[0], three[1], three[2]];
+            stray = stray
+                .max((before.0 + after.0) * 0.5 - min)
+                .max(max - (before.1 + after.1) * 0.5);
+        }
+    }
+    let ((_, open), (_, close)) = (boxes[0], boxes[boxes.len() - 1]);
     // How far the two boxes must move outwards.
     let (mut below, mut above) = (DVec3::ZERO, DVec3::ZERO);
-    let mut stray = DVec3::ZERO;
-    for (step, (min, max)) in boxes.iter().enumerate() {
-        let share = step as f64 / last as f64;
-        below = below.max(boxes[0].0.lerp(boxes[last].0, share) - *min);
-        above = above.max(*max - boxes[0].1.lerp(boxes[last].1, share));
-        if step % 2 == 1 {
-            let (before, after) = (boxes[step - 1], boxes[step + 1]);
-            stray = stray
-                .max((before.0 + after.0) * 0.5 - *min)
-                .max(*max - (before.1 + after.1) * 0.5);
-        }
+    for &(share, (min, max)) in &boxes {
+        below = below.max(open.0.lerp(close.0, share) - min);
+        above = above.max(max - open.1.lerp(close.1, share));
     }
     let end = |(min, max): (DVec3, DVec3)| {
         rounded_outwards(min - below - stray * 0.5, max + above + stray * 0.5)
     };
     Swept {
-        open: end(boxes[0]),
-        close: end(boxes[last]),
+        open: end(open),
+        close: end(close),
+    }
+}
+
+/// How many steps there are from one key to the next: more where so much turns at once, as in a jump,
+/// that a box may be larger in between than at both ends and half-way.
+fn steps_between(from: &Placement, to: &Placement) -> u32 {
+    const MAX_TURN: f64 = 0.25;
+    if from.rotation.angle_between(to.rotation) > MAX_TURN {
+        16
+    } else {
+        2
     }
 }
 

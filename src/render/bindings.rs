@@ -127,12 +127,11 @@ impl Buffers {
         scene: &PackedScene,
         view: &PackedView,
     ) -> Result<(), GpuError> {
-        if self.scene.has_room_for(scene, view) {
-            self.scene.write_view(gpu, scene, view)?;
-        } else {
-            self.scene = SceneBuffers::new(gpu, self.scene.fetch, scene, view)?;
+        if !self.scene.has_room_for(view) {
+            self.scene.make_room(gpu, scene, view)?;
             self.scene_group = self.scene.group(gpu, layouts);
         }
+        self.scene.write_view(gpu, scene, view)?;
         self.frame_group = frame_group(gpu, layouts, view, &self.slice)?;
         Ok(())
     }
@@ -163,11 +162,7 @@ impl SceneBuffers {
             rows.write(gpu, 0, &both(first, second))?;
             Ok::<_, GpuError>(rows)
         };
-        // Views differ in how much they place.
-        let view_room = view_bytes(view) * 5 / 4;
-        let node_bytes = node_bytes(scene, view_room);
-        let nodes = Rows::allocate(gpu, fetch, "nodes", node_bytes)?;
-        nodes.write(gpu, 0, cast_slice(&scene.nodes))?;
+        let (nodes, view_room) = nodes(gpu, fetch, scene, view)?;
         let vertices = cast_slice(&scene.vertices);
         let materials = cast_slice(&scene.materials);
         let texels = cast_slice(&scene.texels);
@@ -198,9 +193,21 @@ impl SceneBuffers {
         group(gpu, &layouts.scene, &resources)
     }
 
-    fn has_room_for(&self, scene: &PackedScene, view: &PackedView) -> bool {
-        let bytes = view_bytes(view);
-        bytes <= self.view_room && node_bytes(scene, bytes) <= node_bytes(scene, self.view_room)
+    /// Puts the nodes where there is room for the view. Those that were are destroyed first, as the
+    /// ledger counts them once.
+    fn make_room(
+        &mut self,
+        gpu: &Gpu,
+        scene: &PackedScene,
+        view: &PackedView,
+    ) -> Result<(), GpuError> {
+        self.nodes.destroy();
+        (self.nodes, self.view_room) = nodes(gpu, self.fetch, scene, view)?;
+        Ok(())
+    }
+
+    fn has_room_for(&self, view: &PackedView) -> bool {
+        view_bytes(view) <= self.view_room
     }
 
     fn write_view(
@@ -219,6 +226,20 @@ impl SceneBuffers {
         }
         Ok(())
     }
+}
+
+/// The scene's nodes, with room behind them for views that place a little more than this one, and how
+/// many bytes that is.
+fn nodes(
+    gpu: &Gpu,
+    fetch: Fetch,
+    scene: &PackedScene,
+    view: &PackedView,
+) -> Result<(Rows, u64), GpuError> {
+    let view_room = room_for(view);
+    let nodes = Rows::allocate(gpu, fetch, "nodes", node_bytes(scene, view_room))?;
+    nodes.write(gpu, 0, cast_slice(&scene.nodes))?;
+    Ok((nodes, view_room))
 }
 
 fn frame_group(
@@ -247,6 +268,11 @@ fn view_bytes(view: &PackedView) -> u64 {
     view.node_parts().iter().map(|part| part.len() as u64).sum()
 }
 
+/// The room that is made for a view, in bytes: views differ in how much they place.
+fn room_for(view: &PackedView) -> u64 {
+    view_bytes(view) * 5 / 4
+}
+
 /// The scene's nodes, and behind them room for a view.
 fn node_bytes(scene: &PackedScene, view_room: u64) -> u64 {
     match view_room {
@@ -258,7 +284,7 @@ fn node_bytes(scene: &PackedScene, view_room: u64) -> u64 {
 /// How many bytes of each there are.
 fn row_bytes(scene: &PackedScene, view: &PackedView) -> [(&'static str, u64); 4] {
     [
-        ("nodes", node_bytes(scene, view_bytes(view) * 5 / 4)),
+        ("nodes", node_bytes(scene, room_for(view))),
         ("triangles", size_of_val(&scene.triangles[..]) as u64),
         (
             "vertices",
@@ -297,6 +323,13 @@ impl Rows {
                 gpu.write_image(view, row as u32, bytes)
             }
             Self::Buffer(buffer) => gpu.write(buffer, offset, bytes),
+        }
+    }
+
+    fn destroy(&self) {
+        match self {
+            Self::Image(view) => view.texture().destroy(),
+            Self::Buffer(buffer) => buffer.destroy(),
         }
     }
 

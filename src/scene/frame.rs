@@ -86,17 +86,10 @@ impl Scene {
         self.tracks.iter().any(|track| !track.curve.is_constant())
     }
 
-    /// Seconds that the animation lasts: what the file says, else until the last key of any track,
-    /// and long enough for all that repeats to do so once; 0 where there are no tracks.
+    /// Seconds that the animation lasts: what the file says, else until the last key of any track; 0
+    /// where that is nothing.
     pub fn duration(&self) -> f64 {
-        let ends = self.tracks.iter().map(|track| {
-            let (first, last) = track.curve.span();
-            match track.curve.beyond {
-                super::Beyond::Hold => last,
-                super::Beyond::Repeat => last.max(last - first),
-                super::Beyond::PingPong => last.max(2.0 * (last - first)),
-            }
-        });
+        let ends = self.tracks.iter().map(|track| track.curve.span().1);
         (self.output.duration).unwrap_or_else(|| ends.fold(0.0, f64::max))
     }
 }

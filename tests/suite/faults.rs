@@ -160,6 +160,73 @@ fn a_device_that_is_lost_every_time_ends_with_exit_6() {
     assert_none([run.check_refusal("device@*", 6, &["the GPU failed 4 times", "--adapter"])]);
 }
 
+/// How many frames [`animate`] makes.
+const FRAMES: usize = 25;
+
+/// Frames of an object that moves, is hidden in the middle and changes its colour, and what was said.
+fn animate(fault: &str) -> (Option<i32>, Vec<Vec<u8>>, String) {
+    const MOVING: &str = "
+[materials]
+red = { phong = { diffuse = [0.8, 0.1, 0.1] } }
+[[objects]]
+name = \"ball\"
+sphere = { center = [0, 2, 1], radius = 0.6 }
+material = \"red\"
+[[animation]]
+object = \"ball\"
+property = \"translate\"
+keys = [[0, [-1, 0, 0]], [1, [1, 0, 0]]]
+[[animation]]
+object = \"ball\"
+property = \"visible\"
+keys = [[0, true], [0.4, false], [0.6, true]]
+[[animation]]
+material = \"red\"
+property = \"diffuse\"
+keys = [[0, [1, 0, 0]], [1, [0, 1, 0]]]
+";
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fs::write(folder.path().join("a.toml"), format!("{SCENE}{MOVING}")).expect("a scene");
+    let flags = "--fps 24 --shutter 0.5 --size 64x48 --quiet";
+    let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
+        .args(["animate", "a.toml", "-o", "%d.png"])
+        .args(flags.split(' '))
+        .current_dir(folder.path())
+        .env("GLIMRAY_FAULT", fault)
+        .stdin(Stdio::null())
+        .output()
+        .expect("glimray runs");
+    let frame = |i: usize| fs::read(folder.path().join(format!("{i}.png"))).ok();
+    let words = String::from_utf8(output.stderr).expect("messages are text");
+    (
+        output.status.code(),
+        (0..FRAMES).map_while(frame).collect(),
+        words,
+    )
+}
+
+#[test]
+fn a_device_lost_again_and_again_in_an_animation_costs_nothing_but_time() {
+    let (code, expected, words) = animate("");
+    assert_eq!((code, expected.len()), (Some(0), FRAMES), "{words}");
+    assert!(expected[0] != expected[12] && expected[12] != expected[24]);
+    // So far apart that no picture meets four, at different places of a frame.
+    const APART: usize = 9;
+    for first in (1..=APART).step_by(4) {
+        let places = (0..FRAMES).map(|i| (first + i * APART).to_string());
+        let fault = format!("device@{}", places.collect::<Vec<_>>().join(","));
+        let (code, frames, words) = animate(&fault);
+        assert_eq!(code, Some(0), "{fault}: {words}");
+        assert!(frames == expected, "{fault}: other frames");
+        // More in all than one picture may meet.
+        let losses = words
+            .split_once("lost ")
+            .and_then(|(_, rest)| rest.split_once(' '));
+        let losses: u32 = losses.map_or(0, |(count, _)| count.parse().unwrap_or(0));
+        assert!(losses > 3, "{fault}: {words}");
+    }
+}
+
 #[test]
 fn a_refused_allocation_ends_with_exit_7_wherever_it_strikes() {
     let place = Workplace::new();

@@ -10,13 +10,14 @@ use crate::{
 use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::{
     image::Image,
-    pack::{self, PackedScene},
-    render::{Renderer, Settings, Stats, Tone},
+    pack::{self, PackedScene, PackedView},
+    render::{Fetch, RenderError, Renderer, Settings, Stats, Tone},
     scene::{
-        Frame, Instance, Light, LightKind, Material, Mesh, Pattern, Scene, Space, Texture, Textures,
+        Beyond, Curve, Easing, Frame, Instance, Interpolation, Light, LightKind, Material, Mesh,
+        Node, NodeProperty, Pattern, Scene, Space, Target, Texture, Textures, Track, Values,
     },
 };
-use std::sync::Arc;
+use std::{fmt::Write, fs, process::Command, sync::Arc};
 
 /// A picture of packed frames of a scene, linear, and what it cost.
 pub fn shot(packed: &Arc<PackedScene>, frames: &[Frame], settings: &Settings) -> (Image, Stats) {
@@ -256,5 +257,183 @@ fn a_lamp_throws_no_shadow_of_itself_on_instances() {
         let rays = stats.rays.expect("rays are counted");
         assert!(rays.shadow > 1000, "{kind:?}: {rays:?}");
         assert_eq!(rays.shadow_blocked, 0, "{kind:?}: {rays:?}");
+    }
+}
+
+/// A crowd on a node that stands still, while another one moves.
+fn crowd_beside_a_mover() -> Scene {
+    let mut scene = crowd([vec3(0.8, 0.3, 0.2), vec3(0.2, 0.4, 0.8)].map(scenes::shiny));
+    scene.nodes = vec![
+        Node {
+            translation: dvec3(0.37, 0.1, -0.2),
+            rotation: DQuat::from_rotation_y(0.7),
+            ..Node::default()
+        },
+        Node::default(),
+    ];
+    for instance in &mut scene.instances[..40] {
+        instance.node = Some(0);
+    }
+    scene.shapes[0].node = Some(1);
+    scene.tracks = vec![translation(1, [DVec3::ZERO, DVec3::X])];
+    scene
+}
+
+/// A node's way from the first to the second place in a second, in a jump at half of it.
+fn jump(node: usize, places: [DVec3; 2]) -> Track {
+    let mut track = translation(node, places);
+    track.curve.times = vec![0.0, 0.5];
+    track.curve.interpolation = Interpolation::Step;
+    track
+}
+
+/// A node's way from the first to the second place in a second.
+fn translation(node: usize, places: [DVec3; 2]) -> Track {
+    Track {
+        targets: vec![Target::Node(node, NodeProperty::Translation)],
+        curve: Curve {
+            times: vec![0.0, 1.0],
+            values: Values::Vector(places.into()),
+            interpolation: Interpolation::Linear,
+            easing: Easing::None,
+            beyond: Beyond::Hold,
+        },
+    }
+}
+
+#[test]
+fn patterns_stay_in_the_world_on_what_stands_still_while_others_move() {
+    let mut scene = crowd_beside_a_mover();
+    scene.textures.push(Texture {
+        pattern: Pattern::Checker {
+            a: Vec3::splat(0.2),
+            b: Vec3::ONE,
+        },
+        space: Space::World,
+        pattern_from_space: DAffine3::from_scale(DVec3::splat(5.0)),
+    });
+    for material in &mut scene.materials {
+        material.textures.diffuse = Some(0);
+    }
+    let frame = [scene.frame(0.0)];
+    let settings = sized(160, 120);
+    let (expected, _) = shot(&packed(&scene, usize::MAX), &frame, &settings);
+    let (actual, _) = shot(&packed(&scene, 0), &frame, &settings);
+    assert_none([check_alike("patterns", &expected, &actual, 2.0, 0.004)]);
+}
+
+/// Many spheres on a node that jumps while the shutter is open, which takes all keys that there can be.
+fn jumping_spheres(count: usize) -> Scene {
+    let mut scene = scenes::empty();
+    scene.nodes.push(Node::default());
+    for i in 0..count {
+        let place = dvec3((i % 100) as f64, (i / 100) as f64, -60.0);
+        scene.add_sphere(place - dvec3(50.0, 30.0, 0.0), 0.4, 0);
+        scene.shapes[i].node = Some(0);
+    }
+    scene.tracks = vec![jump(0, [DVec3::ZERO, DVec3::X])];
+    scene.ambient = Vec3::ONE;
+    scene
+}
+
+#[test]
+fn a_later_frame_is_held_against_the_memory_limit_as_the_first_one_is() {
+    let scene = jumping_spheres(100);
+    let packed = packed(&scene, 0);
+    let still = packed.shot(&scene.shot(0.0, 0.1)).expect("a frame");
+    let moving = packed.shot(&scene.shot(0.0, 1.0)).expect("a frame");
+    let settings = sized(16, 16);
+    let mut renderer =
+        Renderer::new(open_gpu(), packed.clone(), &still, settings.clone()).expect("a renderer");
+    let first = renderer.stats().gpu_bytes;
+    renderer.set_frame(&moving).expect("within the usual limit");
+    let most = renderer.stats().gpu_bytes;
+    // 257 keys of 64 bytes for each.
+    assert!(most > first + 100 * 257 * 64, "{most} after {first}");
+    renderer.set_frame(&still).expect("it was there before");
+    assert_eq!(renderer.stats().gpu_bytes, most);
+
+    let settings = Settings {
+        memory_limit_bytes: most - 1,
+        ..settings
+    };
+    let mut renderer = Renderer::new(open_gpu(), packed, &still, settings).expect("a renderer");
+    let refused = renderer.set_frame(&moving).expect_err("one byte too many");
+    assert_eq!(refused.exit_code(), 7, "{refused}");
+    assert!(refused.to_string().contains("nodes"), "{refused}");
+}
+
+#[test]
+fn a_frame_that_outgrows_the_limits_of_the_device_gets_another_device_or_is_too_big() {
+    let scene = jumping_spheres(6600);
+    let packed = packed(&scene, 0);
+    let still = packed.shot(&scene.shot(0.0, 0.1)).expect("a frame");
+    let moving = packed.shot(&scene.shot(0.0, 1.0)).expect("a frame");
+    let picture = |fetch, views: &[&PackedView]| {
+        let settings = Settings {
+            fetch,
+            ..sized(16, 12)
+        };
+        let mut renderer = Renderer::new(open_gpu(), packed.clone(), views[0], settings)?;
+        for view in &views[1..] {
+            renderer.set_frame(view)?;
+        }
+        while !renderer.is_done() {
+            renderer.step()?;
+        }
+        Ok::<_, RenderError>(renderer.develop(&Tone::LINEAR).expect("a picture"))
+    };
+    let same = |a: &Image, b: &Image| assert_none([check_same_bits("frames", a, b)]);
+    let expected = picture(Fetch::Auto, &[&moving]).expect("a picture");
+    let after = picture(Fetch::Auto, &[&still, &moving]).expect("a picture");
+    same(&expected, &after);
+    // Beyond what WebGPU guarantees for one binding, which some adapters do not exceed.
+    match picture(Fetch::Buffer, &[&still, &moving, &still, &moving]) {
+        Ok(image) => same(&expected, &image),
+        Err(error) => assert_eq!(error.exit_code(), 7, "{error}"),
+    }
+}
+
+#[test]
+fn copies_of_glass_need_the_memory_of_one_mesh() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("a file");
+    const SIDE: usize = 41;
+    let mut grid = String::new();
+    for i in 0..SIDE * SIDE {
+        let _ = writeln!(grid, "v {} {} {}", i % SIDE, i / SIDE, i * 7 % 13);
+    }
+    for i in (0..SIDE * (SIDE - 1)).filter(|i| i % SIDE != SIDE - 1) {
+        let [a, b, c, d] = [i + 1, i + 2, i + SIDE + 1, i + SIDE + 2];
+        let _ = writeln!(grid, "f {a} {b} {c}\nf {b} {d} {c}");
+    }
+    write("grid.obj", &grid);
+    let peak_bytes = |material: &str| {
+        let scene = format!(
+            "
+camera = {{ look_from = [0, 0, 9], look_at = [0, 0, 0] }}
+[materials]
+copied = {{ {material} }}
+[[objects]]
+mesh = {{ file = \"grid.obj\" }}
+material = \"copied\"
+repeat = {{ grid = {{ count = [50, 60, 1], step = [50, 50, 1] }} }}
+"
+        );
+        write("a.toml", &scene);
+        let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
+            .args(["render", "a.toml", "-o", "a.png", "--report", "-"])
+            .args(["--size", "8x8", "--quiet"])
+            .current_dir(folder.path())
+            .output()
+            .expect("glimray runs");
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("a report");
+        report["memory"]["host_peak_bytes"].as_u64()
+    };
+    let dull = peak_bytes("phong = { diffuse = [1, 1, 1] }");
+    let glass = peak_bytes("refract = { ior = 1.5 }");
+    // Where the system tells. 3000 copies of 3200 triangles would be hundreds of megabytes.
+    if let (Some(dull), Some(glass)) = (dull, glass) {
+        assert!(glass < dull + (100 << 20), "{glass} bytes, dull {dull}");
     }
 }

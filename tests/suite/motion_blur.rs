@@ -360,3 +360,31 @@ fn boxes_that_follow_the_movement_lose_nothing() {
     let (every, _) = shot(&packed, &frames, &brute_force);
     check_same_bits("moving tree", &every, &tree).unwrap_or_else(|problem| panic!("{problem}"));
 }
+
+#[test]
+fn a_box_that_makes_half_a_turn_at_once_is_met_on_all_its_way() {
+    let cube = Geometry::Placed {
+        form: Form::Box,
+        world_from_form: DAffine3::from_scale(DVec3::splat(0.6)),
+    };
+    let mut scene = carried(cube);
+    let half = DQuat::from_rotation_z(PI);
+    let target = Target::Node(0, NodeProperty::Rotation);
+    (scene.tracks).push(track(target, Values::Rotation(vec![DQuat::IDENTITY, half])));
+    let packed = Arc::new(pack::scene(&scene).expect("a scene that can be packed"));
+    let frames = [scene.frame(0.0), scene.frame(1.0)];
+    let settings = blurred(16);
+    let brute_force = Settings {
+        brute_force: true,
+        ..settings.clone()
+    };
+    let (tree, _) = shot(&packed, &frames, &settings);
+    let (every, _) = shot(&packed, &frames, &brute_force);
+    check_same_bits("half a turn", &every, &tree).unwrap_or_else(|problem| panic!("{problem}"));
+    // Its corners reach √2 as far as its sides, where without the turn there is nothing.
+    let (corner, ..) = (0..SIDE)
+        .map(|x| (x, mean(&every, [(x, SIDE / 2)].into_iter())))
+        .find(|(_, value)| *value > 0.0)
+        .expect("a picture of it");
+    assert!(place(corner) < -0.6 * 1.3, "{}", place(corner));
+}

@@ -1,14 +1,17 @@
 //! Recursive reflection and refraction in whole pictures, against closed forms.
 
 use crate::reference::compare::{assert_none, check_same_bits, render, sized};
+use crate::reference::scenes;
 use crate::support::verdict::Verdict;
-use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3};
+use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3};
 use glimray::image::Image;
+use glimray::layout::NONE;
 use glimray::pack::PackError;
 use glimray::render::{Fetch, Rays, Settings, Slicing};
 use glimray::scene::{
-    Background, Camera, Form, Fresnel, Geometry, Light, LightKind, Material, Mixing, Scene,
-    Shadows, Shape,
+    Background, Beyond, Camera, Curve, Easing, Form, Fresnel, Geometry, Instance, Interpolation,
+    Light, LightKind, Material, MaterialProperty, Mixing, Node, NodeProperty, Scene, Shadows,
+    Shape, Target, Track, Values,
 };
 use glimray::{import, pack};
 
@@ -733,6 +736,93 @@ fn more_media_round_the_camera_than_a_ray_remembers_are_refused() {
             ..
         })
     ));
+}
+
+/// A track of two keys at 0 and 1 seconds.
+fn track(target: Target, values: [DVec3; 2]) -> Track {
+    Track {
+        targets: vec![target],
+        curve: Curve {
+            times: vec![0.0, 1.0],
+            values: Values::Vector(values.into()),
+            interpolation: Interpolation::Linear,
+            easing: Easing::None,
+            beyond: Beyond::Hold,
+        },
+    }
+}
+
+/// The materials of the media round the camera at a time.
+fn media_at(scene: &Scene, time: f64) -> [u32; 4] {
+    let packed = pack::scene(scene).expect("a packed scene");
+    let view = packed.frame(&scene.frame(time)).expect("a frame");
+    view.frame.camera_media
+}
+
+#[test]
+fn media_round_the_camera_are_those_that_are_transparent_at_the_time() {
+    let mut scene = dark();
+    add(&mut scene, sphere(DVec3::ZERO, 9.0), glass(1.5));
+    scene.materials[0].transmit = Vec3::ZERO;
+    assert_eq!(media_at(&scene, 1.0), [NONE; 4]);
+    scene.tracks = vec![track(
+        Target::Material(0, MaterialProperty::Transmit),
+        [DVec3::ZERO, DVec3::ONE],
+    )];
+    assert_eq!(media_at(&scene, 0.0), [NONE; 4]);
+    assert_eq!(media_at(&scene, 0.5), [0, NONE, NONE, NONE]);
+    scene.materials[0].transmit = Vec3::ONE;
+    assert_eq!(media_at(&scene, 0.0), [NONE; 4]);
+}
+
+#[test]
+fn of_the_media_round_the_camera_the_outermost_comes_first_at_all_times() {
+    let mut scene = dark();
+    add(&mut scene, sphere(DVec3::ZERO, 9.0), glass(1.5));
+    add(&mut scene, sphere(DVec3::ZERO, 7.0), glass(1.3));
+    scene.nodes.push(Node::default());
+    scene.shapes[1].node = Some(0);
+    scene.tracks = vec![track(
+        Target::Node(0, NodeProperty::Scale),
+        [DVec3::ONE, DVec3::splat(2.0)],
+    )];
+    assert_eq!(media_at(&scene, 0.0), [0, 1, NONE, NONE]);
+    assert_eq!(media_at(&scene, 1.0), [1, 0, NONE, NONE]);
+}
+
+#[test]
+fn the_media_round_the_camera_are_those_of_the_copy_that_it_is_in() {
+    let mut scene = dark();
+    scene.materials = vec![glass(1.5), glass(1.3)];
+    scene.meshes = vec![
+        scenes::ball(UVec2::new(12, 8), 0),
+        scenes::ball(UVec2::new(12, 8), 1),
+    ];
+    // Only one of the first mesh's copies, stretched and mirrored, reaches to the camera; one of the
+    // second's lies in it.
+    let stretched = DAffine3::from_scale_rotation_translation(
+        dvec3(-1.0, 1.0, 6.0),
+        DQuat::from_rotation_x(0.1),
+        dvec3(0.0, 0.0, 2.0),
+    );
+    let copy = |mesh, placement| Instance {
+        mesh,
+        placement,
+        node: None,
+    };
+    scene.instances = vec![
+        copy(
+            1,
+            DAffine3::from_translation(dvec3(0.1, 0.0, 5.0))
+                * DAffine3::from_scale(DVec3::splat(0.3)),
+        ),
+        copy(0, DAffine3::from_translation(dvec3(0.0, 3.0, 5.0))),
+        copy(0, stretched),
+        copy(1, DAffine3::from_translation(dvec3(0.0, -3.0, 5.0))),
+    ];
+    assert_eq!(media_at(&scene, 0.0), [0, 1, NONE, NONE]);
+    scene.instances.remove(2);
+    assert_eq!(media_at(&scene, 0.0), [1, NONE, NONE, NONE]);
 }
 
 /// A ball round the origin in Haines' format, in front of a background of one colour.

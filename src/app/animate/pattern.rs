@@ -1,5 +1,6 @@
 //! Names of numbered files: `walk_%04d.png`, or `walk_####.png`.
 
+use super::super::job::is_same;
 use std::path::{Path, PathBuf};
 
 /// A file name with room for a number, in a folder.
@@ -76,6 +77,19 @@ impl Pattern {
     /// The path of file `number`.
     pub fn path(&self, number: u32) -> PathBuf {
         self.folder.join(self.name(number))
+    }
+
+    /// Whether `path` is a file of any number, or the journal.
+    pub fn names(&self, path: &Path) -> bool {
+        let name = path.file_name().and_then(|name| name.to_str());
+        let number = name
+            .and_then(|name| name.strip_prefix(&self.before))
+            .and_then(|name| name.strip_suffix(&self.after))
+            .and_then(|number| number.parse().ok());
+        let file = number.map(|number| self.path(number));
+        file.into_iter()
+            .chain([self.journal()])
+            .any(|file| is_same(&file, path))
     }
 
     /// The path of what is remembered about the files.

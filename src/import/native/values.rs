@@ -122,7 +122,19 @@ fn number<'de, D: Deserializer<'de>>(
 ) -> Result<f64, D::Error> {
     match Number::deserialize(deserializer)?.0 {
         value if holds(value) => Ok(value),
-        value => Err(de::Error::custom(format!("{value} is not {wanted}"))),
+        value => Err(de::Error::custom(format!(
+            "{} is not {wanted}",
+            shown(value)
+        ))),
+    }
+}
+
+/// A number in as few digits as tell it.
+fn shown(value: f64) -> String {
+    if value == 0.0 || (1e-6..1e15).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
     }
 }
 
@@ -130,7 +142,10 @@ value! {
     /// A length or exponent above 0.
     Positive(f64),
     { "type": "number", "exclusiveMinimum": 0 },
-    |d| number(d, |x| x >= f64::from(f32::MIN_POSITIVE), "greater than 0")
+    |d| match number(d, |x| x > 0.0, "greater than 0")? {
+        x if x >= f64::from(f32::MIN_POSITIVE) => Ok(x),
+        x => Err(de::Error::custom(format!("{x:e} is out of range: at least 1.2e-38 is allowed"))),
+    }
 }
 
 value! {

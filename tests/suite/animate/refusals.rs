@@ -113,6 +113,18 @@ fn bad_command_lines_exit_2_and_say_why() {
             "the picture goes there",
         ),
         (
+            animate("--frames 0..3 -o v.y4m --report ./v.y4m"),
+            "the picture goes there",
+        ),
+        (
+            animate("--frames 0..3 -o f_%04d.png --report ./f_0002.png"),
+            "the picture goes there",
+        ),
+        (
+            animate("--frames 0..3 -o ./f_%04d.png --report f_journal.png.jsonl"),
+            "the picture goes there",
+        ),
+        (
             animate("--frames 0..3 -o f%d.jpg --size 65536x1"),
             "JPEG holds at most",
         ),

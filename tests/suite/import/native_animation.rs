@@ -636,7 +636,7 @@ bad scene (a.toml:15:13): a rotation is a quaternion [x, y, z, w] of length 1, n
 bad scene (a.toml:15:13): a rotation is a quaternion [x, y, z, w] of length 1, not 1.010. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:13): expected a quaternion [x, y, z, w], found fewer. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:13): a scale cannot be 0. See `glimray schema` for what is allowed.
-bad scene (a.toml:15:21): on the way from the key before, the scale would pass 0. Add a key in between, or use `interpolation = "step"`.
+bad scene (a.toml:15:21): on the way from the key before, the scale would pass 0. Keep its signs, or use `interpolation = "step"`.
 bad scene (a.toml:15:13): invalid type: floating point `1.0`, expected a boolean. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:17): nothing is between true and false. Leave `interpolation` out, or make it "step".
 bad scene (a.toml:15:17): unknown value `bezier`. Known here: `step`, `linear`, `cubic`, `hermite`.

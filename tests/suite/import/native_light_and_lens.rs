@@ -227,6 +227,8 @@ fn every_mistake_has_its_message() {
         "output.filter_radius = 0".to_owned(),
         "output.filter_radius = 100".to_owned(),
         "output.light_samples = 0".to_owned(),
+        "output.light_samples = 1e30".to_owned(),
+        lens("radius = 1e-300"),
     ];
     assert_snapshot!(messages("a.toml", &texts), @r"
 bad scene (a.toml:1:1): a rectangle has two sides. Give it either `edge_u` and `edge_v`, or `look_at` and `size`.
@@ -273,6 +275,8 @@ bad scene (a.toml:1:17): unknown value `lanczos`. Known here: `box`, `tent`, `ga
 bad scene (a.toml:1:24): 0 is not between 0.01 and 16. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:24): 100 is not between 0.01 and 16. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:24): 0 is not between 0.001 and 1000. See `glimray schema` for what is allowed.
+bad scene (a.toml:1:24): 1e30 is not between 0.001 and 1000. See `glimray schema` for what is allowed.
+bad scene (a.toml:4:19): 1e-300 is out of range: at least 1.2e-38 is allowed. See `glimray schema` for what is allowed.
 ");
 }
 

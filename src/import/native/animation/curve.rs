@@ -48,11 +48,10 @@ pub(super) fn curve(table: &AnimationTable, texts: &Texts) -> Result<Curve, Impo
         let refuse =
             |error: value::Error| texts.malformed(key.value.span(), error.to_string(), SEE);
         let sample = sample(property, key.value.get_ref()).map_err(refuse)?;
-        if let Some(why) = (samples.last())
+        if let Some((why, todo)) = (samples.last())
             .filter(|_| interpolation != InterpolationName::Step)
             .and_then(|last| obstacle(property, *last, sample))
         {
-            let todo = "Add a key in between, or use `interpolation = \"step\"`";
             return Err(texts.malformed(key.value.span(), why.to_owned(), todo));
         }
         samples.push(sample);
@@ -176,18 +175,20 @@ fn with_tangents(
     Ok(all)
 }
 
-/// Why there is no way from one value to the next.
-fn obstacle(property: P, from: Sample, to: Sample) -> Option<&'static str> {
+/// Why there is no way from one value to the next, and what to do.
+fn obstacle(property: P, from: Sample, to: Sample) -> Option<(&'static str, &'static str)> {
     let (Sample::Vector(from), Sample::Vector(to)) = (from, to) else {
         return None;
     };
     match property {
-        P::Scale if (from * to).min_element() < 0.0 => {
-            Some("on the way from the key before, the scale would pass 0")
-        }
-        P::Up | P::Direction if from.dot(to) < 1e-9 - 1.0 => {
-            Some("the direction is opposite to that of the key before, which leaves the way open")
-        }
+        P::Scale if (from * to).min_element() < 0.0 => Some((
+            "on the way from the key before, the scale would pass 0",
+            "Keep its signs, or use `interpolation = \"step\"`",
+        )),
+        P::Up | P::Direction if from.dot(to) < 1e-9 - 1.0 => Some((
+            "the direction is opposite to that of the key before, which leaves the way open",
+            "Add a key in between, or use `interpolation = \"step\"`",
+        )),
         _ => None,
     }
 }
