@@ -67,8 +67,8 @@ pub struct PackedScene {
     still_parts: Vec<(Aabb, u32)>,
     placed_trees: Vec<PlacedTree>,
     placed: Vec<Placed>,
-    /// Whether no node moves.
-    is_still: bool,
+    /// For each node whether it moves, ever.
+    moving: Vec<bool>,
     /// The scene's materials where its visible lights or a track may change some.
     changing: Option<Changing>,
     /// Where render space has its origin, in world space: at the scene's default camera, where the
@@ -229,7 +229,7 @@ pub fn scene_with(scene: &Scene, most_laid_out: usize) -> Result<PackedScene, Pa
         },
         placed_trees,
         placed,
-        is_still: !scene.moving_nodes().contains(&true),
+        moving: scene.moving_nodes(),
         changing: is_changing.then(|| Changing {
             materials: scene.materials.clone(),
             lamps,

@@ -199,10 +199,10 @@ impl Carrier {
     }
 
     /// From the tree's space to where patterns in space are looked up: they stand still for what
-    /// carries the tree.
-    pub fn pattern_from_tree(&self, is_still: bool, world_from_tree: DAffine3) -> DAffine3 {
+    /// carries the tree, which is the world where the tree does not move.
+    pub fn pattern_from_tree(&self, moving: &[bool], world_from_tree: DAffine3) -> DAffine3 {
         match *self {
-            Self::Node(Some(_), placement) if !is_still => placement,
+            Self::Node(Some(node), placement) if moving[node] => placement,
             _ => world_from_tree,
         }
     }

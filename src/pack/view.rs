@@ -92,7 +92,7 @@ impl PackedScene {
             in_range(min.abs().max(max.abs()).max_element())?;
         }
         let first = to_render * worlds[0];
-        let to_pattern = placed.carrier.pattern_from_tree(self.is_still, worlds[0]);
+        let to_pattern = placed.carrier.pattern_from_tree(&self.moving, worlds[0]);
         let pattern = pattern_rows(to_render * to_pattern);
         let linear = rows(first.matrix3);
         let inverse = rows(first.matrix3.inverse());
