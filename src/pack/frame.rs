@@ -95,7 +95,7 @@ impl PackedScene {
                 plane_count: self.plane_count,
                 vertex_count: self.vertices.len() as u32,
                 material_count: self.materials.len() as u32,
-                camera_media: media::around(&self.bodies, &first.nodes, first.camera.look_from)?,
+                camera_media: media::around(&self.bodies, first, first.camera.look_from)?,
                 root: if self.features.instances {
                     first_node | moving
                 } else {

@@ -3,7 +3,7 @@
 use super::PackError;
 use crate::{
     layout::NONE,
-    scene::{Form, Frame, Geometry, NodeState, Scene},
+    scene::{Form, Frame, Geometry, MaterialProperty, Scene, Target},
 };
 use glam::{DVec3, Vec3};
 
@@ -27,14 +27,18 @@ enum Surface {
     Mesh(Vec<[DVec3; 3]>),
 }
 
-/// The transparent bodies of a scene, the largest first.
+/// The bodies of a scene that are transparent at some time, the largest first.
 pub fn bodies(scene: &Scene, rest: &Frame) -> Vec<Body> {
     let size = |node: Option<usize>| {
         node.map_or(1.0, |node| {
             rest.nodes[node].world_from_node.matrix3.determinant().abs()
         })
     };
-    let is_clear = |material: usize| scene.materials[material].transmit != Vec3::ZERO;
+    let is_clear = |material: usize| {
+        let becomes = Target::Material(material, MaterialProperty::Transmit);
+        let mut targets = scene.tracks.iter().flat_map(|track| &track.targets);
+        scene.materials[material].transmit != Vec3::ZERO || targets.any(|target| *target == becomes)
+    };
     let shapes = (scene.shapes.iter())
         .filter(|shape| is_clear(shape.material) && is_closed(&shape.geometry))
         .map(|shape| {
@@ -78,23 +82,33 @@ pub fn bodies(scene: &Scene, rest: &Frame) -> Vec<Body> {
     bodies
 }
 
-/// The materials of the bodies round a point in the world, the outermost first, then [`NONE`].
+/// The materials of the bodies round a point in the world that are transparent in this frame, the
+/// outermost first, then [`NONE`].
 ///
 /// # Errors
 /// More than [`MEDIA_SIZE`] are nested there.
 pub fn around(
     bodies: &[Body],
-    nodes: &[NodeState],
+    frame: &Frame,
     point: DVec3,
 ) -> Result<[u32; MEDIA_SIZE], PackError> {
     let mut media = [NONE; MEDIA_SIZE];
-    let inside = bodies.iter().filter(|body| match body.node {
-        None => body.contains(point),
-        Some(node) => {
-            let state = nodes[node];
-            state.visible && body.contains(state.world_from_node.inverse().transform_point3(point))
-        }
-    });
+    // Without changing materials a frame has none.
+    let is_clear = |body: &&Body| {
+        let material = frame.materials.get(body.material as usize);
+        material.is_none_or(|material| material.transmit != Vec3::ZERO)
+    };
+    let inside = bodies
+        .iter()
+        .filter(is_clear)
+        .filter(|body| match body.node {
+            None => body.contains(point),
+            Some(node) => {
+                let state = frame.nodes[node];
+                state.visible
+                    && body.contains(state.world_from_node.inverse().transform_point3(point))
+            }
+        });
     let materials: Vec<u32> = inside.map(|body| body.material).collect();
     if materials.len() > MEDIA_SIZE {
         return Err(PackError::TooMany {
