@@ -32,12 +32,10 @@ impl Clock {
     }
 }
 
-/// Seconds that the scene's animation lasts, above 0: what the scene says, else until the last key
-/// of any track. `None` where nothing ever changes.
+/// Seconds that the scene's animation lasts, above 0; see [`Scene::duration`]. `None` where nothing
+/// ever changes and the scene does not say.
 pub fn duration(scene: &Scene) -> Option<f64> {
-    let last_keys = scene.tracks.iter().map(|track| track.curve.times.last());
-    let last_key = last_keys.flatten().copied().reduce(f64::max);
-    scene.output.duration.or(last_key).filter(|&end| end > 0.0)
+    Some(scene.duration()).filter(|&end| end > 0.0)
 }
 
 /// Numbers of frames that lie within `duration` seconds: from 0 to the result. The last moment is
