@@ -31,7 +31,8 @@ pub struct PackedView {
     pub cameras: Vec<PackedCamera>,
     /// Trees that instances place.
     placements: Placements,
-    /// In place of the scene's, if any changes over time; else empty.
+    /// In place of the scene's, if any changes over time; else empty. They are as they are when the
+    /// shutter opens, but lamps show the mean of what they shine with while it is open.
     pub materials: Vec<PackedMaterial>,
     /// Whether there is a light that is not dark.
     pub has_lights: bool,
@@ -123,7 +124,7 @@ impl PackedScene {
                 Vec::new()
             },
             placements,
-            materials: self.materials_of(first),
+            materials: self.materials_of(frames),
         })
     }
 
@@ -133,17 +134,17 @@ impl PackedScene {
         (self.nodes.len() as u32).next_multiple_of((1 << IMAGE_WIDTH_LOG2) / NODE_ROWS)
     }
 
-    /// The materials at the time of a frame; empty if they never change.
-    fn materials_of(&self, frame: &Frame) -> Vec<PackedMaterial> {
+    /// The materials of a shot; empty if they never change.
+    fn materials_of(&self, frames: &[Frame]) -> Vec<PackedMaterial> {
         let Some(changing) = &self.changing else {
             return Vec::new();
         };
-        let materials = match &frame.materials[..] {
+        let materials = match &frames[0].materials[..] {
             [] => &changing.materials,
             changed => changed,
         };
         let lamps = changing.lamps.iter();
-        let lamps = lamps.map(|&index| light::material(&frame.lights[index]));
+        let lamps = lamps.map(|&index| light::mean_material(frames, index));
         (materials.iter().map(material::material))
             .chain(lamps.map(|lamp| material::material(&lamp)))
             .collect()

@@ -1,6 +1,6 @@
 //! The surfaces of lights that rays can see.
 
-use crate::scene::{Form, Geometry, Light, LightKind, Material, Scene};
+use crate::scene::{Form, Frame, Geometry, Light, LightKind, Material, Scene};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// Those lights' indices, in scene order.
@@ -25,6 +25,27 @@ pub fn material(light: &Light) -> Material {
         emission: (light.color.as_dvec3() * radiance).as_vec3(),
         two_sided: false,
         ..Material::default()
+    }
+}
+
+/// The same over the frames of a shot: its radiance is the mean of what lies between them in straight
+/// lines, as that of its light on other things is. Of a lamp that moves and changes at the same time
+/// the trace in the picture is even.
+pub fn mean_material(frames: &[Frame], light: usize) -> Material {
+    let intervals = (frames.len() - 1) as f64;
+    let last = frames.len() - 1;
+    let mut sum = DVec3::ZERO;
+    for (i, frame) in frames.iter().enumerate() {
+        let share = match i {
+            _ if last == 0 => 1.0,
+            _ if i == 0 || i == last => 0.5 / intervals,
+            _ => intervals.recip(),
+        };
+        sum += share * material(&frame.lights[light]).emission.as_dvec3();
+    }
+    Material {
+        emission: sum.as_vec3(),
+        ..material(&frames[0].lights[light])
     }
 }
 

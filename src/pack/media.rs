@@ -66,7 +66,8 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
     shapes.chain(meshes).collect()
 }
 
-/// The materials of the bodies round a point in the world, the outermost first, then [`NONE`].
+/// The materials of the bodies round a point in the world that are transparent in this frame, the
+/// outermost first, then [`NONE`].
 ///
 /// # Errors
 /// More than [`MEDIA_SIZE`] are nested there.

@@ -27,7 +27,7 @@ pub struct OutputDefaults {
     pub transfer: Transfer,
     /// Frames per second of an animation, above 0.
     pub fps: f64,
-    /// Seconds that an animation lasts, above 0; `None`: until the last key of any track.
+    /// Seconds that an animation lasts, above 0; `None`: see [`super::Scene::duration`].
     pub duration: Option<f64>,
     /// When the shutter is open.
     pub shutter: Shutter,

@@ -1,5 +1,6 @@
 //! Moving pictures on the command line: frames as files, runs that go on, videos made of frames.
 
+mod moving;
 mod place;
 mod refusals;
 mod resume;

@@ -31,12 +31,12 @@ pub fn shot(packed: &Arc<PackedScene>, frames: &[Frame], settings: &Settings) ->
     (image, renderer.stats().clone())
 }
 
-fn packed(scene: &Scene, most_laid_out: usize) -> Arc<PackedScene> {
+pub fn packed(scene: &Scene, most_laid_out: usize) -> Arc<PackedScene> {
     Arc::new(pack::scene_with(scene, most_laid_out).expect("a scene that can be packed"))
 }
 
 /// Copies of a ball and a torus, moved, turned, stretched, and mirrored by turns, over a floor.
-fn crowd(materials: [Material; 2]) -> Scene {
+pub fn crowd(materials: [Material; 2]) -> Scene {
     let mut scene = scenes::empty();
     let [first, second] = materials.map(|material| scene.add_material(material) as u32);
     scene.meshes = vec![
@@ -65,14 +65,14 @@ fn crowd(materials: [Material; 2]) -> Scene {
     scene
 }
 
-fn mirror(color: Vec3) -> Material {
+pub fn mirror(color: Vec3) -> Material {
     Material {
         reflect: Vec3::splat(0.5),
         ..scenes::shiny(color)
     }
 }
 
-fn glass() -> Material {
+pub fn glass() -> Material {
     Material {
         diffuse: Vec3::splat(0.05),
         reflect: Vec3::ONE,

@@ -21,13 +21,13 @@ use glimray::{
 use std::{f64::consts::PI, sync::Arc};
 
 /// Size of the pictures, and half of what the camera sees at the distance of the object.
-const SIDE: u32 = 64;
-const HALF: f64 = 1.0;
+pub const SIDE: u32 = 64;
+pub const HALF: f64 = 1.0;
 /// From where: so far that a sphere is as large as its silhouette, to a thousandth.
-const DISTANCE: f64 = 60.0;
+pub const DISTANCE: f64 = 60.0;
 
 /// Nothing before black, seen from far away along −z; x and y of −1 and 1 are the picture's edges.
-fn stage() -> Scene {
+pub fn stage() -> Scene {
     Scene {
         cameras: vec![Camera {
             look_from: dvec3(0.0, 0.0, DISTANCE),
@@ -46,7 +46,7 @@ fn stage() -> Scene {
     }
 }
 
-fn track(target: Target, values: Values) -> Track {
+pub fn track(target: Target, values: Values) -> Track {
     let count = match &values {
         Values::Scalar(values) => values.len(),
         Values::Vector(values) => values.len(),
@@ -65,7 +65,7 @@ fn track(target: Target, values: Values) -> Track {
 }
 
 /// A glowing shape on a node of its own.
-fn carried(geometry: Geometry) -> Scene {
+pub fn carried(geometry: Geometry) -> Scene {
     let mut scene = stage();
     scene.nodes.push(Node::default());
     scene.shapes.push(Shape {
@@ -76,7 +76,7 @@ fn carried(geometry: Geometry) -> Scene {
     scene
 }
 
-fn blurred(samples: u32) -> Settings {
+pub fn blurred(samples: u32) -> Settings {
     Settings {
         samples,
         antialias: Antialias::Stratified,
@@ -85,20 +85,20 @@ fn blurred(samples: u32) -> Settings {
 }
 
 /// The picture of everything that happens from time 0 to 1.
-fn exposed(scene: &Scene, settings: &Settings) -> Image {
+pub fn exposed(scene: &Scene, settings: &Settings) -> Image {
     let packed = Arc::new(pack::scene(scene).expect("a scene that can be packed"));
     shot(&packed, &scene.shot(0.0, 1.0), settings).0
 }
 
 /// Mean of the red channel of some pixels.
-fn mean(image: &Image, pixels: impl Iterator<Item = (u32, u32)>) -> f64 {
+pub fn mean(image: &Image, pixels: impl Iterator<Item = (u32, u32)>) -> f64 {
     let values = pixels.map(|(x, y)| f64::from(image.pixels[(y * image.width + x) as usize][0]));
     let (sum, count) = values.fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
     sum / f64::from(count)
 }
 
 /// Where the middle of a column or row of pixels is on the stage.
-fn place(index: u32) -> f64 {
+pub fn place(index: u32) -> f64 {
     (2.0 * (f64::from(index) + 0.5) / f64::from(SIDE) - 1.0) * HALF
 }
 

@@ -4,6 +4,7 @@
 
 pub mod compare;
 pub mod count;
+mod moment;
 mod optics;
 pub mod scenes;
 pub mod shapes;
@@ -16,6 +17,7 @@ use glimray::render::Rays;
 use glimray::scene::{
     Attenuation, Camera, Form, Geometry, Light, LightKind, Material, Scene, Shape,
 };
+use moment::Carriers;
 use optics::Place;
 use std::f64::consts::TAU;
 
@@ -27,8 +29,17 @@ pub struct Traced {
 }
 
 /// The picture of `scene` through its default camera, one ray through the centre of each pixel.
-pub fn trace(scene: &Scene, (width, height): (u32, u32)) -> Traced {
-    let tracer = Tracer::new(scene);
+pub fn trace(scene: &Scene, size: (u32, u32)) -> Traced {
+    picture(&Tracer::new(scene, &Carriers::default()), size)
+}
+
+/// The same of a moving scene at `time`.
+pub fn trace_at(scene: &Scene, time: f64, size: (u32, u32)) -> Traced {
+    let (still, carriers) = moment::resolve(scene, time);
+    picture(&Tracer::new(&still, &carriers), size)
+}
+
+fn picture(tracer: &Tracer, (width, height): (u32, u32)) -> Traced {
     let aspect = f64::from(width) / f64::from(height);
     let row = |y: u32| {
         let mut rays = Rays::default();
@@ -86,6 +97,7 @@ fn ray_direction(camera: &Camera, at: DVec2) -> DVec3 {
 
 struct Tracer<'a> {
     scene: &'a Scene,
+    carriers: &'a Carriers,
     camera: &'a Camera,
     triangles: Vec<Triangle>,
 }
@@ -98,6 +110,7 @@ struct Triangle {
     normals: [DVec3; 3],
     uvs: [DVec2; 3],
     materials: [u32; 3],
+    instance: usize,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -130,9 +143,9 @@ struct Hit {
 }
 
 impl<'a> Tracer<'a> {
-    fn new(scene: &'a Scene) -> Self {
+    fn new(scene: &'a Scene, carriers: &'a Carriers) -> Self {
         let mut triangles = Vec::new();
-        for instance in &scene.instances {
+        for (index, instance) in scene.instances.iter().enumerate() {
             let mesh = &scene.meshes[instance.mesh];
             let placement = instance.placement;
             let normal_matrix = placement.matrix3.inverse().transpose();
@@ -147,11 +160,13 @@ impl<'a> Tracer<'a> {
                         .map(|i| (normal_matrix * mesh.normals[i].as_dvec3()).normalize()),
                     uvs: indices.map(|i| mesh.uvs.get(i).copied().unwrap_or_default().as_dvec2()),
                     materials: indices.map(|i| mesh.materials[i]),
+                    instance: index,
                 });
             }
         }
         Self {
             scene,
+            carriers,
             camera: &scene.cameras[scene.camera_index],
             triangles,
         }
@@ -202,9 +217,25 @@ impl<'a> Tracer<'a> {
         Hit {
             p,
             n,
-            material: textures::textured(self.scene, material, p, uv),
+            material: textures::textured(
+                self.scene,
+                material,
+                self.pattern_place(primitive, p),
+                uv,
+            ),
             material_index,
             enters: outward.dot(direction) <= 0.0,
+        }
+    }
+
+    /// Where patterns in space are looked up for a point of a primitive.
+    fn pattern_place(&self, primitive: Primitive, p: DVec3) -> DVec3 {
+        match primitive {
+            Primitive::Shape(i) => Carriers::pattern_place(&self.carriers.shapes, i, p),
+            Primitive::Triangle(i) => {
+                let instance = self.triangles[i].instance;
+                Carriers::pattern_place(&self.carriers.instances, instance, p)
+            }
         }
     }
 

@@ -30,7 +30,7 @@ fn finish(renderer: &mut Renderer) {
     }
 }
 
-fn slicings() -> Vec<(&'static str, Slicing)> {
+pub fn slicings() -> Vec<(&'static str, Slicing)> {
     let base = Slicing::default();
     vec![
         (

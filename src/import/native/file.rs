@@ -121,7 +121,8 @@ pub(super) struct OutputTable {
     pub transfer: TransferName,
     /// Frames per second of an animation; 24 if left out.
     pub fps: FrameRate,
-    /// How many seconds an animation lasts; until the last key if left out.
+    /// How many seconds an animation lasts; if left out, until the last key and, there and back, for
+    /// what goes to and fro.
     pub duration: Option<Duration>,
     /// How long the shutter is open while things move: a fraction of the time from frame to frame, an
     /// angle such as "180deg", or [open, close] in frames. 0, without blur, if left out.

@@ -21,10 +21,40 @@ pos: 2 2 1
 col: 1 1 1
 ";
 
+/// A red sphere that crosses the picture in a quarter of a second, on a way that bends: at 24 frames a
+/// second no frame is like another.
+pub const MOVING: &str = r#"
+ambient = [0.1, 0.1, 0.1]
+
+[camera]
+look_from = [0, 0, 6]
+look_at = [0, 0, 0]
+fov_y_deg = 45
+
+[[lights]]
+point = { position = [2, 2, 4], intensity = 1, attenuation = "none" }
+
+[materials]
+red = { phong = { diffuse = [0.7, 0.1, 0.1], specular = [0.2, 0.2, 0.2], shininess = 20 } }
+
+[[objects]]
+name = "ball"
+sphere = { center = [0, 0, 0], radius = 1 }
+material = "red"
+
+[[animation]]
+object = "ball"
+property = "translate"
+keys = [[0, [-1.5, 0, 0]], [0.125, [0.5, 0, 0]], [0.25, [1.5, 0.1, 0]]]
+"#;
+
 /// Names of files and what is in them.
 pub type Files = BTreeMap<String, Vec<u8>>;
 
-pub struct Place(TempDir);
+pub struct Place {
+    folder: TempDir,
+    scene: &'static str,
+}
 
 /// What a run of the program left.
 pub struct Run {
@@ -36,14 +66,25 @@ pub struct Run {
 }
 
 impl Place {
+    /// With a scene in which nothing moves, `a.scene`.
     pub fn new() -> Self {
-        let place = Self(tempfile::tempdir().expect("a temporary folder"));
-        place.write("a.scene", SCENE);
+        Self::with("a.scene", SCENE)
+    }
+
+    /// With a scene of seven frames in which something does, `a.toml`.
+    pub fn moving() -> Self {
+        Self::with("a.toml", MOVING)
+    }
+
+    fn with(scene: &'static str, text: &str) -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let place = Self { folder, scene };
+        place.write(scene, text);
         place
     }
 
     pub fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
+        self.folder.path().join(name)
     }
 
     pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
@@ -56,7 +97,7 @@ impl Place {
 
     pub fn command(&self, line: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_glimray"));
-        command.current_dir(self.0.path());
+        command.current_dir(self.folder.path());
         command.args(line.split_whitespace()).stdin(Stdio::null());
         command
     }
@@ -71,10 +112,11 @@ impl Place {
         }
     }
 
-    /// `animate a.scene` with small pictures, a report and more flags; it must end with `code`.
+    /// `animate` of its scene with small pictures, a report and more flags; it must end with `code`.
     #[track_caller]
     pub fn animate(&self, flags: &str, code: i32) -> Run {
-        let line = format!("animate a.scene --size 32x24 --report - {flags}");
+        let scene = self.scene;
+        let line = format!("animate {scene} --size 32x24 --report - {flags}");
         self.run(&line).expect(code)
     }
 

@@ -1,6 +1,6 @@
 //! Runs that go on where another one stopped.
 
-use super::place::{Place, SCENE};
+use super::place::{MOVING, Place};
 use crate::support::random::Random;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -19,12 +19,12 @@ fn wait_for(place: &Place, folder: &str, count: usize) {
 
 #[test]
 fn five_kills_at_random_moments_leave_whole_frames_and_cost_nothing_in_the_end() {
-    let place = Place::new();
+    let place = Place::moving();
     for folder in ["whole", "killed"] {
         fs::create_dir(place.path(folder)).expect("a folder");
     }
     let flags = "--size 96x72 --samples 2 --frames 0..23";
-    let line = |folder| format!("animate a.scene {flags} -o {folder}/f_%04d.png");
+    let line = |folder| format!("animate a.toml {flags} -o {folder}/f_%04d.png");
     place.run(&line("whole")).expect(0);
     let whole = place.files("whole");
     assert_eq!(whole.len(), 25, "24 frames and their journal");
@@ -54,7 +54,7 @@ fn five_kills_at_random_moments_leave_whole_frames_and_cost_nothing_in_the_end()
 
 #[test]
 fn a_frame_that_is_deleted_cut_or_changed_is_the_only_one_to_be_rendered_again() {
-    let place = Place::new();
+    let place = Place::moving();
     let flags = "--frames 0..5 -o f_%d.png";
     assert_eq!(place.animate(flags, 0).counts(), (6, 0));
     let whole = place.files(".");
@@ -82,7 +82,7 @@ fn a_frame_that_is_deleted_cut_or_changed_is_the_only_one_to_be_rendered_again()
 
 #[test]
 fn what_has_changed_is_named_and_all_that_depends_on_it_is_rendered_again() {
-    let place = Place::new();
+    let place = Place::moving();
     let flags = "--frames 0..3 -o f_%d.png";
     place.animate(flags, 0);
     let redone = |more: &str, why: &str| {
@@ -99,7 +99,7 @@ fn what_has_changed_is_named_and_all_that_depends_on_it_is_rendered_again() {
         "--samples 2 --exposure 1 --fov-y 40",
         "what moves, the camera or the lights have changed",
     );
-    place.write("a.scene", SCENE.replace("rad: 1", "rad: 2"));
+    place.write("a.toml", MOVING.replace("radius = 1", "radius = 2"));
     redone(
         "--samples 2 --exposure 1 --fov-y 40",
         "the scene has changed",
@@ -119,14 +119,14 @@ fn what_has_changed_is_named_and_all_that_depends_on_it_is_rendered_again() {
         place.animate(&format!("{flags} {more}"), 0).counts(),
         (0, 4)
     );
-    // Nothing moves here, so other frames of the same pattern stay as they are.
+    // Other frames of the same pattern are those that are there already, and new ones.
     let other = flags.replace("0..3", "2..5") + " " + more;
     assert_eq!(place.animate(&other, 0).counts(), (2, 2));
 }
 
 #[test]
 fn a_journal_that_cannot_be_read_costs_frames_and_no_more() {
-    let place = Place::new();
+    let place = Place::moving();
     let flags = "--frames 0..2 -o f_%d.png";
     place.animate(flags, 0);
     let whole = place.files(".");
@@ -148,7 +148,7 @@ fn a_journal_that_cannot_be_read_costs_frames_and_no_more() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_disk_that_is_full_at_frame_17_keeps_sixteen_and_the_same_command_goes_on() {
-    let place = Place::new();
+    let place = Place::moving();
     fs::create_dir(place.path("f")).expect("a folder");
     let flags = "--frames 1..24 -o f/f_%02d.png";
     // A device without room, where the frame is to go.
@@ -172,9 +172,9 @@ fn a_disk_that_is_full_at_frame_17_keeps_sixteen_and_the_same_command_goes_on() 
 #[cfg(unix)]
 #[test]
 fn a_second_run_into_a_folder_is_refused_and_ctrl_c_keeps_what_the_first_one_did() {
-    let place = Place::new();
+    let place = Place::moving();
     fs::create_dir(place.path("f")).expect("a folder");
-    let line = "animate a.scene --size 32x24 --frames 0..99999 -o f/f_%d.png";
+    let line = "animate a.toml --size 32x24 --frames 0..99999 -o f/f_%d.png";
     let mut first = place.start(line);
     wait_for(&place, "f", 3);
     let second = place.animate("--frames 0..3 -o f/other_%d.png", 4);
@@ -209,8 +209,8 @@ fn a_second_run_into_a_folder_is_refused_and_ctrl_c_keeps_what_the_first_one_did
 
 #[test]
 fn progress_in_json_counts_frames_and_knows_the_time_left() {
-    let place = Place::new();
-    let line = "animate a.scene --size 128x96 --samples 8 --frames 0..9 --quiet --progress json -o f_%d.png";
+    let place = Place::moving();
+    let line = "animate a.toml --size 128x96 --samples 8 --frames 0..9 --quiet --progress json -o f_%d.png";
     let mut run = place.start(line);
     let stderr = BufReader::new(run.stderr.take().expect("a pipe"));
     let lines: Vec<serde_json::Value> = stderr

@@ -17,7 +17,7 @@ fn y4m_frames(bytes: &[u8]) -> usize {
 
 #[test]
 fn a_video_is_made_of_frames_that_stay_and_again_without_rendering() {
-    let place = Place::new();
+    let place = Place::moving();
     let run = place.animate("--frames 0..7 -o v.y4m", 0);
     assert_eq!(run.counts(), (8, 0));
     assert_eq!(place.frames("v.y4m.frames").len(), 8);
@@ -63,7 +63,7 @@ fn a_video_is_made_of_frames_that_stay_and_again_without_rendering() {
 
 #[test]
 fn frames_of_a_video_are_discarded_on_request_but_not_what_is_beside_them() {
-    let place = Place::new();
+    let place = Place::moving();
     place.animate("--frames 0..2 -o v.y4m --discard-frames", 0);
     assert!(!place.path("v.y4m.frames").exists());
     fs::create_dir(place.path("d")).expect("a folder");
@@ -77,8 +77,8 @@ fn frames_of_a_video_are_discarded_on_request_but_not_what_is_beside_them() {
 
 #[test]
 fn a_stream_is_nothing_but_the_video_and_leaves_no_file() {
-    let place = Place::new();
-    let line = "animate a.scene --size 32x24 --frames 0..3 --quiet -o - --format y4m";
+    let place = Place::moving();
+    let line = "animate a.toml --size 32x24 --frames 0..3 --quiet -o - --format y4m";
     let run = place.run(line).expect(0);
     assert_eq!(y4m_frames(&run.stdout), 4);
     assert_eq!(run.stderr, "");
@@ -93,7 +93,7 @@ fn a_stream_is_nothing_but_the_video_and_leaves_no_file() {
 
 #[test]
 fn loop_leaves_out_the_last_frame() {
-    let place = Place::new();
+    let place = Place::moving();
     for (range, numbers) in [
         ("--frames 0..4 --loop", vec![0, 1, 2, 3]),
         ("--frames 0..4 --loop --step 2", vec![0, 2]),
@@ -114,7 +114,7 @@ fn loop_leaves_out_the_last_frame() {
 
 #[test]
 fn names_of_frames_are_what_the_pattern_says() {
-    let place = Place::new();
+    let place = Place::moving();
     for (pattern, name, journal) in [
         ("a%%b_%03d.png", "a%b_007.png", "a%b_journal.png.jsonl"),
         ("take#2_%d.jpg", "take#2_7.jpg", "take#2_journal.jpg.jsonl"),
@@ -131,7 +131,7 @@ fn names_of_frames_are_what_the_pattern_says() {
 
 #[test]
 fn frames_of_another_number_of_digits_are_others() {
-    let place = Place::new();
+    let place = Place::moving();
     place.animate("--frames 8..10 -o f_%d.png", 0);
     let run = place.animate("--frames 8..10 -o f_%02d.png", 0);
     // Frame 10 has two digits either way.
@@ -144,16 +144,14 @@ fn frames_of_another_number_of_digits_are_others() {
 
 #[test]
 fn render_makes_the_same_frame_as_animate() {
-    let place = Place::new();
+    let place = Place::moving();
     let flags = "--size 32x24 --samples 3 --fps 10 --shutter 180deg";
     place
-        .run(&format!(
-            "animate a.scene {flags} --frames 3..5 -o f_%d.png"
-        ))
+        .run(&format!("animate a.toml {flags} --frames 3..5 -o f_%d.png"))
         .expect(0);
     for (when, name) in [("--frame 4", "f_4.png"), ("--time 0.5", "f_5.png")] {
         place
-            .run(&format!("render a.scene {flags} {when} -o one.png"))
+            .run(&format!("render a.toml {flags} {when} -o one.png"))
             .expect(0);
         assert!(place.read("one.png") == place.read(name), "{when}");
     }
@@ -161,10 +159,10 @@ fn render_makes_the_same_frame_as_animate() {
 
 #[test]
 fn a_turntable_is_a_loop_of_whole_frames() {
-    let place = Place::new();
+    let place = Place::moving();
     let flags = "--seconds 0.26 --fps 20 --size 32x24 --report -";
     let run = place
-        .run(&format!("turntable a.scene {flags} -o t.y4m"))
+        .run(&format!("turntable a.toml {flags} -o t.y4m"))
         .expect(0);
     // 5.2 frames are rounded to 5, numbered from 0.
     assert_eq!(run.counts(), (5, 0));

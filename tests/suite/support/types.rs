@@ -1,7 +1,9 @@
 //! The structs of `shaders/types.wesl` that functions take and return.
 
 use super::words::shader_struct;
-use glimray::layout::{NO_INSTANCE, NONE, PackedCamera, PackedLight, PackedShape, PackedTone};
+use glimray::layout::{
+    NO_INSTANCE, NONE, PackedCamera, PackedKey, PackedLight, PackedShape, PackedTone,
+};
 
 pub const T_FAR: f32 = 3e38;
 
@@ -70,6 +72,21 @@ pub struct Incident {
     pub radiance: [f32; 3],
 }
 
+/// See `lib/motion.wesl`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    pub key: u32,
+    pub share: f32,
+}
+
+/// See `lib/motion.wesl`. Matrices are lists of columns; only ever a result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Space {
+    pub translation: [f32; 3],
+    pub linear: [[f32; 3]; 3],
+    pub inverse: [[f32; 3]; 3],
+}
+
 /// A point on a canonical surface: see `shaders/lib/form.wesl`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FormPoint {
@@ -79,6 +96,21 @@ pub struct FormPoint {
 }
 
 shader_struct!(FormPoint = "package::lib::form::FormPoint" { p: [f32; 3], n: [f32; 3], uv: [f32; 2], });
+shader_struct!(Moment = "package::lib::motion::Moment" { key: u32, share: f32, });
+shader_struct!(Space = "package::lib::motion::Space" {
+    translation: [f32; 3],
+    linear: [[f32; 3]; 3],
+    inverse: [[f32; 3]; 3],
+});
+shader_struct!(PackedKey = "package::types::PackedKey" {
+    translation: [f32; 3],
+    _pad0: u32,
+    rotation: [f32; 4],
+    stretch: [f32; 3],
+    _pad1: u32,
+    shear: [f32; 3],
+    _pad2: u32,
+});
 shader_struct!(Ray = "package::types::Ray" {
     origin: [f32; 3],
     t_max: f32,
