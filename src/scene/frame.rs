@@ -5,7 +5,7 @@ mod light;
 mod material;
 
 use super::{
-    Background, Camera, Curve, Light, Material, NodeProperty, Scene, Target, Value, Values,
+    Background, Beyond, Camera, Curve, Light, Material, NodeProperty, Scene, Target, Value, Values,
 };
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 
@@ -86,10 +86,16 @@ impl Scene {
         self.tracks.iter().any(|track| !track.curve.is_constant())
     }
 
-    /// Seconds that the animation lasts: what the file says, else until the last key of any track; 0
-    /// where that is nothing.
+    /// Seconds that the animation lasts: what the file says, else until the last key of any track, and
+    /// until what goes to and fro is back; 0 where that is nothing.
     pub fn duration(&self) -> f64 {
-        let ends = self.tracks.iter().map(|track| track.curve.span().1);
+        let ends = self.tracks.iter().map(|track| {
+            let (first, last) = track.curve.span();
+            match track.curve.beyond {
+                Beyond::PingPong => last + (last - first),
+                Beyond::Hold | Beyond::Repeat => last,
+            }
+        });
         (self.output.duration).unwrap_or_else(|| ends.fold(0.0, f64::max))
     }
 }
