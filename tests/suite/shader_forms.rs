@@ -47,7 +47,7 @@ const FORMS: [Form; 15] = [
 
 /// Wraps the shader functions of all forms: `test` and `point`.
 const FORM: &str = "
-    import package::types::{Candidate, NONE, PackedShape, Ray, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_TORUS};
+    import package::types::{Candidate, NONE, NO_INSTANCE, PackedShape, Ray, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_TORUS};
     import package::lib::form::{FormPoint, PlacedPoint, form_ray, form_vector, placed_point};
     import package::lib::offset::offset_origin;
     import package::lib::intersect::box::{box_point, intersect_box};
@@ -686,7 +686,7 @@ fn a_ray_that_leaves_a_form_does_not_hit_it_again_at_any_scale() {
             let tangent = normalize(aside - dot(aside, at.ng) * at.ng);
             let direction = normalize(tangent * sqrt(1.0 - cosine * cosine) + cosine * at.ng);
             let origin = offset_origin(at.p, at.error, at.ng, direction);
-            let again = test(form_ray(Ray(origin, 3e38, direction, NONE), shape), shape.kind, sizes_of(shape));
+            let again = test(form_ray(Ray(origin, 3e38, direction, NONE, NO_INSTANCE), shape), shape.kind, sizes_of(shape));
             // Rounding may turn a ray that grazes to the other side.
             return vec2u(u32(hit.hit & (dot(at.ng, direction) > 0.0)), u32(again.hit));
         }
@@ -748,7 +748,7 @@ fn a_ray_into_a_body_comes_out_of_it() {
             let tangent = normalize(aside - dot(aside, at.ng) * at.ng);
             let direction = normalize(tangent * sqrt(1.0 - cosine * cosine) - cosine * at.ng);
             let origin = offset_origin(at.p, at.error, at.ng, direction);
-            let out = test(form_ray(Ray(origin, 3e38, direction, NONE), shape), shape.kind, sizes_of(shape));
+            let out = test(form_ray(Ray(origin, 3e38, direction, NONE, NO_INSTANCE), shape), shape.kind, sizes_of(shape));
             return vec2u(u32(hit.hit), u32(out.hit));
         }
     ";

@@ -122,13 +122,13 @@ fn a_ray_leaves_a_triangle_far_from_the_origin() {
 #[test]
 fn a_ray_from_a_plane_sees_another_just_above_it() {
     const LOOK_UP: &str = "
-        import package::types::{NONE, Ray};
+        import package::types::{NONE, NO_INSTANCE, Ray};
         import package::lib::intersect::plane::intersect_plane;
         import package::lib::offset::{offset_origin, plane_error};
         fn probe(p: vec3f, above: vec3f) -> bool {
             let n = vec3f(0.0, 0.0, 1.0);
             let origin = offset_origin(p, plane_error(p, p), n, n);
-            return intersect_plane(Ray(origin, 3e38, n, NONE), above, n).hit;
+            return intersect_plane(Ray(origin, 3e38, n, NONE, NO_INSTANCE), above, n).hit;
         }
     ";
     let mut rows = Vec::new();

@@ -151,7 +151,7 @@ fn an_earth_at_the_feet_is_hit_to_the_rounding_of_its_radius() {
 #[test]
 fn a_ray_that_leaves_a_sphere_does_not_hit_it_again() {
     const LEAVE: &str = "
-        import package::types::{NONE, Ray};
+        import package::types::{NONE, NO_INSTANCE, Ray};
         import package::lib::intersect::sphere::intersect_sphere;
         import package::lib::numeric::normalize_or;
         import package::lib::offset::{offset_origin, sphere_error};
@@ -159,7 +159,7 @@ fn a_ray_that_leaves_a_sphere_does_not_hit_it_again() {
             let ng = normalize_or(toward, vec3f(0.0, 1.0, 0.0));
             let p = center + radius * ng;
             let origin = offset_origin(p, sphere_error(center, radius), ng, direction);
-            return intersect_sphere(Ray(origin, 3e38, direction, NONE), center, radius).hit;
+            return intersect_sphere(Ray(origin, 3e38, direction, NONE, NO_INSTANCE), center, radius).hit;
         }
     ";
     let mut random = Random::new(7);

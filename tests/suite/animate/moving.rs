@@ -205,7 +205,7 @@ fn a_turn_is_seamless_and_keeps_the_model_in_the_picture() {
     }
     // From the last frame to the first is a step like all others.
     let step = |i: usize| distance(&pictures[i % frames], &pictures[(i + 1) % frames]);
-    let inner = (0..frames - 1).map(|i| step(i));
+    let inner = (0..frames - 1).map(&step);
     let (least, most) = inner.fold((f64::INFINITY, 0.0_f64), |(a, b), d| (a.min(d), b.max(d)));
     let seam = step(frames - 1);
     assert!(
