@@ -19,7 +19,7 @@ pub const PLACED_STACK: usize = 60;
 /// A tree and how it comes into the world.
 #[derive(Clone, Debug)]
 pub struct Placed {
-    /// Index into [`Plan::trees`].
+    /// Index among the trees that are placed.
     pub tree: usize,
     pub carrier: Carrier,
 }
