@@ -15,10 +15,6 @@ use crate::{
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
-/// Groups of boxes: parts of the tree of what stands still, and instances.
-const PARTS: u8 = 0;
-const INSTANCES: u8 = 1;
-
 /// What is placed, as the GPU wants it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Placements {
@@ -47,21 +43,20 @@ impl PackedScene {
         first_node: u32,
     ) -> Result<Placements, PackError> {
         let mut view = Placements::default();
-        let mut boxes = Vec::new();
-        let mut references = [Vec::new(), Vec::new()];
+        // Boxes, and the child references to what is in them: first parts of the tree of what stands
+        // still, then instances.
+        let (mut boxes, mut references) = (Vec::new(), Vec::new());
         for &(aabb, reference) in &self.still_parts {
             boxes.push(still(aabb));
-            references[PARTS as usize].push(reference);
+            references.push(reference);
         }
         for (id, placed) in self.placed.iter().enumerate() {
             if let Some(swept) = self.place(placed, id as u32, frames, &mut view)? {
                 boxes.push(swept);
-                references[INSTANCES as usize].push(INSTANCE | (view.instances.len() - 1) as u32);
+                references.push(INSTANCE | (view.instances.len() - 1) as u32);
             }
         }
         view.moves = view.instances.iter().any(|instance| instance.key_count > 1);
-        let mut groups = vec![PARTS; self.still_parts.len()];
-        groups.resize(boxes.len(), INSTANCES);
         // One entry leads back from a tree that is placed, and the last store of a step lies one beyond.
         let limit = STACK_SIZE as usize - 2;
         let limits = bvh::Limits {
@@ -71,7 +66,8 @@ impl PackedScene {
         let unions: Vec<_> = (boxes.iter())
             .map(|swept| swept.open.union(swept.close))
             .collect();
-        let bvh = bvh::build(&unions, &groups, references.len(), limits);
+        // A leaf has one box, so that it does not matter what kind the others are of.
+        let bvh = bvh::build(&unions, &vec![0; unions.len()], 1, limits);
         let need = bvh.stack_need + self.stack_need;
         if need > limit {
             return Err(PackError::TooDeep { need, limit });
@@ -92,7 +88,7 @@ impl PackedScene {
             return Ok(None);
         }
         let world_from_tree = |frame| placed.carrier.world_from_tree(frame);
-        let Some(worlds) = frames
+        let Some(mut worlds) = frames
             .iter()
             .map(world_from_tree)
             .collect::<Option<Vec<_>>>()
@@ -101,6 +97,10 @@ impl PackedScene {
         };
         let to_render = DAffine3::from_translation(-self.origin);
         let tree = &self.placed_trees[placed.tree];
+        let moves = worlds.iter().any(|world| *world != worlds[0]);
+        if !moves {
+            worlds.truncate(1);
+        }
         for &world in &worlds {
             let (min, max) = tree.bounds(to_render * world);
             in_range(min.abs().max(max.abs()).max_element())?;
@@ -129,7 +129,7 @@ impl PackedScene {
             pattern_z: pattern[2],
             ..Default::default()
         };
-        let swept = if worlds.iter().all(|world| *world == worlds[0]) {
+        let swept = if !moves {
             let (min, max) = tree.bounds(first);
             still(rounded_outwards(min, max))
         } else {
@@ -230,19 +230,15 @@ fn steps_between(from: &Placement, to: &Placement) -> u32 {
 fn pack_nodes(
     bvh: &Bvh,
     boxes: &[Swept],
-    references: &[Vec<u32>; 2],
+    references: &[u32],
     first_node: u32,
     moves: bool,
 ) -> Vec<PackedNode> {
-    let place = |group: u8, first: u32| bvh.order[group as usize][first as usize] as usize;
-    let part_count = references[PARTS as usize].len();
+    let place = |first: u32| bvh.order[0][first as usize] as usize;
     let reference = |child: &Child| match *child {
         Child::Node(index) if moves => (first_node + 2 * index) | MOVING,
         Child::Node(index) => first_node + index,
-        Child::Leaf { group, first, .. } => {
-            let offset = if group == PARTS { 0 } else { part_count };
-            references[group as usize][place(group, first) - offset]
-        }
+        Child::Leaf { first, .. } => references[place(first)],
     };
     if !moves {
         let pack = |node| nodes::quantize(node, reference);
@@ -258,7 +254,7 @@ fn pack_nodes(
     for (i, node) in bvh.nodes.iter().enumerate().rev() {
         let swept_of = |child: &Child| match *child {
             Child::Node(index) => bounds[index as usize],
-            Child::Leaf { group, first, .. } => boxes[place(group, first)],
+            Child::Leaf { first, .. } => boxes[place(first)],
         };
         let (mut open, mut close) = (node.clone(), node.clone());
         let mut own = still(nothing);
