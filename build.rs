@@ -1,6 +1,6 @@
 //! Links every kernel under `shaders/` to plain WGSL, once for each way of fetching geometry with and
 //! without what places instances and moves, so that the binary carries its shaders and a broken import
-//! stops the build.
+//! stops the build. `explain` is the kernel `whitted` with the feature `record`.
 
 use std::{error::Error, path::Path, process::ExitCode};
 
@@ -17,7 +17,13 @@ fn main() -> ExitCode {
 
 fn link_kernels() -> Result<(), Box<dyn Error>> {
     let out = std::env::var("OUT_DIR")?;
-    for kernel in ["whitted", "debug_view", "develop"] {
+    for (kernel, module) in [
+        ("whitted", "whitted"),
+        ("debug_view", "debug_view"),
+        ("develop", "develop"),
+        ("show", "show"),
+        ("explain", "whitted"),
+    ] {
         let variants = [
             ("image", true, false),
             ("buffer", false, false),
@@ -28,7 +34,8 @@ fn link_kernels() -> Result<(), Box<dyn Error>> {
             let mut compiler = wesl::Wesl::new("shaders");
             compiler.set_feature("image_fetch", image_fetch);
             compiler.set_feature("moving", moving);
-            let linked = compiler.compile(&format!("package::kernels::{kernel}").parse()?)?;
+            compiler.set_feature("record", kernel != module);
+            let linked = compiler.compile(&format!("package::kernels::{module}").parse()?)?;
             let path = Path::new(&out).join(format!("{kernel}_{variant}.wgsl"));
             std::fs::write(path, linked.to_string())?;
         }

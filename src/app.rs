@@ -8,11 +8,13 @@ mod clock;
 mod compare;
 mod completions;
 mod console;
+mod convert;
 mod demo;
 mod destination;
 mod device;
 mod doctor;
 pub mod exit;
+mod explain;
 mod inspect;
 mod interrupt;
 mod job;
@@ -22,6 +24,7 @@ mod picture;
 mod progress;
 mod render;
 mod report;
+pub mod scene_file;
 mod schema;
 mod turntable;
 
@@ -52,7 +55,9 @@ fn dispatch(command: Command, started: Instant) -> Result<(), AppError> {
         Command::Render(arguments) => render::run(&arguments, started),
         Command::Animate(arguments) => animate::run(&arguments, started),
         Command::Turntable(arguments) => turntable::run(&arguments, started),
+        Command::Convert(arguments) => convert::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),

@@ -32,12 +32,13 @@ use std::{
 const WAIT: Duration = Duration::from_secs(10);
 const WAITS: u32 = 3;
 
-/// An open device with its queue.
+/// An open device with its queue. A clone is the same device.
+#[derive(Clone)]
 pub struct Gpu {
     choice: AdapterChoice,
     report: AdapterReport,
-    /// What the adapter could give at the most.
-    adapter_limits: wgpu::Limits,
+    pub(crate) instance: wgpu::Instance,
+    pub(crate) adapter: wgpu::Adapter,
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     lost: Arc<AtomicBool>,
@@ -63,9 +64,35 @@ impl Gpu {
 
     /// Opens an adapter with limits that serve `needs`.
     pub(crate) fn open(choice: &AdapterChoice, needs: Needs) -> Result<Self, GpuError> {
-        let (adapter, report) = adapter::choose(choice)?;
-        let adapter_limits = adapter.limits();
-        let required_limits = limits_for(needs, &adapter_limits)?;
+        let found = adapter::choose(choice)?;
+        let required_limits = limits_for(needs, &found.adapter.limits())?;
+        Self::request(found, choice, required_limits)
+    }
+
+    /// Opens an adapter with limits that serve whatever it can serve at all. For a device that is
+    /// shared, and so cannot give way to one with higher limits.
+    pub fn with_all_limits(choice: &AdapterChoice) -> Result<Self, GpuError> {
+        let found = adapter::choose(choice)?;
+        let most = found.adapter.limits();
+        let required_limits = wgpu::Limits {
+            max_storage_buffer_binding_size: most.max_storage_buffer_binding_size,
+            max_buffer_size: most.max_buffer_size,
+            max_texture_dimension_2d: most.max_texture_dimension_2d,
+            ..limits_for(Needs::default(), &most)?
+        };
+        Self::request(found, choice, required_limits)
+    }
+
+    fn request(
+        found: adapter::Found,
+        choice: &AdapterChoice,
+        required_limits: wgpu::Limits,
+    ) -> Result<Self, GpuError> {
+        let adapter::Found {
+            instance,
+            adapter,
+            report,
+        } = found;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("glimray"),
             required_limits,
@@ -92,7 +119,8 @@ impl Gpu {
         Ok(Self {
             choice: choice.clone(),
             report,
-            adapter_limits,
+            instance,
+            adapter,
             device,
             queue,
             lost,
@@ -105,8 +133,13 @@ impl Gpu {
         if self.serves(needs) {
             return Ok(self);
         }
-        limits_for(needs, &self.adapter_limits)?;
+        self.check_limits(needs)?;
         Self::open(&self.choice, needs)
+    }
+
+    /// Whether a device on this adapter could have limits that serve `needs`.
+    pub(crate) fn check_limits(&self, needs: Needs) -> Result<(), GpuError> {
+        limits_for(needs, &self.adapter.limits()).map(drop)
     }
 
     /// Whether this device's limits allow for `needs`.
@@ -115,6 +148,16 @@ impl Gpu {
         needs.binding_bytes <= limits.max_storage_buffer_binding_size
             && needs.binding_bytes <= limits.max_buffer_size
             && needs.texture_side <= limits.max_texture_dimension_2d
+    }
+
+    /// The device with what it came from, for others who draw with it.
+    pub fn handles(&self) -> (wgpu::Instance, wgpu::Adapter, wgpu::Device, wgpu::Queue) {
+        (
+            self.instance.clone(),
+            self.adapter.clone(),
+            self.device.clone(),
+            self.queue.clone(),
+        )
     }
 
     /// What this device was asked for by.

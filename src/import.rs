@@ -7,6 +7,7 @@
 //! | `.nff` | Haines' Neutral File Format | `nff.rs` |
 //! | `.obj` | Wavefront OBJ with MTL | `obj.rs` |
 //!
+//! `ply.rs` reads Stanford's PLY files, of which native scenes place triangles and points.
 //! Pictures that scenes and models name are read by `picture.rs`.
 //!
 //! Files are hostile until read: nothing here panics, follows a path out of the scene's folder, or
@@ -23,6 +24,7 @@ mod number;
 mod obj;
 mod paths;
 mod picture;
+mod ply;
 mod polygon;
 mod source;
 mod stage;
@@ -30,11 +32,12 @@ mod suggest;
 
 pub use error::{Fault, ImportError, Position};
 
-use crate::scene::Scene;
+use crate::scene::{Picture, Scene};
 use error::fault;
-use paths::Files;
+use paths::{Files, Seen};
 use source::Source;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// What a caller may add to a scene file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -46,6 +49,12 @@ pub struct Options {
     /// bare word is a string.
     pub overrides: Vec<String>,
 }
+
+/// The endings of the files that [`load`] reads, in lower case.
+pub const SCENE_ENDINGS: &[&str] = &["toml", "scene", "nff", "obj"];
+
+/// The endings of the files that [`picture()`] reads, as they usually are.
+pub const PICTURE_ENDINGS: &[&str] = &["hdr", "exr", "png", "jpg", "jpeg"];
 
 /// The largest geometry file (`.scene`, `.nff`, `.obj`) that is read, in bytes.
 const MAX_GEOMETRY_BYTES: u64 = 2 << 30;
@@ -64,6 +73,19 @@ pub fn load(path: &Path) -> Result<Scene, ImportError> {
 /// The file or one it names is missing, unreadable, too big, malformed or outside the scene's
 /// folder; the ending is unknown; an override does not fit, or the format takes none.
 pub fn load_with(path: &Path, options: &Options) -> Result<Scene, ImportError> {
+    load_seen(path, options, &Seen::default())
+}
+
+/// The scene in the file at `path`, and every file that it comes from or asked for: the file itself,
+/// meshes, material libraries, pictures; those too that are missing. Whoever watches them for changes
+/// knows when to load it again, whether it could be loaded or not.
+pub fn load_watched(path: &Path, options: &Options) -> (Result<Scene, ImportError>, Vec<PathBuf>) {
+    let seen = Seen::default();
+    seen.note(path);
+    (load_seen(path, options, &seen), seen.paths())
+}
+
+fn load_seen(path: &Path, options: &Options, seen: &Seen) -> Result<Scene, ImportError> {
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
     let is_native = match ending.to_str() {
         Some("toml") => true,
@@ -71,7 +93,7 @@ pub fn load_with(path: &Path, options: &Options) -> Result<Scene, ImportError> {
         _ => return Err(unknown_format(path)),
     };
     if is_native {
-        let files = Files::beside(path, &options.allow_dirs)?;
+        let files = Files::beside(path, &options.allow_dirs, seen)?;
         return native::read(&native::open(path)?, options, &files);
     }
     if !options.overrides.is_empty() {
@@ -86,7 +108,7 @@ pub fn load_with(path: &Path, options: &Options) -> Result<Scene, ImportError> {
     if ending == "nff" {
         return nff::read(&Source::new("bad scene", path, bytes)?);
     }
-    let files = Files::beside(path, &options.allow_dirs)?;
+    let files = Files::beside(path, &options.allow_dirs, seen)?;
     obj::read_scene(&Source::new("bad model", path, bytes)?, &files)
 }
 
@@ -102,6 +124,23 @@ pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportE
         Some("scene") => course::read(&source),
         Some("nff") => nff::read(&source),
         _ => native::read(&source, options, &Files::none()),
+    }
+}
+
+/// The picture in the file at `path`, as linear colours.
+///
+/// # Errors
+/// The file is missing, unreadable, too big, or no picture that is known.
+pub fn picture(path: &Path) -> Result<Arc<Picture>, ImportError> {
+    let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let files = Files::beside(&whole, &[], &Seen::default())?;
+    let name = whole.file_name().unwrap_or_default().to_string_lossy();
+    let mut pictures = picture::Pictures::default();
+    match pictures.read(&files, &name) {
+        Ok(index) => Ok(pictures.pictures.swap_remove(index)),
+        Err(refused) => Err(refused.into_error(|why, todo| {
+            ImportError::Malformed(fault("picture refused", path, &why, todo))
+        })),
     }
 }
 

@@ -383,4 +383,88 @@ packed! {
         #[doc(hidden)]
         _pad: u32,
     }
+    /// A sample of which every ray is to be recorded, and what came of it.
+    PackedProbe {
+        /// Column in the picture, or [`NONE`] where there is no sample to take.
+        pixel_x: u32,
+        /// Row in the picture.
+        pixel_y: u32,
+        /// Index of the sample.
+        sample: u32,
+        /// Row of 16 bytes of its first [`PackedRay`].
+        first_row: u32,
+        /// Rays for which there is room.
+        ray_limit: u32,
+        /// Comes back: rays that were traced.
+        ray_count: u32,
+        /// Comes back: 1, or -1 where the filter is negative.
+        weight: f32,
+        /// Comes back: moment in the shot, 0 to 1.
+        time: f32,
+        /// Comes back: what the sample adds to the film.
+        color: [f32; 3],
+        /// Comes back: whether the tree outgrew what a tree may have.
+        cut_off: u32,
+    }
+    /// A ray that was traced, in render space; `shaders/types.wesl` says more.
+    PackedRay {
+        /// Where it starts.
+        origin: [f32; 3],
+        /// [`RAY_PRIMARY`] and so on.
+        kind: u32,
+        /// Of unit length.
+        direction: [f32; 3],
+        /// Distance to what it met.
+        t: f32,
+        /// Where that is.
+        p: [f32; 3],
+        /// What it met, or [`NONE`].
+        primitive: u32,
+        /// Shading normal.
+        n: [f32; 3],
+        /// Index of an instance of the view, or [`NO_INSTANCE`].
+        instance: u32,
+        /// Geometric normal.
+        ng: [f32; 3],
+        /// Index of a [`PackedMaterial`], or [`NONE`].
+        material: u32,
+        /// Share in the sample where it starts.
+        throughput: [f32; 3],
+        /// Number of the ray that sent it, or [`NONE`].
+        parent: u32,
+        /// Share in the sample where it ends.
+        arriving: [f32; 3],
+        /// [`RAY_OUTSIDE`] and so on.
+        flags: u32,
+        /// What it adds itself to the sample.
+        contribution: [f32; 3],
+        /// Of a shadow ray: index of a light, else [`NONE`].
+        light: u32,
+        /// Ambient part; of a shadow ray: what the light adds without a shadow.
+        ambient: [f32; 3],
+        /// Material of the medium that it travelled in, or [`NONE`].
+        medium: u32,
+        /// Emitted part.
+        emission: [f32; 3],
+        /// Material of the medium behind the surface, or [`NONE`].
+        medium_behind: u32,
+        /// Share that is mirrored.
+        reflect: [f32; 3],
+        /// Fresnel's.
+        reflectance: f32,
+        /// Share that is refracted; of a shadow ray: that came through.
+        transmit: [f32; 3],
+        /// Index of refraction in front of the surface.
+        ior: f32,
+        /// Materials of the media round its origin, outermost first, then [`NONE`].
+        media: [u32; 4],
+        /// Index of refraction behind the surface.
+        ior_behind: f32,
+        /// Of a shadow ray: distance to the light.
+        t_max: f32,
+        /// Of a shadow ray: surfaces that it met.
+        crossings: u32,
+        #[doc(hidden)]
+        _pad: u32,
+    }
 }

@@ -76,7 +76,8 @@
 //! | [`layout`] | the structs and tags that shaders also see | |
 //! | [`pack`] | `Scene` → arrays for the GPU; no device needed | `scene`, `bvh`, `layout` |
 //! | [`gpu`] | the device, its memory, its loss, its errors | |
-//! | [`render`] | steps, film, adaptive rounds, developing | `pack`, `layout`, `gpu`, `image`, `scene` |
+//! | [`render`] | steps, film, adaptive rounds, developing, ray trees | `pack`, `layout`, `gpu`, `image`, `scene` |
+//! | [`export`] | `Scene` → native scene file | `scene` |
 //! | [`image`](mod@image) | a finished picture in memory | |
 //! | [`output`] | `Image` → file, frames → video, complete or absent | `image` |
 //! | [`app`] | the command line | everything |
@@ -90,6 +91,7 @@
 
 pub mod app;
 pub mod bvh;
+pub mod export;
 pub mod gpu;
 pub mod image;
 pub mod import;

@@ -8,8 +8,10 @@ mod light;
 mod material;
 mod media;
 mod nodes;
+mod object;
 mod placed;
 mod placement;
+mod surfaces;
 mod view;
 
 pub use frame::PackedView;
@@ -27,6 +29,7 @@ use bytemuck::cast_slice;
 use forest::Forest;
 use geometry::Flat;
 use glam::DVec3;
+use object::Origins;
 use placed::{Placed, PlacedTree, Plan};
 use std::time::Instant;
 
@@ -49,7 +52,7 @@ pub struct PackedScene {
     pub plane_count: u32,
     /// In scene order, mesh by mesh.
     pub vertices: Vec<PackedVertex>,
-    /// (u, v, 0, 0) of each vertex; empty where no texture asks for them.
+    /// (u, v, 0, 0) of each vertex, zeros in meshes without; empty where no mesh has any.
     pub uvs: Vec<[f32; 4]>,
     /// In scene order, then those of visible lights.
     pub materials: Vec<PackedMaterial>,
@@ -71,6 +74,8 @@ pub struct PackedScene {
     placed: Vec<Placed>,
     /// The scene's materials where its visible lights or a track may change some.
     changing: Option<Changing>,
+    /// What everything is in the scene.
+    origins: Origins,
     /// Where render space has its origin, in world space: at the scene's default camera, where the
     /// picture needs f32 to be finest.
     pub origin: DVec3,
@@ -201,18 +206,7 @@ pub fn scene_with(scene: &Scene, most_laid_out: usize) -> Result<PackedScene, Pa
         instances: !placed.is_empty(),
         ..material::features(scene)
     };
-    let lamps: Vec<usize> = light::visible(scene).collect();
-    let lamp_materials = lamps
-        .iter()
-        .map(|&index| light::material(&rest.lights[index]));
-    let rest_materials = match &rest.materials[..] {
-        [] => &scene.materials,
-        changed => changed,
-    };
-    let materials = (rest_materials.iter().map(material::material))
-        .chain(lamp_materials.map(|lamp| material::material(&lamp)))
-        .collect();
-    let is_changing = !rest.materials.is_empty() || (!lamps.is_empty() && !scene.tracks.is_empty());
+    let (materials, changing) = surfaces::materials(scene, &rest);
     Ok(PackedScene {
         nodes: forest.nodes,
         triangles: forest.triangles,
@@ -221,7 +215,7 @@ pub fn scene_with(scene: &Scene, most_laid_out: usize) -> Result<PackedScene, Pa
         still_shape_count: still_shape_count as u32,
         plane_count: flat.planes.len() as u32,
         vertices: flat.vertices,
-        uvs: if features.textures {
+        uvs: if scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty()) {
             flat.uvs
         } else {
             Vec::new()
@@ -241,10 +235,8 @@ pub fn scene_with(scene: &Scene, most_laid_out: usize) -> Result<PackedScene, Pa
         },
         placed_trees,
         placed,
-        changing: is_changing.then(|| Changing {
-            materials: scene.materials.clone(),
-            lamps,
-        }),
+        changing,
+        origins: Origins::new(scene, &plan),
         origin,
         build_seconds,
     })

@@ -6,27 +6,30 @@ mod bindings;
 mod debug_view;
 mod develop;
 mod device;
+mod explain;
 mod film;
+mod layouts;
 mod settings;
+mod show;
 mod slice;
+mod stats;
 mod whitted;
 
 pub use crate::scene::{Antialias, Filter};
 pub use develop::Tone;
+pub use explain::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
 pub use settings::{Fetch, Integrator, MIN_THROUGHPUT, Settings, Slicing, TriangleTest};
+pub use show::Screen;
+pub use stats::{Rays, Stats};
 
 use crate::{
     gpu::{AdapterReport, Gpu, GpuError},
-    layout::PackedSlice,
     pack::{PackedScene, PackedView},
 };
 use device::{Device, Task};
 use film::{CHUNK, Film};
 use slice::{Planner, Slice};
 use std::{ops::Range, sync::Arc, time::Instant};
-
-/// How often a lost device is replaced before a picture is given up.
-const MAX_LOSSES: u32 = 3;
 
 /// Renders one frame after another of one scene.
 pub struct Renderer {
@@ -51,58 +54,6 @@ struct Cursor {
     sweep_samples: u32,
 }
 
-/// What a render has cost so far.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Stats {
-    /// Making pipelines and running each once with nothing to do, when drivers compile.
-    pub compile_seconds: f64,
-    /// Copying the scene to the device, again after a loss.
-    pub upload_seconds: f64,
-    /// Tracing, from submission to the copy of the film, whatever came of it.
-    pub trace_seconds: f64,
-    /// Developing, each time it was asked for.
-    pub develop_seconds: f64,
-    /// Submissions that traced.
-    pub submissions: u64,
-    /// The longest of them, in milliseconds.
-    pub longest_submission_ms: f64,
-    /// Samples that were dropped: with them a sum would be infinite or not a number.
-    pub nonfinite_samples: u64,
-    /// Samples whose ray tree outgrew its stack or had too many rays; what was cut off is missing
-    /// in the picture.
-    pub cut_off_trees: u64,
-    /// Planned memory in bytes, of the frame that takes most; see [`Settings::memory_limit_bytes`].
-    pub gpu_bytes: u64,
-    /// How often the device was lost and replaced.
-    pub device_losses: u32,
-    /// Camera rays whose sum is in the film.
-    pub samples: u64,
-    /// Kept with [`Settings::count_rays`].
-    pub rays: Option<Rays>,
-}
-
-/// Rays by kind. Shadow rays count one for each light, or sample of a light with extent, that the
-/// surface faces.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Rays {
-    /// From the camera, one for each sample.
-    pub primary: u64,
-    /// Those that hit something.
-    pub primary_hits: u64,
-    /// To lights.
-    pub shadow: u64,
-    /// Those that hit something before the light.
-    pub shadow_blocked: u64,
-    /// Mirrored.
-    pub reflection: u64,
-    /// Those that hit something.
-    pub reflection_hits: u64,
-    /// Refracted.
-    pub refraction: u64,
-    /// Those that hit something.
-    pub refraction_hits: u64,
-}
-
 /// Why a picture cannot be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
@@ -123,41 +74,6 @@ impl RenderError {
             Self::Gpu(error) => error.exit_code(),
             Self::PathTooLong => 7,
         }
-    }
-}
-
-impl Stats {
-    fn submitted(&mut self, seconds: f64) {
-        self.trace_seconds += seconds;
-        self.submissions += 1;
-        self.longest_submission_ms = self.longest_submission_ms.max(seconds * 1e3);
-    }
-
-    /// Adds the accounts of a slice.
-    fn add(&mut self, tally: &PackedSlice) {
-        self.nonfinite_samples += u64::from(tally.nonfinite_samples);
-        self.cut_off_trees += u64::from(tally.cut_off_trees);
-        if let Some(rays) = &mut self.rays {
-            rays.primary += u64::from(tally.primary);
-            rays.primary_hits += u64::from(tally.primary_hits);
-            rays.shadow += u64::from(tally.shadow);
-            rays.shadow_blocked += u64::from(tally.shadow_blocked);
-            rays.reflection += u64::from(tally.reflection);
-            rays.reflection_hits += u64::from(tally.reflection_hits);
-            rays.refraction += u64::from(tally.refraction);
-            rays.refraction_hits += u64::from(tally.refraction_hits);
-        }
-    }
-
-    /// Counts a failure of the device; too many of them in one picture, before which there were
-    /// `earlier` ones, are the end.
-    fn count_loss(&mut self, earlier: u32) -> Result<(), RenderError> {
-        self.device_losses += 1;
-        let count = self.device_losses - earlier;
-        if count > MAX_LOSSES {
-            return Err(GpuError::KeptFailing { count }.into());
-        }
-        Ok(())
     }
 }
 
@@ -208,18 +124,82 @@ impl Renderer {
     /// # Errors
     /// The device failed, or the frame places more than the memory limit or the adapter allows.
     pub fn set_frame(&mut self, view: &PackedView) -> Result<(), RenderError> {
-        let view = view.with_aspect(self.settings.size.0, self.settings.size.1);
-        let film = Film::new(&self.settings);
-        let bytes = planned_bytes(&self.scene, &view, &self.settings, &film)?;
+        self.restart(self.scene.clone(), view, self.settings.clone())
+    }
+
+    /// Starts over with another scene, frame or other settings. Kernels that are compiled, and what
+    /// is on the device and still serves, are kept.
+    ///
+    /// # Errors
+    /// Those of [`Renderer::new`]; the renderer can be restarted again after them.
+    pub fn restart(
+        &mut self,
+        scene: Arc<PackedScene>,
+        view: &PackedView,
+        settings: Settings,
+    ) -> Result<(), RenderError> {
+        let view = view.with_aspect(settings.size.0, settings.size.1);
+        let film = Film::new(&settings);
+        let bytes = planned_bytes(&scene, &view, &settings, &film)?;
         self.stats.gpu_bytes = self.stats.gpu_bytes.max(bytes);
         self.earlier_losses = self.stats.device_losses;
-        self.view = view;
+        if settings.count_rays {
+            self.stats.rays.get_or_insert_default();
+        }
+        if settings.slicing != self.settings.slicing {
+            self.planner = Planner::new(settings.slicing);
+        }
+        let is_other_scene = !Arc::ptr_eq(&scene, &self.scene);
+        (self.scene, self.view, self.settings) = (scene, view, settings);
         self.film = film;
         self.cursor = Cursor::default();
-        let (scene, view, film_rows) = (&self.scene, &self.view, self.film.largest_window());
-        let needs = bindings::needs(scene, view, self.device.fetch, film_rows);
-        if !self.device.gpu.serves(needs) {
-            let fetch = bindings::choose_fetch(self.settings.fetch, &self.device.gpu, scene, view);
+        self.prepare_device(is_other_scene)
+    }
+
+    /// Goes on to another number of samples with those that there are: sample `i` of a pixel is the same,
+    /// however many follow. Whether that is possible; if not, nothing changes. It is not where sampling
+    /// plans ahead (adaptive), where windows take turns, or where there are as many already.
+    pub fn continue_to(&mut self, samples: u32) -> bool {
+        let Cursor {
+            tile,
+            sample,
+            sweep_samples,
+            ..
+        } = self.cursor;
+        let begun = if tile > 0 {
+            sample + sweep_samples
+        } else {
+            sample
+        };
+        let is_done = self.is_done();
+        if !self.film.is_one_rectangle() || samples <= begun {
+            return false;
+        }
+        let window = &mut self.film.windows[0];
+        if is_done {
+            // As between any two sweeps, see `advance`; the sums are on the host.
+            if sample.is_multiple_of(CHUNK) {
+                window.close_chunk();
+                self.device.loaded_window = None;
+            }
+            (self.cursor.window, self.cursor.tile) = (0, 0);
+        }
+        window.samples.end = samples;
+        self.settings.samples = samples;
+        true
+    }
+
+    /// Brings the device to what is to be rendered.
+    fn prepare_device(&mut self, is_other_scene: bool) -> Result<(), RenderError> {
+        let (gpu, scene, view) = (&self.device.gpu, &self.scene, &self.view);
+        let fetch = match is_other_scene {
+            true => bindings::choose_fetch(self.settings.fetch, gpu, scene, view),
+            false => self.device.fetch,
+        };
+        let needs = bindings::needs(scene, view, fetch, self.film.largest_window());
+        if !gpu.serves(needs) {
+            gpu.check_limits(needs)?;
+            let fetch = bindings::choose_fetch(self.settings.fetch, gpu, scene, view);
             return self.replace_device(fetch);
         }
         self.surviving_losses(|renderer| {
@@ -229,7 +209,12 @@ impl Renderer {
                 settings: &renderer.settings,
                 film_rows: renderer.film.largest_window(),
             };
-            renderer.device.set_view(task, &mut renderer.stats)
+            let (device, stats) = (&mut renderer.device, &mut renderer.stats);
+            if fetch != device.fetch {
+                *device = Device::new(device.gpu.clone(), fetch, task, stats)?;
+                return Ok(());
+            }
+            device.set(task, is_other_scene, stats)
         })
     }
 
@@ -282,14 +267,16 @@ impl Renderer {
             ..
         } = self.cursor;
         let slice = self.planner.next(tile_count, tile, sample, sweep_samples);
-        self.run(slice)?;
-        self.advance(&slice);
+        if self.run(slice)? {
+            self.advance(&slice)?;
+        }
         Ok(())
     }
 
     /// Runs a slice, in parts if it must be: a driver may stop a dispatch, or end the loops of a
-    /// path, without a word. What it did then is thrown away.
-    fn run(&mut self, slice: Slice) -> Result<(), RenderError> {
+    /// path, without a word. What it did then is thrown away; where the host has no copy of what was
+    /// there before, the picture starts over, with copies. Returns whether the slice is done.
+    fn run(&mut self, slice: Slice) -> Result<bool, RenderError> {
         let mut parts = vec![slice];
         while let Some(part) = parts.pop() {
             let start = Instant::now();
@@ -307,6 +294,12 @@ impl Renderer {
                 continue;
             }
             self.device.loaded_window = None;
+            if !self.settings.slicing.host_copy {
+                self.settings.slicing.host_copy = true;
+                self.film = Film::new(&self.settings);
+                self.cursor = Cursor::default();
+                return Ok(false);
+            }
             if !part.is_signed_off(&tally) {
                 self.planner.cut_short();
                 self.stats.count_loss(self.earlier_losses)?;
@@ -321,15 +314,19 @@ impl Renderer {
                 return Err(RenderError::PathTooLong);
             }
         }
-        Ok(())
+        Ok(true)
     }
 
-    fn advance(&mut self, slice: &Slice) {
-        let window = &mut self.film.windows[self.cursor.window];
+    fn advance(&mut self, slice: &Slice) -> Result<(), RenderError> {
+        let window = &self.film.windows[self.cursor.window];
         self.cursor.tile = slice.end_tile;
         if self.cursor.tile < window.tile_count() {
-            return;
+            return Ok(());
         }
+        if slice.end_sample == window.samples.end || slice.end_sample.is_multiple_of(CHUNK) {
+            self.fetch_film()?;
+        }
+        let window = &mut self.film.windows[self.cursor.window];
         let taken = slice.end_sample - slice.first_sample;
         self.stats.samples += u64::from(taken) * window.sampled_pixels();
         self.cursor.tile = 0;
@@ -339,7 +336,7 @@ impl Renderer {
                 window.close_chunk();
                 self.device.loaded_window = None;
             }
-            return;
+            return Ok(());
         }
         self.cursor.window += 1;
         if self.is_done() && self.film.next_round() {
@@ -349,17 +346,28 @@ impl Renderer {
         if let Some(next) = self.film.windows.get(self.cursor.window) {
             self.cursor.sample = next.samples.start;
         }
+        Ok(())
+    }
+
+    /// Brings the sums to the host that are only on the device.
+    fn fetch_film(&mut self) -> Result<(), RenderError> {
+        let index = self.cursor.window;
+        let is_there = self.settings.slicing.host_copy || self.device.loaded_window != Some(index);
+        match self.film.windows.get_mut(index) {
+            Some(window) if !is_there => Ok(self.device.fetch_film(window)?),
+            _ => Ok(()),
+        }
     }
 
     /// Repeats `attempt` on a fresh device when the old one is lost. The film on the host holds all
-    /// finished slices, so nothing else is done twice.
+    /// finished slices, so nothing else is done twice; where it does not, the loss is the caller's.
     fn surviving_losses<T>(
         &mut self,
         mut attempt: impl FnMut(&mut Self) -> Result<T, GpuError>,
     ) -> Result<T, RenderError> {
         loop {
             match attempt(self) {
-                Err(GpuError::Lost) => {
+                Err(GpuError::Lost) if self.settings.slicing.host_copy => {
                     self.stats.count_loss(self.earlier_losses)?;
                     self.replace_device(self.device.fetch)?;
                 }

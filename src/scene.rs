@@ -10,16 +10,19 @@
 //! near their own origin, so that a scene far from the world's origin loses nothing.
 
 mod animation;
+mod bounds;
 mod curve;
 mod frame;
 mod light;
 mod material;
 mod mesh;
 mod node;
+mod object;
 mod output;
 mod shape;
 mod shot;
 mod texture;
+mod transform;
 mod turntable;
 
 pub use animation::{
@@ -32,18 +35,21 @@ pub use light::{Attenuation, Light, LightKind};
 pub use material::{Fresnel, Material, Mixing, Textures};
 pub use mesh::{Mesh, Repairs};
 pub use node::Node;
+pub use object::ObjectRef;
 pub use output::{Antialias, Filter, OutputDefaults, Shutter, ToneCurve, Transfer};
 pub use shape::{Form, Geometry, Shape};
-pub use texture::{Pattern, Picture, Space, Texture};
+pub use texture::{Pattern, Picture, Space, Texture, linear_from_srgb};
+pub use transform::{Transform, angles, rotation};
 pub use turntable::{MAX_ELEVATION, Turntable, turntable};
 
 use glam::{DAffine3, DVec3, Vec3};
+use std::sync::Arc;
 
 /// Everything that is in a picture, at rest. What moves leaves through [`Scene::frame`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
-    /// Triangle meshes, each in its own object space.
-    pub meshes: Vec<Mesh>,
+    /// Triangle meshes, each in its own object space; shared, so that a copy of a scene is cheap.
+    pub meshes: Vec<Arc<Mesh>>,
     /// Placements of meshes.
     pub instances: Vec<Instance>,
     /// Analytic shapes.
@@ -52,8 +58,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Colours that vary over a surface.
     pub textures: Vec<Texture>,
-    /// What textures and the background show.
-    pub pictures: Vec<Picture>,
+    /// What textures and the background show; shared as meshes are.
+    pub pictures: Vec<Arc<Picture>>,
     /// May be empty.
     pub lights: Vec<Light>,
     /// At least one.
@@ -132,6 +138,9 @@ pub enum Shadows {
 
 /// A camera with a pinhole, or with a thin lens. Its image plane is the near plane at distance 1,
 /// whose height the field of view sets; the aspect is the picture's width over its height.
+///
+/// Rays of an orthographic one are parallel and start on the plane through `look_from`: what lies
+/// behind that is not seen. Which bodies they start in is decided at `look_from` for all of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
     /// Empty when the file gives none.
@@ -144,6 +153,9 @@ pub struct Camera {
     pub up: DVec3,
     /// Vertical field of view in radians, in (0, π).
     pub fov_y: f64,
+    /// Of an orthographic camera: the height of what is in the picture, in scene units, above 0.
+    /// Absent for perspective; only then `fov_y` counts.
+    pub orthographic_height: Option<f64>,
     /// Absent for a pinhole, to which everything is sharp.
     pub lens: Option<Lens>,
     /// Index into [`Scene::nodes`] of what carries it; `None` is the world.
@@ -175,6 +187,7 @@ impl Default for Camera {
             look_at: DVec3::NEG_Z,
             up: DVec3::Y,
             fov_y: std::f64::consts::FRAC_PI_3,
+            orthographic_height: None,
             lens: None,
             node: None,
             target: None,
@@ -183,30 +196,6 @@ impl Default for Camera {
 }
 
 impl Scene {
-    /// The axis-aligned box (min, max) round everything bounded, visible or not, in world space, at
-    /// time 0; `None` when there is nothing bounded.
-    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let nodes = self.nodes_at(0.0, 0.0);
-        let world_from = |node: Option<usize>| match node {
-            Some(node) => nodes[node].world_from_node,
-            None => DAffine3::IDENTITY,
-        };
-        let shapes = self.shapes.iter().filter_map(|shape| match shape.node {
-            Some(_) => shape.geometry.placed(world_from(shape.node)).bounds(),
-            None => shape.geometry.bounds(),
-        });
-        let instances = self.instances.iter().filter_map(|instance| {
-            let world_from_object = world_from(instance.node) * instance.placement;
-            self.meshes[instance.mesh]
-                .positions
-                .iter()
-                .map(|p| world_from_object.transform_point3(p.as_dvec3()))
-                .map(|p| (p, p))
-                .reduce(union)
-        });
-        shapes.chain(instances).reduce(union)
-    }
-
     /// Number of triangles in the world, instances counted each.
     pub fn triangle_count(&self) -> usize {
         self.instances
@@ -214,8 +203,4 @@ impl Scene {
             .map(|instance| self.meshes[instance.mesh].triangles.len())
             .sum()
     }
-}
-
-fn union(a: (DVec3, DVec3), b: (DVec3, DVec3)) -> (DVec3, DVec3) {
-    (a.0.min(b.0), a.1.max(b.1))
 }

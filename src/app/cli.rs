@@ -8,7 +8,9 @@ pub use flags::{
     CameraFlags, DeviceFlags, LogFlags, OutputFlags, PictureFlags, ProgressMode, SceneFlags,
     SizeFlags,
 };
-pub use motion::{MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags};
+pub use motion::{
+    MomentFlags, MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags,
+};
 pub use values::{INTEGRATORS, MAX_FRAME, TONES, TRANSFERS};
 
 use clap::{Args, Parser, Subcommand};
@@ -64,9 +66,23 @@ pub enum Command {
             The camera goes round the model at a distance from which all of it is seen. Frames are \
             kept and runs go on as with `animate`.")]
     Turntable(Box<TurntableArgs>),
+    /// Write a scene as a native one (.toml) with its meshes and pictures beside it: the same picture,
+    /// in words that can be edited.
+    #[command(after_help = "Example: glimray convert model.obj -o model.toml\n\n\
+            It prints the names of all files. Files beside the scene are never replaced.")]
+    Convert(ConvertArgs),
     /// Say what is in a scene: counts, bounds, cameras, lights, materials, what was skipped.
     #[command(after_help = "Example: glimray inspect scene.toml --json")]
     Inspect(InspectArgs),
+    /// Say where the light of one pixel comes from: every ray of it, as a tree, with what it met, how
+    /// the surface divides the light, and what it adds.
+    #[command(after_help = "Examples:\n  \
+            glimray explain scene.toml --pixel 320,240\n  \
+            glimray explain scene.toml --pixel 320,240 --sample 0 --json\n  \
+            glimray explain scene.toml --size 96x54 --samples 1 --pixel 40,30 --obj rays.obj\n\n\
+            What the rays of a sample add is the sample's colour, and the weighted mean of all samples is \
+            the pixel, as linear light. Give the flags that the picture was rendered with.")]
+    Explain(Box<ExplainArgs>),
     /// List the GPU adapters and their limits, test the one that would be used, and say what to
     /// install when there is none.
     #[command(after_help = "Example: glimray doctor --backend vulkan")]
@@ -114,12 +130,8 @@ pub struct RenderArgs {
     pub picture: PictureFlags,
     #[command(flatten)]
     pub camera: CameraFlags,
-    /// Take the picture at this frame of the scene's animation
-    #[arg(long, value_name = "N", help_heading = "Motion", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(..=i64::from(values::MAX_FRAME)))]
-    pub frame: Option<u32>,
-    /// Take the picture at this time of the scene's animation, -1e6 to 1e6 [default: 0]
-    #[arg(long, value_name = "SECONDS", help_heading = "Motion", allow_hyphen_values = true, value_parser = values::time, conflicts_with = "frame")]
-    pub time: Option<f64>,
+    #[command(flatten)]
+    pub moment: MomentFlags,
     #[command(flatten)]
     pub motion: MotionFlags,
     #[command(flatten)]
@@ -171,6 +183,20 @@ pub struct TurntableArgs {
 }
 
 #[derive(Debug, Args)]
+pub struct ConvertArgs {
+    /// The scene: .scene (course format), .toml (native), .nff or .obj
+    pub scene: PathBuf,
+    /// The native scene to write [default: the scene's name with .toml, in the current folder]
+    #[arg(short, long, value_name = "OUT.toml")]
+    pub output: Option<PathBuf>,
+    /// Refuse to replace a scene file that is there
+    #[arg(long)]
+    pub no_clobber: bool,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+}
+
+#[derive(Debug, Args)]
 pub struct InspectArgs {
     /// The scene: .scene (course format), .toml (native), .nff or .obj
     pub scene: PathBuf,
@@ -179,6 +205,36 @@ pub struct InspectArgs {
     pub json: bool,
     #[command(flatten)]
     pub reading: SceneFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    /// The scene: .scene (course format), .toml (native), .nff or .obj
+    pub scene: PathBuf,
+    /// The pixel's column and row in the whole picture, from the top-left, which is 0,0
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = values::pixel)]
+    pub pixel: [u32; 2],
+    /// Only this sample of the pixel, the first being 0 [default: all]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub sample: Option<u32>,
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+    /// Write the rays as lines into this Wavefront OBJ file too, in the scene's units
+    #[arg(long, value_name = "FILE.obj")]
+    pub obj: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: PictureFlags,
+    #[command(flatten)]
+    pub camera: CameraFlags,
+    #[command(flatten)]
+    pub moment: MomentFlags,
+    #[command(flatten)]
+    pub motion: MotionFlags,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
 }
 
 #[derive(Debug, Args)]

@@ -1,6 +1,6 @@
 //! When a frame is taken, and how long an animation lasts.
 
-use super::cli::MotionFlags;
+use super::cli::{MomentFlags, MotionFlags};
 use crate::scene::{OutputDefaults, Scene, Shutter};
 
 /// Turns frames into times.
@@ -17,6 +17,14 @@ impl Clock {
         Self {
             fps: flags.fps.unwrap_or(output.fps),
             shutter: flags.shutter.unwrap_or(output.shutter),
+        }
+    }
+
+    /// When the shutter opens and closes for the picture that the flags ask for, in seconds.
+    pub fn moment(&self, flags: &MomentFlags) -> (f64, f64) {
+        match flags.frame {
+            Some(frame) => self.frame(frame),
+            None => self.shot(flags.time.unwrap_or(0.0)),
         }
     }
 

@@ -34,6 +34,9 @@ pub enum AppError {
     /// The adapter computes wrong results.
     #[error("{0}")]
     SelfTest(String),
+    /// There is no display for a window.
+    #[error("{0}")]
+    NoDisplay(String),
     /// The picture or report could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -78,7 +81,7 @@ impl AppError {
             Self::Output(error) if error.is_internal() => 1,
             Self::Output(_) | Self::Stdout(_) | Self::Unwritable(_) => 4,
             Self::Stopped { error, .. } => error.exit_code(),
-            Self::SelfTest(_) => 5,
+            Self::SelfTest(_) | Self::NoDisplay(_) => 5,
             Self::Pack(_) => 7,
             Self::Different(_) => 8,
             Self::Gpu(error) => error.exit_code(),

@@ -45,7 +45,7 @@ fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
         .map(textures::texture_json)
         .collect();
     value["picture_list"] = (scene.pictures.iter())
-        .map(textures::picture_json)
+        .map(|picture| textures::picture_json(picture))
         .collect();
     value["background"] = background_json(&scene.background);
     value["ambient"] = json!(scene.ambient.to_array());
@@ -81,6 +81,7 @@ fn camera_json(camera: &Camera) -> Value {
         "look_at": camera.look_at.to_array(),
         "up": camera.up.to_array(),
         "fov_y_deg": camera.fov_y.to_degrees(),
+        "orthographic": camera.orthographic_height,
         "lens": camera.lens.map(|lens| json!({
             "radius": lens.radius,
             "focus_distance": lens.focus_distance,
@@ -241,10 +242,13 @@ fn background(background: &Background) -> String {
 
 fn camera_text(out: &mut String, camera: &Camera) -> fmt::Result {
     let (from, at) = (point(camera.look_from), point(camera.look_at));
-    let fov = camera.fov_y.to_degrees();
+    let high = match camera.orthographic_height {
+        Some(height) => format!("orthographic, {}", number(height)),
+        None => format!("{:.2}°", camera.fov_y.to_degrees()),
+    };
     write!(
         out,
-        "{} from {from} to {at}, {fov:.2}° high",
+        "{} from {from} to {at}, {high} high",
         quoted(&camera.name)
     )?;
     match camera.lens {

@@ -59,7 +59,12 @@ impl Job<'_> {
     }
 
     pub fn settings(&self) -> Settings {
-        settings(&self.scene.output, self.picture, self.device, self.log)
+        settings(
+            &self.scene.output,
+            self.picture,
+            self.device,
+            self.log.count_rays,
+        )
     }
 
     /// How a picture is developed, for a format that holds linear light or one that does not.
@@ -186,12 +191,22 @@ impl Seconds {
     }
 }
 
-fn settings(
+/// What the flags make of what the scene says.
+pub fn settings(
     scene: &OutputDefaults,
     picture: &PictureFlags,
     device: &DeviceFlags,
-    log: &LogFlags,
+    count_rays: bool,
 ) -> Settings {
+    Settings {
+        count_rays,
+        memory_limit_bytes: device.memory_limit_bytes(),
+        ..picture_settings(scene, picture)
+    }
+}
+
+/// What a picture depends on: flags win over the scene.
+pub fn picture_settings(scene: &OutputDefaults, picture: &PictureFlags) -> Settings {
     let output = OutputDefaults {
         samples: picture.size.samples.unwrap_or(scene.samples),
         antialias: picture.antialias.or(scene.antialias),
@@ -214,8 +229,6 @@ fn settings(
         seed: picture.seed,
         max_depth: picture.max_depth.unwrap_or(defaults.max_depth),
         min_throughput: picture.min_throughput.unwrap_or(defaults.min_throughput),
-        count_rays: log.count_rays,
-        memory_limit_bytes: device.memory_limit_bytes(),
         ..defaults
     }
 }
@@ -235,7 +248,7 @@ pub fn picture_size(settings: &Settings) -> Result<(u32, u32), AppError> {
 
 /// Flags win. Without them, linear formats get what was traced, debug views are stored as they
 /// are, and pictures are developed as the scene says.
-fn tone(
+pub fn tone(
     scene: &OutputDefaults,
     flags: &PictureFlags,
     integrator: Integrator,

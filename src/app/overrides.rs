@@ -32,7 +32,13 @@ pub fn apply(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
     }
     if let Some(fov_y) = flags.fov_y {
         stop(scene, CameraProperty::FovY);
-        scene.cameras[scene.camera_index].fov_y = fov_y.to_radians();
+        let camera = &mut scene.cameras[scene.camera_index];
+        camera.fov_y = fov_y.to_radians();
+        camera.orthographic_height = None;
+    }
+    if let Some(height) = flags.orthographic {
+        stop(scene, CameraProperty::OrthographicHeight);
+        scene.cameras[scene.camera_index].orthographic_height = Some(height);
     }
     Ok(())
 }

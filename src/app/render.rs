@@ -18,10 +18,7 @@ pub fn run(arguments: &RenderArgs, started: Instant) -> Result<(), AppError> {
     let load_seconds = loading.elapsed().as_secs_f64();
     overrides::apply(&mut scene, &arguments.camera)?;
     let clock = Clock::new(&scene.output, &arguments.motion);
-    let shot = match arguments.frame {
-        Some(frame) => clock.frame(frame),
-        None => clock.shot(arguments.time.unwrap_or(0.0)),
-    };
+    let shot = clock.moment(&arguments.moment);
     let stem = arguments.scene.file_stem().unwrap_or("picture".as_ref());
     let destination = Destination::new(&arguments.output, Path::new(stem));
     let job = Job {

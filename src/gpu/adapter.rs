@@ -47,9 +47,17 @@ pub struct AdapterReport {
     pub storage_buffers_per_stage: u32,
 }
 
+/// An adapter to open a device on.
+pub(super) struct Found {
+    pub instance: wgpu::Instance,
+    pub adapter: wgpu::Adapter,
+    pub report: AdapterReport,
+}
+
 /// All adapters that can run compute shaders, in the order of their indices.
 pub fn adapters(choice: &AdapterChoice) -> Vec<AdapterReport> {
     enumerate(everything(choice))
+        .1
         .iter()
         .enumerate()
         .map(|(index, adapter)| report(index, adapter))
@@ -58,27 +66,28 @@ pub fn adapters(choice: &AdapterChoice) -> Vec<AdapterReport> {
 
 /// The adapter asked for, else the first of the best kind: a card of its own, one in the processor,
 /// a virtual one, a software renderer; among equals a modern API before GL.
-pub(super) fn choose(choice: &AdapterChoice) -> Result<(wgpu::Adapter, AdapterReport), GpuError> {
+pub(super) fn choose(choice: &AdapterChoice) -> Result<Found, GpuError> {
     // Looking for GL devices takes as long as a small picture, so it is done only when it must.
-    let mut found = match (choice.backend, &choice.adapter) {
+    let mut enumerated = match (choice.backend, &choice.adapter) {
         (None, None) => enumerate(wgpu::Backends::PRIMARY),
-        _ => Vec::new(),
+        _ => (None, Vec::new()),
     };
-    if found.is_empty() {
-        found = enumerate(everything(choice));
+    if enumerated.1.is_empty() {
+        enumerated = enumerate(everything(choice));
     }
+    let (instance, mut found) = enumerated;
     let reports: Vec<_> = found
         .iter()
         .enumerate()
         .map(|(i, a)| report(i, a))
         .collect();
+    let Some(instance) = instance.filter(|_| !found.is_empty()) else {
+        let tried = choice
+            .backend
+            .map_or("every backend".into(), |b| format!("{b:?}"));
+        return Err(GpuError::NoAdapter { tried });
+    };
     let index = match &choice.adapter {
-        _ if found.is_empty() => {
-            let tried = choice
-                .backend
-                .map_or("every backend".into(), |b| format!("{b:?}"));
-            return Err(GpuError::NoAdapter { tried });
-        }
         Some(wanted) => reports
             .iter()
             .position(|r| matches(r, wanted))
@@ -87,7 +96,11 @@ pub(super) fn choose(choice: &AdapterChoice) -> Result<(wgpu::Adapter, AdapterRe
             .min_by_key(|&i| preference(&reports[i]))
             .unwrap_or(0),
     };
-    Ok((found.swap_remove(index), reports[index].clone()))
+    Ok(Found {
+        instance,
+        adapter: found.swap_remove(index),
+        report: reports[index].clone(),
+    })
 }
 
 fn matches(report: &AdapterReport, wanted: &str) -> bool {
@@ -134,7 +147,8 @@ fn everything(choice: &AdapterChoice) -> wgpu::Backends {
     }
 }
 
-fn enumerate(backends: wgpu::Backends) -> Vec<wgpu::Adapter> {
+/// The adapters that can run compute shaders, and what they belong to.
+fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Adapter>) {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = backends;
     // Nothing is dispatched indirectly, so the check of such calls only costs start-up time.
@@ -147,17 +161,15 @@ fn enumerate(backends: wgpu::Backends) -> Vec<wgpu::Adapter> {
     };
     let found = guard::quiet(|| {
         let instance = wgpu::Instance::new(descriptor);
-        pollster::block_on(instance.enumerate_adapters(backends))
+        let adapters = pollster::block_on(instance.enumerate_adapters(backends));
+        (Some(instance), adapters)
     });
+    let (instance, found) = found.unwrap_or_default();
     let has_compute = |adapter: &wgpu::Adapter| {
         let flags = adapter.get_downlevel_capabilities().flags;
         flags.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS)
     };
-    found
-        .unwrap_or_default()
-        .into_iter()
-        .filter(has_compute)
-        .collect()
+    (instance, found.into_iter().filter(has_compute).collect())
 }
 
 fn report(index: usize, adapter: &wgpu::Adapter) -> AdapterReport {

@@ -135,6 +135,36 @@ impl Gpu {
         Ok(texture.create_view(&Default::default()))
     }
 
+    /// A texture that shaders write and sample, all zero.
+    pub(crate) fn allocate_screen(
+        &self,
+        width: u32,
+        height: u32,
+        format: wgpu::TextureFormat,
+    ) -> Result<wgpu::TextureView, GpuError> {
+        if fault::strikes(fault::Site::Allocation) {
+            return Err(GpuError::OutOfMemory {
+                what: "screen".into(),
+            });
+        }
+        let texture = self.scoped("screen", || {
+            self.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("screen"),
+                size: extent(width, height),
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: wgpu::TextureUsages::STORAGE_BINDING
+                    | wgpu::TextureUsages::TEXTURE_BINDING
+                    | wgpu::TextureUsages::COPY_SRC
+                    | wgpu::TextureUsages::COPY_DST,
+                view_formats: &[],
+            })
+        })?;
+        Ok(texture.create_view(&Default::default()))
+    }
+
     /// Writes rows of an image from `first_row` on; what the last of them lacks is zero.
     pub(crate) fn write_image(
         &self,

@@ -5,7 +5,8 @@ use super::{Gpu, GpuError};
 /// A compute kernel: WGSL linked by `build.rs`, and its entry point.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
-    /// Also its file's in `shaders/kernels/`, and the entry point's.
+    /// Also the entry point's, and its file's in `shaders/kernels/`; `explain` is `whitted` that keeps
+    /// records.
     pub name: &'static str,
     /// Its variants, by name: geometry is read from images or from buffers, and those called moving can
     /// place instances and move while the shutter is open. The others are shorter, which drivers
@@ -35,8 +36,12 @@ impl Kernel {
         WHITTED "whitted"
         /// Adds samples of the other integrators to the film.
         DEBUG_VIEW "debug_view"
+        /// Records all rays of single samples of [`crate::render::Integrator::Whitted`].
+        EXPLAIN "explain"
         /// Turns the film into a picture.
         DEVELOP "develop"
+        /// Turns the film into a picture on the screen.
+        SHOW "show"
     }
 
     /// The variant that reads geometry from images or from buffers, and can move or cannot.

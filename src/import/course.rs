@@ -372,7 +372,7 @@ impl<'s> Reader<'s> {
         self.scene.skipped.extend(super::repair_notes(repairs));
         if !self.mesh.triangles.is_empty() {
             let world_from_object = DAffine3::from_translation(offset);
-            self.scene.meshes.push(self.mesh);
+            self.scene.meshes.push(self.mesh.into());
             self.scene.instances.push(Instance {
                 mesh: 0,
                 placement: world_from_object,

@@ -272,11 +272,12 @@ impl<'s> Reader<'s> {
         // The height is scaled, the radii are not: circles stay round.
         let up = axis.normalize();
         let right = up.any_orthonormal_vector();
-        let turn = DMat3::from_cols(right, axis, right.cross(up));
+        let wide = bottom.abs().max(top.abs());
+        let turn = DMat3::from_cols(wide * right, axis, wide * right.cross(up));
         let geometry = Geometry::Placed {
             form: Form::Cone {
-                bottom: bottom.abs(),
-                top: top.abs(),
+                bottom: bottom.abs() / wide,
+                top: top.abs() / wide,
                 capped: false,
             },
             world_from_form: DAffine3::from_mat3_translation(turn, base),

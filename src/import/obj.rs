@@ -83,7 +83,7 @@ pub(super) fn read_scene(source: &Source, files: &Files) -> Result<Scene, Import
         scene.skipped.push("the model has no triangles".to_owned());
     } else {
         let world_from_object = DAffine3::from_translation(model.offset);
-        scene.meshes.push(model.mesh);
+        scene.meshes.push(model.mesh.into());
         scene.instances.push(Instance {
             mesh: 0,
             placement: world_from_object,

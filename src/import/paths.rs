@@ -2,9 +2,30 @@
 
 use super::error::{Fault, ImportError, fault};
 use super::source::quote;
+use std::cell::RefCell;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
+use std::rc::Rc;
+
+/// Every file that was looked for, each once.
+#[derive(Clone, Default)]
+pub(super) struct Seen(Rc<RefCell<Vec<PathBuf>>>);
+
+impl Seen {
+    /// Notes a file.
+    pub fn note(&self, path: &Path) {
+        let mut paths = self.0.borrow_mut();
+        if !paths.iter().any(|known| known == path) {
+            paths.push(path.to_owned());
+        }
+    }
+
+    /// All that were noted, in their order.
+    pub fn paths(&self) -> Vec<PathBuf> {
+        self.0.borrow().clone()
+    }
+}
 
 /// The files that a scene, or a file of it, may name.
 pub(super) struct Files {
@@ -13,6 +34,7 @@ pub(super) struct Files {
     /// What names are relative to: the folder of the file that they stand in.
     base: PathBuf,
     allowed: Vec<PathBuf>,
+    seen: Seen,
 }
 
 /// Why a named file may not be read.
@@ -60,7 +82,7 @@ impl Files {
     ///
     /// # Errors
     /// One of the folders does not exist.
-    pub fn beside(path: &Path, allow_dirs: &[PathBuf]) -> Result<Self, ImportError> {
+    pub fn beside(path: &Path, allow_dirs: &[PathBuf], seen: &Seen) -> Result<Self, ImportError> {
         let resolve = |what: &str, dir: &Path| {
             dir.canonicalize().map_err(|error| {
                 let todo = "Check that the folder exists";
@@ -75,6 +97,7 @@ impl Files {
             base: folder.clone(),
             folder: Some(folder),
             allowed: allowed.collect::<Result<_, _>>()?,
+            seen: seen.clone(),
         })
     }
 
@@ -84,6 +107,7 @@ impl Files {
             folder: None,
             base: PathBuf::new(),
             allowed: Vec::new(),
+            seen: Seen::default(),
         }
     }
 
@@ -93,6 +117,7 @@ impl Files {
             folder: self.folder.clone(),
             base: parent(path).to_owned(),
             allowed: self.allowed.clone(),
+            seen: self.seen.clone(),
         }
     }
 
@@ -118,14 +143,18 @@ impl Files {
         if !(path.components().all(goes_down) || self.is_allowed(&wanted)) {
             return Err(outside());
         }
-        let real = wanted.canonicalize().map_err(|error| match error.kind() {
-            io::ErrorKind::NotFound => Refusal::Missing(format!("{quoted} does not exist")),
-            _ => Refusal::Unfit(format!("{quoted}: {}", reason(&error))),
+        let real = wanted.canonicalize().map_err(|error| {
+            self.seen.note(&wanted);
+            match error.kind() {
+                io::ErrorKind::NotFound => Refusal::Missing(format!("{quoted} does not exist")),
+                _ => Refusal::Unfit(format!("{quoted}: {}", reason(&error))),
+            }
         })?;
         // Decided again once links are resolved.
         if !(real.starts_with(folder) || self.is_allowed(&real)) {
             return Err(outside());
         }
+        self.seen.note(&real);
         if !real.is_file() {
             return Err(Refusal::Unfit(format!("{quoted} is not a plain file")));
         }

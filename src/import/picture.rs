@@ -6,11 +6,13 @@ use super::error::{Fault, ImportError};
 use super::paths::{self, Files, Refusal};
 use super::source::quote;
 use crate::scene::Picture;
+pub(super) use crate::scene::linear_from_srgb;
 use glam::Vec3;
 use image::{DynamicImage, ImageError, ImageReader, Limits};
 use std::collections::HashMap;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The largest picture file, in bytes.
 const MAX_BYTES: u64 = 512 << 20;
@@ -24,7 +26,7 @@ const MAX_DECODED_BYTES: u64 = (MAX_TEXELS + 1) * 16;
 /// The pictures of a scene, each file read once.
 #[derive(Default)]
 pub(super) struct Pictures {
-    pub pictures: Vec<Picture>,
+    pub pictures: Vec<Arc<Picture>>,
     indices: HashMap<PathBuf, usize>,
 }
 
@@ -75,7 +77,7 @@ impl Pictures {
         }
         let taken = self.pictures.iter().map(|p| p.texels.len() as u64).sum();
         let picture = decode(&path, name, taken)?;
-        self.pictures.push(picture);
+        self.pictures.push(Arc::new(picture));
         self.indices.insert(path, self.pictures.len() - 1);
         Ok(self.pictures.len() - 1)
     }
@@ -172,15 +174,6 @@ fn linear(image: DynamicImage) -> Vec<Vec3> {
             let texel = |p: &image::Rgb<u16>| Vec3::from(p.0.map(|code| curve[usize::from(code)]));
             image.pixels().map(texel).collect()
         }
-    }
-}
-
-/// The inverse of the sRGB transfer function, IEC 61966-2-1.
-pub(super) fn linear_from_srgb(value: f64) -> f64 {
-    if value <= 0.04045 {
-        value / 12.92
-    } else {
-        ((value + 0.055) / 1.055).powf(2.4)
     }
 }
 

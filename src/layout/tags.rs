@@ -136,6 +136,8 @@ pub const VIEW_DEPTH: u32 = 1;
 pub const VIEW_IDS: u32 = 2;
 /// Override `VIEW`: [`crate::render::Integrator::Heat`].
 pub const VIEW_HEAT: u32 = 3;
+/// Override `VIEW`: [`crate::render::Integrator::Uv`].
+pub const VIEW_UV: u32 = 4;
 
 /// [`super::PackedTone::curve`]: [`crate::scene::ToneCurve::None`].
 pub const TONE_NONE: u32 = 0;
@@ -150,3 +152,24 @@ pub const TONE_REINHARD: u32 = 3;
 pub const TRANSFER_SRGB: u32 = 0;
 /// [`super::PackedTone::transfer`]: [`crate::scene::Transfer::Linear`].
 pub const TRANSFER_LINEAR: u32 = 1;
+
+/// [`super::PackedRay::kind`]: from the camera.
+pub const RAY_PRIMARY: u32 = 0;
+/// [`super::PackedRay::kind`]: mirrored.
+pub const RAY_REFLECTION: u32 = 1;
+/// [`super::PackedRay::kind`]: refracted.
+pub const RAY_REFRACTION: u32 = 2;
+/// [`super::PackedRay::kind`]: to a light.
+pub const RAY_SHADOW: u32 = 3;
+/// Bit of [`super::PackedRay::flags`]: it came from the side that the unturned normal points to.
+pub const RAY_OUTSIDE: u32 = 1;
+/// Bit of [`super::PackedRay::flags`]: the surface lets light through.
+pub const RAY_TRANSPARENT: u32 = 2;
+/// Bit of [`super::PackedRay::flags`]: the media on the two sides of the surface differ.
+pub const RAY_BOUNDARY: u32 = 4;
+/// Bit of [`super::PackedRay::flags`]: beyond the critical angle.
+pub const RAY_TOTAL: u32 = 8;
+/// Rows of 16 bytes of a [`super::PackedProbe`].
+pub const PROBE_ROWS: u32 = 3;
+/// Rows of 16 bytes of a [`super::PackedRay`].
+pub const RAY_ROWS: u32 = 14;

@@ -34,6 +34,8 @@ pub struct PackedView {
     /// In place of the scene's, if any changes over time; else empty. They are as they are when the
     /// shutter opens, but lamps show the mean of what they shine with while it is open.
     pub materials: Vec<PackedMaterial>,
+    /// Whether rays start side by side rather than in one point.
+    pub orthographic: bool,
     /// Whether there is a light that is not dark.
     pub has_lights: bool,
     /// Whether there is a light that has extent.
@@ -115,6 +117,7 @@ impl PackedScene {
                 Background::Gradient { .. } => BACKGROUND_GRADIENT,
                 Background::Picture { .. } => BACKGROUND_PICTURE,
             },
+            orthographic: first.camera.orthographic_height.is_some(),
             has_lights: lights.iter().any(|light| light.color != [0.0; 3]),
             has_area_lights: lights.iter().any(|light| light.kind >= LIGHT_RECTANGLE),
             lights,
@@ -186,6 +189,9 @@ impl PackedView {
             cast_slice(&self.materials),
         ];
         parts.extend(self.node_parts());
+        if self.orthographic {
+            parts.push(b"orthographic");
+        }
         parts
     }
 
@@ -197,6 +203,12 @@ impl PackedView {
             cast_slice(&self.placements.keys),
             cast_slice(&self.cameras),
         ]
+    }
+
+    /// Which of the things that the scene places is this instance of the view; hidden ones are none.
+    pub(super) fn placed_index(&self, instance: u32) -> Option<usize> {
+        let instance = self.placements.instances.get(instance as usize)?;
+        Some(instance.id as usize - 1)
     }
 
     /// Whether instances move while the shutter is open.
@@ -216,14 +228,21 @@ impl PackedView {
     }
 }
 
-/// The image plane at distance 1: half its height is tan(fov_y / 2).
+/// The image plane at distance 1: half its height is tan(fov_y / 2). That of an orthographic camera is
+/// as high as what it sees, wherever it is.
 fn camera(camera: &Camera, origin: DVec3) -> Result<PackedCamera, PackError> {
     let forward = (camera.look_at - camera.look_from).normalize_or(DVec3::NEG_Z);
     let right = forward
         .cross(camera.up)
         .normalize_or(forward.any_orthonormal_vector());
     let up = right.cross(forward);
-    let half_height = (camera.fov_y / 2.0).tan();
+    let half_height = match camera.orthographic_height {
+        Some(height) => {
+            in_range(height)?;
+            height / 2.0
+        }
+        None => (camera.fov_y / 2.0).tan(),
+    };
     Ok(PackedCamera {
         origin: render_point(camera.look_from, origin)?.into(),
         forward: forward.as_vec3().into(),

@@ -5,7 +5,7 @@ use super::{Forest, PackError, forest::Tree, geometry::Flat, light};
 use crate::{
     bvh::Aabb,
     layout::NO_INSTANCE,
-    scene::{Frame, Geometry, LightProperty, Scene, Target},
+    scene::{Frame, Geometry, LightProperty, ObjectRef, Scene, Target},
 };
 use glam::{DAffine3, DVec3};
 
@@ -52,7 +52,7 @@ pub struct Plan {
     pub still_shapes: Vec<usize>,
     /// Lights whose surfaces are laid out.
     pub still_lamps: Vec<usize>,
-    /// Indices of meshes, and what carries their instances.
+    /// Indices of instances, and what carries them.
     meshes: Vec<(usize, Carrier)>,
     /// Indices of shapes, and their nodes.
     shapes: Vec<(usize, usize)>,
@@ -75,10 +75,10 @@ impl Plan {
             let is_shared = copies[instance.mesh] > 1 && triangles > most_laid_out;
             if let Some(node) = moving_node(instance.node) {
                 let carrier = Carrier::Node(node, instance.placement);
-                plan.meshes.push((instance.mesh, carrier));
+                plan.meshes.push((index, carrier));
             } else if is_there(instance.node) && is_shared {
                 let carrier = Carrier::World(world_from(rest, instance.node) * instance.placement);
-                plan.meshes.push((instance.mesh, carrier));
+                plan.meshes.push((index, carrier));
             } else if is_there(instance.node) {
                 plan.still_instances.push(index);
             }
@@ -111,6 +111,14 @@ impl Plan {
         self.meshes.len() + self.shapes.len() + self.lamps.len()
     }
 
+    /// What is placed, in the order of [`Self::plant`].
+    pub fn placed_objects(&self) -> impl Iterator<Item = ObjectRef> + '_ {
+        let instances = (self.meshes.iter()).map(|(index, _)| ObjectRef::Instance(*index));
+        let shapes = (self.shapes.iter()).map(|(index, _)| ObjectRef::Shape(*index));
+        let lamps = (self.lamps.iter()).map(|index| ObjectRef::Light(*index));
+        instances.chain(shapes).chain(lamps)
+    }
+
     /// Builds the trees that are placed, each mesh once.
     pub fn plant(
         &self,
@@ -126,7 +134,8 @@ impl Plan {
         let mut trees = Vec::new();
         let mut placed = Vec::with_capacity(count);
         let mut tree_of_mesh = vec![None; scene.meshes.len()];
-        for &(mesh, carrier) in &self.meshes {
+        for &(index, carrier) in &self.meshes {
+            let mesh = scene.instances[index].mesh;
             let tree = match tree_of_mesh[mesh] {
                 Some(tree) => tree,
                 None => {

@@ -1,5 +1,6 @@
-//! The bind groups of `bindings.wesl` on the host: layouts and the buffers in them.
+//! What is in the bind groups of `bindings.wesl`, on the host.
 
+use super::layouts::{Layouts, ROW_FORMAT, TEXEL_FORMAT, group};
 use crate::{
     gpu::{Gpu, GpuError, Ledger, Needs},
     layout::{IMAGE_WIDTH_LOG2, PackedFrame, PackedLight, PackedNode, PackedSlice, PackedTone},
@@ -8,71 +9,15 @@ use crate::{
 };
 use bytemuck::{bytes_of, cast_slice};
 use std::borrow::Cow;
-use wgpu::{BindGroupLayout, BindingType, Buffer, BufferBindingType, BufferUsages};
+use wgpu::{Buffer, BufferUsages};
 
 const ROW_BYTES: u64 = 16;
 const IMAGE_WIDTH: u32 = 1 << IMAGE_WIDTH_LOG2;
-const ROW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
-const TEXEL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
-/// Layouts of groups 0 to 3.
-pub struct Layouts {
-    pub scene: BindGroupLayout,
-    pub frame: BindGroupLayout,
-    pub film: BindGroupLayout,
-    pub develop: BindGroupLayout,
-}
-
-impl Layouts {
-    pub fn new(gpu: &Gpu, fetch: Fetch) -> Self {
-        let read = BindingType::Buffer {
-            ty: BufferBindingType::Storage { read_only: true },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        };
-        let write = BindingType::Buffer {
-            ty: BufferBindingType::Storage { read_only: false },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        };
-        let image = BindingType::StorageTexture {
-            access: wgpu::StorageTextureAccess::ReadOnly,
-            format: ROW_FORMAT,
-            view_dimension: wgpu::TextureViewDimension::D2,
-        };
-        let texels = BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: false },
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        };
-        let geometry = if fetch == Fetch::Image { image } else { read };
-        let layout = |label, types: &[BindingType]| {
-            let entries: Vec<_> = (0..)
-                .zip(types)
-                .map(|(binding, &ty)| wgpu::BindGroupLayoutEntry {
-                    binding,
-                    visibility: wgpu::ShaderStages::COMPUTE,
-                    ty,
-                    count: None,
-                })
-                .collect();
-            gpu.device
-                .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                    label: Some(label),
-                    entries: &entries,
-                })
-        };
-        Self {
-            scene: layout(
-                "scene",
-                &[geometry, geometry, geometry, geometry, read, texels],
-            ),
-            frame: layout("frame", &[read, write]),
-            film: layout("film", &[write]),
-            develop: layout("develop", &[read, write]),
-        }
-    }
-}
+/// What shaders write and the host reads.
+const READABLE: BufferUsages = BufferUsages::STORAGE
+    .union(BufferUsages::COPY_SRC)
+    .union(BufferUsages::COPY_DST);
 
 /// Everything on the GPU but the pipelines.
 pub struct Buffers {
@@ -97,15 +42,8 @@ impl Buffers {
     ) -> Result<Self, GpuError> {
         let buffers = SceneBuffers::new(gpu, fetch, scene, view)?;
         let scene_group = buffers.group(gpu, layouts);
-        let storage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
-        let slice = gpu.allocate("slice", size_of::<PackedSlice>() as u64, storage)?;
-        let film_bytes = film_rows as u64 * ROW_BYTES;
-        let film = gpu.allocate("film", film_bytes, storage)?;
-        let staging = gpu.allocate(
-            "staging",
-            film_bytes + size_of::<PackedSlice>() as u64,
-            BufferUsages::MAP_READ | BufferUsages::COPY_DST,
-        )?;
+        let slice = gpu.allocate("slice", size_of::<PackedSlice>() as u64, READABLE)?;
+        let (film, staging) = film(gpu, film_rows)?;
         let frame_group = frame_group(gpu, layouts, view, &slice)?;
         let film_group = group(gpu, &layouts.film, &[film.as_entire_binding()]);
         Ok(Self {
@@ -117,6 +55,39 @@ impl Buffers {
             staging,
             scene: buffers,
         })
+    }
+
+    /// Makes room for `film_rows`, unless there is. Returns whether the film is another now.
+    pub fn make_room(
+        &mut self,
+        gpu: &Gpu,
+        layouts: &Layouts,
+        film_rows: usize,
+    ) -> Result<bool, GpuError> {
+        if film_rows as u64 * ROW_BYTES <= self.film.size() {
+            return Ok(false);
+        }
+        self.film.destroy();
+        self.staging.destroy();
+        (self.film, self.staging) = film(gpu, film_rows)?;
+        self.film_group = group(gpu, &layouts.film, &[self.film.as_entire_binding()]);
+        Ok(true)
+    }
+
+    /// Puts another scene in place of the one that was, whose buffers are destroyed first.
+    pub fn set_scene(
+        &mut self,
+        gpu: &Gpu,
+        layouts: &Layouts,
+        fetch: Fetch,
+        scene: &PackedScene,
+        view: &PackedView,
+    ) -> Result<(), GpuError> {
+        self.scene.destroy();
+        self.scene = SceneBuffers::new(gpu, fetch, scene, view)?;
+        self.scene_group = self.scene.group(gpu, layouts);
+        self.frame_group = frame_group(gpu, layouts, view, &self.slice)?;
+        Ok(())
     }
 
     /// Puts another frame in place: of the scene only what it places, and materials that change.
@@ -180,6 +151,19 @@ impl SceneBuffers {
         Ok(buffers)
     }
 
+    fn destroy(&self) {
+        for rows in [
+            &self.nodes,
+            &self.triangles,
+            &self.vertices,
+            &self.materials,
+        ] {
+            rows.destroy();
+        }
+        self.shapes.destroy();
+        self.texels.texture().destroy();
+    }
+
     fn group(&self, gpu: &Gpu, layouts: &Layouts) -> wgpu::BindGroup {
         let rows = [
             &self.nodes,
@@ -240,6 +224,18 @@ fn nodes(
     let nodes = Rows::allocate(gpu, fetch, "nodes", node_bytes(scene, view_room))?;
     nodes.write(gpu, 0, cast_slice(&scene.nodes))?;
     Ok((nodes, view_room))
+}
+
+/// A film with this many rows, and what it is read back through, with the accounts of a slice.
+fn film(gpu: &Gpu, rows: usize) -> Result<(Buffer, Buffer), GpuError> {
+    let bytes = rows as u64 * ROW_BYTES;
+    let film = gpu.allocate("film", bytes, READABLE)?;
+    let staging = gpu.allocate(
+        "staging",
+        bytes + size_of::<PackedSlice>() as u64,
+        BufferUsages::MAP_READ | BufferUsages::COPY_DST,
+    )?;
+    Ok((film, staging))
 }
 
 fn frame_group(
@@ -339,26 +335,6 @@ impl Rows {
             Self::Buffer(buffer) => buffer.as_entire_binding(),
         }
     }
-}
-
-/// A bind group of these resources at bindings 0, 1, ….
-pub fn group(
-    gpu: &Gpu,
-    layout: &BindGroupLayout,
-    resources: &[wgpu::BindingResource],
-) -> wgpu::BindGroup {
-    let entries: Vec<_> = (0..)
-        .zip(resources)
-        .map(|(binding, resource)| wgpu::BindGroupEntry {
-            binding,
-            resource: resource.clone(),
-        })
-        .collect();
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout,
-        entries: &entries,
-    })
 }
 
 /// The fetch to use: as asked, or images on software adapters, where they are twice as fast.

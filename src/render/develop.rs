@@ -1,6 +1,6 @@
 //! From sums to a picture: `kernels/develop.wesl`.
 
-use super::{Integrator, RenderError, Renderer, bindings::group, film::Window, slice::Slice};
+use super::{Integrator, RenderError, Renderer, film::Window, layouts::group, slice::Slice};
 use crate::{
     gpu::{GpuError, Kernel, Source},
     image::Image,
@@ -32,7 +32,7 @@ impl Tone {
         transfer: Transfer::Linear,
     };
 
-    fn packed(&self) -> PackedTone {
+    pub(super) fn packed(&self) -> PackedTone {
         PackedTone {
             exposure_scale: self.exposure_ev.exp2(),
             curve: match self.curve {
@@ -63,6 +63,7 @@ impl Renderer {
     /// tone costs no new rays.
     pub fn develop(&mut self, tone: &Tone) -> Result<Image, RenderError> {
         let start = Instant::now();
+        self.fetch_film()?;
         let [x, y, width, height] = self.settings.region();
         let mut image = Image::new(width, height);
         if self.settings.integrator == Integrator::Samples {

@@ -2,11 +2,14 @@
 
 use super::{
     Stats,
-    bindings::{self, Buffers, Layouts},
+    bindings::{self, Buffers},
     debug_view,
     develop::Developer,
+    explain::Explainer,
     film::{TILE_PIXELS, Window},
+    layouts::Layouts,
     settings::{Fetch, Integrator, Settings},
+    show::Projector,
     slice::Slice,
     whitted::{self, Overrides},
 };
@@ -15,7 +18,7 @@ use crate::{
     layout::PackedSlice,
     pack::{PackedScene, PackedView},
 };
-use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
+use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_collect_to_vec, pod_read_unaligned};
 use std::time::Instant;
 
 const ROW_BYTES: u64 = 16;
@@ -39,10 +42,12 @@ pub struct Device {
     pub buffers: Buffers,
     /// What was compiled so far, with what it was made with. Views of one scene differ in what moves
     /// and shines.
-    pipelines: Vec<(Overrides, wgpu::ComputePipeline)>,
+    pipelines: Vec<(Variant, wgpu::ComputePipeline)>,
     /// Index of the one that the view needs.
     current: usize,
     pub developer: Option<Developer>,
+    pub projector: Option<Projector>,
+    pub explainer: Option<Explainer>,
     /// The window whose sums are in the film buffer.
     pub loaded_window: Option<usize>,
 }
@@ -60,42 +65,69 @@ impl Device {
             fetch,
             layouts,
             buffers,
-            pipelines: vec![(kernel(task).1, pipeline)],
+            pipelines: vec![(Variant::of(task), pipeline)],
             current: 0,
             developer: None,
+            projector: None,
+            explainer: None,
             loaded_window: None,
         })
     }
 
-    /// Puts another frame in place.
-    pub fn set_view(&mut self, task: Task, stats: &mut Stats) -> Result<(), GpuError> {
-        let Task { scene, view, .. } = task;
+    /// Puts another frame in place, or another scene with it, and makes room for its film.
+    pub fn set(
+        &mut self,
+        task: Task,
+        is_other_scene: bool,
+        stats: &mut Stats,
+    ) -> Result<(), GpuError> {
         let start = Instant::now();
-        (self.buffers).set_view(&self.gpu, &self.layouts, scene, view)?;
+        let (gpu, layouts) = (&self.gpu, &self.layouts);
+        let Task { scene, view, .. } = task;
+        if self.buffers.make_room(gpu, layouts, task.film_rows)? {
+            self.developer = None;
+        }
+        if is_other_scene {
+            (self.buffers).set_scene(gpu, layouts, self.fetch, scene, view)?;
+        } else {
+            self.buffers.set_view(gpu, layouts, scene, view)?;
+        }
         stats.upload_seconds += start.elapsed().as_secs_f64();
         self.loaded_window = None;
-        let overrides = kernel(task).1;
-        let known = self.pipelines.iter().position(|(of, _)| *of == overrides);
+        let wanted = Variant::of(task);
+        let known = self.pipelines.iter().position(|(of, _)| *of == wanted);
         self.current = match known {
             Some(index) => index,
             None => {
-                let Self {
-                    gpu,
-                    fetch,
-                    layouts,
-                    buffers,
-                    ..
-                } = &*self;
-                let pipeline = compile(gpu, *fetch, layouts, buffers, task, stats)?;
-                self.pipelines.push((overrides, pipeline));
+                let pipeline = compile(gpu, self.fetch, layouts, &self.buffers, task, stats)?;
+                self.pipelines.push((wanted, pipeline));
                 self.pipelines.len() - 1
             }
         };
         Ok(())
     }
 
-    /// Runs one slice of the window with this index and returns its accounts. The sums of its tiles
-    /// come to the host's film if it was done in full.
+    /// The sums of the window that is on the device.
+    pub fn fetch_film(&self, window: &mut Window) -> Result<(), GpuError> {
+        let encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let rows = Source {
+            buffer: &self.buffers.film,
+            offset: 0,
+            bytes: window.row_count() as u64 * ROW_BYTES,
+        };
+        let staging = &self.buffers.staging;
+        self.gpu
+            .submit_and_read(encoder, &[rows], staging, |bytes| {
+                window.sums.clear();
+                window
+                    .sums
+                    .extend_from_slice(&pod_collect_to_vec::<u8, [f32; 4]>(bytes));
+            })
+    }
+
+    /// Runs one slice of the window with this index and returns its accounts. With
+    /// [`super::Slicing::host_copy`] the sums of its tiles come to the host's film if it was done in
+    /// full.
     pub fn trace(
         &mut self,
         slice: &Slice,
@@ -127,10 +159,12 @@ impl Device {
             bytes: u64::from(slice.end_tile - slice.first_tile) * tile_bytes,
         };
         let first_row = slice.first_tile as usize * tile_rows;
-        gpu.submit_and_read(encoder, &[accounts, tiles], &buffers.staging, |bytes| {
+        let copies = settings.slicing.host_copy;
+        let sources = &[accounts, tiles][..1 + usize::from(copies)];
+        gpu.submit_and_read(encoder, sources, &buffers.staging, |bytes| {
             let (tally, sums) = bytes.split_at(size_of::<PackedSlice>());
             let tally = pod_read_unaligned(tally);
-            if slice.is_complete(&tally) {
+            if copies && slice.is_complete(&tally) {
                 let target = cast_slice_mut(&mut window.sums[first_row..]);
                 target[..sums.len()].copy_from_slice(sums);
             }
@@ -148,6 +182,25 @@ pub fn reopen(
 ) -> Result<Device, GpuError> {
     let needs = bindings::needs(task.scene, task.view, fetch, task.film_rows);
     Device::new(Gpu::open(choice, needs)?, fetch, task, stats)
+}
+
+/// What a pipeline is made of.
+#[derive(PartialEq)]
+struct Variant {
+    kernel: &'static str,
+    moves: bool,
+    overrides: Overrides,
+}
+
+impl Variant {
+    fn of(task: Task) -> Self {
+        let (kernel, overrides) = kernel(task);
+        Self {
+            kernel: kernel.name,
+            moves: whitted::moves(task),
+            overrides,
+        }
+    }
 }
 
 /// The integrator's kernel, and what the scene, the frame and the settings ask of it.
@@ -170,19 +223,8 @@ fn compile(
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let start = Instant::now();
     let (kernel, overrides) = kernel(task);
-    let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
-    let layout = gpu
-        .device
-        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(kernel.name),
-            bind_group_layouts: &groups,
-            immediate_size: 0,
-        });
-    let source = kernel.source(fetch == Fetch::Image, whitted::moves(task));
-    // The linker leaves out overrides that a kernel has no use for.
-    let known = |(id, _): &(&str, f64)| source.contains(&format!("@id({id})"));
-    let overrides: Vec<_> = overrides.into_iter().filter(known).collect();
-    let pipeline = gpu.pipeline(kernel.name, source, Some(&layout), &overrides)?;
+    let moving = whitted::moves(task);
+    let pipeline = pipeline(gpu, fetch, layouts, kernel, (overrides, moving))?;
     let idle = PackedSlice {
         tile_count: 1,
         tile_columns: 1,
@@ -195,6 +237,29 @@ fn compile(
     gpu.submit(encoder.finish())?;
     stats.compile_seconds += start.elapsed().as_secs_f64();
     Ok(pipeline)
+}
+
+/// A kernel that traces, for groups 0 to 2, with what it is made with and whether it is to move.
+pub fn pipeline(
+    gpu: &Gpu,
+    fetch: Fetch,
+    layouts: &Layouts,
+    kernel: Kernel,
+    (overrides, moving): (Overrides, bool),
+) -> Result<wgpu::ComputePipeline, GpuError> {
+    let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
+    let layout = gpu
+        .device
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(kernel.name),
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        });
+    let source = kernel.source(fetch == Fetch::Image, moving);
+    // The linker leaves out overrides that a kernel has no use for.
+    let known = |(id, _): &(&str, f64)| source.contains(&format!("@id({id})"));
+    let overrides: Vec<_> = overrides.into_iter().filter(known).collect();
+    gpu.pipeline(kernel.name, source, Some(&layout), &overrides)
 }
 
 fn dispatch(

@@ -241,6 +241,16 @@ impl Film {
         }
     }
 
+    /// Whether the whole picture is sampled at once, every pixel in its turn.
+    pub fn is_one_rectangle(&self) -> bool {
+        self.adaptive.is_none() && self.windows.len() == 1
+    }
+
+    /// Whether moreover all samples so far are in one sum.
+    pub fn is_one_sum(&self) -> bool {
+        self.is_one_rectangle() && self.windows[0].totals.is_empty()
+    }
+
     /// The samples that a pixel of the picture has got.
     pub fn samples_at(&self, pixel: [u32; 2]) -> u32 {
         match &self.adaptive {

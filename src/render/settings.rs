@@ -124,6 +124,9 @@ pub enum Integrator {
     Depth,
     /// A colour for each primitive.
     Ids,
+    /// Texture coordinates: u in red and v in green, from 0 to 1 and again, over a pattern of 8 by 8 fields;
+    /// black where nothing is hit and on meshes that have none.
+    Uv,
     /// Steps of the tree walk, from black over blue, green, yellow and red to white.
     Heat,
     /// The samples that adaptive sampling spent, as a share of those allowed.
@@ -166,6 +169,9 @@ pub struct Slicing {
     /// Longest side of a window, the part of the picture that is on the GPU at a time, in pixels;
     /// 8 to 2048.
     pub window_side: u32,
+    /// Whether the film comes to the host after each submission, so that a lost device costs no more
+    /// than one. Without, it comes when it is asked for, and a loss is an error.
+    pub host_copy: bool,
 }
 
 impl Default for Slicing {
@@ -175,6 +181,7 @@ impl Default for Slicing {
             max_tiles: u32::MAX,
             max_samples: 16,
             window_side: 2048,
+            host_copy: true,
         }
     }
 }

@@ -11,6 +11,12 @@ use crate::layout::PackedSlice;
 const FIRST_TILES: f64 = 8.0;
 /// The most by which a submission may be larger than the one before.
 const GROWTH: f64 = 4.0;
+/// Where twice the work takes no more than this much longer, time goes elsewhere: to the submission itself,
+/// or to what else the adapter and the machine have to do. Smaller submissions would only waste it.
+const TWICE: f64 = 2.0;
+const HARDLY_LONGER: f64 = 1.4;
+/// Seconds within which submissions grow for that reason: watchdogs wait for a little longer.
+const LONGEST_WAIT: f64 = 1.5;
 /// Most workgroups along x: a second dimension keeps both below WebGPU's 65,535.
 const GRID_WIDTH: u32 = 256;
 
@@ -97,6 +103,10 @@ pub struct Planner {
     slicing: Slicing,
     /// Work that should fit into the target time.
     budget: f64,
+    /// Work below which time is wasted.
+    floor: f64,
+    /// Work and seconds of the last submission.
+    last: Option<(f64, f64)>,
     /// Most samples that an invocation takes.
     max_samples: u32,
 }
@@ -106,6 +116,8 @@ impl Planner {
         Self {
             slicing,
             budget: FIRST_TILES,
+            floor: 1.0,
+            last: None,
             max_samples: slicing.max_samples,
         }
     }
@@ -140,8 +152,32 @@ impl Planner {
 
     /// Learns from a finished slice.
     pub fn finished(&mut self, slice: &Slice, seconds: f64) {
-        let fitting = slice.work() * self.slicing.target_seconds / seconds.max(1e-6);
-        self.budget = fitting.clamp(1.0, slice.work().max(FIRST_TILES) * GROWTH);
+        let work = slice.work();
+        self.floor = match self.last {
+            _ if seconds <= self.slicing.target_seconds => self.floor / TWICE,
+            Some((before, took)) if before != work => {
+                let (less, more) = (before.min(work), before.max(work));
+                let (short, long) = if work < before {
+                    (seconds, took)
+                } else {
+                    (took, seconds)
+                };
+                let is_wasted =
+                    more >= TWICE * less && long <= HARDLY_LONGER * short && long <= LONGEST_WAIT;
+                if is_wasted {
+                    TWICE * more
+                } else {
+                    self.floor.min(less)
+                }
+            }
+            // Whether it still is wasted shows when there is less of it.
+            _ => self.floor / TWICE,
+        }
+        .max(1.0);
+        self.last = Some((work, seconds));
+        let most = work.max(FIRST_TILES) * GROWTH;
+        let fitting = work * self.slicing.target_seconds / seconds.max(1e-6);
+        self.budget = fitting.clamp(self.floor.min(most), most);
     }
 
     /// Answers paths that the driver cut off: fewer samples in an invocation from now on.
@@ -152,5 +188,6 @@ impl Planner {
     /// Answers a slice that the driver cut short: smaller ones from now on.
     pub fn cut_short(&mut self) {
         self.budget = (self.budget / 2.0).max(1.0);
+        self.floor = 1.0;
     }
 }

@@ -64,9 +64,14 @@ pub fn tracing(task: Task) -> Overrides {
         ("17", flag(cameras.any(|camera| camera.lens_radius > 0.0))),
         ("18", f64::from(filter)),
         ("19", f64::from(settings.filter_radius)),
-        ("21", flag(features.textures)),
+        (
+            "21",
+            flag(features.textures || settings.integrator == Integrator::Uv),
+        ),
         ("22", flag(features.emission)),
         ("23", flag(settings.is_adaptive())),
+        ("28", flag(view.orthographic)),
+        ("29", flag(!scene.uvs.is_empty())),
     ];
     if moves(task) {
         overrides.extend([

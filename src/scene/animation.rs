@@ -51,6 +51,8 @@ pub enum CameraProperty {
     Up,
     /// A scalar, in radians.
     FovY,
+    /// A scalar; of no effect on cameras with perspective.
+    OrthographicHeight,
     /// A scalar; of no effect on a pinhole.
     FocusDistance,
     /// A scalar; of no effect on a pinhole.

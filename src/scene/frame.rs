@@ -196,7 +196,13 @@ impl Target {
         match self {
             Self::Node(_, NodeProperty::Rotation) => matches!(values, Values::Rotation(_)),
             Self::Node(_, NodeProperty::Visible)
-            | Self::Camera(_, Camera::FovY | Camera::FocusDistance | Camera::LensRadius)
+            | Self::Camera(
+                _,
+                Camera::FovY
+                | Camera::OrthographicHeight
+                | Camera::FocusDistance
+                | Camera::LensRadius,
+            )
             | Self::Light(_, Light::Intensity | Light::On)
             | Self::Material(_, Material::Shininess | Material::Opacity | Material::Ior) => {
                 matches!(values, Values::Scalar(_))

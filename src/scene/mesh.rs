@@ -70,6 +70,10 @@ impl Mesh {
         for (i, normal) in self.normals.iter_mut().enumerate() {
             let given = normal.as_dvec3();
             let length = given.length();
+            // As near to 1 as f32 can be: it stays as it is, so that nothing is repaired twice.
+            if (length - 1.0).abs() <= f64::from(f32::EPSILON) {
+                continue;
+            }
             *normal = if length.is_finite() && length > 1e-30 {
                 (given / length).as_vec3()
             } else {
@@ -89,7 +93,11 @@ impl Mesh {
     /// Moves the vertices so that their box is centred on the origin and returns the translation
     /// that brings them back. Of use to importers whose files place vertices far from the origin.
     pub fn from_world_positions(positions: &[DVec3]) -> (Vec<Vec3>, DVec3) {
-        let Some((min, max)) = positions.iter().map(|&p| (p, p)).reduce(super::union) else {
+        let Some((min, max)) = positions
+            .iter()
+            .map(|&p| (p, p))
+            .reduce(super::bounds::union)
+        else {
             return (Vec::new(), DVec3::ZERO);
         };
         // Only worth it when the offset costs f32 precision; else the file's numbers stay as they are.

@@ -311,7 +311,9 @@ fn camera_probes(camera: &Camera) -> Vec<Probe> {
         Probe::new(camera.look_from, TOLERANCE * forward.length()),
         Probe::axis(forward.normalize_or_zero(), MAX_CAMERA_TURN),
         Probe::axis(right, MAX_CAMERA_TURN),
-        Probe::size(DVec3::splat((camera.fov_y / 2.0).tan())),
+        Probe::size(DVec3::splat(
+            (camera.orthographic_height).unwrap_or_else(|| (camera.fov_y / 2.0).tan()),
+        )),
     ];
     if let Some(lens) = camera.lens {
         probes.push(Probe::size(DVec3::splat(lens.focus_distance)));

@@ -66,6 +66,15 @@ pub enum Pattern {
     },
 }
 
+/// The inverse of the sRGB transfer function, IEC 61966-2-1.
+pub fn linear_from_srgb(value: f64) -> f64 {
+    if value <= 0.04045 {
+        value / 12.92
+    } else {
+        ((value + 0.055) / 1.055).powf(2.4)
+    }
+}
+
 /// Texels in memory: linear Rec. 709, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {

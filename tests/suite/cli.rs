@@ -42,6 +42,10 @@ impl Workplace {
         let mut command = Command::new(env!("CARGO_BIN_EXE_glimray"));
         command.current_dir(self.0.path()).args(arguments);
         command.stdin(Stdio::null());
+        // With a display the program would open its window.
+        for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+            command.env_remove(name);
+        }
         command
     }
 
@@ -144,7 +148,7 @@ fn help_explains_every_promised_flag_with_an_example() {
     let log = "--report --count-rays --progress --quiet -q --verbose -v";
     let output = "-o --output --format --quality --no-clobber";
     let picture = "--antialias --filter --filter-radius --light-samples --integrator --triangle-test --no-bvh --exposure --tone --transfer \
-        --seed --crop --camera --fov-y --look-from --look-at --up --background";
+        --seed --crop --camera --fov-y --orthographic --look-from --look-at --up --background";
     let reading = "--strict --set --allow-dir";
     let size = "--size --samples";
     let motion = "--fps --shutter";
@@ -175,7 +179,21 @@ fn help_explains_every_promised_flag_with_an_example() {
             "turntable",
             [output, turn, size, motion, reading, device, log].join(" "),
         ),
+        ("convert", ["--output --no-clobber", reading].join(" ")),
         ("inspect", ["--json", reading].join(" ")),
+        (
+            "explain",
+            [
+                "--pixel --sample --json --obj",
+                size,
+                picture,
+                "--frame --time",
+                motion,
+                reading,
+                device,
+            ]
+            .join(" "),
+        ),
         ("doctor", ["--json", device].join(" ")),
         ("compare", "--tolerance --max-share --diff --json".into()),
         ("bench", ["--json --repeats --only", device].join(" ")),
@@ -245,7 +263,7 @@ fn bad_command_lines_exit_2_and_say_why() {
         ),
         (
             "--integrator path",
-            "[possible values: whitted, normals, depth, ids, heat, samples]",
+            "[possible values: whitted, normals, depth, ids, uv, heat, samples]",
         ),
         (
             "--filter lanczos",
@@ -409,6 +427,52 @@ fn completions_and_schema_are_printed() {
     place.run("completions tcsh").expect(2);
     let schema = place.run("schema").expect(0).json();
     assert!(schema["$schema"].is_string(), "{schema}");
+}
+
+#[test]
+fn a_converted_scene_is_the_same_picture_and_nothing_in_the_way_is_replaced() {
+    let place = Workplace::new();
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
+    for name in [
+        "lighthouse.obj",
+        "neutral.nff",
+        "spheres_and_triangles.scene",
+    ] {
+        let from = scenes.join(name);
+        let run = place
+            .run(&format!("convert {} -o new.toml", from.display()))
+            .expect(0);
+        let files: Vec<_> = run.text().lines().map(|line| place.path(line)).collect();
+        assert!(files.iter().all(|file| file.is_file()), "{files:?}");
+        let flags = "--size 40x30 --samples 1 --quiet";
+        place
+            .run(&format!("render {} {flags} -o a.exr", from.display()))
+            .expect(0);
+        place
+            .run(&format!("render new.toml {flags} -o b.exr"))
+            .expect(0);
+        let read = |name: &str| fs::read(place.path(name)).expect("a picture");
+        assert!(read("a.exr") == read("b.exr"), "{name} looks different");
+    }
+    // The same again leaves the same files; others of the same name stay as they are.
+    let model = scenes.join("lighthouse.obj");
+    let convert = format!("convert {} -o ship.toml", model.display());
+    place.run(&convert).expect(0);
+    let files = || fs::read_dir(place.path(".")).expect("a folder").count();
+    let before = files();
+    place.run(&convert).expect(0);
+    assert_eq!(files(), before);
+    fs::write(place.path("ship-lighthouse.ply"), "mine").expect("written");
+    place.run(&convert).expect(0);
+    assert_eq!(
+        fs::read(place.path("ship-lighthouse.ply")).expect("there"),
+        b"mine"
+    );
+    assert_eq!(files(), before + 1);
+    place.run(&format!("{convert} --no-clobber")).expect(4);
+    place.run("convert ship.toml -o ./ship.toml").expect(2);
+    place.run("convert ship.toml -o ship.obj").expect(2);
+    place.run("convert gone.toml").expect(3);
 }
 
 /// 2×2 black pixels, and the same with the last 3 levels brighter in red.
@@ -800,4 +864,118 @@ fn inspect_tells_of_lenses_and_area_lights() {
     ] {
         assert!(text.text().contains(part), "{}", text.text());
     }
+}
+
+#[test]
+fn a_pixel_is_explained_as_a_tree_as_json_and_as_lines() {
+    let place = Workplace::new();
+    let run = place
+        .run("explain a.scene --size 9x9 --pixel 4,4 --obj rays.obj")
+        .expect(0);
+    insta::assert_snapshot!(run.text(), @r"
+    pixel 4,4 of 9×9
+    sample 0: 2 ray(s), weight 1
+    └ primary hits shape 0 after 2, material 0
+      │ at (0, 0, -2), normal (0, 0, 1), from outside
+      │ share 1 1 1, adds 0.1 0.1 0.1 (ambient 0.1 0.1 0.1)
+      └ shadow to light 0, 4.123 away: free, share 1 1 1, adds 0.5097 0.07311 0.07311
+      sum 0.6097 0.1731 0.1731, colour 0.6097 0.1731 0.1731
+    sum    0.6097 0.1731 0.1731, the weighted mean of 1 sample(s)
+    pixel  0.6097 0.1731 0.1731 (linear)
+    ");
+    let lines = fs::read_to_string(place.path("rays.obj")).expect("lines");
+    // From the eye to the sphere, and from there to the light; shadow rays start a little above the
+    // surface.
+    let vertices = lines.lines().filter_map(|line| line.strip_prefix("v "));
+    let numbers = vertices.flat_map(|vertex| vertex.split(' ').map(|c| c.parse::<f64>()));
+    let expected = [0.0, 0.0, 0.0, 0.0, 0.0, -2.0, 0.0, 0.0, -2.0, 2.0, 2.0, 1.0];
+    let numbers: Vec<_> = numbers.map(|number| number.expect("a number")).collect();
+    assert_eq!(numbers.len(), expected.len(), "{lines}");
+    let near = |(a, b): (&f64, f64)| (a - b).abs() < 1e-4;
+    assert!(numbers.iter().zip(expected).all(near), "{lines}");
+    let words: Vec<_> = lines
+        .lines()
+        .filter(|line| !line.starts_with("v "))
+        .collect();
+    assert_eq!(
+        words,
+        [
+            "# rays of pixel 4,4",
+            "o sample_0",
+            "g primary",
+            "l 1 2",
+            "g shadow",
+            "l 3 4"
+        ]
+    );
+    let json = place
+        .run("explain a.scene --size 9x9 --pixel 4,4 --json")
+        .expect(0)
+        .json();
+    assert_eq!(json["pixel"], serde_json::json!([4, 4]));
+    assert_eq!(json["size"], serde_json::json!([9, 9]));
+    let rays = &json["samples"][0]["rays"];
+    assert_eq!(rays[0]["kind"], "primary");
+    assert_eq!(
+        rays[0]["hit"]["object"],
+        serde_json::json!({ "kind": "shape", "index": 0 })
+    );
+    assert_eq!(rays[1]["kind"], "shadow");
+    assert_eq!(rays[1]["parent"], 0);
+    assert_eq!(rays[0]["children"], serde_json::json!([1]));
+    for channel in 0..3 {
+        let of = |value: &Value| value[channel].as_f64().expect("a number");
+        let sum = of(&rays[0]["contribution"]) + of(&rays[1]["contribution"]);
+        assert!((sum - of(&json["value"])).abs() < 1e-6, "{json:#}");
+        assert!((sum - of(&json["sum"])).abs() < 1e-6, "{json:#}");
+    }
+}
+
+#[test]
+fn explaining_what_is_not_there_exits_2_with_one_line() {
+    let place = Workplace::new();
+    let run = |flags: &str| {
+        let run = place
+            .run(&format!("explain a.scene --size 9x9 {flags}"))
+            .expect(2);
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+        run.stderr
+    };
+    insta::assert_snapshot!(run("--pixel 9,0"), @"error: no such pixel (--pixel 9,0): the picture has columns 0 to 8 and rows 0 to 8. Choose one of them.");
+    insta::assert_snapshot!(run("--pixel 0,0 --crop 2,3,5,6"), @"error: no such pixel (--pixel 0,0): what --crop leaves of it has columns 2 to 4 and rows 3 to 5. Choose one of them.");
+    insta::assert_snapshot!(run("--pixel 0,0 --integrator depth"), @"error: cannot explain (--integrator depth): only whitted sends rays on. Leave it out.");
+    insta::assert_snapshot!(run("--pixel 0,0 --sample 4 --samples 4"), @"error: no such sample (--sample 4): the pixel has 4, from 0 to 3. Choose one of them, or set --samples.");
+    place.run("explain a.scene").expect(2);
+    place.run("explain a.scene --pixel 1").expect(2);
+    place.run("explain a.scene --pixel 1,-1").expect(2);
+    place
+        .run("explain a.scene --pixel 1,1 --obj no/rays.obj")
+        .expect(4);
+    place.run("explain nothing.scene --pixel 1,1").expect(3);
+}
+
+#[test]
+fn a_lost_device_does_not_change_what_is_explained() {
+    let place = Workplace::new();
+    let line = "explain a.scene --size 9x9 --samples 4 --pixel 4,4 --json";
+    let expected = place.run(line).expect(0);
+    // The first submission is the idle one of a new pipeline; two more count and record the rays.
+    for fault in ["device@2", "device@3", "device@2,4", "device@1,3,5"] {
+        let mut command = place.command(line.split_whitespace());
+        let run = Run::from(
+            command
+                .env("GLIMRAY_FAULT", fault)
+                .output()
+                .expect("glimray runs"),
+        );
+        assert_eq!(run.expect(0).text(), expected.text(), "{fault}");
+    }
+    let mut command = place.command(line.split_whitespace());
+    let run = Run::from(
+        command
+            .env("GLIMRAY_FAULT", "device@*")
+            .output()
+            .expect("it runs"),
+    );
+    run.expect(6);
 }

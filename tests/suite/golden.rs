@@ -133,6 +133,7 @@ fn mixed() -> Scene {
     let mut scene = still_life();
     let count = scene.materials.len() as u32;
     for mesh in &mut scene.meshes {
+        let mesh = std::sync::Arc::make_mut(mesh);
         for (i, material) in mesh.materials.iter_mut().enumerate() {
             *material = i as u32 / 3 % count;
         }

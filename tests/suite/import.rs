@@ -9,6 +9,7 @@ mod native_animation;
 mod native_groups;
 mod native_light_and_lens;
 mod nff;
+mod nodes_and_ply;
 mod obj;
 mod optics;
 mod pictures;

@@ -16,6 +16,7 @@ const MODULES: &[(&str, &[&str])] = &[
     ("gpu", &[]),
     ("bvh", &[]),
     ("import", &["scene"]),
+    ("export", &["scene"]),
     ("pack", &["scene", "bvh", "layout"]),
     ("render", &["scene", "pack", "layout", "gpu", "image"]),
     ("output", &["image"]),

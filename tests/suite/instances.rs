@@ -40,8 +40,8 @@ pub fn crowd(materials: [Material; 2]) -> Scene {
     let mut scene = scenes::empty();
     let [first, second] = materials.map(|material| scene.add_material(material) as u32);
     scene.meshes = vec![
-        scenes::ball(UVec2::new(12, 8), first),
-        scenes::torus(0.7, 0.3, UVec2::new(16, 8), second),
+        scenes::ball(UVec2::new(12, 8), first).into(),
+        scenes::torus(0.7, 0.3, UVec2::new(16, 8), second).into(),
     ];
     let mut random = Random::new(7);
     for copy in 0..40 {
@@ -142,7 +142,7 @@ fn instances_need_the_memory_of_one_mesh() {
     let triangles = mesh.triangles.len();
     let scene_of = |copies: u32| {
         let mut scene = scenes::empty();
-        scene.meshes.push(mesh.clone());
+        scene.meshes.push(mesh.clone().into());
         scene.instances.extend((0..copies).map(|i| Instance {
             mesh: 0,
             placement: DAffine3::from_translation(dvec3(f64::from(i), 0.0, 0.0)),
@@ -166,7 +166,7 @@ fn instances_need_the_memory_of_one_mesh() {
 fn rays_that_leave_a_triangle_hit_the_same_one_of_another_instance() {
     // A floor and the same mesh as a roof above it, which is its only shade.
     let mut scene = scenes::empty();
-    scene.meshes.push(scenes::quad(4.0, 0));
+    scene.meshes.push(scenes::quad(4.0, 0).into());
     scene.instances = [0.0, 2.0]
         .map(|height| Instance {
             mesh: 0,
@@ -194,7 +194,7 @@ fn rays_that_leave_a_triangle_hit_the_same_one_of_another_instance() {
 #[test]
 fn an_empty_crowd_and_a_hidden_one_are_background() {
     let mut scene = scenes::empty();
-    scene.meshes.push(Mesh::default());
+    scene.meshes.push(Mesh::default().into());
     scene.instances = vec![
         Instance {
             mesh: 0,
@@ -234,7 +234,7 @@ fn a_lamp_throws_no_shadow_of_itself_on_instances() {
         for position in &mut floor.positions {
             position.x += 40.0;
         }
-        scene.meshes.push(floor);
+        scene.meshes.push(floor.into());
         scene.instances = [-1.2, 0.0, 1.2]
             .map(|x| Instance {
                 mesh: 0,

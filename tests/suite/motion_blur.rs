@@ -289,12 +289,8 @@ fn boxes_that_follow_the_movement_lose_nothing() {
     // Shapes that tumble, swing and grow, against every primitive in turn.
     let mut scene = scenes::empty();
     let material = scene.add_material(scenes::shiny(Vec3::splat(0.7)));
-    scene.meshes.push(scenes::torus(
-        0.7,
-        0.3,
-        glam::UVec2::new(16, 8),
-        material as u32,
-    ));
+    let torus = scenes::torus(0.7, 0.3, glam::UVec2::new(16, 8), material as u32);
+    scene.meshes.push(torus.into());
     for i in 0..12 {
         let phase = f64::from(i);
         scene.nodes.push(Node::default());

@@ -119,7 +119,7 @@ fn a_pattern_travels_with_what_carries_it() {
         .push(moves(NodeProperty::Translation, vec![DVec3::ZERO, way]));
     let mut as_mesh = as_shape.clone();
     as_mesh.shapes.clear();
-    as_mesh.meshes.push(scenes::quad(2.0, 0));
+    as_mesh.meshes.push(scenes::quad(2.0, 0).into());
     as_mesh.instances.push(Instance {
         mesh: 0,
         placement: facing(),
@@ -161,7 +161,9 @@ fn a_pattern_on_what_stands_still_stands_still_whatever_else_moves() {
     });
     scene.materials[0].textures.diffuse = Some(0);
     scene.materials[0].textures.ambient = Some(0);
-    scene.meshes.push(scenes::ball(UVec2::new(24, 12), 0));
+    scene
+        .meshes
+        .push(scenes::ball(UVec2::new(24, 12), 0).into());
     scene.nodes = vec![
         Node {
             translation: dvec3(0.3, 0.45, 0.2),

@@ -98,7 +98,7 @@ fn fair() -> Scene {
     );
     scene
         .meshes
-        .push(scenes::torus(0.5, 0.22, UVec2::new(20, 10), striped as u32));
+        .push(scenes::torus(0.5, 0.22, UVec2::new(20, 10), striped as u32).into());
     scene.instances.push(Instance {
         mesh: 0,
         placement: DAffine3::from_rotation_x(0.6),

@@ -795,8 +795,8 @@ fn the_media_round_the_camera_are_those_of_the_copy_that_it_is_in() {
     let mut scene = dark();
     scene.materials = vec![glass(1.5), glass(1.3)];
     scene.meshes = vec![
-        scenes::ball(UVec2::new(12, 8), 0),
-        scenes::ball(UVec2::new(12, 8), 1),
+        scenes::ball(UVec2::new(12, 8), 0).into(),
+        scenes::ball(UVec2::new(12, 8), 1).into(),
     ];
     // Only one of the first mesh's copies, stretched and mirrored, reaches to the camera; one of the
     // second's lies in it.

@@ -152,7 +152,7 @@ fn flock(random: &mut Random) -> (Scene, Vec<Vec<DVec3>>) {
     let mut scene = scenes::empty();
     scene
         .meshes
-        .push(scenes::torus(0.7, 0.3, UVec2::new(10, 6), 0));
+        .push(scenes::torus(0.7, 0.3, UVec2::new(10, 6), 0).into());
     let mut points = Vec::new();
     for i in 0..24 {
         // A parent that scales unevenly above a child that turns makes it shear.
@@ -328,7 +328,7 @@ fn keys_lead_where_the_scene_says_at_every_moment() {
 fn any_transform_is_what_its_key_puts_together_again() {
     let mut random = Random::new(53);
     let mut scene = scenes::empty();
-    scene.meshes.push(scenes::quad(1e-3, 0));
+    scene.meshes.push(scenes::quad(1e-3, 0).into());
     let mut transforms = Vec::new();
     for i in 0..400 {
         // From round to a millionth as thin as wide, and mirrored by turns.
@@ -392,7 +392,7 @@ fn any_transform_is_what_its_key_puts_together_again() {
 fn keys_go_the_short_way_round() {
     // Three whole turns: quaternions change their sign on the way.
     let mut scene = scenes::empty();
-    scene.meshes.push(scenes::quad(1.0, 0));
+    scene.meshes.push(scenes::quad(1.0, 0).into());
     scene.nodes.push(Node::default());
     scene.instances.push(Instance {
         mesh: 0,
@@ -528,7 +528,7 @@ fn a_walk_through_both_levels_fits_on_the_stack() {
     let mut scene = scenes::empty();
     scene.cameras[0].look_from = DVec3::ZERO;
     scene.cameras[0].look_at = DVec3::X;
-    scene.meshes.push(mesh);
+    scene.meshes.push(mesh.into());
     scene.instances.extend((-70..49).map(|i| Instance {
         mesh: 0,
         placement: DAffine3::from_scale_rotation_translation(

@@ -6,6 +6,7 @@ pub mod compare;
 pub mod count;
 mod moment;
 mod optics;
+pub mod rays;
 pub mod scenes;
 pub mod shapes;
 pub mod spd;
@@ -13,12 +14,13 @@ pub mod textures;
 
 use glam::{DAffine3, DVec2, DVec3};
 use glimray::image::Image;
-use glimray::render::Rays;
+use glimray::render::{RayKind, Rays};
 use glimray::scene::{
     Attenuation, Camera, Form, Geometry, Light, LightKind, Material, Scene, Shape,
 };
 use moment::Carriers;
 use optics::Place;
+use rays::Log;
 use std::f64::consts::TAU;
 
 /// The picture and the number of rays it took.
@@ -40,18 +42,15 @@ pub fn trace_at(scene: &Scene, time: f64, size: (u32, u32)) -> Traced {
 }
 
 fn picture(tracer: &Tracer, (width, height): (u32, u32)) -> Traced {
-    let aspect = f64::from(width) / f64::from(height);
     let row = |y: u32| {
-        let mut rays = Rays::default();
+        let mut rays = Log::default();
         let pixels: Vec<_> = (0..width)
             .map(|x| {
-                let x = (f64::from(x) + 0.5) / f64::from(width) * 2.0 - 1.0;
-                let y = 1.0 - (f64::from(y) + 0.5) / f64::from(height) * 2.0;
-                let direction = ray_direction(tracer.camera, DVec2::new(x * aspect, y));
-                tracer.radiance(direction, &mut rays)
+                let (origin, direction) = pixel_ray(tracer.camera, (width, height), [x, y]);
+                tracer.radiance(origin, direction, &mut rays)
             })
             .collect();
-        (pixels, rays)
+        (pixels, rays.counts)
     };
     // Two threads, even and odd rows, because brute force takes its time.
     let rows: Vec<_> = std::thread::scope(|scope| {
@@ -86,13 +85,27 @@ fn picture(tracer: &Tracer, (width, height): (u32, u32)) -> Traced {
     Traced { image, rays }
 }
 
-/// From the eye through (x, y) of the image plane at distance 1, whose upper edge is at y = 1.
-fn ray_direction(camera: &Camera, at: DVec2) -> DVec3 {
+/// Origin and direction of the ray through the centre of a pixel.
+fn pixel_ray(camera: &Camera, (width, height): (u32, u32), [x, y]: [u32; 2]) -> (DVec3, DVec3) {
+    let aspect = f64::from(width) / f64::from(height);
+    let x = (f64::from(x) + 0.5) / f64::from(width) * 2.0 - 1.0;
+    let y = 1.0 - (f64::from(y) + 0.5) / f64::from(height) * 2.0;
+    camera_ray(camera, DVec2::new(x * aspect, y))
+}
+
+/// From the eye through (x, y) of the image plane at distance 1, whose upper edge is at y = 1; without
+/// perspective straight ahead, from (x, y) of the plane through the eye.
+fn camera_ray(camera: &Camera, at: DVec2) -> (DVec3, DVec3) {
     let forward = (camera.look_at - camera.look_from).normalize();
     let right = forward.cross(camera.up).normalize();
     let up = right.cross(forward);
+    if let Some(height) = camera.orthographic_height {
+        let at = at * height / 2.0;
+        return (camera.look_from + at.x * right + at.y * up, forward);
+    }
     let at = at * (camera.fov_y / 2.0).tan();
-    (forward + at.x * right + at.y * up).normalize()
+    let direction = (forward + at.x * right + at.y * up).normalize();
+    (camera.look_from, direction)
 }
 
 struct Tracer<'a> {
@@ -114,7 +127,7 @@ struct Triangle {
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Primitive {
+pub enum Primitive {
     Triangle(usize),
     Shape(usize),
 }
@@ -172,22 +185,24 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    fn radiance(&self, direction: DVec3, rays: &mut Rays) -> DVec3 {
-        rays.primary += 1;
+    fn radiance(&self, origin: DVec3, direction: DVec3, rays: &mut Log) -> DVec3 {
+        rays.counts.primary += 1;
         let ray = Ray {
-            origin: self.camera.look_from,
+            origin,
             direction,
             t_min: 0.0,
             t_max: f64::INFINITY,
             leaving: None,
         };
         let first = Place {
+            kind: RayKind::Primary,
+            sender: None,
             depth: 0,
             share: DVec3::ONE,
             media: Vec::new(),
         };
         let (color, is_hit) = self.follow(ray, &first, rays);
-        rays.primary_hits += u64::from(is_hit);
+        rays.counts.primary_hits += u64::from(is_hit);
         color
     }
 
@@ -241,30 +256,22 @@ impl<'a> Tracer<'a> {
 
     /// amb + Σ L (k_d max(l·n, 0) + k_s max(r·v, 0)^α) over the lights that are seen from `shadow`'s
     /// origin, with r = 2(l·n)n - l.
-    fn shade(
-        &self,
-        shadow: Ray,
-        n: DVec3,
-        v: DVec3,
-        material: &Material,
-        rays: &mut Rays,
-    ) -> DVec3 {
+    fn shade(&self, shadow: Ray, n: DVec3, v: DVec3, material: &Material, rays: &mut Log) -> DVec3 {
         let mut sum = self.scene.ambient.as_dvec3() * material.ambient.as_dvec3();
-        for light in &self.scene.lights {
+        for (index, light) in self.scene.lights.iter().enumerate() {
             for (l, distance, arriving) in light_points(light, shadow.origin) {
                 let cos = l.dot(n);
                 if cos <= 0.0 || arriving == DVec3::ZERO {
                     continue;
                 }
                 rays.shadow += 1;
-                if self
-                    .nearest(Ray {
-                        direction: l,
-                        t_max: distance,
-                        ..shadow
-                    })
-                    .is_some()
-                {
+                let blocker = self.nearest(Ray {
+                    direction: l,
+                    t_max: distance,
+                    ..shadow
+                });
+                rays.keep_shadow(index, blocker);
+                if blocker.is_some() {
                     rays.shadow_blocked += 1;
                     continue;
                 }

@@ -211,8 +211,8 @@ fn filters_spread_a_thin_line_by_their_own_width() {
             ..Material::default()
         });
     }
-    scene.meshes[0].materials = vec![0; 3];
-    let mut right = scene.meshes[0].clone();
+    std::sync::Arc::make_mut(&mut scene.meshes[0]).materials = vec![0; 3];
+    let mut right = (*scene.meshes[0]).clone();
     right.materials = vec![1; 3];
     // A triangle whose left edge is x = 0, nearer than the dark panel.
     right.positions = vec![

@@ -5,6 +5,7 @@ use crate::reference::scenes::{self, Build};
 use crate::reference::trace;
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3};
 use glimray::scene::{Attenuation, Geometry, Light, LightKind, Scene};
+use std::sync::Arc;
 
 /// `scene` scaled round the origin and moved; light that fades with the distance grows along.
 fn placed(scene: &Scene, scale: f64, offset: DVec3) -> Scene {
@@ -137,7 +138,11 @@ fn a_mesh_with_large_or_small_vertices_gives_the_same_picture() {
         for instance in &mut scene.instances {
             instance.placement *= DAffine3::from_scale(DVec3::splat(1.0 / scale));
         }
-        for position in scene.meshes.iter_mut().flat_map(|mesh| &mut mesh.positions) {
+        for position in scene
+            .meshes
+            .iter_mut()
+            .flat_map(|mesh| &mut Arc::make_mut(mesh).positions)
+        {
             *position *= scale as f32;
         }
         let (actual, _) = render(&scene, &settings);

@@ -669,10 +669,13 @@ fn bounds_are_those_of_what_nodes_carry() {
         material: 0,
         node: Some(0),
     }];
-    scene.meshes = vec![Mesh {
-        positions: vec![Vec3::ZERO, Vec3::Y],
-        ..Mesh::default()
-    }];
+    scene.meshes = vec![
+        Mesh {
+            positions: vec![Vec3::ZERO, Vec3::Y],
+            ..Mesh::default()
+        }
+        .into(),
+    ];
     scene.instances = vec![Instance {
         mesh: 0,
         placement: DAffine3::from_translation(DVec3::Y),

@@ -13,10 +13,13 @@ fn scene(positions: Vec<Vec3>) -> Scene {
     Scene {
         materials: vec![Material::default()],
         cameras: vec![Camera::default()],
-        meshes: vec![Mesh {
-            positions,
-            ..Mesh::default()
-        }],
+        meshes: vec![
+            Mesh {
+                positions,
+                ..Mesh::default()
+            }
+            .into(),
+        ],
         instances: vec![Instance {
             mesh: 0,
             placement: DAffine3::IDENTITY,

@@ -13,6 +13,7 @@ use glimray::scene::{
 use glimray::{import, pack};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::process::Command;
+use std::sync::Arc;
 
 /// Five by three texels of random colours that half floats hold exactly.
 fn picture(seed: u64) -> Picture {
@@ -57,7 +58,7 @@ fn patterns() -> [Pattern; 6] {
 /// Spheres, planes and a mesh, with a texture in one or more slots of each material.
 fn textured_scene() -> Scene {
     let mut scene = scenes::spheres();
-    scene.pictures.push(picture(1));
+    scene.pictures.push(picture(1).into());
     let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 0.5, -0.4);
     for (i, pattern) in patterns().into_iter().enumerate() {
         let scale = DVec3::splat(0.31 + 0.05 * i as f64);
@@ -156,7 +157,7 @@ fn images_and_buffers_fetch_the_same_textures() {
 fn flat(texture: Texture, pictures: Vec<Picture>, at: DVec3) -> Scene {
     let mut scene = Scene {
         ambient: Vec3::ONE,
-        pictures,
+        pictures: pictures.into_iter().map(Arc::new).collect(),
         textures: vec![texture],
         cameras: vec![Camera {
             look_from: at + dvec3(0.0, 0.0, 2.0),
@@ -294,11 +295,11 @@ fn the_background_is_where_it_should_be_along_the_axes_however_it_is_turned() {
         .map(|i| vec3((i % 8) as f32, (i / 8) as f32, 1.0))
         .collect();
     let mut scene = scenes::empty();
-    scene.pictures.push(Picture {
+    scene.pictures.push(Arc::new(Picture {
         width: 8,
         height: 4,
         texels,
-    });
+    }));
     // Column boundaries: ahead is between 3 and 4, right between 5 and 6, left between 1 and 2.
     let axes = [(DVec3::NEG_Z, 3.5), (DVec3::X, 5.5), (DVec3::NEG_X, 1.5)];
     let mut problems = Vec::new();
@@ -345,11 +346,11 @@ fn one_bright_texel_is_seen_in_its_direction_alone() {
         let mut texels = vec![Vec3::ZERO; (WIDTH * HEIGHT) as usize];
         texels[(row * WIDTH + column) as usize] = vec3(100.0, 50.0, 25.0);
         let mut scene = scenes::empty();
-        scene.pictures.push(Picture {
+        scene.pictures.push(Arc::new(Picture {
             width: WIDTH,
             height: HEIGHT,
             texels,
-        });
+        }));
         scene.background = Background::Picture {
             picture: 0,
             strength: 1.0,

@@ -128,7 +128,7 @@ fn height_field(quads: u32, lights: Vec<Light>) -> Scene {
     };
     mesh.repair();
     Scene {
-        meshes: vec![mesh],
+        meshes: vec![mesh.into()],
         instances: vec![Instance {
             mesh: 0,
             placement: DAffine3::IDENTITY,

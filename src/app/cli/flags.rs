@@ -114,9 +114,12 @@ pub struct CameraFlags {
     /// One of the scene's cameras, by its name or its number as `inspect` lists it
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
-    /// Vertical field of view in degrees, 0.001 to 179.9
+    /// Vertical field of view in degrees, 0.001 to 179.9; gives an orthographic camera perspective
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = values::fov_y)]
     pub fov_y: Option<f64>,
+    /// No perspective: this is the height of what is in the picture, in the scene's units, 1e-9 to 1e9
+    #[arg(long, value_name = "HEIGHT", allow_hyphen_values = true, value_parser = values::orthographic, conflicts_with = "fov_y")]
+    pub orthographic: Option<f64>,
     /// Position of the camera, in the scene's units
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector)]
     pub look_from: Option<DVec3>,
@@ -153,6 +156,24 @@ impl SceneFlags {
             overrides: self.overrides.clone(),
         }
     }
+}
+
+/// What is done in the window, kept and done again.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Recording")]
+pub struct TapeFlags {
+    /// Write all that the mouse and the keyboard do to this file, a line of JSON for each event
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Do what was recorded in this file, at the same times
+    #[arg(long, value_name = "FILE")]
+    pub replay: Option<PathBuf>,
+    /// Replay as fast as possible: each frame of the recording in one of the window
+    #[arg(long, requires = "replay")]
+    pub replay_fast: bool,
+    /// Close the window after a replay
+    #[arg(long, requires = "replay")]
+    pub close_after_replay: bool,
 }
 
 /// What the picture is computed on.

@@ -8,7 +8,19 @@ use clap::Args;
 use glam::{DVec3, Vec3};
 use std::path::PathBuf;
 
-/// When a picture is taken.
+/// Which moment of an animation a picture shows.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Motion")]
+pub struct MomentFlags {
+    /// Take the picture at this frame of the scene's animation
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(..=i64::from(values::MAX_FRAME)))]
+    pub frame: Option<u32>,
+    /// Take the picture at this time of the scene's animation, -1e6 to 1e6 [default: 0]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, value_parser = values::time, conflicts_with = "frame")]
+    pub time: Option<f64>,
+}
+
+/// How frames and time go together.
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Motion")]
 pub struct MotionFlags {

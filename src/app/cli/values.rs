@@ -108,6 +108,7 @@ pub static INTEGRATORS: Words<Integrator> = Words(&[
     ("normals", "shading normals as colours", Integrator::Normals),
     ("depth", "distance along the ray", Integrator::Depth),
     ("ids", "one colour for each primitive", Integrator::Ids),
+    ("uv", "texture coordinates as red and green", Integrator::Uv),
     (
         "heat",
         "how much of the tree a ray visits",
@@ -215,6 +216,12 @@ pub fn crop(text: &str) -> Result<[u32; 4], String> {
     }
 }
 
+pub fn pixel(text: &str) -> Result<[u32; 2], String> {
+    list(text, "X,Y", |part| {
+        within(part, 0, MAX_SIDE, "column and row")
+    })
+}
+
 pub fn vector(text: &str) -> Result<DVec3, String> {
     let part = |part: &str| within(part, -MAX_COORDINATE, MAX_COORDINATE, "every coordinate");
     list(text, "X,Y,Z", part).map(DVec3::from_array)
@@ -239,6 +246,10 @@ pub fn exposure(text: &str) -> Result<f32, String> {
 
 pub fn fov_y(text: &str) -> Result<f64, String> {
     within(text, 0.001, 179.9, "it")
+}
+
+pub fn orthographic(text: &str) -> Result<f64, String> {
+    within(text, 1e-9, MAX_COORDINATE, "it")
 }
 
 pub fn filter_radius(text: &str) -> Result<f32, String> {

@@ -43,6 +43,7 @@ const OF_OBJECTS: Properties<NodeProperty> = &[
     (P::Translate, "translate", NodeProperty::Translation),
     (P::Rotation, "rotation", NodeProperty::Rotation),
     (P::RotateDeg, "rotate_deg", NodeProperty::Angles),
+    (P::Angles, "angles", NodeProperty::Angles),
     (P::Scale, "scale", NodeProperty::Scale),
     (P::Visible, "visible", NodeProperty::Visible),
 ];
@@ -52,6 +53,12 @@ const OF_CAMERAS: Properties<CameraProperty> = &[
     (P::LookAt, "look_at", CameraProperty::LookAt),
     (P::Up, "up", CameraProperty::Up),
     (P::FovYDeg, "fov_y_deg", CameraProperty::FovY),
+    (P::FovY, "fov_y", CameraProperty::FovY),
+    (
+        P::Orthographic,
+        "orthographic",
+        CameraProperty::OrthographicHeight,
+    ),
     (
         P::FocusDistance,
         "focus_distance",
@@ -99,8 +106,8 @@ pub(super) fn tracks(file: &SceneFile, found: Found, texts: &Texts) -> Result<Tr
     Ok(reader.made)
 }
 
-/// What an animation moves: "object", "camera", "light" or "material", and its name.
-type Subject<'a> = (&'static str, &'a Spanned<String>);
+/// What an animation moves: "object", "camera", "light" or "material", and its name or names.
+type Subject<'a> = (&'static str, Vec<&'a Spanned<String>>);
 
 struct Reader<'a> {
     file: &'a SceneFile,
@@ -115,42 +122,50 @@ impl<'a> Reader<'a> {
     /// Notes what `table` moves, which nothing else may.
     fn note(&mut self, table: &'a Spanned<AnimationTable>) -> Result<(), ImportError> {
         let subjects = subjects(table.get_ref());
-        let &[(kind, name)] = &subjects[..] else {
+        let [(kind, names)] = &subjects[..] else {
             let why = "an animation moves one thing".to_owned();
-            let todo = "Give it exactly one of `object`, `camera`, `light` and `material`";
+            let todo =
+                "Give it exactly one of `object`, `objects`, `camera`, `light` and `material`";
             return Err(self.texts.malformed(table.span(), why, todo));
         };
         let property = &table.get_ref().property;
-        // Both turn the object.
+        // Several words for one property.
         let moved = match *property.get_ref() {
-            P::Rotation => P::RotateDeg,
+            P::Rotation | P::Angles => P::RotateDeg,
+            P::FovY => P::FovYDeg,
             other => other,
         };
-        if self.given.insert((kind, name.get_ref(), moved)) {
-            return Ok(());
+        for name in names {
+            if !self.given.insert((kind, name.get_ref(), moved)) {
+                let quoted = quote(name.get_ref().as_bytes());
+                let why = format!("a second animation of the same property of the {kind} {quoted}");
+                let todo = "Put all keys into one of them";
+                return Err(self.texts.malformed(property.span(), why, todo));
+            }
         }
-        let quoted = quote(name.get_ref().as_bytes());
-        let why = format!("a second animation of the same property of the {kind} {quoted}");
-        let todo = "Put all keys into one of them";
-        Err(self.texts.malformed(property.span(), why, todo))
+        Ok(())
     }
 
     fn track(&mut self, table: &'a AnimationTable) -> Result<(), ImportError> {
         let mut curve = curve::curve(table, self.texts)?;
-        let Some(&(kind, name)) = subjects(table).first() else {
+        let Some((kind, names)) = subjects(table).into_iter().next() else {
             return Ok(());
+        };
+        let Some(&name) = names.first() else {
+            let why = "there is nothing in `objects`".to_owned();
+            let todo = "Name what moves";
+            return Err(self.texts.malformed(table.property.span(), why, todo));
         };
         let targets = match kind {
             "object" => {
                 let property = self.property(table, kind, OF_OBJECTS)?;
-                let nodes = self
-                    .found
-                    .nodes
-                    .all(name.get_ref(), name.span(), self.texts)?;
-                nodes
-                    .iter()
-                    .map(|&node| Target::Node(node, property))
-                    .collect()
+                let mut targets = Vec::new();
+                for name in names {
+                    let nodes = self.found.nodes;
+                    let nodes = nodes.all(name.get_ref(), name.span(), self.texts)?;
+                    targets.extend(nodes.iter().map(|&node| Target::Node(node, property)));
+                }
+                targets
             }
             "camera" => self.camera(table, name, &curve)?,
             "light" => self.light(table, name, &mut curve)?,
@@ -185,6 +200,10 @@ impl<'a> Reader<'a> {
             let why = "the camera looks at an object already".to_owned();
             let todo = "Animate that object, or give `look_at` a point";
             return Err(self.texts.malformed(table.property.span(), why, todo));
+        }
+        if property == CameraProperty::OrthographicHeight && camera.orthographic_height.is_none() {
+            let todo = "Give the camera a height as `orthographic`";
+            return refuse("this takes an orthographic camera's height", todo);
         }
         let is_of_lens = matches!(
             property,
@@ -282,7 +301,7 @@ impl<'a> Reader<'a> {
         let mut targets = vec![Target::Material(index, property)];
         // What a material without an own ambient colour shows is its diffuse one, always.
         let own = self.file.materials.get(text);
-        let has_own = own.is_some_and(|material| material.phong.ambient.is_some());
+        let has_own = own.is_some_and(|material| material.get_ref().phong.ambient.is_some());
         let is_animated = self.given.contains(&("material", text, P::Ambient));
         if property == MaterialProperty::Diffuse && !has_own && !is_animated {
             targets.push(Target::Material(index, MaterialProperty::Ambient));
@@ -335,7 +354,7 @@ fn subjects(table: &AnimationTable) -> Vec<Subject<'_>> {
         ("material", &table.material),
     ];
     let given = named.into_iter();
-    given
-        .filter_map(|(kind, name)| Some((kind, name.as_ref()?)))
-        .collect()
+    let one = given.filter_map(|(kind, name)| Some((kind, vec![name.as_ref()?])));
+    let several = (table.objects.iter()).map(|names| ("object", names.iter().collect()));
+    one.chain(several).collect()
 }

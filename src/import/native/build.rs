@@ -1,10 +1,10 @@
 //! From the tables of a native scene to a [`Scene`]: names are looked up, objects placed, files
 //! read, and everything checked that takes more than one value to see.
 
-use super::file::{MaterialRef, OutputTable, SceneFile, TransformTable};
+use super::file::{MaterialRef, OutputTable, SceneFile, in_order};
 use super::nodes::{Nodes, Place};
 use super::objects::{Object, Objects};
-use super::surfaces::{MeshKey, PlacedMesh, Triangles};
+use super::surfaces::{MeshKey, MeshPlace, PlacedMesh, Triangles};
 use super::textures::Textures;
 use super::{Texts, animation, cameras, lights, materials};
 use crate::import::error::ImportError;
@@ -12,14 +12,14 @@ use crate::import::number::in_range;
 use crate::import::paths::Files;
 use crate::import::{stage, suggest};
 use crate::scene::{Material, OutputDefaults, Scene, Shutter};
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use toml::Spanned;
 
 /// The scene that `file` describes.
 pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Scene, ImportError> {
-    let objects = Objects::new(&file, texts)?;
+    let objects = Objects::new(&file, texts, files)?;
     let mut builder = Builder::new(&file, &objects, texts, files)?;
     builder.list(objects.roots.clone(), Place::default())?;
     builder.finish_triangles();
@@ -33,7 +33,8 @@ pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Sce
         ..builder.scene
     };
     let mut lights = lights::lights(&file, &nodes, texts)?;
-    let cameras = cameras::cameras(&file, &nodes, texts)?;
+    let (cameras, camera_index) = cameras::cameras(&file, &nodes, texts)?;
+    scene.camera_index = camera_index;
     scene.cameras = if cameras.is_empty() {
         vec![stage::camera(&scene)]
     } else {
@@ -73,41 +74,52 @@ pub(super) struct Builder<'a> {
     pub meshes: HashMap<MeshKey, PlacedMesh>,
     /// The same by the object's index, so that copies look for no files.
     pub meshes_of_objects: HashMap<usize, PlacedMesh>,
+    /// Those under [meshes].
+    pub named_meshes: HashMap<String, MeshPlace>,
     /// All single triangles, by the node that they are attached to.
     pub triangles: BTreeMap<Option<usize>, Triangles>,
 }
 
 impl<'a> Builder<'a> {
     fn new(
-        file: &SceneFile,
+        file: &'a SceneFile,
         objects: &'a Objects<'a>,
         texts: &'a Texts<'a>,
         files: &'a Files,
     ) -> Result<Self, ImportError> {
         let mut textures = Textures::new(file, texts, files)?;
-        let materials = (file.materials.iter())
-            .map(|(name, table)| materials::material(name, table, &mut textures))
+        let in_file = in_order(&file.materials);
+        let names = in_file.iter().map(|(name, _)| (*name).clone()).zip(0..);
+        let names = names.collect();
+        let materials = (in_file.into_iter())
+            .map(|(name, table)| materials::material(name, table.get_ref(), &mut textures))
             .collect::<Result<_, _>>()?;
-        Ok(Self {
+        let mut builder = Self {
             texts,
             files,
             objects,
-            nodes: Nodes::new(objects),
+            nodes: Nodes::new(objects, file, texts)?,
             textures,
             scene: Scene {
                 materials,
                 ambient: file.ambient.0,
                 shadows: file.shadows.into(),
+                staged: file.staged,
                 output: output(&file.output),
                 ..Scene::default()
             },
-            names: file.materials.keys().cloned().zip(0..).collect(),
+            names,
             default_material: None,
             inline_materials: HashMap::new(),
             meshes: HashMap::new(),
             meshes_of_objects: HashMap::new(),
+            named_meshes: HashMap::new(),
             triangles: BTreeMap::new(),
-        })
+        };
+        for (name, table) in in_order(&file.meshes) {
+            builder.named_mesh(name, table.get_ref())?;
+        }
+        Ok(builder)
     }
 
     pub fn refuse(&self, span: Range<usize>, why: impl Into<String>, todo: &str) -> ImportError {
@@ -119,6 +131,10 @@ impl<'a> Builder<'a> {
         let objects = self.objects;
         for index in list {
             let object = objects.get(index);
+            let place = match &object.table.get_ref().carried_by {
+                Some(node) => self.nodes.declared(node, self.texts)?,
+                None => place,
+            };
             if object.is_shown() || object.has_node {
                 // At most as many as are allowed to be placed, or it is an empty group.
                 for copy in 0..object.repeat.count() as u64 {
@@ -139,13 +155,13 @@ impl<'a> Builder<'a> {
     ) -> Result<(), ImportError> {
         let table = object.table.get_ref();
         let transform = table.transform.as_ref();
-        let repeated = place.node_from_here * object.repeat.placement(copy);
+        let repeated = chain(place.node_from_here, object.repeat.placement(copy));
         let inner = if object.has_node {
             self.nodes.add(index, object, repeated, place)
         } else {
-            let own = transform.map_or(DAffine3::IDENTITY, |t| world_from_object(t.get_ref()));
+            let own = transform.map_or(DAffine3::IDENTITY, |t| t.get_ref().affine());
             Place {
-                node_from_here: repeated * own,
+                node_from_here: chain(repeated, own),
                 ..place
             }
         };
@@ -247,19 +263,19 @@ fn output(table: &OutputTable) -> OutputDefaults {
     }
 }
 
-fn world_from_object(table: &TransformTable) -> DAffine3 {
-    placement(table.scale.0, table.rotate_deg.0, table.translate.0)
-}
-
-/// Scales first, then rotates round x, y and z, then moves.
-pub(super) fn placement(scale: DVec3, rotate_deg: DVec3, translate: DVec3) -> DAffine3 {
-    DAffine3::from_scale_rotation_translation(scale, rotation(rotate_deg), translate)
-}
-
-/// Rotates by degrees round x, then y, then z.
-pub(super) fn rotation(rotate_deg: DVec3) -> DQuat {
-    let [x, y, z] = rotate_deg.to_array().map(f64::to_radians);
-    DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x)
+/// What `outer` makes of what `inner` makes, with all digits, signs of zeros too, where one of them
+/// changes nothing.
+pub(super) fn chain(outer: DAffine3, inner: DAffine3) -> DAffine3 {
+    let bits = |affine: DAffine3| affine.to_cols_array().map(f64::to_bits);
+    if bits(outer) == bits(DAffine3::IDENTITY) {
+        inner
+    } else if inner == DAffine3::IDENTITY {
+        outer
+    } else if outer == DAffine3::IDENTITY {
+        inner
+    } else {
+        outer * inner
+    }
 }
 
 /// What normals are multiplied by where points are by `transform`: the inverse transpose, up to a
@@ -275,7 +291,7 @@ pub(super) fn normal_matrix(transform: DAffine3) -> DMat3 {
 }
 
 /// Whether an inverse of `matrix` means anything: its axes are in range and far from one plane.
-fn is_invertible(matrix: DMat3) -> bool {
+pub(super) fn is_invertible(matrix: DMat3) -> bool {
     let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let is_good = |axis: &DVec3| {
         let length = axis.length();

@@ -14,17 +14,18 @@ use toml::Spanned;
 pub(super) const MAX_RADIUS: f64 = 1e9;
 pub(super) const MAX_RATIO: f64 = 1e6;
 
-/// The cameras of `file`, of which there may be none.
+/// The cameras of `file`, of which there may be none, and the index of the default one.
 pub(super) fn cameras(
     file: &SceneFile,
     nodes: &Nodes,
     texts: &Texts,
-) -> Result<Vec<Camera>, ImportError> {
+) -> Result<(Vec<Camera>, usize), ImportError> {
     if let (Some(camera), false) = (&file.camera, file.cameras.is_empty()) {
         let why = "there are both `camera` and `cameras`".to_owned();
         return Err(texts.malformed(camera.span(), why, "Use [[cameras]] for all of them"));
     }
     let mut cameras: Vec<Camera> = Vec::new();
+    let mut default = None;
     for table in file.camera.iter().chain(&file.cameras) {
         let camera = camera(table.get_ref(), nodes, texts)?;
         if !camera.name.is_empty() && cameras.iter().any(|other| other.name == camera.name) {
@@ -34,12 +35,20 @@ pub(super) fn cameras(
             );
             return Err(texts.malformed(table.span(), why, "Rename one of them"));
         }
+        if table.get_ref().default && default.replace(cameras.len()).is_some() {
+            let why = "a second camera is the default".to_owned();
+            return Err(texts.malformed(table.span(), why, "Take `default` from one of them"));
+        }
         cameras.push(camera);
     }
-    Ok(cameras)
+    Ok((cameras, default.unwrap_or(0)))
 }
 
 fn camera(table: &CameraTable, nodes: &Nodes, texts: &Texts) -> Result<Camera, ImportError> {
+    if let (Some(degrees), Some(_)) = (&table.fov_y_deg, table.fov_y) {
+        let why = "there are both `fov_y_deg` and `fov_y`".to_owned();
+        return Err(texts.malformed(degrees.span(), why, "Leave out one of them"));
+    }
     let look_from = table.look_from.0;
     let node = match &table.carried_by {
         Some(name) => Some(nodes.one(name.get_ref(), name.span(), texts)?),
@@ -59,7 +68,7 @@ fn camera(table: &CameraTable, nodes: &Nodes, texts: &Texts) -> Result<Camera, I
         return Err(texts.malformed(table.look_at.span(), why, "Move one of them"));
     };
     let up = table.up.as_ref().map_or(DVec3::Y, |up| up.get_ref().0);
-    if forward.cross(up).length() < 1e-6 {
+    if forward.cross(up.normalize()).length() < 1e-6 {
         let span = table
             .up
             .as_ref()
@@ -76,7 +85,8 @@ fn camera(table: &CameraTable, nodes: &Nodes, texts: &Texts) -> Result<Camera, I
         look_from,
         look_at,
         up,
-        fov_y: table.fov_y_deg.0.to_radians(),
+        fov_y: table.angle_of_view(),
+        orthographic_height: table.orthographic.map(|height| height.0),
         lens: lens.transpose()?,
         node,
         target,
@@ -107,7 +117,7 @@ fn lens(
                 .sensor_height_mm
                 .as_ref()
                 .map_or(24.0, |h| h.get_ref().0);
-            let focal_length_mm = height_mm / 2.0 / (camera.fov_y_deg.0.to_radians() / 2.0).tan();
+            let focal_length_mm = height_mm / 2.0 / (camera.angle_of_view() / 2.0).tan();
             focal_length_mm / (2.0 * f_number.0) / 1000.0
         }
         _ => {
@@ -135,6 +145,14 @@ fn lens(
             return refuse(point.span(), why, "Leave out one of them");
         }
     };
+    let blade_rotation = match (&table.blade_rotation_deg, table.blade_rotation) {
+        (Some(degrees), Some(_)) => {
+            let why = "there are both `blade_rotation_deg` and `blade_rotation`";
+            return refuse(degrees.span(), why, "Leave out one of them");
+        }
+        (Some(degrees), None) => degrees.get_ref().0.to_radians(),
+        (None, radians) => radians.map_or(0.0, |radians| radians.0),
+    };
     if radius > MAX_RADIUS.min(focus_distance * MAX_RATIO) || !in_range(focus_distance) {
         let why = "the lens is out of proportion: its radius can be 1e9, and a million times its \
                    focus distance, at most";
@@ -144,6 +162,6 @@ fn lens(
         radius,
         focus_distance,
         blade_count: table.blades.map_or(0, |blades| blades.0),
-        blade_rotation: table.blade_rotation_deg.0.to_radians(),
+        blade_rotation,
     })
 }

@@ -7,18 +7,22 @@ mod groups;
 mod keys;
 mod lights;
 mod materials;
+mod meshes;
+mod nodes;
 mod objects;
 mod textures;
 
 pub(super) use animation::{AnimationTable, InterpolationName, PropertyName};
 pub(super) use cameras::{CameraTable, LensTable, LookAt};
-pub(super) use groups::{GridTable, RepeatTable, RingTable, ScatterTable};
+pub(super) use groups::{GridTable, PointsTable, RepeatTable, RingTable, ScatterTable};
 pub(super) use keys::{Key, KeyValue};
 pub(super) use lights::{DiscLightTable, LightTable, RectangleLightTable, SpotTable};
-pub(super) use materials::{MaterialRef, MaterialTable, RefractTable};
+pub(super) use materials::{MaterialRef, MaterialTable, OpticsTable, RefractTable};
+pub(super) use meshes::{MeshOrName, MeshTable};
+pub(super) use nodes::{NodeTable, TransformTable};
 pub(super) use objects::{
-    BoxTable, ConeTable, CylinderTable, DiscTable, MeshTable, ObjectTable, PlaneTable,
-    RectangleTable, SphereTable, TorusTable, TransformTable, TriangleTable,
+    BoxTable, ConeTable, CylinderTable, DiscTable, EllipsoidTable, ObjectTable, PlaneTable,
+    RectangleTable, SphereTable, TorusTable, TriangleTable,
 };
 
 pub(super) use textures::{
@@ -58,6 +62,10 @@ pub(super) struct SceneFile {
     /// through it (filtered).
     #[serde(default)]
     pub shadows: ShadowsName,
+    /// Whether lights, background and ambient light only show a bare model, so that a turntable puts
+    /// its own in their place; false if left out.
+    #[serde(default)]
+    pub staged: bool,
     /// The camera. If there is none at all, one is placed that sees everything.
     #[schemars(with = "Option<CameraTable>")]
     pub camera: Option<Spanned<CameraTable>>,
@@ -71,7 +79,16 @@ pub(super) struct SceneFile {
     pub textures: BTreeMap<String, Spanned<TextureTable>>,
     /// Materials by name.
     #[serde(default)]
-    pub materials: BTreeMap<String, MaterialTable>,
+    #[schemars(with = "BTreeMap<String, MaterialTable>")]
+    pub materials: BTreeMap<String, Spanned<MaterialTable>>,
+    /// Meshes by name, for `mesh = "NAME"` in objects.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, MeshTable>")]
+    pub meshes: BTreeMap<String, Spanned<MeshTable>>,
+    /// What carries objects, cameras and lights, by `carried_by`; each behind those that carry it.
+    #[serde(default)]
+    #[schemars(with = "Vec<NodeTable>")]
+    pub nodes: Vec<Spanned<NodeTable>>,
     /// Groups of objects by name, to be placed by `group = "NAME"` in place of a surface.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Vec<ObjectTable>>")]
@@ -148,6 +165,13 @@ impl Default for OutputTable {
             shutter: ShutterTimes([0.0, 0.0]),
         }
     }
+}
+
+/// The entries of a table in the order in which the file has them, those of overrides last.
+pub(super) fn in_order<T>(table: &BTreeMap<String, Spanned<T>>) -> Vec<(&String, &Spanned<T>)> {
+    let mut entries: Vec<_> = table.iter().collect();
+    entries.sort_by_key(|(_, value)| value.span().start);
+    entries
 }
 
 fn nothing() -> Spanned<ColorOrBackground> {

@@ -68,8 +68,8 @@ fn light(table: &Spanned<LightTable>, texts: &Texts) -> Result<NamedLight, Impor
         let kind = LightKind::Directional { direction };
         found.push(reader.small(kind, sun.color, sun.intensity, AttenuationName::None)?);
     }
-    if let Some(spot) = &table.spot {
-        let kind = cone(spot, texts)?;
+    if let Some(spanned) = &table.spot {
+        let (kind, spot) = (cone(spanned, texts)?, spanned.get_ref());
         found.push(reader.small(kind, spot.color, spot.intensity, spot.attenuation)?);
     }
     // The same members of different tables.
@@ -285,23 +285,50 @@ fn is_flat(u: DVec3, v: DVec3) -> bool {
     }
 }
 
-fn cone(spot: &SpotTable, texts: &Texts) -> Result<LightKind, ImportError> {
-    let position = spot.position.0;
-    let Some(direction) = (spot.look_at.get_ref().0 - position).try_normalize() else {
-        let why = "`look_at` is where the spot light itself is".to_owned();
-        return Err(texts.malformed(spot.look_at.span(), why, "Move one of them"));
-    };
-    let outer = spot.outer_deg.0;
-    let inner = match &spot.inner_deg {
-        Some(inner) if inner.get_ref().0 > outer => {
-            let why = format!("`inner_deg` is greater than `outer_deg`, which is {outer}");
-            let todo = "Give the inner cone the smaller angle";
-            return Err(texts.malformed(inner.span(), why, todo));
+fn cone(spot: &Spanned<SpotTable>, texts: &Texts) -> Result<LightKind, ImportError> {
+    let table = spot.get_ref();
+    let position = table.position.0;
+    let direction = match (&table.look_at, table.direction) {
+        (Some(look_at), None) => {
+            let direction = (look_at.get_ref().0 - position).try_normalize();
+            direction.ok_or_else(|| {
+                let why = "`look_at` is where the spot light itself is".to_owned();
+                texts.malformed(look_at.span(), why, "Move one of them")
+            })?
         }
-        Some(inner) => inner.get_ref().0,
-        None => 0.8 * outer,
+        (None, Some(direction)) => direction.0,
+        _ => {
+            let why = "a spot light shines one way".to_owned();
+            let todo = "Give it exactly one of `look_at` and `direction`";
+            return Err(texts.malformed(spot.span(), why, todo));
+        }
     };
-    let [inner, outer] = [inner, outer].map(f64::to_radians);
+    for (degrees, radians, name) in [
+        (table.inner_deg.is_some(), &table.inner, "inner"),
+        (table.outer_deg.is_some(), &table.outer, "outer"),
+    ] {
+        if let (true, Some(radians)) = (degrees, radians) {
+            let why = format!("there are both `{name}_deg` and `{name}`");
+            return Err(texts.malformed(radians.span(), why, "Leave out one of them"));
+        }
+    }
+    let outer_deg = match &table.outer {
+        Some(radians) => radians.get_ref().0.to_degrees(),
+        None => table.outer_deg.map_or(30.0, |angle| angle.0),
+    };
+    let outer = (table.outer.as_ref()).map_or(outer_deg.to_radians(), |angle| angle.get_ref().0);
+    let inner = match (&table.inner_deg, &table.inner) {
+        (Some(degrees), _) => degrees.get_ref().0.to_radians(),
+        (None, Some(radians)) => radians.get_ref().0,
+        (None, None) => (0.8 * outer_deg).to_radians(),
+    };
+    if inner > outer {
+        let in_degrees = table.inner_deg.as_ref().map(Spanned::span);
+        let span = in_degrees.or(table.inner.as_ref().map(Spanned::span));
+        let why = format!("`inner_deg` is greater than `outer_deg`, which is {outer_deg}");
+        let todo = "Give the inner cone the smaller angle";
+        return Err(texts.malformed(span.unwrap_or(spot.span()), why, todo));
+    }
     Ok(LightKind::Spot {
         position,
         direction,

@@ -1,6 +1,6 @@
 //! The materials of a native scene.
 
-use super::file::{MaterialTable, RefractTable};
+use super::file::{MaterialTable, OpticsTable, RefractTable};
 use super::textures::Textures;
 use crate::import::error::ImportError;
 use crate::scene::{self, Fresnel, Material};
@@ -38,6 +38,13 @@ pub(super) fn material(
         },
         ..Material::default()
     };
+    if let Some(optics) = &table.optics {
+        if table.reflect.is_some() || table.refract.is_some() {
+            let why = "`optics` takes the place of `reflect` and `refract`";
+            return Err(textures.refuse(optics.span(), why, "Leave out the others"));
+        }
+        return with_optics(material, optics.get_ref(), textures);
+    }
     let mut mirrored = 0.0;
     if let Some(reflect) = &table.reflect {
         mirrored = reflect.amount.0;
@@ -64,6 +71,31 @@ pub(super) fn material(
         }
     }
     Ok(material)
+}
+
+fn with_optics(
+    material: Material,
+    optics: &OpticsTable,
+    textures: &mut Textures,
+) -> Result<Material, ImportError> {
+    let reflect = textures.color(&optics.reflect)?;
+    let transmit = textures.color(&optics.transmit)?;
+    Ok(Material {
+        reflect: reflect.0,
+        transmit: transmit.0,
+        opacity: optics.opacity.0,
+        ior: optics.ior.0 as f32,
+        absorption: optics.absorption.0,
+        priority: optics.priority.0,
+        fresnel: optics.fresnel.into(),
+        mixing: optics.mixing.into(),
+        textures: scene::Textures {
+            reflect: reflect.1,
+            transmit: transmit.1,
+            ..material.textures
+        },
+        ..material
+    })
 }
 
 /// Refuses a material that asks for mirrored light in two ways, or makes light.

@@ -1,13 +1,18 @@
-//! The nodes of a native scene: every copy of an object that moves, is looked at, or carries something.
+//! The nodes of a native scene: those that it lists, and one for every copy of an object that moves, is
+//! looked at, or carries something.
 
 use super::Texts;
-use super::build::rotation;
+use super::build::{chain, is_invertible};
+use super::file::{NodeTable, SceneFile, TransformTable};
 use super::objects::{Object, Objects};
 use crate::import::error::ImportError;
 use crate::import::source::quote;
+use crate::import::suggest;
 use crate::scene::Node;
-use glam::{DAffine3, DQuat, DVec3};
+use glam::DAffine3;
+use std::collections::HashMap;
 use std::ops::Range;
+use toml::Spanned;
 
 /// Where objects are placed.
 #[derive(Clone, Copy, Default)]
@@ -36,17 +41,84 @@ pub(super) struct Nodes<'a> {
     world_from_node: Vec<DAffine3>,
     /// The nodes of an object's copies, by its index.
     of_objects: Vec<Vec<usize>>,
+    /// Those that the file lists, by name.
+    declared: HashMap<&'a str, [usize; 1]>,
+    /// Which of those are where the world is, and stay there.
+    fixed: Vec<bool>,
 }
 
 impl<'a> Nodes<'a> {
-    /// None yet.
-    pub fn new(objects: &'a Objects<'a>) -> Self {
-        Self {
+    /// Those that `file` lists.
+    pub fn new(
+        objects: &'a Objects<'a>,
+        file: &'a SceneFile,
+        texts: &Texts,
+    ) -> Result<Self, ImportError> {
+        let mut nodes = Self {
             objects,
-            nodes: Vec::new(),
-            world_from_node: Vec::new(),
+            nodes: Vec::with_capacity(file.nodes.len()),
+            world_from_node: Vec::with_capacity(file.nodes.len()),
             of_objects: vec![Vec::new(); objects.len()],
+            declared: HashMap::new(),
+            fixed: Vec::new(),
+        };
+        for table in &file.nodes {
+            nodes.declare(table, texts)?;
         }
+        Ok(nodes)
+    }
+
+    fn declare(
+        &mut self,
+        spanned: &'a Spanned<NodeTable>,
+        texts: &Texts,
+    ) -> Result<(), ImportError> {
+        let table = spanned.get_ref();
+        let place = match &table.carried_by {
+            Some(name) => self.declared(name, texts)?,
+            None => Place::default(),
+        };
+        for transform in table.transform.iter().chain(&table.placement) {
+            check(transform, texts)?;
+        }
+        let transform = table.transform.as_ref().map(Spanned::get_ref);
+        let placement = table.placement.as_ref().map(|p| p.get_ref().affine());
+        let placement = placement.unwrap_or(DAffine3::IDENTITY);
+        let name = table.name.get_ref();
+        let is_fixed = place.node.is_none_or(|parent| self.fixed[parent]);
+        let index = self.push(name.clone(), table.visible, transform, placement, place);
+        let world_from_node = self.world_from_node[index];
+        if !is_invertible(world_from_node.matrix3) {
+            let why = "nothing is left of what the node carries, or all of it is out of range";
+            let todo = "Check its scale, and those of the nodes that carry it";
+            return Err(texts.malformed(spanned.span(), why.to_owned(), todo));
+        }
+        self.declared.insert(name, [index]);
+        let stays = is_fixed && !self.objects.is_animated(name);
+        self.fixed
+            .push(stays && world_from_node == DAffine3::IDENTITY);
+        Ok(())
+    }
+
+    /// The place that the listed node of this name carries.
+    pub fn declared(&self, name: &Spanned<String>, texts: &Texts) -> Result<Place, ImportError> {
+        if let Some(&[node]) = self.declared.get(name.get_ref().as_str()) {
+            return Ok(Place {
+                node: Some(node),
+                node_from_here: DAffine3::IDENTITY,
+                world_from_node: self.world_from_node[node],
+            });
+        }
+        let mut known: Vec<&str> = self.declared.keys().copied().collect();
+        known.sort_unstable();
+        let why = suggest::unknown("node", name.get_ref(), known);
+        let todo = "Add it under [[nodes]], in front of the nodes that it carries";
+        Err(texts.malformed(name.span(), why, todo))
+    }
+
+    /// Whether a node is one of those listed, is where the world is, and stays there.
+    pub fn is_fixed(&self, node: usize) -> bool {
+        self.fixed.get(node).copied().unwrap_or(false)
     }
 
     /// Adds one for a copy of `object`, whose index this is. `placement` is all that stands still above
@@ -64,24 +136,47 @@ impl<'a> Nodes<'a> {
             .as_ref()
             .map(|transform| transform.get_ref());
         let name = table.name.as_ref().map(|name| name.get_ref().clone());
-        let node = Node {
-            name: name.unwrap_or_default(),
+        let name = name.unwrap_or_default();
+        let node = self.push(name, table.visible, transform, placement, place);
+        self.of_objects[index].push(node);
+        Place {
+            node: Some(node),
+            node_from_here: DAffine3::IDENTITY,
+            world_from_node: self.world_from_node[node],
+        }
+    }
+
+    fn push(
+        &mut self,
+        name: String,
+        visible: bool,
+        transform: Option<&TransformTable>,
+        placement: DAffine3,
+        place: Place,
+    ) -> usize {
+        let mut node = Node {
+            name,
             parent: place.node,
             placement,
-            translation: transform.map_or(DVec3::ZERO, |t| t.translate.0),
-            rotation: transform.map_or(DQuat::IDENTITY, |t| rotation(t.rotate_deg.0)),
-            scale: transform.map_or(DVec3::ONE, |t| t.scale.0),
-            visible: table.visible,
+            visible,
+            ..Node::default()
         };
+        match transform {
+            // It stands still: animations know nothing of it.
+            Some(table) if table.matrix.is_some() => {
+                node.placement = chain(placement, table.affine());
+            }
+            Some(table) => {
+                node.translation = table.translate.0;
+                node.rotation = table.turn();
+                node.scale = table.scale.0;
+            }
+            None => {}
+        }
         let world_from_node = place.world_from_node * node.parent_from_node();
-        self.of_objects[index].push(self.nodes.len());
         self.nodes.push(node);
         self.world_from_node.push(world_from_node);
-        Place {
-            node: Some(self.nodes.len() - 1),
-            node_from_here: DAffine3::IDENTITY,
-            world_from_node,
-        }
+        self.nodes.len() - 1
     }
 
     /// Those of all copies of the object of this name.
@@ -91,6 +186,9 @@ impl<'a> Nodes<'a> {
         span: Range<usize>,
         texts: &Texts,
     ) -> Result<&[usize], ImportError> {
+        if let Some(node) = self.declared.get(name) {
+            return Ok(node);
+        }
         Ok(&self.of_objects[self.objects.named(name, span, texts)?])
     }
 
@@ -120,4 +218,13 @@ impl<'a> Nodes<'a> {
     pub fn world_from(&self, node: Option<usize>) -> DAffine3 {
         node.map_or(DAffine3::IDENTITY, |node| self.world_from_node[node])
     }
+}
+
+/// Refuses a transform that says the same twice.
+pub(super) fn check(transform: &Spanned<TransformTable>, texts: &Texts) -> Result<(), ImportError> {
+    if !transform.get_ref().is_double() {
+        return Ok(());
+    }
+    let why = "`matrix` takes the place of all others, and `rotation` that of `rotate_deg`";
+    Err(texts.malformed(transform.span(), why.to_owned(), "Leave out the others"))
 }

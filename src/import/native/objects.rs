@@ -4,9 +4,11 @@
 
 use super::Texts;
 use super::file::{LookAt, ObjectTable, PropertyName, SceneFile};
+use super::nodes;
 use super::repeat::Repeat;
 use super::shapes;
 use crate::import::error::ImportError;
+use crate::import::paths::Files;
 use crate::import::source::quote;
 use crate::import::suggest;
 use std::collections::{BTreeMap, HashMap};
@@ -45,6 +47,8 @@ pub(super) struct Objects<'a> {
     pub roots: Range<usize>,
     groups: Vec<Group<'a>>,
     names: HashMap<&'a str, usize>,
+    /// The names of listed nodes, and whether they are animated.
+    nodes: HashMap<&'a str, bool>,
 }
 
 struct Group<'a> {
@@ -64,7 +68,7 @@ struct Count {
 
 impl<'a> Objects<'a> {
     /// The objects of `file`, whose groups are known to end.
-    pub fn new(file: &'a SceneFile, texts: &Texts) -> Result<Self, ImportError> {
+    pub fn new(file: &'a SceneFile, texts: &Texts, files: &Files) -> Result<Self, ImportError> {
         let numbers: BTreeMap<&str, usize> =
             file.groups.keys().map(String::as_str).zip(0..).collect();
         let mut objects = Self {
@@ -72,10 +76,25 @@ impl<'a> Objects<'a> {
             roots: 0..0,
             groups: Vec::new(),
             names: HashMap::new(),
+            nodes: HashMap::new(),
         };
-        objects.roots = objects.list(&file.objects, &numbers, texts)?;
+        for node in &file.nodes {
+            let name = &node.get_ref().name;
+            if objects.nodes.insert(name.get_ref(), false).is_some() {
+                return Err(second(name, texts));
+            }
+        }
+        objects.roots = objects.list(&file.objects, &numbers, texts, files)?;
         for (name, list) in &file.groups {
-            let members = objects.list(list, &numbers, texts)?;
+            let members = objects.list(list, &numbers, texts, files)?;
+            let carried = list
+                .iter()
+                .find_map(|table| table.get_ref().carried_by.as_ref());
+            if let Some(node) = carried {
+                let why = "what is in a group is carried by the group".to_owned();
+                let todo = "Have the object that places the group carried";
+                return Err(texts.malformed(node.span(), why, todo));
+            }
             objects.groups.push(Group {
                 name,
                 members,
@@ -103,6 +122,11 @@ impl<'a> Objects<'a> {
         self.all.len()
     }
 
+    /// Whether a listed node of this name is animated.
+    pub fn is_animated(&self, node: &str) -> bool {
+        self.nodes.get(node).copied().unwrap_or(false)
+    }
+
     /// The indices of what is in a group.
     pub fn members(&self, group: usize) -> Range<usize> {
         self.groups[group].members.clone()
@@ -116,7 +140,8 @@ impl<'a> Objects<'a> {
         texts: &Texts,
     ) -> Result<usize, ImportError> {
         self.names.get(name).copied().ok_or_else(|| {
-            let mut known: Vec<&str> = self.names.keys().copied().collect();
+            let known = self.names.keys().chain(self.nodes.keys()).copied();
+            let mut known: Vec<&str> = known.collect();
             known.sort_unstable();
             let why = suggest::unknown("object", name, known);
             texts.malformed(
@@ -132,17 +157,17 @@ impl<'a> Objects<'a> {
         list: &'a [Spanned<ObjectTable>],
         groups: &BTreeMap<&str, usize>,
         texts: &Texts,
+        files: &Files,
     ) -> Result<Range<usize>, ImportError> {
         let first = self.all.len();
         for object in list {
             let table = object.get_ref();
             check(object, texts)?;
             if let Some(name) = &table.name
-                && self.names.insert(name.get_ref(), self.all.len()).is_some()
+                && (self.nodes.contains_key(name.get_ref().as_str())
+                    || self.names.insert(name.get_ref(), self.all.len()).is_some())
             {
-                let quoted = quote(name.get_ref().as_bytes());
-                let why = format!("a second object is called {quoted}");
-                return Err(texts.malformed(name.span(), why, "Rename one of them"));
+                return Err(second(name, texts));
             }
             let group = table.group.as_ref().map(|name| {
                 groups.get(name.get_ref().as_str()).copied().ok_or_else(|| {
@@ -153,7 +178,7 @@ impl<'a> Objects<'a> {
             });
             self.all.push(Object {
                 table: object,
-                repeat: Repeat::new(table.repeat.as_ref(), texts)?,
+                repeat: Repeat::new(table.repeat.as_ref(), texts, files)?,
                 group: group.transpose()?,
                 has_node: false,
                 is_switched: false,
@@ -166,14 +191,21 @@ impl<'a> Objects<'a> {
     fn mark(&mut self, file: &SceneFile, texts: &Texts) -> Result<(), ImportError> {
         for table in &file.animation {
             let table = table.get_ref();
-            let Some(name) = &table.object else { continue };
-            let object = self.named(name.get_ref(), name.span(), texts)?;
-            self.all[object].has_node = true;
-            self.all[object].is_switched |= *table.property.get_ref() == PropertyName::Visible;
+            for name in table.object.iter().chain(table.objects.iter().flatten()) {
+                if let Some(is_animated) = self.nodes.get_mut(name.get_ref().as_str()) {
+                    *is_animated = true;
+                    continue;
+                }
+                let object = self.named(name.get_ref(), name.span(), texts)?;
+                self.all[object].has_node = true;
+                self.all[object].is_switched |= *table.property.get_ref() == PropertyName::Visible;
+            }
         }
         for camera in file.camera.iter().chain(&file.cameras) {
             let table = camera.get_ref();
-            if let LookAt::Object(name) = table.look_at.get_ref() {
+            if let LookAt::Object(name) = table.look_at.get_ref()
+                && !self.nodes.contains_key(name.as_str())
+            {
                 let object = self.named(name, table.look_at.span(), texts)?;
                 self.all[object].has_node = true;
             }
@@ -182,6 +214,9 @@ impl<'a> Objects<'a> {
         let cameras = cameras.map(|camera| &camera.get_ref().carried_by);
         let lights = file.lights.iter().map(|light| &light.get_ref().carried_by);
         for name in cameras.chain(lights).flatten() {
+            if self.nodes.contains_key(name.get_ref().as_str()) {
+                continue;
+            }
             let object = self.named(name.get_ref(), name.span(), texts)?;
             self.all[object].has_node = true;
         }
@@ -297,6 +332,12 @@ impl Count {
     }
 }
 
+fn second(name: &Spanned<String>, texts: &Texts) -> ImportError {
+    let quoted = quote(name.get_ref().as_bytes());
+    let why = format!("a second object is called {quoted}");
+    texts.malformed(name.span(), why, "Rename one of them")
+}
+
 /// Refuses an object that is not exactly one thing.
 fn check(object: &Spanned<ObjectTable>, texts: &Texts) -> Result<(), ImportError> {
     let table = object.get_ref();
@@ -308,8 +349,11 @@ fn check(object: &Spanned<ObjectTable>, texts: &Texts) -> Result<(), ImportError
     let others = others.into_iter().filter(|&given| given).count();
     if shapes::count(table) + others != 1 {
         let why = "an object is one surface, or one group".to_owned();
-        let todo = "Give it exactly one of `sphere`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`";
+        let todo = "Give it exactly one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`";
         return Err(texts.malformed(object.span(), why, todo));
+    }
+    if let Some(transform) = &table.transform {
+        nodes::check(transform, texts)?;
     }
     if let (Some(material), Some(_)) = (&table.material, &table.group) {
         let why = "a group has no material".to_owned();

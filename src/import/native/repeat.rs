@@ -1,9 +1,11 @@
 //! Where the copies of a repeated object are.
 
 use super::Texts;
-use super::build::placement;
-use super::file::{GridTable, RepeatTable, RingTable, ScatterTable};
+use super::file::{GridTable, PointsTable, RepeatTable, RingTable, ScatterTable};
 use crate::import::error::ImportError;
+use crate::import::paths::Files;
+use crate::import::ply;
+use crate::scene::Transform;
 use glam::{DAffine3, DQuat, DVec3};
 use std::f64::consts::TAU;
 use toml::Spanned;
@@ -15,6 +17,7 @@ pub(super) enum Repeat<'a> {
     Grid(&'a GridTable),
     Ring(&'a RingTable),
     Scatter(&'a ScatterTable),
+    Points(Vec<DAffine3>),
 }
 
 impl<'a> Repeat<'a> {
@@ -22,6 +25,7 @@ impl<'a> Repeat<'a> {
     pub fn new(
         table: Option<&'a Spanned<RepeatTable>>,
         texts: &Texts,
+        files: &Files,
     ) -> Result<Self, ImportError> {
         let Some(table) = table else {
             return Ok(Self::Once);
@@ -30,11 +34,13 @@ impl<'a> Repeat<'a> {
             grid,
             ring,
             scatter,
+            points,
         } = table.get_ref();
-        match (grid, ring, scatter) {
-            (Some(grid), None, None) => Ok(Self::Grid(grid)),
-            (None, Some(ring), None) => Ok(Self::Ring(ring)),
-            (None, None, Some(scatter)) => {
+        match (grid, ring, scatter, points) {
+            (Some(grid), None, None, None) => Ok(Self::Grid(grid)),
+            (None, Some(ring), None, None) => Ok(Self::Ring(ring)),
+            (None, None, None, Some(points)) => self::points(points, texts, files),
+            (None, None, Some(scatter), None) => {
                 let (min, max) = (scatter.min.0, scatter.max.get_ref().0);
                 let names = ["x", "y", "z"].into_iter().enumerate();
                 if let Some((_, name)) = names.into_iter().find(|&(i, _)| max[i] < min[i]) {
@@ -46,19 +52,20 @@ impl<'a> Repeat<'a> {
             }
             _ => {
                 let why = "copies are arranged in one way".to_owned();
-                let todo = "Give exactly one of `grid`, `ring` and `scatter`; groups can be repeated again";
+                let todo = "Give exactly one of `grid`, `ring`, `scatter` and `points`; groups can be repeated again";
                 Err(texts.malformed(table.span(), why, todo))
             }
         }
     }
 
-    /// How many copies there are, at least 1.
+    /// How many copies there are.
     pub fn count(&self) -> u128 {
         match self {
             Self::Once => 1,
             Self::Grid(grid) => grid.count.0.map(u128::from).iter().product(),
             Self::Ring(ring) => ring.count.0.into(),
             Self::Scatter(scatter) => scatter.count.0.into(),
+            Self::Points(places) => places.len() as u128,
         }
     }
 
@@ -69,8 +76,22 @@ impl<'a> Repeat<'a> {
             Self::Grid(table) => grid(table, index),
             Self::Ring(table) => ring(table, index),
             Self::Scatter(table) => scatter(table, index),
+            Self::Points(places) => places[index as usize],
         }
     }
+}
+
+fn points<'a>(
+    points: &PointsTable,
+    texts: &Texts,
+    files: &Files,
+) -> Result<Repeat<'a>, ImportError> {
+    let path = files.resolve(points.file.get_ref()).map_err(|refusal| {
+        refusal.into_error("point file", |why, todo| {
+            texts.malformed(points.file.span(), why, todo)
+        })
+    })?;
+    ply::places(&path).map(Repeat::Points)
 }
 
 /// x runs fastest, then y.
@@ -109,7 +130,12 @@ fn scatter(table: &ScatterTable, index: u64) -> DAffine3 {
     let turn = (2.0 * three(3) - 1.0) * table.turn_deg.0;
     let [least, most] = table.scale.0;
     let scale = least + (most - least) * draw(6);
-    placement(DVec3::splat(scale), turn, min + (max - min) * three(0))
+    let transform = Transform {
+        scale: DVec3::splat(scale),
+        rotate_deg: turn,
+        translate: min + (max - min) * three(0),
+    };
+    transform.affine()
 }
 
 /// A number in [0, 1) for each seed and index: SplitMix64 (Steele, Lea and Flood 2014) of both, so

@@ -1,10 +1,10 @@
 //! The analytic surfaces of a native scene.
 
 use super::Texts;
-use super::build::normal_matrix;
+use super::build::{chain, normal_matrix};
 use super::file::{
-    BoxTable, ConeTable, CylinderTable, DiscTable, ObjectTable, PlaneTable, RectangleTable,
-    SphereTable, TorusTable,
+    BoxTable, ConeTable, CylinderTable, DiscTable, EllipsoidTable, ObjectTable, PlaneTable,
+    RectangleTable, SphereTable, TorusTable,
 };
 use crate::import::error::ImportError;
 use crate::scene::{Form, Geometry};
@@ -18,6 +18,7 @@ const PARALLEL: f64 = 1e-9;
 pub(super) fn count(table: &ObjectTable) -> usize {
     let given = [
         table.sphere.is_some(),
+        table.ellipsoid.is_some(),
         table.plane.is_some(),
         table.disc.is_some(),
         table.rectangle.is_some(),
@@ -37,7 +38,9 @@ pub(super) fn geometry(
     (textured, moves): (bool, bool),
     texts: &Texts,
 ) -> Result<Option<Geometry>, ImportError> {
-    let (form, object_from_form) = if let Some(plane) = &table.plane {
+    let (form, object_from_form) = if let Some(ellipsoid) = &table.ellipsoid {
+        (Form::Ellipsoid, self::ellipsoid(ellipsoid))
+    } else if let Some(plane) = &table.plane {
         return Ok(Some(self::plane(plane, placed)));
     } else if let Some(sphere) = &table.sphere {
         return Ok(Some(self::sphere(sphere, placed, (textured, moves))));
@@ -56,13 +59,29 @@ pub(super) fn geometry(
     } else {
         return Ok(None);
     };
+    // Whatever the signs of its zeros: then the place is all that counts.
+    let object_from_form = match object_from_form {
+        same if same == DAffine3::IDENTITY => DAffine3::IDENTITY,
+        other => other,
+    };
     Ok(Some(Geometry::Placed {
         form,
-        world_from_form: placed * object_from_form,
+        world_from_form: chain(placed, object_from_form),
     }))
 }
 
+fn ellipsoid(ellipsoid: &EllipsoidTable) -> DAffine3 {
+    let radii = DVec3::from(ellipsoid.radii.map(|radius| radius.0));
+    DAffine3::from_scale_rotation_translation(radii, Default::default(), ellipsoid.center.0)
+}
+
 fn plane(plane: &PlaneTable, placed: DAffine3) -> Geometry {
+    if placed == DAffine3::IDENTITY {
+        return Geometry::Plane {
+            point: plane.point.0,
+            normal: plane.normal.0,
+        };
+    }
     let normal = normal_matrix(placed) * plane.normal.0;
     Geometry::Plane {
         point: placed.transform_point3(plane.point.0),
@@ -74,6 +93,9 @@ fn plane(plane: &PlaneTable, placed: DAffine3) -> Geometry {
 /// or it is scaled unevenly, an ellipsoid.
 fn sphere(sphere: &SphereTable, placed: DAffine3, (textured, moves): (bool, bool)) -> Geometry {
     let (center, radius) = (sphere.center.0, sphere.radius.0);
+    if placed == DAffine3::IDENTITY && !(textured && moves) {
+        return Geometry::Sphere { center, radius };
+    }
     let matrix = placed.matrix3;
     let lengths = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(DVec3::length);
     let (least, most) = (
@@ -99,18 +121,18 @@ fn sphere(sphere: &SphereTable, placed: DAffine3, (textured, moves): (bool, bool
         DAffine3::from_scale_rotation_translation(DVec3::splat(radius), Default::default(), center);
     Geometry::Placed {
         form: Form::Ellipsoid,
-        world_from_form: placed * object_from_form,
+        world_from_form: chain(placed, object_from_form),
     }
 }
 
 fn disc(disc: &DiscTable, texts: &Texts) -> Result<(Form, DAffine3), ImportError> {
     let radius = disc.radius.0;
     let hole = match &disc.inner_radius {
-        Some(inner) if f64::from(inner.get_ref().0) >= radius => {
+        Some(inner) if inner.get_ref().0 >= radius => {
             let why = format!("`inner_radius` is not less than `radius`, which is {radius}");
             return Err(texts.malformed(inner.span(), why, "Make the hole smaller"));
         }
-        Some(inner) => f64::from(inner.get_ref().0) / radius,
+        Some(inner) => inner.get_ref().0 / radius,
         None => 0.0,
     };
     let (u, v) = Geometry::plane_axes(disc.normal.0);
@@ -204,7 +226,7 @@ fn cylinder(cylinder: &CylinderTable, texts: &Texts) -> Result<(Form, DAffine3),
 }
 
 fn cone(cone: &ConeTable, texts: &Texts) -> Result<(Form, DAffine3), ImportError> {
-    let [bottom, top] = [cone.from_radius.get_ref().0, cone.to_radius.0].map(f64::from);
+    let [bottom, top] = [cone.from_radius.get_ref().0, cone.to_radius.0];
     let wide = bottom.max(top);
     if wide < f64::from(f32::MIN_POSITIVE) {
         let why = "both radii of the cone are 0".to_owned();

@@ -1,22 +1,23 @@
 //! The surfaces of a native scene, each in the space of its node: analytic ones, single triangles and
 //! the meshes of files.
 
-use super::build::{Builder, normal_matrix};
-use super::file::{MeshTable, ObjectTable, TriangleTable};
+use super::build::{Builder, chain, normal_matrix};
+use super::file::{MeshOrName, MeshTable, ObjectTable, TriangleTable};
 use super::nodes::Place;
 use super::shapes;
 use super::values::Vector;
 use crate::import::error::ImportError;
 use crate::import::source::quote;
-use crate::import::{obj, repair_notes};
+use crate::import::{obj, ply, repair_notes, suggest};
 use crate::scene::{self, Geometry, Instance, Mesh, Repairs, Shape, Space};
 use glam::{DAffine3, DVec3, Vec2};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use toml::Spanned;
 
-/// A mesh file and the material it was given in place of its own.
-pub(super) type MeshKey = (PathBuf, Option<usize>);
+/// A mesh file and the materials it was given in place of its own.
+pub(super) type MeshKey = (PathBuf, Vec<usize>);
 
 /// A mesh and where its own origin is; `None` when the file has no triangles.
 pub(super) type PlacedMesh = Option<MeshPlace>;
@@ -45,7 +46,9 @@ impl Builder<'_> {
         object: &Spanned<ObjectTable>,
     ) -> Result<Vec<DVec3>, ImportError> {
         let table = object.get_ref();
-        if let (Some(_), Some(_)) = (&table.plane, place.node) {
+        if let (Some(_), Some(node)) = (&table.plane, place.node)
+            && !self.nodes.is_fixed(node)
+        {
             let why = "a plane cannot move: it is endless";
             let todo = "Take it out of what is animated, looked at, or carries something, or make it a large rectangle";
             return Err(self.refuse(object.span(), why, todo));
@@ -68,7 +71,7 @@ impl Builder<'_> {
         let material = self.material_of(index, table.material.as_ref())?;
         let textured = self.scene.materials[material].textures != scene::Textures::default();
         let placed = place.node_from_here;
-        let kind = (textured, place.node.is_some());
+        let kind = (textured, place.node.is_some() && table.carried_by.is_none());
         let Some(geometry) = shapes::geometry(table, placed, kind, self.texts)? else {
             return Ok(Vec::new());
         };
@@ -123,14 +126,21 @@ impl Builder<'_> {
     fn mesh(
         &mut self,
         index: usize,
-        mesh: &MeshTable,
+        mesh: &Spanned<MeshOrName>,
         place: Place,
         table: &ObjectTable,
     ) -> Result<Vec<DVec3>, ImportError> {
         let read = match self.meshes_of_objects.get(&index) {
             Some(&read) => read,
             None => {
-                let read = self.mesh_file(index, mesh, table)?;
+                let read = match mesh.get_ref() {
+                    MeshOrName::Name(name) => Some(self.known_mesh(name, mesh, table)?),
+                    MeshOrName::Table(mesh) => {
+                        let material = table.material.as_ref();
+                        let material = material.map(|m| self.material_of(index, Some(m)));
+                        self.mesh_file(mesh, material.transpose()?)?
+                    }
+                };
                 self.meshes_of_objects.insert(index, read);
                 read
             }
@@ -143,7 +153,7 @@ impl Builder<'_> {
         else {
             return Ok(Vec::new());
         };
-        let placement = place.node_from_here * DAffine3::from_translation(offset);
+        let placement = chain(place.node_from_here, DAffine3::from_translation(offset));
         self.scene.instances.push(Instance {
             mesh,
             placement,
@@ -156,11 +166,49 @@ impl Builder<'_> {
         Ok((0..8).map(corner).collect())
     }
 
+    fn known_mesh(
+        &self,
+        name: &str,
+        mesh: &Spanned<MeshOrName>,
+        table: &ObjectTable,
+    ) -> Result<MeshPlace, ImportError> {
+        if let Some(material) = &table.material {
+            let why = "a mesh under [meshes] brings its materials";
+            let todo = "Give it others there, or name its file here";
+            return Err(self.refuse(material.span(), why, todo));
+        }
+        self.named_meshes.get(name).copied().ok_or_else(|| {
+            let mut known: Vec<&str> = self.named_meshes.keys().map(String::as_str).collect();
+            known.sort_unstable();
+            let why = suggest::unknown("mesh", name, known);
+            let todo = "Add it under [meshes], or give a table with its `file`";
+            self.refuse(mesh.span(), why, todo)
+        })
+    }
+
+    /// Reads a mesh under [meshes], which is in the scene whether an object shows it or not.
+    pub fn named_mesh(&mut self, name: &str, table: &MeshTable) -> Result<(), ImportError> {
+        let read = self.mesh_file(table, None)?;
+        let place = read.unwrap_or_else(|| {
+            self.scene.meshes.push(Mesh::default().into());
+            MeshPlace {
+                mesh: self.scene.meshes.len() - 1,
+                offset: DVec3::ZERO,
+                reach: DVec3::ZERO,
+            }
+        });
+        if let Some(mesh) = Arc::get_mut(&mut self.scene.meshes[place.mesh]) {
+            name.clone_into(&mut mesh.name);
+        }
+        self.named_meshes.insert(name.to_owned(), place);
+        Ok(())
+    }
+
+    /// The mesh in a file. `material`, if any, is that of all of it.
     fn mesh_file(
         &mut self,
-        index: usize,
         mesh: &MeshTable,
-        table: &ObjectTable,
+        material: Option<usize>,
     ) -> Result<PlacedMesh, ImportError> {
         let name = mesh.file.get_ref();
         let path = self.files.resolve(name).map_err(|refusal| {
@@ -168,20 +216,69 @@ impl Builder<'_> {
                 self.refuse(mesh.file.span(), why, todo)
             })
         })?;
-        let material = match &table.material {
-            Some(material) => Some(self.material_of(index, Some(material))?),
-            None => None,
-        };
-        let key = (path, material);
+        let is_ply = path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("ply"));
+        let mut materials = Vec::new();
+        if let Some(names) = &mesh.materials {
+            if !is_ply || material.is_some() {
+                let why = "`materials` are those of a PLY file, for a mesh that has no other";
+                return Err(self.refuse(mesh.file.span(), why, "Leave them out"));
+            }
+            for name in names {
+                materials.push(self.named(name.get_ref(), name.span())?);
+            }
+        }
+        materials.extend(material);
+        if is_ply && materials.is_empty() {
+            materials.push(self.material_of(usize::MAX, None)?);
+        }
+        let key = (path, materials);
         if let Some(&read) = self.meshes.get(&key) {
             return Ok(read);
         }
-        let read = self.read_mesh(&key.0, name, material)?;
+        let read = match is_ply {
+            true => self.read_ply(&key.0, name, &key.1)?,
+            false => self.read_obj(&key.0, name, material)?,
+        };
         self.meshes.insert(key, read);
         Ok(read)
     }
 
-    fn read_mesh(
+    fn read_ply(
+        &mut self,
+        path: &Path,
+        name: &str,
+        materials: &[usize],
+    ) -> Result<PlacedMesh, ImportError> {
+        let (mut mesh, offset) = ply::mesh(path, materials.len())?;
+        for material in &mut mesh.materials {
+            *material = materials[*material as usize] as u32;
+        }
+        let notes = repair_notes(mesh.repair()).into_iter();
+        let notes = notes.map(|note| format!("{}: {note}", quote(name.as_bytes())));
+        self.scene.skipped.extend(notes);
+        Ok(self.add_mesh(mesh, offset))
+    }
+
+    fn add_mesh(&mut self, mesh: Mesh, offset: DVec3) -> PlacedMesh {
+        if mesh.triangles.is_empty() {
+            return None;
+        }
+        let positions = mesh.positions.iter();
+        let reach = positions
+            .map(|p| p.as_dvec3().abs())
+            .reduce(DVec3::max)
+            .unwrap_or_default();
+        self.scene.meshes.push(mesh.into());
+        Some(MeshPlace {
+            mesh: self.scene.meshes.len() - 1,
+            offset,
+            reach,
+        })
+    }
+
+    fn read_obj(
         &mut self,
         path: &Path,
         name: &str,
@@ -216,17 +313,7 @@ impl Builder<'_> {
                 self.scene.materials.append(&mut model.materials);
             }
         }
-        let positions = model.mesh.positions.iter();
-        let reach = positions
-            .map(|p| p.as_dvec3().abs())
-            .reduce(DVec3::max)
-            .unwrap_or_default();
-        self.scene.meshes.push(model.mesh);
-        Ok(Some(MeshPlace {
-            mesh: self.scene.meshes.len() - 1,
-            offset: model.offset,
-            reach,
-        }))
+        Ok(self.add_mesh(model.mesh, model.offset))
     }
 
     /// Whether a texture of the material with this index lies on u and v.
@@ -261,7 +348,7 @@ impl Builder<'_> {
             let next = self.scene.meshes.len();
             let index = *known.entry(contents).or_insert(next);
             if index == next {
-                self.scene.meshes.push(mesh);
+                self.scene.meshes.push(mesh.into());
             }
             self.scene.instances.push(Instance {
                 mesh: index,

@@ -1,16 +1,15 @@
 //! The textures, pictures and the background of a native scene.
 
 use super::Texts;
-use super::build::placement;
 use super::file::{
     BackgroundTable, ColorOrBackground, ColorOrTexture, PairTable, PatternTables, PictureOrFile,
-    SceneFile, SpaceName,
+    SceneFile, SpaceName, in_order,
 };
 use crate::import::error::ImportError;
 use crate::import::paths::Files;
 use crate::import::picture::Pictures;
 use crate::import::suggest;
-use crate::scene::{Background, Pattern, Space, Texture};
+use crate::scene::{Background, Pattern, Space, Texture, Transform};
 use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -42,7 +41,7 @@ impl<'a> Textures<'a> {
             textures: Vec::new(),
             pictures: Pictures::default(),
         };
-        for (name, table) in &file.textures {
+        for (name, table) in in_order(&file.textures) {
             let index = textures.texture(&table.get_ref().pattern(), table.span())?;
             textures.names.insert(name.clone(), index);
         }
@@ -65,7 +64,7 @@ impl<'a> Textures<'a> {
         };
         let pattern = table.pattern();
         let index = match &table.texture {
-            Some(name) if pattern.count() == 0 && !pattern.is_placed() => self.named(name)?,
+            Some(name) if pattern.count() == 0 && !pattern.says_where() => self.named(name)?,
             Some(name) => {
                 let todo = "Put them under [textures], or leave out `texture`";
                 let why = "a texture with a name brings its own pattern and place";
@@ -95,7 +94,8 @@ impl<'a> Textures<'a> {
             ColorOrBackground::Color(color) => return Ok(Background::Color(color.0)),
             ColorOrBackground::Table(table) => table,
         };
-        let only_for_pictures = table.strength.is_some() || table.rotation_deg.is_some();
+        let only_for_pictures =
+            table.strength.is_some() || table.rotation_deg.is_some() || table.rotation.is_some();
         match (table.bottom, table.top, &table.picture) {
             (Some(bottom), Some(top), None) if !only_for_pictures => Ok(Background::Gradient {
                 bottom: bottom.0,
@@ -109,11 +109,16 @@ impl<'a> Textures<'a> {
                         "Lower it",
                     );
                 }
+                if let (Some(_), Some(_)) = (table.rotation_deg, table.rotation) {
+                    let why = "there are both `rotation_deg` and `rotation`";
+                    return refuse(why, "Leave out one of them");
+                }
                 let degrees = table.rotation_deg.map_or(0.0, |angle| angle.0);
+                let degrees = (degrees % 360.0).to_radians();
                 Ok(Background::Picture {
                     picture: self.picture(name.get_ref(), name.span())?,
                     strength,
-                    rotation: (degrees % 360.0).to_radians(),
+                    rotation: table.rotation.map_or(degrees, |radians| radians.0),
                 })
             }
             _ => refuse(
@@ -174,15 +179,25 @@ impl<'a> Textures<'a> {
             (Some(SpaceName::World), _) | (None, None) => Space::World,
             (Some(SpaceName::Uv), _) | (None, Some(_)) => Space::Uv,
         };
-        let space_from_pattern = placement(
-            tables.scale.map_or(DVec3::ONE, |scale| scale.0),
-            tables.rotate_deg.map_or(DVec3::ZERO, |degrees| degrees.0),
-            tables.translate.map_or(DVec3::ZERO, |offset| offset.0),
-        );
+        let space_from_pattern = Transform {
+            scale: tables.scale.map_or(DVec3::ONE, |scale| scale.0),
+            rotate_deg: tables.rotate_deg.map_or(DVec3::ZERO, |degrees| degrees.0),
+            translate: tables.translate.map_or(DVec3::ZERO, |offset| offset.0),
+        }
+        .affine();
+        let pattern_from_space = match tables.pattern_from_space {
+            Some(_) if tables.is_placed() => {
+                let why =
+                    "`pattern_from_space` takes the place of `scale`, `rotate_deg` and `translate`";
+                return Err(self.refuse(span, why, "Leave out the others"));
+            }
+            Some(matrix) => matrix.0,
+            None => space_from_pattern.inverse(),
+        };
         self.textures.push(Texture {
             pattern,
             space,
-            pattern_from_space: space_from_pattern.inverse(),
+            pattern_from_space,
         });
         Ok(self.textures.len() - 1)
     }
@@ -208,10 +223,15 @@ impl PatternTables<'_> {
         given.into_iter().filter(|&given| given).count()
     }
 
-    /// Whether it says where the pattern is.
+    /// Whether it says by a scale, angles or a translation where the pattern is.
     fn is_placed(&self) -> bool {
         let moved = self.rotate_deg.or(self.translate).is_some();
-        moved || self.scale.is_some() || self.space.is_some()
+        moved || self.scale.is_some()
+    }
+
+    /// Whether it says that, or over what the pattern is laid.
+    fn says_where(&self) -> bool {
+        self.is_placed() || self.space.is_some() || self.pattern_from_space.is_some()
     }
 }
 

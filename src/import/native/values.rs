@@ -8,8 +8,10 @@ pub(super) use moving::{
     ShutterTimes, Time,
 };
 pub(super) use names::{
-    AntialiasName, AttenuationName, FilterName, FresnelName, ShadowsName, ToneName, TransferName,
+    AntialiasName, AttenuationName, FilterName, FresnelName, MixingName, ShadowsName, ToneName,
+    TransferName,
 };
+pub(super) use places::{AxisRadians, Length, Matrix, Upwards, ViewRadians};
 
 use crate::import::number::in_range;
 use crate::import::picture::linear_from_srgb;
@@ -111,8 +113,9 @@ macro_rules! value {
     };
 }
 
-// Below the macro, which it uses.
+// Below the macro, which they use.
 mod moving;
+mod places;
 
 /// Reads a number that `holds`, or says that it `is not …`.
 fn number<'de, D: Deserializer<'de>>(
@@ -127,6 +130,11 @@ fn number<'de, D: Deserializer<'de>>(
             shown(value)
         ))),
     }
+}
+
+/// Whether a length is 1 as far as f64 can tell after normalising, by its square.
+fn is_unit(length_squared: f64) -> bool {
+    (length_squared - 1.0).abs() <= 8.0 * f64::EPSILON
 }
 
 /// A number in as few digits as tell it.
@@ -284,6 +292,10 @@ value! {
     { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 },
     |d| {
         let vector = Vector::deserialize(d)?.0;
+        // What was written with all its digits stays as it is.
+        if is_unit(vector.length_squared()) {
+            return Ok(vector);
+        }
         vector.try_normalize().ok_or_else(|| de::Error::custom("a direction cannot be [0, 0, 0]"))
     }
 }

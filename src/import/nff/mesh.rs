@@ -101,7 +101,7 @@ impl Surface {
         self.mesh.positions = local;
         scene.skipped.extend(repair_notes(self.mesh.repair()));
         if !self.mesh.triangles.is_empty() {
-            scene.meshes.push(self.mesh);
+            scene.meshes.push(self.mesh.into());
             scene.instances.push(Instance {
                 mesh: 0,
                 placement: DAffine3::from_translation(offset),

@@ -52,6 +52,13 @@ fn change(camera: &mut Camera, rest: &Camera, property: CameraProperty, value: V
         (CameraProperty::FovY, Value::Scalar(value)) => {
             camera.fov_y = value.clamp(MIN_FOV, PI - MIN_FOV);
         }
+        (CameraProperty::OrthographicHeight, Value::Scalar(value)) => {
+            if let (Some(height), Some(rest)) =
+                (&mut camera.orthographic_height, rest.orthographic_height)
+            {
+                *height = value.max(1e-6 * rest);
+            }
+        }
         (CameraProperty::FocusDistance, Value::Scalar(value)) => {
             if let (Some(lens), Some(rest)) = (&mut camera.lens, rest.lens) {
                 lens.focus_distance = value.max(1e-6 * rest.focus_distance);
@@ -67,16 +74,20 @@ fn change(camera: &mut Camera, rest: &Camera, property: CameraProperty, value: V
 }
 
 /// Brings a camera into the space that `world_from_node` leads to. What was sharp stays sharp, and
-/// the opening keeps its share of the scene's size: the mean of its width and height.
+/// the opening keeps its share of the scene's size: the mean of its width and height. So does what an
+/// orthographic camera sees.
 fn place(camera: &mut Camera, world_from_node: DAffine3) {
     let vector = |v: DVec3| world_from_node.transform_vector3(v);
     let forward = (camera.look_at - camera.look_from).normalize_or(DVec3::NEG_Z);
+    let right = forward.cross(camera.up).try_normalize();
+    let right = right.unwrap_or_else(|| forward.any_orthonormal_vector());
+    let across = vector(right).cross(vector(right.cross(forward))).length();
     if let Some(lens) = &mut camera.lens {
-        let right = forward.cross(camera.up).try_normalize();
-        let right = right.unwrap_or_else(|| forward.any_orthonormal_vector());
-        let opening = vector(right).cross(vector(right.cross(forward))).length();
         lens.focus_distance *= vector(forward).length();
-        lens.radius *= opening.sqrt();
+        lens.radius *= across.sqrt();
+    }
+    if let Some(height) = &mut camera.orthographic_height {
+        *height *= across.sqrt();
     }
     camera.look_from = world_from_node.transform_point3(camera.look_from);
     camera.look_at = world_from_node.transform_point3(camera.look_at);

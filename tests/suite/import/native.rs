@@ -103,7 +103,7 @@ fn every_key_is_heard() {
     };
     assert_eq!(scene.output, output);
     assert_eq!(scene.cameras[0].name, "a");
-    assert_eq!(scene.cameras[0].up, DVec3::Y);
+    assert_eq!(scene.cameras[0].up.normalize(), DVec3::Y);
     assert_eq!(scene.cameras[0].fov_y, 90_f64.to_radians());
     assert_eq!(scene.cameras[1].fov_y, 60_f64.to_radians());
     let named = Material {
@@ -336,7 +336,7 @@ override refused (--set:1:18): invalid type: string "wide", expected a number. S
 override refused (--set:1:18): `[` is not a TOML value. Write it as in a scene file, strings in quotes.
 override refused (--set:1:18): `1\nambient=[1,1,1]` is not a TOML value. Write it as in a scene file, strings in quotes.
 override refused (--set:1:20): invalid type: map, expected a number. See `glimray schema` for what is allowed.
-override refused (--set:1:1): unknown key `fov`. Known here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `lens`.
+override refused (--set:1:1): unknown key `fov`. Known here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `default`, `lens`.
 override refused (--set:1:9): invalid type: integer `3`, expected a sequence. See `glimray schema` for what is allowed.
 override refused (--set:1:1): `objects` is a list. See the scene for its keys.
 override refused (--set:1:1): there is no `objects.1`: the list has 1, counted from 0. See the scene for its keys.
@@ -436,8 +436,8 @@ bad scene (a.toml:1:21): invalid type: string "blue", expected a number. See `gl
 bad scene (a.toml:1:14): `blue` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `#12345` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): invalid type: floating point `0.5`, expected a colour ([r, g, b] or "#rrggbb"), a gradient or a picture. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:1): unknown key `backgruond`, did you mean `background`? Known here: `output`, `background`, `ambient`, `shadows`, `camera`, `cameras`, `textures`, `materials`, `groups`, `objects`, `lights`, `animation`.
-bad scene (a.toml:1:1): unknown key `zebra`. Known here: `output`, `background`, `ambient`, `shadows`, `camera`, `cameras`, `textures`, `materials`, `groups`, `objects`, `lights`, `animation`.
+bad scene (a.toml:1:1): unknown key `backgruond`, did you mean `background`? Known here: `output`, `background`, `ambient`, `shadows`, `staged`, `camera`, `cameras`, `textures`, `materials`, `meshes`, `nodes`, `groups`, `objects`, `lights`, `animation`.
+bad scene (a.toml:1:1): unknown key `zebra`. Known here: `output`, `background`, `ambient`, `shadows`, `staged`, `camera`, `cameras`, `textures`, `materials`, `meshes`, `nodes`, `groups`, `objects`, `lights`, `animation`.
 bad scene (a.toml:1:15): 0 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:15): 640.5 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:15): expected two numbers [width, height], found more. See `glimray schema` for what is allowed.
@@ -447,7 +447,7 @@ bad scene (a.toml:1:22): 99 is not between -32 and 32. See `glimray schema` for 
 bad scene (a.toml:1:15): unknown value `filmic`. Known here: `none`, `aces`, `agx`, `reinhard`.
 bad scene (a.toml:1:19): unknown value `sRGB`, did you mean `srgb`? Known here: `srgb`, `linear`.
 bad scene (a.toml:1:68): 180 is not an angle between 0.001 and 179.999 degrees. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:56): unknown key `fov`. Known here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `lens`.
+bad scene (a.toml:1:56): unknown key `fov`. Known here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `default`, `lens`.
 bad scene (a.toml:1:10): the key `look_from` is missing. Add `look_from = …`.
 bad scene (a.toml:1:31): -1 is not 0 or more. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:19): unknown key `colour`. Known here: `diffuse`, `specular`, `shininess`, `ambient`.
@@ -465,7 +465,7 @@ bad scene (a.toml:2:23): a scale cannot be 0. See `glimray schema` for what is a
 bad scene (a.toml:2:23): a scale cannot be 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:23): invalid type: boolean `true`, expected a number or [x, y, z]. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:12): invalid type: integer `3`, expected the name of a material, or a table. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:14): unknown key `fong`. Known here: `phong`, `reflect`, `refract`, `emission`, `two_sided`.
+bad scene (a.toml:2:14): unknown key `fong`. Known here: `phong`, `reflect`, `refract`, `optics`, `emission`, `two_sided`.
 bad scene (a.toml:2:45): -1 is not 0 or more. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:33): unknown key `colour`, did you mean `color`? Known here: `position`, `color`, `intensity`, `attenuation`.
 bad scene (a.toml:2:47): unknown value `linear`. Known here: `none`, `inverse-square`.
@@ -508,8 +508,8 @@ bad scene (a.toml:3:11): `up` is parallel to the viewing direction. Give the cam
 bad scene (a.toml:4:6): `up` is parallel to the viewing direction. Give the camera another `up`.
 bad scene (a.toml:1:1): there are both `camera` and `cameras`. Use [[cameras]] for all of them.
 bad scene (a.toml:5:1): a second camera is called `a`. Rename one of them.
-bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
-bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
+bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
+bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
 bad scene (a.toml:4:12): unknown material `glod`, did you mean `gold`? Add it under [materials], or name one that is there.
 bad scene (a.toml:3:12): unknown material `gold`. Add it under [materials], or name one that is there.
 bad scene (a.toml:3:89): unknown material `old`, did you mean `gold`? Add it under [materials], or name one that is there.

@@ -645,15 +645,15 @@ bad scene (a.toml:15:10): unknown value `inn`, did you mean `in`? Known here: `n
 bad scene (a.toml:15:10): x1 and x2 of an easing are between 0 and 1: time runs forward. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:10): y1 and y2 of an easing are between -10 and 10. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:10): unknown value `loop`. Known here: `hold`, `repeat`, `ping-pong`.
-bad scene (a.toml:14:12): unknown value `translat`, did you mean `translate`? Known here: `translate`, `rotation`, `rotate_deg`, `scale`, `visible`, `look_from`, `look_at`, `up`, `fov_y_deg`, `focus_distance`, `lens_radius`, `position`, `direction`, `color`, `intensity`, `on`, `diffuse`, `specular`, `shininess`, `ambient`, `emission`, `reflect`, `transmit`, `opacity`, `ior`, `absorption`.
-bad scene (a.toml:14:12): an object has no such property. Known here: `translate`, `rotation`, `rotate_deg`, `scale`, `visible`.
-bad scene (a.toml:14:12): a camera has no such property. Known here: `look_from`, `look_at`, `up`, `fov_y_deg`, `focus_distance`, `lens_radius`.
+bad scene (a.toml:14:12): unknown value `translat`, did you mean `translate`? Known here: `translate`, `rotation`, `rotate_deg`, `angles`, `scale`, `visible`, `look_from`, `look_at`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `focus_distance`, `lens_radius`, `position`, `direction`, `color`, `intensity`, `on`, `diffuse`, `specular`, `shininess`, `ambient`, `emission`, `reflect`, `transmit`, `opacity`, `ior`, `absorption`.
+bad scene (a.toml:14:12): an object has no such property. Known here: `translate`, `rotation`, `rotate_deg`, `angles`, `scale`, `visible`.
+bad scene (a.toml:14:12): a camera has no such property. Known here: `look_from`, `look_at`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `focus_distance`, `lens_radius`.
 bad scene (a.toml:13:10): unknown object `p`, did you mean `o`? Give an object that `name`, or name one that has it.
 bad scene (a.toml:13:10): unknown camera `d`, did you mean `c`? Give a camera that `name`, or name one that has it.
 bad scene (a.toml:13:9): unknown light `k`, did you mean `l`? Give a light that `name`, or name one that has it.
 bad scene (a.toml:13:12): unknown material `n`, did you mean `m`? Add it under [materials], or name one that is there.
-bad scene (a.toml:12:1): an animation moves one thing. Give it exactly one of `object`, `camera`, `light` and `material`.
-bad scene (a.toml:12:1): an animation moves one thing. Give it exactly one of `object`, `camera`, `light` and `material`.
+bad scene (a.toml:12:1): an animation moves one thing. Give it exactly one of `object`, `objects`, `camera`, `light` and `material`.
+bad scene (a.toml:12:1): an animation moves one thing. Give it exactly one of `object`, `objects`, `camera`, `light` and `material`.
 bad scene (a.toml:19:12): a second animation of the same property of the object `o`. Put all keys into one of them.
 bad scene (a.toml:19:12): a second animation of the same property of the object `o`. Put all keys into one of them.
 bad scene (a.toml:15:13): 180 is not an angle between 0.001 and 179.999 degrees. See `glimray schema` for what is allowed.

@@ -419,13 +419,13 @@ bad scene (a.toml:2:9): unknown group `wheel`. Add it under [groups], or name on
 bad scene (a.toml:4:9): unknown group `wheels`, did you mean `wheel`? Add it under [groups], or name one that is there.
 bad scene (a.toml:2:9): a group is in itself: `a` places `a`. Take one out of the other.
 bad scene (a.toml:6:9): a group is in itself: `b` places `c` places `b`. Take one out of the other.
-bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
+bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
 bad scene (a.toml:1:1): invalid type: map, expected a sequence. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
+bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
 bad scene (a.toml:6:12): a group has no material. Give one to each of its objects.
 bad scene (a.toml:6:8): a second object is called `x`. Rename one of them.
-bad scene (a.toml:3:10): copies are arranged in one way. Give exactly one of `grid`, `ring` and `scatter`; groups can be repeated again.
-bad scene (a.toml:3:10): copies are arranged in one way. Give exactly one of `grid`, `ring` and `scatter`; groups can be repeated again.
+bad scene (a.toml:3:10): copies are arranged in one way. Give exactly one of `grid`, `ring`, `scatter` and `points`; groups can be repeated again.
+bad scene (a.toml:3:10): copies are arranged in one way. Give exactly one of `grid`, `ring`, `scatter` and `points`; groups can be repeated again.
 bad scene (a.toml:3:29): 0 is not a whole number from 1 to 1000000000. See `glimray schema` for what is allowed.
 bad scene (a.toml:3:29): expected three counts [x, y, z], found fewer. See `glimray schema` for what is allowed.
 bad scene (a.toml:3:29): invalid type: integer `3`, expected three counts [x, y, z]. See `glimray schema` for what is allowed.
@@ -439,7 +439,7 @@ bad scene (a.toml:3:58): y of `max` is less than that of `min`. Exchange them.
 bad scene (a.toml:3:42): -1 is not a whole number from 0 to 4294967295. See `glimray schema` for what is allowed.
 bad scene (a.toml:3:77): the least factor, 2, is more than the greatest, 1. See `glimray schema` for what is allowed.
 bad scene (a.toml:3:77): 0 is not greater than 0. See `glimray schema` for what is allowed.
-bad scene (a.toml:3:12): unknown key `spiral`. Known here: `grid`, `ring`, `scatter`.
+bad scene (a.toml:3:12): unknown key `spiral`. Known here: `grid`, `ring`, `scatter`, `points`.
 bad scene (a.toml:3:10): the object reaches out of range: at most 3.4e38 is allowed. Make it smaller, or leave it nearer to the origin.
 bad scene (a.toml:3:13): nothing is left of the object, or all of it is out of range, after all scales on the way to it. Check the scales of its groups.
 bad scene (a.toml:3:13): nothing is left of the object, or all of it is out of range, after all scales on the way to it. Check the scales of its groups.

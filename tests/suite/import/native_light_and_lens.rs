@@ -270,7 +270,7 @@ bad scene (a.toml:4:31): 5.5 is not a whole number from 3 to 64. See `glimray sc
 bad scene (a.toml:4:31): 65 is not a whole number from 3 to 64. See `glimray schema` for what is allowed.
 bad scene (a.toml:4:8): the lens is out of proportion: its radius can be 1e9, and a million times its focus distance, at most. Make it smaller.
 bad scene (a.toml:4:8): the lens is out of proportion: its radius can be 1e9, and a million times its focus distance, at most. Make it smaller.
-bad scene (a.toml:4:10): unknown key `aperture`. Known here: `radius`, `f_number`, `sensor_height_mm`, `focus_distance`, `focus_on`, `blades`, `blade_rotation_deg`.
+bad scene (a.toml:4:10): unknown key `aperture`. Known here: `radius`, `f_number`, `sensor_height_mm`, `focus_distance`, `focus_on`, `blades`, `blade_rotation_deg`, `blade_rotation`.
 bad scene (a.toml:1:17): unknown value `lanczos`. Known here: `box`, `tent`, `gaussian`, `blackman-harris`, `mitchell`.
 bad scene (a.toml:1:24): 0 is not between 0.01 and 16. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:24): 100 is not between 0.01 and 16. See `glimray schema` for what is allowed.

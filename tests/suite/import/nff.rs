@@ -151,9 +151,10 @@ fn assert_cone(text: &str, base: DVec3, bottom: f64, apex: DVec3, top: f64) {
     else {
         panic!("{text}: {:?}", scene.shapes);
     };
+    let wide = bottom.max(top);
     let expected = Form::Cone {
-        bottom,
-        top,
+        bottom: bottom / wide,
+        top: top / wide,
         capped: false,
     };
     assert_eq!(form, expected, "{text}");
@@ -165,7 +166,8 @@ fn assert_cone(text: &str, base: DVec3, bottom: f64, apex: DVec3, top: f64) {
     for step in 0..12 {
         let angle = f64::from(step);
         for (center, radius, y) in [(base, bottom, 0.0), (apex, top, 1.0)] {
-            let rim = DVec3::new(radius * angle.cos(), y, radius * angle.sin());
+            let share = radius / wide;
+            let rim = DVec3::new(share * angle.cos(), y, share * angle.sin());
             let rim = world_from_form.transform_point3(rim);
             let tolerance = 1e-12 * (1.0 + center.length() + radius);
             assert!((rim.distance(center) - radius).abs() < tolerance, "{text}");

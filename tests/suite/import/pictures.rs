@@ -26,7 +26,7 @@ fn with_background(name: &str, bytes: &[u8]) -> Scene {
 }
 
 fn picture(name: &str, bytes: &[u8]) -> Picture {
-    with_background(name, bytes).pictures.remove(0)
+    (*with_background(name, bytes).pictures[0]).clone()
 }
 
 /// IEC 61966-2-1, from its other side: the value whose code is `code` is found by halving.

@@ -256,7 +256,7 @@ bad scene (a.toml:2:8): the key `from_radius` is missing. Add `from_radius = …
 bad scene (a.toml:2:64): `minor_radius` is greater than `major_radius`, which is 1. Make the tube thinner.
 bad scene (a.toml:2:64): 0 is not greater than 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:38): a direction cannot be [0, 0, 0]. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
+bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
 bad scene (a.toml:3:13): the object reaches out of range: at most 3.4e38 is allowed. Make it smaller, or leave it nearer to the origin.
 ");
 }

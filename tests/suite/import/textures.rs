@@ -40,17 +40,17 @@ fn textures_have_names_or_stand_in_place_of_a_colour() {
         "##;
     let scene = scene("a.toml", text);
     let names: Vec<_> = scene.textures.iter().map(|t| t.pattern.clone()).collect();
-    // Names in their alphabetical order, then the nameless.
+    // Those with names in the file's order, then the nameless.
     let (white, black) = (Vec3::ONE, Vec3::ZERO);
     let expected = [
+        Pattern::Checker {
+            a: Vec3::X,
+            b: Vec3::Y,
+        },
         Pattern::Noise {
             a: white,
             b: black,
             octaves: 7,
-        },
-        Pattern::Checker {
-            a: Vec3::X,
-            b: Vec3::Y,
         },
         Pattern::Stripes {
             a: black,
@@ -62,10 +62,10 @@ fn textures_have_names_or_stand_in_place_of_a_colour() {
         },
     ];
     assert_eq!(names, expected);
-    assert_eq!(scene.textures[0].space, Space::Uv);
-    assert_eq!(scene.textures[1].space, Space::World);
+    assert_eq!(scene.textures[1].space, Space::Uv);
+    assert_eq!(scene.textures[0].space, Space::World);
     // (0.5, 0, 0) of the pattern is scaled to (1, 0, 0), turned to (0, 1, 0), moved to (10, 1, 0).
-    let place = scene.textures[1].pattern_from_space;
+    let place = scene.textures[0].pattern_from_space;
     let p = place.transform_point3(DVec3::new(10.0, 1.0, 0.0));
     assert!(p.distance(DVec3::new(0.5, 0.0, 0.0)) < 1e-12, "{p}");
     let [a, b, c] = &scene.materials[..] else {
@@ -73,9 +73,9 @@ fn textures_have_names_or_stand_in_place_of_a_colour() {
     };
     // The ambient colour defaults to the diffuse one with its texture.
     let both = Textures {
-        diffuse: Some(1),
+        diffuse: Some(0),
         specular: Some(2),
-        ambient: Some(1),
+        ambient: Some(0),
         ..Textures::default()
     };
     assert_eq!(a.textures, both);
@@ -84,7 +84,7 @@ fn textures_have_names_or_stand_in_place_of_a_colour() {
         (Vec3::splat(0.5), white, Vec3::splat(0.5))
     );
     assert_eq!((b.diffuse, b.ambient), (white, Vec3::splat(2.0)));
-    assert_eq!((b.textures.diffuse, b.textures.ambient), (Some(1), Some(3)));
+    assert_eq!((b.textures.diffuse, b.textures.ambient), (Some(0), Some(3)));
     assert_eq!(c.textures, Textures::default());
 }
 
@@ -145,7 +145,7 @@ bad scene (a.toml:2:17): expected three numbers [r, g, b], found fewer. See `gli
 bad scene (a.toml:2:17): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
 bad scene (a.toml:2:17): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
 bad scene (a.toml:2:17): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
-bad scene (a.toml:2:19): unknown key `cheker`, did you mean `checker`? Known here: `texture`, `color`, `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`.
+bad scene (a.toml:2:19): unknown key `cheker`, did you mean `checker`? Known here: `texture`, `color`, `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`, `pattern_from_space`.
 bad scene (a.toml:2:31): unknown key `c`, did you mean `a`? Known here: `a`, `b`.
 bad scene (a.toml:2:35): -1 in a colour is negative. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:39): 0 is not a whole number from 1 to 16. See `glimray schema` for what is allowed.
@@ -163,13 +163,13 @@ bad scene (a.toml:2:29): a texture with a name brings its own pattern and place.
 bad scene (a.toml:2:29): a texture with a name brings its own pattern and place. Put them under [textures], or leave out `texture`.
 bad scene (a.toml:2:17): color times texture is out of range: at most 3.4e38 is allowed. Lower one of them.
 bad scene (a.toml:1:1): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
-bad scene (a.toml:2:1): unknown key `texture`. Known here: `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`.
+bad scene (a.toml:2:1): unknown key `texture`. Known here: `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`, `pattern_from_space`.
 bad scene (a.toml:1:12): invalid type: integer `3`, expected a map. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
 bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
 bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
 bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:16): unknown key `up`. Known here: `bottom`, `top`, `picture`, `strength`, `rotation_deg`.
+bad scene (a.toml:1:16): unknown key `up`. Known here: `bottom`, `top`, `picture`, `strength`, `rotation_deg`, `rotation`.
 picture refused (a.toml:1:26): `gone.hdr` does not exist. Check the name and the folder.
 bad scene (a.toml:1:49): -1 is not 0 or more. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `strength` is out of range: at most 5e33 is allowed. Lower it.

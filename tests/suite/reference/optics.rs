@@ -1,13 +1,17 @@
 //! Recursive reflection and refraction as a textbook writes them: a function that calls itself.
 
-use super::{Hit, Ray, Rays, Tracer, textures};
+use super::rays::{Log, Sent};
+use super::{Hit, Ray, Tracer, textures};
 use glam::DVec3;
-use glimray::render::MIN_THROUGHPUT;
+use glimray::render::{MIN_THROUGHPUT, RayKind, Rays};
 use glimray::scene::{Fresnel, Mixing};
 
 /// A ray's place in the tree.
 #[derive(Clone)]
 pub struct Place {
+    pub kind: RayKind,
+    /// The ray that sent it, where rays are kept.
+    pub sender: Option<usize>,
     pub depth: u32,
     /// Its share in the sample.
     pub share: DVec3,
@@ -15,15 +19,18 @@ pub struct Place {
     pub media: Vec<usize>,
 }
 
-enum Kind {
-    Reflected,
-    Refracted,
-}
-
 impl Tracer<'_> {
     /// What a ray brings back, without its own share.
-    pub fn follow(&self, ray: Ray, place: &Place, rays: &mut Rays) -> (DVec3, bool) {
-        let Some((t, primitive)) = self.nearest(ray) else {
+    pub fn follow(&self, ray: Ray, place: &Place, rays: &mut Log) -> (DVec3, bool) {
+        let nearest = self.nearest(ray);
+        let own = rays.keep(Sent {
+            kind: place.kind,
+            sender: place.sender,
+            share: place.share,
+            hit: nearest,
+            light: None,
+        });
+        let Some((t, primitive)) = nearest else {
             let left = self.absorbed(self.dominant(&place.media), 1e30);
             let left = if self.scene.output.max_depth > 0 {
                 left
@@ -59,7 +66,11 @@ impl Tracer<'_> {
             self.split(&hit, ray.direction, here, &behind, is_clear);
 
         if is_clear && here == self.dominant(&behind) {
-            // A boundary within a body that goes before is not there.
+            // A boundary within a body that goes before is not there, but what the body has swallowed
+            // may leave too little to go on.
+            if share.element_sum() / 3.0 < f64::from(MIN_THROUGHPUT) {
+                return (DVec3::ZERO, true);
+            }
             let onwards = Ray {
                 origin: hit.p,
                 t_min: 1e-9 * t.max(1.0),
@@ -67,9 +78,11 @@ impl Tracer<'_> {
                 ..ray
             };
             let next = Place {
+                kind: RayKind::Refraction,
+                sender: own,
                 share,
                 media: behind,
-                ..*place
+                depth: place.depth,
             };
             rays.refraction += 1;
             let (arriving, is_hit) = self.follow(onwards, &next, rays);
@@ -77,8 +90,10 @@ impl Tracer<'_> {
             return (left * arriving, true);
         }
         let mut color = DVec3::ZERO;
-        let mut send = |kind: Kind, weight: DVec3, direction: DVec3, media: &[usize]| {
+        let mut send = |kind: RayKind, weight: DVec3, direction: DVec3, media: &[usize]| {
             let next = Place {
+                kind,
+                sender: own,
                 depth: place.depth + 1,
                 share: share * weight,
                 media: media.to_vec(),
@@ -95,9 +110,10 @@ impl Tracer<'_> {
                 leaving: Some(primitive),
             };
             let (arriving, is_hit) = self.follow(onwards, &next, rays);
+            let counts: &mut Rays = rays;
             let (sent, met) = match kind {
-                Kind::Reflected => (&mut rays.reflection, &mut rays.reflection_hits),
-                Kind::Refracted => (&mut rays.refraction, &mut rays.refraction_hits),
+                RayKind::Reflection => (&mut counts.reflection, &mut counts.reflection_hits),
+                _ => (&mut counts.refraction, &mut counts.refraction_hits),
             };
             *sent += 1;
             *met += u64::from(is_hit);
@@ -105,9 +121,9 @@ impl Tracer<'_> {
             true
         };
         let mirrored = ray.direction - 2.0 * ray.direction.dot(hit.n) * hit.n;
-        let sends = send(Kind::Reflected, reflect, mirrored, &place.media);
+        let sends = send(RayKind::Reflection, reflect, mirrored, &place.media);
         if is_clear {
-            send(Kind::Refracted, transmit, refracted, &behind);
+            send(RayKind::Refraction, transmit, refracted, &behind);
         }
 
         let kept = (DVec3::ONE - reflect).max(DVec3::ZERO);
@@ -128,6 +144,7 @@ impl Tracer<'_> {
             leaving: Some(primitive),
             ..ray
         };
+        rays.sender = own;
         color += self.shade(shadow, hit.n, -ray.direction, &material, rays);
         if hit.enters || material.two_sided {
             color += material.emission.as_dvec3();

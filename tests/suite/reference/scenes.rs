@@ -6,6 +6,7 @@ use glimray::scene::{
     Mesh, Scene, Shape,
 };
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// A camera, a grey material and a bluish background, and nothing in it.
 pub fn empty() -> Scene {
@@ -255,7 +256,7 @@ pub trait Build {
     fn add_material(&mut self, material: Material) -> usize;
     fn add_sphere(&mut self, center: DVec3, radius: f64, material: usize);
     fn add_plane(&mut self, point: DVec3, normal: DVec3, material: usize);
-    fn add_mesh(&mut self, mesh: Mesh, world_from_object: DAffine3);
+    fn add_mesh(&mut self, mesh: impl Into<Arc<Mesh>>, world_from_object: DAffine3);
     fn add_point_light(&mut self, position: DVec3, strength: f32);
 }
 
@@ -281,8 +282,8 @@ impl Build for Scene {
         });
     }
 
-    fn add_mesh(&mut self, mesh: Mesh, world_from_object: DAffine3) {
-        self.meshes.push(mesh);
+    fn add_mesh(&mut self, mesh: impl Into<Arc<Mesh>>, world_from_object: DAffine3) {
+        self.meshes.push(mesh.into());
         self.instances.push(Instance {
             mesh: self.meshes.len() - 1,
             placement: world_from_object,

@@ -7,7 +7,7 @@ use crate::import::native::file::{
 };
 use crate::import::native::values::{
     Absorption, Color, Direction, Fraction, NonNegative, Number, NumberOrVector, Positive,
-    Quaternion, RefractiveIndex, Scale, Share, Vector, ViewAngle, elements,
+    Quaternion, RefractiveIndex, Scale, Share, Vector, ViewAngle, ViewRadians, elements,
 };
 use crate::scene::{Curve, Easing, Values};
 use glam::{DQuat, DVec3, DVec4};
@@ -117,13 +117,18 @@ fn sample(property: P, from: &KeyValue) -> Result<Sample, value::Error> {
     use Sample::{Rotation, Scalar, Vector as Three};
     Ok(match property {
         P::Visible | P::On => Scalar(f64::from(u8::from(bool::deserialize(from)?))),
-        P::Translate | P::LookFrom | P::LookAt | P::Position => Three(Vector::deserialize(from)?.0),
+        P::Translate | P::Angles | P::LookFrom | P::LookAt | P::Position => {
+            Three(Vector::deserialize(from)?.0)
+        }
         P::RotateDeg => Three(radians(Vector::deserialize(from)?.0)),
         P::Rotation => Rotation(Quaternion::deserialize(from)?.0),
         P::Scale => Three(Scale::deserialize(from)?.0),
         P::Up | P::Direction => Three(Direction::deserialize(from)?.0),
         P::FovYDeg => Scalar(ViewAngle::deserialize(from)?.0.to_radians()),
-        P::FocusDistance | P::LensRadius => Scalar(Positive::deserialize(from)?.0),
+        P::FocusDistance | P::LensRadius | P::Orthographic => {
+            Scalar(Positive::deserialize(from)?.0)
+        }
+        P::FovY => Scalar(ViewRadians::deserialize(from)?.0),
         P::Color | P::Diffuse | P::Specular | P::Ambient | P::Emission => {
             Three(Color::deserialize(from)?.0.as_dvec3())
         }

@@ -12,10 +12,13 @@ use toml::Spanned;
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct AnimationTable {
-    /// The name of an object, all of whose copies follow. Exactly one of `object`, `camera`, `light`
-    /// and `material`.
+    /// The name of an object, all of whose copies follow, or of a node. Exactly one of `object`,
+    /// `objects`, `camera`, `light` and `material`.
     #[schemars(with = "Option<String>")]
     pub object: Option<Spanned<String>>,
+    /// The names of several objects or nodes, in place of `object`.
+    #[schemars(with = "Option<Vec<String>>")]
+    pub objects: Option<Vec<Spanned<String>>>,
     /// The name of a camera.
     #[schemars(with = "Option<String>")]
     pub camera: Option<Spanned<String>>,
@@ -53,6 +56,8 @@ pub(in crate::import::native) enum PropertyName {
     Rotation,
     /// Of an object, as in `transform`; may be more than a turn.
     RotateDeg,
+    /// The same in radians.
+    Angles,
     /// Of an object, as in `transform`.
     Scale,
     /// Of an object: true or false.
@@ -65,6 +70,10 @@ pub(in crate::import::native) enum PropertyName {
     Up,
     /// Of a camera.
     FovYDeg,
+    /// The same in radians.
+    FovY,
+    /// Of an orthographic camera.
+    Orthographic,
     /// Of a camera with a lens.
     FocusDistance,
     /// Of a camera with a lens: its `radius`.

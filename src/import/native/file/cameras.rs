@@ -1,6 +1,8 @@
 //! How a native scene describes cameras.
 
-use crate::import::native::values::{Corners, Direction, Number, Positive, Vector, ViewAngle};
+use crate::import::native::values::{
+    Corners, Direction, Number, Positive, Upwards, Vector, ViewAngle, ViewRadians,
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
@@ -26,10 +28,18 @@ pub(in crate::import::native) struct CameraTable {
     pub carried_by: Option<Spanned<String>>,
     /// What is upwards in the picture; [0, 1, 0] if left out.
     #[schemars(with = "Option<Direction>")]
-    pub up: Option<Spanned<Direction>>,
+    pub up: Option<Spanned<Upwards>>,
     /// The vertical angle of view in degrees; 60 if left out.
-    #[serde(default = "sixty")]
-    pub fov_y_deg: ViewAngle,
+    #[schemars(with = "Option<ViewAngle>")]
+    pub fov_y_deg: Option<Spanned<ViewAngle>>,
+    /// The same in radians, in place of `fov_y_deg`.
+    pub fov_y: Option<ViewRadians>,
+    /// The height of what is in the picture, in scene units, for a picture without perspective: an
+    /// orthographic one. What is behind `look_from` is then not in it, and `fov_y_deg` does not count.
+    pub orthographic: Option<Positive>,
+    /// Whether it is the default of several cameras, which otherwise is the first; false if left out.
+    #[serde(default)]
+    pub default: bool,
     /// What lets only one distance be sharp; all is sharp if left out.
     #[schemars(with = "Option<LensTable>")]
     pub lens: Option<Spanned<LensTable>>,
@@ -87,15 +97,20 @@ pub(in crate::import::native) struct LensTable {
     pub blades: Option<Corners>,
     /// Degrees by which the opening is turned, counter-clockwise; 0, with a corner to the right, if
     /// left out.
-    #[serde(default = "zero")]
-    #[schemars(with = "f64")]
-    pub blade_rotation_deg: Number,
+    #[schemars(with = "Option<f64>")]
+    pub blade_rotation_deg: Option<Spanned<Number>>,
+    /// The same in radians, in place of `blade_rotation_deg`.
+    #[schemars(with = "Option<f64>")]
+    pub blade_rotation: Option<Number>,
 }
 
-fn sixty() -> ViewAngle {
-    ViewAngle(60.0)
-}
-
-fn zero() -> Number {
-    Number(0.0)
+impl CameraTable {
+    /// The vertical angle of view in radians.
+    pub fn angle_of_view(&self) -> f64 {
+        let degrees = self
+            .fov_y_deg
+            .as_ref()
+            .map_or(60.0, |angle| angle.get_ref().0);
+        self.fov_y.map_or(degrees.to_radians(), |angle| angle.0)
+    }
 }

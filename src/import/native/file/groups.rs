@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// Copies of an object or group, by exactly one of grid, ring and scatter. Each is placed by
+/// Copies of an object or group, by exactly one of grid, ring, scatter and points. Each is placed by
 /// `transform` first, then brought to its place among the copies.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -19,6 +19,19 @@ pub(in crate::import::native) struct RepeatTable {
     pub ring: Option<Box<RingTable>>,
     /// At random places in a box.
     pub scatter: Option<Box<ScatterTable>>,
+    /// At the points of a file.
+    pub points: Option<PointsTable>,
+}
+
+/// Copies at the points of a file, in their order.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct PointsTable {
+    /// The path of a PLY file, from the scene's folder downwards: each of its vertices moves a copy by
+    /// x, y and z. Where vertices have the nine properties xx, xy, xz, yx, yy, yz, zx, zy and zz, these
+    /// are where the copy's own x axis (xx, xy, xz), y axis and z axis go.
+    #[schemars(with = "String")]
+    pub file: Spanned<String>,
 }
 
 /// Rows, columns and layers of copies.

@@ -1,7 +1,8 @@
 //! How a native scene describes lights.
 
 use crate::import::native::values::{
-    AttenuationName, AxisAngle, Color, Count, Direction, Extent, NonNegative, Positive, Vector,
+    AttenuationName, AxisAngle, AxisRadians, Color, Count, Direction, Extent, NonNegative,
+    Positive, Vector,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -24,7 +25,8 @@ pub(in crate::import::native) struct LightTable {
     /// Shines along one direction everywhere, like the sun.
     pub directional: Option<DirectionalTable>,
     /// Shines from a point into a cone.
-    pub spot: Option<SpotTable>,
+    #[schemars(with = "Option<SpotTable>")]
+    pub spot: Option<Spanned<SpotTable>>,
     /// Shines from a rectangle or parallelogram, on one side.
     pub rectangle: Option<RectangleLightTable>,
     /// Shines from a disc, on one side.
@@ -70,15 +72,22 @@ pub(in crate::import::native) struct DirectionalTable {
 pub(in crate::import::native) struct SpotTable {
     /// Where it is.
     pub position: Vector,
-    /// What its axis goes through.
-    #[schemars(with = "Vector")]
-    pub look_at: Spanned<Vector>,
+    /// What its axis goes through. Either this or `direction`.
+    #[schemars(with = "Option<Vector>")]
+    pub look_at: Option<Spanned<Vector>>,
+    /// Where its axis points.
+    pub direction: Option<Direction>,
     /// Degrees off the axis up to which it has its full strength; 80 % of `outer_deg` if left out.
     #[schemars(with = "Option<AxisAngle>")]
     pub inner_deg: Option<Spanned<AxisAngle>>,
     /// Degrees off the axis from which on it is dark; 30 if left out.
-    #[serde(default = "thirty")]
-    pub outer_deg: AxisAngle,
+    pub outer_deg: Option<AxisAngle>,
+    /// The same as `inner_deg` in radians, in its place.
+    #[schemars(with = "Option<AxisRadians>")]
+    pub inner: Option<Spanned<AxisRadians>>,
+    /// The same as `outer_deg` in radians, in its place.
+    #[schemars(with = "Option<AxisRadians>")]
+    pub outer: Option<Spanned<AxisRadians>>,
     /// Its colour; white if left out.
     #[serde(default = "white")]
     pub color: Color,
@@ -202,8 +211,4 @@ fn yes() -> bool {
 
 fn one() -> NonNegative {
     NonNegative(1.0)
-}
-
-fn thirty() -> AxisAngle {
-    AxisAngle(30.0)
 }

@@ -2,7 +2,7 @@
 
 use super::textures::{ColorOrTexture, plain};
 use crate::import::native::values::{
-    Absorption, Fraction, FresnelName, NonNegative, Priority, RefractiveIndex,
+    Absorption, Fraction, FresnelName, MixingName, NonNegative, Positive, Priority, RefractiveIndex,
 };
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -22,6 +22,10 @@ pub(in crate::import::native) struct MaterialTable {
     /// What it lets through, refracted; nothing if left out.
     #[schemars(with = "Option<RefractTable>")]
     pub refract: Option<Spanned<RefractTable>>,
+    /// What it mirrors and lets through said directly, for what neither `reflect` nor `refract` can
+    /// say, in place of both.
+    #[schemars(with = "Option<OpticsTable>")]
+    pub optics: Option<Spanned<OpticsTable>>,
     /// The light that it gives off by itself; none if left out.
     #[schemars(with = "ColorOrTexture")]
     pub emission: Spanned<ColorOrTexture>,
@@ -35,6 +39,7 @@ impl Default for MaterialTable {
             phong: PhongTable::default(),
             reflect: None,
             refract: None,
+            optics: None,
             emission: plain(Vec3::ZERO),
             two_sided: true,
         }
@@ -99,6 +104,45 @@ impl Default for RefractTable {
             absorption: Absorption(Vec3::ZERO),
             fresnel: FresnelName::Exact,
             priority: Priority(0),
+        }
+    }
+}
+
+/// What a surface mirrors and lets through, each by itself.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(in crate::import::native) struct OpticsTable {
+    /// What mirrored light is multiplied by, with `fresnel` at grazing angles; black if left out.
+    #[schemars(with = "ColorOrTexture")]
+    pub reflect: Spanned<ColorOrTexture>,
+    /// What light is multiplied by that goes through; black if left out.
+    #[schemars(with = "ColorOrTexture")]
+    pub transmit: Spanned<ColorOrTexture>,
+    /// The share of ambient and diffuse light where `mixing` is layer, 0 to 1; 1 if left out.
+    pub opacity: Fraction,
+    /// The index of refraction inside, above 0; 1 if left out.
+    pub ior: Positive,
+    /// How much a unit length swallows, as in `refract`.
+    pub absorption: Absorption,
+    /// How much is mirrored at which angle: none (if left out), exact or schlick.
+    pub fresnel: FresnelName,
+    /// Which of bodies that overlap counts, as in `refract`.
+    pub priority: Priority,
+    /// How local, mirrored and transmitted light are put together: layer (if left out), sum or blend.
+    pub mixing: MixingName,
+}
+
+impl Default for OpticsTable {
+    fn default() -> Self {
+        Self {
+            reflect: plain(Vec3::ZERO),
+            transmit: plain(Vec3::ZERO),
+            opacity: Fraction(1.0),
+            ior: Positive(1.0),
+            absorption: Absorption(Vec3::ZERO),
+            fresnel: FresnelName::None,
+            priority: Priority(0),
+            mixing: MixingName::Layer,
         }
     }
 }

@@ -2,15 +2,17 @@
 
 use super::groups::RepeatTable;
 use super::materials::MaterialRef;
-use crate::import::native::values::{Direction, NonNegative, Positive, Scale, Vector, elements};
+use super::meshes::MeshOrName;
+use super::nodes::TransformTable;
+use crate::import::native::values::{Direction, Length, Positive, Vector, elements};
 use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::Deserializer;
 use toml::Spanned;
 
-/// One surface, or a group of objects: exactly one of sphere, plane, disc, rectangle, box, cylinder,
-/// cone, torus, triangle, mesh and group.
+/// One surface, or a group of objects: exactly one of sphere, ellipsoid, plane, disc, rectangle, box,
+/// cylinder, cone, torus, triangle, mesh and group.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct ObjectTable {
@@ -19,6 +21,8 @@ pub(in crate::import::native) struct ObjectTable {
     pub name: Option<Spanned<String>>,
     /// A sphere.
     pub sphere: Option<SphereTable>,
+    /// An ellipsoid.
+    pub ellipsoid: Option<Box<EllipsoidTable>>,
     /// An infinite plane.
     pub plane: Option<PlaneTable>,
     /// A disc, or a ring.
@@ -36,8 +40,9 @@ pub(in crate::import::native) struct ObjectTable {
     pub torus: Option<Box<TorusTable>>,
     /// A triangle.
     pub triangle: Option<Box<TriangleTable>>,
-    /// The triangles of an OBJ file.
-    pub mesh: Option<MeshTable>,
+    /// The triangles of an OBJ or PLY file, or the name of a mesh under [meshes].
+    #[schemars(with = "Option<MeshOrName>")]
+    pub mesh: Option<Spanned<MeshOrName>>,
     /// The name of a group under [groups], whose objects it places.
     #[schemars(with = "Option<String>")]
     pub group: Option<Spanned<String>>,
@@ -47,6 +52,10 @@ pub(in crate::import::native) struct ObjectTable {
     /// Where to put it.
     #[schemars(with = "Option<TransformTable>")]
     pub transform: Option<Spanned<TransformTable>>,
+    /// The name of a node under [[nodes]] that carries it: it is placed as seen from there. Not for
+    /// members of groups, which their group carries.
+    #[schemars(with = "Option<String>")]
+    pub carried_by: Option<Spanned<String>>,
     /// Copies of it, placed by `transform` each.
     #[schemars(with = "Option<RepeatTable>")]
     pub repeat: Option<Spanned<RepeatTable>>,
@@ -63,6 +72,26 @@ pub(in crate::import::native) struct SphereTable {
     pub center: Vector,
     /// Its radius, greater than 0.
     pub radius: Positive,
+}
+
+/// An ellipsoid along the axes, before its transform.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(in crate::import::native) struct EllipsoidTable {
+    /// Its centre; the origin if left out.
+    pub center: Vector,
+    /// How far it reaches along x, y and z, each greater than 0; 1 if left out.
+    #[serde(deserialize_with = "three_radii")]
+    pub radii: [Positive; 3],
+}
+
+impl Default for EllipsoidTable {
+    fn default() -> Self {
+        Self {
+            center: Vector(DVec3::ZERO),
+            radii: [Positive(1.0); 3],
+        }
+    }
 }
 
 /// An infinite plane.
@@ -88,8 +117,8 @@ pub(in crate::import::native) struct DiscTable {
     /// Its radius, greater than 0.
     pub radius: Positive,
     /// The radius of its hole, less than `radius`; no hole if left out.
-    #[schemars(with = "Option<NonNegative>")]
-    pub inner_radius: Option<Spanned<NonNegative>>,
+    #[schemars(with = "Option<Length>")]
+    pub inner_radius: Option<Spanned<Length>>,
 }
 
 /// A rectangle: either two edges, or a size and where it faces.
@@ -152,11 +181,11 @@ pub(in crate::import::native) struct ConeTable {
     #[schemars(with = "Vector")]
     pub to: Spanned<Vector>,
     /// The radius at `from`, 0 or more.
-    #[schemars(with = "NonNegative")]
-    pub from_radius: Spanned<NonNegative>,
+    #[schemars(with = "Length")]
+    pub from_radius: Spanned<Length>,
     /// The radius at `to`, 0 or more; 0 if left out. One of the two radii is greater than 0.
     #[serde(default = "tip")]
-    pub to_radius: NonNegative,
+    pub to_radius: Length,
     /// Whether its ends are open (false if left out).
     #[serde(default)]
     pub open: bool,
@@ -194,38 +223,6 @@ pub(in crate::import::native) struct TriangleTable {
     pub materials: Option<[Spanned<String>; 3]>,
 }
 
-/// The triangles of a file.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(in crate::import::native) struct MeshTable {
-    /// The path of an OBJ file, from the scene's folder downwards.
-    #[schemars(with = "String")]
-    pub file: Spanned<String>,
-}
-
-/// Scaled first, then rotated, then moved.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub(in crate::import::native) struct TransformTable {
-    /// How far to move it.
-    pub translate: Vector,
-    /// Degrees to turn it round the x, then the y, then the z axis of the world,
-    /// counter-clockwise when the axis points at you.
-    pub rotate_deg: Vector,
-    /// A factor for all axes, or one for each; not 0, negative ones mirror.
-    pub scale: Scale,
-}
-
-impl Default for TransformTable {
-    fn default() -> Self {
-        Self {
-            translate: Vector(DVec3::ZERO),
-            rotate_deg: Vector(DVec3::ZERO),
-            scale: Scale(DVec3::ONE),
-        }
-    }
-}
-
 // Serde's own arrays ignore elements beyond the last.
 fn three<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<[T; 3], D::Error> {
     elements(from, "three elements, one for each corner")
@@ -239,12 +236,16 @@ where
     three(from).map(Some)
 }
 
+fn three_radii<'de, D: Deserializer<'de>>(from: D) -> Result<[Positive; 3], D::Error> {
+    elements(from, "three radii [x, y, z]")
+}
+
 fn maybe_two<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[Positive; 2]>, D::Error> {
     elements(from, "two numbers [width, height]").map(Some)
 }
 
-fn tip() -> NonNegative {
-    NonNegative(0.0)
+fn tip() -> Length {
+    Length(0.0)
 }
 
 fn upwards() -> Direction {

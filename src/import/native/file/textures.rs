@@ -1,6 +1,8 @@
 //! How a native scene describes colours that vary, and what is behind everything.
 
-use crate::import::native::values::{Angle, Color, NonNegative, Octaves, Scale, Vector};
+use crate::import::native::values::{
+    Angle, Color, Matrix, NonNegative, Number, Octaves, Scale, Vector,
+};
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -38,6 +40,9 @@ macro_rules! with_pattern {
             pub rotate_deg: Option<Vector>,
             /// How far to move the pattern.
             pub translate: Option<Vector>,
+            /// In place of these three, the way back: where the x, the y and the z axis of what the
+            /// pattern is laid over are in the pattern as vectors, and its origin as a point.
+            pub pattern_from_space: Option<Matrix>,
         }
 
         impl $name {
@@ -53,6 +58,7 @@ macro_rules! with_pattern {
                     scale: self.scale,
                     rotate_deg: self.rotate_deg,
                     translate: self.translate,
+                    pattern_from_space: self.pattern_from_space,
                 }
             }
         }
@@ -88,6 +94,7 @@ pub(in crate::import::native) struct PatternTables<'a> {
     pub scale: Option<Scale>,
     pub rotate_deg: Option<Vector>,
     pub translate: Option<Vector>,
+    pub pattern_from_space: Option<Matrix>,
 }
 
 /// Two colours.
@@ -202,6 +209,9 @@ pub(in crate::import::native) struct BackgroundTable {
     pub strength: Option<NonNegative>,
     /// Degrees to turn the picture round the y axis, counter-clockwise from above; 0 if left out.
     pub rotation_deg: Option<Angle>,
+    /// The same in radians, in place of `rotation_deg`.
+    #[schemars(with = "Option<f64>")]
+    pub rotation: Option<Number>,
 }
 
 /// A colour, or a table in its place.

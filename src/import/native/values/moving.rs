@@ -1,6 +1,6 @@
 //! The single values of what is repeated or moves.
 
-use super::{Color, Fraction, Number, Positive, elements, number};
+use super::{Color, Fraction, Number, Positive, elements, is_unit, number};
 use crate::import::source::quote;
 use crate::scene::Easing;
 use glam::{DQuat, Vec3};
@@ -79,6 +79,10 @@ value! {
     { "type": "array", "items": { "type": "number", "minimum": -1.001, "maximum": 1.001 }, "minItems": 4, "maxItems": 4 },
     |d| {
         let quaternion = DQuat::from_array(elements::<Number, 4, D>(d, "a quaternion [x, y, z, w]")?.map(|x| x.0));
+        // What was written with all its digits stays as it is.
+        if is_unit(quaternion.length_squared()) {
+            return Ok(quaternion);
+        }
         let length = quaternion.length();
         // Written with three digits it is meant to have length 1; if it is off by more, it is not.
         if (length - 1.0).abs() <= 1e-3 {

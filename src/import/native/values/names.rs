@@ -1,7 +1,29 @@
 //! Words that a native scene chooses from.
 
-use crate::scene::{Antialias, Attenuation, Filter, Fresnel, Shadows, ToneCurve, Transfer};
+use crate::scene::{Antialias, Attenuation, Filter, Fresnel, Mixing, Shadows, ToneCurve, Transfer};
 use schemars::JsonSchema;
+
+/// How local, mirrored and transmitted light are put together.
+#[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(in crate::import::native) enum MixingName {
+    /// What is mirrored or let through is taken from what is under it.
+    Layer,
+    /// All are added, as in Haines' NFF.
+    Sum,
+    /// What is mirrored is taken from local light, as in the course's format.
+    Blend,
+}
+
+impl From<MixingName> for Mixing {
+    fn from(name: MixingName) -> Self {
+        match name {
+            MixingName::Layer => Self::Layer,
+            MixingName::Sum => Self::Sum,
+            MixingName::Blend => Self::Blend,
+        }
+    }
+}
 
 /// How display-linear values become stored ones.
 #[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]

@@ -1,0 +1,39 @@
+//! `glimray convert SCENE`: a scene in any format → a native one.
+
+use super::cli::ConvertArgs;
+use super::exit::AppError;
+use super::{console, render, scene_file};
+use std::path::{Path, PathBuf};
+
+pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
+    let scene = render::load(&arguments.scene, &arguments.reading)?;
+    let stem = arguments.scene.file_stem().unwrap_or("scene".as_ref());
+    let default = || Path::new(stem).with_extension("toml");
+    let path: PathBuf = arguments.output.clone().unwrap_or_else(default);
+    let is_native = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    if !is_native {
+        return Err(AppError::Usage(format!(
+            "cannot convert (-o {}): only native scenes are written, whose names end in .toml. \
+             Name such a file.",
+            path.display()
+        )));
+    }
+    let is_itself = |there: &PathBuf| {
+        arguments
+            .scene
+            .canonicalize()
+            .is_ok_and(|own| own == *there)
+    };
+    if path.canonicalize().as_ref().is_ok_and(is_itself) {
+        return Err(AppError::Usage(format!(
+            "cannot convert ({}): it would replace the scene that it is made of. Name another file \
+             with -o.",
+            path.display()
+        )));
+    }
+    let files = scene_file::save(&path, &scene, !arguments.no_clobber)?;
+    let list = files.iter().map(|path| format!("{}\n", path.display()));
+    console::print(&list.collect::<String>())
+}

@@ -1,0 +1,105 @@
+//! `glimray explain SCENE --pixel X,Y`: every ray of a pixel, as a tree, as JSON or as lines.
+
+pub mod lines;
+pub mod text;
+
+use super::cli::{ExplainArgs, INTEGRATORS};
+use super::clock::Clock;
+use super::console;
+use super::device;
+use super::exit::AppError;
+use super::job;
+use super::overrides;
+use super::render;
+use crate::gpu::Gpu;
+use crate::output;
+use crate::render::{Integrator, RayTree, Renderer, Settings};
+use serde_json::json;
+use std::ops::Range;
+
+pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
+    let mut scene = render::load(&arguments.scene, &arguments.reading)?;
+    overrides::apply(&mut scene, &arguments.camera)?;
+    let settings = job::settings(&scene.output, &arguments.picture, &arguments.device, false);
+    check(arguments.pixel, &settings)?;
+    if let Some(path) = &arguments.obj {
+        output::check_file(path, true)?;
+    }
+    for skipped in &scene.skipped {
+        console::warning(skipped);
+    }
+    let shot = Clock::new(&scene.output, &arguments.motion).moment(&arguments.moment);
+    let gpu = Gpu::new(&arguments.device.choice())?;
+    let (mut renderer, _) = device::renderer(gpu, &scene, shot, settings.clone())?;
+    let samples = samples(arguments, &settings, &mut renderer)?;
+    let tree = renderer.explain(arguments.pixel, samples)?;
+    if let Some(path) = &arguments.obj {
+        output::write(path, lines::of(&tree).as_bytes(), true)?;
+    }
+    if arguments.json {
+        return console::print_bytes(json(&tree, settings.size)?.as_bytes());
+    }
+    let text = text::of(&tree, settings.size)
+        .map_err(|error| AppError::Internal(format!("explain: {error}")))?;
+    console::print(&text)
+}
+
+/// Refuses a pixel that is not in the picture, and pictures whose pixels have no tree.
+fn check(pixel: [u32; 2], settings: &Settings) -> Result<(), AppError> {
+    if settings.integrator != Integrator::Whitted {
+        let word = INTEGRATORS.word(&settings.integrator);
+        return Err(AppError::Usage(format!(
+            "cannot explain (--integrator {word}): only whitted sends rays on. Leave it out."
+        )));
+    }
+    job::picture_size(settings)?;
+    let [x0, y0, width, height] = settings.region();
+    let ([x, y], [x1, y1]) = (pixel, [x0 + width, y0 + height]);
+    if (x0..x1).contains(&x) && (y0..y1).contains(&y) {
+        return Ok(());
+    }
+    let what = match settings.crop {
+        None => "the picture",
+        Some(_) => "what --crop leaves of it",
+    };
+    Err(AppError::Usage(format!(
+        "no such pixel (--pixel {x},{y}): {what} has columns {x0} to {} and rows {y0} to {}. \
+         Choose one of them.",
+        x1 - 1,
+        y1 - 1,
+    )))
+}
+
+/// The samples to explain. How many adaptive sampling takes depends on the whole picture, which is
+/// rendered for that.
+fn samples(
+    arguments: &ExplainArgs,
+    settings: &Settings,
+    renderer: &mut Renderer,
+) -> Result<Range<u32>, AppError> {
+    while settings.is_adaptive() && !renderer.is_done() {
+        renderer.step()?;
+    }
+    let count = renderer.samples_at(arguments.pixel);
+    match arguments.sample {
+        None => Ok(0..count),
+        Some(sample) if sample < count => Ok(sample..sample + 1),
+        Some(sample) => Err(AppError::Usage(format!(
+            "no such sample (--sample {sample}): the pixel has {count}, from 0 to {}. \
+             Choose one of them, or set --samples.",
+            count.saturating_sub(1)
+        ))),
+    }
+}
+
+/// The tree as it is, with the size of the picture: what `--json` prints.
+///
+/// # Errors
+/// None that is known: the tree is made of numbers and texts.
+pub fn json(tree: &RayTree, (width, height): (u32, u32)) -> Result<String, AppError> {
+    let mut value = serde_json::to_value(tree)
+        .map_err(|error| AppError::Internal(format!("explain: {error}")))?;
+    value["size"] = json!([width, height]);
+    value["sum"] = json!(text::weighted_sum(tree).to_array());
+    Ok(format!("{value:#}\n"))
+}

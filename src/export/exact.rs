@@ -1,0 +1,141 @@
+//! Numbers as people write them, where they give back exactly what is there.
+
+use super::text::{self, Table};
+use crate::scene::{Transform, rotation};
+use glam::{DAffine3, DQuat, DVec3, EulerRot};
+
+/// How many decimals are tried first.
+const DECIMALS: [usize; 7] = [0, 1, 2, 3, 5, 8, 11];
+
+/// The shortest numbers near `exact` for which something `holds`.
+pub(super) fn settle<const N: usize>(
+    exact: [f64; N],
+    holds: impl Fn([f64; N]) -> bool,
+) -> Option<[f64; N]> {
+    let decimals = DECIMALS.map(Some).into_iter();
+    for decimals in decimals.chain([None]) {
+        let rounded = exact.map(|value| match decimals {
+            Some(count) => format!("{value:.count$}").parse().unwrap_or(value) + 0.0,
+            None => format!("{value:.14e}").parse().unwrap_or(value),
+        });
+        if holds(rounded) {
+            return Some(rounded);
+        }
+    }
+    holds(exact).then_some(exact)
+}
+
+/// The degrees that become exactly these radians, if there are any.
+pub(super) fn degrees(radians: f64) -> Option<f64> {
+    let is_it = |degrees: f64| degrees.to_radians().to_bits() == radians.to_bits();
+    let near = radians.to_degrees();
+    settle([near], |[degrees]| is_it(degrees))
+        .map(|[degrees]| degrees)
+        .or_else(|| {
+            [near.next_up(), near.next_down()]
+                .into_iter()
+                .find(|d| is_it(*d))
+        })
+}
+
+pub(super) fn is_same(a: DAffine3, b: DAffine3) -> bool {
+    a.to_cols_array().map(f64::to_bits) == b.to_cols_array().map(f64::to_bits)
+}
+
+/// A transform as a table, if it is not the identity.
+pub(super) fn transform(affine: DAffine3) -> Option<String> {
+    if is_same(affine, DAffine3::IDENTITY) {
+        return None;
+    }
+    let mut table = Table::default();
+    if is_same(DAffine3::from_translation(affine.translation), affine) {
+        table.put("translate", text::vector(affine.translation));
+    } else if let Some(transform) = told(affine) {
+        let Transform {
+            translate,
+            rotate_deg,
+            scale,
+        } = transform;
+        let is_zero = |v: DVec3| v.to_array().iter().all(|x| x.to_bits() == 0);
+        table.put_if(!is_zero(translate), "translate", text::vector(translate));
+        table.put_if(!is_zero(rotate_deg), "rotate_deg", text::vector(rotate_deg));
+        table.put_if(scale != DVec3::ONE, "scale", text::scale(scale));
+    } else {
+        table.put("matrix", text::matrix(affine));
+    }
+    Some(table.inline())
+}
+
+/// The scale, angles and translation that are exactly `affine`, if they are of bearable length.
+fn told(affine: DAffine3) -> Option<Transform> {
+    let (near, is_near) = Transform::of(affine);
+    if !is_near {
+        return None;
+    }
+    let mirrored = affine.matrix3.determinant() < 0.0;
+    // Signs of the scale whose product says whether it mirrors; the first is what is likeliest meant.
+    let signs: &[[f64; 3]] = match mirrored {
+        true => &[
+            [-1.0, 1.0, 1.0],
+            [1.0, -1.0, 1.0],
+            [1.0, 1.0, -1.0],
+            [-1.0; 3],
+        ],
+        false => &[
+            [1.0; 3],
+            [-1.0, -1.0, 1.0],
+            [-1.0, 1.0, -1.0],
+            [1.0, -1.0, -1.0],
+        ],
+    };
+    signs.iter().find_map(|&sign| {
+        let scale = near.scale.abs() * DVec3::from(sign);
+        let turned = affine * DAffine3::from_scale(scale.recip());
+        let (_, turn, _) = turned.to_scale_rotation_translation();
+        angles(turn).into_iter().find_map(|angles| {
+            let of = |n: [f64; 9]| Transform {
+                translate: DVec3::new(n[0], n[1], n[2]),
+                rotate_deg: DVec3::new(n[3], n[4], n[5]),
+                scale: DVec3::new(n[6], n[7], n[8]),
+            };
+            let t = affine.translation.to_array();
+            let [a, s] = [angles.to_array(), scale.to_array()];
+            let near = [t[0], t[1], t[2], a[0], a[1], a[2], s[0], s[1], s[2]];
+            // The translation is always exact: rounding it would only be tried in vain.
+            let exact = |n: [f64; 9]| Transform {
+                translate: affine.translation,
+                ..of(n)
+            };
+            settle(near, |n| is_same(exact(n).affine(), affine)).map(exact)
+        })
+    })
+}
+
+/// Degrees round x, y and z that turn alike.
+fn angles(turn: DQuat) -> [DVec3; 2] {
+    let (z, y, x) = turn.to_euler(EulerRot::ZYX);
+    let first = DVec3::new(x, y, z);
+    let half = std::f64::consts::PI;
+    let wrap = |angle: f64| angle - (angle / (2.0 * half)).round() * 2.0 * half;
+    let second = DVec3::new(wrap(x + half), wrap(half - y), wrap(z + half));
+    let mut both = [first, second].map(|v| DVec3::from(v.to_array().map(f64::to_degrees)));
+    both.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+    both
+}
+
+/// A rotation as an entry of a transform, if it is not the identity.
+pub(super) fn put_rotation(table: &mut Table, turn: DQuat) {
+    let bits = |q: DQuat| q.to_array().map(f64::to_bits);
+    if bits(turn) == bits(DQuat::IDENTITY) {
+        return;
+    }
+    let found = angles(turn).into_iter().find_map(|angles| {
+        settle(angles.to_array(), |n| {
+            bits(rotation(n.into())) == bits(turn)
+        })
+    });
+    match found {
+        Some(degrees) => table.put("rotate_deg", text::vector(degrees.into())),
+        None => table.put("rotation", text::quaternion(turn)),
+    }
+}

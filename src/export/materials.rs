@@ -1,0 +1,238 @@
+//! The materials of a scene.
+
+use super::Writer;
+use super::exact::settle;
+use super::text::{Table, color, key, number32, string};
+use crate::scene::{Fresnel, Material, MaterialProperty, Mixing, Target, Textures};
+use glam::Vec3;
+
+/// What a native material has that says nothing.
+const SHININESS: f32 = 32.0;
+const IOR: f32 = 1.5;
+
+impl Writer<'_> {
+    pub fn materials(&mut self) {
+        let scene = self.scene;
+        if !scene.materials.is_empty() {
+            self.text.section("Materials");
+        }
+        for (index, material) in scene.materials.iter().enumerate() {
+            let mut table = Table::default();
+            let phong = self.phong(index, material);
+            table.put_if(!phong.is_empty(), "phong", phong.inline());
+            self.optics(&mut table, material);
+            let emission = self.shade(material.emission, material.textures.emission);
+            let is_dark = is_same(material.emission, Vec3::ZERO);
+            let is_dark = is_dark && material.textures.emission.is_none();
+            table.put_if(!is_dark, "emission", emission);
+            table.put_if(!material.two_sided, "two_sided", "false");
+            self.text.gap();
+            let name = key(&self.names.materials[index]);
+            self.text.head(&format!("[materials.{name}]"));
+            self.text.lines(&table);
+        }
+    }
+
+    fn phong(&self, index: usize, material: &Material) -> Table {
+        let Textures {
+            diffuse,
+            specular,
+            ambient,
+            ..
+        } = material.textures;
+        let mut table = Table::default();
+        let is_plain = is_same(material.diffuse, Vec3::splat(0.8)) && diffuse.is_none();
+        table.put_if(!is_plain, "diffuse", self.shade(material.diffuse, diffuse));
+        let is_matt = is_same(material.specular, Vec3::ZERO) && specular.is_none();
+        table.put_if(
+            !is_matt,
+            "specular",
+            self.shade(material.specular, specular),
+        );
+        let differs = material.shininess != SHININESS;
+        table.put_if(differs, "shininess", number32(material.shininess));
+        let own = !has_same_ambient(material) || self.is_own_ambient(index);
+        table.put_if(own, "ambient", self.shade(material.ambient, ambient));
+        table
+    }
+
+    /// Whether the diffuse colour of a material moves while its ambient one, which is the same at
+    /// rest, stays: only an ambient colour of its own keeps it there.
+    fn is_own_ambient(&self, index: usize) -> bool {
+        let mut targets = self.scene.tracks.iter().flat_map(|track| &track.targets);
+        let moves = |property| Target::Material(index, property);
+        let diffuse = moves(MaterialProperty::Diffuse);
+        let ambient = moves(MaterialProperty::Ambient);
+        targets.clone().any(|target| *target == diffuse) && !targets.any(|t| *t == ambient)
+    }
+
+    /// A colour with or without a texture.
+    fn shade(&self, constant: Vec3, texture: Option<usize>) -> String {
+        let Some(texture) = texture else {
+            return color(constant);
+        };
+        let mut table = Table::default();
+        table.put("texture", string(&self.names.textures[texture]));
+        table.put_if(!is_same(constant, Vec3::ONE), "color", color(constant));
+        table.inline()
+    }
+
+    /// What is mirrored and let through.
+    fn optics(&self, table: &mut Table, material: &Material) {
+        let plain = Material {
+            ior: 1.0,
+            ..Material::default()
+        };
+        let Textures {
+            reflect, transmit, ..
+        } = material.textures;
+        let is_opaque = is_same(material.transmit, Vec3::ZERO)
+            && transmit.is_none()
+            && material.opacity == 1.0
+            && is_same(material.absorption, Vec3::ZERO)
+            && material.priority == 0;
+        let is_dull = is_same(material.reflect, Vec3::ZERO) && reflect.is_none();
+        let is_layered = material.mixing == Mixing::Layer;
+        let is_bare = material.ior == plain.ior && material.fresnel == Fresnel::None;
+        if is_layered && is_opaque && is_dull && is_bare {
+            return;
+        }
+        let is_read = (0.01..=100.0).contains(&material.ior);
+        if is_layered && is_read && is_opaque {
+            table.put("reflect", self.reflect(material).inline());
+        } else if let (true, true, Some(refract)) = (is_layered, is_read, self.refract(material)) {
+            if !is_dull && material.fresnel == Fresnel::None {
+                let mut reflect = Table::default();
+                self.mirror(&mut reflect, material);
+                table.put("reflect", reflect.inline());
+            }
+            table.put("refract", refract.inline());
+        } else {
+            table.put("optics", self.directly(material).inline());
+        }
+    }
+
+    fn reflect(&self, material: &Material) -> Table {
+        let mut table = Table::default();
+        self.mirror(&mut table, material);
+        put_fresnel(&mut table, material.fresnel, Fresnel::None);
+        table.put_if(material.ior != IOR, "ior", number32(material.ior));
+        table
+    }
+
+    /// How much is mirrored, and in which colour.
+    fn mirror(&self, table: &mut Table, material: &Material) {
+        let amount = material.reflect.x;
+        let texture = material.textures.reflect;
+        if texture.is_none() && is_same(material.reflect, Vec3::splat(amount)) && amount <= 1.0 {
+            table.put_if(amount != 1.0, "amount", number32(amount));
+        } else {
+            table.put("color", self.shade(material.reflect, texture));
+        }
+    }
+
+    /// What it lets through, if `refract`, beside a mirror or by its own Fresnel term, says just that.
+    fn refract(&self, material: &Material) -> Option<Table> {
+        let opacity = material.opacity.to_bits();
+        let gives = |amount: f32| (1.0 - amount).to_bits() == opacity;
+        let near = f64::from(1.0 - material.opacity);
+        let amount = if material.fresnel == Fresnel::None {
+            let found = settle([near], |[amount]| gives(amount as f32));
+            found.map(|[amount]| amount as f32)?
+        } else {
+            material.reflect.x
+        };
+        if !gives(amount) || !(0.0..=1.0).contains(&amount) {
+            return None;
+        }
+        if material.fresnel == Fresnel::None {
+            // Beside it a mirror of at most the rest, and that may be as bright as its colour says.
+            let texture = material.textures.reflect;
+            let mirrored = material.reflect.x;
+            let is_gray = texture.is_none() && is_same(material.reflect, Vec3::splat(mirrored));
+            let is_dull = texture.is_none() && is_same(material.reflect, Vec3::ZERO);
+            if !(is_dull || is_gray && mirrored + amount <= 1.0) {
+                return None;
+            }
+        } else if !is_same(material.reflect, Vec3::splat(amount))
+            || material.textures.reflect.is_some()
+        {
+            return None;
+        }
+        let tint = |factor: Vec3| is_same(amount * factor, material.transmit);
+        let through = if tint(Vec3::ONE) {
+            Vec3::ONE
+        } else {
+            let near = (material.transmit / amount).as_dvec3().to_array();
+            if !near.iter().all(|x| x.is_finite()) {
+                return None;
+            }
+            let of = |n: [f64; 3]| glam::DVec3::from(n).as_vec3();
+            of(settle(near, |n| tint(of(n)))?)
+        };
+        let texture = material.textures.transmit;
+        let mut table = Table::default();
+        table.put_if(amount != 1.0, "amount", number32(amount));
+        table.put_if(material.ior != IOR, "ior", number32(material.ior));
+        let is_clear = is_same(through, Vec3::ONE) && texture.is_none();
+        table.put_if(!is_clear, "color", self.shade(through, texture));
+        put_absorption(&mut table, material);
+        put_fresnel(&mut table, material.fresnel, Fresnel::Exact);
+        let differs = material.priority != 0;
+        table.put_if(differs, "priority", material.priority.to_string());
+        Some(table)
+    }
+
+    fn directly(&self, material: &Material) -> Table {
+        let Textures {
+            reflect, transmit, ..
+        } = material.textures;
+        let mut table = Table::default();
+        let shows = |c: Vec3, texture: Option<usize>| !is_same(c, Vec3::ZERO) || texture.is_some();
+        let mirrors = shows(material.reflect, reflect);
+        table.put_if(mirrors, "reflect", self.shade(material.reflect, reflect));
+        let passes = shows(material.transmit, transmit);
+        table.put_if(passes, "transmit", self.shade(material.transmit, transmit));
+        table.put_if(
+            material.opacity != 1.0,
+            "opacity",
+            number32(material.opacity),
+        );
+        table.put_if(material.ior != 1.0, "ior", number32(material.ior));
+        put_absorption(&mut table, material);
+        put_fresnel(&mut table, material.fresnel, Fresnel::None);
+        let differs = material.priority != 0;
+        table.put_if(differs, "priority", material.priority.to_string());
+        match material.mixing {
+            Mixing::Layer => {}
+            Mixing::Sum => table.put("mixing", string("sum")),
+            Mixing::Blend => table.put("mixing", string("blend")),
+        }
+        table
+    }
+}
+
+/// Whether the ambient colour is the diffuse one, which a file then need not say.
+pub(super) fn has_same_ambient(material: &Material) -> bool {
+    let textures = &material.textures;
+    is_same(material.ambient, material.diffuse) && textures.ambient == textures.diffuse
+}
+
+fn put_absorption(table: &mut Table, material: &Material) {
+    let clear = is_same(material.absorption, Vec3::ZERO);
+    let numbers = material.absorption.to_array().map(number32);
+    table.put_if(!clear, "absorption", super::text::list(numbers));
+}
+
+fn put_fresnel(table: &mut Table, fresnel: Fresnel, default: Fresnel) {
+    let name = match fresnel {
+        Fresnel::None => "none",
+        Fresnel::Exact => "exact",
+        Fresnel::Schlick => "schlick",
+    };
+    table.put_if(fresnel != default, "fresnel", string(name));
+}
+
+fn is_same(a: Vec3, b: Vec3) -> bool {
+    a.to_array().map(f32::to_bits) == b.to_array().map(f32::to_bits)
+}

@@ -1,0 +1,87 @@
+//! Names for what other parts of a scene file refer to.
+
+use crate::scene::{Scene, Target};
+use std::collections::HashSet;
+
+/// A name for each, by its index in the scene's list.
+pub(super) struct Names {
+    pub materials: Vec<String>,
+    pub textures: Vec<String>,
+    pub meshes: Vec<String>,
+    pub nodes: Vec<String>,
+    /// Empty where nothing refers to it and it had none.
+    pub cameras: Vec<String>,
+    /// Empty where nothing refers to it.
+    pub lights: Vec<String>,
+}
+
+impl Names {
+    pub fn of(scene: &Scene) -> Self {
+        let targets = || scene.tracks.iter().flat_map(|track| &track.targets);
+        let is_filmed = |i: usize| targets().any(|t| matches!(*t, Target::Camera(j, _) if i == j));
+        let is_lit = |i: usize| targets().any(|t| matches!(*t, Target::Light(j, _) if i == j));
+        let given = |name: &str| name.to_owned();
+        let mut cameras = unique("camera", scene.cameras.iter().map(|c| given(&c.name)));
+        for (index, (name, camera)) in cameras.iter_mut().zip(&scene.cameras).enumerate() {
+            if camera.name.is_empty() && !is_filmed(index) {
+                name.clear();
+            }
+        }
+        let mut lights = unique("light", scene.lights.iter().map(|_| String::new()));
+        for (index, name) in lights.iter_mut().enumerate() {
+            if !is_lit(index) {
+                name.clear();
+            }
+        }
+        let materials = unique("material", scene.materials.iter().map(|m| given(&m.name)));
+        // A texture is called after the first material that it is on.
+        let mut textures = vec![String::new(); scene.textures.len()];
+        for (name, material) in materials.iter().zip(&scene.materials) {
+            for texture in material.textures.all().into_iter().flatten() {
+                if textures[texture].is_empty() {
+                    textures[texture].clone_from(name);
+                }
+            }
+        }
+        Self {
+            textures: unique("texture", textures.into_iter()),
+            materials,
+            meshes: unique("mesh", scene.meshes.iter().map(|m| given(&m.name))),
+            nodes: unique("node", scene.nodes.iter().map(|n| given(&n.name))),
+            cameras,
+            lights,
+        }
+    }
+}
+
+/// Names that differ: the first of equal ones keeps it, and what has none gets one of its kind.
+fn unique(kind: &str, names: impl Iterator<Item = String>) -> Vec<String> {
+    let mut names: Vec<String> = names.collect();
+    let mut taken: HashSet<String> = HashSet::new();
+    let mut open = Vec::new();
+    for (index, name) in names.iter().enumerate() {
+        if name.is_empty() || !taken.insert(name.clone()) {
+            open.push(index);
+        }
+    }
+    for index in open {
+        let base = match names[index].as_str() {
+            "" => kind.to_owned(),
+            name => name.to_owned(),
+        };
+        // Numbers count from 1, and the second of two is number 2.
+        let mut number = if names[index].is_empty() {
+            index + 1
+        } else {
+            2
+        };
+        names[index] = loop {
+            let name = format!("{base} {number}");
+            if taken.insert(name.clone()) {
+                break name;
+            }
+            number += 1;
+        };
+    }
+    names
+}

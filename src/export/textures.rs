@@ -1,0 +1,92 @@
+//! The textures of a scene.
+
+use super::text::{self, Table, color, key, string};
+use super::{ExportError, Writer, exact};
+use crate::scene::{Pattern, Space, Texture, Transform};
+use glam::{DAffine3, DVec3, Vec3};
+
+impl Writer<'_> {
+    pub fn textures(&mut self) -> Result<(), ExportError> {
+        if !self.scene.textures.is_empty() {
+            self.text.section("Textures");
+        }
+        for (index, texture) in self.scene.textures.iter().enumerate() {
+            let mut table = Table::default();
+            let pair = |a: Vec3, b: Vec3, octaves: Option<u32>| {
+                let mut table = Table::default();
+                table.put_if(a != Vec3::ONE, "a", color(a));
+                table.put_if(b.to_array().map(f32::to_bits) != [0; 3], "b", color(b));
+                let octaves = octaves.filter(|octaves| *octaves != 4);
+                if let Some(octaves) = octaves {
+                    table.put("octaves", octaves.to_string());
+                }
+                table.inline()
+            };
+            match texture.pattern {
+                Pattern::Checker { a, b } => table.put("checker", pair(a, b, None)),
+                Pattern::Stripes { a, b } => table.put("stripes", pair(a, b, None)),
+                Pattern::Gradient { a, b } => table.put("gradient", pair(a, b, None)),
+                Pattern::Noise { a, b, octaves } => {
+                    table.put("noise", pair(a, b, Some(octaves)));
+                }
+                Pattern::Picture { picture, nearest } => {
+                    let file = self.picture(picture)?;
+                    let named = format!("{{ file = {file}, nearest = true }}");
+                    table.put("picture", if nearest { named } else { file });
+                }
+            }
+            let is_picture = matches!(texture.pattern, Pattern::Picture { .. });
+            match (texture.space, is_picture) {
+                (Space::Uv, false) => table.put("space", string("uv")),
+                (Space::World, true) => table.put("space", string("world")),
+                _ => {}
+            }
+            place(&mut table, texture);
+            self.text.gap();
+            let name = key(&self.names.textures[index]);
+            self.text.head(&format!("[textures.{name}]"));
+            self.text.lines(&table);
+        }
+        Ok(())
+    }
+}
+
+/// Where the pattern is.
+fn place(table: &mut Table, texture: &Texture) {
+    let wanted = texture.pattern_from_space;
+    // What a file without a place gives.
+    if exact::is_same(Transform::default().affine().inverse(), wanted) {
+        return;
+    }
+    let near = wanted.inverse();
+    let candidates = [0, 2, 4, 6, 9, 12].map(|decimals| {
+        let (told, is_near) = Transform::of(near);
+        let round = |v: DVec3| {
+            let round = |x: f64| format!("{x:.decimals$}").parse::<f64>().unwrap_or(x) + 0.0;
+            DVec3::from(v.to_array().map(round))
+        };
+        let told = Transform {
+            translate: round(told.translate),
+            rotate_deg: round(told.rotate_deg),
+            scale: round(told.scale),
+        };
+        is_near.then_some(told)
+    });
+    let gives_it = |told: &Transform| {
+        let is_flat = told.scale.abs().min_element() == 0.0;
+        !is_flat && exact::is_same(told.affine().inverse(), wanted)
+    };
+    match candidates.into_iter().flatten().find(gives_it) {
+        Some(told) => {
+            table.put_if(told.scale != DVec3::ONE, "scale", text::scale(told.scale));
+            let turned = told.rotate_deg != DVec3::ZERO;
+            table.put_if(turned, "rotate_deg", text::vector(told.rotate_deg));
+            let moved = told.translate != DVec3::ZERO;
+            table.put_if(moved, "translate", text::vector(told.translate));
+        }
+        None if exact::is_same(wanted, DAffine3::IDENTITY) => {
+            table.put("pattern_from_space", text::matrix(DAffine3::IDENTITY));
+        }
+        None => table.put("pattern_from_space", text::matrix(wanted)),
+    }
+}

@@ -1,0 +1,67 @@
+//! The single values that say exactly where things are: what other values cannot tell to the last
+//! digit.
+
+use super::{Vector, elements, number};
+use glam::{DAffine3, DMat3, DVec3};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, Deserialize, Deserializer};
+use std::borrow::Cow;
+
+value! {
+    /// A length, 0 or more.
+    Length(f64),
+    { "type": "number", "minimum": 0 },
+    |d| number(d, |x| x >= 0.0, "0 or more")
+}
+
+value! {
+    /// A full angle of view in radians.
+    ViewRadians(f64),
+    { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": std::f64::consts::PI },
+    |d| {
+        let holds = |x: f64| x > 0.0 && x < std::f64::consts::PI;
+        number(d, holds, "an angle between 0 and pi radians")
+    }
+}
+
+value! {
+    /// An angle off an axis in radians.
+    AxisRadians(f64),
+    { "type": "number", "minimum": 0, "maximum": std::f64::consts::FRAC_PI_2 },
+    |d| {
+        let holds = |x: f64| (0.0..=std::f64::consts::FRAC_PI_2).contains(&x);
+        number(d, holds, "an angle between 0 and pi/2 radians")
+    }
+}
+
+value! {
+    /// A direction of any length but 0, which is kept.
+    Upwards(DVec3),
+    { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 },
+    |d| {
+        let vector = Vector::deserialize(d)?.0;
+        match vector.try_normalize() {
+            Some(_) => Ok(vector),
+            None => Err(de::Error::custom("a direction cannot be [0, 0, 0]")),
+        }
+    }
+}
+
+value! {
+    /// A map of space: where it brings the x, the y and the z axis as vectors, and the origin as a
+    /// point.
+    Matrix(DAffine3),
+    {
+        "type": "array", "minItems": 4, "maxItems": 4,
+        "items": { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 }
+    },
+    |d| {
+        let expected = "four vectors: where the x, y and z axis and the origin go";
+        let [x, y, z, origin] = elements::<Vector, 4, D>(d, expected)?.map(|vector| vector.0);
+        let axes = DMat3::from_cols(x, y, z);
+        if axes.determinant() == 0.0 {
+            return Err(de::Error::custom("the three axes of a matrix lie in one plane"));
+        }
+        Ok(DAffine3::from_mat3_translation(axes, origin))
+    }
+}

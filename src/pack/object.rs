@@ -1,0 +1,117 @@
+//! The way back: from a primitive on the GPU to what it is in the host model.
+
+use super::{PackedScene, PackedView, light, placed::Plan};
+use crate::{
+    layout::{NO_INSTANCE, SHAPE},
+    scene::{ObjectRef, Scene},
+};
+
+/// What primitives, instances and materials of a packed scene are in the scene that it was made from.
+#[derive(Clone, Debug)]
+pub struct Origins {
+    /// First vertices of the meshes that are laid out, in ascending order, and their instances.
+    laid_out: Vec<(u32, usize)>,
+    /// For each thing that is placed.
+    placed: Vec<ObjectRef>,
+    shape_count: usize,
+    /// Lights whose surfaces follow the shapes.
+    lamps: Vec<usize>,
+    material_names: Vec<String>,
+    instance_names: Vec<String>,
+    shape_names: Vec<String>,
+    light_names: Vec<String>,
+}
+
+impl Origins {
+    pub fn new(scene: &Scene, plan: &Plan) -> Self {
+        let mut first_vertex = 0;
+        let mut laid_out = Vec::with_capacity(plan.still_instances.len());
+        for &index in &plan.still_instances {
+            laid_out.push((first_vertex, index));
+            let mesh = &scene.meshes[scene.instances[index].mesh];
+            first_vertex += mesh.positions.len() as u32;
+        }
+        Self {
+            laid_out,
+            placed: plan.placed_objects().collect(),
+            shape_count: scene.shapes.len(),
+            lamps: light::visible(scene).collect(),
+            material_names: material_names(scene),
+            instance_names: names(scene, scene.instances.len(), ObjectRef::Instance),
+            shape_names: names(scene, scene.shapes.len(), ObjectRef::Shape),
+            light_names: names(scene, scene.lights.len(), ObjectRef::Light),
+        }
+    }
+
+    /// Those of a scene that has the same surfaces.
+    pub fn renamed(&self, scene: &Scene) -> Self {
+        Self {
+            material_names: material_names(scene),
+            light_names: names(scene, scene.lights.len(), ObjectRef::Light),
+            ..self.clone()
+        }
+    }
+}
+
+fn material_names(scene: &Scene) -> Vec<String> {
+    scene.materials.iter().map(|m| m.name.clone()).collect()
+}
+
+fn names(scene: &Scene, count: usize, object: fn(usize) -> ObjectRef) -> Vec<String> {
+    (0..count)
+        .map(|index| scene.object_name(object(index)).to_owned())
+        .collect()
+}
+
+impl PackedScene {
+    /// What a hit belongs to: `primitive` is a triangle's index or [`SHAPE`] with a shape's, `instance` that
+    /// of an instance of `view` or [`NO_INSTANCE`], as shaders have them. `None` where there is nothing
+    /// of that number.
+    pub fn object_at(&self, view: &PackedView, primitive: u32, instance: u32) -> Option<ObjectRef> {
+        let origins = &self.origins;
+        if primitive & SHAPE != 0 {
+            let id = self.shapes.get((primitive & !SHAPE) as usize)?.id as usize;
+            return match id.checked_sub(origins.shape_count) {
+                None => Some(ObjectRef::Shape(id)),
+                Some(lamp) => origins
+                    .lamps
+                    .get(lamp)
+                    .map(|&light| ObjectRef::Light(light)),
+            };
+        }
+        let vertex = self.triangles.get(primitive as usize)?.i0;
+        if instance != NO_INSTANCE {
+            let placed = view.placed_index(instance)?;
+            return origins.placed.get(placed).copied();
+        }
+        let count = (origins.laid_out).partition_point(|(first_vertex, _)| *first_vertex <= vertex);
+        let (_, index) = origins.laid_out.get(count.checked_sub(1)?)?;
+        Some(ObjectRef::Instance(*index))
+    }
+
+    /// [`Scene::object_name`] of the scene that this was made from; `None` where there is none.
+    pub fn object_name(&self, object: ObjectRef) -> Option<&str> {
+        let (names, index) = match object {
+            ObjectRef::Instance(index) => (&self.origins.instance_names, index),
+            ObjectRef::Shape(index) => (&self.origins.shape_names, index),
+            ObjectRef::Light(index) => (&self.origins.light_names, index),
+        };
+        names
+            .get(index)
+            .map(String::as_str)
+            .filter(|name| !name.is_empty())
+    }
+
+    /// Index into [`Scene::materials`] of a material as shaders number them; `None` for [`crate::layout::NONE`]
+    /// and the surfaces of lamps.
+    pub fn material_at(&self, material: u32) -> Option<usize> {
+        let index = material as usize;
+        (index < self.origins.material_names.len()).then_some(index)
+    }
+
+    /// The name of a material of the scene that this was made from; `None` where there is none.
+    pub fn material_name(&self, index: usize) -> Option<&str> {
+        let name = self.origins.material_names.get(index)?;
+        Some(name.as_str()).filter(|name| !name.is_empty())
+    }
+}

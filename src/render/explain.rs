@@ -1,0 +1,302 @@
+//! All rays of a pixel, one by one: `kernels/whitted.wesl` with the feature `record`.
+//!
+//! The same code runs that traced the picture, once more for each sample, with the same random numbers.
+//! It writes what it does into a buffer of its own: the film, which may still be growing, is not touched.
+
+mod tree;
+
+pub use tree::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
+
+use super::{
+    Integrator, RenderError, Renderer, Settings,
+    device::{self, Task},
+    layouts::group,
+    whitted::{self, Overrides},
+};
+use crate::{
+    gpu::{GpuError, Kernel, Source},
+    layout::{NONE, PROBE_ROWS, PackedProbe, PackedRay, PackedSlice, RAY_ROWS},
+};
+use bytemuck::{Pod, bytes_of, cast_slice, pod_read_unaligned};
+use std::ops::Range;
+use tree::Reader;
+use wgpu::BufferUsages;
+
+/// Most rays of a sample that are kept.
+const MOST_RAYS: u32 = 1 << 16;
+/// Most rays of a pixel that are kept, when many samples are asked for.
+const MOST_PIXEL_RAYS: u32 = 1 << 18;
+/// Most samples in a submission.
+const MOST_PROBES: usize = 1024;
+/// Most rays of a submission together: 32 MiB of them.
+const MOST_RECORDS: u32 = (32 << 20) / (16 * RAY_ROWS);
+/// Lanes of a workgroup, each of which takes a sample.
+const LANES: usize = 64;
+/// The override `COUNT_RAYS`, and `ADAPTIVE`: there is no film here.
+const WITHOUT: [&str; 2] = ["7", "23"];
+
+/// What explaining keeps on the GPU once it has been used.
+pub struct Explainer {
+    made_with: (Overrides, bool),
+    pipeline: wgpu::ComputePipeline,
+}
+
+/// What came of a submission.
+struct Records {
+    accounts: PackedSlice,
+    probes: Vec<PackedProbe>,
+    rays: Vec<PackedRay>,
+}
+
+impl Renderer {
+    /// Every ray of some samples of a pixel of the picture. Their contributions add up to the samples'
+    /// colours, and these by their weights to [`RayTree::value`]. With the samples 0 to
+    /// [`Self::samples_at`] that is the pixel's value in the film when the render is done.
+    ///
+    /// Of very many rays the first are kept, and [`SampleTree::ray_count`] says how many there were.
+    ///
+    /// It can be called at any moment and leaves the film as it is. The rays are those of
+    /// [`Integrator::Whitted`], whatever the settings' integrator is.
+    ///
+    /// # Errors
+    /// The device failed, or the driver ends a shader's loops early even for one sample.
+    pub fn explain(
+        &mut self,
+        pixel: [u32; 2],
+        samples: Range<u32>,
+    ) -> Result<RayTree, RenderError> {
+        let samples = self.explain_samples(samples.map(|sample| (pixel, sample)).collect())?;
+        Ok(RayTree::new(pixel, samples))
+    }
+
+    /// The same for several pixels, which takes fewer submissions than one after the other.
+    ///
+    /// # Errors
+    /// As [`Self::explain`].
+    pub fn explain_pixels(
+        &mut self,
+        pixels: &[([u32; 2], Range<u32>)],
+    ) -> Result<Vec<RayTree>, RenderError> {
+        let places = pixels.iter().flat_map(|(pixel, samples)| {
+            let of = |sample| (*pixel, sample);
+            samples.clone().map(of)
+        });
+        let mut traced = self.explain_samples(places.collect())?.into_iter();
+        let tree = |(pixel, samples): &([u32; 2], Range<u32>)| {
+            RayTree::new(*pixel, traced.by_ref().take(samples.len()).collect())
+        };
+        Ok(pixels.iter().map(tree).collect())
+    }
+
+    /// The samples that a pixel of the picture is to get; with adaptive sampling those of the rounds that
+    /// are done. 0 outside of [`Settings::region`].
+    pub fn samples_at(&self, pixel: [u32; 2]) -> u32 {
+        let [x, y, width, height] = self.settings.region();
+        let within = |at: u32, start: u32, length: u32| (start..start + length).contains(&at);
+        match within(pixel[0], x, width) && within(pixel[1], y, height) {
+            true => self.film.samples_at(pixel),
+            false => 0,
+        }
+    }
+
+    fn explain_samples(
+        &mut self,
+        wanted: Vec<([u32; 2], u32)>,
+    ) -> Result<Vec<SampleTree>, RenderError> {
+        let mut trees = Vec::with_capacity(wanted.len());
+        let (mut pixel, mut room) = (None, 0);
+        for part in wanted.chunks(MOST_PROBES) {
+            let mut probes: Vec<_> = (part.iter())
+                .map(|&([pixel_x, pixel_y], sample)| PackedProbe {
+                    pixel_x,
+                    pixel_y,
+                    sample,
+                    ..Default::default()
+                })
+                .collect();
+            // Once to count the rays, so that there is just enough room for them.
+            let counted = self.record(&probes, 0)?.probes;
+            for (probe, counted) in probes.iter_mut().zip(&counted) {
+                let place = Some([probe.pixel_x, probe.pixel_y]);
+                if pixel != place {
+                    (pixel, room) = (place, MOST_PIXEL_RAYS);
+                }
+                probe.ray_limit = counted.ray_count.min(MOST_RAYS).min(room);
+                room -= probe.ray_limit;
+            }
+            let mut rest = &mut probes[..];
+            while !rest.is_empty() {
+                let (now, later) = rest.split_at_mut(fitting(rest));
+                let record_count = place(now);
+                let records = self.record(now, record_count)?;
+                let reader = Reader::new(&self.scene, &self.view);
+                let mut rays = &records.rays[..];
+                for probe in &records.probes {
+                    let (own, others) = rays.split_at(probe.ray_limit as usize);
+                    trees.push(reader.sample(probe, own));
+                    rays = others;
+                }
+                rest = later;
+            }
+        }
+        Ok(trees)
+    }
+
+    /// Traces the probes, each in a lane of its own, with room for so many rays behind them.
+    fn record(
+        &mut self,
+        probes: &[PackedProbe],
+        record_count: u32,
+    ) -> Result<Records, RenderError> {
+        let records = self.surviving_losses(|renderer| {
+            renderer.prepare()?;
+            renderer.dispatch_probes(probes, record_count)
+        })?;
+        match records.accounts.cut_off_paths {
+            0 => Ok(records),
+            _ => Err(RenderError::PathTooLong),
+        }
+    }
+
+    /// Compiles the kernel unless it is there already.
+    fn prepare(&mut self) -> Result<(), GpuError> {
+        let settings = Settings {
+            integrator: Integrator::Whitted,
+            ..self.settings.clone()
+        };
+        let task = Task {
+            scene: &self.scene,
+            view: &self.view,
+            settings: &settings,
+            film_rows: self.film.largest_window(),
+        };
+        let mut overrides = whitted::overrides(task);
+        overrides.retain(|(id, _)| !WITHOUT.contains(id));
+        let made_with = (overrides, whitted::moves(task));
+        let device = &mut self.device;
+        let known = device.explainer.as_ref();
+        if known.is_none_or(|explainer| explainer.made_with != made_with) {
+            let (gpu, fetch, layouts) = (&device.gpu, device.fetch, &device.layouts);
+            let pipeline =
+                device::pipeline(gpu, fetch, layouts, Kernel::EXPLAIN, made_with.clone())?;
+            device.explainer = Some(Explainer {
+                made_with,
+                pipeline,
+            });
+        }
+        Ok(())
+    }
+
+    fn dispatch_probes(
+        &self,
+        probes: &[PackedProbe],
+        record_count: u32,
+    ) -> Result<Records, GpuError> {
+        let device = &self.device;
+        let gpu = &device.gpu;
+        let Some(explainer) = &device.explainer else {
+            return Err(GpuError::Internal {
+                what: "no explain pipeline".into(),
+            });
+        };
+        let mut padded = probes.to_vec();
+        padded.resize(
+            probes.len().next_multiple_of(LANES),
+            PackedProbe {
+                pixel_x: NONE,
+                ..Default::default()
+            },
+        );
+        let groups = (padded.len() / LANES) as u32;
+        let probe_bytes = size_of_val(&padded[..]) as u64;
+        let bytes = probe_bytes + u64::from(record_count) * size_of::<PackedRay>() as u64;
+        let slice_bytes = size_of::<PackedSlice>() as u64;
+        let storage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
+        let mapped = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
+        let records = gpu.allocate("records", bytes, storage)?;
+        let staging = gpu.allocate("staging", slice_bytes + bytes, mapped)?;
+        let own_group = group(gpu, &device.layouts.film, &[records.as_entire_binding()]);
+        gpu.write(&records, 0, cast_slice(&padded))?;
+        gpu.write(&device.buffers.slice, 0, bytes_of(&self.packed(groups)))?;
+
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(&explainer.pipeline);
+            pass.set_bind_group(0, &device.buffers.scene_group, &[]);
+            pass.set_bind_group(1, &device.buffers.frame_group, &[]);
+            pass.set_bind_group(2, &own_group, &[]);
+            pass.dispatch_workgroups(groups, 1, 1);
+        }
+        let accounts = Source {
+            buffer: &device.buffers.slice,
+            offset: 0,
+            bytes: slice_bytes,
+        };
+        let written = Source {
+            buffer: &records,
+            offset: 0,
+            bytes,
+        };
+        let records = gpu.submit_and_read(encoder, &[accounts, written], &staging, |bytes| {
+            let (accounts, written) = bytes.split_at(slice_bytes as usize);
+            let (written_probes, rays) = written.split_at(probe_bytes as usize);
+            let mut traced: Vec<PackedProbe> = read_all(written_probes);
+            traced.truncate(probes.len());
+            Records {
+                accounts: pod_read_unaligned(accounts),
+                probes: traced,
+                rays: read_all(rays),
+            }
+        })?;
+        // A driver that stops a dispatch of a thousand samples is as good as lost.
+        match records.accounts.tiles_done == groups {
+            true => Ok(records),
+            false => Err(GpuError::Lost),
+        }
+    }
+
+    /// What the kernel reads of the settings.
+    fn packed(&self, groups: u32) -> PackedSlice {
+        let settings = &self.settings;
+        PackedSlice {
+            picture_width: settings.size.0,
+            picture_height: settings.size.1,
+            tile_count: groups,
+            end_tile: groups,
+            grid_width: groups,
+            seed: settings.seed,
+            max_depth: settings.max_depth,
+            min_throughput: settings.min_throughput,
+            light_samples: settings.light_samples,
+            ..Default::default()
+        }
+    }
+}
+
+fn read_all<T: Pod>(bytes: &[u8]) -> Vec<T> {
+    let each = bytes.chunks_exact(size_of::<T>());
+    each.map(pod_read_unaligned).collect()
+}
+
+/// How many of the probes, at least one, have room in one submission.
+fn fitting(probes: &[PackedProbe]) -> usize {
+    let mut room = MOST_RECORDS;
+    let fits = |probe: &&PackedProbe| {
+        let left = room.checked_sub(probe.ray_limit);
+        room = left.unwrap_or(0);
+        left.is_some()
+    };
+    probes.iter().take_while(fits).count().max(1)
+}
+
+/// Says where each probe's rays go, behind the probes of whole workgroups, and how many there are.
+fn place(probes: &mut [PackedProbe]) -> u32 {
+    let first_row = PROBE_ROWS * probes.len().next_multiple_of(LANES) as u32;
+    let mut count = 0;
+    for probe in probes {
+        probe.first_row = first_row + RAY_ROWS * count;
+        count += probe.ray_limit;
+    }
+    count
+}

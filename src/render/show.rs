@@ -1,0 +1,144 @@
+//! From sums to a picture on the screen, without leaving the GPU: `kernels/show.wesl`.
+
+use super::{
+    Integrator, RenderError, Renderer, Tone,
+    layouts::{SCREEN_FORMAT, group_at},
+    slice::Slice,
+};
+use crate::gpu::{GpuError, Kernel};
+use bytemuck::{bytes_of, cast_slice};
+
+/// What a window or a test shows: a texture as large as a picture, 8 bits a channel, encoded as its
+/// tone says, with premultiplied alpha.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Screen {
+    view: wgpu::TextureView,
+}
+
+impl Screen {
+    /// The texture, to be sampled without any conversion.
+    pub fn view(&self) -> &wgpu::TextureView {
+        &self.view
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> (u32, u32) {
+        let texture = self.view.texture();
+        (texture.width(), texture.height())
+    }
+}
+
+/// What showing keeps on the GPU once it has been used.
+pub struct Projector {
+    pipeline: wgpu::ComputePipeline,
+    tone: wgpu::Buffer,
+}
+
+impl Renderer {
+    /// A black screen as large as the picture, or as its crop.
+    pub fn new_screen(&self) -> Result<Screen, RenderError> {
+        let [.., width, height] = self.settings.region();
+        let view = self
+            .device
+            .gpu
+            .allocate_screen(width, height, SCREEN_FORMAT)?;
+        Ok(Screen { view })
+    }
+
+    /// The part of the picture that is rendered: x, y, width, height in pixels.
+    pub fn region(&self) -> [u32; 4] {
+        self.settings.region()
+    }
+
+    /// Samples that every pixel has got, for a picture that [`Self::shows_directly`]; else the share
+    /// of all that has been done.
+    pub fn samples_done(&self) -> u32 {
+        match self.film.is_one_rectangle() && !self.is_done() {
+            true => self.cursor.sample,
+            false => (self.progress() * f64::from(self.settings.samples)) as u32,
+        }
+    }
+
+    /// Whether [`Self::show`] leaves the film where it is. Else the host has a part in it: films of
+    /// several windows, more samples than one sum takes, adaptive sampling.
+    pub fn shows_directly(&self) -> bool {
+        self.settings.integrator != Integrator::Samples && self.film.is_one_sum()
+    }
+
+    /// Puts what has been gathered so far on a screen of the picture's size: for every pixel that has a
+    /// sample what [`Self::develop`] gives, rounded to 8 bits.
+    pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<(), RenderError> {
+        if self.shows_directly() {
+            return self.surviving_losses(|renderer| renderer.project(tone, screen));
+        }
+        let image = self.develop(tone)?;
+        let quantized = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+        let bytes: Vec<u8> = (image.pixels.iter())
+            .flat_map(|[r, g, b, _]| [quantized(*r), quantized(*g), quantized(*b), 255])
+            .collect();
+        Ok(self.device.gpu.write_image(&screen.view, 0, &bytes)?)
+    }
+
+    fn project(&mut self, tone: &Tone, screen: &Screen) -> Result<(), GpuError> {
+        if self.device.projector.is_none() {
+            self.device.projector = Some(self.new_projector()?);
+        }
+        let device = &mut self.device;
+        let (gpu, buffers) = (&device.gpu, &device.buffers);
+        let Some(projector) = &device.projector else {
+            return Err(GpuError::Internal {
+                what: "no show pipeline".into(),
+            });
+        };
+        let window = &self.film.windows[0];
+        if device.loaded_window != Some(0) {
+            gpu.write(&buffers.film, 0, cast_slice(&window.developable()))?;
+            device.loaded_window = Some(0);
+        }
+        let slice = Slice {
+            first_tile: 0,
+            end_tile: window.tile_count(),
+            first_sample: 0,
+            end_sample: 0,
+        };
+        let packed = slice.packed(window, &self.settings);
+        gpu.write(&buffers.slice, 0, bytes_of(&packed))?;
+        gpu.write(&projector.tone, 0, bytes_of(&tone.packed()))?;
+        let resources = [
+            (0, projector.tone.as_entire_binding()),
+            (2, wgpu::BindingResource::TextureView(&screen.view)),
+        ];
+        let target = group_at(gpu, &device.layouts.show, &resources);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(&projector.pipeline);
+            pass.set_bind_group(1, &buffers.frame_group, &[]);
+            pass.set_bind_group(2, &buffers.film_group, &[]);
+            pass.set_bind_group(3, &target, &[]);
+            let (columns, rows) = slice.grid();
+            pass.dispatch_workgroups(columns, rows, 1);
+        }
+        gpu.submit(encoder.finish())
+    }
+
+    fn new_projector(&self) -> Result<Projector, GpuError> {
+        let (gpu, layouts) = (&self.device.gpu, &self.device.layouts);
+        let groups = [
+            None,
+            Some(&layouts.frame),
+            Some(&layouts.film),
+            Some(&layouts.show),
+        ];
+        let layout = (gpu.device).create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("show"),
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        });
+        let source = Kernel::SHOW.source(false, false);
+        Ok(Projector {
+            pipeline: gpu.pipeline(Kernel::SHOW.name, source, Some(&layout), &[])?,
+            tone: gpu.upload("tone", bytes_of(&Tone::LINEAR.packed()))?,
+        })
+    }
+}

@@ -1,0 +1,94 @@
+//! The accounts of a render.
+
+use super::RenderError;
+use crate::{gpu::GpuError, layout::PackedSlice};
+
+/// How often a lost device is replaced before a picture is given up.
+const MAX_LOSSES: u32 = 3;
+
+/// What a render has cost so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stats {
+    /// Making pipelines and running each once with nothing to do, when drivers compile.
+    pub compile_seconds: f64,
+    /// Copying the scene to the device, again after a loss.
+    pub upload_seconds: f64,
+    /// Tracing, from submission to the copy of the film, whatever came of it.
+    pub trace_seconds: f64,
+    /// Developing, each time it was asked for.
+    pub develop_seconds: f64,
+    /// Submissions that traced.
+    pub submissions: u64,
+    /// The longest of them, in milliseconds.
+    pub longest_submission_ms: f64,
+    /// Samples that were dropped: with them a sum would be infinite or not a number.
+    pub nonfinite_samples: u64,
+    /// Samples whose ray tree outgrew its stack or had too many rays; what was cut off is missing
+    /// in the picture.
+    pub cut_off_trees: u64,
+    /// Planned memory in bytes, of the frame that takes most; see [`super::Settings::memory_limit_bytes`].
+    pub gpu_bytes: u64,
+    /// How often the device was lost and replaced.
+    pub device_losses: u32,
+    /// Camera rays whose sum is in the film.
+    pub samples: u64,
+    /// Kept with [`super::Settings::count_rays`].
+    pub rays: Option<Rays>,
+}
+
+/// Rays by kind. Shadow rays count one for each light, or sample of a light with extent, that the
+/// surface faces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rays {
+    /// From the camera, one for each sample.
+    pub primary: u64,
+    /// Those that hit something.
+    pub primary_hits: u64,
+    /// To lights.
+    pub shadow: u64,
+    /// Those that hit something before the light.
+    pub shadow_blocked: u64,
+    /// Mirrored.
+    pub reflection: u64,
+    /// Those that hit something.
+    pub reflection_hits: u64,
+    /// Refracted.
+    pub refraction: u64,
+    /// Those that hit something.
+    pub refraction_hits: u64,
+}
+
+impl Stats {
+    pub(super) fn submitted(&mut self, seconds: f64) {
+        self.trace_seconds += seconds;
+        self.submissions += 1;
+        self.longest_submission_ms = self.longest_submission_ms.max(seconds * 1e3);
+    }
+
+    /// Adds the accounts of a slice.
+    pub(super) fn add(&mut self, tally: &PackedSlice) {
+        self.nonfinite_samples += u64::from(tally.nonfinite_samples);
+        self.cut_off_trees += u64::from(tally.cut_off_trees);
+        if let Some(rays) = &mut self.rays {
+            rays.primary += u64::from(tally.primary);
+            rays.primary_hits += u64::from(tally.primary_hits);
+            rays.shadow += u64::from(tally.shadow);
+            rays.shadow_blocked += u64::from(tally.shadow_blocked);
+            rays.reflection += u64::from(tally.reflection);
+            rays.reflection_hits += u64::from(tally.reflection_hits);
+            rays.refraction += u64::from(tally.refraction);
+            rays.refraction_hits += u64::from(tally.refraction_hits);
+        }
+    }
+
+    /// Counts a failure of the device; too many of them in one picture, before which there were
+    /// `earlier` ones, are the end.
+    pub(super) fn count_loss(&mut self, earlier: u32) -> Result<(), RenderError> {
+        self.device_losses += 1;
+        let count = self.device_losses - earlier;
+        if count > MAX_LOSSES {
+            return Err(GpuError::KeptFailing { count }.into());
+        }
+        Ok(())
+    }
+}

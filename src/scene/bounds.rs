@@ -1,0 +1,153 @@
+//! Boxes round what is in a scene.
+
+use super::{Geometry, Mesh, ObjectRef, Scene};
+use glam::{DAffine3, DVec3};
+
+/// An axis-aligned box (min, max).
+type Bounds = (DVec3, DVec3);
+
+impl Mesh {
+    /// The smallest axis-aligned box (min, max) in object space; `None` without positions.
+    pub fn bounds(&self) -> Option<Bounds> {
+        let points = self.positions.iter().map(|p| p.as_dvec3());
+        points.map(|p| (p, p)).reduce(union)
+    }
+
+    /// The smallest axis-aligned box in the space that `space_from_object` leads to.
+    pub fn bounds_in(&self, space_from_object: DAffine3) -> Option<Bounds> {
+        let points = self.positions.iter();
+        let points = points.map(|p| space_from_object.transform_point3(p.as_dvec3()));
+        points.map(|p| (p, p)).reduce(union)
+    }
+}
+
+impl Scene {
+    /// The axis-aligned box (min, max) round everything bounded, visible or not, in world space, at
+    /// time 0; `None` when there is nothing bounded.
+    ///
+    /// Only the instances whose own boxes reach out of what is known already have their vertices
+    /// looked at.
+    pub fn bounds(&self) -> Option<Bounds> {
+        let nodes = self.nodes_at(0.0, 0.0);
+        let world_from = |node: Option<usize>| match node {
+            Some(node) => nodes[node].world_from_node,
+            None => DAffine3::IDENTITY,
+        };
+        let shapes = self.shapes.iter().filter_map(|shape| match shape.node {
+            Some(_) => shape.geometry.placed(world_from(shape.node)).bounds(),
+            None => shape.geometry.bounds(),
+        });
+        let mut all = shapes.reduce(union);
+
+        let of_meshes: Vec<_> = self.meshes.iter().map(|mesh| mesh.bounds()).collect();
+        let mut open = Vec::with_capacity(self.instances.len());
+        for instance in &self.instances {
+            if let Some(bounds) = of_meshes[instance.mesh] {
+                let world_from_object = world_from(instance.node) * instance.placement;
+                open.push((
+                    instance.mesh,
+                    world_from_object,
+                    boxed(bounds, world_from_object),
+                ));
+            }
+        }
+        // First those that reach farthest each way, behind which most others stay.
+        for axis in 0..3 {
+            for side in [1.0, -1.0] {
+                let reach = |(.., (min, max)): &(usize, DAffine3, Bounds)| {
+                    if side > 0.0 { max[axis] } else { -min[axis] }
+                };
+                let farthest = open.iter().max_by(|a, b| reach(a).total_cmp(&reach(b)));
+                if let Some(&(mesh, world_from_object, outer)) = farthest {
+                    self.reach(&mut all, mesh, world_from_object, outer);
+                }
+            }
+        }
+        for (mesh, world_from_object, outer) in open {
+            self.reach(&mut all, mesh, world_from_object, outer);
+        }
+        all
+    }
+
+    /// Widens `all` by an instance of a mesh that lies within `outer`.
+    fn reach(&self, all: &mut Option<Bounds>, mesh: usize, place: DAffine3, outer: Bounds) {
+        let is_inside = |(min, max): Bounds| min.cmple(outer.0).all() && max.cmpge(outer.1).all();
+        if all.is_some_and(is_inside) {
+            return;
+        }
+        if let Some(bounds) = self.meshes[mesh].bounds_in(place) {
+            *all = Some(all.map_or(bounds, |all| union(all, bounds)));
+        }
+    }
+
+    /// The axis-aligned box (min, max) round one object in world space at `time` seconds; of lights
+    /// without extent it is their place. `None` for planes and directional lights, and meshes without
+    /// triangles.
+    pub fn bounds_of(&self, object: ObjectRef, time: f64) -> Option<Bounds> {
+        let nodes = self.nodes_at(time, time);
+        let world_from = |node: Option<usize>| match node {
+            Some(node) => nodes[node].world_from_node,
+            None => DAffine3::IDENTITY,
+        };
+        match object {
+            ObjectRef::Instance(index) => {
+                let instance = self.instances.get(index)?;
+                let place = world_from(instance.node) * instance.placement;
+                self.meshes[instance.mesh].bounds_in(place)
+            }
+            ObjectRef::Shape(index) => {
+                let shape = self.shapes.get(index)?;
+                match shape.node {
+                    Some(_) => shape.geometry.placed(world_from(shape.node)).bounds(),
+                    None => shape.geometry.bounds(),
+                }
+            }
+            ObjectRef::Light(index) => {
+                let lights = self.lights_at(time, time, &nodes);
+                lights.get(index)?.kind.bounds()
+            }
+        }
+    }
+}
+
+impl super::LightKind {
+    /// The smallest axis-aligned box (min, max) in its own space; `None` for directional lights.
+    pub fn bounds(&self) -> Option<Bounds> {
+        match *self {
+            Self::Directional { .. } => None,
+            Self::Point { position } | Self::Spot { position, .. } => Some((position, position)),
+            Self::Rectangle {
+                center,
+                edge_u,
+                edge_v,
+            } => {
+                let reach = edge_u.abs() + edge_v.abs();
+                Some((center - reach, center + reach))
+            }
+            Self::Disc {
+                center,
+                normal,
+                radius,
+            } => {
+                let reach = (DVec3::ONE - normal * normal).max(DVec3::ZERO);
+                let reach = radius * DVec3::from(reach.to_array().map(f64::sqrt));
+                Some((center - reach, center + reach))
+            }
+            Self::Sphere { center, radius } => Geometry::Sphere { center, radius }.bounds(),
+        }
+    }
+}
+
+/// A box that holds what `place` makes of another.
+fn boxed((min, max): Bounds, place: DAffine3) -> Bounds {
+    let corner = |i: u8| {
+        let side = |bit: u8, axis: usize| if i & bit == 0 { min[axis] } else { max[axis] };
+        let corner = place.transform_point3(DVec3::new(side(1, 0), side(2, 1), side(4, 2)));
+        (corner, corner)
+    };
+    (1..8).map(corner).fold(corner(0), union)
+}
+
+pub(super) fn union(a: Bounds, b: Bounds) -> Bounds {
+    (a.0.min(b.0), a.1.max(b.1))
+}

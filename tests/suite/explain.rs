@@ -1,0 +1,741 @@
+//! The ray tree of a pixel: it adds up to the pixel, and it is the tree that an independent tracer sends.
+
+use crate::reference::compare::{assert_none, check_same_bits, open_gpu, sized};
+use crate::reference::rays::{Node, trees};
+use crate::reference::scenes::{self, Build, Random};
+use glam::{DVec3, Vec3, dvec3, vec3};
+use glimray::import;
+use glimray::pack;
+use glimray::render::{
+    Antialias, Filter, RayKind, RayTree, Renderer, SampleTree, Settings, Tone, TracedRay,
+};
+use glimray::scene::{Attenuation, Geometry, Light, LightKind, ObjectRef, Scene, Shadows};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Sums of contributions, and what pixels may differ by; brighter ones in proportion.
+const TOLERANCE: f32 = 1e-4;
+
+/// Pixels of each scene.
+const PIXELS: usize = 1000;
+
+/// Every scene in `assets/scenes`, by its file's name.
+fn project_scenes() -> Vec<(String, Scene)> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
+    let entries = std::fs::read_dir(&folder).expect("assets/scenes");
+    let mut names: Vec<_> = entries
+        .map(|entry| {
+            entry
+                .expect("an entry")
+                .file_name()
+                .into_string()
+                .expect("a name")
+        })
+        .filter(|name| {
+            let ending = name.rsplit('.').next();
+            ["toml", "scene", "nff", "obj"].map(Some).contains(&ending)
+        })
+        .collect();
+    names.sort();
+    assert!(names.len() >= 20, "{names:?}");
+    let load = |name: String| {
+        let scene = import::load(&folder.join(&name)).unwrap_or_else(|error| panic!("{error}"));
+        (name, scene)
+    };
+    names.into_iter().map(load).collect()
+}
+
+/// A renderer of the scene's first frame, with its shutter open as long as it says.
+fn renderer(scene: &Scene, settings: &Settings) -> Renderer {
+    let packed = Arc::new(pack::scene(scene).expect("packed"));
+    let (shutter, fps) = (scene.output.shutter, scene.output.fps);
+    let frames = scene.shot(shutter.open / fps, shutter.close / fps);
+    let view = packed.shot(&frames).expect("a view");
+    Renderer::new(open_gpu(), packed, &view, settings.clone()).expect("a renderer")
+}
+
+fn finish(renderer: &mut Renderer) {
+    while !renderer.is_done() {
+        renderer.step().expect("a step");
+    }
+}
+
+fn random_pixels((width, height): (u32, u32), count: usize, seed: u64) -> Vec<[u32; 2]> {
+    let mut random = Random(seed);
+    let mut below = |count: u32| random.below(count.into()) as u32;
+    (0..count).map(|_| [below(width), below(height)]).collect()
+}
+
+/// Whether two colours are the same within the tolerance.
+fn near(a: Vec3, b: Vec3) -> bool {
+    // Written so that a NaN is not.
+    (a - b)
+        .abs()
+        .cmple(TOLERANCE * b.abs().max(Vec3::ONE))
+        .all()
+}
+
+fn sum_of(sample: &SampleTree) -> Vec3 {
+    sample
+        .rays
+        .iter()
+        .map(|ray| Vec3::from(ray.contribution))
+        .sum()
+}
+
+/// What is wrong with a tree whose pixel is `value` in the picture.
+fn check_sums(tree: &RayTree, value: Vec3) -> Result<(), String> {
+    let (mut sum, mut weights) = (Vec3::ZERO, 0.0);
+    for sample in &tree.samples {
+        let (own, color) = (sum_of(sample), Vec3::from(sample.color));
+        if sample.rays.len() != sample.ray_count {
+            return Err(format!(
+                "{} of {} rays",
+                sample.rays.len(),
+                sample.ray_count
+            ));
+        }
+        if !near(own, color) {
+            return Err(format!(
+                "rays of {} add up to {own}, colour {color}",
+                sample.sample
+            ));
+        }
+        sum += sample.weight * own;
+        weights += sample.weight;
+    }
+    let mean = if weights.abs() > 0.5 {
+        (sum / weights).max(Vec3::ZERO)
+    } else {
+        Vec3::ZERO
+    };
+    if !near(mean, value) || !near(tree.value.into(), value) {
+        return Err(format!(
+            "rays add up to {mean}, the tree says {:?}, the picture {value}",
+            tree.value
+        ));
+    }
+    Ok(())
+}
+
+/// What is wrong with how the rays of a sample hang together.
+fn check_shape(sample: &SampleTree) -> Result<(), String> {
+    for (index, ray) in sample.rays.iter().enumerate() {
+        let kind = ray.kind;
+        let parent = ray.parent.map(|parent| &sample.rays[parent]);
+        let is_known = match parent {
+            None => index == 0 && kind == RayKind::Primary && ray.throughput == [1.0; 3],
+            Some(parent) => {
+                let end = DVec3::from(parent.end.unwrap_or([f64::NAN; 3]));
+                let gap = end.distance(ray.origin.into());
+                ray.parent < Some(index)
+                    && kind != RayKind::Primary
+                    && parent.kind != RayKind::Shadow
+                    && parent.children.contains(&index)
+                    && gap <= 1e-3 * (1.0 + end.length())
+            }
+        };
+        let is_shadow = ray.shadow.is_some() == (kind == RayKind::Shadow);
+        let names_something = ray.hit.as_ref().is_none_or(|hit| hit.object.is_some());
+        if !(is_known && is_shadow && names_something) {
+            return Err(format!("ray {index} hangs in the air: {ray:?}"));
+        }
+    }
+    Ok(())
+}
+
+/// Explains random pixels of a finished picture and holds them against it.
+fn check_scene(
+    name: &str,
+    scene: &Scene,
+    settings: &Settings,
+    pixels: usize,
+) -> Result<(), String> {
+    let mut renderer = renderer(scene, settings);
+    finish(&mut renderer);
+    let image = renderer.develop(&Tone::LINEAR).expect("a picture");
+    let places = random_pixels(settings.size, pixels, 7);
+    let wanted: Vec<_> = (places.iter())
+        .map(|&place| (place, 0..renderer.samples_at(place)))
+        .collect();
+    let trees = renderer.explain_pixels(&wanted).expect("trees");
+    assert_eq!(trees.len(), places.len());
+    for (tree, &[x, y]) in trees.iter().zip(&places) {
+        let [r, g, b, _] = image.pixel(x, y).expect("a pixel");
+        let shapes = tree.samples.iter().map(check_shape);
+        let checks = shapes.chain([check_sums(tree, vec3(r, g, b))]);
+        let problem = checks.filter_map(Result::err).next();
+        problem.map_or(Ok(()), |problem| {
+            Err(format!("{name} at {x},{y}: {problem}"))
+        })?;
+    }
+    Ok(())
+}
+
+fn settings_of(scene: &Scene) -> Settings {
+    Settings {
+        size: (96, 72),
+        samples: 2,
+        antialias: Antialias::Stratified,
+        ..Settings::from(&scene.output)
+    }
+}
+
+#[test]
+fn contributions_add_up_to_the_pixels_of_every_scene() {
+    assert_none(project_scenes().iter().map(|(name, scene)| {
+        let started = std::time::Instant::now();
+        let result = check_scene(name, scene, &settings_of(scene), PIXELS);
+        println!("{name}: {:.1} s", started.elapsed().as_secs_f64());
+        result
+    }));
+}
+
+#[test]
+fn filters_with_negative_weights_and_pixels_that_stop_early_add_up_too() {
+    let mut scene = scenes::mirrors_and_glass();
+    scene.output.max_depth = 4;
+    let settings = Settings {
+        samples: 16,
+        noise: 0.05,
+        max_depth: 4,
+        ..sized(64, 48)
+    };
+    let mitchell = Settings {
+        antialias: Antialias::Stratified,
+        filter: Filter::Mitchell,
+        filter_radius: 2.0,
+        ..settings.clone()
+    };
+    let adaptive = Settings {
+        antialias: Antialias::Adaptive,
+        ..settings.clone()
+    };
+    let centre = Settings {
+        antialias: Antialias::None,
+        ..settings
+    };
+    assert_none([
+        check_scene("negative weights", &scene, &mitchell, 300),
+        check_scene("adaptive", &scene, &adaptive, 300),
+        check_scene("one place", &scene, &centre, 300),
+    ]);
+    let mut renderer = renderer(&scene, &mitchell);
+    let tree = renderer.explain([20, 20], 0..16).expect("a tree");
+    let negative = tree.samples.iter().filter(|sample| sample.weight == -1.0);
+    assert!(
+        (1..8).contains(&negative.count()),
+        "Mitchell's filter is negative at its edges"
+    );
+}
+
+#[test]
+fn a_pixel_has_the_samples_that_adaptive_sampling_gave_it() {
+    let scene = scenes::mirrors_and_glass();
+    let settings = Settings {
+        samples: 64,
+        antialias: Antialias::Adaptive,
+        noise: 0.02,
+        ..sized(64, 48)
+    };
+    let mut renderer = renderer(&scene, &settings);
+    finish(&mut renderer);
+    let counts: Vec<u32> = (0..48)
+        .flat_map(|y| (0..64).map(move |x| [x, y]))
+        .map(|place| renderer.samples_at(place))
+        .collect();
+    let (least, most) = (counts.iter().min(), counts.iter().max());
+    assert_eq!((least, most), (Some(&4), Some(&64)));
+    assert_eq!(
+        counts.iter().map(|&count| u64::from(count)).sum::<u64>(),
+        renderer.stats().samples
+    );
+    assert_eq!(renderer.samples_at([64, 0]), 0, "outside of the picture");
+}
+
+#[test]
+fn explaining_between_steps_leaves_the_picture_as_it_would_be() {
+    let mut scene = scenes::mirrors_and_glass();
+    scene.output.max_depth = 4;
+    for antialias in [Antialias::Stratified, Antialias::Adaptive] {
+        let mut settings = Settings {
+            samples: 8,
+            antialias,
+            max_depth: 4,
+            ..sized(64, 48)
+        };
+        // Many steps.
+        settings.slicing.max_tiles = 8;
+        let mut undisturbed = renderer(&scene, &settings);
+        finish(&mut undisturbed);
+        let expected = undisturbed.develop(&Tone::LINEAR).expect("a picture");
+        let mut disturbed = renderer(&scene, &settings);
+        let first = disturbed.explain([30, 20], 0..4).expect("a tree");
+        while !disturbed.is_done() {
+            disturbed.step().expect("a step");
+            let again = disturbed.explain([30, 20], 0..4).expect("a tree");
+            assert_eq!(
+                again, first,
+                "the tree does not depend on when it is asked for"
+            );
+        }
+        let actual = disturbed.develop(&Tone::LINEAR).expect("a picture");
+        assert_none([check_same_bits("explained", &expected, &actual)]);
+    }
+}
+
+/// The scene as the independent tracer knows it: a pinhole, opaque shadows, points in place of lamps,
+/// and nothing that touches a plane. It has no rule for two surfaces in one place.
+fn plain(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.shadows = Shadows::Opaque;
+    for camera in &mut scene.cameras {
+        camera.lens = None;
+    }
+    for shape in &mut scene.shapes {
+        if let Geometry::Plane { point, normal } = &mut shape.geometry {
+            *point -= 0.003 * *normal;
+        }
+    }
+    for light in &mut scene.lights {
+        light.visible = false;
+        if let LightKind::Rectangle { center, .. }
+        | LightKind::Disc { center, .. }
+        | LightKind::Sphere { center, .. } = light.kind
+        {
+            light.kind = LightKind::Point { position: center };
+        }
+    }
+    scene
+}
+
+/// How far off a ray may be in f32, as a share: every surface on its way makes an error larger.
+fn slack(sample: &SampleTree, at: usize) -> f64 {
+    let above = std::iter::successors(Some(at), |&at| sample.rays[at].parent);
+    1e-4 * 4_f64.powi(above.count().min(5) as i32 - 1)
+}
+
+/// Whether a ray met what the tracer's ray met, and as far away. One that grazes a surface meets it
+/// anywhere.
+fn same_hit(ray: &TracedRay, hit: Option<(f64, ObjectRef)>, slack: f64) -> bool {
+    match (&ray.hit, hit) {
+        (None, None) => true,
+        (Some(got), Some((t, object))) => {
+            let normal = DVec3::from(got.geometric_normal);
+            let cos = match ray.kind {
+                RayKind::Shadow => 0.1,
+                _ => normal.dot(ray.direction.into()).abs().max(0.01),
+            };
+            let is_near = (got.distance - t).abs() <= slack / cos * t.max(1.0);
+            got.object == Some(object) && is_near
+        }
+        _ => false,
+    }
+}
+
+/// What differs between a ray with all that it sent on and the tracer's.
+fn compare(sample: &SampleTree, at: usize, nodes: &[Node], node: usize) -> Result<(), String> {
+    let (ray, expected) = (&sample.rays[at], &nodes[node]);
+    let slack = slack(sample, at);
+    let mut shares = (ray.throughput.into_iter()).zip(expected.share.to_array());
+    let is_same = ray.kind == expected.kind
+        && same_hit(ray, expected.hit, slack)
+        && shares.all(|(got, share)| (f64::from(got) - share).abs() <= slack * share.max(0.01));
+    if !is_same {
+        let met = ray.hit.as_ref().map(|hit| (hit.distance, hit.object));
+        return Err(format!(
+            "{:?} of {:?} meets {met:?}, not {:?} of {} meets {:?}",
+            ray.kind, ray.throughput, expected.kind, expected.share, expected.hit
+        ));
+    }
+    let children = |kind: RayKind| {
+        let of = move |&&child: &&usize| sample.rays[child].kind == kind;
+        ray.children.iter().filter(of).copied().collect::<Vec<_>>()
+    };
+    let sent = |kind: RayKind| {
+        let of = move |&&child: &&usize| nodes[child].kind == kind;
+        expected
+            .children
+            .iter()
+            .filter(of)
+            .copied()
+            .collect::<Vec<_>>()
+    };
+    for kind in [RayKind::Reflection, RayKind::Refraction] {
+        let (own, other) = (children(kind), sent(kind));
+        if own.len() != other.len() {
+            return Err(format!(
+                "{} rays of {kind:?} and not {}",
+                own.len(),
+                other.len()
+            ));
+        }
+        for (child, other) in own.into_iter().zip(other) {
+            compare(sample, child, nodes, other)?;
+        }
+    }
+    // The tracer sends a ray to every light in front of a surface, the kernel where it would matter.
+    let others = sent(RayKind::Shadow);
+    for child in children(RayKind::Shadow) {
+        let shadow = sample.rays[child].shadow.as_ref().expect("a shadow ray");
+        let other = others
+            .iter()
+            .find(|&&other| nodes[other].light == Some(shadow.light));
+        let hit = other.map(|&other| nodes[other].hit);
+        let is_same = hit.is_some_and(|hit| {
+            shadow.blocked == hit.is_some() && same_hit(&sample.rays[child], hit, 4.0 * slack)
+        });
+        if !is_same {
+            return Err(format!(
+                "shadow ray {:?} and not {hit:?}",
+                sample.rays[child]
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Rays along edges, and what comes after them, may go either way in f32: of so many pixels in a hundred.
+const EDGES: usize = 2;
+
+#[test]
+fn the_tree_is_that_of_an_independent_tracer_in_every_scene() {
+    let own = [
+        ("everything", scenes::everything()),
+        ("glass", scenes::mirrors_and_glass()),
+        ("solids", scenes::solids()),
+    ];
+    let own = own.map(|(name, scene)| (name.to_string(), scene));
+    assert_none(
+        own.into_iter()
+            .chain(project_scenes())
+            .map(|(name, scene)| {
+                let scene = plain(&scene);
+                let settings = Settings {
+                    max_depth: scene.output.max_depth,
+                    ..sized(160, 120)
+                };
+                let packed = Arc::new(pack::scene(&scene).expect("packed"));
+                let view = packed.frame(&scene.frame(0.0)).expect("a view");
+                let mut renderer =
+                    Renderer::new(open_gpu(), packed, &view, settings.clone()).expect("a renderer");
+                let pixels = random_pixels(settings.size, 200, 3);
+                let started = std::time::Instant::now();
+                let expected = trees(&scene, 0.0, settings.size, &pixels);
+                let spent = started.elapsed().as_secs_f64();
+                let wanted: Vec<_> = pixels.iter().map(|&pixel| (pixel, 0..1)).collect();
+                let got = renderer.explain_pixels(&wanted).expect("trees");
+                let mut rays = 0;
+                let mut problems = Vec::new();
+                for (tree, (color, nodes)) in got.iter().zip(&expected) {
+                    let sample = &tree.samples[0];
+                    rays += sample.rays.len();
+                    let is_near = (0..3).all(|i| {
+                        (f64::from(sample.color[i]) - color[i]).abs() <= 1e-3 * color[i].max(1.0)
+                    });
+                    let same = compare(sample, 0, nodes, 0).and_then(|()| match is_near {
+                        true => Ok(()),
+                        false => Err(format!("colour {:?} and not {color}", sample.color)),
+                    });
+                    problems.extend(
+                        same.err()
+                            .map(|problem| format!("{:?}: {problem}", tree.pixel)),
+                    );
+                }
+                println!(
+                    "{name}: {rays} rays, {} differ, {spent:.1} s",
+                    problems.len()
+                );
+                match problems.len() * 100 <= EDGES * pixels.len() {
+                    true => Ok(()),
+                    false => Err(format!(
+                        "{name}: {} trees differ, such as {}",
+                        problems.len(),
+                        problems[0]
+                    )),
+                }
+            }),
+    );
+}
+
+/// A ball of glass of index 1.5 in front of the camera, met head on.
+fn glass_ball() -> Scene {
+    let mut scene = Scene {
+        cameras: vec![glimray::scene::Camera {
+            look_from: dvec3(0.0, 0.0, 5.0),
+            ..Default::default()
+        }],
+        background: glimray::scene::Background::Color(vec3(0.5, 0.25, 1.0)),
+        ambient: Vec3::splat(0.1),
+        ..Scene::default()
+    };
+    let glass = scene.add_material(glimray::scene::Material {
+        name: "glass".into(),
+        diffuse: Vec3::ZERO,
+        ambient: Vec3::ZERO,
+        reflect: Vec3::ONE,
+        transmit: Vec3::ONE,
+        opacity: 0.0,
+        ior: 1.5,
+        absorption: vec3(0.1, 0.2, 0.0),
+        fresnel: glimray::scene::Fresnel::Exact,
+        ..Default::default()
+    });
+    scene.add_sphere(DVec3::ZERO, 1.0, glass);
+    scene.output.max_depth = 2;
+    scene
+}
+
+#[test]
+fn a_ball_of_glass_head_on_has_the_tree_of_fresnel_and_beer() {
+    let scene = glass_ball();
+    let settings = Settings {
+        max_depth: 2,
+        ..sized(1, 1)
+    };
+    let tree = renderer(&scene, &settings)
+        .explain([0, 0], 0..1)
+        .expect("a tree");
+    let sample = &tree.samples[0];
+    // ((1.5 - 1) / (1.5 + 1))², and what two units of glass leave.
+    let mirrored = 0.04;
+    let left = dvec3((-0.2_f64).exp(), (-0.4_f64).exp(), 1.0);
+    let inside = (1.0 - mirrored) * left;
+    let background = dvec3(0.5, 0.25, 1.0);
+    let one = DVec3::ONE;
+    // Kind, depth in the tree, where it starts, where it ends, throughput, contribution.
+    let mut expected = vec![
+        (RayKind::Primary, 5.0, Some(1.0), one, DVec3::ZERO),
+        (
+            RayKind::Reflection,
+            1.0,
+            None,
+            one * mirrored,
+            background * mirrored,
+        ),
+        (
+            RayKind::Refraction,
+            1.0,
+            Some(-1.0),
+            one * (1.0 - mirrored),
+            DVec3::ZERO,
+        ),
+        (
+            RayKind::Refraction,
+            -1.0,
+            None,
+            inside * (1.0 - mirrored),
+            background * inside * (1.0 - mirrored),
+        ),
+        (
+            RayKind::Reflection,
+            -1.0,
+            Some(1.0),
+            inside * mirrored,
+            DVec3::ZERO,
+        ),
+    ];
+    for ray in &sample.rays {
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-4;
+        let [x, y, z] = ray.origin;
+        assert!(x.abs() < 1e-4 && y.abs() < 1e-4, "{ray:?}");
+        let found = expected
+            .iter()
+            .position(|(kind, start, end, share, added)| {
+                let same_end = match (ray.end, end) {
+                    (Some([_, _, z]), Some(end)) => near(z, *end),
+                    (None, None) => true,
+                    _ => false,
+                };
+                let share_error = Vec3::from(ray.throughput).as_dvec3() - *share;
+                let added_error = Vec3::from(ray.contribution).as_dvec3() - *added;
+                ray.kind == *kind
+                    && near(z, *start)
+                    && same_end
+                    && share_error.length() < 1e-4
+                    && added_error.length() < 1e-4
+            });
+        expected.remove(found.unwrap_or_else(|| panic!("not expected: {ray:?}")));
+    }
+    assert!(expected.is_empty(), "missing: {expected:?}");
+    let hits = || sample.rays.iter().filter_map(|ray| ray.hit.as_ref());
+    for hit in hits() {
+        let split = hit.split.as_ref().expect("glass");
+        let reflectance = f64::from(split.reflectance.expect("Fresnel's"));
+        assert!((reflectance - mirrored).abs() < 1e-5 && !split.total && split.transparent);
+        let iors = if hit.outside { [1.0, 1.5] } else { [1.5, 1.0] };
+        let media = if hit.outside {
+            [None, Some(0)]
+        } else {
+            [Some(0), None]
+        };
+        assert_eq!(
+            (split.iors, [split.medium, split.medium_behind]),
+            (iors, media)
+        );
+        assert_eq!(
+            (hit.object, hit.material_name.as_deref()),
+            (Some(ObjectRef::Shape(0)), Some("glass"))
+        );
+    }
+    assert_eq!(hits().filter(|hit| hit.outside).count(), 1);
+    assert!(
+        sample
+            .rays
+            .iter()
+            .filter(|ray| !ray.media.is_empty())
+            .all(|ray| ray.media == [0])
+    );
+}
+
+#[test]
+fn a_shadow_ray_says_what_is_in_its_way() {
+    // A wall seen from the front, a lamp above it, and for the upper half of it a ball between.
+    let mut scene = Scene {
+        cameras: vec![glimray::scene::Camera {
+            look_from: dvec3(0.0, 0.0, 4.0),
+            ..Default::default()
+        }],
+        materials: vec![glimray::scene::Material::default()],
+        ..Scene::default()
+    };
+    scene.add_plane(DVec3::ZERO, DVec3::Z, 0);
+    scene.add_sphere(dvec3(0.0, 2.0, 2.0), 0.5, 0);
+    scene.add_point_light(dvec3(0.0, 4.0, 4.0), 1.0);
+    scene.lights.push(Light {
+        kind: LightKind::Directional {
+            direction: DVec3::NEG_Z,
+        },
+        color: Vec3::splat(0.5),
+        attenuation: Attenuation::None,
+        ..Light::default()
+    });
+    let tree = renderer(&scene, &sized(1, 1))
+        .explain([0, 0], 0..1)
+        .expect("a tree");
+    let rays = &tree.samples[0].rays;
+    let [blocked, free] = [0, 1].map(|light| {
+        let of = |ray: &&TracedRay| {
+            ray.shadow
+                .as_ref()
+                .is_some_and(|shadow| shadow.light == light)
+        };
+        rays.iter().find(of).expect("a ray to each light")
+    });
+    let shadow = blocked.shadow.as_ref().expect("it is one");
+    let hit = blocked.hit.as_ref().expect("the ball");
+    let root = 8.0_f64.sqrt();
+    assert!(shadow.blocked && blocked.contribution == [0.0; 3]);
+    assert!((shadow.distance.expect("near") - 2.0 * root.powi(2) / root).abs() < 1e-4);
+    assert_eq!(hit.object, Some(ObjectRef::Shape(1)));
+    assert!((hit.distance - (root - 0.5)).abs() < 1e-4, "{hit:?}");
+    // 0.5 · 0.8 · cos 0.
+    let shadow = free.shadow.as_ref().expect("it is one");
+    assert!(!shadow.blocked && shadow.distance.is_none() && free.hit.is_none());
+    assert!((free.contribution[0] - 0.4).abs() < 1e-5, "{free:?}");
+}
+
+#[test]
+fn a_tree_of_too_many_rays_says_so_and_keeps_the_value() {
+    let mut scene = scenes::empty();
+    scene.add_plane(DVec3::ZERO, DVec3::Y, 0);
+    scene.lights.push(Light {
+        kind: LightKind::Sphere {
+            center: dvec3(0.0, 3.0, 0.0),
+            radius: 0.5,
+        },
+        color: Vec3::ONE,
+        attenuation: Attenuation::InverseSquare,
+        samples: 8000,
+        ..Light::default()
+    });
+    let settings = Settings {
+        samples: 40,
+        antialias: Antialias::Stratified,
+        ..sized(4, 4)
+    };
+    let mut renderer = renderer(&scene, &settings);
+    let tree = renderer.explain([1, 3], 0..40).expect("a tree");
+    let counts: Vec<_> = tree
+        .samples
+        .iter()
+        .map(|sample| (sample.rays.len(), sample.ray_count))
+        .collect();
+    assert_eq!(counts[0], (8001, 8001));
+    assert_eq!(counts[39], (0, 8001));
+    assert_eq!(counts.iter().map(|(kept, _)| kept).sum::<usize>(), 1 << 18);
+    finish(&mut renderer);
+    let [r, g, b, _] = renderer
+        .develop(&Tone::LINEAR)
+        .expect("a picture")
+        .pixel(1, 3)
+        .expect("a pixel");
+    assert!(near(tree.value.into(), vec3(r, g, b)), "{:?}", tree.value);
+}
+
+#[test]
+fn hits_name_the_same_things_whether_copies_are_laid_out_or_placed() {
+    let mut scene = scenes::meshes();
+    let ball = scene.instances[2].mesh;
+    std::sync::Arc::make_mut(&mut scene.meshes[ball]).name = "ball".into();
+    scene.nodes.push(glimray::scene::Node {
+        name: "left".into(),
+        translation: dvec3(-0.4, 0.6, 1.5),
+        ..Default::default()
+    });
+    scene.instances.push(glimray::scene::Instance {
+        mesh: ball,
+        placement: glam::DAffine3::from_scale(DVec3::splat(0.4)),
+        node: Some(0),
+    });
+    scene.add_sphere(dvec3(0.0, 2.0, 0.0), 0.4, 0);
+    scene.lights.push(Light {
+        kind: LightKind::Sphere {
+            center: dvec3(1.0, 2.4, 0.0),
+            radius: 0.3,
+        },
+        color: Vec3::ONE,
+        attenuation: Attenuation::InverseSquare,
+        visible: true,
+        ..Light::default()
+    });
+    let pixels: Vec<_> = (0..48)
+        .flat_map(|y| (0..64).map(move |x| ([x, y], 0..1)))
+        .collect();
+    let objects = |most_laid_out| {
+        let packed = Arc::new(pack::scene_with(&scene, most_laid_out).expect("packed"));
+        let view = packed.frame(&scene.frame(0.0)).expect("a view");
+        let mut renderer =
+            Renderer::new(open_gpu(), packed.clone(), &view, sized(64, 48)).expect("a renderer");
+        let trees = renderer.explain_pixels(&pixels).expect("trees");
+        let hit = |tree: &RayTree| {
+            let hit = tree.samples[0].rays[0].hit.clone();
+            hit.map(|hit| (hit.object.expect("an object"), hit.name))
+        };
+        (
+            packed.instance_count(),
+            trees.iter().map(hit).collect::<Vec<_>>(),
+        )
+    };
+    let ((none, laid_out), (some, placed)) = (objects(usize::MAX), objects(0));
+    assert!(none == 0 && some > 0, "{none} and {some} instances");
+    let differing = laid_out.iter().zip(&placed).filter(|(a, b)| a != b).count();
+    assert!(differing <= pixels.len() / 500, "{differing} differ");
+    for (object, name) in [
+        (ObjectRef::Instance(0), None),
+        (ObjectRef::Instance(1), None),
+        (ObjectRef::Instance(2), Some("ball")),
+        (ObjectRef::Instance(3), Some("left")),
+        (ObjectRef::Shape(0), None),
+        (ObjectRef::Light(2), None),
+    ] {
+        let is_it = |hit: &&Option<(ObjectRef, Option<String>)>| {
+            hit.as_ref()
+                .is_some_and(|(found, as_named)| *found == object && as_named.as_deref() == name)
+        };
+        assert!(
+            placed.iter().filter(is_it).count() > 3,
+            "{object:?} {name:?} is in the picture"
+        );
+    }
+}

@@ -1,0 +1,158 @@
+//! Scenes out and in again: nothing of what is rendered is lost on the way.
+
+mod random;
+mod text;
+
+use crate::support::verdict::Verdict;
+use glimray::export::{self, Export};
+use glimray::import;
+use glimray::pack;
+use glimray::scene::{Scene, Track};
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// Writes `export` as `NAME.toml` with its files into a folder of their own.
+fn write(export: &Export, name: &str) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    for file in &export.files {
+        fs::write(folder.path().join(&file.name), &file.bytes).expect("a file");
+    }
+    let path = folder.path().join(name).with_extension("toml");
+    fs::write(&path, &export.text).expect("the scene");
+    (folder, path)
+}
+
+/// What becomes of `scene` when it is written and read again, and the export.
+fn round(scene: &Scene) -> Result<(Scene, Export), String> {
+    let export =
+        export::native(scene, "scene", &|_, _| false).map_err(|error| error.to_string())?;
+    let (_folder, path) = write(&export, "scene");
+    let read = import::load(&path).map_err(|error| format!("{error}\n{}", export.text))?;
+    Ok((read, export))
+}
+
+/// `scene` without what the format does not keep: made-up names, notes, and which targets of a curve
+/// are in one track.
+fn essence(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.skipped.clear();
+    scene
+        .meshes
+        .iter_mut()
+        .for_each(|mesh| std::sync::Arc::make_mut(mesh).name.clear());
+    scene
+        .materials
+        .iter_mut()
+        .for_each(|material| material.name.clear());
+    scene.nodes.iter_mut().for_each(|node| node.name.clear());
+    scene
+        .cameras
+        .iter_mut()
+        .for_each(|camera| camera.name.clear());
+    let tracks = std::mem::take(&mut scene.tracks);
+    for track in tracks {
+        for target in track.targets {
+            scene.tracks.push(Track {
+                targets: vec![target],
+                curve: track.curve.clone(),
+            });
+        }
+    }
+    scene
+}
+
+/// Every byte that the GPU gets for a scene and for some of its frames.
+fn bytes(scene: &Scene) -> Vec<Vec<u8>> {
+    let packed = pack::scene(scene).expect("packed");
+    let mut parts: Vec<Vec<u8>> = packed.parts().into_iter().map(<[u8]>::to_vec).collect();
+    parts.push(format!("{:?} {:?}", packed.features, packed.pictures).into_bytes());
+    let duration = scene.duration();
+    for share in [0.0, 0.3, 0.77] {
+        let view = packed
+            .frame(&scene.frame(share * duration))
+            .expect("a frame");
+        parts.extend(view.parts().into_iter().map(<[u8]>::to_vec));
+        parts.push(view.background.to_string().into_bytes());
+    }
+    parts
+}
+
+/// What is lost of `scene`, if anything.
+fn loss(scene: &Scene) -> Result<(), String> {
+    let (read, export) = round(scene)?;
+    let (was, is) = (essence(scene), essence(&read));
+    // As text, which shows the sign of a zero too.
+    let (was, is) = (format!("{was:#?}"), format!("{is:#?}"));
+    if was != is {
+        let mut differing = was.lines().zip(is.lines()).filter(|(a, b)| a != b);
+        let first = differing.next();
+        let text = export.text.lines().take(120).collect::<Vec<_>>().join("\n");
+        return Err(format!("it was, and became, {first:?} in\n{text}"));
+    }
+    let (was, is) = (bytes(scene), bytes(&read));
+    if let Some(part) = (0..was.len().max(is.len())).find(|&i| was.get(i) != is.get(i)) {
+        let at = was[part].iter().zip(&is[part]).position(|(a, b)| a != b);
+        return Err(format!(
+            "part {part} of what is packed differs from byte {at:?} on"
+        ));
+    }
+    let again = round(&read)?.1;
+    match again == export {
+        true => Ok(()),
+        false => {
+            let mut differing =
+                (export.text.lines().zip(again.text.lines())).filter(|(a, b)| a != b);
+            Err(format!(
+                "the second time it is written otherwise: {:?}",
+                differing.next()
+            ))
+        }
+    }
+}
+
+/// The scene files below a folder.
+fn scenes_in(folder: &Path) -> Vec<PathBuf> {
+    let mut found: Vec<PathBuf> = Vec::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(folder) = open.pop() {
+        let Ok(entries) = fs::read_dir(&folder) else {
+            continue;
+        };
+        for path in entries.flatten().map(|entry| entry.path()) {
+            let ending = path.extension().and_then(|ending| ending.to_str());
+            match ending {
+                _ if path.is_dir() => open.push(path),
+                Some("toml" | "scene" | "nff" | "obj") => found.push(path),
+                _ => {}
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+#[test]
+fn every_scene_of_the_project_is_packed_to_the_same_bytes_after_it_was_written_and_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
+    let scenes = scenes_in(&folder);
+    assert!(scenes.len() > 15, "the scenes are in {}", folder.display());
+    let mut verdict = Verdict::on("round trips");
+    for path in scenes {
+        let lost = loss(&import::load(&path).expect("a scene"));
+        verdict.that(path.display(), lost.is_ok(), || lost.clone().unwrap_err());
+    }
+    verdict.close();
+}
+
+/// Models of other people that may lie beside the checkout, in all formats.
+#[test]
+fn models_from_elsewhere_are_packed_to_the_same_bytes_after_they_were_written_and_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
+    let mut verdict = Verdict::on("round trips");
+    for path in scenes_in(&folder) {
+        let lost = loss(&import::load(&path).expect("a scene"));
+        verdict.that(path.display(), lost.is_ok(), || lost.clone().unwrap_err());
+    }
+    verdict.close();
+}

@@ -1,0 +1,491 @@
+//! Scenes that nobody would write: everything in them is drawn by lot.
+
+use super::loss;
+use crate::support::random::Random;
+use crate::support::verdict::Verdict;
+use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3};
+use glimray::scene::*;
+use std::sync::Arc;
+
+fn vector(random: &mut Random) -> DVec3 {
+    let mut axis = || match random.below(4) {
+        0 => random.below(5) as f64 - 2.0,
+        1 => (random.between(-9.0, 9.0) * 10.0).round() / 10.0,
+        _ => random.between(-9.0, 9.0),
+    };
+    let vector = DVec3::new(axis(), axis(), axis());
+    // Zeros without a sign; those with one are drawn with matrices.
+    vector + 0.0
+}
+
+fn direction(random: &mut Random) -> DVec3 {
+    vector(random).normalize_or(DVec3::X)
+}
+
+fn color(random: &mut Random) -> Vec3 {
+    let mut channel = || match random.below(4) {
+        0 => random.below(3) as f32,
+        1 => linear_from_srgb(random.below(256) as f64 / 255.0) as f32,
+        _ => random.between(0.0, 3.0) as f32,
+    };
+    Vec3::new(channel(), channel(), channel())
+}
+
+fn angle(random: &mut Random) -> f64 {
+    match random.below(2) {
+        0 => (random.below(360) as f64 - 180.0).to_radians(),
+        _ => random.between(-7.0, 7.0),
+    }
+}
+
+fn turn(random: &mut Random) -> DQuat {
+    match random.below(3) {
+        0 => DQuat::IDENTITY,
+        1 => rotation(DVec3::new(0.0, 10.0 * random.below(36) as f64, 0.0)),
+        _ => DQuat::from_axis_angle(direction(random), angle(random)),
+    }
+}
+
+fn scale(random: &mut Random) -> DVec3 {
+    match random.below(3) {
+        0 => DVec3::ONE,
+        1 => DVec3::splat(random.between(0.1, 4.0)),
+        _ => vector(random).map_or_one(),
+    }
+}
+
+trait NotZero {
+    fn map_or_one(self) -> Self;
+}
+
+impl NotZero for DVec3 {
+    /// No component is 0.
+    fn map_or_one(self) -> Self {
+        Self::from(self.to_array().map(|x| if x == 0.0 { 1.0 } else { x }))
+    }
+}
+
+fn placement(random: &mut Random) -> DAffine3 {
+    let affine =
+        DAffine3::from_scale_rotation_translation(scale(random), turn(random), vector(random));
+    match random.below(4) {
+        0 => DAffine3::IDENTITY,
+        1 => DAffine3::from_translation(vector(random)),
+        // Slanted.
+        2 => {
+            let slant = DMat3::from_cols(DVec3::X, DVec3::new(0.3, 1.0, 0.0), DVec3::Z);
+            DAffine3::from_mat3(slant) * affine
+        }
+        _ => affine,
+    }
+}
+
+/// One of the indices below `count`, or none.
+fn maybe(random: &mut Random, count: usize) -> Option<usize> {
+    let index = random.below(2 * count + 1);
+    (index < count).then_some(index)
+}
+
+fn pick<T: Copy>(random: &mut Random, all: &[T]) -> T {
+    all[random.below(all.len())]
+}
+
+fn material(random: &mut Random, textures: usize) -> Material {
+    let mut material = Material {
+        diffuse: color(random),
+        specular: color(random),
+        shininess: random.between(0.0, 200.0) as f32,
+        ambient: color(random),
+        two_sided: random.below(2) == 0,
+        ..Material::default()
+    };
+    if random.below(3) == 0 {
+        material.ambient = material.diffuse;
+    }
+    if random.below(3) == 0 {
+        material.emission = color(random);
+    }
+    if random.below(2) == 0 {
+        material.reflect = color(random);
+    }
+    if random.below(2) == 0 {
+        material.transmit = color(random);
+        material.opacity = random.between(0.0, 1.0) as f32;
+        material.ior = random.between(0.5, 3.0) as f32;
+        material.absorption = color(random);
+        material.priority = random.below(9) as i32 - 4;
+    }
+    if random.below(3) == 0 {
+        // As glass is.
+        let amount = random.between(0.0, 1.0) as f32;
+        material.reflect = Vec3::splat(amount);
+        material.transmit = amount * color(random);
+        material.opacity = 1.0 - amount;
+    }
+    material.fresnel = pick(random, &[Fresnel::None, Fresnel::Exact, Fresnel::Schlick]);
+    material.mixing = pick(
+        random,
+        &[Mixing::Layer, Mixing::Layer, Mixing::Sum, Mixing::Blend],
+    );
+    if textures > 0 {
+        let mut slot = || maybe(random, textures);
+        material.textures = Textures {
+            diffuse: slot(),
+            specular: slot(),
+            ambient: slot(),
+            emission: slot(),
+            reflect: slot(),
+            transmit: slot(),
+        };
+    }
+    material
+}
+
+fn texture(random: &mut Random, pictures: usize) -> Texture {
+    let (a, b) = (color(random), color(random));
+    let pattern = match random.below(5) {
+        0 => Pattern::Checker { a, b },
+        1 => Pattern::Stripes { a, b },
+        2 => Pattern::Gradient { a, b },
+        3 => Pattern::Noise {
+            a,
+            b,
+            octaves: 1 + random.below(16) as u32,
+        },
+        _ => Pattern::Picture {
+            picture: random.below(pictures),
+            nearest: random.below(2) == 0,
+        },
+    };
+    Texture {
+        pattern,
+        space: pick(random, &[Space::World, Space::Uv]),
+        pattern_from_space: placement(random),
+    }
+}
+
+fn picture(random: &mut Random) -> Picture {
+    let (width, height) = (1 + random.below(5) as u32, 1 + random.below(5) as u32);
+    let texels = (0..width * height).map(|_| color(random)).collect();
+    Picture {
+        width,
+        height,
+        texels,
+    }
+}
+
+fn mesh(random: &mut Random, materials: usize) -> Mesh {
+    let count = 3 * (1 + random.below(20));
+    let mut mesh = Mesh {
+        positions: (0..count).map(|_| vector(random).as_vec3()).collect(),
+        normals: (0..count).map(|_| direction(random).as_vec3()).collect(),
+        materials: (0..count).map(|_| random.below(materials) as u32).collect(),
+        triangles: (0..count as u32 / 3)
+            .map(|i| [3 * i, 3 * i + 1, 3 * i + 2])
+            .collect(),
+        ..Mesh::default()
+    };
+    if random.below(2) == 0 {
+        let mut place = || random.between(-3.0, 3.0) as f32;
+        mesh.uvs = (0..count).map(|_| Vec2::new(place(), place())).collect();
+    }
+    if random.below(2) == 0 {
+        mesh.materials.fill(0);
+    }
+    mesh.repair();
+    mesh
+}
+
+fn geometry(random: &mut Random) -> Geometry {
+    let form = match random.below(8) {
+        0 => {
+            return Geometry::Sphere {
+                center: vector(random),
+                radius: random.between(0.1, 3.0),
+            };
+        }
+        1 => Form::Disc {
+            hole: pick(random, &[0.0, 0.5, 0.123_456_789]),
+        },
+        2 => Form::Rectangle,
+        3 => Form::Box,
+        4 => Form::Cone {
+            bottom: 1.0,
+            top: pick(random, &[1.0, 0.0, 0.3]),
+            capped: random.below(2) == 0,
+        },
+        5 => Form::Cone {
+            bottom: random.between(0.0, 1.0),
+            top: 1.0,
+            capped: random.below(2) == 0,
+        },
+        6 => Form::Torus {
+            minor: random.between(0.01, 1.0),
+        },
+        _ => Form::Ellipsoid,
+    };
+    Geometry::Placed {
+        form,
+        world_from_form: placement(random),
+    }
+}
+
+fn light(random: &mut Random, nodes: usize) -> Light {
+    let kind = match random.below(6) {
+        0 => LightKind::Point {
+            position: vector(random),
+        },
+        1 => LightKind::Directional {
+            direction: direction(random),
+        },
+        2 => {
+            let outer = angle(random).abs().min(1.5);
+            LightKind::Spot {
+                position: vector(random),
+                direction: direction(random),
+                inner: outer * pick(random, &[0.0, 0.5, 1.0]),
+                outer,
+            }
+        }
+        3 => {
+            let edge_u = direction(random);
+            LightKind::Rectangle {
+                center: vector(random),
+                edge_u: 0.3 * edge_u,
+                edge_v: 1.7 * edge_u.any_orthonormal_vector(),
+            }
+        }
+        4 => LightKind::Disc {
+            center: vector(random),
+            normal: direction(random),
+            radius: random.between(0.1, 2.0),
+        },
+        _ => LightKind::Sphere {
+            center: vector(random),
+            radius: random.between(0.1, 2.0),
+        },
+    };
+    let has_extent = kind.radiance().is_some();
+    let fades = !matches!(kind, LightKind::Directional { .. }) && random.below(2) == 0;
+    Light {
+        kind,
+        color: color(random),
+        attenuation: if fades {
+            Attenuation::InverseSquare
+        } else {
+            Attenuation::None
+        },
+        samples: if has_extent {
+            1 + random.below(30) as u32
+        } else {
+            1
+        },
+        visible: has_extent && random.below(2) == 0,
+        node: maybe(random, nodes),
+    }
+}
+
+fn track(random: &mut Random, scene: &Scene) -> Track {
+    let node = random.below(scene.nodes.len());
+    let (target, kind) = match random.below(6) {
+        0 => (Target::Node(node, NodeProperty::Translation), 0),
+        1 => (Target::Node(node, NodeProperty::Angles), 1),
+        2 => (Target::Node(node, NodeProperty::Rotation), 2),
+        3 => (Target::Node(node, NodeProperty::Visible), 3),
+        4 => (
+            Target::Camera(random.below(scene.cameras.len()), CameraProperty::FovY),
+            4,
+        ),
+        _ => {
+            let property = pick(
+                random,
+                &[MaterialProperty::Diffuse, MaterialProperty::Ambient],
+            );
+            (
+                Target::Material(random.below(scene.materials.len()), property),
+                5,
+            )
+        }
+    };
+    let count = 1 + random.below(4);
+    let interpolation = match kind {
+        3 => Interpolation::Step,
+        _ => pick(
+            random,
+            &[
+                Interpolation::Step,
+                Interpolation::Linear,
+                Interpolation::CatmullRom,
+                Interpolation::Hermite,
+            ],
+        ),
+    };
+    let is_hermite = interpolation == Interpolation::Hermite;
+    let each = if is_hermite { 3 } else { 1 };
+    let values = match kind {
+        0 => Values::Vector((0..each * count).map(|_| vector(random)).collect()),
+        1 => {
+            let mut angles = || DVec3::new(angle(random), 0.0, angle(random));
+            Values::Vector((0..each * count).map(|_| angles()).collect())
+        }
+        2 => Values::Rotation((0..each * count).map(|_| turn(random)).collect()),
+        3 => Values::Scalar((0..count).map(|_| random.below(2) as f64).collect()),
+        4 => Values::Scalar(
+            (0..each * count)
+                .map(|_| random.between(0.2, 2.0))
+                .collect(),
+        ),
+        _ => Values::Vector(
+            (0..each * count)
+                .map(|_| color(random).as_dvec3())
+                .collect(),
+        ),
+    };
+    let easing = match interpolation {
+        Interpolation::Linear => pick(
+            random,
+            &[
+                Easing::None,
+                Easing::IN,
+                Easing::Bezier([0.1, -0.3, 0.7, 1.9]),
+            ],
+        ),
+        _ => Easing::None,
+    };
+    Track {
+        targets: vec![target],
+        curve: Curve {
+            times: (0..count)
+                .map(|i| i as f64 + random.between(0.0, 0.9))
+                .collect(),
+            values,
+            interpolation,
+            easing,
+            beyond: pick(random, &[Beyond::Hold, Beyond::Repeat, Beyond::PingPong]),
+        },
+    }
+}
+
+fn scene(random: &mut Random) -> Scene {
+    let pictures: Vec<_> = (0..2).map(|_| Arc::new(picture(random))).collect();
+    let textures: Vec<_> = (0..4).map(|_| texture(random, pictures.len())).collect();
+    let materials: Vec<_> = (0..6).map(|_| material(random, textures.len())).collect();
+    let mut scene = Scene {
+        pictures,
+        textures,
+        materials,
+        ambient: color(random),
+        background: Background::Gradient {
+            bottom: color(random),
+            top: color(random),
+        },
+        staged: random.below(2) == 0,
+        shadows: pick(random, &[Shadows::Opaque, Shadows::Filtered]),
+        ..Scene::default()
+    };
+    // In the order in which textures show them.
+    let shown = scene
+        .textures
+        .iter()
+        .filter_map(|texture| match texture.pattern {
+            Pattern::Picture { picture, .. } => Some(picture),
+            _ => None,
+        });
+    if shown.clone().next() == Some(1) || shown.collect::<Vec<_>>().is_empty() {
+        for texture in &mut scene.textures {
+            if let Pattern::Picture { picture, .. } = &mut texture.pattern {
+                *picture = 0;
+            }
+        }
+    }
+    let used = scene
+        .textures
+        .iter()
+        .filter_map(|texture| match texture.pattern {
+            Pattern::Picture { picture, .. } => Some(picture + 1),
+            _ => None,
+        });
+    let used = used.max().unwrap_or(0);
+    scene.pictures.truncate(used);
+    for index in 0..5 {
+        scene.nodes.push(Node {
+            name: pick(random, &["", "arm", "leg", "node 2"]).to_owned(),
+            parent: maybe(random, index),
+            placement: placement(random),
+            translation: vector(random),
+            rotation: turn(random),
+            scale: scale(random),
+            visible: random.below(4) > 0,
+        });
+    }
+    let count = scene.materials.len();
+    scene.meshes = (0..3).map(|_| Arc::new(mesh(random, count))).collect();
+    for _ in 0..8 {
+        scene.instances.push(Instance {
+            mesh: random.below(3),
+            placement: placement(random),
+            node: maybe(random, 5),
+        });
+        let geometry = geometry(random);
+        scene.shapes.push(Shape {
+            geometry,
+            material: random.below(count),
+            node: maybe(random, 5),
+        });
+    }
+    scene.shapes.push(Shape {
+        geometry: Geometry::Plane {
+            point: vector(random),
+            normal: direction(random),
+        },
+        material: 0,
+        node: None,
+    });
+    scene.lights = (0..4).map(|_| light(random, 5)).collect();
+    for name in ["", "b", "b"] {
+        let lens = Lens {
+            radius: random.between(0.01, 0.2),
+            focus_distance: random.between(1.0, 9.0),
+            blade_count: pick(random, &[0, 5]),
+            blade_rotation: angle(random),
+        };
+        let node = maybe(random, 5);
+        scene.cameras.push(Camera {
+            name: name.to_owned(),
+            look_from: vector(random),
+            look_at: vector(random) + DVec3::new(0.0, 0.0, -40.0),
+            up: direction(random) + DVec3::new(0.0, 5.0, 0.0),
+            fov_y: random.between(0.1, 3.0),
+            orthographic_height: (name == "b").then_some(lens.focus_distance),
+            lens: (random.below(2) == 0).then_some(lens),
+            node,
+            target: None,
+        });
+    }
+    scene.camera_index = random.below(3);
+    let mut driven = Vec::new();
+    for _ in 0..5 {
+        let track = track(random, &scene);
+        // Both turn a node: it has one of them.
+        let slot = format!("{:?}", track.targets).replace("Angles", "Rotation");
+        if !driven.contains(&slot) {
+            driven.push(slot);
+            scene.tracks.push(track);
+        }
+    }
+    scene.output.exposure_ev = random.between(-2.0, 2.0) as f32;
+    scene.output.shutter.close = random.between(0.0, 1.0);
+    scene
+}
+
+#[test]
+fn scenes_drawn_by_lot_are_packed_to_the_same_bytes_after_they_were_written_and_read() {
+    let mut verdict = Verdict::on("round trips");
+    for seed in 0..60 {
+        let lost = loss(&scene(&mut Random::new(seed)));
+        verdict.that(format!("seed {seed}"), lost.is_ok(), || {
+            lost.clone().unwrap_err()
+        });
+    }
+    verdict.close();
+}

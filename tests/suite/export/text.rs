@@ -1,0 +1,201 @@
+//! What the text is like, and what lies beside it.
+
+use super::write;
+use glam::{DAffine3, DVec3, Vec3};
+use glimray::export::{self, ExportError};
+use glimray::import;
+use glimray::scene::{Camera, Form, Geometry, Instance, Material, Mesh, Picture, Scene, Shape};
+use std::path::Path;
+use std::sync::Arc;
+
+fn scene() -> Scene {
+    Scene {
+        materials: vec![Material::default()],
+        cameras: vec![Camera {
+            fov_y: 60_f64.to_radians(),
+            ..Camera::default()
+        }],
+        ..Scene::default()
+    }
+}
+
+fn text(scene: &Scene) -> String {
+    export::native(scene, "s", &|_, _| false)
+        .expect("an export")
+        .text
+}
+
+fn load(name: &str) -> Scene {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
+    import::load(&folder.join(name)).expect("a scene")
+}
+
+#[test]
+fn what_a_person_wrote_comes_back_in_the_same_numbers() {
+    let text = text(&load("glass_and_mirrors.toml"));
+    for line in [
+        "look_from = [0, 2.5, 9.2]",
+        "fov_y_deg = 28.5",
+        "checker = { a = \"#e6ddcf\", b = \"#76899a\" }",
+        "rotate_deg = [0, 32, 0]",
+        "refract = { absorption = [0.1, 0.03, 0.05] }",
+        "sphere = { center = [-2.35, 1.05, -1.1], radius = 1.05 }",
+        "transform = { translate = [2.75, 0.5, 0.55], rotate_deg = [0, 27, 0], scale = 0.5 }",
+        "torus = { center = [-2.05, 0.2, 1.75], major_radius = 0.52, minor_radius = 0.2 }",
+        "cone = { from = [-3.4, 0, 0.35], to = [-3.4, 1.3, 0.35], from_radius = 0.52 }",
+    ] {
+        assert!(
+            text.lines().any(|found| found == line),
+            "{line} is not in\n{text}"
+        );
+    }
+}
+
+#[test]
+fn what_is_as_by_default_is_not_written() {
+    let text = text(&scene());
+    let said: Vec<_> = text
+        .lines()
+        .filter(|l| !l.is_empty() && !l.starts_with('#'))
+        .collect();
+    let camera = ["[camera]", "look_from = [0, 0, 0]", "look_at = [0, 0, -1]"];
+    // A native material without a word on highlights has an exponent of 32.
+    let material = ["[materials.\"material 1\"]", "phong = { shininess = 1 }"];
+    assert_eq!(said, [&camera[..], &material[..]].concat());
+}
+
+#[test]
+fn names_that_are_missing_or_given_twice_become_different_ones() {
+    let named = |name: &str, red: f32| Material {
+        name: name.to_owned(),
+        diffuse: Vec3::new(red, 0.0, 0.0),
+        ..Material::default()
+    };
+    let mut scene = scene();
+    let names = ["a", "", "a", "material 2", "strange \"name\"\n[x]", ""];
+    scene.materials = (1..)
+        .zip(names)
+        .map(|(i, name)| named(name, i as f32))
+        .collect();
+    let export = export::native(&scene, "s", &|_, _| false).expect("an export");
+    let (_folder, path) = write(&export, "s");
+    let read = import::load(&path).expect("a scene");
+    let read: Vec<_> = read
+        .materials
+        .iter()
+        .map(|m| (m.diffuse.x, m.name.as_str()))
+        .collect();
+    let strange = names[4];
+    assert_eq!(
+        read,
+        [
+            (1.0, "a"),
+            (2.0, "material 3"),
+            (3.0, "a 2"),
+            (4.0, "material 2"),
+            (5.0, strange),
+            (6.0, "material 6")
+        ]
+    );
+}
+
+#[test]
+fn many_copies_in_a_row_are_one_object_and_a_file_of_places() {
+    let mut scene = scene();
+    scene.shapes = (0..5000_u32)
+        .map(|i| Shape {
+            geometry: Geometry::Sphere {
+                center: DVec3::new(0.1 * f64::from(i), 0.0, -1.0 / 3.0),
+                radius: 0.01 + 1e-7 * f64::from(i),
+            },
+            material: 0,
+            node: None,
+        })
+        .collect();
+    let export = export::native(&scene, "s", &|_, _| false).expect("an export");
+    assert_eq!(
+        export.text.matches("[[objects]]").count(),
+        1,
+        "{}",
+        export.text
+    );
+    assert_eq!(export.files.len(), 1);
+    let (_folder, path) = write(&export, "s");
+    assert_eq!(import::load(&path).expect("a scene").shapes, scene.shapes);
+}
+
+#[test]
+fn too_many_different_things_are_refused_with_a_number() {
+    let mut scene = scene();
+    scene.shapes = (0..60_000_u32)
+        .map(|i| Shape {
+            geometry: Geometry::Placed {
+                form: Form::Torus {
+                    minor: 0.1 + 1e-6 * f64::from(i),
+                },
+                world_from_form: DAffine3::IDENTITY,
+            },
+            material: 0,
+            node: None,
+        })
+        .collect();
+    let error = export::native(&scene, "s", &|_, _| false).expect_err("too much");
+    assert!(matches!(error, ExportError::TooBig { marks, limit: 500_000 } if marks > 500_000));
+    assert_eq!(error.to_string().lines().count(), 1);
+}
+
+#[test]
+fn a_picture_is_a_png_where_its_texels_are_those_of_one_and_otherwise_an_exr() {
+    let picture = |texels: Vec<Vec3>| {
+        let mut scene = scene();
+        scene.pictures.push(Arc::new(Picture {
+            width: 2,
+            height: 1,
+            texels,
+        }));
+        scene.background = glimray::scene::Background::Picture {
+            picture: 0,
+            strength: 1.0,
+            rotation: 1.0,
+        };
+        let export = export::native(&scene, "s", &|_, _| false).expect("an export");
+        let (_folder, path) = write(&export, "s");
+        let read = import::load(&path).expect("a scene");
+        assert_eq!(read.pictures, scene.pictures);
+        assert_eq!(read.background, scene.background);
+        export.files[0].name.clone()
+    };
+    assert_eq!(picture(vec![Vec3::ZERO, Vec3::ONE]), "s-picture-1.png");
+    let odd = Vec3::new(0.1, 1e-8, 12345.678);
+    assert_eq!(picture(vec![Vec3::ONE, odd]), "s-picture-1.exr");
+}
+
+#[test]
+fn files_that_are_in_the_way_are_left_alone() {
+    let mut scene = scene();
+    let corner = |x: f32, y: f32| Vec3::new(x, y, 0.0);
+    scene.meshes.push(Arc::new(Mesh {
+        name: "sail/../../x".to_owned(),
+        positions: vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0)],
+        normals: vec![Vec3::Z; 3],
+        materials: vec![0; 3],
+        triangles: vec![[0, 1, 2]],
+        ..Mesh::default()
+    }));
+    scene.instances.push(Instance {
+        mesh: 0,
+        placement: DAffine3::IDENTITY,
+        node: None,
+    });
+    let name = |taken: &dyn Fn(&str, &[u8]) -> bool| {
+        let export = export::native(&scene, "s", taken).expect("an export");
+        let name = export.files[0].name.clone();
+        assert!(export.text.contains(&format!("\"{name}\"")));
+        name
+    };
+    assert_eq!(name(&|_, _| false), "s-sail_______x.ply");
+    assert_eq!(
+        name(&|name, _| !name.contains("-3.")),
+        "s-sail_______x-3.ply"
+    );
+}
