@@ -18,7 +18,7 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench gallery build compiler driver lint headless
+.PHONY: help demo test bench gallery build compiler display driver lint headless
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png'
@@ -34,7 +34,7 @@ demo: build driver
 # Tests are built first, the program with them: `driver` needs it.
 test: lint headless
 	$(CARGO) test $(FLAGS) --no-run
-	@$(MAKE) --no-print-directory driver
+	@$(MAKE) --no-print-directory driver display
 	$(CARGO) test $(FLAGS)
 
 bench: build driver
@@ -60,6 +60,12 @@ driver:
 	status=0; $(GLIMRAY) doctor --backend vulkan >/dev/null 2>&1 || status=$$?; \
 	if [ $$status -ne 5 ]; then exit 0; fi; \
 	$(install) libvulkan1 mesa-vulkan-drivers && $(GLIMRAY) doctor --backend vulkan
+
+# An X server without a screen, and a hand for its mouse. Without them tests of the real window are skipped.
+display:
+	@if [ "$$(uname -s)" = Linux ] && ! { command -v Xvfb && command -v xdotool; } >/dev/null; then \
+		$(install) xvfb xdotool || echo 'Xvfb or xdotool is missing: the real window is not tested.'; \
+	fi
 
 lint: compiler
 	@$(CARGO) fmt --version >/dev/null && $(CARGO) clippy --version >/dev/null || \

@@ -27,6 +27,8 @@ mod report;
 pub mod scene_file;
 mod schema;
 mod turntable;
+#[cfg(feature = "viewer")]
+pub mod view;
 
 use clap::Parser;
 use cli::{Cli, Command};
@@ -39,7 +41,7 @@ use std::time::Instant;
 /// the standard error, and returns the exit code. `started` is when the process began: reports
 /// count from there.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, started: Instant) -> ExitCode {
-    let cli = match Cli::try_parse_from(arguments) {
+    let cli = match Cli::try_parse_from(with_command(arguments)) {
         Ok(cli) => cli,
         Err(error) => return exit::command_line(&error),
     };
@@ -49,12 +51,24 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, started: Instant) -> E
     }
 }
 
+/// A program that is started without words on a desktop opens its window.
+fn with_command(arguments: impl IntoIterator<Item = OsString>) -> Vec<OsString> {
+    let arguments: Vec<_> = arguments.into_iter().collect();
+    #[cfg(feature = "viewer")]
+    if arguments.len() == 1 && view::window::has_display() {
+        return [arguments, vec!["view".into()]].concat();
+    }
+    arguments
+}
+
 fn dispatch(command: Command, started: Instant) -> Result<(), AppError> {
     match command {
         Command::Demo(arguments) => demo::run(&arguments, started),
         Command::Render(arguments) => render::run(&arguments, started),
         Command::Animate(arguments) => animate::run(&arguments, started),
         Command::Turntable(arguments) => turntable::run(&arguments, started),
+        #[cfg(feature = "viewer")]
+        Command::View(arguments) => view::run(*arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

@@ -1,6 +1,8 @@
 //! `glimray bench`: built-in workloads, each rendered several times from the opening of the adapter
 //! on; the median counts.
 
+#[cfg(feature = "viewer")]
+mod viewer;
 mod workloads;
 
 use super::cli::BenchArgs;
@@ -33,10 +35,25 @@ pub fn run(arguments: &BenchArgs) -> Result<(), AppError> {
         }
         rows.push(row);
     }
+    let window = window(arguments)?;
     if arguments.json {
-        console::print_json(&json(&adapter, arguments, &rows))?;
+        console::print_json(&json(&adapter, arguments, &rows, window))?;
     }
     Ok(())
+}
+
+/// What the window is like, if that is wanted and there is one; printed unless JSON is.
+fn window(arguments: &BenchArgs) -> Result<Option<serde_json::Value>, AppError> {
+    #[cfg(feature = "viewer")]
+    if is_wanted(viewer::NAME, arguments.only.as_deref()) {
+        let row = viewer::measure(arguments)?;
+        if !arguments.json {
+            console::print(&viewer::text(&row))?;
+        }
+        return Ok(serde_json::to_value(row).ok());
+    }
+    let _ = arguments;
+    Ok(None)
 }
 
 fn is_wanted(name: &str, only: Option<&str>) -> bool {
@@ -166,11 +183,17 @@ fn text(row: &Row) -> String {
     )
 }
 
-fn json(adapter: &AdapterReport, arguments: &BenchArgs, rows: &[Row]) -> serde_json::Value {
+fn json(
+    adapter: &AdapterReport,
+    arguments: &BenchArgs,
+    rows: &[Row],
+    window: Option<serde_json::Value>,
+) -> serde_json::Value {
     serde_json::json!({
         "glimray": env!("CARGO_PKG_VERSION"),
         "adapter": super::report::Adapter::from(adapter),
         "repeats": arguments.repeats,
         "workloads": rows,
+        "viewer": window,
     })
 }

@@ -6,12 +6,14 @@ mod values;
 
 pub use flags::{
     CameraFlags, DeviceFlags, LogFlags, OutputFlags, PictureFlags, ProgressMode, SceneFlags,
-    SizeFlags,
+    SizeFlags, TapeFlags,
 };
 pub use motion::{
     MomentFlags, MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags,
 };
-pub use values::{INTEGRATORS, MAX_FRAME, TONES, TRANSFERS};
+#[cfg(feature = "viewer")]
+pub use values::Words;
+pub use values::{ANTIALIAS, FILTERS, INTEGRATORS, MAX_FRAME, TONES, TRANSFERS, TRIANGLE_TESTS};
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
@@ -66,6 +68,19 @@ pub enum Command {
             The camera goes round the model at a distance from which all of it is seen. Frames are \
             kept and runs go on as with `animate`.")]
     Turntable(Box<TurntableArgs>),
+    /// Open a window in which a scene is rendered while one looks at it.
+    #[cfg(feature = "viewer")]
+    #[command(after_help = "Examples:\n  \
+            glimray view\n  \
+            glimray view scene.toml\n  \
+            glimray view model.obj --look-from 0,1,4 --look-at 0,0,0 --samples 64\n  \
+            glimray view scene.toml --frame 12 --shutter 180deg --size 640x360\n\n\
+            Without a scene the window shows the demo; files can be dropped on it. The scene is read \
+            again when its file changes. Without --size the picture is as large as there is room for. \
+            In the window H shows all bindings. On a desktop, glimray alone does the same as \
+            glimray view. Settings are kept in viewer.toml in the settings folder, or in the folder that \
+            GLIMRAY_SETTINGS names.")]
+    View(Box<ViewArgs>),
     /// Write a scene as a native one (.toml) with its meshes and pictures beside it: the same picture,
     /// in words that can be edited.
     #[command(after_help = "Example: glimray convert model.obj -o model.toml\n\n\
@@ -180,6 +195,27 @@ pub struct TurntableArgs {
     pub device: DeviceFlags,
     #[command(flatten)]
     pub log: LogFlags,
+}
+
+#[cfg(feature = "viewer")]
+#[derive(Debug, Args)]
+pub struct ViewArgs {
+    /// The scene: any that `render` reads [default: the demo's]
+    pub scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: PictureFlags,
+    #[command(flatten)]
+    pub camera: CameraFlags,
+    #[command(flatten)]
+    pub moment: MomentFlags,
+    #[command(flatten)]
+    pub motion: MotionFlags,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+    #[command(flatten)]
+    pub tape: TapeFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
 }
 
 #[derive(Debug, Args)]

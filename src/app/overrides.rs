@@ -43,6 +43,39 @@ pub fn apply(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
     Ok(())
 }
 
+/// Makes `camera`, in the world, the one that the scene is seen by, as the flags for all of it would.
+/// Its lens stays the scene's where that changes over time.
+#[cfg(feature = "viewer")]
+pub fn see_by(scene: &mut Scene, camera: &Camera) {
+    for property in [
+        CameraProperty::LookFrom,
+        CameraProperty::LookAt,
+        CameraProperty::Up,
+        CameraProperty::FovY,
+        CameraProperty::OrthographicHeight,
+    ] {
+        stop(scene, property);
+    }
+    let index = scene.camera_index;
+    let is_lens = |target: &Target| {
+        matches!(target, Target::Camera(of, CameraProperty::FocusDistance | CameraProperty::LensRadius)
+            if *of == index)
+    };
+    let has_moving_lens = (scene.tracks.iter()).any(|track| track.targets.iter().any(is_lens));
+    let seen_by = &mut scene.cameras[index];
+    *seen_by = Camera {
+        name: std::mem::take(&mut seen_by.name),
+        lens: if has_moving_lens {
+            seen_by.lens
+        } else {
+            camera.lens
+        },
+        node: None,
+        target: None,
+        ..camera.clone()
+    };
+}
+
 /// Puts the camera where the flags say, in the world: whatever carried it goes on without it.
 fn place(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
     let start = scene.frame(0.0).camera;

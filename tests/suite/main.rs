@@ -63,3 +63,21 @@ mod textures;
 mod uv_view;
 #[cfg(feature = "video")]
 mod video;
+#[cfg(feature = "viewer")]
+mod view;
+#[cfg(feature = "viewer")]
+mod view_bindings;
+#[cfg(feature = "viewer")]
+mod view_command_line;
+#[cfg(feature = "viewer")]
+mod view_document;
+#[cfg(feature = "viewer")]
+mod view_handles;
+#[cfg(feature = "viewer")]
+mod view_navigation;
+#[cfg(feature = "viewer")]
+mod view_objects;
+#[cfg(feature = "viewer")]
+mod view_preferences;
+#[cfg(feature = "viewer")]
+mod view_readme;

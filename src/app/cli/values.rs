@@ -191,6 +191,21 @@ impl<T: PartialEq> Words<T> {
     }
 }
 
+#[cfg(feature = "viewer")]
+impl<T: Clone> Words<T> {
+    /// All words, each with what it does and what it stands for.
+    pub fn all(&self) -> &'static [(&'static str, &'static str, T)] {
+        self.0
+    }
+
+    /// What `word` stands for.
+    pub fn value(&self, word: &str) -> Option<T> {
+        let mut words = self.0.iter();
+        let found = words.find(|(known, ..)| *known == word);
+        found.map(|(.., value)| value.clone())
+    }
+}
+
 /// Pixels on a side of a picture.
 const MAX_SIDE: u32 = 1_000_000;
 

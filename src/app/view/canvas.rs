@@ -1,0 +1,415 @@
+//! One picture that follows its [`Order`]: coarse while something moves, then in full, sample by
+//! sample, and always on a screen.
+
+mod noise;
+mod pace;
+
+pub use pace::Pace;
+
+use super::super::overrides;
+use super::order::Order;
+use super::render_thread::{CanvasError, Place, Studio};
+use crate::gpu::Gpu;
+use crate::pack::{self, PackedScene, PackedView};
+use crate::render::{Antialias, Renderer, Screen, Settings, Stats};
+use crate::scene::{Camera, Frame, Scene};
+use noise::Noise;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// The least time between two looks at a picture that has to come to the host for it.
+const DETOUR: Duration = Duration::from_millis(500);
+/// What there is to see.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// The picture so far; where it has no sample yet it is transparent.
+    pub screen: Option<Screen>,
+    /// A coarse one of the same or what was before, to lie under it, stretched.
+    pub under: Option<Screen>,
+    /// While this is a part: the whole picture as it was last, to lie under both.
+    pub whole: Option<Screen>,
+    /// Which part of the picture this is: x, y, width and height in pixels of `size`.
+    pub region: [u32; 4],
+    /// Width and height of the whole picture.
+    pub size: (u32, u32),
+    /// How far it is.
+    pub progress: Progress,
+    /// What the renderer has cost since the window was opened.
+    pub stats: Stats,
+    /// What it renders on.
+    pub adapter: Arc<str>,
+}
+
+/// How far a picture is, and what it took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Progress {
+    /// Samples that every pixel has.
+    pub samples: u32,
+    /// Samples that it is to get.
+    pub target: u32,
+    /// Share of the work that is done, in 0..=1.
+    pub share: f64,
+    /// Seconds of tracing in this picture.
+    pub trace_seconds: f64,
+    /// Camera rays per second of tracing.
+    pub rays_per_second: f64,
+    /// Estimated root mean square error of the developed picture, in levels of 1; `None` before there
+    /// are enough samples, and without antialiasing.
+    pub noise: Option<f64>,
+    /// Whether this is the coarse picture.
+    pub is_coarse: bool,
+    /// Whether it has all its samples.
+    pub is_done: bool,
+}
+
+/// A picture, its renderer and its screens.
+pub struct Canvas {
+    gpu: Gpu,
+    place: Place,
+    order: Option<Order>,
+    /// Whether the picture is to stay coarse.
+    stays_coarse: bool,
+    is_coarse: bool,
+    packed: Option<Arc<PackedScene>>,
+    /// What it was packed from.
+    packed_from: Option<Arc<Scene>>,
+    /// The camera that it was packed for.
+    packed_for: Option<Camera>,
+    frames: Vec<Frame>,
+    renderer: Option<Renderer>,
+    screen: Option<Screen>,
+    coarse: Option<Screen>,
+    whole: Option<Screen>,
+    is_shown: bool,
+    last_look: Option<Instant>,
+    /// Seconds of work in this picture.
+    busy: f64,
+    pace: Pace,
+    adapter: Arc<str>,
+    spent: Spent,
+    noise: Noise,
+}
+
+/// What the renderer had counted when the picture began.
+#[derive(Clone, Copy, Default)]
+struct Spent {
+    seconds: f64,
+    samples: u64,
+}
+
+impl Canvas {
+    /// An empty one.
+    pub fn new(gpu: Gpu, place: Place) -> Self {
+        Self {
+            adapter: gpu.adapter().name.as_str().into(),
+            gpu,
+            place,
+            order: None,
+            stays_coarse: false,
+            is_coarse: false,
+            packed: None,
+            packed_from: None,
+            packed_for: None,
+            frames: Vec::new(),
+            renderer: None,
+            screen: None,
+            coarse: None,
+            whole: None,
+            is_shown: true,
+            last_look: None,
+            busy: 0.0,
+            pace: Pace::default(),
+            spent: Spent::default(),
+            noise: Noise::default(),
+        }
+    }
+
+    /// Takes up an order; what of the last one still serves is kept.
+    pub fn follow(&mut self, order: Option<&Order>, coarse: bool) -> Result<(), CanvasError> {
+        let Some(order) = order else {
+            let (gpu, place) = (self.gpu.clone(), self.place);
+            if self.order.is_some() {
+                *self = Self::new(gpu, place);
+            }
+            return Ok(());
+        };
+        let before = self.order.as_ref();
+        let is_other_scene = before.is_none_or(|b| !Arc::ptr_eq(&b.scene, &order.scene));
+        let shows_same = before.is_some_and(|b| b.shows_same(order));
+        let has_settings = before.is_some_and(|b| b.settings == order.settings);
+        self.stays_coarse = coarse;
+        if before.is_some_and(|before| before.tone != order.tone) {
+            self.is_shown = false;
+            self.noise = Noise::default();
+        }
+        let is_other_shot = before.is_none_or(|before| before.shot != order.shot);
+        let differs_in_samples = before.is_some_and(|b| {
+            let samples = order.settings.samples;
+            Settings {
+                samples,
+                ..b.settings.clone()
+            } == order.settings
+        });
+        if let Some(before) = self.order.replace(order.clone()) {
+            self.keep_whole(&before.settings, &order.settings);
+        }
+        if shows_same && has_settings && self.renderer.is_some() {
+            // A fine picture that is wanted coarse from now on is good enough until something changes.
+            return Ok(());
+        }
+        if shows_same && differs_in_samples && self.aim_at(order.settings.samples) {
+            return Ok(());
+        }
+        if is_other_scene || self.packed.is_none() {
+            self.pack(order)?;
+        } else if is_other_shot {
+            self.frames = order.scene.shot(order.shot.0, order.shot.1);
+        }
+        // A picture at rest begins coarse too, so that there is something to see at once.
+        self.begin(true)
+    }
+
+    /// Goes on from the samples that there are. Whether that is possible.
+    fn aim_at(&mut self, samples: u32) -> bool {
+        match &mut self.renderer {
+            // All that is to be fine is still to come.
+            Some(_) if self.is_coarse => true,
+            Some(renderer) => renderer.continue_to(samples),
+            None => false,
+        }
+    }
+
+    /// Keeps the picture while only a part of it is rendered. Screens of another part are of no use.
+    fn keep_whole(&mut self, before: &Settings, now: &Settings) {
+        if before.crop == now.crop
+            || before.size != now.size && now.crop.is_some() == before.crop.is_some()
+        {
+            return;
+        }
+        let screen = self.screen.take().filter(|_| !self.is_coarse);
+        let screen = screen.or(self.coarse.take());
+        if before.crop.is_none() {
+            self.whole = screen;
+        } else if now.crop.is_none() {
+            self.coarse = self.whole.take();
+        }
+    }
+
+    fn pack(&mut self, order: &Order) -> Result<(), CanvasError> {
+        let scene = seen(order);
+        let kept = match (&self.packed, &self.packed_from) {
+            (Some(packed), Some(was)) => packed.with_surfaces(was, &scene)?,
+            _ => None,
+        };
+        let packed = match kept {
+            Some(packed) => packed,
+            None => pack::scene(&scene)?,
+        };
+        self.packed = Some(Arc::new(packed));
+        self.packed_from = Some(scene.clone());
+        self.packed_for = order.camera.clone();
+        self.frames = scene.shot(order.shot.0, order.shot.1);
+        Ok(())
+    }
+
+    /// Goes on from the coarse picture to the fine one, for which the scene is packed round the camera
+    /// (pack.rs): while something moves that is not worth its time.
+    fn refine(&mut self) -> Result<(), CanvasError> {
+        if let Some(order) = self.order.clone()
+            && self.packed_for != order.camera
+        {
+            self.pack(&order)?;
+        }
+        self.begin(false)
+    }
+
+    /// Starts the picture over.
+    fn begin(&mut self, coarse: bool) -> Result<(), CanvasError> {
+        let (Some(order), Some(packed)) = (&self.order, &self.packed) else {
+            return Ok(());
+        };
+        let view = view(packed, &self.frames, order)?;
+        let settings = match coarse {
+            true => pace::coarse(&self.gpu, &mut self.pace, &order.settings),
+            false => pace::fine(&self.gpu, &order.settings),
+        };
+        let packed = packed.clone();
+        match &mut self.renderer {
+            Some(renderer) => renderer.restart(packed, &view, settings)?,
+            None => {
+                let gpu = self.gpu.clone();
+                self.renderer = Some(Renderer::new(gpu, packed, &view, settings)?);
+            }
+        }
+        self.is_coarse = coarse;
+        self.is_shown = false;
+        self.last_look = None;
+        self.busy = 0.0;
+        self.noise = Noise::default();
+        if let Some(renderer) = &self.renderer {
+            let stats = renderer.stats();
+            self.spent = Spent {
+                seconds: stats.trace_seconds,
+                samples: stats.samples,
+            };
+        }
+        Ok(())
+    }
+
+    /// Whether the picture has all its samples and they are on the screen.
+    pub fn is_done(&self) -> bool {
+        let is_traced = self.renderer.as_ref().is_none_or(Renderer::is_done);
+        self.is_shown && is_traced && (self.stays_coarse || !self.is_coarse)
+    }
+
+    /// Whether what there is so far is on a screen.
+    pub fn is_shown(&self) -> bool {
+        self.is_shown
+    }
+
+    /// Whether there is a renderer to ask.
+    pub fn is_ready(&self) -> bool {
+        self.renderer.is_some() && !self.is_coarse
+    }
+
+    /// How far it is behind others: the lowest comes next.
+    pub fn rank(&self) -> f64 {
+        match &self.renderer {
+            Some(renderer) if !self.is_coarse => renderer.progress(),
+            _ => -1.0,
+        }
+    }
+
+    /// Adds samples for a slice of time and shows them. Those of a `paused` picture are only shown, once
+    /// there are any.
+    pub fn step(&mut self, paused: bool) -> Result<(), CanvasError> {
+        let started = Instant::now();
+        let is_traced = self.renderer.as_ref().is_some_and(Renderer::is_done);
+        if self.is_coarse && !self.stays_coarse && is_traced && self.is_shown && !paused {
+            self.refine()?;
+        }
+        let (Some(renderer), Some(order)) = (&mut self.renderer, &self.order) else {
+            return Ok(());
+        };
+        let is_held = paused && !self.is_coarse && self.last_look.is_some();
+        if !is_held {
+            renderer.step()?;
+        }
+        let is_due = renderer.is_done()
+            || is_held
+            || renderer.shows_directly()
+            || self.last_look.is_none_or(|last| last.elapsed() > DETOUR);
+        // A coarse picture comes as a whole.
+        if !is_due || self.is_coarse && !renderer.is_done() {
+            self.is_shown = false;
+            self.busy += started.elapsed().as_secs_f64();
+            return Ok(());
+        }
+        let screen = match self.is_coarse {
+            true => &mut self.coarse,
+            false => &mut self.screen,
+        };
+        let [.., width, height] = renderer.region();
+        let screen = match screen {
+            Some(screen) if screen.size() == (width, height) => screen,
+            _ => screen.insert(renderer.new_screen()?),
+        };
+        renderer.show(&order.tone, screen)?;
+        self.busy += started.elapsed().as_secs_f64();
+        if self.is_coarse && self.last_look.is_none() {
+            (self.pace).measured(self.busy, u64::from(width) * u64::from(height));
+        }
+        self.is_shown = true;
+        self.last_look = Some(Instant::now());
+        self.estimate_noise()
+    }
+
+    /// Looks at the picture each time its samples have doubled.
+    fn estimate_noise(&mut self) -> Result<(), CanvasError> {
+        let (Some(renderer), Some(order)) = (&mut self.renderer, &self.order) else {
+            return Ok(());
+        };
+        let samples = renderer.samples_done();
+        let is_estimable = !self.is_coarse
+            && self.place == Place::Main
+            && order.settings.antialias != Antialias::None;
+        if is_estimable && self.noise.is_due(samples) {
+            self.noise.look(&renderer.develop(&order.tone)?, samples);
+        }
+        Ok(())
+    }
+
+    /// What there is to see.
+    pub fn shown(&self) -> Option<Shown> {
+        let (renderer, order) = (self.renderer.as_ref()?, self.order.as_ref()?);
+        let stats = renderer.stats();
+        let seconds = stats.trace_seconds - self.spent.seconds;
+        let rays = stats.samples - self.spent.samples;
+        let has_picture = !self.is_coarse && self.last_look.is_some();
+        Some(Shown {
+            screen: self.screen.clone().filter(|_| has_picture),
+            under: self.coarse.clone().or(self.screen.clone()),
+            whole: self.whole.clone(),
+            region: order.settings.region(),
+            size: order.settings.size,
+            progress: Progress {
+                samples: renderer.samples_done(),
+                target: order.settings.samples,
+                share: renderer.progress(),
+                trace_seconds: seconds,
+                rays_per_second: rays as f64 / seconds.max(1e-9),
+                noise: self.noise.estimate(),
+                is_coarse: self.is_coarse,
+                is_done: self.is_done(),
+            },
+            stats: stats.clone(),
+            adapter: self.adapter.clone(),
+        })
+    }
+
+    /// For questions: not while the coarse picture is in the renderer's film.
+    pub fn studio(&mut self) -> Option<Studio<'_>> {
+        (!self.is_coarse).then_some(())?;
+        Some(Studio {
+            renderer: self.renderer.as_mut()?,
+            order: self.order.as_ref()?,
+            outside: None,
+        })
+    }
+}
+
+/// The scene as the order's camera sees it.
+fn seen(order: &Order) -> Arc<Scene> {
+    if order.camera.is_none() && order.background.is_none() {
+        return order.scene.clone();
+    }
+    let mut scene = Scene::clone(&order.scene);
+    if let Some(camera) = &order.camera {
+        overrides::see_by(&mut scene, camera);
+    }
+    if let Some(background) = &order.background {
+        scene.background = background.clone();
+    }
+    Arc::new(scene)
+}
+
+/// The frames with the order's camera and background.
+fn view(
+    packed: &PackedScene,
+    frames: &[Frame],
+    order: &Order,
+) -> Result<PackedView, pack::PackError> {
+    if order.camera.is_none() && order.background.is_none() {
+        return packed.shot(frames);
+    }
+    let mut frames = frames.to_vec();
+    for frame in &mut frames {
+        if let Some(camera) = &order.camera {
+            frame.camera = camera.clone();
+        }
+        if let Some(background) = &order.background {
+            frame.background = background.clone();
+        }
+    }
+    packed.shot(&frames)
+}

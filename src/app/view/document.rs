@@ -1,0 +1,260 @@
+//! The scene that is being edited, and the way back.
+//!
+//! A step keeps the scene as it was before: that is cheap, because meshes and pictures are shared.
+
+use crate::scene::{
+    Camera, Instance, Light, Material, Mesh, Node, Picture, Scene, Shape, Texture, Track,
+};
+use std::mem::size_of;
+use std::sync::Arc;
+
+/// How many steps can be taken back.
+const MAX_STEPS: usize = 1000;
+
+/// Bytes that all steps may hold together, about; the last one is always kept.
+const MAX_BYTES: usize = 256 << 20;
+
+/// A scene, what was done to it, and whether that is saved.
+#[derive(Clone, Debug)]
+pub struct Document {
+    scene: Arc<Scene>,
+    saved: Arc<Scene>,
+    done: Vec<Step>,
+    undone: Vec<Step>,
+    /// The last step goes on: [`Document::drag`] adds to it.
+    is_dragging: bool,
+    max_bytes: usize,
+}
+
+/// An edit: the scene before it, or after it if it was undone.
+#[derive(Clone, Debug)]
+struct Step {
+    name: String,
+    scene: Arc<Scene>,
+    /// About.
+    bytes: usize,
+}
+
+impl Document {
+    /// A scene as it is in its file.
+    pub fn new(scene: Scene) -> Self {
+        let scene = Arc::new(scene);
+        Self {
+            saved: scene.clone(),
+            scene,
+            done: Vec::new(),
+            undone: Vec::new(),
+            is_dragging: false,
+            max_bytes: MAX_BYTES,
+        }
+    }
+
+    /// The same with a limit on the bytes that all steps may hold together, about.
+    pub fn with_memory(self, max_bytes: usize) -> Self {
+        Self { max_bytes, ..self }
+    }
+
+    /// The scene as it is now. Another one after every change, so that whoever keeps it sees by
+    /// [`Arc::ptr_eq`] whether there was any.
+    pub fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
+    /// Changes the scene in one step, which `name` names in words such as "move sphere 3".
+    pub fn edit<T>(&mut self, name: &str, change: impl FnOnce(&mut Scene) -> T) -> T {
+        let (scene, result) = changed(&self.scene, change);
+        self.release();
+        self.push(name, scene);
+        result
+    }
+
+    /// Changes the scene in one step, or leaves it as it is.
+    ///
+    /// # Errors
+    /// That of `change`.
+    pub fn try_edit<T, E>(
+        &mut self,
+        name: &str,
+        change: impl FnOnce(&mut Scene) -> Result<T, E>,
+    ) -> Result<T, E> {
+        let (scene, result) = changed(&self.scene, change);
+        if result.is_ok() {
+            self.release();
+            self.push(name, scene);
+        }
+        result
+    }
+
+    /// Changes the scene as one of many changes that together are one step, as long as a handle is
+    /// dragged or a key held: all until [`Document::release`]. `change` gets the scene as it was when
+    /// that began, so that it can go by how far the mouse is from there.
+    ///
+    /// # Errors
+    /// That of `change`; the scene then stays as it is.
+    pub fn drag<T, E>(
+        &mut self,
+        name: &str,
+        change: impl FnOnce(&mut Scene) -> Result<T, E>,
+    ) -> Result<T, E> {
+        let start = match self.done.last() {
+            Some(step) if self.is_dragging => &step.scene,
+            _ => &self.scene,
+        };
+        let (scene, result) = changed(start, change);
+        let result = result?;
+        if self.is_dragging {
+            self.scene = Arc::new(scene);
+        } else {
+            self.push(name, scene);
+            self.is_dragging = true;
+        }
+        Ok(result)
+    }
+
+    /// Ends what [`Document::drag`] began: the next change is a step of its own.
+    pub fn release(&mut self) {
+        self.is_dragging = false;
+    }
+
+    /// Takes back what [`Document::drag`] did since it began, and forgets it.
+    pub fn cancel(&mut self) {
+        if std::mem::take(&mut self.is_dragging)
+            && let Some(step) = self.done.pop()
+        {
+            self.scene = step.scene;
+        }
+    }
+
+    /// Takes the last step back and returns its name; `None` if there is none.
+    pub fn undo(&mut self) -> Option<String> {
+        self.release();
+        let step = self.done.pop()?;
+        self.undone.push(Step {
+            scene: std::mem::replace(&mut self.scene, step.scene),
+            name: step.name.clone(),
+            bytes: step.bytes,
+        });
+        Some(step.name)
+    }
+
+    /// Does the last step again that was taken back and returns its name; `None` if there is none.
+    pub fn redo(&mut self) -> Option<String> {
+        self.release();
+        let step = self.undone.pop()?;
+        self.done.push(Step {
+            scene: std::mem::replace(&mut self.scene, step.scene),
+            name: step.name.clone(),
+            bytes: step.bytes,
+        });
+        Some(step.name)
+    }
+
+    /// What [`Document::undo`] would take back.
+    pub fn undo_name(&self) -> Option<&str> {
+        self.done.last().map(|step| step.name.as_str())
+    }
+
+    /// What [`Document::redo`] would do again.
+    pub fn redo_name(&self) -> Option<&str> {
+        self.undone.last().map(|step| step.name.as_str())
+    }
+
+    /// How many steps can be taken back.
+    pub fn undo_count(&self) -> usize {
+        self.done.len()
+    }
+
+    /// Whether the scene is another one than that last saved or loaded.
+    pub fn is_changed(&self) -> bool {
+        !Arc::ptr_eq(&self.scene, &self.saved)
+    }
+
+    /// Says that the scene was saved as it is now.
+    pub fn mark_saved(&mut self) {
+        self.release();
+        self.saved = self.scene.clone();
+    }
+
+    /// Back to the scene as it was last saved or loaded, in a step that can itself be taken back.
+    pub fn revert(&mut self) {
+        if self.is_changed() {
+            self.release();
+            let saved = self.saved.clone();
+            self.push_shared("revert", saved);
+        }
+    }
+
+    /// Takes the scene from its file anew: that is the saved state now. What was done before can be
+    /// taken back still.
+    pub fn reload(&mut self, scene: Scene) {
+        self.release();
+        let scene = Arc::new(scene);
+        self.saved = scene.clone();
+        self.push_shared("reload", scene);
+    }
+
+    fn push(&mut self, name: &str, scene: Scene) {
+        self.push_shared(name, Arc::new(scene));
+    }
+
+    fn push_shared(&mut self, name: &str, scene: Arc<Scene>) {
+        let before = std::mem::replace(&mut self.scene, scene);
+        self.undone.clear();
+        self.done.push(Step {
+            name: name.to_owned(),
+            bytes: own_bytes(&before, &self.scene),
+            scene: before,
+        });
+        let mut bytes: usize = self.done.iter().map(|step| step.bytes).sum();
+        let mut dropped = 0;
+        while self.done.len() - dropped > 1
+            && (bytes > self.max_bytes || self.done.len() - dropped > MAX_STEPS)
+        {
+            bytes -= self.done[dropped].bytes;
+            dropped += 1;
+        }
+        self.done.drain(..dropped);
+    }
+}
+
+fn changed<T>(scene: &Scene, change: impl FnOnce(&mut Scene) -> T) -> (Scene, T) {
+    let mut scene = scene.clone();
+    let result = change(&mut scene);
+    (scene, result)
+}
+
+/// Bytes that keeping `scene` takes where `next` is kept anyway, about.
+fn own_bytes(scene: &Scene, next: &Scene) -> usize {
+    fn of<T>(list: &[T]) -> usize {
+        size_of_val(list)
+    }
+    let mut bytes = size_of::<Scene>();
+    bytes += of::<Instance>(&scene.instances) + of::<Shape>(&scene.shapes);
+    bytes += of::<Material>(&scene.materials) + of::<Texture>(&scene.textures);
+    bytes += of::<Light>(&scene.lights) + of::<Camera>(&scene.cameras);
+    bytes += of::<Node>(&scene.nodes) + of::<Track>(&scene.tracks);
+    let keys = scene.tracks.iter().map(|track| track.curve.times.len());
+    bytes += keys.sum::<usize>() * 8 * size_of::<f64>();
+    for (index, mesh) in scene.meshes.iter().enumerate() {
+        let is_shared = (next.meshes.get(index)).is_some_and(|other| Arc::ptr_eq(mesh, other));
+        if !is_shared {
+            let Mesh {
+                positions,
+                normals,
+                uvs,
+                materials,
+                triangles,
+                ..
+            } = mesh.as_ref();
+            bytes += of(positions) + of(normals) + of(uvs) + of(materials) + of(triangles);
+        }
+    }
+    for (index, picture) in scene.pictures.iter().enumerate() {
+        let is_shared = (next.pictures.get(index)).is_some_and(|other| Arc::ptr_eq(picture, other));
+        if !is_shared {
+            let Picture { texels, .. } = picture.as_ref();
+            bytes += of(texels);
+        }
+    }
+    bytes
+}

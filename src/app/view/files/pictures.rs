@@ -1,0 +1,330 @@
+//! The picture on screen → a file, as `glimray render` would write it.
+
+use super::super::question::Answer;
+use super::super::render_thread::{Place, Studio};
+use super::super::session::Session;
+use super::dialogs::{Reply, Request};
+use super::{NO_DIALOG, screenshot, short};
+use crate::app::job;
+use crate::image::Image;
+use crate::output::{self, Format, SaveOptions};
+use crate::render::Tone;
+use eframe::egui;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+/// Where a picture goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// The file.
+    pub path: PathBuf,
+    /// By its ending.
+    pub format: Format,
+    /// Of a JPEG, 1 to 100.
+    pub quality: u8,
+    /// Whether a file of that name is to be replaced.
+    pub replaces: bool,
+}
+
+/// What a person says about a picture that is to be saved.
+pub struct SaveSheet {
+    /// The file, as it is typed.
+    pub path: String,
+    /// Of a JPEG, 1 to 100.
+    pub quality: u8,
+    /// Whether what is drawn over the picture is part of it.
+    pub overlays: bool,
+    /// The name that a dialog gave, after asking whether to replace what is there.
+    agreed: Option<PathBuf>,
+    asked: Option<Receiver<Reply>>,
+}
+
+/// A picture for a file, and what is said about it.
+#[derive(Debug)]
+pub struct Taken {
+    image: Option<Image>,
+    samples: u32,
+    of: u32,
+    target: Target,
+}
+
+/// What is on its way to the disk.
+#[derive(Default)]
+pub(super) struct Pending {
+    /// To be saved when the picture is finished.
+    waiting: Option<Target>,
+    /// Asked of the render thread.
+    is_asking: bool,
+    pub(super) pose: Option<screenshot::Pose>,
+    writing: Vec<Receiver<Result<String, String>>>,
+    quality: Option<u8>,
+    folder: Option<PathBuf>,
+}
+
+impl Pending {
+    pub fn is_writing(&self) -> bool {
+        !self.writing.is_empty() || self.is_asking || self.pose.is_some()
+    }
+
+    pub fn is_posing(&self) -> bool {
+        self.pose.is_some()
+    }
+
+    pub fn waits(&self) -> bool {
+        self.waiting.is_some()
+    }
+}
+
+impl SaveSheet {
+    /// Where it would go, or why it cannot.
+    pub fn target(&self) -> Result<Target, String> {
+        let path = PathBuf::from(self.path.trim());
+        if path.as_os_str().is_empty() {
+            return Err("Type a name, such as picture.png.".to_owned());
+        }
+        let Some(format) = Format::from_path(&path) else {
+            return Err(format!("The name must end in one of {}.", Format::ENDINGS));
+        };
+        if self.overlays && format.is_linear() {
+            return Err("What is drawn over the picture fits .png and .jpg only.".to_owned());
+        }
+        if path.is_dir() {
+            return Err("That is a folder.".to_owned());
+        }
+        let folder = (path.parent()).filter(|folder| !folder.as_os_str().is_empty());
+        if folder.is_some_and(|folder| !folder.is_dir()) {
+            return Err("There is no such folder.".to_owned());
+        }
+        Ok(Target {
+            replaces: path.exists(),
+            path,
+            format,
+            quality: self.quality,
+        })
+    }
+
+    /// Whether a file would be replaced that the person was not asked about.
+    pub fn must_ask(&self, target: &Target) -> bool {
+        target.replaces && self.agreed.as_ref() != Some(&target.path)
+    }
+}
+
+/// Opens the sheet, with a name that is free.
+pub fn open(session: &mut Session, overlays: bool) {
+    if session.scene().is_none() {
+        session.notices.tell("there is no picture yet");
+        return;
+    }
+    let path = free_name(session).to_string_lossy().into_owned();
+    session.files.saving = Some(SaveSheet {
+        path,
+        quality: session.files.pending.quality.unwrap_or(90),
+        overlays,
+        agreed: None,
+        asked: None,
+    });
+}
+
+/// The scene's name and the lowest number that is free, where the last picture went.
+fn free_name(session: &Session) -> PathBuf {
+    let scene = session.path.as_deref();
+    let stem = scene.and_then(Path::file_stem).unwrap_or("demo".as_ref());
+    let folder = (session.files.pending.folder.as_deref())
+        .or(scene.and_then(Path::parent))
+        .unwrap_or(Path::new(""));
+    let name = |number: u32| {
+        let mut name = stem.to_owned();
+        name.push(format!("_{number}.png"));
+        folder.join(name)
+    };
+    let mut number = 1;
+    while name(number).exists() && number < 10_000 {
+        number += 1;
+    }
+    name(number)
+}
+
+/// Asks the desktop for a name.
+pub fn browse(session: &mut Session, ctx: &egui::Context) {
+    let Some(sheet) = &mut session.files.saving else {
+        return;
+    };
+    let path = Path::new(sheet.path.trim());
+    let folder = path.parent().filter(|folder| folder.is_dir());
+    let request = Request {
+        saves: true,
+        title: "Save the picture".to_owned(),
+        folder: folder.map(Path::to_owned),
+        name: path.file_name().map(|n| n.to_string_lossy().into_owned()),
+    };
+    sheet.asked = Some(session.files.dialogs.ask(request, ctx));
+}
+
+/// Saves what the sheet says, now or when the picture is finished.
+pub fn save(session: &mut Session, waits: bool) {
+    let Some(sheet) = session.files.saving.take() else {
+        return;
+    };
+    let target = match sheet.target() {
+        Ok(target) => target,
+        Err(_) => {
+            session.files.saving = Some(sheet);
+            return;
+        }
+    };
+    let pending = &mut session.files.pending;
+    pending.quality = Some(sheet.quality);
+    pending.folder = target.path.parent().map(Path::to_owned);
+    if sheet.overlays {
+        pending.pose = Some(screenshot::Pose::new(target));
+    } else if waits {
+        let name = short(&target.path);
+        session.notices.tell(format!(
+            "{name} will be written when the picture is finished"
+        ));
+        session.files.pending.waiting = Some(target);
+    } else {
+        ask(session, target, false);
+    }
+}
+
+/// Forgets a picture that waits to be finished.
+pub fn cancel(session: &mut Session) {
+    session.files.pending.waiting = None;
+}
+
+/// Asks the render thread for the picture.
+fn ask(session: &mut Session, target: Target, waits: bool) {
+    let integrator = session.look.settings.integrator;
+    let Some(scene) = session.scene() else {
+        return;
+    };
+    let linear = job::tone(&scene.output, &session.flags.picture, integrator, true);
+    session.files.pending.is_asking = true;
+    session.ask(move |studio| take(studio, target, waits, linear));
+}
+
+fn take(studio: &mut Studio, target: Target, waits: bool, linear: Tone) -> Answer {
+    let of = studio.settings().samples;
+    let mut taken = Taken {
+        image: None,
+        samples: 0,
+        of,
+        target,
+    };
+    if waits && !studio.renderer.is_done() {
+        return Answer::Picture(Box::new(taken));
+    }
+    let tone = match taken.target.format.is_linear() {
+        true => linear,
+        false => studio.order.tone,
+    };
+    match studio.image(&tone) {
+        Ok((image, samples)) => {
+            taken.samples = samples;
+            taken.image = Some(image);
+            Answer::Picture(Box::new(taken))
+        }
+        Err(error) => Answer::Failed(error.to_string()),
+    }
+}
+
+/// Takes up what the render thread answered.
+pub fn taken(session: &mut Session, taken: Taken) {
+    session.files.pending.is_asking = false;
+    let Some(image) = taken.image else {
+        session.files.pending.waiting = Some(taken.target);
+        return;
+    };
+    let how_far = match taken.samples < taken.of {
+        true => format!(" ({} of {} samples)", taken.samples, taken.of),
+        false => String::new(),
+    };
+    write(session, image, taken.target, how_far);
+}
+
+/// Writes on a thread of its own.
+pub(super) fn write(session: &mut Session, image: Image, target: Target, how_far: String) {
+    let (sender, receiver) = channel();
+    let work = move || {
+        let options = SaveOptions {
+            format: Some(target.format),
+            quality: target.quality,
+            clobber: target.replaces,
+        };
+        let written = output::save_with(&target.path, &image, &options);
+        let outcome = match written {
+            Ok(()) => Ok(format!("wrote {}{how_far}", target.path.display())),
+            Err(error) => Err(error.to_string()),
+        };
+        // The window may have been closed meanwhile.
+        let _ = sender.send(outcome);
+    };
+    match std::thread::Builder::new().name("save".into()).spawn(work) {
+        Ok(_) => session.files.pending.writing.push(receiver),
+        Err(error) => session
+            .notices
+            .warn(format!("cannot write a picture: {error}.")),
+    }
+}
+
+/// What became of pictures since the last frame.
+pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
+    take_reply(session);
+    screenshot::update(session, ctx);
+    let notices = &mut session.notices;
+    session.files.pending.writing.retain(|receiver| {
+        match receiver.try_recv() {
+            Ok(Ok(told)) => notices.tell(told),
+            Ok(Err(why)) => notices.warn(why),
+            Err(TryRecvError::Empty) => return true,
+            Err(TryRecvError::Disconnected) => {
+                notices.warn("internal fault (writing a picture). Please report it.".to_owned());
+            }
+        }
+        false
+    });
+}
+
+/// Saves a picture that waited, when what is on screen is finished.
+pub fn finish(session: &mut Session, is_done: bool) {
+    if is_done
+        && !session.files.pending.is_asking
+        && let Some(target) = session.files.pending.waiting.take()
+    {
+        ask(session, target, true);
+    }
+}
+
+fn take_reply(session: &mut Session) {
+    let Some(sheet) = &mut session.files.saving else {
+        return;
+    };
+    let Some(reply) = sheet.asked.as_ref().map(Receiver::try_recv) else {
+        return;
+    };
+    match reply {
+        Err(TryRecvError::Empty) => return,
+        Ok(Reply::Chosen(mut path)) => {
+            let agreed = path.clone();
+            if path.extension().is_none() {
+                path.set_extension("png");
+            }
+            sheet.path = path.to_string_lossy().into_owned();
+            sheet.agreed = (agreed == path).then_some(agreed);
+        }
+        Ok(Reply::Cancelled) => {}
+        Ok(Reply::Unavailable) | Err(TryRecvError::Disconnected) => {
+            session.notices.warn(NO_DIALOG.to_owned());
+        }
+    }
+    sheet.asked = None;
+}
+
+/// The picture on screen is of these many pixels.
+pub fn size(session: &Session) -> (u32, u32) {
+    let orders = session.orders();
+    let order = orders.pictures[Place::Main as usize].as_ref();
+    let region = order.map(|order| order.settings.region());
+    region.map_or((0, 0), |[.., width, height]| (width, height))
+}

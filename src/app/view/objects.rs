@@ -1,0 +1,383 @@
+//! What can be done to one object of a scene: read and set where it is, hide it, remove it, make
+//! another, give it a material.
+
+mod frame;
+mod place;
+mod scope;
+
+pub use frame::{of_geometry, of_light};
+pub use place::{Freedom, Scaling, freedom, place, set_place};
+pub use scope::{bounds, hide_others, is_there, name, rename, show_all};
+
+use crate::scene::{Node, ObjectRef, Scene, Target};
+use std::sync::Arc;
+
+/// Something in a scene that can be selected. Indices are those of the scene's lists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Id {
+    /// What has a place and is seen or shines.
+    Object(ObjectRef),
+    /// What carries others.
+    Node(usize),
+    /// A camera.
+    Camera(usize),
+    /// A material.
+    Material(usize),
+}
+
+/// Why an edit is not possible: a clause, and what to do.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum EditError {
+    /// It is not in the scene any more.
+    #[error("it is not in the scene any more. Select another one.")]
+    Gone,
+    /// An animation sets the property.
+    #[error("an animation moves it: its {property} has keys. Edit the keys, or what carries it.")]
+    Animated {
+        /// Such as "translation".
+        property: &'static str,
+    },
+    /// The thing has no such freedom.
+    #[error("{what} cannot be {done}. {todo}.")]
+    Unable {
+        /// Such as "a point light".
+        what: &'static str,
+        /// Such as "turned".
+        done: &'static str,
+        /// What to do instead.
+        todo: &'static str,
+    },
+    /// What carries it decides.
+    #[error("what carries it, {carrier}, is hidden. Show that.")]
+    CarrierHidden {
+        /// The name of the node.
+        carrier: String,
+    },
+    /// Nothing would be left of it.
+    #[error(
+        "nothing would be left of it, or it would reach out of range. Give a scale other than 0."
+    )]
+    Flat,
+    /// A list must not become empty.
+    #[error("a scene has at least one {what}. Add another one first.")]
+    Last {
+        /// Such as "camera".
+        what: &'static str,
+    },
+}
+
+/// The name that nodes have which only hide what they carry.
+const HIDER: &str = "hidden";
+
+/// Whether a node is there only to hide what it carries.
+pub fn is_hider(scene: &Scene, index: usize) -> bool {
+    let node = &scene.nodes[index];
+    let plain = Node {
+        name: node.name.clone(),
+        parent: node.parent,
+        visible: false,
+        ..Node::default()
+    };
+    let is_named = node.name == HIDER || node.name.strip_prefix("hidden ").is_some_and(is_number);
+    is_named && *node == plain && !is_animated(scene, index)
+}
+
+fn is_number(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
+}
+
+fn is_animated(scene: &Scene, node: usize) -> bool {
+    let mut targets = scene.tracks.iter().flat_map(|track| &track.targets);
+    targets.any(|target| matches!(*target, Target::Node(index, _) if index == node))
+}
+
+/// What carries something, past nodes that only hide.
+pub fn shown_carrier(scene: &Scene, mut node: Option<usize>) -> Option<usize> {
+    while let Some(index) = node.filter(|&index| is_hider(scene, index)) {
+        node = scene.nodes[index].parent;
+    }
+    node
+}
+
+/// Index into the scene's nodes of what carries something.
+pub fn carrier(scene: &Scene, id: Id) -> Option<usize> {
+    match id {
+        Id::Object(ObjectRef::Instance(index)) => scene.instances.get(index)?.node,
+        Id::Object(ObjectRef::Shape(index)) => scene.shapes.get(index)?.node,
+        Id::Object(ObjectRef::Light(index)) => scene.lights.get(index)?.node,
+        Id::Node(index) => scene.nodes.get(index)?.parent,
+        Id::Camera(index) => scene.cameras.get(index)?.node,
+        Id::Material(_) => None,
+    }
+}
+
+/// Whether something is there at rest: whether no node hides it.
+pub fn is_visible(scene: &Scene, id: Id) -> bool {
+    if matches!(id, Id::Camera(_) | Id::Material(_)) {
+        return true;
+    }
+    let own = match id {
+        Id::Node(index) => Some(index),
+        _ => carrier(scene, id),
+    };
+    std::iter::successors(own, |&index| scene.nodes[index].parent)
+        .all(|index| scene.nodes[index].visible)
+}
+
+/// Shows or hides something at rest. Instances, shapes and lights have no switch of their own: they
+/// are hung on a node that hides them, which a scene file keeps.
+///
+/// # Errors
+/// It is carried by what is hidden, an animation switches it, or it can never be seen.
+pub fn set_visible(scene: &mut Scene, id: Id, visible: bool) -> Result<(), EditError> {
+    check(scene, id)?;
+    if let Id::Node(index) = id {
+        let property = crate::scene::NodeProperty::Visible;
+        let mut targets = scene.tracks.iter().flat_map(|track| &track.targets);
+        if targets.any(|target| *target == Target::Node(index, property)) {
+            let property = "visibility";
+            return Err(EditError::Animated { property });
+        }
+        scene.nodes[index].visible = visible;
+        return Ok(());
+    }
+    let Id::Object(object) = id else {
+        return Err(EditError::Unable {
+            what: "a camera or material",
+            done: "hidden",
+            todo: "Hide what has a place",
+        });
+    };
+    let now = carrier(scene, id);
+    let carrier = shown_carrier(scene, now);
+    if visible {
+        *slot(scene, object) = carrier;
+        let mut above = std::iter::successors(carrier, |&index| scene.nodes[index].parent);
+        if let Some(index) = above.find(|&index| !scene.nodes[index].visible) {
+            *slot(scene, object) = now;
+            let carrier = scene.nodes[index].name.clone();
+            return Err(EditError::CarrierHidden { carrier });
+        }
+        remove_idle_hiders(scene);
+    } else if now == carrier {
+        let hides =
+            |index: &usize| scene.nodes[*index].parent == carrier && is_hider(scene, *index);
+        let hider = (0..scene.nodes.len()).find(hides).unwrap_or_else(|| {
+            let name = unused_name(scene);
+            scene.nodes.push(Node {
+                name,
+                parent: carrier,
+                visible: false,
+                ..Node::default()
+            });
+            scene.nodes.len() - 1
+        });
+        *slot(scene, object) = Some(hider);
+    }
+    Ok(())
+}
+
+fn unused_name(scene: &Scene) -> String {
+    let is_free = |name: &String| scene.nodes.iter().all(|node| node.name != *name);
+    let numbered = (2..).map(|number| format!("{HIDER} {number}"));
+    let mut names = std::iter::once(HIDER.to_owned()).chain(numbered);
+    names.find(is_free).unwrap_or_default()
+}
+
+/// Removes hiding nodes that carry nothing from the end of the list, where no index changes.
+fn remove_idle_hiders(scene: &mut Scene) {
+    while let Some(last) = scene.nodes.len().checked_sub(1) {
+        let carries = |node: Option<usize>| node == Some(last);
+        let is_idle = is_hider(scene, last)
+            && !scene
+                .instances
+                .iter()
+                .any(|instance| carries(instance.node))
+            && !scene.shapes.iter().any(|shape| carries(shape.node))
+            && !scene.lights.iter().any(|light| carries(light.node))
+            && !(scene.cameras.iter()).any(|c| carries(c.node) || carries(c.target));
+        if !is_idle {
+            return;
+        }
+        scene.nodes.pop();
+    }
+}
+
+/// Where an object says what carries it.
+fn slot(scene: &mut Scene, object: ObjectRef) -> &mut Option<usize> {
+    match object {
+        ObjectRef::Instance(index) => &mut scene.instances[index].node,
+        ObjectRef::Shape(index) => &mut scene.shapes[index].node,
+        ObjectRef::Light(index) => &mut scene.lights[index].node,
+    }
+}
+
+/// Refuses what is not in the scene.
+fn check(scene: &Scene, id: Id) -> Result<(), EditError> {
+    let (index, count) = match id {
+        Id::Object(ObjectRef::Instance(index)) => (index, scene.instances.len()),
+        Id::Object(ObjectRef::Shape(index)) => (index, scene.shapes.len()),
+        Id::Object(ObjectRef::Light(index)) => (index, scene.lights.len()),
+        Id::Node(index) => (index, scene.nodes.len()),
+        Id::Camera(index) => (index, scene.cameras.len()),
+        Id::Material(index) => (index, scene.materials.len()),
+    };
+    match index < count {
+        true => Ok(()),
+        false => Err(EditError::Gone),
+    }
+}
+
+/// Removes an object, or a camera if there are others. Those behind it in the scene's list move up.
+///
+/// # Errors
+/// It is the last camera, or something that others are made of: a node or a material.
+pub fn remove(scene: &mut Scene, id: Id) -> Result<(), EditError> {
+    check(scene, id)?;
+    match id {
+        Id::Object(ObjectRef::Instance(index)) => _ = scene.instances.remove(index),
+        Id::Object(ObjectRef::Shape(index)) => _ = scene.shapes.remove(index),
+        Id::Object(ObjectRef::Light(index)) => {
+            scene.lights.remove(index);
+            retarget(scene, |target| match target {
+                Target::Light(at, property) => Some(Target::Light(without(at, index)?, property)),
+                other => Some(other),
+            });
+        }
+        Id::Camera(index) => {
+            if scene.cameras.len() == 1 {
+                return Err(EditError::Last { what: "camera" });
+            }
+            scene.cameras.remove(index);
+            scene.camera_index = without(scene.camera_index, index).unwrap_or(0);
+            retarget(scene, |target| match target {
+                Target::Camera(at, property) => Some(Target::Camera(without(at, index)?, property)),
+                other => Some(other),
+            });
+        }
+        Id::Node(_) | Id::Material(_) => {
+            return Err(EditError::Unable {
+                what: "a node or material, which others are made of,",
+                done: "removed",
+                todo: "Remove or change what uses it",
+            });
+        }
+    }
+    remove_idle_hiders(scene);
+    Ok(())
+}
+
+/// The index that `at` has once `removed` is gone; `None` for that itself.
+fn without(at: usize, removed: usize) -> Option<usize> {
+    match at.cmp(&removed) {
+        std::cmp::Ordering::Less => Some(at),
+        std::cmp::Ordering::Equal => None,
+        std::cmp::Ordering::Greater => Some(at - 1),
+    }
+}
+
+/// Renames what tracks drive; what becomes `None` is driven no more.
+fn retarget(scene: &mut Scene, rename: impl Fn(Target) -> Option<Target>) {
+    for track in &mut scene.tracks {
+        let targets = std::mem::take(&mut track.targets);
+        track.targets = targets.into_iter().filter_map(&rename).collect();
+    }
+    scene.tracks.retain(|track| !track.targets.is_empty());
+}
+
+/// Adds another one of an object, camera or material in the same place, which moves as it does.
+///
+/// # Errors
+/// It is a node.
+pub fn duplicate(scene: &mut Scene, id: Id) -> Result<Id, EditError> {
+    check(scene, id)?;
+    fn push<T: Clone>(list: &mut Vec<T>, index: usize) -> usize {
+        list.push(list[index].clone());
+        list.len() - 1
+    }
+    let copy = match id {
+        Id::Object(ObjectRef::Instance(index)) => {
+            Id::Object(ObjectRef::Instance(push(&mut scene.instances, index)))
+        }
+        Id::Object(ObjectRef::Shape(index)) => {
+            Id::Object(ObjectRef::Shape(push(&mut scene.shapes, index)))
+        }
+        Id::Object(ObjectRef::Light(index)) => {
+            Id::Object(ObjectRef::Light(push(&mut scene.lights, index)))
+        }
+        Id::Camera(index) => {
+            let copy = push(&mut scene.cameras, index);
+            scene.cameras[copy].name.clear();
+            Id::Camera(copy)
+        }
+        Id::Material(index) => {
+            let copy = push(&mut scene.materials, index);
+            scene.materials[copy].name.clear();
+            Id::Material(copy)
+        }
+        Id::Node(_) => {
+            return Err(EditError::Unable {
+                what: "a node",
+                done: "duplicated",
+                todo: "Duplicate what it carries",
+            });
+        }
+    };
+    let same = |target: &Target| match (*target, id, copy) {
+        (
+            Target::Light(at, property),
+            Id::Object(ObjectRef::Light(of)),
+            Id::Object(ObjectRef::Light(copy)),
+        ) if at == of => Some(Target::Light(copy, property)),
+        (Target::Camera(at, property), Id::Camera(of), Id::Camera(copy)) if at == of => {
+            Some(Target::Camera(copy, property))
+        }
+        (Target::Material(at, property), Id::Material(of), Id::Material(copy)) if at == of => {
+            Some(Target::Material(copy, property))
+        }
+        _ => None,
+    };
+    for track in &mut scene.tracks {
+        let more: Vec<_> = track.targets.iter().filter_map(same).collect();
+        track.targets.extend(more);
+    }
+    Ok(copy)
+}
+
+/// Gives all of an object a material. A mesh that stands elsewhere too is copied first.
+///
+/// # Errors
+/// It is a light, or no such material is there.
+pub fn assign(scene: &mut Scene, object: ObjectRef, material: usize) -> Result<(), EditError> {
+    check(scene, Id::Object(object))?;
+    check(scene, Id::Material(material))?;
+    match object {
+        ObjectRef::Shape(index) => scene.shapes[index].material = material,
+        ObjectRef::Instance(index) => {
+            let mesh = scene.instances[index].mesh;
+            let is_same = |used: &u32| *used as usize == material;
+            if scene.meshes[mesh].materials.iter().all(is_same) {
+                return Ok(());
+            }
+            let others = scene.instances.iter().filter(|other| other.mesh == mesh);
+            let own = if others.count() > 1 {
+                scene.meshes.push(scene.meshes[mesh].clone());
+                scene.meshes.len() - 1
+            } else {
+                mesh
+            };
+            scene.instances[index].mesh = own;
+            Arc::make_mut(&mut scene.meshes[own])
+                .materials
+                .fill(material as u32);
+        }
+        ObjectRef::Light(_) => {
+            return Err(EditError::Unable {
+                what: "a light",
+                done: "given a material",
+                todo: "Change its colour",
+            });
+        }
+    }
+    Ok(())
+}

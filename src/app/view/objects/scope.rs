@@ -1,0 +1,98 @@
+//! What concerns more than one thing, and names.
+
+use super::{EditError, Id, check, is_visible, set_visible};
+use crate::scene::{ObjectRef, Scene};
+use glam::DVec3;
+
+/// Whether something is in the scene.
+pub fn is_there(scene: &Scene, id: Id) -> bool {
+    check(scene, id).is_ok()
+}
+
+/// The name of something that has one; it may be empty. Objects have none of their own.
+pub fn name(scene: &Scene, id: Id) -> Option<&str> {
+    match id {
+        Id::Object(_) => None,
+        Id::Node(index) => scene.nodes.get(index).map(|node| node.name.as_str()),
+        Id::Camera(index) => scene.cameras.get(index).map(|camera| camera.name.as_str()),
+        Id::Material(index) => (scene.materials.get(index)).map(|material| material.name.as_str()),
+    }
+}
+
+/// Gives something another name.
+///
+/// # Errors
+/// It has none, or is not in the scene.
+pub fn rename(scene: &mut Scene, id: Id, name: &str) -> Result<(), EditError> {
+    check(scene, id)?;
+    let slot = match id {
+        Id::Node(index) => &mut scene.nodes[index].name,
+        Id::Camera(index) => &mut scene.cameras[index].name,
+        Id::Material(index) => &mut scene.materials[index].name,
+        Id::Object(_) => {
+            return Err(EditError::Unable {
+                what: "an object",
+                done: "named",
+                todo: "Name its material, or what carries it",
+            });
+        }
+    };
+    name.trim().clone_into(slot);
+    Ok(())
+}
+
+/// Hides all meshes and shapes but this one, or but those that a node carries. What cannot be hidden
+/// stays.
+pub fn hide_others(scene: &mut Scene, id: Id) {
+    let stays = |scene: &Scene, object: ObjectRef| {
+        Id::Object(object) == id
+            || matches!(id, Id::Node(node) if is_carried_by(scene, object, node))
+    };
+    for object in surfaces(scene) {
+        let id = Id::Object(object);
+        if !stays(scene, object) && is_visible(scene, id) {
+            // Only what an animation switches refuses, and that may go on to show it.
+            let _ = set_visible(scene, id, false);
+        }
+    }
+}
+
+/// Shows all that is hidden at rest, but for what an animation switches.
+pub fn show_all(scene: &mut Scene) {
+    let lights = (0..scene.lights.len()).map(ObjectRef::Light);
+    let objects: Vec<_> = surfaces(scene).into_iter().chain(lights).collect();
+    for index in 0..scene.nodes.len() {
+        if !super::is_hider(scene, index) {
+            let _ = set_visible(scene, Id::Node(index), true);
+        }
+    }
+    for id in objects.into_iter().map(Id::Object) {
+        if !is_visible(scene, id) {
+            let _ = set_visible(scene, id, true);
+        }
+    }
+}
+
+/// The axis-aligned box (min, max) in the world at `time` seconds, of a node round all that it carries;
+/// `None` for what has no bounds.
+pub fn bounds(scene: &Scene, id: Id, time: f64) -> Option<(DVec3, DVec3)> {
+    match id {
+        Id::Object(object) => scene.bounds_of(object, time),
+        Id::Node(node) => (surfaces(scene).into_iter())
+            .filter(|object| is_carried_by(scene, *object, node))
+            .filter_map(|object| scene.bounds_of(object, time))
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))),
+        Id::Camera(_) | Id::Material(_) => None,
+    }
+}
+
+fn surfaces(scene: &Scene) -> Vec<ObjectRef> {
+    let instances = (0..scene.instances.len()).map(ObjectRef::Instance);
+    let shapes = (0..scene.shapes.len()).map(ObjectRef::Shape);
+    instances.chain(shapes).collect()
+}
+
+fn is_carried_by(scene: &Scene, object: ObjectRef, node: usize) -> bool {
+    let own = super::carrier(scene, Id::Object(object));
+    std::iter::successors(own, |&index| scene.nodes[index].parent).any(|index| index == node)
+}

@@ -1,0 +1,82 @@
+//! The picture, and the camera under the mouse.
+
+mod compare;
+
+use super::super::canvas::Shown;
+use super::super::editing;
+use super::super::inspector;
+use super::super::region;
+use super::super::render_thread::Place;
+use super::super::tools;
+use super::super::viewer::Desk;
+use super::super::viewport::Viewport;
+use super::rays;
+use eframe::egui::{self, Color32, Pos2, Rect, Vec2};
+
+/// Texture coordinates of a whole texture.
+const WHOLE: Rect = Rect {
+    min: Pos2::ZERO,
+    max: Pos2::new(1.0, 1.0),
+};
+
+/// The rest of the picture while only a region is rendered.
+const DIMMED: Color32 = Color32::from_gray(90);
+
+/// Draws the picture so far, and what it is compared with, and hands the mouse to the tools.
+pub fn picture(ui: &mut egui::Ui, desk: &mut Desk) {
+    let pixels_per_point = ui.ctx().pixels_per_point();
+    let space = ui.available_rect_before_wrap();
+    let response = ui.allocate_rect(space, egui::Sense::click_and_drag());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Rendered picture"));
+    (ui.painter()).rect_filled(space, 0.0, ui.visuals().extreme_bg_color);
+    let comparison = desk.session.look.comparison;
+    let spaces = compare::spaces(comparison, space);
+    let pixels = (spaces[0].size() * pixels_per_point).max(Vec2::splat(1.0));
+    (desk.session).set_space((pixels.x as u32, pixels.y as u32));
+    let size = desk.session.picture_size();
+    let viewports = spaces.map(|space| Viewport::fitting(space, size, pixels_per_point));
+    desk.session.viewport = Some(viewports[0]);
+    let painter = ui.painter_at(space);
+    if let Some(shown) = desk.shown(Place::Main) {
+        draw(&painter, desk, &shown, viewports[0]);
+    }
+    if let (Some(comparison), Some(shown)) = (comparison, desk.shown(Place::Beside)) {
+        let clip = compare::clip(comparison.sharing, space, viewports[1]);
+        draw(&painter.with_clip_rect(clip), desk, &shown, viewports[1]);
+    }
+    // Of two pictures side by side the mouse is in one.
+    let under = response
+        .hover_pos()
+        .or(ui.input(|input| input.pointer.press_origin()));
+    let is_right = under.is_some_and(|point| spaces[0] != spaces[1] && spaces[1].contains(point));
+    let viewport = viewports[usize::from(is_right)];
+    desk.session.viewport = Some(viewport);
+    let is_taken = region::follow(desk.session, &response, viewport)
+        || editing::overlay(desk.session, &response, &painter, viewport);
+    if !is_taken {
+        inspector::follow(desk.session, &response, viewport);
+        tools::navigate(desk.session, &response, viewport);
+    }
+    rays::mark(&painter, desk.session, viewports[0]);
+    desk.session.viewport = Some(viewports[0]);
+    compare::overlay(ui, desk, space, viewports);
+}
+
+fn draw(painter: &egui::Painter, desk: &mut Desk, shown: &Shown, viewport: Viewport) {
+    let is_exact = viewport.is_exact(painter.pixels_per_point());
+    let region = viewport.part(shown.region);
+    if let Some(whole) = &shown.whole {
+        let id = desk.textures.id(whole, true);
+        painter.image(id, viewport.rect, WHOLE, DIMMED);
+    }
+    // A picture of other proportions than there is room for by now is stretched until the next one.
+    for (screen, is_smooth) in [(&shown.under, true), (&shown.screen, !is_exact)] {
+        if let Some(screen) = screen {
+            let id = desk.textures.id(screen, is_smooth);
+            painter.image(id, region, WHOLE, Color32::WHITE);
+        }
+    }
+    if desk.session.look.region.is_some() {
+        region::outline(painter, viewport, shown.region);
+    }
+}

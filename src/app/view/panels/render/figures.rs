@@ -1,0 +1,148 @@
+//! How far the picture is, and what it took.
+
+use super::super::super::bindings::Action;
+use super::super::super::canvas::{Progress, Shown};
+use super::super::super::render_thread::Place;
+use super::super::super::viewer::Desk;
+use eframe::egui::{self, Ui};
+
+/// The bar, and what stops and starts the picture.
+pub fn progress(ui: &mut Ui, desk: &mut Desk) {
+    let shown = desk.shown(Place::Main);
+    let progress = shown
+        .as_ref()
+        .map(|shown| shown.progress)
+        .unwrap_or_default();
+    let share = if progress.is_coarse {
+        0.0
+    } else {
+        progress.share
+    };
+    let text = state(&progress, desk.session.look.paused);
+    let bar = egui::ProgressBar::new(share as f32).text(text);
+    ui.add(bar)
+        .on_hover_text("Share of the samples of this picture that are done");
+    let key = |action| desk.session.preferences.bindings.label(action);
+    let (pause_key, restart_key) = (key(Action::PauseRender), key(Action::RestartRender));
+    ui.horizontal(|ui| {
+        let paused = desk.session.look.paused;
+        let (name, tip) = match paused {
+            true => ("Continue", "Go on adding samples"),
+            false => ("Pause", "Add no more samples for now"),
+        };
+        if (ui.button(name))
+            .on_hover_text(format!("{tip} ({pause_key})"))
+            .clicked()
+        {
+            desk.session.look.paused = !paused;
+        }
+        let tip = format!("Start the picture again ({restart_key})");
+        if ui.button("Restart").on_hover_text(tip).clicked() {
+            desk.session.restart();
+        }
+    });
+}
+
+/// What the bar says.
+fn state(progress: &Progress, paused: bool) -> String {
+    let Progress {
+        samples, target, ..
+    } = progress;
+    match (progress.is_done, paused) {
+        (true, _) if !progress.is_coarse => format!("done: {target} samples"),
+        (_, true) => format!("paused at {samples} of {target} samples"),
+        _ if progress.is_coarse => "moving".into(),
+        _ => format!("{samples} of {target} samples"),
+    }
+}
+
+/// Times, counts and bytes.
+pub fn figures(ui: &mut Ui, desk: &mut Desk) {
+    let Some(shown) = desk.shown(Place::Main) else {
+        return;
+    };
+    for (name, tip, value) in rows(&shown) {
+        ui.label(name).on_hover_text(tip);
+        ui.label(value).on_hover_text(tip);
+        ui.end_row();
+    }
+}
+
+fn rows(shown: &Shown) -> Vec<(&'static str, &'static str, String)> {
+    let Shown {
+        progress,
+        stats,
+        adapter,
+        ..
+    } = shown;
+    let mut rows = vec![
+        (
+            "Time",
+            "Seconds of tracing in this picture",
+            seconds(progress.trace_seconds),
+        ),
+        (
+            "Left",
+            "Seconds of tracing until the picture is done, if it goes on like this",
+            remaining(progress).map_or("–".into(), seconds),
+        ),
+        (
+            "Speed",
+            "Camera rays in a second of tracing, in millions",
+            format!("{:.2} M rays/s", progress.rays_per_second / 1e6),
+        ),
+        (
+            "Noise",
+            "Estimated root mean square error of the picture, in parts of white",
+            progress
+                .noise
+                .map_or("–".into(), |noise| format!("{:.2} %", noise * 100.0)),
+        ),
+        ("Adapter", "What renders", adapter.to_string()),
+        (
+            "Submissions",
+            "Pieces of work that the adapter got since the window was opened, and the longest of them in \
+             milliseconds",
+            format!(
+                "{} (longest {:.0} ms)",
+                stats.submissions, stats.longest_submission_ms
+            ),
+        ),
+        (
+            "Memory",
+            "Of the adapter, planned for scene and picture, in MiB",
+            format!("{:.1} MiB", stats.gpu_bytes as f64 / f64::from(1 << 20)),
+        ),
+    ];
+    if stats.nonfinite_samples > 0 {
+        rows.push((
+            "Dropped",
+            "Samples that were not finite",
+            format!("{} samples", stats.nonfinite_samples),
+        ));
+    }
+    if stats.cut_off_trees > 0 {
+        rows.push((
+            "Cut off",
+            "Samples that had too many rays: lower the depth, or raise the least throughput",
+            format!("{} samples", stats.cut_off_trees),
+        ));
+    }
+    rows
+}
+
+/// Seconds that are left; `None` before there is anything to go by, and at the end.
+pub fn remaining(progress: &Progress) -> Option<f64> {
+    let is_known = !progress.is_coarse && !progress.is_done && progress.share > 0.0;
+    is_known.then(|| progress.trace_seconds * (1.0 - progress.share) / progress.share)
+}
+
+/// `12.3 s`, or `2 min 5 s`.
+pub fn seconds(seconds: f64) -> String {
+    let whole = seconds.round() as u64;
+    match whole {
+        0..60 => format!("{seconds:.1} s"),
+        60..3600 => format!("{} min {} s", whole / 60, whole % 60),
+        _ => format!("{} h {} min", whole / 3600, whole / 60 % 60),
+    }
+}

@@ -1,0 +1,311 @@
+//! The thread that renders while the window goes on: it follows the newest [`Order`]s, adds samples a
+//! time slice at a time, and puts what there is on screens that the window shows.
+//!
+//! Nothing here waits for the window, and the window waits for nothing here: orders replace one another,
+//! and the window takes what was published last.
+
+use super::canvas::{Canvas, Shown};
+use super::order::Order;
+use crate::gpu::{Gpu, GpuError};
+use crate::image::Image;
+use crate::render::{RenderError, Renderer, Settings, Tone};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+
+/// Where a picture is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The picture itself.
+    Main,
+    /// What it is compared with.
+    Beside,
+    /// The scene from outside, behind drawn rays.
+    Outside,
+}
+
+impl Place {
+    /// All of them; those that are rendered first come first.
+    pub const ALL: [Self; 3] = [Self::Outside, Self::Beside, Self::Main];
+}
+
+/// What the window wants at the moment.
+#[derive(Clone, Default)]
+pub struct Orders {
+    /// By [`Place`]; `None` where nothing is shown.
+    pub pictures: [Option<Order>; 3],
+    /// Whether something moves, so that a coarse picture now is worth more than a fine one later.
+    pub coarse: bool,
+    /// Whether nothing more is to be added.
+    pub paused: bool,
+}
+
+impl Orders {
+    /// Whether both want the same.
+    pub fn is_same(&self, other: &Self) -> bool {
+        (self.coarse, self.paused) == (other.coarse, other.paused)
+            && self.pictures == other.pictures
+    }
+}
+
+/// A question that needs a renderer, and the answer to it.
+pub type Question<A> = Box<dyn FnOnce(&mut Studio) -> A + Send>;
+
+/// What a question gets to see.
+pub struct Studio<'a> {
+    /// The renderer of the main picture, which is at rest between two steps.
+    pub renderer: &'a mut Renderer,
+    /// What it was last asked for.
+    pub order: &'a Order,
+    /// The same of the picture from outside, where there is one in full.
+    pub outside: Option<(&'a mut Renderer, &'a Order)>,
+}
+
+impl Studio<'_> {
+    /// The picture so far and the samples in it.
+    pub fn image(&mut self, tone: &Tone) -> Result<(Image, u32), RenderError> {
+        let samples = self.renderer.samples_done();
+        Ok((self.renderer.develop(tone)?, samples))
+    }
+
+    /// The settings of the picture in full.
+    pub fn settings(&self) -> &Settings {
+        &self.order.settings
+    }
+}
+
+/// What went wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// The device is gone; all that was on it must be made again on another.
+    Lost,
+    /// This scene or these settings cannot be rendered; the last picture stays.
+    Refused(String),
+}
+
+struct State<A> {
+    orders: Orders,
+    questions: Vec<Question<A>>,
+    answers: Vec<A>,
+    shown: [Option<Shown>; 3],
+    fault: Option<Fault>,
+    is_settled: bool,
+    is_closing: bool,
+}
+
+struct Shared<A> {
+    state: Mutex<State<A>>,
+    news: Condvar,
+}
+
+impl<A> Shared<A> {
+    fn lock(&self) -> MutexGuard<'_, State<A>> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The window's end of the thread, which ends with it. Questions are answered by values of `A`.
+pub struct RenderThread<A: Send + 'static> {
+    shared: Arc<Shared<A>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl<A: Send + 'static> RenderThread<A> {
+    /// Starts the thread. `wake` is called when there is something new to see.
+    pub fn new(gpu: Gpu, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+        let shared = Arc::new(Shared {
+            state: Mutex::new(State {
+                orders: Orders::default(),
+                questions: Vec::new(),
+                answers: Vec::new(),
+                shown: [const { None }; 3],
+                fault: None,
+                is_settled: true,
+                is_closing: false,
+            }),
+            news: Condvar::new(),
+        });
+        let theirs = shared.clone();
+        let thread = std::thread::Builder::new()
+            .name("render".into())
+            .spawn(move || {
+                Painter {
+                    canvases: Place::ALL.map(|place| Canvas::new(gpu.clone(), place)),
+                    refused: None,
+                }
+                .work(&theirs, wake);
+            })?;
+        Ok(Self {
+            shared,
+            thread: Some(thread),
+        })
+    }
+
+    /// Replaces what is wanted.
+    pub fn order(&self, orders: Orders) {
+        let mut state = self.shared.lock();
+        state.orders = orders;
+        state.is_settled = false;
+        drop(state);
+        self.shared.news.notify_one();
+    }
+
+    /// Asks something of the main picture's renderer; not before there is one.
+    pub fn ask(&self, question: impl FnOnce(&mut Studio) -> A + Send + 'static) {
+        let mut state = self.shared.lock();
+        state.questions.push(Box::new(question));
+        state.is_settled = false;
+        drop(state);
+        self.shared.news.notify_one();
+    }
+
+    /// What was answered since the last call.
+    pub fn answers(&self) -> Vec<A> {
+        std::mem::take(&mut self.shared.lock().answers)
+    }
+
+    /// What there is to see at a place.
+    pub fn shown(&self, place: Place) -> Option<Shown> {
+        self.shared.lock().shown[place as usize].clone()
+    }
+
+    /// What went wrong with what is wanted now.
+    pub fn fault(&self) -> Option<Fault> {
+        self.shared.lock().fault.clone()
+    }
+
+    /// Whether nothing is left to do: all pictures have their samples or wait, every question has its
+    /// answer.
+    pub fn is_settled(&self) -> bool {
+        self.shared.lock().is_settled
+    }
+}
+
+impl<A: Send + 'static> Drop for RenderThread<A> {
+    fn drop(&mut self) {
+        self.shared.lock().is_closing = true;
+        self.shared.news.notify_one();
+        if let Some(thread) = self.thread.take() {
+            // A thread that panicked has nothing more to say.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// The thread's own.
+struct Painter {
+    /// In the order of [`Place::ALL`].
+    canvases: [Canvas; 3],
+    /// The orders that cannot be followed, so as not to try them again and again.
+    refused: Option<[Option<Order>; 3]>,
+}
+
+impl Painter {
+    fn work<A: Send + 'static>(&mut self, shared: &Shared<A>, wake: impl Fn()) {
+        loop {
+            let (orders, questions) = {
+                let mut state = shared.lock();
+                while !state.is_closing && state.is_settled && state.questions.is_empty() {
+                    state = (shared.news.wait(state)).unwrap_or_else(PoisonError::into_inner);
+                }
+                if state.is_closing {
+                    return;
+                }
+                (state.orders.clone(), std::mem::take(&mut state.questions))
+            };
+            let (outcome, unanswered, answers) = self.round(&orders, questions);
+            let mut state = shared.lock();
+            state.answers.extend(answers);
+            let has_news = !state.questions.is_empty() || !state.orders.is_same(&orders);
+            state.questions.splice(0..0, unanswered);
+            for (canvas, place) in self.canvases.iter().zip(Place::ALL) {
+                state.shown[place as usize] = canvas.shown();
+            }
+            match outcome {
+                Ok(is_busy) => {
+                    state.fault = (self.refused.is_some().then(|| state.fault.clone())).flatten();
+                    let waits = !state.questions.is_empty() && self.canvases[2].is_ready();
+                    state.is_settled = !is_busy && !has_news && !waits;
+                }
+                Err(fault) => {
+                    if fault != Fault::Lost {
+                        self.refused = Some(orders.pictures);
+                    }
+                    state.fault = Some(fault);
+                    state.is_settled = !has_news;
+                }
+            }
+            drop(state);
+            wake();
+        }
+    }
+
+    /// Follows the orders and does the next piece of work. Whether there is more.
+    #[allow(
+        clippy::type_complexity,
+        reason = "three lists that only this file sees"
+    )]
+    fn round<A>(
+        &mut self,
+        orders: &Orders,
+        questions: Vec<Question<A>>,
+    ) -> (Result<bool, Fault>, Vec<Question<A>>, Vec<A>) {
+        if let Some(refused) = &self.refused {
+            if *refused == orders.pictures {
+                return (Ok(false), questions, Vec::new());
+            }
+            self.refused = None;
+        }
+        let mut is_busy = false;
+        for (canvas, place) in self.canvases.iter_mut().zip(Place::ALL) {
+            let order = orders.pictures[place as usize].as_ref();
+            if let Err(error) = canvas.follow(order, orders.coarse) {
+                return (Err(error.into()), questions, Vec::new());
+            }
+        }
+        let mut answers = Vec::new();
+        let mut unanswered = Vec::new();
+        let [outside, _, main] = &mut self.canvases;
+        for question in questions {
+            match main.studio() {
+                Some(studio) => answers.push(question(&mut Studio {
+                    outside: outside.studio().map(|it| (it.renderer, it.order)),
+                    ..studio
+                })),
+                None => unanswered.push(question),
+            }
+        }
+        let has_work = |canvas: &Canvas| match orders.paused {
+            true => !canvas.is_shown(),
+            false => !canvas.is_done(),
+        };
+        // What is behind comes first: of two pictures side by side neither waits for the other.
+        let waiting = self.canvases.iter_mut().filter(|canvas| has_work(canvas));
+        if let Some(canvas) = waiting.min_by(|a, b| a.rank().total_cmp(&b.rank())) {
+            if let Err(error) = canvas.step(orders.paused) {
+                return (Err(error.into()), unanswered, answers);
+            }
+            is_busy = self.canvases.iter().any(has_work);
+        }
+        (Ok(is_busy), unanswered, answers)
+    }
+}
+
+/// Why an order cannot be followed.
+#[derive(Debug, thiserror::Error)]
+pub enum CanvasError {
+    /// The scene cannot be laid out.
+    #[error(transparent)]
+    Pack(#[from] crate::pack::PackError),
+    /// It cannot be rendered.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+}
+
+impl From<CanvasError> for Fault {
+    fn from(error: CanvasError) -> Self {
+        match error {
+            CanvasError::Render(RenderError::Gpu(GpuError::Lost)) => Self::Lost,
+            other => Self::Refused(other.to_string()),
+        }
+    }
+}

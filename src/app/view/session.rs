@@ -1,0 +1,444 @@
+//! What the person works on: everything that outlives a lost device.
+
+use super::super::cli::{CameraFlags, MomentFlags, MotionFlags, PictureFlags, ViewArgs};
+use super::super::clock::Clock;
+use super::super::exit::AppError;
+use super::super::{demo, job, overrides};
+use super::document::Document;
+use super::editing::{self, Editing};
+use super::files::{self, Files};
+use super::inspector::{self, Inspector};
+use super::loader::{Loader, Trouble};
+use super::look::Look;
+use super::navigation::Rig;
+use super::notices::Notices;
+use super::objects::{self, Id};
+use super::order::Order;
+use super::playback::Playback;
+use super::preferences::{Preferences, Store};
+use super::question::Answer;
+use super::render_thread::{Orders, Place};
+use super::replay::Tape;
+use super::sheets::Sheets;
+use super::tools::{Drag, Tool};
+use super::viewport::Viewport;
+use crate::import;
+use crate::render::{Integrator, Settings};
+use crate::scene::{Camera, OutputDefaults, Scene};
+use eframe::egui;
+use glam::DVec3;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Seconds after the last movement until the picture is made in full.
+const SETTLE: f64 = 0.12;
+
+/// Everything about the window but what is on the GPU.
+pub struct Session {
+    /// What there is to tell.
+    pub notices: Notices,
+    /// What is kept between runs.
+    pub preferences: Preferences,
+    /// Where it is kept.
+    pub store: Store,
+    /// The scene as it is edited; `None` before there is one.
+    pub document: Option<Document>,
+    /// As it was read, no flags applied.
+    pub original: Option<Arc<Scene>>,
+    /// The scene's file; `None` for the demo.
+    pub path: Option<PathBuf>,
+    /// How the picture is made.
+    pub look: Look,
+    /// When it is.
+    pub playback: Playback,
+    /// The camera under the person's hands.
+    pub rig: Option<Rig>,
+    /// What a click in the picture does.
+    pub tool: Tool,
+    /// What the mouse drags in the picture.
+    pub drag: Option<Drag>,
+    /// What is selected.
+    pub selection: Option<Id>,
+    /// Where the picture is in the window; `None` before it was drawn.
+    pub viewport: Option<Viewport>,
+    /// Whether the figures of the render are to be seen.
+    pub shows_statistics: bool,
+    /// Whether anything is drawn over the picture.
+    pub shows_overlays: bool,
+    /// What the window has to do with files.
+    pub files: Files,
+    /// What is being changed.
+    pub editing: Editing,
+    /// The rays of a pixel.
+    pub inspector: Inspector,
+    /// What lies over the window.
+    pub sheets: Sheets,
+    /// What the person does, recorded or played.
+    pub tape: Tape,
+    /// What the command line said.
+    pub flags: Flags,
+    /// Questions that wait for the render thread.
+    pub questions: Vec<super::render_thread::Question<Answer>>,
+    loader: Option<Loader>,
+    /// How often the picture was started over.
+    restarts: u32,
+    /// Room for pictures, in pixels.
+    space: (u32, u32),
+    /// When something moved last, in egui's time; and what egui's time is.
+    last_motion: f64,
+    now: f64,
+    is_device_lost: bool,
+    refusal: Option<String>,
+}
+
+/// What the command line said.
+pub struct Flags {
+    /// About the picture.
+    pub picture: PictureFlags,
+    /// About its camera.
+    pub camera: CameraFlags,
+    /// About the moment.
+    pub moment: MomentFlags,
+    /// About time.
+    pub motion: MotionFlags,
+    /// About reading the scene.
+    pub options: import::Options,
+    /// Most memory that a picture may take, in bytes.
+    pub memory_limit_bytes: u64,
+}
+
+impl Session {
+    /// A session that is about to read its scene. `store` is where preferences are.
+    pub fn new(arguments: ViewArgs, mut store: Store) -> Result<Self, AppError> {
+        let ViewArgs {
+            scene: path,
+            picture,
+            camera,
+            moment,
+            motion,
+            reading,
+            tape,
+            device,
+        } = arguments;
+        let (preferences, notes) = store.load();
+        let mut notices = Notices::default();
+        notes.into_iter().for_each(|note| notices.warn(note));
+        let demo = demo::scene()?;
+        let mut session = Self {
+            notices,
+            preferences,
+            store,
+            look: Look::new(
+                Settings::default(),
+                job::tone(&demo.output, &picture, Integrator::Whitted, false),
+                picture.size.size.is_none(),
+            ),
+            playback: Playback::new(Clock::new(&demo.output, &motion), 0.0),
+            document: None,
+            original: None,
+            path: None,
+            rig: None,
+            tool: Tool::default(),
+            drag: None,
+            selection: None,
+            viewport: None,
+            shows_statistics: true,
+            shows_overlays: true,
+            files: Files::default(),
+            editing: Editing::default(),
+            inspector: Inspector::default(),
+            sheets: Sheets::default(),
+            tape: Tape::new(&tape)?,
+            flags: Flags {
+                picture,
+                camera,
+                moment,
+                motion,
+                options: reading.import_options(),
+                memory_limit_bytes: device.memory_limit_bytes(),
+            },
+            questions: Vec::new(),
+            loader: None,
+            restarts: 0,
+            space: (0, 0),
+            last_motion: f64::NEG_INFINITY,
+            now: 0.0,
+            is_device_lost: false,
+            refusal: None,
+        };
+        match path {
+            None => session.show(demo)?,
+            Some(path) => session.open(path),
+        }
+        Ok(session)
+    }
+
+    /// Begins to read a scene; the one on screen stays until it is there.
+    pub fn open(&mut self, path: PathBuf) {
+        self.load(path, false);
+    }
+
+    /// Begins to read the scene on screen again; camera, look and time stay.
+    pub fn reload(&mut self) {
+        if let Some(path) = self.path.clone() {
+            self.load(path, true);
+        }
+    }
+
+    fn load(&mut self, path: PathBuf, again: bool) {
+        match Loader::new(path, self.flags.options.clone(), again, || {}) {
+            Ok(loader) => self.loader = Some(loader),
+            Err(error) => self.notices.warn(format!("cannot read a scene: {error}.")),
+        }
+    }
+
+    /// Shows a scene that was read, from its own camera and with its own settings.
+    fn show(&mut self, original: Scene) -> Result<(), AppError> {
+        let mut scene = original.clone();
+        overrides::apply(&mut scene, &self.flags.camera)?;
+        let settings = self.settings_of(&scene.output);
+        let picture = &self.flags.picture;
+        let mut tone = job::tone(&scene.output, picture, Integrator::Whitted, false);
+        if let (None, Some(curve)) = (picture.tone, self.preferences.tone) {
+            tone.curve = curve;
+        }
+        self.look = Look::new(settings, tone, picture.size.size.is_none());
+        let clock = Clock::new(&scene.output, &self.flags.motion);
+        let moment = &self.flags.moment;
+        let time = (moment.frame).map_or(moment.time, |frame| Some(f64::from(frame) / clock.fps));
+        self.playback = Playback::new(clock, time.unwrap_or(0.0));
+        self.playback.follow(&scene);
+        let camera = scene.frame(self.playback.time).camera;
+        self.rig = Some(Rig::new(&camera, scene.bounds()));
+        self.selection = None;
+        self.inspector = Inspector::default();
+        self.original = Some(Arc::new(original));
+        self.document = Some(Document::new(scene));
+        Ok(())
+    }
+
+    /// How a picture of a scene is made before anything is changed: flags win over preferences, and
+    /// these over the scene.
+    fn settings_of(&self, output: &OutputDefaults) -> Settings {
+        let picture = &self.flags.picture;
+        let mut output = output.clone();
+        output.samples = self.preferences.samples.unwrap_or(output.samples);
+        Settings {
+            memory_limit_bytes: self.flags.memory_limit_bytes,
+            ..job::picture_settings(&output, picture)
+        }
+    }
+
+    /// What happened since the last frame.
+    pub fn update(&mut self, ctx: &egui::Context) {
+        let (now, seconds) = ctx.input(|input| (input.time, f64::from(input.stable_dt).min(0.1)));
+        self.now = now;
+        self.take_scene();
+        files::update(self, ctx);
+        inspector::update(self, ctx, seconds);
+        editing::update(self, ctx);
+        let time = self.playback.time;
+        self.playback.advance(seconds);
+        if self.playback.time != time {
+            self.last_motion = now;
+        }
+        if let (Some(rig), Some(document)) = (&mut self.rig, &self.document) {
+            let scene = document.scene();
+            if rig.is_home() && scene.is_animated() {
+                rig.set_home(&scene.frame(self.playback.time).camera);
+            }
+            if rig.advance(seconds) || rig.is_moving() {
+                self.last_motion = now;
+            }
+        }
+    }
+
+    fn take_scene(&mut self) {
+        let Some(loaded) = self.loader.as_ref().and_then(Loader::outcome) else {
+            return;
+        };
+        let Some(Loader { path, again, .. }) = self.loader.take() else {
+            return;
+        };
+        let shown = loaded.outcome.and_then(|scene| {
+            let shown = match again {
+                true => self.show_again(scene),
+                false => self.show(scene),
+            };
+            shown.map_err(|error| Trouble::from(error.to_string()))
+        });
+        files::loaded(self, path, again, &loaded.files, shown);
+    }
+
+    /// Shows the scene that is on screen as it was read anew. What the person has chosen stays, and
+    /// what was the scene's own follows it.
+    fn show_again(&mut self, scene: Scene) -> Result<(), AppError> {
+        let (Some(before), Some(mut rig)) = (self.original.clone(), self.rig.clone()) else {
+            return self.show(scene);
+        };
+        let (look, playback) = (self.look.clone(), self.playback.clone());
+        let document = self.document.clone();
+        self.show(scene)?;
+        let clock = self.playback.clock;
+        self.playback = playback;
+        self.playback.clock = clock;
+        if let (Some(scene), Some(mut document)) = (self.scene().cloned(), document) {
+            self.playback.follow(&scene);
+            rig.set_bounds(scene.bounds());
+            rig.set_home(&scene.frame(self.playback.time).camera);
+            // What was done before can still be taken back.
+            document.reload(Scene::clone(&scene));
+            self.document = Some(document);
+        }
+        self.rig = Some(rig);
+        let own = std::mem::replace(&mut self.look, look);
+        let integrator = self.look.settings.integrator;
+        let seen = |settings| Settings {
+            integrator,
+            ..settings
+        };
+        if self.look.settings == seen(self.settings_of(&before.output)) {
+            self.look.settings = seen(own.settings);
+        }
+        if self.look.tone == self.look.scene_tone {
+            self.look.tone = own.tone;
+        }
+        self.look.scene_tone = own.scene_tone;
+        Ok(())
+    }
+
+    /// Tells that the picture is changing, and so is coarse for a while.
+    pub fn moved(&mut self) {
+        self.last_motion = self.now;
+    }
+
+    /// Whether the picture is changing.
+    pub fn is_moving(&self) -> bool {
+        self.now - self.last_motion < SETTLE || self.drag.is_some()
+    }
+
+    /// The camera that the picture is seen by, in the world.
+    pub fn camera(&self) -> Option<Camera> {
+        self.rig.as_ref().map(Rig::camera)
+    }
+
+    /// Starts the picture over.
+    pub fn restart(&mut self) {
+        self.restarts += 1;
+    }
+
+    /// Bounds of all there is, in the world.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        self.scene().and_then(|scene| scene.bounds())
+    }
+
+    /// Bounds of what is selected, in the world.
+    pub fn selection_bounds(&self) -> Option<(DVec3, DVec3)> {
+        objects::bounds(self.scene()?, self.selection?, self.playback.time)
+    }
+
+    /// The scene as it is edited; `None` before there is one.
+    pub fn scene(&self) -> Option<&Arc<Scene>> {
+        self.document.as_ref().map(Document::scene)
+    }
+
+    /// Whether there are changes that are in no file.
+    pub fn has_changes(&self) -> bool {
+        self.document.as_ref().is_some_and(Document::is_changed)
+    }
+
+    /// Changes the scene, as one step that can be undone.
+    pub fn edit(&mut self, name: &str, change: impl FnOnce(&mut Scene)) {
+        if let Some(document) = &mut self.document {
+            document.edit(name, change);
+        }
+    }
+
+    /// The pictures that are wanted now.
+    pub fn orders(&self) -> Orders {
+        let mut orders = Orders {
+            coarse: self.is_moving(),
+            paused: self.look.paused,
+            ..Orders::default()
+        };
+        if self.space.0 > 0 && self.space.1 > 0 {
+            orders.pictures[Place::Main as usize] = self.order(self.look.settings.integrator);
+            orders.pictures[Place::Beside as usize] =
+                (self.look.comparison).and_then(|comparison| self.order(comparison.integrator));
+        }
+        orders.pictures[Place::Outside as usize] = inspector::outside::order(self);
+        orders
+    }
+
+    fn order(&self, integrator: Integrator) -> Option<Order> {
+        let (scene, rig) = (self.scene()?, self.rig.as_ref()?);
+        Some(Order {
+            scene: scene.clone(),
+            restarts: self.restarts,
+            camera: (!rig.is_home()).then(|| rig.camera()),
+            background: self.look.background.clone(),
+            shot: self.playback.shot(),
+            settings: self.look.settings_in(self.space, integrator),
+            tone: self.look.tone_of(integrator),
+        })
+    }
+
+    /// The size of the picture, in pixels.
+    pub fn picture_size(&self) -> (u32, u32) {
+        self.look.settings_in(self.space, Integrator::Whitted).size
+    }
+
+    /// Room for a picture, in pixels.
+    pub fn set_space(&mut self, pixels: (u32, u32)) {
+        self.space = pixels;
+    }
+
+    /// What an empty window waits for.
+    pub fn waiting_for(&self) -> String {
+        match &self.loader {
+            Some(loader) => format!("reading {}", loader.path.display()),
+            None => "preparing".into(),
+        }
+    }
+
+    /// The name of what is on screen.
+    pub fn title(&self) -> String {
+        let name = self.path.as_deref().and_then(Path::file_name);
+        name.map_or("demo".into(), |name| name.to_string_lossy().into_owned())
+    }
+
+    /// Whether nothing moves and nothing is being read.
+    pub fn is_at_rest(&self) -> bool {
+        self.loader.is_none()
+            && self.questions.is_empty()
+            && !self.files.is_busy()
+            && !self.is_moving()
+            && !self.playback.is_playing
+            && !self.tape.is_playing()
+    }
+
+    /// Notes that the window must be opened again on another device.
+    pub fn lost_device(&mut self) {
+        self.is_device_lost = true;
+    }
+
+    /// Whether it must.
+    pub fn is_device_lost(&self) -> bool {
+        self.is_device_lost
+    }
+
+    /// Whether it must; asked once.
+    pub fn is_to_reopen(&mut self) -> bool {
+        std::mem::take(&mut self.is_device_lost)
+    }
+
+    /// Notes why what is wanted cannot be rendered; `None` while it can.
+    pub fn refused(&mut self, why: Option<String>) {
+        if self.refusal != why {
+            if let Some(why) = &why {
+                self.notices.warn(why.clone());
+            }
+            self.refusal = why;
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! Keeps what is chosen: applies it to the window, and writes it to the settings file.
+
+use super::super::layout::Layout;
+use super::super::preferences::{Preferences, Theme};
+use super::super::session::Session;
+use super::Sheet;
+use eframe::egui::{self, ThemePreference};
+use std::time::{Duration, Instant};
+
+/// How long the settings stay unwritten while they change, such as a window that is being resized.
+const PAUSE: Duration = Duration::from_secs(1);
+
+/// What is known of the settings file.
+#[derive(Default)]
+pub struct Kept {
+    written: Option<Preferences>,
+    looked: Option<Instant>,
+    has_failed: bool,
+    is_begun: bool,
+    /// Whether the panels are to be noted.
+    is_due: bool,
+    /// As the window was told.
+    applied: Option<(Theme, f32)>,
+}
+
+impl Kept {
+    pub fn forget_window(&mut self) {
+        self.applied = None;
+    }
+}
+
+/// Applies the preferences, and writes them when they have changed.
+pub fn update(session: &mut Session, ctx: &egui::Context) {
+    let kept = &mut session.sheets.kept;
+    if !kept.is_begun {
+        kept.is_begun = true;
+        kept.written = Some(session.preferences.clone());
+        if !session.preferences.hint_seen {
+            session.sheets.open(Sheet::Hint);
+        }
+    }
+    apply(session, ctx);
+    let kept = &mut session.sheets.kept;
+    if kept.looked.is_some_and(|at| at.elapsed() < PAUSE) {
+        if kept.written.as_ref() != Some(&session.preferences) {
+            ctx.request_repaint_after(PAUSE);
+        }
+        return;
+    }
+    kept.looked = Some(Instant::now());
+    kept.is_due = true;
+    keep_size(session, ctx);
+    write(session);
+}
+
+/// Writes the preferences if they have changed. Trouble is told once.
+pub fn write(session: &mut Session) {
+    let kept = &mut session.sheets.kept;
+    if kept.written.as_ref() == Some(&session.preferences) {
+        return;
+    }
+    kept.written = Some(session.preferences.clone());
+    match session.store.save(&session.preferences) {
+        Ok(()) => kept.has_failed = false,
+        Err(_) if kept.has_failed => {}
+        Err(why) => {
+            kept.has_failed = true;
+            session
+                .notices
+                .warn(format!("{why} The window goes on without keeping them."));
+        }
+    }
+}
+
+fn apply(session: &mut Session, ctx: &egui::Context) {
+    let preferences = &session.preferences;
+    let wanted = (preferences.theme, preferences.ui_scale);
+    let kept = &mut session.sheets.kept;
+    if kept.applied == Some(wanted) {
+        return;
+    }
+    kept.applied = Some(wanted);
+    // Its keys are in the table of bindings.
+    ctx.options_mut(|options| options.zoom_with_keyboard = false);
+    ctx.set_theme(match wanted.0 {
+        Theme::System => ThemePreference::System,
+        Theme::Dark => ThemePreference::Dark,
+        Theme::Light => ThemePreference::Light,
+    });
+    ctx.set_zoom_factor(wanted.1);
+}
+
+/// Notes how large the window is, unless it fills the screen.
+fn keep_size(session: &mut Session, ctx: &egui::Context) {
+    let size = ctx.input(|input| {
+        let viewport = input.viewport();
+        let is_full = viewport.fullscreen.unwrap_or(false) || viewport.maximized.unwrap_or(false);
+        viewport
+            .inner_rect
+            .filter(|_| !is_full)
+            .map(|rect| rect.size())
+    });
+    if let Some(size) = size {
+        // Points of the screen's own scale: with another one the window would grow at each start.
+        let size = size * ctx.zoom_factor();
+        if size.x >= 320.0 && size.y >= 240.0 {
+            session.preferences.window = Some([size.x.round(), size.y.round()]);
+        }
+    }
+}
+
+/// Notes how the panels are arranged, as often as the file is looked after.
+pub fn keep_layout_if_due(session: &mut Session, layout: &Layout) {
+    if std::mem::take(&mut session.sheets.kept.is_due) {
+        keep_layout(session, layout);
+    }
+}
+
+/// Notes how the panels are arranged.
+pub fn keep_layout(session: &mut Session, layout: &Layout) {
+    session.preferences.set_layout(Some(layout));
+}

@@ -1,0 +1,68 @@
+//! Screens as egui knows them.
+
+use crate::render::Screen;
+use eframe::egui::TextureId;
+use eframe::egui_wgpu::RenderState;
+use eframe::wgpu::FilterMode;
+
+/// Which screens egui can draw. Those that a frame has no use for are let go.
+pub struct Textures {
+    state: RenderState,
+    known: Vec<Known>,
+}
+
+struct Known {
+    screen: Screen,
+    filter: FilterMode,
+    id: TextureId,
+    is_used: bool,
+}
+
+impl Textures {
+    pub fn new(state: RenderState) -> Self {
+        Self {
+            state,
+            known: Vec::new(),
+        }
+    }
+
+    /// Before the first [`Self::id`] of a frame.
+    pub fn begin(&mut self) {
+        for known in &mut self.known {
+            known.is_used = false;
+        }
+    }
+
+    /// What egui draws a screen by; smooth between pixels, or not.
+    pub fn id(&mut self, screen: &Screen, is_smooth: bool) -> TextureId {
+        let filter = match is_smooth {
+            true => FilterMode::Linear,
+            false => FilterMode::Nearest,
+        };
+        let known = (self.known.iter_mut()).find(|k| k.screen == *screen && k.filter == filter);
+        if let Some(known) = known {
+            known.is_used = true;
+            return known.id;
+        }
+        let mut renderer = self.state.renderer.write();
+        let id = renderer.register_native_texture(&self.state.device, screen.view(), filter);
+        self.known.push(Known {
+            screen: screen.clone(),
+            filter,
+            id,
+            is_used: true,
+        });
+        id
+    }
+
+    /// After the last one.
+    pub fn end(&mut self) {
+        let mut renderer = self.state.renderer.write();
+        self.known.retain(|known| {
+            if !known.is_used {
+                renderer.free_texture(&known.id);
+            }
+            known.is_used
+        });
+    }
+}

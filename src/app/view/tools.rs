@@ -1,0 +1,132 @@
+//! What the mouse does in the picture.
+
+use super::bindings::Action;
+use super::inspector;
+use super::navigation::Rig;
+use super::question;
+use super::session::Session;
+use super::viewport::Viewport;
+use eframe::egui::{self, Pos2};
+
+/// What a click or a drag in the picture does, where it is not the camera's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tool {
+    /// A click selects what is under it.
+    #[default]
+    Select,
+    /// A click shows the rays of the pixel under it.
+    Inspect,
+    /// A drag chooses the region to be rendered.
+    Region,
+    /// Handles move what is selected.
+    Move,
+    /// Handles rotate what is selected.
+    Rotate,
+    /// Handles scale what is selected.
+    Scale,
+}
+
+/// Why someone wants to know what is under a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// To go round it.
+    Pivot,
+    /// To make it sharp.
+    Focus,
+    /// To select it.
+    Select,
+}
+
+/// What is being dragged in the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drag {
+    /// Chosen when it began.
+    pub action: Action,
+    /// Where it began, on the screen.
+    pub from: Pos2,
+}
+
+/// Hands the mouse in the picture to the camera, by the bindings. What a tool or a handle takes for
+/// itself does not come here.
+pub fn navigate(session: &mut Session, response: &egui::Response, viewport: Viewport) {
+    let ctx = &response.ctx;
+    let (modifiers, pointer) = ctx.input(|input| (input.modifiers, input.pointer.interact_pos()));
+    let bindings = session.preferences.bindings.clone();
+    let buttons = [
+        egui::PointerButton::Primary,
+        egui::PointerButton::Middle,
+        egui::PointerButton::Secondary,
+    ];
+    for button in buttons {
+        if response.drag_started_by(button)
+            && let (Some(from), Some(action)) = (pointer, bindings.drag(button, modifiers))
+        {
+            session.drag = Some(Drag { action, from });
+        }
+        if response.double_clicked_by(button) {
+            click(session, bindings.double_click(button, modifiers), pointer);
+        } else if response.clicked_by(button) {
+            click(session, bindings.click(button, modifiers), pointer);
+        }
+    }
+    if let (Some(drag), Some(to)) = (session.drag, pointer) {
+        let from = to - response.drag_delta();
+        if from != to
+            && let Some(rig) = &mut session.rig
+        {
+            follow(rig, drag, viewport, from, to);
+            session.moved();
+        }
+        if response.drag_stopped() {
+            session.drag = None;
+        }
+    }
+    if response.hovered() {
+        for (action, steps) in ctx.input(|input| bindings.wheel(input)) {
+            if let Some(rig) = &mut session.rig {
+                let at = pointer
+                    .filter(|_| action == Action::ZoomToCursor)
+                    .map(|point| rig.point_at(viewport.position(point), viewport.extent()));
+                rig.zoom(steps, at);
+                session.moved();
+            }
+        }
+    }
+}
+
+/// Moves the camera by a drag from one point of the screen to another.
+pub fn follow(rig: &mut Rig, drag: Drag, viewport: Viewport, from: Pos2, to: Pos2) {
+    let size = viewport.extent();
+    let (start, end) = (viewport.position(from), viewport.position(to));
+    let moved = end - start;
+    match drag.action {
+        Action::Orbit => rig.orbit(moved, size),
+        Action::Pan => rig.pan(start, end, size, None),
+        Action::LookAround => rig.look(moved, size),
+        Action::Zoom => rig.drag_zoom(moved, size, None),
+        Action::ZoomToCursor => {
+            let at = rig.point_at(viewport.position(drag.from), size);
+            rig.drag_zoom(moved, size, Some(at));
+        }
+        _ => {}
+    }
+}
+
+/// What a click is bound to; a plain one belongs to the tool.
+fn click(session: &mut Session, action: Option<Action>, pointer: Option<Pos2>) {
+    let pixel = (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point));
+    let Some(pixel) = pixel else {
+        return;
+    };
+    let purpose = match action {
+        Some(Action::SetPivot) => Purpose::Pivot,
+        Some(Action::FocusHere) => Purpose::Focus,
+        Some(Action::Select) if session.tool == Tool::Inspect => {
+            inspector::inspect(session, pixel);
+            return;
+        }
+        Some(Action::Select) => Purpose::Select,
+        _ => return,
+    };
+    session.ask(move |studio| question::pick(studio, pixel, purpose));
+}

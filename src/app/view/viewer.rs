@@ -1,0 +1,168 @@
+//! The window's contents: hands what happens to the [`Session`], orders pictures, shows them.
+
+use super::commands;
+use super::editing;
+use super::layout::Layout;
+use super::panels;
+use super::question::Answer;
+use super::render_thread::{Fault, Orders, Place, RenderThread};
+use super::session::Session;
+use super::sheets;
+use super::textures::Textures;
+use crate::gpu::Gpu;
+use eframe::egui;
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::time::Duration;
+
+/// What is drawn in a window, and what renders for it. Lives as long as its device.
+pub struct Viewer {
+    session: Rc<RefCell<Session>>,
+    render: RenderThread<Answer>,
+    textures: Textures,
+    layout: Layout,
+    orders: Orders,
+}
+
+/// What panels work with.
+pub struct Desk<'a> {
+    /// What the person works on.
+    pub session: &'a mut Session,
+    /// What renders it.
+    pub render: &'a RenderThread<Answer>,
+    /// Pictures for egui.
+    pub textures: &'a mut Textures,
+}
+
+impl Viewer {
+    /// A viewer that draws with `gpu`, which must be the device of `context`.
+    ///
+    /// # Errors
+    /// There is no thread to be had, or eframe does not draw with wgpu.
+    pub fn new(
+        context: &eframe::CreationContext,
+        gpu: Gpu,
+        session: Rc<RefCell<Session>>,
+    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+        context.egui_ctx.set_fonts(fonts());
+        let state = context.wgpu_render_state.clone();
+        let ctx = context.egui_ctx.clone();
+        let render = RenderThread::new(gpu, move || ctx.request_repaint())?;
+        session.borrow_mut().sheets.begin();
+        session.borrow_mut().files.begin();
+        let layout = Layout::kept(&session.borrow().preferences);
+        Ok(Self {
+            session,
+            render,
+            textures: Textures::new(state.ok_or("eframe does not draw with wgpu")?),
+            layout,
+            orders: Orders::default(),
+        })
+    }
+
+    /// Whether there is nothing left to load, to move or to render.
+    pub fn is_settled(&self) -> bool {
+        self.render.is_settled() && self.session.borrow().is_at_rest()
+    }
+
+    /// What the person works on.
+    pub fn session(&self) -> Rc<RefCell<Session>> {
+        self.session.clone()
+    }
+
+    /// Where the panels are.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// What renders.
+    pub fn render_thread(&self) -> &RenderThread<Answer> {
+        &self.render
+    }
+}
+
+impl Drop for Viewer {
+    fn drop(&mut self) {
+        if let Ok(mut session) = self.session.try_borrow_mut() {
+            sheets::keep_layout(&mut session, &self.layout);
+        }
+    }
+}
+
+impl eframe::App for Viewer {
+    fn raw_input_hook(&mut self, ctx: &egui::Context, raw: &mut egui::RawInput) {
+        let mut session = self.session.borrow_mut();
+        if let Some(note) = session.tape.pass(ctx, raw) {
+            session.notices.warn(note);
+        }
+    }
+
+    fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
+        let mut session = self.session.borrow_mut();
+        for answer in self.render.answers() {
+            session.take(answer);
+        }
+        match self.render.fault() {
+            Some(Fault::Lost) => {
+                session.lost_device();
+                ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            }
+            Some(Fault::Refused(why)) => session.refused(Some(why)),
+            None => session.refused(None),
+        }
+        commands::keys(&mut session, &mut self.layout, ctx);
+        session.update(ctx);
+        sheets::update(&mut session, ctx);
+        for question in session.questions.drain(..) {
+            self.render.ask(question);
+        }
+        let orders = session.orders();
+        if !orders.is_same(&self.orders) {
+            self.render.order(orders.clone());
+            self.orders = orders;
+        }
+        if session.is_at_rest() && session.tape.is_to_close() {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        }
+        if !session.is_at_rest() {
+            ctx.request_repaint_after(Duration::from_millis(8));
+        }
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        let mut session = self.session.borrow_mut();
+        self.textures.begin();
+        let mut desk = Desk {
+            session: &mut session,
+            render: &self.render,
+            textures: &mut self.textures,
+        };
+        panels::menu(ui, &mut desk, &mut self.layout);
+        panels::status(ui, &mut desk);
+        self.layout.show(ui, &mut desk);
+        sheets::show(ui, &mut desk, &mut self.layout);
+        editing::sheet(ui, &mut desk);
+        panels::notices(ui, &mut desk);
+        self.textures.end();
+    }
+}
+
+/// egui's fonts; what text has no letter for, such as arrows, comes from that of code.
+fn fonts() -> egui::FontDefinitions {
+    let mut fonts = egui::FontDefinitions::default();
+    let code = (fonts.families.get(&egui::FontFamily::Monospace)).cloned();
+    let text = (fonts.families.entry(egui::FontFamily::Proportional)).or_default();
+    for font in code.unwrap_or_default() {
+        if !text.contains(&font) {
+            text.push(font);
+        }
+    }
+    fonts
+}
+
+impl Desk<'_> {
+    /// What there is to see at a place.
+    pub fn shown(&self, place: Place) -> Option<super::canvas::Shown> {
+        self.render.shown(place)
+    }
+}

@@ -1,0 +1,76 @@
+//! Where the picture is in the window.
+
+use eframe::egui::{Pos2, Rect, Vec2};
+use glam::{DVec2, dvec2};
+
+/// The rectangle of a picture on the screen, and the picture's own size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewport {
+    /// Of the whole picture, in points.
+    pub rect: Rect,
+    /// Width and height in the picture's pixels.
+    pub size: (u32, u32),
+}
+
+impl Viewport {
+    /// A picture of `size` in the middle of `space`, as large as it is on the screen's pixels, or smaller
+    /// where that is too large; its corner is on one of them.
+    pub fn fitting(space: Rect, size: (u32, u32), pixels_per_point: f32) -> Self {
+        let pixels = Vec2::new(size.0 as f32, size.1 as f32);
+        let available = space.size() * pixels_per_point;
+        // What differs by less than a pixel is the same: sizes in points are not whole pixels.
+        let scale = ((available + Vec2::splat(1.0)) / pixels)
+            .min_elem()
+            .min(1.0);
+        let extent = pixels * scale / pixels_per_point;
+        let corner = space.center() - extent / 2.0;
+        let corner = (corner.to_vec2() * pixels_per_point).round() / pixels_per_point;
+        Self {
+            rect: Rect::from_min_size(corner.to_pos2(), extent),
+            size,
+        }
+    }
+
+    /// Whether each of its pixels is one of the screen's.
+    pub fn is_exact(&self, pixels_per_point: f32) -> bool {
+        (self.rect.width() * pixels_per_point - self.size.0 as f32).abs() < 0.5
+    }
+
+    /// Width and height in the picture's pixels.
+    pub fn extent(&self) -> DVec2 {
+        dvec2(self.size.0.into(), self.size.1.into())
+    }
+
+    /// The position in the picture, in its pixels from the upper left corner, of a point on the screen.
+    pub fn position(&self, point: Pos2) -> DVec2 {
+        let off = point - self.rect.min;
+        self.length(off)
+    }
+
+    /// The same for a distance.
+    pub fn length(&self, length: Vec2) -> DVec2 {
+        let scale = f64::from(self.size.0) / f64::from(self.rect.width());
+        dvec2(length.x.into(), length.y.into()) * scale
+    }
+
+    /// The point on the screen of a position in the picture.
+    pub fn point(&self, position: DVec2) -> Pos2 {
+        let scale = f64::from(self.rect.width()) / f64::from(self.size.0);
+        let off = position * scale;
+        self.rect.min + Vec2::new(off.x as f32, off.y as f32)
+    }
+
+    /// The rectangle on the screen of a part of the picture: x, y, width, height in its pixels.
+    pub fn part(&self, [x, y, width, height]: [u32; 4]) -> Rect {
+        let corner = dvec2(x.into(), y.into());
+        let extent = dvec2(width.into(), height.into());
+        Rect::from_two_pos(self.point(corner), self.point(corner + extent))
+    }
+
+    /// The pixel at a point on the screen.
+    pub fn pixel(&self, point: Pos2) -> Option<[u32; 2]> {
+        let position = self.position(point);
+        let is_inside = position.cmpge(DVec2::ZERO).all() && position.cmplt(self.extent()).all();
+        is_inside.then_some([position.x as u32, position.y as u32])
+    }
+}

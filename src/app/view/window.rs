@@ -1,0 +1,104 @@
+//! The window of the operating system: opened with our device, and opened again when that is lost.
+
+use super::super::exit::AppError;
+use super::session::Session;
+use super::sheets;
+use super::viewer::Viewer;
+use crate::gpu::{AdapterChoice, Gpu, GpuError};
+use eframe::egui;
+use eframe::egui_wgpu::{RendererOptions, WgpuConfiguration, WgpuSetup, WgpuSetupExisting};
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// How often a lost device is replaced before the window stays closed.
+const MAX_LOSSES: u32 = 3;
+
+/// Shows the session until the person closes the window.
+pub fn run(session: Session, choice: &AdapterChoice) -> Result<(), AppError> {
+    check_display()?;
+    let session = Rc::new(RefCell::new(session));
+    let mut losses = 0;
+    loop {
+        let gpu = Gpu::with_all_limits(choice)?;
+        let closed = open(&session, gpu);
+        sheets::write(&mut session.borrow_mut());
+        closed?;
+        if !session.borrow_mut().is_to_reopen() {
+            return Ok(());
+        }
+        losses += 1;
+        if losses > MAX_LOSSES {
+            return Err(GpuError::KeptFailing { count: losses }.into());
+        }
+    }
+}
+
+/// How eframe draws with our device.
+pub fn configuration(gpu: &Gpu) -> WgpuConfiguration {
+    let (instance, adapter, device, queue) = gpu.handles();
+    WgpuConfiguration {
+        wgpu_setup: WgpuSetup::Existing(WgpuSetupExisting {
+            instance,
+            adapter,
+            device,
+            queue,
+        }),
+        ..Default::default()
+    }
+}
+
+/// How it draws: pictures are not to be dithered, their values are those of files.
+pub const OPTIONS: RendererOptions = RendererOptions {
+    dithering: false,
+    ..RendererOptions::PREDICTABLE
+};
+
+/// Width and height of the window at first, in points.
+const SIZE: [f32; 2] = [1280.0, 800.0];
+
+fn open(session: &Rc<RefCell<Session>>, gpu: Gpu) -> Result<(), AppError> {
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("glimray")
+            .with_app_id("glimray")
+            .with_inner_size(session.borrow().preferences.window.unwrap_or(SIZE))
+            .with_min_inner_size([320.0, 240.0])
+            .with_drag_and_drop(true),
+        wgpu_options: configuration(&gpu),
+        dithering: false,
+        ..Default::default()
+    };
+    let session = session.clone();
+    eframe::run_native(
+        "glimray",
+        options,
+        Box::new(move |context| Ok(Box::new(Viewer::new(context, gpu, session)?))),
+    )
+    .map_err(|error| no_display(&error.to_string()))
+}
+
+/// Without one of these there is nothing to connect to, and the attempt would only say so in worse
+/// words.
+fn check_display() -> Result<(), AppError> {
+    match has_display() {
+        true => Ok(()),
+        false => Err(no_display("neither DISPLAY nor WAYLAND_DISPLAY is set")),
+    }
+}
+
+/// Whether there seems to be a display that a window could be on.
+pub fn has_display() -> bool {
+    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    !cfg!(target_os = "linux")
+        || ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"]
+            .into_iter()
+            .any(is_set)
+}
+
+fn no_display(why: &str) -> AppError {
+    AppError::NoDisplay(format!(
+        "cannot open a window (no display): {}. Render to a file instead: glimray render SCENE -o \
+         picture.png",
+        why.trim_end_matches('.')
+    ))
+}

@@ -1,0 +1,490 @@
+//! One picture that follows its orders: what restarts it and what does not, coarse and fine, whole and
+//! in part; and that it is the command line's.
+
+use super::harness::Window;
+use super::pixels;
+use crate::reference::compare::{open_gpu, render, sized};
+use crate::reference::scenes;
+use eframe::egui;
+use glam::Vec3;
+use glimray::app::view::canvas::{Pace, Shown};
+use glimray::app::view::order::Order;
+use glimray::app::view::render_thread::{Orders, Place, RenderThread};
+use glimray::gpu::Gpu;
+use glimray::image::Image;
+use glimray::render::{Antialias, Settings, Tone};
+use glimray::scene::{Background, Camera, Scene, ToneCurve};
+use std::sync::Arc;
+use std::sync::mpsc::channel;
+use std::time::{Duration, Instant};
+
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// A render thread and what it was last told, without a window.
+struct Easel {
+    gpu: Gpu,
+    thread: RenderThread<()>,
+    orders: Orders,
+}
+
+impl Easel {
+    fn new(scene: &Scene, settings: Settings) -> Self {
+        let gpu = open_gpu();
+        let thread = RenderThread::new(gpu.clone(), || {}).expect("a thread");
+        let mut orders = Orders::default();
+        orders.pictures[Place::Main as usize] = Some(Order {
+            scene: Arc::new(scene.clone()),
+            restarts: 0,
+            camera: None,
+            background: None,
+            shot: (0.0, 0.0),
+            settings,
+            tone: Tone::LINEAR,
+        });
+        let easel = Self {
+            gpu,
+            thread,
+            orders,
+        };
+        easel.thread.order(easel.orders.clone());
+        easel
+    }
+
+    /// Changes what is wanted.
+    fn want(&mut self, change: impl FnOnce(&mut Order)) {
+        let order = self.orders.pictures[Place::Main as usize].as_mut();
+        change(order.expect("an order"));
+        self.thread.order(self.orders.clone());
+    }
+
+    fn pause(&mut self, paused: bool) {
+        self.orders.paused = paused;
+        self.thread.order(self.orders.clone());
+    }
+
+    #[track_caller]
+    fn wait_until(&self, what: &str, is_so: impl Fn(&Self) -> bool) {
+        let start = Instant::now();
+        while !is_so(self) {
+            assert_eq!(self.thread.fault(), None);
+            assert!(start.elapsed() < PATIENCE, "never {what}");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    #[track_caller]
+    fn settle(&self) {
+        self.wait_until("settled", |easel| easel.thread.is_settled());
+        assert_eq!(self.thread.fault(), None);
+    }
+
+    fn shown(&self) -> Shown {
+        self.thread.shown(Place::Main).expect("a picture")
+    }
+
+    /// The picture in linear light.
+    fn image(&self) -> Image {
+        let (sender, receiver) = channel();
+        self.thread.ask(move |studio| {
+            let (image, _) = studio.image(&Tone::LINEAR).expect("a picture");
+            sender.send(image).expect("someone who waits");
+        });
+        receiver.recv_timeout(PATIENCE).expect("the picture")
+    }
+}
+
+fn stratified(samples: u32) -> Settings {
+    Settings {
+        samples,
+        antialias: Antialias::Stratified,
+        ..sized(61, 43)
+    }
+}
+
+const PIXELS: u64 = 61 * 43;
+
+#[test]
+fn developing_otherwise_takes_no_new_samples() {
+    let mut easel = Easel::new(&scenes::everything(), stratified(4));
+    easel.settle();
+    let before = easel.shown();
+    let first = pixels::on(&before.screen.expect("a screen"), &easel.gpu);
+    easel.want(|order| {
+        order.tone.exposure_ev = 1.0;
+        order.tone.curve = ToneCurve::Agx;
+    });
+    easel.settle();
+    let after = easel.shown();
+    assert_eq!(after.stats.samples, before.stats.samples);
+    assert_eq!(after.stats.submissions, before.stats.submissions);
+    assert!(after.progress.is_done, "{:?}", after.progress);
+    let second = pixels::on(&after.screen.expect("a screen"), &easel.gpu);
+    assert!(first != second, "the new tone is not on the screen");
+}
+
+#[test]
+fn a_pause_does_not_show_in_the_picture() {
+    let scene = scenes::everything();
+    let settings = stratified(600);
+    let mut easel = Easel::new(&scene, settings.clone());
+    easel.wait_until("fine", |easel| {
+        let shown = easel.thread.shown(Place::Main);
+        shown.is_some_and(|shown| shown.screen.is_some() && shown.progress.samples > 0)
+    });
+    easel.pause(true);
+    easel.settle();
+    let held = easel.shown();
+    assert!(held.progress.samples < 600, "it was done before the pause");
+    easel.want(|order| order.tone.exposure_ev = -1.0);
+    easel.settle();
+    assert_eq!(
+        easel.shown().stats.samples,
+        held.stats.samples,
+        "a paused picture goes on"
+    );
+    easel.pause(false);
+    easel.settle();
+    assert!(easel.shown().progress.is_done);
+    assert!(
+        easel.image() == render(&scene, &settings).0,
+        "the pause shows"
+    );
+}
+
+#[test]
+fn more_samples_go_on_from_those_that_there_are() {
+    let scene = scenes::everything();
+    let mut easel = Easel::new(&scene, stratified(4));
+    easel.settle();
+    // The second lot ends where sums go into totals, the third begins there.
+    let mut before = easel.shown().stats.samples;
+    for (from, to) in [(4, 8), (8, 256), (256, 300)] {
+        easel.want(|order| order.settings.samples = to);
+        easel.settle();
+        let now = easel.shown().stats.samples;
+        assert_eq!(
+            now - before,
+            u64::from(to - from) * PIXELS,
+            "{from} to {to}"
+        );
+        assert!(
+            easel.image() == render(&scene, &stratified(to)).0,
+            "{from} and {} more samples are not {to}",
+            to - from
+        );
+        before = now;
+    }
+}
+
+#[test]
+fn fewer_samples_and_adaptive_ones_are_those_of_the_command_line_too() {
+    let scene = scenes::everything();
+    let mut easel = Easel::new(&scene, stratified(8));
+    easel.settle();
+    easel.want(|order| order.settings.samples = 2);
+    easel.settle();
+    assert!(
+        easel.image() == render(&scene, &stratified(2)).0,
+        "8 and then 2 samples"
+    );
+    let adaptive = |samples| Settings {
+        antialias: Antialias::Adaptive,
+        ..stratified(samples)
+    };
+    for samples in [16, 32] {
+        easel.want(|order| order.settings = adaptive(samples));
+        easel.settle();
+        let image = easel.image();
+        assert!(
+            image == render(&scene, &adaptive(samples)).0,
+            "{samples} adaptive samples"
+        );
+    }
+}
+
+#[test]
+fn another_size_starts_over_and_the_last_picture_stays_meanwhile() {
+    let scene = scenes::everything();
+    let mut easel = Easel::new(&scene, stratified(4));
+    easel.settle();
+    let other = Settings {
+        size: (90, 30),
+        ..stratified(4)
+    };
+    easel.want(|order| order.settings = other.clone());
+    easel.wait_until("ordered", |easel| easel.shown().size == (90, 30));
+    assert!(
+        easel.shown().under.is_some(),
+        "there is nothing to see meanwhile"
+    );
+    easel.settle();
+    assert_eq!(easel.shown().screen.expect("a screen").size(), (90, 30));
+    assert!(easel.image() == render(&scene, &other).0);
+}
+
+#[test]
+fn a_region_is_the_same_part_of_the_picture_and_leaves_the_rest() {
+    let scene = scenes::everything();
+    let mut easel = Easel::new(&scene, stratified(4));
+    easel.settle();
+    let whole = easel.image();
+    for crop in [[7, 5, 40, 33], [9, 5, 40, 33]] {
+        easel.want(|order| order.settings.crop = Some(crop));
+        easel.settle();
+        let shown = easel.shown();
+        let [x, y, width, height] = shown.region;
+        assert_eq!([x, y, x + width, y + height], crop);
+        assert_eq!(shown.screen.expect("a screen").size(), (width, height));
+        assert_eq!(shown.whole.expect("the rest").size(), (61, 43));
+        let part = easel.image();
+        for (index, pixel) in part.pixels.iter().enumerate() {
+            let (column, row) = (x + index as u32 % width, y + index as u32 / width);
+            assert_eq!(
+                whole.pixels[(row * 61 + column) as usize],
+                *pixel,
+                "{column},{row}"
+            );
+        }
+    }
+    easel.want(|order| order.settings.crop = None);
+    easel.settle();
+    assert!(
+        easel.shown().whole.is_none(),
+        "the rest is under a picture that is whole"
+    );
+    assert!(easel.image() == whole);
+}
+
+#[test]
+fn what_moves_is_one_whole_coarse_picture() {
+    let mut easel = Easel::new(&scenes::everything(), stratified(64));
+    easel.settle();
+    easel.orders.coarse = true;
+    easel.want(|order| order.shot = (0.5, 0.5));
+    easel.settle();
+    let shown = easel.shown();
+    assert!(shown.progress.is_coarse, "{:?}", shown.progress);
+    assert!(
+        shown.screen.is_none(),
+        "a fine picture of what was before is shown"
+    );
+    let (width, height) = shown.under.expect("a picture").size();
+    assert!((1..=61).contains(&width) && (1..=43).contains(&height));
+    easel.orders.coarse = false;
+    easel.want(|_| {});
+    easel.settle();
+    assert!(!easel.shown().progress.is_coarse);
+}
+
+/// Costs that vary by a quarter up and down are what a busy machine is like.
+#[test]
+fn the_coarse_picture_is_what_is_wanted_too_after_a_way_back() {
+    let scene = scenes::everything();
+    let home = scene.frame(0.0).camera;
+    let mut easel = Easel::new(&scene, stratified(2));
+    easel.settle();
+    // Every channel's mean on the main picture's screens.
+    let means = |easel: &Easel| {
+        let shown = easel.shown();
+        let screen = (shown.screen.or(shown.under)).expect("a screen");
+        let bytes = pixels::on(&screen, &easel.gpu);
+        std::array::from_fn::<f64, 3, _>(|channel| {
+            let values = bytes.rgb.iter().map(|rgb| f64::from(rgb[channel]));
+            values.sum::<f64>() / bytes.rgb.len() as f64
+        })
+    };
+    let apart = |a: [f64; 3], b: [f64; 3]| {
+        let off = (0..3).map(|i| (a[i] - b[i]).abs());
+        off.fold(0.0, f64::max)
+    };
+    let wanted = means(&easel);
+    let changes: [(&str, fn(&mut Order, &Camera), fn(&mut Order)); 2] = [
+        (
+            "camera",
+            |order, home| {
+                order.camera = Some(Camera {
+                    look_at: home.look_from + (home.look_from - home.look_at),
+                    ..home.clone()
+                });
+            },
+            |order| order.camera = None,
+        ),
+        (
+            "background",
+            |order, _| order.background = Some(Background::Color(Vec3::new(9.0, 0.0, 9.0))),
+            |order| order.background = None,
+        ),
+    ];
+    for (what, there, back) in changes {
+        easel.orders.coarse = false;
+        easel.want(|order| there(order, &home));
+        easel.settle();
+        let far = apart(means(&easel), wanted);
+        easel.orders.coarse = true;
+        easel.want(back);
+        easel.settle();
+        assert!(easel.shown().progress.is_coarse);
+        let near = apart(means(&easel), wanted);
+        assert!(
+            near < far / 4.0,
+            "{what}: {near} from home, {far} before the way back"
+        );
+    }
+}
+
+#[test]
+fn the_size_of_coarse_pictures_fits_the_time_and_does_not_flicker() {
+    let wanted = 0.04;
+    for pixels in [40_000, 640_000, 2_000_000] {
+        for cost in [2e-8, 3e-7, 5e-6] {
+            let mut pace = Pace::default();
+            let mut divisors = Vec::new();
+            for frame in 0..60 {
+                let divisor = pace.divisor(pixels, wanted);
+                divisors.push(divisor);
+                let samples = pixels / u64::from(divisor).pow(2);
+                let noise = [1.0, 0.8, 1.2, 0.9, 1.25, 0.85][frame % 6];
+                pace.measured(samples as f64 * cost * noise, samples);
+            }
+            let last = divisors[59];
+            assert!(
+                divisors[8..].iter().all(|d| *d == last),
+                "{pixels} {cost}: {divisors:?}"
+            );
+            let time = |divisor: u32| pixels as f64 * cost / f64::from(divisor).powi(2);
+            assert!(
+                last == 16 || time(last) < 1.5 * wanted,
+                "{pixels} {cost}: {last} is slow"
+            );
+            assert!(
+                last == 1 || time(last - 1) > 0.5 * wanted,
+                "{pixels} {cost}: {last} is coarse"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_picture_is_finished_while_the_window_draws_nothing() {
+    let mut window = Window::open(&["--size", "64x48", "--samples", "64"]);
+    window.harness.step();
+    window.harness.step();
+    let start = Instant::now();
+    let render = window.harness.state().render_thread();
+    let is_done = || {
+        render
+            .shown(Place::Main)
+            .is_some_and(|shown| shown.progress.is_done)
+    };
+    while !is_done() {
+        assert!(start.elapsed() < PATIENCE, "it waits for the window");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+#[test]
+fn a_window_without_room_renders_nothing_and_comes_back() {
+    let mut window = Window::open(&["--samples", "1"]);
+    window.settle();
+    let size = window.shown().size;
+    window.session().set_space((0, 0));
+    let orders = window.session().orders();
+    assert!(orders.pictures.iter().all(Option::is_none));
+    window.harness.set_size(egui::vec2(1.0, 1.0));
+    window.harness.step();
+    window.harness.step();
+    window.harness.set_size(egui::vec2(1000.0, 700.0));
+    window.settle();
+    assert_eq!(window.shown().size, size);
+    assert!(window.shown().progress.is_done);
+}
+
+#[test]
+fn a_finer_screen_gets_a_picture_of_as_many_pixels_more() {
+    let mut window = Window::open(&["--samples", "1"]);
+    window.settle();
+    let (width, height) = window.shown().size;
+    let viewports = &mut window.harness.input_mut().viewports;
+    let root = viewports.get_mut(&eframe::egui::ViewportId::ROOT);
+    root.expect("a window").native_pixels_per_point = Some(2.0);
+    window.settle();
+    let (wide, high) = window.shown().size;
+    assert!(wide.abs_diff(2 * width) <= 2, "{width} and {wide}");
+    assert!(high.abs_diff(2 * height) <= 2, "{height} and {high}");
+}
+
+/// Opens a scene, lets `change` happen, and holds what is on the GPU against what the command line
+/// writes that says the same.
+#[track_caller]
+fn check(scene: &str, flags: &[&str], change: impl FnOnce(&mut Window) -> Vec<String>) {
+    let path = format!("assets/scenes/{scene}");
+    let mut arguments = vec![path.as_str()];
+    arguments.extend(flags);
+    let mut window = Window::open(&arguments);
+    window.settle();
+    let more = change(&mut window);
+    window.settle();
+    let shown = window.shown();
+    assert!(shown.progress.is_done, "{scene}: {:?}", shown.progress);
+    let screen = pixels::on(&shown.screen.expect("a screen"), &window.gpu);
+    let mut line = vec!["render", "--quiet"];
+    line.extend(&arguments);
+    line.extend(more.iter().map(String::as_str));
+    screen.assert_same(&pixels::of_command_line(&line), &line.join(" "));
+}
+
+#[test]
+fn what_is_on_the_screen_is_the_png_of_the_command_line() {
+    let flags = ["--size", "72x48", "--samples", "4"];
+    for scene in [
+        "showcase.toml",
+        "glass_and_mirrors.toml",
+        "lights.toml",
+        "depth_of_field.toml",
+        "far_away.toml",
+        "tones.toml",
+        "neutral.nff",
+        "lighthouse.obj",
+    ] {
+        check(scene, &flags, |_| Vec::new());
+    }
+    let adaptive = [
+        "--size",
+        "72x48",
+        "--samples",
+        "32",
+        "--antialias",
+        "adaptive",
+    ];
+    check("soft_shadows.toml", &adaptive, |_| Vec::new());
+    let crop = ["--size", "72x48", "--samples", "2", "--crop", "10,5,50,41"];
+    check("patterns.toml", &crop, |_| Vec::new());
+    let normals = ["--size", "72x48", "--integrator", "normals"];
+    check("shapes.toml", &normals, |_| Vec::new());
+}
+
+#[test]
+fn a_camera_that_was_moved_gives_the_png_of_the_command_line() {
+    let flags = ["--size", "72x48", "--samples", "4"];
+    for scene in ["showcase.toml", "far_away.toml", "mesh.toml"] {
+        check(scene, &flags, |window| {
+            let mut session = window.session();
+            let rig = session.rig.as_mut().expect("a rig");
+            rig.orbit_by(0.4, -0.1);
+            rig.zoom(1.5, None);
+            session.moved();
+            drop(session);
+            window.settle();
+            let camera = window.camera();
+            let place = |v: glam::DVec3| format!("{},{},{}", v.x, v.y, v.z);
+            vec![
+                "--look-from".into(),
+                place(camera.look_from),
+                "--look-at".into(),
+                place(camera.look_at),
+                "--up".into(),
+                place(camera.up),
+            ]
+        });
+    }
+}

@@ -1,0 +1,379 @@
+//! Editing in the window: what is selected, changed, taken back and saved.
+
+use super::harness::Window;
+use crate::reference::compare::render;
+use eframe::egui::{Key, Pos2, vec2};
+use egui_kittest::kittest::Queryable;
+use glam::{DVec3, dvec3, vec3};
+use glimray::app::view::bindings::Action;
+use glimray::app::view::editing;
+use glimray::app::view::objects::Id;
+use glimray::app::view::tools::Tool;
+use glimray::render::Tone;
+use glimray::scene::{Geometry, ObjectRef, Scene};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// Two balls beside each other, seen along −z from a distance of 8, and a lamp.
+const BALLS: &str = r#"
+background = [0.1, 0.2, 0.3]
+ambient = [0.2, 0.2, 0.2]
+
+[camera]
+look_from = [0, 0, 8]
+look_at = [0, 0, 0]
+fov_y_deg = 30
+
+[[lights]]
+point = { position = [3, 4, 5], color = [0.9, 0.9, 0.9] }
+
+[materials]
+red = { phong = { diffuse = [0.75, 0.125, 0.0625], specular = [0.25, 0.25, 0.25], shininess = 20 } }
+blue = { phong = { diffuse = [0.0625, 0.125, 0.75] } }
+
+[[objects]]
+sphere = { center = [-1, 0, 0], radius = 0.75 }
+material = "red"
+
+[[objects]]
+sphere = { center = [1, 0, 0], radius = 0.75 }
+material = "blue"
+"#;
+
+const RED: Id = Id::Object(ObjectRef::Shape(0));
+const BLUE: Id = Id::Object(ObjectRef::Shape(1));
+
+/// A file of these balls in a folder of its own.
+fn file() -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("balls.toml");
+    std::fs::write(&path, BALLS).expect("a file");
+    (folder, path)
+}
+
+/// A window that shows them in so many pixels, with one sample each.
+fn open(path: &Path, size: &str) -> Window {
+    let path = path.to_str().expect("a path in UTF-8");
+    let mut window = Window::open(&[path, "--size", size, "--samples", "1"]);
+    window.settle();
+    window
+}
+
+fn perform(window: &mut Window, action: Action) {
+    editing::perform(action, &mut window.session());
+    window.settle();
+}
+
+fn scene(window: &Window) -> Scene {
+    let session = window.session();
+    Scene::clone(session.scene().expect("a scene"))
+}
+
+fn notices(window: &Window) -> Vec<String> {
+    let notices = window.session().notices.current();
+    notices.into_iter().map(|notice| notice.text).collect()
+}
+
+/// Where on the screen a point of the world is.
+fn on_screen(window: &Window, point: DVec3) -> Pos2 {
+    let session = window.session();
+    let viewport = session.viewport.expect("a picture");
+    let camera = session.camera().expect("a camera");
+    let at = glimray::app::view::navigation::project(&camera, point, viewport.extent());
+    viewport.point(at.expect("in front of the camera"))
+}
+
+fn drag(window: &mut Window, from: Pos2, to: Pos2) {
+    window.harness.hover_at(from);
+    window.harness.step();
+    window.harness.drag_at(from);
+    window.harness.step();
+    for share in [0.4, 1.0] {
+        window.harness.hover_at(from + (to - from) * share);
+        window.harness.step();
+    }
+    window.harness.drop_at(to);
+    window.settle();
+}
+
+/// Types a number into a field.
+fn set(window: &mut Window, field: &str, value: f64) {
+    window
+        .harness
+        .get_by_label(field)
+        .set_value_accesskit(value);
+    window.settle();
+}
+
+fn assert_shows(window: &mut Window, wanted: &Scene, what: &str) {
+    let (expected, _) = render(wanted, &window.order().settings);
+    let image = window.image(Tone::LINEAR);
+    assert!(
+        image == expected,
+        "{what}: the picture is not that of the scene"
+    );
+}
+
+#[test]
+fn a_click_in_the_picture_and_one_in_the_outline_select_the_same() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "320x240");
+    let blue = on_screen(&window, dvec3(1.0, 0.0, 0.0));
+    window.harness.drag_at(blue);
+    window.harness.step();
+    window.harness.drop_at(blue);
+    window.settle();
+    assert_eq!(window.session().selection, Some(BLUE));
+    window.harness.get_by_label("sphere 1 (red)").click();
+    window.settle();
+    assert_eq!(window.session().selection, Some(RED));
+    // Arrows go on from there.
+    window.harness.key_press(Key::ArrowDown);
+    window.settle();
+    assert_eq!(window.session().selection, Some(BLUE));
+    let nowhere = on_screen(&window, dvec3(0.0, 1.5, 0.0));
+    window.harness.drag_at(nowhere);
+    window.harness.step();
+    window.harness.drop_at(nowhere);
+    window.settle();
+    assert_eq!(window.session().selection, None);
+}
+
+#[test]
+fn search_leaves_what_has_the_words() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.session().editing.listing.query = "blue".into();
+    window.settle();
+    window.harness.get_by_label("sphere 2 (blue)");
+    assert!(window.harness.query_by_label("sphere 1 (red)").is_none());
+}
+
+#[test]
+fn a_material_that_is_changed_gives_the_picture_of_the_changed_scene() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.harness.get_by_label("red").click();
+    window.settle();
+    let mut wanted = scene(&window);
+    set(&mut window, "Diffuse green", 0.5);
+    wanted.materials[0].diffuse = vec3(0.75, 0.5, 0.0625);
+    assert_eq!(scene(&window), wanted);
+    assert_shows(&mut window, &wanted, "diffuse");
+    // What was opaque becomes transparent: other code on the GPU.
+    set(&mut window, "Transmit red", 0.5);
+    wanted.materials[0].transmit.x = 0.5;
+    assert_shows(&mut window, &wanted, "transmit");
+    perform(&mut window, Action::Undo);
+    wanted.materials[0].transmit.x = 0.0;
+    assert_shows(&mut window, &wanted, "undone");
+}
+
+#[test]
+fn a_background_and_a_light_that_are_changed_give_the_picture_of_the_changed_scene() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    let mut wanted = scene(&window);
+    set(&mut window, "Background red", 0.875);
+    wanted.background = glimray::scene::Background::Color(vec3(0.875, 0.2, 0.3));
+    assert_shows(&mut window, &wanted, "background");
+    window.harness.get_by_label("point light 1").click();
+    window.settle();
+    set(&mut window, "Intensity", 0.45);
+    wanted.lights[0].color *= 0.5;
+    assert_shows(&mut window, &wanted, "intensity");
+    set(&mut window, "Position y", -4.0);
+    wanted.lights[0].kind = glimray::scene::LightKind::Point {
+        position: dvec3(3.0, -4.0, 5.0),
+    };
+    assert_eq!(scene(&window), wanted);
+    assert_shows(&mut window, &wanted, "position");
+}
+
+#[test]
+fn an_arrow_moves_what_is_selected_as_far_as_the_hand_and_as_numbers_do() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "400x300");
+    {
+        let mut session = window.session();
+        session.selection = Some(RED);
+        session.tool = Tool::Move;
+    }
+    window.settle();
+    let origin = on_screen(&window, dvec3(-1.0, 0.0, 0.0));
+    let grip = origin + vec2(60.0, 0.0);
+    drag(&mut window, grip, grip + vec2(40.0, 25.0));
+    // The arrow lies in the plane of the picture: a pixel there is 2 d tan(fov / 2) / height wide.
+    let pixel = 2.0 * 8.0 * 15_f64.to_radians().tan() / 300.0;
+    let Geometry::Sphere { center, radius } = scene(&window).shapes[0].geometry else {
+        panic!("a sphere stays one");
+    };
+    let expected = dvec3(-1.0 + 40.0 * pixel, 0.0, 0.0);
+    // Not to the last digit: egui counts points in single floats.
+    assert!(
+        center.distance(expected) < 1e-4,
+        "{center} is not {expected}"
+    );
+    assert_eq!(radius, 0.75);
+    {
+        let session = window.session();
+        let document = session.document.as_ref().expect("a document");
+        assert_eq!(document.undo_name(), Some("move sphere 1 (red)"));
+        assert_eq!(document.undo_count(), 1);
+    }
+    let by_hand = window.session().selection_bounds();
+    perform(&mut window, Action::Undo);
+    set(&mut window, "Position x", center.x);
+    assert_eq!(window.session().selection_bounds(), by_hand);
+}
+
+#[test]
+fn escape_puts_back_what_is_being_dragged() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "400x300");
+    let before = scene(&window);
+    {
+        let mut session = window.session();
+        session.selection = Some(RED);
+        session.tool = Tool::Move;
+    }
+    window.settle();
+    let grip = on_screen(&window, dvec3(-1.0, 0.0, 0.0)) + vec2(60.0, 0.0);
+    window.harness.drag_at(grip);
+    window.harness.step();
+    for by in [20.0, 40.0] {
+        window.harness.hover_at(grip + vec2(by, 0.0));
+        window.harness.step();
+    }
+    assert_ne!(scene(&window), before);
+    window.harness.key_press(Key::Escape);
+    window.harness.step();
+    assert_eq!(scene(&window), before);
+    window.harness.hover_at(grip + vec2(70.0, 0.0));
+    window.harness.step();
+    window.harness.drop_at(grip + vec2(70.0, 0.0));
+    window.settle();
+    assert_eq!(scene(&window), before);
+    assert_eq!(window.session().tool, Tool::Move);
+}
+
+#[test]
+fn steps_are_taken_back_and_done_again_by_their_names() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    let before = scene(&window);
+    window.session().selection = Some(BLUE);
+    perform(&mut window, Action::ToggleVisible);
+    let hidden = scene(&window);
+    assert_shows(&mut window, &hidden, "hidden");
+    perform(&mut window, Action::Delete);
+    assert_eq!(scene(&window).shapes.len(), 1);
+    assert_eq!(window.session().selection, None);
+    perform(&mut window, Action::Undo);
+    perform(&mut window, Action::Undo);
+    assert_eq!(scene(&window), before);
+    assert_shows(&mut window, &before, "undone");
+    let told = notices(&window);
+    let wanted = ["Undid delete sphere 2 (blue)", "Undid hide sphere 2 (blue)"];
+    assert_eq!(told[told.len() - 2..], wanted);
+    perform(&mut window, Action::Redo);
+    assert_eq!(scene(&window), hidden);
+    assert_eq!(
+        notices(&window).last().expect("a notice"),
+        "Redid hide sphere 2 (blue)"
+    );
+}
+
+#[test]
+fn a_copy_is_selected_and_stands_in_the_same_place() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.session().selection = Some(RED);
+    perform(&mut window, Action::Duplicate);
+    let after = scene(&window);
+    assert_eq!(after.shapes.len(), 3);
+    assert_eq!(after.shapes[2], after.shapes[0]);
+    assert_eq!(
+        window.session().selection,
+        Some(Id::Object(ObjectRef::Shape(2)))
+    );
+}
+
+#[test]
+fn a_saved_scene_gives_the_same_picture() {
+    let (folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.session().selection = Some(RED);
+    window.settle();
+    set(&mut window, "Position y", 0.375);
+    let edited = scene(&window);
+    perform(&mut window, Action::SaveSceneAs);
+    let other = folder.path().join("other.toml");
+    let name = other.to_str().expect("a path in UTF-8");
+    window
+        .harness
+        .get_by_label("File name")
+        .set_text_value_accesskit(name);
+    window.harness.step();
+    window.harness.step();
+    window.harness.get_by_label("Save").click();
+    window.settle();
+    assert!(
+        notices(&window).iter().any(|n| n.starts_with("Saved ")),
+        "{:?}",
+        notices(&window)
+    );
+    let read = glimray::import::load(&other).expect("a scene");
+    let (expected, _) = render(&edited, &window.order().settings);
+    let (again, _) = render(&read, &window.order().settings);
+    assert!(expected == again, "the saved scene gives another picture");
+    assert!(
+        !window
+            .session()
+            .document
+            .as_ref()
+            .expect("a document")
+            .is_changed()
+    );
+    let old = std::fs::read_to_string(&path).expect("the old file");
+    assert_eq!(old, BALLS, "the old file was touched");
+}
+
+#[test]
+fn revert_goes_back_to_the_file_and_can_itself_be_undone() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    let before = scene(&window);
+    window.session().selection = Some(RED);
+    window.settle();
+    set(&mut window, "Radius", 0.5);
+    let edited = scene(&window);
+    assert_ne!(edited, before);
+    perform(&mut window, Action::Revert);
+    assert_eq!(scene(&window), before);
+    assert_shows(&mut window, &before, "reverted");
+    perform(&mut window, Action::Undo);
+    assert_eq!(scene(&window), edited);
+}
+
+#[test]
+fn the_camera_under_the_hand_can_become_the_scenes_own() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    {
+        let mut session = window.session();
+        let rig = session.rig.as_mut().expect("a camera");
+        rig.orbit_by(0.5, 0.25);
+        rig.arrive();
+    }
+    window.settle();
+    let seen = window.camera();
+    window
+        .harness
+        .get_by_label("Use this camera for the scene")
+        .click_accesskit();
+    window.settle();
+    let own = scene(&window).frame(0.0).camera;
+    assert_eq!((own.look_from, own.look_at), (seen.look_from, seen.look_at));
+    assert!(window.session().rig.as_ref().expect("a camera").is_home());
+}

@@ -1,0 +1,553 @@
+//! Files in the window: dropped, watched, mended, saved; cameras as command lines.
+
+use super::harness::Window;
+use eframe::egui;
+use egui_kittest::kittest::Queryable;
+use glimray::app::view::files::dialogs::{Dialogs, Reply};
+use glimray::image::Image;
+use glimray::scene::Background;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const SMALL: [&str; 4] = ["--size", "48x32", "--samples", "2"];
+
+/// One sphere of this radius.
+fn scene(radius: &str) -> String {
+    format!(
+        "ambient = [0.2, 0.2, 0.2]\n\n[camera]\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\n\n\
+         [[lights]]\npoint = {{ position = [2, 3, 4], color = [1, 1, 1], intensity = 30 }}\n\n\
+         [materials.red]\nphong = {{ diffuse = [0.8, 0.1, 0.1] }}\n\n\
+         [[objects]]\nsphere = {{ center = [0, 0, 0], radius = {radius} }}\nmaterial = \"red\"\n"
+    )
+}
+
+/// A folder with files in it.
+struct Place(TempDir);
+
+impl Place {
+    fn new(files: &[(&str, &str)]) -> Self {
+        let place = Self(tempfile::tempdir().expect("a folder"));
+        for (name, text) in files {
+            fs::write(place.path(name), text).expect("a file");
+        }
+        place
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().canonicalize().expect("a folder").join(name)
+    }
+
+    fn open(&self, name: &str) -> Window {
+        let path = self.path(name);
+        let path = path.to_str().expect("a name");
+        let mut window = Window::open(&[&[path], SMALL.as_slice()].concat());
+        window.settle();
+        window
+    }
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+fn drop_files(window: &mut Window, paths: &[PathBuf]) {
+    let files = paths
+        .iter()
+        .map(|path| Arc::new(Dropped(path.clone())) as _);
+    window.harness.input_mut().dropped_files = files.collect();
+    window.harness.step();
+    window.settle();
+}
+
+/// Steps until it is so.
+fn wait(window: &mut Window, what: &str, is_so: impl Fn(&Window) -> bool) {
+    let start = Instant::now();
+    while !is_so(window) {
+        assert!(start.elapsed() < Duration::from_secs(60), "{what}");
+        window.harness.step();
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    window.settle();
+}
+
+fn notices(window: &Window) -> Vec<String> {
+    let session = window.session.borrow();
+    session
+        .notices
+        .all()
+        .iter()
+        .map(|n| n.text.clone())
+        .collect()
+}
+
+fn has_notice(window: &Window, words: &str) -> bool {
+    notices(window).iter().any(|text| text.contains(words))
+}
+
+fn message(window: &Window) -> Option<String> {
+    let session = window.session.borrow();
+    session
+        .files
+        .broken
+        .as_ref()
+        .map(|b| b.trouble.message.clone())
+}
+
+fn title(window: &Window) -> String {
+    window.session.borrow().title()
+}
+
+fn picture(window: &mut Window) -> Image {
+    window.image(glimray::render::Tone::LINEAR)
+}
+
+/// Puts text in the place of a file in one step, as careful editors do.
+fn replace(path: &Path, text: &str) {
+    let beside = path.with_extension("part");
+    fs::write(&beside, text).expect("a file");
+    fs::rename(&beside, path).expect("a file that can be replaced");
+}
+
+fn glimray(arguments: &[&str]) -> Output {
+    let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
+        .args(arguments)
+        .output();
+    output.expect("glimray runs")
+}
+
+#[test]
+fn a_dropped_scene_is_opened_and_remembered() {
+    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let mut window = place.open("one.toml");
+    drop_files(&mut window, &[place.path("two.toml")]);
+    assert_eq!(title(&window), "two.toml");
+    let session = window.session.borrow();
+    let recent: Vec<_> = session.preferences.recent.iter().collect();
+    assert_eq!(recent, [&place.path("two.toml"), &place.path("one.toml")]);
+}
+
+#[test]
+fn of_a_dropped_folder_the_first_scene_that_can_be_read_is_opened_and_said() {
+    let files = [
+        ("a.toml", "nonsense"),
+        ("b.toml", &*scene("2")),
+        ("c.toml", &*scene("3")),
+    ];
+    let place = Place::new(&files);
+    let mut window = Window::open(&SMALL);
+    window.settle();
+    drop_files(&mut window, &[place.path("")]);
+    wait(&mut window, "b.toml is opened", |window| {
+        title(window) == "b.toml"
+    });
+    assert!(has_notice(&window, "3 scenes"), "{:?}", notices(&window));
+}
+
+#[test]
+fn what_cannot_be_read_is_one_notice_and_changes_nothing() {
+    let place = Place::new(&[("one.toml", &scene("1")), ("notes.txt", "notes")]);
+    let mut window = place.open("one.toml");
+    let before = notices(&window).len();
+    drop_files(&mut window, &[place.path("notes.txt")]);
+    assert_eq!(title(&window), "one.toml");
+    assert_eq!(notices(&window).len(), before + 1);
+    assert!(has_notice(&window, "notes.txt"), "{:?}", notices(&window));
+}
+
+#[test]
+fn a_dropped_picture_becomes_the_surroundings_and_can_be_undone() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let sky = Image {
+        pixels: vec![[0.25, 0.5, 2.0, 1.0]; 2],
+        ..Image::new(2, 1)
+    };
+    glimray::output::save(place.path("sky.exr"), &sky).expect("a picture");
+    let mut window = place.open("one.toml");
+    drop_files(&mut window, &[place.path("sky.exr")]);
+    wait(&mut window, "the picture is read", |window| {
+        has_notice(window, "sky.exr")
+    });
+    let scene = window.order().scene;
+    assert!(matches!(scene.background, Background::Picture { .. }));
+    let corner = picture(&mut window).pixel(0, 0).expect("a pixel");
+    assert_eq!(corner, [0.25, 0.5, 2.0, 1.0]);
+    assert!(window.session.borrow().has_changes());
+}
+
+#[test]
+fn a_changed_file_is_read_again_and_the_camera_stays() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    window
+        .session()
+        .rig
+        .as_mut()
+        .expect("a camera")
+        .orbit_by(0.5, 0.2);
+    window.session().look.tone.exposure_ev = 1.5;
+    window.settle();
+    let (camera, before) = (window.camera(), picture(&mut window));
+    replace(&place.path("one.toml"), &scene("1.5"));
+    wait(&mut window, "the scene is read again", |w| {
+        has_notice(w, "read one.toml again")
+    });
+    assert_eq!(window.camera(), camera);
+    assert_eq!(window.session.borrow().look.tone.exposure_ev, 1.5);
+    assert!(
+        picture(&mut window) != before,
+        "the larger sphere is not seen"
+    );
+}
+
+#[test]
+fn a_changed_file_that_the_scene_refers_to_is_read_again() {
+    let obj = |x: &str| format!("v -1 -1 0\nv {x} -1 0\nv 0 1 0\nf 1 2 3\n");
+    let text = scene("0.1") + "\n[[objects]]\nmaterial = \"red\"\nmesh = { file = \"tri.obj\" }\n";
+    let place = Place::new(&[("one.toml", &text), ("tri.obj", &obj("1"))]);
+    let mut window = place.open("one.toml");
+    assert_eq!(message(&window), None);
+    let before = picture(&mut window);
+    replace(&place.path("tri.obj"), &obj("1.9"));
+    wait(&mut window, "the scene is read again", |w| {
+        has_notice(w, "read one.toml again")
+    });
+    assert!(
+        picture(&mut window) != before,
+        "the larger triangle is not seen"
+    );
+}
+
+#[test]
+fn a_broken_edit_shows_its_line_and_keeps_the_last_good_picture_until_it_is_mended() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    let before = picture(&mut window);
+    let broken = scene("1").replace("[0.8, 0.1, 0.1]", "[0.8, \"much\", 0.1]");
+    replace(&place.path("one.toml"), &broken);
+    wait(&mut window, "the error is shown", |window| {
+        message(window).is_some()
+    });
+    let text = message(&window).expect("an error");
+    let line = 1 + broken
+        .lines()
+        .position(|line| line.contains("much"))
+        .expect("a line");
+    assert!(text.contains(&format!("one.toml:{line}:")), "{text}");
+    {
+        let session = window.session.borrow();
+        let shown = session
+            .files
+            .broken
+            .as_ref()
+            .and_then(|b| b.trouble.line.clone());
+        let shown = shown.expect("the source line");
+        assert_eq!(shown.number, line);
+        assert!(shown.text.contains("\"much\""), "{shown:?}");
+        assert!(shown.text[shown.span.clone()].contains("much"), "{shown:?}");
+    }
+    window.harness.get_by_label("Read it again");
+    assert!(
+        picture(&mut window) == before,
+        "the last good picture went away"
+    );
+    replace(&place.path("one.toml"), &scene("1"));
+    wait(&mut window, "the error goes away", |window| {
+        message(window).is_none()
+    });
+}
+
+#[test]
+fn a_deleted_file_is_one_notice_and_is_taken_up_when_it_comes_back() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    let before = picture(&mut window);
+    fs::remove_file(place.path("one.toml")).expect("a file");
+    wait(&mut window, "it is said", |window| {
+        has_notice(window, "was deleted")
+    });
+    assert!(picture(&mut window) == before, "the last picture went away");
+    assert_eq!(message(&window), None);
+    fs::write(place.path("one.toml"), scene("2")).expect("a file");
+    wait(&mut window, "it is read again", |w| {
+        has_notice(w, "read one.toml again")
+    });
+    assert!(
+        picture(&mut window) != before,
+        "the larger sphere is not seen"
+    );
+}
+
+#[test]
+fn a_scene_that_was_broken_from_the_start_is_shown_when_it_is_mended() {
+    let place = Place::new(&[("one.toml", "[camera\n")]);
+    let mut window = place.open("one.toml");
+    assert!(message(&window).is_some_and(|text| text.contains("one.toml:1:")));
+    replace(&place.path("one.toml"), &scene("1"));
+    wait(&mut window, "the scene is shown", |w| {
+        w.session.borrow().scene().is_some()
+    });
+    assert_eq!(message(&window), None);
+}
+
+/// Saves through the sheet, with `name` chosen in the dialog.
+fn save(window: &mut Window, path: &Path) {
+    let chosen = path.to_owned();
+    window.session().files.dialogs = Dialogs::answering(move |request| {
+        assert!(request.saves);
+        Reply::Chosen(chosen.clone())
+    });
+    window.harness.key_press(egui::Key::F12);
+    window.harness.step();
+    window.harness.step();
+    window.harness.get_by_label("Browse…").click();
+    window.harness.run_steps(3);
+    window.harness.get_by_label("Save").click();
+    window.harness.step();
+    wait(window, "the picture is written", |_| path.exists());
+}
+
+#[test]
+fn a_saved_picture_has_the_bytes_of_the_command_lines() {
+    let text = scene("1") + "\n[output]\nexposure_ev = 0.5\ntone = \"aces\"\n";
+    let place = Place::new(&[("one.toml", &text)]);
+    let mut window = place.open("one.toml");
+    for ending in ["png", "jpg", "exr", "hdr"] {
+        let (ours, theirs) = (format!("ours.{ending}"), format!("theirs.{ending}"));
+        let (ours, theirs) = (place.path(&ours), place.path(&theirs));
+        save(&mut window, &ours);
+        let scene = place.path("one.toml");
+        let [scene, out] = [&scene, &theirs].map(|path| path.to_str().expect("a name"));
+        let output = glimray(&[&["render", scene, "-o", out], SMALL.as_slice()].concat());
+        assert!(output.status.success(), "{output:?}");
+        let [ours, theirs] = [ours, theirs].map(|path| fs::read(path).expect("a picture"));
+        assert!(ours == theirs, "the {ending} files differ");
+    }
+}
+
+#[test]
+fn a_picture_that_exists_is_replaced_only_when_the_person_agrees() {
+    let place = Place::new(&[("one.toml", &scene("1")), ("one_1.png", "mine")]);
+    let mut window = place.open("one.toml");
+    window.harness.key_press(egui::Key::F12);
+    window.harness.run_steps(2);
+    let suggested = |window: &Window| {
+        let session = window.session.borrow();
+        let sheet = session.files.saving.as_ref().expect("a sheet");
+        sheet.path.clone()
+    };
+    assert_eq!(
+        suggested(&window),
+        place.path("one_2.png").to_str().expect("a name")
+    );
+    let taken = place.path("one_1.png");
+    window
+        .session()
+        .files
+        .saving
+        .as_mut()
+        .expect("a sheet")
+        .path = taken.display().to_string();
+    window.harness.run_steps(2);
+    assert!(
+        window.harness.query_by_label("Save").is_none(),
+        "it does not ask"
+    );
+    assert_eq!(fs::read(&taken).expect("a file"), b"mine");
+    window.harness.get_by_label("Replace").click();
+    window.harness.step();
+    let is_picture = |path: &Path| fs::read(path).is_ok_and(|b| b.starts_with(b"\x89PNG"));
+    wait(&mut window, "it is replaced", |_| is_picture(&taken));
+}
+
+#[test]
+fn without_a_dialog_a_path_can_be_typed() {
+    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let mut window = place.open("one.toml");
+    window.session().files.dialogs = Dialogs::answering(|_| Reply::Unavailable);
+    window
+        .harness
+        .key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::O);
+    window.harness.run_steps(3);
+    assert!(
+        has_notice(&window, "no file dialog"),
+        "{:?}",
+        notices(&window)
+    );
+    window.harness.get_by_label("Path").focus();
+    window.harness.step();
+    let path = place.path("two.toml").display().to_string();
+    window.harness.event(egui::Event::Text(path));
+    window.harness.run_steps(2);
+    window.harness.get_by_label("Open").click();
+    window.harness.step();
+    wait(&mut window, "two.toml is opened", |window| {
+        title(window) == "two.toml"
+    });
+}
+
+#[test]
+fn the_next_scene_of_the_folder_comes_after_this_one_and_round_the_end() {
+    let files = [
+        ("a.toml", &*scene("1")),
+        ("b.toml", "nonsense"),
+        ("c.toml", &*scene("3")),
+    ];
+    let place = Place::new(&files);
+    let mut window = place.open("a.toml");
+    let next = |window: &mut Window, key, expected: &str| {
+        window
+            .harness
+            .key_press_modifiers(egui::Modifiers::COMMAND, key);
+        window.harness.step();
+        wait(window, expected, |window| title(window) == expected);
+    };
+    next(&mut window, egui::Key::PageDown, "c.toml");
+    next(&mut window, egui::Key::PageDown, "a.toml");
+    next(&mut window, egui::Key::PageUp, "c.toml");
+}
+
+#[test]
+fn a_camera_copied_as_a_command_line_and_pasted_is_the_same_camera() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    window
+        .session()
+        .rig
+        .as_mut()
+        .expect("a camera")
+        .orbit_by(0.7, 0.3);
+    window.settle();
+    let camera = window.camera();
+    window.harness.event(egui::Event::Copy);
+    window.harness.step();
+    let commands = window.harness.output().platform_output.commands.clone();
+    let line = commands.into_iter().find_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text),
+        _ => None,
+    });
+    let line = line.expect("a command line");
+    assert!(line.starts_with("glimray render "), "{line}");
+    window.harness.key_press(egui::Key::Home);
+    window.settle();
+    assert_ne!(window.camera().look_from, camera.look_from);
+    window.harness.event(egui::Event::Paste(line));
+    window.harness.step();
+    window.settle();
+    let pasted = window.camera();
+    assert_eq!(pasted.look_from, camera.look_from);
+    assert_eq!((pasted.look_at, pasted.up), (camera.look_at, camera.up));
+}
+
+#[test]
+fn kept_cameras_come_after_the_scenes_own_and_outlive_the_window() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    let home = window.camera();
+    window
+        .session()
+        .rig
+        .as_mut()
+        .expect("a camera")
+        .orbit_by(0.7, 0.3);
+    window.settle();
+    let kept = window.camera();
+    window.harness.key_press(egui::Key::K);
+    window.settle();
+    window.harness.key_press(egui::Key::CloseBracket);
+    window.settle();
+    assert_eq!(window.camera().look_from, home.look_from);
+    window.harness.key_press(egui::Key::CloseBracket);
+    window.settle();
+    assert_eq!(window.camera().look_from, kept.look_from);
+    glimray::app::view::sheets::write(&mut window.session());
+    let text = fs::read_to_string(window.settings.path().join("viewer.toml")).expect("a file");
+    assert!(text.contains("Camera 1"), "{text}");
+}
+
+#[test]
+fn unsaved_changes_are_asked_about_before_another_scene_is_opened() {
+    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let mut window = place.open("one.toml");
+    window
+        .session()
+        .edit("brighten", |scene| scene.ambient *= 2.0);
+    window.settle();
+    drop_files(&mut window, &[place.path("two.toml")]);
+    assert_eq!(title(&window), "one.toml");
+    window.harness.get_by_label("Go on working").click();
+    window.harness.run_steps(2);
+    assert_eq!(title(&window), "one.toml");
+    drop_files(&mut window, &[place.path("two.toml")]);
+    window.harness.get_by_label("Open without saving").click();
+    window.harness.step();
+    wait(&mut window, "two.toml is opened", |window| {
+        title(window) == "two.toml"
+    });
+}
+
+fn titles(window: &Window) -> Vec<String> {
+    let outputs = window.harness.output().viewport_output.values();
+    let commands = outputs.flat_map(|output| &output.commands);
+    let titles = commands.filter_map(|command| match command {
+        egui::ViewportCommand::Title(title) => Some(title.clone()),
+        _ => None,
+    });
+    titles.collect()
+}
+
+#[test]
+fn the_title_names_the_scene_and_marks_unsaved_changes() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    window
+        .session()
+        .edit("brighten", |scene| scene.ambient *= 2.0);
+    window.harness.step();
+    assert_eq!(titles(&window), ["one.toml* · glimray"]);
+}
+
+#[test]
+fn a_picture_saved_with_overlays_is_what_the_window_shows() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    window.session().shows_overlays = false;
+    window.session().preferences.hint_seen = true;
+    let path = place.path("shot.png");
+    glimray::app::view::files::pictures::open(&mut window.session(), true);
+    window
+        .session()
+        .files
+        .saving
+        .as_mut()
+        .expect("a sheet")
+        .path = path.display().to_string();
+    window.harness.run_steps(2);
+    window.harness.get_by_label("Save").click();
+    window.harness.step();
+    wait(&mut window, "the picture is written", |_| path.exists());
+    let shot = image::open(&path).expect("a picture").into_rgb8();
+    assert_eq!(shot.dimensions(), (48, 32));
+    let tone = window.order().tone;
+    let shown = window.image(tone);
+    let levels = shown.pixels.iter().flat_map(|pixel| pixel[..3].to_vec());
+    for (shot, level) in shot.as_raw().iter().zip(levels) {
+        let expected = level.clamp(0.0, 1.0) * 255.0;
+        assert!(
+            (f32::from(*shot) - expected).abs() <= 1.5,
+            "{shot} for {expected}"
+        );
+    }
+}

@@ -1,0 +1,122 @@
+//! A window without a screen: egui_kittest with our device.
+
+use eframe::egui;
+use egui_kittest::Harness;
+use glimray::app::view;
+use glimray::app::view::canvas::Shown;
+use glimray::app::view::order::Order;
+use glimray::app::view::preferences::Store;
+use glimray::app::view::render_thread::Place;
+use glimray::app::view::session::Session;
+use glimray::app::view::viewer::Viewer;
+use glimray::app::view::window;
+use glimray::gpu::{AdapterChoice, Gpu};
+use glimray::image::Image;
+use glimray::render::Tone;
+use glimray::scene::Camera;
+use std::cell::{RefCell, RefMut};
+use std::rc::Rc;
+use std::sync::mpsc::channel;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// Longest wait for anything, on a machine that has other things to do.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// An open window.
+pub struct Window {
+    pub harness: Harness<'static, Viewer>,
+    pub session: Rc<RefCell<Session>>,
+    /// What it draws and renders with.
+    pub gpu: Gpu,
+    /// Its settings folder.
+    #[allow(dead_code, reason = "for tests of what is kept")]
+    pub settings: TempDir,
+}
+
+impl Window {
+    /// `glimray view ARGUMENTS…` in a window of 1000 × 700 points, with no settings kept before but that the hint was read.
+    pub fn open(arguments: &[&str]) -> Self {
+        let settings = tempfile::tempdir().expect("a folder");
+        // What lies over the picture at the first time is not to be in the way.
+        let mut store = Store::in_folder(settings.path());
+        let (mut preferences, _) = store.load();
+        preferences.hint_seen = true;
+        store.save(&preferences).expect("settings");
+        Self::open_with(arguments, settings)
+    }
+
+    /// The same with settings that are in this folder.
+    pub fn open_with(arguments: &[&str], settings: TempDir) -> Self {
+        let store = Store::in_folder(settings.path());
+        let session = view::session(arguments.iter().copied(), store).expect("a session");
+        let session = Rc::new(RefCell::new(session));
+        let gpu = Gpu::with_all_limits(&AdapterChoice::default()).expect("an adapter");
+        let (kept, theirs) = (session.clone(), gpu.clone());
+        let harness = Harness::builder()
+            .with_size(egui::vec2(1000.0, 700.0))
+            .with_max_steps(64)
+            .with_render_options(window::OPTIONS)
+            .wgpu_setup(window::configuration(&gpu).wgpu_setup)
+            .build_eframe(move |context| Viewer::new(context, theirs, kept).expect("a viewer"));
+        Self {
+            harness,
+            session,
+            gpu,
+            settings,
+        }
+    }
+
+    /// Steps until nothing is left to read, to move or to render.
+    pub fn settle(&mut self) {
+        let start = Instant::now();
+        let mut calm = 0;
+        // What is clicked comes to the window in several frames, and leaves it in the next.
+        while calm < 8 {
+            assert!(start.elapsed() < PATIENCE, "the window does not settle");
+            self.harness.step();
+            calm = match self.harness.state().is_settled() {
+                true => calm + 1,
+                false => 0,
+            };
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    /// What is on the main picture's screen.
+    pub fn shown(&self) -> Shown {
+        let render = self.harness.state().render_thread();
+        render.shown(Place::Main).expect("a picture")
+    }
+
+    /// What the main picture was last asked to be.
+    pub fn order(&self) -> Order {
+        let orders = self.session.borrow().orders();
+        orders.pictures[Place::Main as usize]
+            .clone()
+            .expect("a picture")
+    }
+
+    /// The main picture so far.
+    pub fn image(&mut self, tone: Tone) -> Image {
+        let (sender, receiver) = channel();
+        self.session.borrow_mut().ask(move |studio| {
+            let (image, _) = studio.image(&tone).expect("a picture");
+            sender.send(image).expect("someone who waits");
+            glimray::app::view::question::Answer::Nothing
+        });
+        self.settle();
+        receiver.recv_timeout(PATIENCE).expect("the picture")
+    }
+
+    /// The camera that the picture is seen by.
+    pub fn camera(&self) -> Camera {
+        self.session.borrow().camera().expect("a camera")
+    }
+
+    /// What the person works on.
+    #[allow(dead_code, reason = "for the tests of each panel")]
+    pub fn session(&self) -> RefMut<'_, Session> {
+        self.session.borrow_mut()
+    }
+}

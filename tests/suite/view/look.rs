@@ -1,0 +1,246 @@
+//! How the picture is looked at: the panel of its settings, comparing, and rendering a part.
+
+use super::harness::Window;
+use eframe::egui::{self, Key, Pos2};
+use egui_kittest::kittest::{NodeT, Queryable};
+use glimray::app::view::look::{Comparison, Sharing};
+use glimray::app::view::render_thread::Place;
+use glimray::app::view::tools::Tool;
+use glimray::render::Integrator;
+use glimray::scene::Antialias;
+
+fn open() -> Window {
+    let mut window = Window::open(&["--size", "64x48", "--samples", "4"]);
+    window.settle();
+    window
+}
+
+fn click(window: &mut Window, label: &str) {
+    window.harness.get_by_label(label).click();
+    window.settle();
+}
+
+/// Where a share of the picture's width and height is on the screen.
+fn at(window: &Window, x: f64, y: f64) -> Pos2 {
+    let viewport = window.session().viewport.expect("a picture");
+    viewport.point(glam::dvec2(x, y) * viewport.extent())
+}
+
+fn drag(window: &mut Window, from: Pos2, to: Pos2) {
+    window.harness.hover_at(from);
+    window.harness.step();
+    window.harness.drag_at(from);
+    window.harness.step();
+    for share in [0.3, 0.7, 1.0] {
+        window.harness.hover_at(from + (to - from) * share);
+        window.harness.step();
+    }
+    window.harness.drop_at(to);
+    window.settle();
+}
+
+#[test]
+fn samples_are_doubled_and_halved_by_buttons() {
+    let mut window = open();
+    click(&mut window, "×2");
+    assert_eq!(window.session().look.settings.samples, 8);
+    assert_eq!(window.shown().progress.target, 8);
+    assert_eq!(window.shown().progress.samples, 8);
+    click(&mut window, "½");
+    click(&mut window, "½");
+    assert_eq!(window.shown().progress.samples, 2);
+}
+
+#[test]
+fn one_sample_lies_in_the_centre_and_several_are_spread() {
+    let window = open();
+    let look = &mut window.session().look;
+    look.set_samples(1);
+    assert_eq!(look.settings.antialias, Antialias::None);
+    look.set_samples(2);
+    assert_eq!(look.settings.antialias, Antialias::Stratified);
+    // What the person has chosen stays.
+    look.settings.antialias = Antialias::Adaptive;
+    look.set_samples(1);
+    assert_eq!(look.settings.antialias, Antialias::Adaptive);
+    look.set_samples(0);
+    assert_eq!(look.settings.samples, 1);
+}
+
+#[test]
+fn a_changed_value_has_a_way_back_to_the_scene() {
+    let mut window = open();
+    assert!(window.harness.query_by_label("Reset exposure").is_none());
+    let scene = window.session().look.scene_tone.exposure_ev;
+    window.session().look.tone.exposure_ev = scene + 2.0;
+    window.session().look.settings.max_depth += 3;
+    window.settle();
+    click(&mut window, "Reset exposure");
+    assert_eq!(window.session().look.tone.exposure_ev, scene);
+    assert!(window.harness.query_by_label("Reset exposure").is_none());
+    click(&mut window, "Reset max depth");
+    let look = window.session().look.clone();
+    assert_eq!(look.settings, look.scene_settings);
+}
+
+#[test]
+fn every_setting_of_the_picture_is_in_the_panel_under_its_name() {
+    let window = open();
+    for name in [
+        "Integrator",
+        "Compare",
+        "Samples",
+        "Antialias",
+        "Noise",
+        "Filter",
+        "Filter radius",
+        "Light samples",
+        "Seed",
+        "Max depth",
+        "Min throughput",
+        "Triangle test",
+        "Brute force",
+        "Fits the window",
+        "Width",
+        "Height",
+        "Exposure",
+        "Tone curve",
+        "Transfer",
+        "Background",
+    ] {
+        let widgets = window.harness.get_all_by_label(name);
+        let count = widgets
+            .filter(|node| node.accesskit_node().role() != egui::Role::Label)
+            .count();
+        assert_eq!(count, 1, "{name}");
+    }
+}
+
+#[test]
+fn pausing_and_restarting_are_buttons() {
+    let mut window = open();
+    click(&mut window, "Pause");
+    assert!(window.session().look.paused);
+    click(&mut window, "Continue");
+    assert!(!window.session().look.paused);
+    let before = window.shown().stats.samples;
+    click(&mut window, "Restart");
+    let traced = window.shown().stats.samples - before;
+    assert!(traced >= 4 * 64 * 48, "{traced} samples");
+}
+
+#[test]
+fn the_line_of_a_split_wipe_is_moved_by_mouse_and_by_keys() {
+    let mut window = open();
+    window.session().look.compare(Sharing::Wipe(0.5));
+    window.settle();
+    let order = |window: &Window, place: Place| {
+        let orders = window.session().orders();
+        orders.pictures[place as usize].clone().expect("a picture")
+    };
+    assert_eq!(
+        order(&window, Place::Main).settings.integrator,
+        Integrator::Whitted
+    );
+    assert_eq!(
+        order(&window, Place::Beside).settings.integrator,
+        Integrator::Normals
+    );
+    let share = |window: &Window| match window.session().look.comparison {
+        Some(Comparison {
+            sharing: Sharing::Wipe(share),
+            ..
+        }) => f64::from(share),
+        other => panic!("no wipe: {other:?}"),
+    };
+    let before = window.camera();
+    let (from, to) = (at(&window, 0.5, 0.3), at(&window, 0.25, 0.3));
+    drag(&mut window, from, to);
+    assert!((share(&window) - 0.25).abs() < 0.01, "{}", share(&window));
+    assert_eq!(
+        window.camera().look_from,
+        before.look_from,
+        "the camera moved too"
+    );
+    window
+        .harness
+        .get_by_label("Line between the looks")
+        .focus();
+    window.harness.step();
+    let start = share(&window);
+    window.harness.key_press(Key::ArrowRight);
+    window.harness.key_press(Key::ArrowRight);
+    window.harness.key_press(Key::ArrowLeft);
+    window.settle();
+    assert!(
+        (share(&window) - start - 0.02).abs() < 1e-5,
+        "{}",
+        share(&window)
+    );
+    click(&mut window, "Swap");
+    assert_eq!(
+        order(&window, Place::Main).settings.integrator,
+        Integrator::Normals
+    );
+    assert_eq!(
+        order(&window, Place::Beside).settings.integrator,
+        Integrator::Whitted
+    );
+}
+
+#[test]
+fn the_mouse_goes_round_the_scene_in_both_pictures_side_by_side() {
+    let mut window = open();
+    window.session().look.compare(Sharing::SideBySide);
+    window.settle();
+    let whole = window.harness.get_by_label("Rendered picture").rect();
+    for share in [0.25, 0.75] {
+        let before = window.camera().look_from;
+        let from = whole.lerp_inside(egui::vec2(share, 0.5));
+        drag(&mut window, from, from + egui::vec2(20.0, 0.0));
+        assert_ne!(window.camera().look_from, before, "at {share}");
+    }
+}
+
+#[test]
+fn a_region_is_drawn_with_the_mouse_its_edges_are_moved_and_it_ends() {
+    let mut window = open();
+    window.session().tool = Tool::Region;
+    let camera = window.camera().look_from;
+    // Upwards and to the left: the corners may come in any order.
+    let (from, to) = (at(&window, 0.75, 0.75), at(&window, 0.25, 0.25));
+    drag(&mut window, from, to);
+    let close = |window: &Window, expected: [f64; 4]| {
+        let region = window.session().look.region.expect("a region");
+        let off = region.iter().zip(expected).map(|(a, b)| (a - b).abs());
+        assert!(
+            off.fold(0.0, f64::max) < 0.02,
+            "{region:?} is not {expected:?}"
+        );
+    };
+    close(&window, [0.25, 0.25, 0.75, 0.75]);
+    assert_eq!(window.session().tool, Tool::Select);
+    let [.., width, height] = window.shown().region;
+    assert!(
+        width.abs_diff(32) <= 1 && height.abs_diff(24) <= 1,
+        "{width}×{height}"
+    );
+    let (from, to) = (at(&window, 0.75, 0.5), at(&window, 0.9, 0.6));
+    drag(&mut window, from, to);
+    close(&window, [0.25, 0.25, 0.9, 0.75]);
+    assert_eq!(window.camera().look_from, camera, "the camera moved too");
+    window.harness.get_by_label("Left edge");
+    click(&mut window, "Reset region");
+    assert!(window.session().look.region.is_none());
+    assert_eq!(window.shown().region, [0, 0, 64, 48]);
+}
+
+#[test]
+fn a_click_with_the_region_tool_is_no_region() {
+    let mut window = open();
+    window.session().tool = Tool::Region;
+    let from = at(&window, 0.5, 0.5);
+    drag(&mut window, from, from + egui::vec2(1.0, 1.0));
+    assert!(window.session().look.region.is_none());
+    assert_eq!(window.session().tool, Tool::Region);
+}

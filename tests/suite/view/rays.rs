@@ -1,0 +1,467 @@
+//! The rays of a pixel in the window: shown, folded, drawn in space and saved.
+
+use super::harness::Window;
+use eframe::egui;
+use egui_kittest::kittest::{NodeT, Queryable, by};
+use glam::{DMat4, DVec2, DVec3, Vec3, dvec2};
+use glimray::app::view::inspector::export::{self, Format};
+use glimray::app::view::inspector::rows::{self, Filter, Row};
+use glimray::app::view::inspector::{self, Inspected, hidden, outside};
+use glimray::render::{RayKind, RayTree, SampleTree, Tone, TracedRay};
+use glimray::scene::Camera;
+use std::collections::BTreeSet;
+use std::process::Command;
+
+const GLASS: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/assets/scenes/glass_and_mirrors.toml"
+);
+
+/// Takes the tool and clicks on a pixel of the picture.
+fn inspect(window: &mut Window, pixel: [u32; 2]) {
+    window.settle();
+    window.harness.key_press(egui::Key::I);
+    window.settle();
+    let viewport = window.session().viewport.expect("a picture");
+    let [x, y] = pixel.map(f64::from);
+    let point = viewport.point(dvec2(x + 0.5, y + 0.5));
+    window.harness.hover_at(point);
+    window.harness.step();
+    window.harness.drag_at(point);
+    window.harness.step();
+    window.harness.drop_at(point);
+    window.settle();
+}
+
+fn open_glass(pixel: [u32; 2]) -> Window {
+    let mut window = Window::open(&[GLASS, "--size", "64x36", "--samples", "4"]);
+    inspect(&mut window, pixel);
+    window
+}
+
+/// The mean of what all rays add, by the weights of their samples.
+fn weighted(tree: &RayTree) -> DVec3 {
+    let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+    for sample in &tree.samples {
+        let rays = sample.rays.iter();
+        let own: DVec3 = rays.map(|r| Vec3::from(r.contribution).as_dvec3()).sum();
+        sum += f64::from(sample.weight) * own;
+        weights += f64::from(sample.weight);
+    }
+    sum / weights
+}
+
+#[test]
+fn a_click_with_the_tool_shows_rays_that_add_up_to_the_pixel() {
+    for pixel in [[31, 18], [12, 20], [47, 22], [5, 3]] {
+        let mut window = open_glass(pixel);
+        let image = window.image(Tone::LINEAR);
+        let [red, green, blue, _] = image.pixels[(pixel[1] * image.width + pixel[0]) as usize];
+        let expected = Vec3::new(red, green, blue).as_dvec3();
+        let session = window.session();
+        let inspected = session.inspector.inspected.as_ref().expect("a tree");
+        assert_eq!(inspected.tree.pixel, pixel);
+        assert_eq!(inspected.tree.samples.len(), 4);
+        assert!(!inspector::is_stale(&session));
+        let bounces: DVec3 = rows::by_bounce(inspected, None).iter().sum();
+        for sum in [weighted(&inspected.tree), bounces] {
+            let gap = (sum - expected).abs().max_element();
+            assert!(gap <= 1e-4, "{pixel:?}: {sum} is not {expected}");
+        }
+        drop(session);
+        window.harness.get_by_label_contains("Ray 0: primary");
+        window.harness.get_by_label_contains("Sum of 4 samples");
+        let [x, y] = pixel;
+        window.harness.get_by_label(&format!("Pixel {x},{y}"));
+    }
+}
+
+#[test]
+fn branches_fold_and_unfold_by_name() {
+    let mut window = open_glass([31, 18]);
+    let shows = |window: &Window, name: &str| {
+        let found = window.harness.query_by_label_contains(name);
+        found.is_some()
+    };
+    assert!(shows(&window, "Ray 1: "));
+    window.harness.get_by_label("Fold ray 0").click();
+    window.settle();
+    assert!(!shows(&window, "Ray 1: "));
+    assert!(shows(&window, "Ray 0: "));
+    window.harness.get_by_label("Unfold ray 0").click();
+    window.settle();
+    assert!(shows(&window, "Ray 1: "));
+    window.harness.get_by_label("Fold all").click();
+    window.settle();
+    assert!(!shows(&window, "Ray 1: "));
+    window.harness.get_by_label("Unfold all").click();
+    window.settle();
+    assert!(shows(&window, "Ray 1: "));
+    // A ray tells about itself once it is chosen.
+    assert!(!shows(&window, "direction"));
+    window.harness.get_by_label_contains("Ray 0: ").click();
+    window.settle();
+    assert!(shows(&window, "direction"));
+}
+
+#[test]
+fn every_control_of_the_inspector_has_a_name() {
+    use egui::Role;
+    let window = open_glass([31, 18]);
+    let controls = [
+        Role::Button,
+        Role::CheckBox,
+        Role::Slider,
+        Role::SpinButton,
+        Role::Image,
+    ];
+    let is_control =
+        |node: &egui_kittest::kittest::AccessKitNode<'_>| controls.contains(&node.role());
+    let mut count = 0;
+    for node in window.harness.query_all(by().predicate(is_control)) {
+        let node = node.accesskit_node();
+        let name = node.label().unwrap_or_default();
+        assert!(
+            !name.trim().is_empty(),
+            "a {:?} without a name",
+            node.role()
+        );
+        count += 1;
+    }
+    assert!(count > 30, "{count} controls");
+    for name in [
+        "Inspect rays",
+        "Column",
+        "Row",
+        "Inspect",
+        "Follow the cursor",
+        "Previous sample",
+        "Next sample",
+        "All samples",
+        "Up to bounce",
+        "Shadow rays",
+        "Bounce 0",
+        "Save JSON…",
+        "Save OBJ…",
+        "Copy as command",
+        "Rays in space",
+        "Frame rays",
+        "From the camera",
+        "Normals",
+        "Plain",
+    ] {
+        let found = window.harness.query_all_by_label(name).count();
+        assert!(found > 0, "no {name}");
+    }
+}
+
+#[test]
+fn shadow_rays_and_bounces_are_left_out_where_that_is_asked_for() {
+    let window = open_glass([31, 18]);
+    let session = window.session();
+    let inspected = session.inspector.inspected.as_ref().expect("a tree");
+    let listed = |filter: Filter| {
+        let rows = rows::rows(inspected, &filter, &BTreeSet::new(), None);
+        let ids = rows.into_iter().filter_map(|row| match row {
+            Row::Ray { id, .. } => Some(id),
+            _ => None,
+        });
+        ids.collect::<Vec<_>>()
+    };
+    let all = Filter {
+        sample: None,
+        ..Filter::default()
+    };
+    let every: usize = inspected.tree.samples.iter().map(|s| s.rays.len()).sum();
+    assert_eq!(listed(all).len(), every);
+    let kind = |id| inspected.ray(id).expect("a ray").kind;
+    let without = listed(Filter {
+        shadows: false,
+        ..all
+    });
+    assert!(without.iter().all(|id| kind(*id) != RayKind::Shadow));
+    assert!(without.len() < every);
+    // Of no bounce: the primary rays, and what these sent to lights.
+    for id in listed(Filter { bounces: 0, ..all }) {
+        let ray = inspected.ray(id).expect("a ray");
+        let from_first = ray.kind == RayKind::Shadow && ray.parent == Some(0);
+        assert!(ray.kind == RayKind::Primary || from_first, "{ray:?}");
+    }
+}
+
+#[test]
+fn the_last_pixel_that_is_asked_for_is_the_one_that_is_shown() {
+    let mut window = Window::open(&["--size", "64x48", "--samples", "2"]);
+    window.settle();
+    for x in 10..30 {
+        inspector::inspect(&mut window.session(), [x, 20]);
+    }
+    window.settle();
+    let session = window.session();
+    let inspected = session.inspector.inspected.as_ref().expect("a tree");
+    assert_eq!(inspected.tree.pixel, [29, 20]);
+}
+
+#[test]
+fn the_tree_stays_and_says_so_when_the_picture_changes() {
+    const STALE: &str = "The picture has changed since: inspect again.";
+    let mut window = open_glass([31, 18]);
+    assert!(window.harness.query_by_label(STALE).is_none());
+    window
+        .session()
+        .rig
+        .as_mut()
+        .expect("a rig")
+        .orbit_by(0.3, 0.0);
+    window.settle();
+    window.harness.get_by_label(STALE);
+    window.harness.get_by_label_contains("Ray 0: primary");
+    window.harness.get_by_label("Inspect").click();
+    window.settle();
+    assert!(window.harness.query_by_label(STALE).is_none());
+}
+
+#[test]
+fn what_is_saved_is_what_the_command_prints() {
+    let mut window = open_glass([31, 18]);
+    for turn in [0.0, 0.7] {
+        if turn > 0.0 {
+            let mut session = window.session();
+            session.rig.as_mut().expect("a rig").orbit_by(turn, 0.2);
+            drop(session);
+            window.settle();
+            inspector::inspect(&mut window.session(), [28, 21]);
+            window.settle();
+        }
+        let session = window.session();
+        let command = export::command(&session, None).expect("a command");
+        assert_eq!(command.left_out, [""; 0], "{}", command.line);
+        let inspected = session.inspector.inspected.as_ref().expect("a tree");
+        let words = shlex::split(&command.line).expect("a command line");
+        assert_eq!(words[..2], ["glimray", "explain"]);
+        let folder = tempfile::tempdir().expect("a folder");
+        let lines = folder.path().join("rays.obj");
+        let printed = Command::new(env!("CARGO_BIN_EXE_glimray"))
+            .args(&words[1..])
+            .args(["--json", "--obj"])
+            .arg(&lines)
+            .output()
+            .expect("glimray runs");
+        let error = String::from_utf8_lossy(&printed.stderr);
+        assert!(printed.status.success(), "{}: {error}", command.line);
+        let json = export::text(inspected, Format::Json).expect("JSON");
+        assert!(json.as_bytes() == printed.stdout, "{}", command.line);
+        let obj = export::text(inspected, Format::Obj).expect("lines");
+        assert!(obj.as_bytes() == std::fs::read(&lines).expect("lines"));
+        let copy = folder.path().join("copy.json");
+        assert!(export::write(copy.clone(), &json).starts_with("saved "));
+        assert!(std::fs::read(&copy).expect("a file") == printed.stdout);
+    }
+    let nowhere = export::write("/no/such/folder/rays.json".into(), "");
+    assert!(nowhere.contains("/no/such/folder"), "{nowhere}");
+}
+
+/// Where a point is in a picture, by the matrices of a textbook.
+fn by_matrices(camera: &Camera, point: DVec3, size: DVec2) -> DVec2 {
+    let back = (camera.look_from - camera.look_at).normalize();
+    let right = camera.up.cross(back).normalize();
+    let world_from_view = DMat4::from_cols(
+        right.extend(0.0),
+        back.cross(right).extend(0.0),
+        back.extend(0.0),
+        camera.look_from.extend(1.0),
+    );
+    let cotangent = 1.0 / (camera.fov_y / 2.0).tan();
+    let (near, far) = (1e-3, 1e6);
+    let clip_from_view = DMat4::from_cols_array_2d(&[
+        [cotangent * size.y / size.x, 0.0, 0.0, 0.0],
+        [0.0, cotangent, 0.0, 0.0],
+        [0.0, 0.0, far / (near - far), -1.0],
+        [0.0, 0.0, near * far / (near - far), 0.0],
+    ]);
+    let place = clip_from_view * world_from_view.inverse() * point.extend(1.0);
+    (dvec2(place.x, -place.y) / place.w + 1.0) / 2.0 * size
+}
+
+#[test]
+fn lines_in_space_end_where_their_rays_do() {
+    let pixel = [31, 18];
+    let window = open_glass(pixel);
+    let session = window.session();
+    let inspected = session.inspector.inspected.as_ref().expect("a tree");
+    let all = Filter {
+        sample: None,
+        ..Filter::default()
+    };
+    // From outside.
+    let camera = session.inspector.outside.rig.as_ref().expect("a rig");
+    let camera = camera.camera();
+    let size = dvec2(400.0, 300.0);
+    let lines = outside::lines(inspected, &all, &camera, size, 5.0, None);
+    let mut checked = 0;
+    for line in lines
+        .iter()
+        .filter(|line| line.end == outside::End::Surface)
+    {
+        let ray = inspected.ray(line.id).expect("a ray");
+        let end = DVec3::from(ray.end.expect("an end"));
+        let expected = by_matrices(&camera, end, size);
+        assert!(line.to.distance(expected) < 1e-3, "{line:?} {expected}");
+        assert_eq!(
+            outside::nearest(std::slice::from_ref(line), expected, 1.0),
+            Some(line.id)
+        );
+        checked += 1;
+    }
+    assert!(checked >= 8, "{checked} lines end on surfaces");
+    // From the camera of the picture every primary ray ends in its own pixel, as far as the filter
+    // reaches.
+    let camera = session.camera().expect("a camera");
+    let size = dvec2(64.0, 36.0);
+    let lines = outside::lines(inspected, &all, &camera, size, 5.0, None);
+    let primary = lines.iter().filter(|line| line.kind == RayKind::Primary);
+    let reach = f64::from(inspected.order.settings.filter_radius) + 0.01;
+    let middle = DVec2::from(pixel.map(f64::from)) + 0.5;
+    let mut seen = 0;
+    for line in primary {
+        let off = (line.to - middle).abs().max_element();
+        assert!(off <= reach.max(0.51), "{line:?}");
+        seen += 1;
+    }
+    assert_eq!(seen, 4);
+}
+
+#[test]
+fn a_line_that_starts_behind_the_second_camera_is_cut_before_it() {
+    let window = open_glass([31, 18]);
+    let session = window.session();
+    let picture = session.camera().expect("a camera");
+    let forward = (picture.look_at - picture.look_from).normalize();
+    // In the middle of the primary rays, looking the same way.
+    let camera = Camera {
+        look_from: picture.look_from + forward * 2.0 + picture.up * 0.2,
+        look_at: picture.look_at,
+        ..picture.clone()
+    };
+    let inspected = session.inspector.inspected.as_ref().expect("a tree");
+    let lines = outside::lines(
+        inspected,
+        &Filter::default(),
+        &camera,
+        dvec2(64.0, 36.0),
+        5.0,
+        None,
+    );
+    let primary = lines.iter().find(|line| line.kind == RayKind::Primary);
+    let primary = primary.expect("the primary ray, cut");
+    let ray = inspected.ray(primary.id).expect("a ray");
+    let start = DVec3::from(ray.origin);
+    assert!((start - camera.look_from).dot(forward) < 0.0);
+    let end = by_matrices(
+        &camera,
+        DVec3::from(ray.end.expect("an end")),
+        dvec2(64.0, 36.0),
+    );
+    assert!(primary.to.distance(end) < 1e-3);
+    assert!(primary.from.is_finite() && primary.from.distance(primary.to) > 1.0);
+}
+
+#[test]
+fn a_tree_of_very_many_rays_is_listed_at_once() {
+    let window = open_glass([31, 18]);
+    let session = window.session();
+    let inspected = session.inspector.inspected.as_ref().expect("a tree");
+    // A mirrored ray of a mirrored ray of …
+    let first = inspected.tree.samples[0].rays[0].clone();
+    const COUNT: usize = 1 << 16;
+    let ray = |index: usize| TracedRay {
+        kind: if index == 0 {
+            RayKind::Primary
+        } else {
+            RayKind::Reflection
+        },
+        parent: index.checked_sub(1),
+        children: (index + 1 < COUNT)
+            .then_some(index + 1)
+            .into_iter()
+            .collect(),
+        ..first.clone()
+    };
+    let tree = RayTree {
+        samples: vec![SampleTree {
+            rays: (0..COUNT).map(ray).collect(),
+            ray_count: COUNT,
+            ..inspected.tree.samples[0].clone()
+        }],
+        ..inspected.tree.clone()
+    };
+    let long = Inspected::new(tree, inspected.order.clone(), true);
+    let start = std::time::Instant::now();
+    let rows = rows::rows(&long, &Filter::default(), &BTreeSet::new(), None);
+    assert_eq!(rows.len(), COUNT);
+    assert!(start.elapsed().as_secs_f64() < 2.0);
+    assert_eq!(long.max_bounces() as usize, COUNT - 1);
+    let camera = session.camera().expect("a camera");
+    let lines = outside::lines(
+        &long,
+        &Filter::default(),
+        &camera,
+        dvec2(64.0, 36.0),
+        1.0,
+        None,
+    );
+    assert!(lines.len() <= outside::MOST_LINES);
+}
+
+#[test]
+fn what_a_sphere_hides_of_a_ray_is_known() {
+    const SPHERE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/scenes/sphere.scene");
+    let mut window = Window::open(&[SPHERE, "--size", "64x48", "--samples", "1"]);
+    inspect(&mut window, [32, 24]);
+    // From the other side, a little from above.
+    let outside = |session: &mut glimray::app::view::session::Session| {
+        let rig = session.inspector.outside.rig.as_mut().expect("a rig");
+        rig.orbit_by(2.0, -0.1);
+    };
+    outside(&mut window.session());
+    window.settle();
+    let session = window.session();
+    let inspected = session.inspector.inspected.as_ref().expect("a tree");
+    let scene = session.scene().expect("a scene");
+    let (min, max) = scene.bounds().expect("bounds");
+    let (center, radius) = ((min + max) / 2.0, (max.x - min.x) / 2.0);
+    let camera = session
+        .inspector
+        .outside
+        .rig
+        .as_ref()
+        .expect("a rig")
+        .camera();
+    let parts = hidden::known(&session).expect("an answer");
+    let (mut hidden_count, mut seen_count) = (0, 0);
+    for (id, of_line) in parts {
+        let ray = inspected.ray(*id).expect("a ray");
+        let (from, to) = outside::ends(ray, session.inspector.outside.reach());
+        for (part, is_hidden) in of_line.iter().enumerate() {
+            let point = from.lerp(to, (part as f64 + 0.5) / hidden::PARTS as f64);
+            let way = point - camera.look_from;
+            let nearest = way * ((center - camera.look_from).dot(way) / way.length_squared());
+            let gap = (camera.look_from + nearest).distance(center) / radius;
+            let is_beyond = way.length() > (center - camera.look_from).length();
+            // Near the edge a pixel shows both.
+            if (gap - 1.0).abs() < 0.1 || !is_beyond {
+                continue;
+            }
+            assert_eq!(*is_hidden, gap < 1.0, "{id:?} {part}: {gap}");
+            if *is_hidden {
+                hidden_count += 1;
+            } else {
+                seen_count += 1;
+            }
+        }
+    }
+    assert!(
+        hidden_count > 3 && seen_count > 3,
+        "{hidden_count} {seen_count}"
+    );
+}

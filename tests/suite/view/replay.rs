@@ -1,0 +1,253 @@
+//! Recordings of what a person does: played again they lead to the same, and the same use for long
+//! takes no more memory.
+
+use super::harness::Window;
+use super::pixels::{self, Bytes};
+use eframe::App;
+use eframe::egui::{
+    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, RawInput,
+    TouchPhase, vec2,
+};
+use std::path::Path;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+/// Seconds of a frame.
+const FRAME: f64 = 1.0 / 60.0;
+
+/// One frame in which `events` happen, as a window's own loop has it.
+fn frame(window: &mut Window, events: Vec<Event>, number: usize) {
+    let mut raw = RawInput {
+        events,
+        time: Some(number as f64 * FRAME),
+        ..RawInput::default()
+    };
+    let ctx = window.harness.ctx.clone();
+    window.harness.state_mut().raw_input_hook(&ctx, &mut raw);
+    window.harness.input_mut().events.extend(raw.events);
+    window.harness.step();
+}
+
+fn button(pos: Pos2, button: PointerButton, pressed: bool) -> Event {
+    Event::PointerButton {
+        pos,
+        button,
+        pressed,
+        modifiers: Modifiers::NONE,
+    }
+}
+
+fn key(key: Key) -> [Event; 2] {
+    [true, false].map(|pressed| Event::Key {
+        key,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    })
+}
+
+/// What someone does who looks round: an orbit, a pan, the wheel, an integrator and back, exposure.
+fn script(middle: Pos2) -> Vec<Vec<Event>> {
+    let mut frames = Vec::new();
+    for which in [PointerButton::Primary, PointerButton::Middle] {
+        frames.push(vec![Event::PointerMoved(middle)]);
+        frames.push(vec![button(middle, which, true)]);
+        let path = (1..8).map(|i| middle + vec2(4.0, 1.5) * i as f32);
+        frames.extend(path.map(|at| vec![Event::PointerMoved(at)]));
+        frames.push(vec![button(middle + vec2(28.0, 10.5), which, false)]);
+    }
+    for up in [1.0, 1.0, -1.0] {
+        frames.push(vec![Event::MouseWheel {
+            unit: MouseWheelUnit::Line,
+            delta: vec2(0.0, up),
+            phase: TouchPhase::Move,
+            source: MouseWheelSource::Wheel,
+            modifiers: Modifiers::NONE,
+        }]);
+    }
+    for pressed in [Key::Plus, Key::Period, Key::Num5] {
+        frames.push(key(pressed).into());
+        frames.extend((0..6).map(|_| Vec::new()));
+    }
+    frames
+}
+
+/// All that there is to remember of a session that has come to rest.
+fn state(window: &mut Window) -> (String, Bytes) {
+    window.settle();
+    let session = window.session();
+    let camera = session.camera();
+    let state = format!("{camera:?} {:?} {:?}", session.look, session.playback);
+    drop(session);
+    let screen = window.shown().screen.expect("a screen");
+    (state, pixels::on(&screen, &window.gpu))
+}
+
+fn open(flag: &str, file: &Path) -> Window {
+    let file = file.to_str().expect("Unicode");
+    let mut window = Window::open(&["--size", "64x48", "--samples", "2", flag, file]);
+    window.settle();
+    window
+}
+
+#[test]
+fn a_recording_played_twice_ends_in_the_same_state_and_picture() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("session.jsonl");
+    let mut window = open("--record", &file);
+    let start = window.camera();
+    let middle = window.session().viewport.expect("a picture").rect.center();
+    for (number, events) in script(middle).into_iter().enumerate() {
+        frame(&mut window, events, number);
+    }
+    let recorded = state(&mut window);
+    assert_ne!(window.camera(), start, "the script does nothing");
+    drop(window);
+    let lines = std::fs::read_to_string(&file).expect("a recording");
+    let is_event = |line: &str| {
+        let line: serde_json::Value = serde_json::from_str(line).expect("a line of JSON");
+        line["time"].is_f64() && line["event"] != serde_json::Value::Null
+    };
+    assert!(
+        lines.lines().count() > 30 && lines.lines().all(is_event),
+        "{lines}"
+    );
+    let play = || {
+        let mut window = open_replay(&file);
+        let mut number = 0;
+        while window.session().tape.is_playing() {
+            frame(&mut window, Vec::new(), number);
+            number += 1;
+            assert!(number < 10_000, "it never ends");
+        }
+        state(&mut window)
+    };
+    let (first, second) = (play(), play());
+    assert_eq!(first.0, second.0);
+    first.1.assert_same(&second.1, "two replays");
+    assert_eq!(first.0, recorded.0);
+    first.1.assert_same(&recorded.1, "recording and replay");
+}
+
+/// Does not wait for it to settle: it does not before all is played.
+fn open_replay(file: &Path) -> Window {
+    let file = file.to_str().expect("Unicode");
+    let mut window = Window::open(&["--size", "64x48", "--samples", "2", "--replay", file]);
+    window.harness.step();
+    window.harness.step();
+    window
+}
+
+#[test]
+fn what_is_no_recording_is_refused_with_its_line() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let good = r#"{"time":1.0,"event":"PointerGone"}"#;
+    for (text, why) in [
+        ("", "nothing is recorded"),
+        ("\n\n", "nothing is recorded"),
+        ("{}", ":1): missing field `time`"),
+        (
+            &format!("{good}\n{good}\nrubbish"),
+            ":3): expected value in column 1",
+        ),
+        (
+            &format!("{good}\n{}", good.replace("1.0", "0.5")),
+            ":2): its time, 0.5 s, is before",
+        ),
+        (
+            &good.replace("PointerGone", "Nonsense"),
+            ":1): unknown variant `Nonsense`",
+        ),
+    ] {
+        let file = folder.path().join("bad.jsonl");
+        std::fs::write(&file, text).expect("a file");
+        let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
+            .args(["view", "--replay"])
+            .arg(&file)
+            .output()
+            .expect("glimray runs");
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(3), "{errors}");
+        assert!(errors.contains(why), "{errors} does not say {why}");
+    }
+    let nowhere = folder.path().join("none").join("session.jsonl");
+    let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
+        .args(["view", "--record"])
+        .arg(&nowhere)
+        .output()
+        .expect("glimray runs");
+    assert_eq!(output.status.code(), Some(4));
+}
+
+/// Names the seconds that the long test takes, in place of a few.
+const SOAK: &str = "GLIMRAY_SOAK_SECONDS";
+
+/// Kibibytes of this process that are in memory.
+fn resident() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+    let number = line.and_then(|line| line.split_whitespace().next());
+    number
+        .and_then(|number| number.parse().ok())
+        .expect("a number")
+}
+
+/// The same over and over for as long as [`SOAK`] says, in a process of its own: what it takes after a
+/// third of the time is compared with what it takes at the end.
+#[test]
+#[ignore = "run by the test below"]
+fn soak() {
+    let seconds: f64 = std::env::var(SOAK)
+        .ok()
+        .and_then(|s| s.parse().ok())
+        .unwrap_or(10.0);
+    let mut window = Window::open(&["--samples", "2"]);
+    window.settle();
+    let middle = window.session().viewport.expect("a picture").rect.center();
+    let start = Instant::now();
+    let (mut rounds, mut early, mut late) = (0, 0, 0);
+    let mut number = 0;
+    while start.elapsed() < Duration::from_secs_f64(seconds) {
+        for events in script(middle) {
+            frame(&mut window, events, number);
+            number += 1;
+        }
+        window.session().rig.as_mut().expect("a rig").go_home();
+        window.settle();
+        rounds += 1;
+        let share = start.elapsed().as_secs_f64() / seconds;
+        let now = resident();
+        if share <= 0.4 || early == 0 {
+            early = early.max(now);
+        }
+        late = now;
+    }
+    println!("{rounds} rounds in {seconds} s: {early} KiB early, {late} KiB at the end");
+    assert!(
+        rounds >= 2,
+        "{rounds} rounds tell nothing: give {SOAK} more seconds"
+    );
+    let growth = late as f64 / early as f64 - 1.0;
+    assert!(
+        growth < 0.05,
+        "memory grows from {early} to {late} KiB in {rounds} rounds"
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn long_use_takes_no_more_memory() {
+    let output = Command::new(std::env::current_exe().expect("this test"))
+        .args(["--exact", "view::replay::soak", "--ignored", "--nocapture"])
+        .env(SOAK, std::env::var(SOAK).unwrap_or("10".into()))
+        .output()
+        .expect("this test runs");
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        output.status.success(),
+        "{text}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(text.contains("1 passed"), "{text}");
+}

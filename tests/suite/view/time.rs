@@ -1,0 +1,138 @@
+//! The animation in the window: played, stepped through, and each frame that of the command line.
+
+use super::harness::Window;
+use super::pixels;
+use egui_kittest::kittest::{NodeT, Queryable};
+use glimray::scene::Shutter;
+
+const SIZE: [&str; 4] = ["--size", "60x40", "--samples", "2"];
+
+fn open(scene: &str) -> Window {
+    let path = format!("assets/scenes/{scene}");
+    let mut arguments = vec![path.as_str()];
+    arguments.extend(SIZE);
+    let mut window = Window::open(&arguments);
+    window.settle();
+    window
+}
+
+/// Holds what is on the screen against `glimray render SCENE --frame N FLAGS…`.
+#[track_caller]
+fn check(window: &Window, scene: &str, flags: &str) {
+    let path = format!("assets/scenes/{scene}");
+    let frame = window.session().playback.frame().to_string();
+    let mut line = vec!["render", "--quiet", &path, "--frame", &frame];
+    line.extend(SIZE);
+    line.extend(flags.split_whitespace());
+    let screen = window.shown().screen.expect("a screen");
+    let shown = pixels::on(&screen, &window.gpu);
+    shown.assert_same(&pixels::of_command_line(&line), &line.join(" "));
+}
+
+#[test]
+fn a_frame_on_the_screen_is_that_of_the_command_line() {
+    for scene in ["orbits.toml", "carousel.toml"] {
+        let mut window = open(scene);
+        for frame in [31, 5] {
+            window.session().playback.go_to(frame);
+            window.settle();
+            check(&window, scene, "");
+        }
+    }
+}
+
+#[test]
+fn motion_blur_shutter_and_frame_rate_are_those_of_the_command_line() {
+    let scene = "orbits.toml";
+    let mut window = open(scene);
+    window.session().playback.go_to(10);
+    window.session().playback.blurs = false;
+    window.settle();
+    check(&window, scene, "--shutter 0");
+    window.session().playback.blurs = true;
+    window.session().playback.clock.shutter = Shutter {
+        open: -0.5,
+        close: 1.25,
+    };
+    window.settle();
+    check(&window, scene, "--shutter=-0.5..1.25");
+    window.session().playback.set_fps(10.0);
+    window.settle();
+    // Frame 10 of 24 a second is nearest to frame 4 of 10.
+    assert_eq!(window.session().playback.frame(), 4);
+    check(&window, scene, "--shutter=-0.5..1.25 --fps 10");
+}
+
+#[test]
+fn the_buttons_of_the_timeline_go_where_they_say() {
+    let mut window = open("orbits.toml");
+    let last = window.session().playback.last_frame();
+    // 6 s at 24 frames a second, the last of which is the first again.
+    assert_eq!(last, 143);
+    for (button, frame) in [
+        ("Frame forward", 1),
+        ("Frame forward", 2),
+        ("Frame back", 1),
+        ("Last frame", 143),
+        ("Frame forward", 0),
+        ("Frame back", 143),
+        ("First frame", 0),
+    ] {
+        window.harness.get_by_label(button).click();
+        window.settle();
+        assert_eq!(window.session().playback.frame(), frame, "{button}");
+    }
+    window.harness.get_by_label("Loop").click();
+    window.settle();
+    assert_eq!(window.session().playback.last_frame(), 144);
+    window.harness.get_by_label("Play animation").click();
+    window.harness.step();
+    assert!(window.session().playback.is_playing);
+    window.harness.run_steps(30);
+    window.harness.get_by_label("Pause animation").click();
+    window.settle();
+    let frame = window.session().playback.frame();
+    assert!((1..=60).contains(&frame), "{frame}");
+}
+
+#[test]
+fn playing_takes_as_long_as_the_clock_says() {
+    let window = open("orbits.toml");
+    let mut playback = window.session().playback.clone();
+    playback.toggle();
+    // In pieces that are no frames.
+    for _ in 0..1000 {
+        playback.advance(0.001);
+    }
+    assert!(playback.frame().abs_diff(24) <= 1, "{}", playback.frame());
+    playback.speed = 2.0;
+    playback.go_to(0);
+    for _ in 0..100 {
+        playback.advance(0.02);
+    }
+    assert!(playback.frame().abs_diff(96) <= 1, "{}", playback.frame());
+    // Round the end, or up to it.
+    playback.speed = 1.0;
+    playback.go_to(140);
+    playback.advance(0.5);
+    assert_eq!(playback.frame(), (140 + 12) % 144);
+    playback.repeats = false;
+    playback.go_to(140);
+    playback.advance(0.5);
+    assert_eq!((playback.frame(), playback.is_playing), (144, false));
+    playback.toggle();
+    assert_eq!((playback.frame(), playback.is_playing), (0, true));
+}
+
+#[test]
+fn a_scene_that_stands_still_says_so() {
+    let mut window = open("sphere.scene");
+    let button = window.harness.get_by_label("Play animation");
+    assert!(button.accesskit_node().is_disabled());
+    window
+        .harness
+        .get_by_label_contains("Nothing in this scene moves");
+    window.session().playback.toggle();
+    window.settle();
+    assert!(!window.session().playback.is_playing);
+}
