@@ -15,7 +15,7 @@ mod shader;
 pub use adapter::{AdapterChoice, AdapterReport, Backend, adapters};
 pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
 pub use error::GpuError;
-pub use guard::is_guarded;
+pub use guard::{is_guarded, surviving_loss};
 pub(crate) use readback::Source;
 pub use shader::Kernel;
 
@@ -177,6 +177,8 @@ impl Gpu {
 
     /// Loses the device, as a driver reset would. For rehearsing what happens then.
     pub fn lose(&self) {
+        // wgpu tells of a driver's reset at once, of a device that is given up only when it is idle.
+        self.lost.store(true, Ordering::Release);
         self.device.destroy();
     }
 

@@ -19,6 +19,7 @@ use std::time::{Duration, Instant};
 
 /// The least time between two looks at a picture that has to come to the host for it.
 const DETOUR: Duration = Duration::from_millis(500);
+
 /// What there is to see.
 #[derive(Clone, Debug)]
 pub struct Shown {
@@ -82,6 +83,7 @@ pub struct Canvas {
     whole: Option<Screen>,
     is_shown: bool,
     last_look: Option<Instant>,
+    looks: u64,
     /// Seconds of work in this picture.
     busy: f64,
     pace: Pace,
@@ -117,6 +119,7 @@ impl Canvas {
             whole: None,
             is_shown: true,
             last_look: None,
+            looks: 0,
             busy: 0.0,
             pace: Pace::default(),
             spent: Spent::default(),
@@ -208,7 +211,8 @@ impl Canvas {
         self.packed = Some(Arc::new(packed));
         self.packed_from = Some(scene.clone());
         self.packed_for = order.camera.clone();
-        self.frames = scene.shot(order.shot.0, order.shot.1);
+        // The scene's own, with its own camera and background: see `view`.
+        self.frames = order.scene.shot(order.shot.0, order.shot.1);
         Ok(())
     }
 
@@ -267,6 +271,11 @@ impl Canvas {
         self.is_shown
     }
 
+    /// How often something new was put on a screen.
+    pub fn looks(&self) -> u64 {
+        self.looks
+    }
+
     /// Whether there is a renderer to ask.
     pub fn is_ready(&self) -> bool {
         self.renderer.is_some() && !self.is_coarse
@@ -295,10 +304,13 @@ impl Canvas {
         if !is_held {
             renderer.step()?;
         }
+        let interval = match renderer.shows_directly() {
+            true => pace::between_looks(&self.gpu),
+            false => DETOUR,
+        };
         let is_due = renderer.is_done()
             || is_held
-            || renderer.shows_directly()
-            || self.last_look.is_none_or(|last| last.elapsed() > DETOUR);
+            || self.last_look.is_none_or(|last| last.elapsed() > interval);
         // A coarse picture comes as a whole.
         if !is_due || self.is_coarse && !renderer.is_done() {
             self.is_shown = false;
@@ -321,6 +333,7 @@ impl Canvas {
         }
         self.is_shown = true;
         self.last_look = Some(Instant::now());
+        self.looks += 1;
         self.estimate_noise()
     }
 

@@ -212,7 +212,9 @@ impl Painter {
                 }
                 (state.orders.clone(), std::mem::take(&mut state.questions))
             };
+            let looks = self.looks();
             let (outcome, unanswered, answers) = self.round(&orders, questions);
+            let is_news = looks != self.looks() || outcome != Ok(true) || !answers.is_empty();
             let mut state = shared.lock();
             state.answers.extend(answers);
             let has_news = !state.questions.is_empty() || !state.orders.is_same(&orders);
@@ -235,8 +237,14 @@ impl Painter {
                 }
             }
             drop(state);
-            wake();
+            if is_news {
+                wake();
+            }
         }
+    }
+
+    fn looks(&self) -> u64 {
+        self.canvases.iter().map(Canvas::looks).sum()
     }
 
     /// Follows the orders and does the next piece of work. Whether there is more.

@@ -4,10 +4,10 @@ use super::super::exit::AppError;
 use super::session::Session;
 use super::sheets;
 use super::viewer::Viewer;
-use crate::gpu::{AdapterChoice, Gpu, GpuError};
+use crate::gpu::{self, AdapterChoice, Gpu, GpuError};
 use eframe::egui;
 use eframe::egui_wgpu::{RendererOptions, WgpuConfiguration, WgpuSetup, WgpuSetupExisting};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 /// How often a lost device is replaced before the window stays closed.
@@ -19,10 +19,7 @@ pub fn run(session: Session, choice: &AdapterChoice) -> Result<(), AppError> {
     let session = Rc::new(RefCell::new(session));
     let mut losses = 0;
     loop {
-        let gpu = Gpu::with_all_limits(choice)?;
-        let closed = open(&session, gpu);
-        sheets::write(&mut session.borrow_mut());
-        closed?;
+        show(&session, &Gpu::with_all_limits(choice)?)?;
         if !session.borrow_mut().is_to_reopen() {
             return Ok(());
         }
@@ -30,6 +27,22 @@ pub fn run(session: Session, choice: &AdapterChoice) -> Result<(), AppError> {
         if losses > MAX_LOSSES {
             return Err(GpuError::KeptFailing { count: losses }.into());
         }
+        let told = "the GPU was lost (driver reset or time-out) and is replaced: the picture starts again.";
+        session.borrow_mut().notices.warn(told.into());
+    }
+}
+
+/// Shows the session until the window is closed or the device is lost.
+fn show(session: &Rc<RefCell<Session>>, gpu: &Gpu) -> Result<(), AppError> {
+    let mut has_opened = open(session, gpu)?;
+    // A loss in the middle of drawing leaves winit (0.30) as if it were running: what comes next ends at
+    // once, and only then can a window be opened.
+    if !has_opened {
+        has_opened = open(session, gpu)?;
+    }
+    match has_opened {
+        true => Ok(()),
+        false => Err(no_display("the desktop gave none")),
     }
 }
 
@@ -56,7 +69,8 @@ pub const OPTIONS: RendererOptions = RendererOptions {
 /// Width and height of the window at first, in points.
 const SIZE: [f32; 2] = [1280.0, 800.0];
 
-fn open(session: &Rc<RefCell<Session>>, gpu: Gpu) -> Result<(), AppError> {
+/// Whether there was a window; it is closed by now.
+fn open(session: &Rc<RefCell<Session>>, gpu: &Gpu) -> Result<bool, AppError> {
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("glimray")
@@ -64,17 +78,28 @@ fn open(session: &Rc<RefCell<Session>>, gpu: Gpu) -> Result<(), AppError> {
             .with_inner_size(session.borrow().preferences.window.unwrap_or(SIZE))
             .with_min_inner_size([320.0, 240.0])
             .with_drag_and_drop(true),
-        wgpu_options: configuration(&gpu),
+        wgpu_options: configuration(gpu),
         dithering: false,
         ..Default::default()
     };
-    let session = session.clone();
-    eframe::run_native(
-        "glimray",
-        options,
-        Box::new(move |context| Ok(Box::new(Viewer::new(context, gpu, session)?))),
-    )
-    .map_err(|error| no_display(&error.to_string()))
+    let has_opened = Rc::new(Cell::new(false));
+    let creator = {
+        let (session, gpu, has_opened) = (session.clone(), gpu.clone(), has_opened.clone());
+        move |context: &eframe::CreationContext| {
+            has_opened.set(true);
+            let viewer = Viewer::new(context, gpu, session)?;
+            Ok(Box::new(viewer) as Box<dyn eframe::App>)
+        }
+    };
+    let closed = gpu::surviving_loss(gpu, || {
+        eframe::run_native("glimray", options, Box::new(creator))
+    });
+    sheets::write(&mut session.borrow_mut());
+    match closed {
+        Ok(closed) => closed.map_err(|error| no_display(&error.to_string()))?,
+        Err(_) => session.borrow_mut().lost_device(),
+    }
+    Ok(has_opened.get())
 }
 
 /// Without one of these there is nothing to connect to, and the attempt would only say so in worse

@@ -202,7 +202,7 @@ fn an_arrow_moves_what_is_selected_as_far_as_the_hand_and_as_numbers_do() {
     window.settle();
     let origin = on_screen(&window, dvec3(-1.0, 0.0, 0.0));
     let grip = origin + vec2(60.0, 0.0);
-    drag(&mut window, grip, grip + vec2(40.0, 25.0));
+    drag(&mut window, grip, grip + vec2(40.0, 0.0));
     // The arrow lies in the plane of the picture: a pixel there is 2 d tan(fov / 2) / height wide.
     let pixel = 2.0 * 8.0 * 15_f64.to_radians().tan() / 300.0;
     let Geometry::Sphere { center, radius } = scene(&window).shapes[0].geometry else {

@@ -11,6 +11,10 @@ const SLICE_ON_CPU: Duration = Duration::from_millis(30);
 /// Time that a coarse picture should take in all.
 const COARSE: Duration = Duration::from_millis(12);
 const COARSE_ON_CPU: Duration = Duration::from_millis(40);
+/// The least time between two looks at a picture that is being refined. On software the window takes the
+/// cores from what it shows.
+const LOOK: Duration = Duration::from_millis(16);
+const LOOK_ON_CPU: Duration = Duration::from_millis(250);
 /// The longest side that can be one window of the film.
 const MAX_SIDE: u32 = 16384;
 
@@ -73,6 +77,11 @@ impl Pace {
         }
         self.divisor
     }
+}
+
+/// How long a picture that is being refined is worth no other look.
+pub fn between_looks(gpu: &Gpu) -> Duration {
+    if gpu.is_cpu() { LOOK_ON_CPU } else { LOOK }
 }
 
 /// Settings for slices that let the window go on.
