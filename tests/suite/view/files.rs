@@ -338,6 +338,24 @@ fn a_saved_picture_has_the_bytes_of_the_command_lines() {
 }
 
 #[test]
+fn the_name_of_a_picture_is_under_the_keys_and_enter_saves_it() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    window.harness.key_press(egui::Key::F12);
+    window.harness.run_steps(2);
+    let name = place.path("typed.png");
+    window
+        .harness
+        .key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    let text = name.to_str().expect("a name").to_owned();
+    window.harness.event(egui::Event::Text(text));
+    window.harness.key_press(egui::Key::Enter);
+    window.harness.step();
+    wait(&mut window, "the picture is written", |_| name.exists());
+    assert!(window.session().files.saving.is_none());
+}
+
+#[test]
 fn a_picture_that_exists_is_replaced_only_when_the_person_agrees() {
     let place = Place::new(&[("one.toml", &scene("1")), ("one_1.png", "mine")]);
     let mut window = place.open("one.toml");

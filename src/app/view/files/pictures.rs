@@ -34,6 +34,8 @@ pub struct SaveSheet {
     pub quality: u8,
     /// Whether what is drawn over the picture is part of it.
     pub overlays: bool,
+    /// Whether the name is yet to be put under the keys.
+    pub is_new: bool,
     /// The name that a dialog gave, after asking whether to replace what is there.
     agreed: Option<PathBuf>,
     asked: Option<Receiver<Reply>>,
@@ -120,6 +122,7 @@ pub fn open(session: &mut Session, overlays: bool) {
         path,
         quality: session.files.pending.quality.unwrap_or(90),
         overlays,
+        is_new: true,
         agreed: None,
         asked: None,
     });

@@ -61,6 +61,7 @@ pub fn saving(ctx: &egui::Context, desk: &mut Desk) {
         return;
     };
     let mut wish = None;
+    let mut is_entered = false;
     let title = match sheet.overlays {
         true => "Save the picture with overlays",
         false => "Save the picture",
@@ -69,7 +70,11 @@ pub fn saving(ctx: &egui::Context, desk: &mut Desk) {
         ui.horizontal(|ui| {
             let width = ui.available_width() - 90.0;
             let field = TextEdit::singleline(&mut sheet.path).desired_width(width);
-            ui.add(field).accessible_name("File");
+            let field = ui.add(field).accessible_name("File");
+            if std::mem::take(&mut sheet.is_new) {
+                field.request_focus();
+            }
+            is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             let button = ui
                 .button("Browse…")
                 .on_hover_text("Ask the desktop for a name");
@@ -116,7 +121,9 @@ pub fn saving(ctx: &egui::Context, desk: &mut Desk) {
                 true => ("Replace", "Replace when finished"),
                 false => ("Save", "Save when finished"),
             };
-            if ui.add_enabled(target.is_ok(), Button::new(now)).clicked() {
+            let is_now = ui.add_enabled(target.is_ok(), Button::new(now)).clicked();
+            // What would replace a file takes more than a key.
+            if is_now || is_entered && target.is_ok() && !replaces {
                 wish = Some(Wish::Save { waits: false });
             }
             if !is_done
