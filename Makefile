@@ -40,12 +40,13 @@ test: lint headless
 bench: build driver
 	$(GLIMRAY) bench
 
-# The commands are those that README.md shows beside each picture.
-gallery: build driver
+# The commands are those that README.md shows beside each picture; the window's are taken of a real one.
+gallery: build driver display
 	@grep -o 'glimray [a-z]* [^`]*-o assets/gallery/[^` ]*' README.md | while read -r _ arguments; do \
 		echo "glimray $$arguments"; \
 		$(GLIMRAY) $$arguments --quiet || exit; \
 	done
+	$(CARGO) test $(FLAGS) --test suite -- --ignored pictures_of_the_window_for_the_readme
 
 build: compiler
 	$(CARGO) build $(FLAGS)

@@ -8,6 +8,7 @@ mod edit;
 mod files;
 mod harness;
 mod look;
+mod looks;
 mod pixels;
 mod rays;
 mod replay;

@@ -201,6 +201,9 @@ fn settings() -> TempDir {
     folder
 }
 
+/// The window as it opens.
+const WINDOW: [u16; 4] = [0, 0, 1280, 800];
+
 /// Within the picture, wherever panels are.
 const INSIDE: [u16; 4] = [420, 200, 300, 200];
 
@@ -284,6 +287,54 @@ fn a_lost_device_is_replaced_while_the_window_is_open() {
     ]);
     disturbed.key("ctrl+q");
     assert_eq!(disturbed.wait(), Some(0));
+}
+
+/// `make gallery` runs this.
+#[test]
+#[ignore = "writes the window's pictures of README.md"]
+fn pictures_of_the_window_for_the_readme() {
+    let Some(desktop) = Desktop::start() else {
+        return;
+    };
+    let settings = settings();
+    let mirrors = scene("glass_and_mirrors.toml");
+    let arguments = [mirrors.to_str().expect("a name"), "--samples", "36"];
+    let opened = desktop.open(&arguments, settings.path(), "");
+    let save = |name: &str| {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/gallery");
+        let (width, height) = (u32::from(WINDOW[2]), u32::from(WINDOW[3]));
+        let pixels = desktop.calm(WINDOW);
+        let rgb = pixels
+            .chunks_exact(4)
+            .flat_map(|bgrx| [bgrx[2], bgrx[1], bgrx[0]]);
+        let picture = image::RgbImage::from_raw(width, height, rgb.collect()).expect("the window");
+        picture.save(folder.join(name)).expect("a picture");
+    };
+    let click = |x: &str, y: &str| desktop.xdotool(&["mousemove", x, y, "click", "1"]);
+    desktop.calm(INSIDE);
+    for words in [
+        "mousemove 600 330 mousedown 1",
+        "mousemove 630 335 mouseup 1",
+    ] {
+        desktop.xdotool(&words.split(' ').collect::<Vec<_>>());
+        std::thread::sleep(Duration::from_millis(500));
+    }
+    save("window.jpg");
+
+    opened.key("Home");
+    opened.key("i");
+    desktop.calm(INSIDE);
+    click("560", "400");
+    save("window_rays.jpg");
+
+    opened.key("c");
+    click("860", "220");
+    opened.key("g");
+    desktop.calm(INSIDE);
+    click("1022", "37");
+    save("window_editing.jpg");
+    opened.key("ctrl+q");
+    assert_eq!(opened.wait(), Some(0));
 }
 
 #[test]
