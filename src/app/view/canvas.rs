@@ -136,6 +136,17 @@ impl Canvas {
             }
             return Ok(());
         };
+        let before = self.order.clone();
+        let outcome = self.take_up(order, coarse);
+        if outcome.is_err() {
+            // The last picture stays, and passes for nothing else.
+            self.order = before;
+            self.packed = None;
+        }
+        outcome
+    }
+
+    fn take_up(&mut self, order: &Order, coarse: bool) -> Result<(), CanvasError> {
         let before = self.order.as_ref();
         let is_other_scene = before.is_none_or(|b| !Arc::ptr_eq(&b.scene, &order.scene));
         let shows_same = before.is_some_and(|b| b.shows_same(order));
@@ -220,7 +231,7 @@ impl Canvas {
     /// (pack.rs): while something moves that is not worth its time.
     fn refine(&mut self) -> Result<(), CanvasError> {
         if let Some(order) = self.order.clone()
-            && self.packed_for != order.camera
+            && (self.packed.is_none() || self.packed_for != order.camera)
         {
             self.pack(&order)?;
         }
@@ -279,6 +290,11 @@ impl Canvas {
     /// Whether there is a renderer to ask.
     pub fn is_ready(&self) -> bool {
         self.renderer.is_some() && !self.is_coarse
+    }
+
+    /// Whether the main picture is still to begin in full.
+    pub fn is_awaited(&self) -> bool {
+        self.place == Place::Main && self.renderer.is_some() && self.is_coarse
     }
 
     /// How far it is behind others: the lowest comes next.

@@ -81,12 +81,19 @@ impl Files {
     /// Tells that the window is another one, which nothing was told yet.
     pub fn begin(&mut self) {
         self.title.clear();
+        self.pending.forget();
+        self.pending.pose = None;
         let files = self.watch.files();
         if !files.is_empty() {
             self.to_watch = Some(files);
             // The old one would wake a window that is gone.
             self.watch = Watch::default();
         }
+    }
+
+    /// Takes up that the render thread could not answer.
+    pub fn failed(&mut self) {
+        self.pending.forget();
     }
 
     /// Whether something is under way that will change what is to be seen or told.

@@ -175,6 +175,14 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout) -> bo
     true
 }
 
+/// Asks again what another renderer was asked, which is gone.
+pub fn begin(session: &mut Session) {
+    let inspector = &mut session.inspector;
+    inspector.is_wanted |= std::mem::take(&mut inspector.is_asked);
+    inspector.hidden = hidden::Hidden::default();
+    ask(session);
+}
+
 /// Asks for the rays of a pixel of the picture. Of several that are asked for before there is an answer,
 /// only the last is.
 pub fn inspect(session: &mut Session, pixel: [u32; 2]) {

@@ -90,6 +90,8 @@ struct State<A> {
     fault: Option<Fault>,
     is_settled: bool,
     is_closing: bool,
+    /// How often something was wanted.
+    wishes: u64,
 }
 
 struct Shared<A> {
@@ -121,6 +123,7 @@ impl<A: Send + 'static> RenderThread<A> {
                 fault: None,
                 is_settled: true,
                 is_closing: false,
+                wishes: 0,
             }),
             news: Condvar::new(),
         });
@@ -145,6 +148,7 @@ impl<A: Send + 'static> RenderThread<A> {
         let mut state = self.shared.lock();
         state.orders = orders;
         state.is_settled = false;
+        state.wishes += 1;
         drop(state);
         self.shared.news.notify_one();
     }
@@ -154,6 +158,7 @@ impl<A: Send + 'static> RenderThread<A> {
         let mut state = self.shared.lock();
         state.questions.push(Box::new(question));
         state.is_settled = false;
+        state.wishes += 1;
         drop(state);
         self.shared.news.notify_one();
     }
@@ -201,23 +206,27 @@ struct Painter {
 
 impl Painter {
     fn work<A: Send + 'static>(&mut self, shared: &Shared<A>, wake: impl Fn()) {
+        let mut known = 0;
         loop {
             let (orders, questions) = {
                 let mut state = shared.lock();
-                while !state.is_closing && state.is_settled && state.questions.is_empty() {
+                // Questions that cannot be answered yet wait for the next wish too.
+                while !state.is_closing && state.is_settled && state.wishes == known {
                     state = (shared.news.wait(state)).unwrap_or_else(PoisonError::into_inner);
                 }
                 if state.is_closing {
                     return;
                 }
+                known = state.wishes;
                 (state.orders.clone(), std::mem::take(&mut state.questions))
             };
             let looks = self.looks();
+            let was_refused = self.has_refused(&orders);
             let (outcome, unanswered, answers) = self.round(&orders, questions);
             let is_news = looks != self.looks() || outcome != Ok(true) || !answers.is_empty();
             let mut state = shared.lock();
             state.answers.extend(answers);
-            let has_news = !state.questions.is_empty() || !state.orders.is_same(&orders);
+            let has_news = state.wishes != known;
             state.questions.splice(0..0, unanswered);
             for (canvas, place) in self.canvases.iter().zip(Place::ALL) {
                 state.shown[place as usize] = canvas.shown();
@@ -229,11 +238,12 @@ impl Painter {
                     state.is_settled = !is_busy && !has_news && !waits;
                 }
                 Err(fault) => {
+                    // After a refusal what there was before goes on.
+                    state.is_settled = !has_news && (fault == Fault::Lost || was_refused);
                     if fault != Fault::Lost {
                         self.refused = Some(orders.pictures);
                     }
                     state.fault = Some(fault);
-                    state.is_settled = !has_news;
                 }
             }
             drop(state);
@@ -243,8 +253,22 @@ impl Painter {
         }
     }
 
+    fn has_refused(&self, orders: &Orders) -> bool {
+        self.refused.as_ref() == Some(&orders.pictures)
+    }
+
     fn looks(&self) -> u64 {
         self.canvases.iter().map(Canvas::looks).sum()
+    }
+
+    /// Takes up the orders; those that can be followed are, whatever becomes of the others.
+    fn follow(&mut self, orders: &Orders) -> Result<(), CanvasError> {
+        let mut outcome = Ok(());
+        for (canvas, place) in self.canvases.iter_mut().zip(Place::ALL) {
+            let order = orders.pictures[place as usize].as_ref();
+            outcome = outcome.and(canvas.follow(order, orders.coarse));
+        }
+        outcome
     }
 
     /// Follows the orders and does the next piece of work. Whether there is more.
@@ -257,16 +281,10 @@ impl Painter {
         orders: &Orders,
         questions: Vec<Question<A>>,
     ) -> (Result<bool, Fault>, Vec<Question<A>>, Vec<A>) {
-        if let Some(refused) = &self.refused {
-            if *refused == orders.pictures {
-                return (Ok(false), questions, Vec::new());
-            }
-            self.refused = None;
-        }
         let mut is_busy = false;
-        for (canvas, place) in self.canvases.iter_mut().zip(Place::ALL) {
-            let order = orders.pictures[place as usize].as_ref();
-            if let Err(error) = canvas.follow(order, orders.coarse) {
+        if !self.has_refused(orders) {
+            self.refused = None;
+            if let Err(error) = self.follow(orders) {
                 return (Err(error.into()), questions, Vec::new());
             }
         }
@@ -282,14 +300,18 @@ impl Painter {
                 None => unanswered.push(question),
             }
         }
-        let has_work = |canvas: &Canvas| match orders.paused {
+        // Questions are about the picture in full: a paused one goes on until it has begun.
+        let is_asked = !unanswered.is_empty();
+        let is_held = |canvas: &Canvas| orders.paused && !(is_asked && canvas.is_awaited());
+        let has_work = |canvas: &Canvas| match is_held(canvas) {
             true => !canvas.is_shown(),
             false => !canvas.is_done(),
         };
         // What is behind comes first: of two pictures side by side neither waits for the other.
         let waiting = self.canvases.iter_mut().filter(|canvas| has_work(canvas));
         if let Some(canvas) = waiting.min_by(|a, b| a.rank().total_cmp(&b.rank())) {
-            if let Err(error) = canvas.step(orders.paused) {
+            let is_held = is_held(canvas);
+            if let Err(error) = canvas.step(is_held) {
                 return (Err(error.into()), unanswered, answers);
             }
             is_busy = self.canvases.iter().any(has_work);

@@ -173,6 +173,18 @@ impl Session {
         Ok(session)
     }
 
+    /// Tells that the window is another one: what was asked of the last one's renderer, and what the hand
+    /// held there, is gone.
+    pub fn begin(&mut self) {
+        self.sheets.begin();
+        self.files.begin();
+        self.questions.clear();
+        inspector::begin(self);
+        self.drag = None;
+        self.look.grip = None;
+        self.editing.grip = None;
+    }
+
     /// Begins to read a scene; the one on screen stays until it is there.
     pub fn open(&mut self, path: PathBuf) {
         self.load(path, false);

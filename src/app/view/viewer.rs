@@ -48,8 +48,7 @@ impl Viewer {
         let state = context.wgpu_render_state.clone();
         let ctx = context.egui_ctx.clone();
         let render = RenderThread::new(gpu, move || ctx.request_repaint())?;
-        session.borrow_mut().sheets.begin();
-        session.borrow_mut().files.begin();
+        session.borrow_mut().begin();
         let layout = Layout::kept(&session.borrow().preferences);
         Ok(Self {
             session,

@@ -1,6 +1,7 @@
 //! The window of the operating system: opened with our device, and opened again when that is lost.
 
 use super::super::exit::AppError;
+use super::super::{console, scene_file};
 use super::session::Session;
 use super::sheets;
 use super::viewer::Viewer;
@@ -9,27 +10,56 @@ use eframe::egui;
 use eframe::egui_wgpu::{RendererOptions, WgpuConfiguration, WgpuSetup, WgpuSetupExisting};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
+use std::time::{Duration, Instant};
 
-/// How often a lost device is replaced before the window stays closed.
-const MAX_LOSSES: u32 = 3;
+/// How often a lost device is replaced within this time before the window stays closed.
+const MAX_LOSSES: usize = 3;
+const RECENT: Duration = Duration::from_secs(600);
 
 /// Shows the session until the person closes the window.
 pub fn run(session: Session, choice: &AdapterChoice) -> Result<(), AppError> {
     check_display()?;
     let session = Rc::new(RefCell::new(session));
-    let mut losses = 0;
+    let mut losses = Vec::new();
     loop {
-        show(&session, &Gpu::with_all_limits(choice)?)?;
+        let shown = Gpu::with_all_limits(choice)
+            .map_err(AppError::from)
+            .and_then(|gpu| show(&session, &gpu));
+        if let Err(error) = shown {
+            return Err(rescued(&session.borrow(), error));
+        }
         if !session.borrow_mut().is_to_reopen() {
             return Ok(());
         }
-        losses += 1;
-        if losses > MAX_LOSSES {
-            return Err(GpuError::KeptFailing { count: losses }.into());
+        losses.retain(|loss: &Instant| loss.elapsed() < RECENT);
+        losses.push(Instant::now());
+        if losses.len() > MAX_LOSSES {
+            let count = losses.len() as u32;
+            return Err(rescued(
+                &session.borrow(),
+                GpuError::KeptFailing { count }.into(),
+            ));
         }
         let told = "the GPU was lost (driver reset or time-out) and is replaced: the picture starts again.";
         session.borrow_mut().notices.warn(told.into());
     }
+}
+
+/// Writes changes that are in no file where the next start of the system may forget them, and says so.
+fn rescued(session: &Session, error: AppError) -> AppError {
+    let Some(scene) = session.scene().filter(|_| session.has_changes()) else {
+        return error;
+    };
+    let name = format!("glimray_rescued_{}.toml", std::process::id());
+    let path = std::env::temp_dir().join(name);
+    match scene_file::save(&path, scene, false) {
+        Ok(_) => console::warning(format_args!(
+            "changes that were not saved are in {}.",
+            path.display()
+        )),
+        Err(why) => console::warning(format_args!("changes could not be saved: {why}")),
+    }
+    error
 }
 
 /// Shows the session until the window is closed or the device is lost.

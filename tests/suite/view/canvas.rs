@@ -9,12 +9,13 @@ use eframe::egui;
 use glam::Vec3;
 use glimray::app::view::canvas::{Pace, Shown};
 use glimray::app::view::order::Order;
-use glimray::app::view::render_thread::{Orders, Place, RenderThread};
+use glimray::app::view::render_thread::{Fault, Orders, Place, RenderThread};
 use glimray::gpu::Gpu;
 use glimray::image::Image;
 use glimray::render::{Antialias, Settings, Tone};
 use glimray::scene::{Background, Camera, Scene, ToneCurve};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
@@ -149,6 +150,70 @@ fn a_pause_does_not_show_in_the_picture() {
         easel.image() == render(&scene, &settings).0,
         "the pause shows"
     );
+}
+
+#[test]
+fn a_paused_picture_that_is_still_coarse_answers_questions() {
+    let scene = scenes::everything();
+    let mut easel = Easel::new(&scene, stratified(4));
+    easel.settle();
+    easel.orders.paused = true;
+    easel.want(|order| order.shot = (0.5, 0.5));
+    easel.settle();
+    assert!(easel.shown().progress.is_coarse);
+    let image = easel.image();
+    assert_eq!((image.width, image.height), (61, 43));
+}
+
+#[test]
+fn a_question_that_must_wait_takes_no_time() {
+    let woken = Arc::new(AtomicU32::new(0));
+    let count = woken.clone();
+    let wake = move || {
+        count.fetch_add(1, Ordering::Relaxed);
+    };
+    let thread = RenderThread::<()>::new(open_gpu(), wake).expect("a thread");
+    thread.ask(|_| ());
+    std::thread::sleep(Duration::from_millis(300));
+    let woken = woken.load(Ordering::Relaxed);
+    assert!(woken < 5, "the window was woken {woken} times");
+    assert_eq!(thread.answers().len(), 0);
+}
+
+#[test]
+fn a_refused_order_passes_for_nothing_else_and_the_last_picture_stays() {
+    let scene = scenes::everything();
+    let mut easel = Easel::new(&scene, stratified(2));
+    easel.settle();
+    let done = easel.shown().stats.samples;
+    easel.want(|order| {
+        order.settings.size = (16384, 16384);
+        order.settings.memory_limit_bytes = 1 << 20;
+    });
+    let is_refused = |easel: &Easel| matches!(easel.thread.fault(), Some(Fault::Refused(_)));
+    let wait = |easel: &Easel| {
+        let start = Instant::now();
+        while !(easel.thread.is_settled() && is_refused(easel)) {
+            assert!(start.elapsed() < PATIENCE, "{:?}", easel.thread.fault());
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    };
+    wait(&easel);
+    easel.want(|order| order.tone.exposure_ev = 1.0);
+    wait(&easel);
+    assert_eq!(easel.shown().size, (61, 43));
+    easel.want(|order| {
+        order.settings = stratified(2);
+        order.tone.exposure_ev = 0.0;
+    });
+    let start = Instant::now();
+    while easel.thread.fault().is_some() || !easel.thread.is_settled() {
+        assert!(start.elapsed() < PATIENCE, "still refused");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert!(easel.shown().progress.is_done);
+    assert!(easel.image() == render(&scene, &stratified(2)).0);
+    assert_eq!(easel.shown().stats.samples, done, "it was traced again");
 }
 
 #[test]
@@ -298,7 +363,8 @@ fn the_coarse_picture_is_what_is_wanted_too_after_a_way_back() {
         off.fold(0.0, f64::max)
     };
     let wanted = means(&easel);
-    let changes: [(&str, fn(&mut Order, &Camera), fn(&mut Order)); 2] = [
+    type Change = (&'static str, fn(&mut Order, &Camera), fn(&mut Order));
+    let changes: [Change; 2] = [
         (
             "camera",
             |order, home| {

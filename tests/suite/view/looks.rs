@@ -27,7 +27,7 @@ fn check(window: &mut Window, name: &str) {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snapshots");
     let options = SnapshotOptions::default()
         .output_path(folder)
-        .failed_pixel_count_threshold(MAX_PIXELS);
+        .max_failed_pixels(MAX_PIXELS);
     window.harness.snapshot_options(name, &options);
 }
 

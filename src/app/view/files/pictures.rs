@@ -68,6 +68,11 @@ impl Pending {
         !self.writing.is_empty() || self.is_asking || self.pose.is_some()
     }
 
+    /// Lets go of what no answer will come to.
+    pub fn forget(&mut self) {
+        self.is_asking = false;
+    }
+
     pub fn is_posing(&self) -> bool {
         self.pose.is_some()
     }
