@@ -2,6 +2,7 @@
 //! takes no more memory.
 
 use super::harness::Window;
+use glimray::scene::Camera;
 use super::pixels::{self, Bytes};
 use eframe::App;
 use eframe::egui::{
@@ -74,14 +75,24 @@ fn script(middle: Pos2) -> Vec<Vec<Event>> {
 }
 
 /// All that there is to remember of a session that has come to rest.
-fn state(window: &mut Window) -> (String, Bytes) {
+#[derive(PartialEq)]
+struct State {
+    camera: Camera,
+    look: String,
+    picture: Bytes,
+}
+
+fn state(window: &mut Window) -> State {
     window.settle();
     let session = window.session();
-    let camera = session.camera();
-    let state = format!("{camera:?} {:?} {:?}", session.look, session.playback);
+    let look = format!("{:?} {:?}", session.look, session.playback);
     drop(session);
     let screen = window.shown().screen.expect("a screen");
-    (state, pixels::on(&screen, &window.gpu))
+    State {
+        camera: window.camera(),
+        look,
+        picture: pixels::on(&screen, &window.gpu),
+    }
 }
 
 fn open(flag: &str, file: &Path) -> Window {
@@ -123,10 +134,15 @@ fn a_recording_played_twice_ends_in_the_same_state_and_picture() {
         state(&mut window)
     };
     let (first, second) = (play(), play());
-    assert_eq!(first.0, second.0);
-    first.1.assert_same(&second.1, "two replays");
-    assert_eq!(first.0, recorded.0);
-    first.1.assert_same(&recorded.1, "recording and replay");
+    assert!(first == second, "two replays are not the same");
+    assert_eq!(first.look, recorded.look);
+    // The hand that was recorded paused between its frames, and the camera glides in as many more steps.
+    let (there, here) = (&first.camera, &recorded.camera);
+    let off = (there.look_from.distance(here.look_from)).max(there.look_at.distance(here.look_at));
+    assert!(off < 1e-9, "the cameras are {off} apart");
+    let pairs = (first.picture.rgb.iter()).zip(&recorded.picture.rgb);
+    let differing = pairs.filter(|(a, b)| a != b).count();
+    assert!(differing < 64 * 48 / 100, "{differing} pixels differ");
 }
 
 /// Does not wait for it to settle: it does not before all is played.
