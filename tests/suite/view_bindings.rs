@@ -444,6 +444,9 @@ fn a_command_takes_only_what_suits_it() {
         (Action::FlyUp, "E"),
         (Action::Undo, "Hold Z"),
         (Action::Undo, "Wheel"),
+        (Action::Orbit, "Wheel"),
+        (Action::Pan, "Shift+Wheel"),
+        (Action::LookAround, "Alt+Wheel"),
     ] {
         let why = bindings.set(action, vec![trigger(text)]).expect_err(text);
         assert!(why.contains(action.name()) && why.contains(text), "{why}");

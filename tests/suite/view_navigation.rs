@@ -527,6 +527,20 @@ fn the_scenes_camera_takes_along_only_a_rig_that_is_at_home() {
 }
 
 #[test]
+fn a_rig_flies_away_from_a_home_that_moves() {
+    let mut rig = rig(&camera());
+    rig.fly(Flight {
+        forward: 1.0,
+        pace: 1.0,
+        ..Flight::default()
+    });
+    rig.set_home(&cameras()[5]);
+    rig.set_home(&cameras()[5]);
+    assert!(rig.advance(0.1));
+    assert!(!rig.is_home());
+}
+
+#[test]
 fn no_zoom_is_too_much() {
     for camera in [camera(), parallel()] {
         for steps in [-1e4, 1e4] {

@@ -93,7 +93,8 @@ impl Bindings {
                 match action.manner() {
                     Manner::Press => "a key, a click or a double click",
                     Manner::Hold => "a key that is held",
-                    Manner::Motion => "a drag or the wheel",
+                    Manner::Motion if zooms(action) => "a drag or the wheel",
+                    Manner::Motion => "a drag",
                 }
             ));
         }
@@ -324,8 +325,15 @@ fn suits(action: Action, trigger: &Trigger) -> bool {
     match action.manner() {
         Manner::Press => matches!(trigger, Key(..) | Click(..) | DoubleClick(..)),
         Manner::Hold => matches!(trigger, Hold(_) | HoldMods(_)),
-        Manner::Motion => matches!(trigger, Drag(..) | Wheel(_)),
+        Manner::Motion => {
+            matches!(trigger, Drag(..)) || zooms(action) && matches!(trigger, Wheel(_))
+        }
     }
+}
+
+/// Whether steps of a wheel make sense for what moves the camera.
+pub fn zooms(action: Action) -> bool {
+    matches!(action, Action::Zoom | Action::ZoomToCursor)
 }
 
 fn is_letter(trigger: &Trigger) -> bool {

@@ -7,7 +7,7 @@ use super::navigation::Side;
 use super::playback::MAX_SPEED;
 use super::session::Session;
 use super::tools::Tool;
-use super::{editing, files, inspector, sheets};
+use super::{editing, files, inspector, sheets, tools};
 use crate::render::Integrator;
 use crate::scene::{Background, ToneCurve};
 use eframe::egui::{self, ViewportCommand};
@@ -19,10 +19,14 @@ const TURN: f64 = PI / 12.0;
 /// What a key brightens by, in stops.
 const EXPOSURE_STEP: f32 = 1.0 / 3.0;
 
-/// Does what keys ask for, unless a text is being edited.
+/// Does what clicks and keys ask for; keys only where no text is edited and no question is asked.
 pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
-    let is_typing = ctx.egui_wants_keyboard_input() && !editing::keys(session, ctx);
-    if is_typing || session.sheets.takes_keys() {
+    for action in std::mem::take(&mut session.clicked) {
+        perform(action, session, layout, ctx);
+    }
+    if sheets::take_keys(session, ctx)
+        || ctx.egui_wants_keyboard_input() && !editing::keys(session, ctx)
+    {
         if let Some(rig) = &mut session.rig {
             rig.fly(Default::default());
         }
@@ -49,6 +53,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         || editing::perform(action, session)
         || files::perform(action, session, ctx)
         || inspector::perform(action, session, layout)
+        || tools::perform(action, session, ctx)
         || tool(action, session);
 }
 
@@ -57,8 +62,12 @@ fn camera(action: Action, session: &mut Session) -> bool {
         let (width, height) = session.picture_size();
         f64::from(width) / f64::from(height.max(1))
     };
-    let selected = session.selection_bounds();
-    let all = session.bounds();
+    // Every vertex is looked at for it.
+    let bounds = match action {
+        Action::FrameSelection => session.selection_bounds().or_else(|| session.bounds()),
+        Action::FrameAll => session.bounds(),
+        _ => None,
+    };
     let Some(rig) = &mut session.rig else {
         return false;
     };
@@ -72,13 +81,8 @@ fn camera(action: Action, session: &mut Session) -> bool {
         Action::RollLeft => rig.roll(TURN),
         Action::RollRight => rig.roll(-TURN),
         Action::Level => rig.level(),
-        Action::FrameSelection => {
-            if let Some(bounds) = selected.or(all) {
-                rig.frame(bounds, aspect);
-            }
-        }
-        Action::FrameAll => {
-            if let Some(bounds) = all {
+        Action::FrameSelection | Action::FrameAll => {
+            if let Some(bounds) = bounds {
                 rig.frame(bounds, aspect);
             }
         }
@@ -179,6 +183,9 @@ fn window(action: Action, session: &mut Session, layout: &mut Layout, ctx: &egui
         Action::FullScreen => {
             let is_full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
             ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!is_full));
+        }
+        Action::SavePictureWithOverlays if session.viewport.is_none() => {
+            (session.notices).tell("The picture is not to be seen: show its panel first");
         }
         Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         _ => return false,

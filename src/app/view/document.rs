@@ -14,6 +14,10 @@ const MAX_STEPS: usize = 1000;
 /// Bytes that all steps may hold together, about; the last one is always kept.
 const MAX_BYTES: usize = 256 << 20;
 
+/// Names of steps after which there may be an altogether different scene.
+const REVERT: &str = "revert";
+const RELOAD: &str = "reload";
+
 /// A scene, what was done to it, and whether that is saved.
 #[derive(Clone, Debug)]
 pub struct Document {
@@ -159,6 +163,11 @@ impl Document {
         self.undone.last().map(|step| step.name.as_str())
     }
 
+    /// Whether a step of that name puts another scene in the place of the one there is.
+    pub fn replaces(name: &str) -> bool {
+        [REVERT, RELOAD].contains(&name)
+    }
+
     /// How many steps can be taken back.
     pub fn undo_count(&self) -> usize {
         self.done.len()
@@ -180,7 +189,7 @@ impl Document {
         if self.is_changed() {
             self.release();
             let saved = self.saved.clone();
-            self.push_shared("revert", saved);
+            self.push_shared(REVERT, saved);
         }
     }
 
@@ -190,7 +199,7 @@ impl Document {
         self.release();
         let scene = Arc::new(scene);
         self.saved = scene.clone();
-        self.push_shared("reload", scene);
+        self.push_shared(RELOAD, scene);
     }
 
     fn push(&mut self, name: &str, scene: Scene) {

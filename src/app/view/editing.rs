@@ -11,6 +11,7 @@ pub use saving::sheet;
 
 use super::super::overrides;
 use super::bindings::Action;
+use super::document::Document;
 use super::objects::{self, EditError, Id};
 use super::outline;
 use super::session::Session;
@@ -74,6 +75,11 @@ impl Default for Editing {
 }
 
 impl Editing {
+    /// Whether a name for the scene is asked for.
+    pub fn is_asking(&self) -> bool {
+        self.saving.is_some()
+    }
+
     /// Bounds of a mesh in its own space.
     fn bounds_of(&mut self, mesh: &Arc<Mesh>) -> Option<(DVec3, DVec3)> {
         match &self.mesh_box {
@@ -115,6 +121,7 @@ pub fn perform(action: Action, session: &mut Session) -> bool {
                 false => "There is nothing to throw away",
             };
             document.revert();
+            session.selection = None;
             session.moved();
             session.notices.tell(told);
         }
@@ -127,8 +134,7 @@ pub fn perform(action: Action, session: &mut Session) -> bool {
 
 /// Whether arrow keys go through the outline, and other keys to commands. Takes the arrows.
 pub fn keys(session: &mut Session, ctx: &egui::Context) -> bool {
-    let has_focus = session.editing.has_list_focus && session.editing.renaming.is_none();
-    if !has_focus || ctx.text_edit_focused() {
+    if !has_list_focus(session, ctx) {
         return false;
     }
     let take = |key| ctx.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key));
@@ -141,6 +147,12 @@ pub fn keys(session: &mut Session, ctx: &egui::Context) -> bool {
         session.begin_rename();
     }
     true
+}
+
+/// Whether the keyboard is for lines of the outline, and not for a text.
+pub fn has_list_focus(session: &Session, ctx: &egui::Context) -> bool {
+    let editing = &session.editing;
+    editing.has_list_focus && editing.renaming.is_none() && !ctx.text_edit_focused()
 }
 
 /// What changes of the scene bring with them.
@@ -189,10 +201,17 @@ fn step(session: &mut Session, again: bool) {
     let Some(document) = &mut session.document else {
         return;
     };
+    let before = document.scene().clone();
     let (done, did, undone) = match again {
         true => (document.redo(), "Redid", "redo"),
         false => (document.undo(), "Undid", "undo"),
     };
+    // Indices may stand for other things now.
+    let is_other = done.as_deref().is_some_and(Document::replaces);
+    let after = document.scene();
+    let selected = session.selection.filter(|_| !is_other);
+    session.selection = selected.and_then(|id| objects::same(&before, after, id));
+    session.editing.renaming = None;
     session.notices.tell(match done {
         Some(name) => format!("{did} {name}"),
         None => format!("There is nothing to {undone}"),
@@ -238,9 +257,13 @@ impl Session {
 
     /// What something is called.
     pub fn label(&self, id: Id) -> String {
-        let listed = self.editing.listing.label(id).map(str::to_owned);
-        let made = || self.scene().map(|scene| outline::label(scene, id));
-        listed.or_else(made).unwrap_or_default()
+        let Some(scene) = self.scene() else {
+            return String::new();
+        };
+        match self.editing.listing.label(scene, id) {
+            Some(label) => label.to_owned(),
+            None => outline::label(scene, id),
+        }
     }
 
     /// Shows or hides something.

@@ -8,7 +8,9 @@ pub mod words;
 
 use super::bindings::Action;
 use super::layout::{Layout, Panel};
+use super::objects::Id;
 use super::order::Order;
+use super::outline;
 use super::question::Answer;
 use super::render_thread::{Place, Studio};
 use super::session::Session;
@@ -18,7 +20,7 @@ use crate::render::{Integrator, RayTree, TracedRay};
 use eframe::egui;
 use outside::Outside;
 use rows::{Filter, RayId, Row};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A pixel's rays, and the picture that they are of.
 #[derive(Debug)]
@@ -31,18 +33,27 @@ pub struct Inspected {
     pub is_final: bool,
     /// How often the light of each ray was mirrored or refracted before: by sample and ray.
     pub bounces: Vec<Vec<u32>>,
+    /// What the outline calls all that they met.
+    labels: BTreeMap<Id, String>,
 }
 
 impl Inspected {
     /// The tree of a picture.
     pub fn new(tree: RayTree, order: Order, is_final: bool) -> Self {
         let bounces = tree.samples.iter().map(rows::bounces).collect();
+        let labels = outline::labels(&order.scene, words::met(&tree));
         Self {
             tree,
             order,
             is_final,
             bounces,
+            labels,
         }
+    }
+
+    /// What something is called that its rays met.
+    pub fn label(&self, id: Id) -> &str {
+        self.labels.get(&id).map_or("something", String::as_str)
     }
 
     /// One of its rays.

@@ -120,6 +120,8 @@ impl Layout {
             .frame(egui::Frame::NONE.fill(ui.visuals().panel_fill))
             .show(ui, |ui| {
                 self.resize(ui.available_size().into());
+                // The picture says where it is, if it is to be seen.
+                desk.session.viewport = None;
                 self.tree.ui(&mut Tabs { desk }, ui);
             });
     }

@@ -233,8 +233,16 @@ impl Rig {
     /// Tells that the scene's own camera is `camera` now, because time went on or the scene was
     /// edited. A rig at home stays at home; one that has been moved stays where it is.
     pub fn set_home(&mut self, camera: &Camera) {
+        if self.home.camera == *camera {
+            return;
+        }
         if self.is_home() {
-            *self = Self::new(camera, self.bounds);
+            // Who is about to fly away is not held back.
+            *self = Self {
+                velocity: self.velocity,
+                flight: self.flight,
+                ..Self::new(camera, self.bounds)
+            };
         } else {
             let pose = self.upright.pose(camera);
             self.home = Known {

@@ -131,6 +131,15 @@ pub fn label(scene: &Scene, id: Id) -> String {
     Labels::of(scene).of_id(scene, id)
 }
 
+/// The labels of some things; what is not in the scene has none.
+pub fn labels(scene: &Scene, ids: impl IntoIterator<Item = Id>) -> BTreeMap<Id, String> {
+    let labels = Labels::of(scene);
+    ids.into_iter()
+        .filter(|id| objects::is_there(scene, *id))
+        .map(|id| (id, labels.of_id(scene, id)))
+        .collect()
+}
+
 /// The numbers of things within their kinds.
 struct Labels {
     shapes: Vec<usize>,

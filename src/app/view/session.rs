@@ -4,6 +4,7 @@ use super::super::cli::{CameraFlags, MomentFlags, MotionFlags, PictureFlags, Vie
 use super::super::clock::Clock;
 use super::super::exit::AppError;
 use super::super::{demo, job, overrides};
+use super::bindings::Action;
 use super::document::Document;
 use super::editing::{self, Editing};
 use super::files::{self, Files};
@@ -59,7 +60,9 @@ pub struct Session {
     pub drag: Option<Drag>,
     /// What is selected.
     pub selection: Option<Id>,
-    /// Where the picture is in the window; `None` before it was drawn.
+    /// Commands that clicks in the picture gave, for the next frame.
+    pub clicked: Vec<Action>,
+    /// Where the picture is in the window; `None` where it is not to be seen.
     pub viewport: Option<Viewport>,
     /// Whether the figures of the render are to be seen.
     pub shows_statistics: bool,
@@ -141,6 +144,7 @@ impl Session {
             tool: Tool::default(),
             drag: None,
             selection: None,
+            clicked: Vec::new(),
             viewport: None,
             shows_statistics: true,
             shows_overlays: true,

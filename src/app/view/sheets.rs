@@ -11,6 +11,7 @@ mod questions;
 
 use super::bindings::Action;
 use super::commands;
+use super::editing;
 use super::layout::Layout;
 use super::preferences::Theme;
 use super::render_thread::Place;
@@ -50,6 +51,8 @@ pub struct Sheets {
     pub bindings: BindingsSheet,
     names: cameras::Names,
     is_resetting: bool,
+    /// Whether a field had the keyboard in the last frame: egui takes that away before Escape is seen.
+    had_keyboard: bool,
     kept: kept::Kept,
 }
 
@@ -81,11 +84,23 @@ impl Sheets {
             false => self.open(sheet),
         }
     }
+}
 
-    /// Whether keys are for a sheet and give no commands.
-    pub fn takes_keys(&self) -> bool {
-        self.bindings.awaits()
+/// Whether keys are for a sheet, or leave a field, and give no commands. Escape ends a question.
+pub fn take_keys(session: &mut Session, ctx: &egui::Context) -> bool {
+    let is_escape = ctx.input(|input| input.key_pressed(Key::Escape));
+    // This one sees to Escape itself.
+    if session.editing.is_asking() || session.sheets.bindings.awaits() {
+        return true;
     }
+    let files = &session.files;
+    if files.undecided.is_some() || files.saving.is_some() || files.typed.is_some() {
+        if is_escape {
+            close_uppermost(session);
+        }
+        return true;
+    }
+    is_escape && session.sheets.had_keyboard
 }
 
 /// Carries out a command that opens or closes a sheet, or changes preferences. Whether it does.
@@ -148,11 +163,6 @@ pub fn show(ui: &mut egui::Ui, desk: &mut Desk, layout: &mut Layout) {
         return;
     }
     let ctx = ui.ctx().clone();
-    // A text field takes Escape for itself, and then it is no command.
-    let is_typing = ctx.egui_wants_keyboard_input();
-    if is_typing && ctx.input(|input| input.key_pressed(Key::Escape)) {
-        close_uppermost(desk.session);
-    }
     for sheet in desk.session.sheets.open.clone() {
         let stays = match sheet {
             Sheet::Bindings => bindings::show(&ctx, desk.session),
@@ -181,6 +191,8 @@ pub fn show(ui: &mut egui::Ui, desk: &mut Desk, layout: &mut Layout) {
         }
     }
     questions::hovering(&ctx);
+    let is_list = editing::has_list_focus(desk.session, &ctx);
+    desk.session.sheets.had_keyboard = ctx.egui_wants_keyboard_input() && !is_list;
     kept::keep_layout_if_due(desk.session, layout);
 }
 

@@ -6,7 +6,7 @@ use super::navigation::Rig;
 use super::question;
 use super::session::Session;
 use super::viewport::Viewport;
-use eframe::egui::{self, Pos2};
+use eframe::egui::{self, LayerId, PointerButton, Pos2};
 
 /// What a click or a drag in the picture does, where it is not the camera's.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,9 +53,11 @@ pub fn navigate(session: &mut Session, response: &egui::Response, viewport: View
     let (modifiers, pointer) = ctx.input(|input| (input.modifiers, input.pointer.interact_pos()));
     let bindings = session.preferences.bindings.clone();
     let buttons = [
-        egui::PointerButton::Primary,
-        egui::PointerButton::Middle,
-        egui::PointerButton::Secondary,
+        PointerButton::Primary,
+        PointerButton::Middle,
+        PointerButton::Secondary,
+        PointerButton::Extra1,
+        PointerButton::Extra2,
     ];
     for button in buttons {
         if response.drag_started_by(button)
@@ -68,6 +70,9 @@ pub fn navigate(session: &mut Session, response: &egui::Response, viewport: View
         } else if response.clicked_by(button) {
             click(session, bindings.click(button, modifiers), pointer);
         }
+    }
+    if !session.clicked.is_empty() {
+        ctx.request_repaint();
     }
     if let (Some(drag), Some(to)) = (session.drag, pointer) {
         let from = to - response.drag_delta();
@@ -112,21 +117,46 @@ pub fn follow(rig: &mut Rig, drag: Drag, viewport: Viewport, from: Pos2, to: Pos
     }
 }
 
+/// Carries out a command about what is under the cursor, where a key gave it. Whether it is one.
+pub fn perform(action: Action, session: &mut Session, ctx: &egui::Context) -> bool {
+    if !is_pick(action) {
+        return false;
+    }
+    let pointer = ctx.pointer_hover_pos();
+    let pointer = pointer.filter(|point| ctx.layer_id_at(*point) == Some(LayerId::background()));
+    match (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point)) {
+        Some(pixel) => pick(session, action, pixel),
+        None => (session.notices).tell("Point at something in the picture first"),
+    }
+    true
+}
+
 /// What a click is bound to; a plain one belongs to the tool.
 fn click(session: &mut Session, action: Option<Action>, pointer: Option<Pos2>) {
     let pixel = (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point));
-    let Some(pixel) = pixel else {
-        return;
-    };
+    match (action, pixel) {
+        (Some(action), Some(pixel)) if is_pick(action) => pick(session, action, pixel),
+        (Some(action), _) if !is_pick(action) => session.clicked.push(action),
+        _ => {}
+    }
+}
+
+fn is_pick(action: Action) -> bool {
+    matches!(
+        action,
+        Action::SetPivot | Action::FocusHere | Action::Select
+    )
+}
+
+fn pick(session: &mut Session, action: Action, pixel: [u32; 2]) {
     let purpose = match action {
-        Some(Action::SetPivot) => Purpose::Pivot,
-        Some(Action::FocusHere) => Purpose::Focus,
-        Some(Action::Select) if session.tool == Tool::Inspect => {
+        Action::Select if session.tool == Tool::Inspect => {
             inspector::inspect(session, pixel);
             return;
         }
-        Some(Action::Select) => Purpose::Select,
-        _ => return,
+        Action::SetPivot => Purpose::Pivot,
+        Action::FocusHere => Purpose::Focus,
+        _ => Purpose::Select,
     };
     session.ask(move |studio| question::pick(studio, pixel, purpose));
 }

@@ -5,9 +5,12 @@ use crate::reference::compare::render;
 use eframe::egui::{Key, Pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::{DVec3, dvec3, vec3};
+use glimray::app::scene_file;
 use glimray::app::view::bindings::Action;
 use glimray::app::view::editing;
+use glimray::app::view::files::Intent;
 use glimray::app::view::objects::Id;
+use glimray::app::view::sheets::Sheet;
 use glimray::app::view::tools::Tool;
 use glimray::render::Tone;
 use glimray::scene::{Geometry, ObjectRef, Scene};
@@ -376,4 +379,184 @@ fn the_camera_under_the_hand_can_become_the_scenes_own() {
     let own = scene(&window).frame(0.0).camera;
     assert_eq!((own.look_from, own.look_at), (seen.look_from, seen.look_at));
     assert!(window.session().rig.as_ref().expect("a camera").is_home());
+}
+
+#[test]
+fn undo_keeps_the_selection_on_the_same_object() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.session().selection = Some(RED);
+    perform(&mut window, Action::Delete);
+    // The other ball is the first one now.
+    window.session().selection = Some(RED);
+    perform(&mut window, Action::Undo);
+    assert_eq!(window.session().selection, Some(BLUE));
+    perform(&mut window, Action::Redo);
+    assert_eq!(window.session().selection, Some(RED));
+    perform(&mut window, Action::Undo);
+    window.session().selection = Some(RED);
+    perform(&mut window, Action::Redo);
+    assert_eq!(window.session().selection, None, "what is gone");
+    window.session().selection = Some(RED);
+    perform(&mut window, Action::Duplicate);
+    // As many balls as in the file, but others.
+    perform(&mut window, Action::Revert);
+    assert_eq!(window.session().selection, None, "another scene");
+}
+
+#[test]
+fn labels_are_those_of_the_scene_on_screen_where_the_outline_is_hidden() {
+    let (folder, path) = file();
+    let mut window = open(&path, "64x48");
+    assert_eq!(window.session().label(RED), "sphere 1 (red)");
+    window.harness.key_press(Key::O);
+    window.settle();
+    let other = folder.path().join("other.toml");
+    std::fs::write(&other, BALLS.replace("red", "green")).expect("a file");
+    window.session().open(other);
+    window.settle();
+    assert_eq!(window.session().label(RED), "sphere 1 (green)");
+}
+
+#[test]
+fn escape_in_a_field_leaves_only_the_field() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.session().selection = Some(RED);
+    window.session().tool = Tool::Move;
+    window.settle();
+    for field in ["Search the outline", "Radius"] {
+        window.harness.get_by_label(field).focus();
+        window.harness.run_steps(3);
+        window.harness.key_press(Key::Escape);
+        window.settle();
+        assert_eq!(window.session().tool, Tool::Move, "{field}");
+        assert_eq!(window.session().selection, Some(RED), "{field}");
+    }
+    window.harness.key_press(Key::Escape);
+    window.settle();
+    assert_eq!(window.session().tool, Tool::Select);
+}
+
+#[test]
+fn no_key_but_escape_goes_past_a_question() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.session().selection = Some(RED);
+    window.settle();
+    let before = scene(&window);
+    let questions: [(&str, fn(&mut Window)); 4] = [
+        ("unsaved", |window| {
+            window.session().files.undecided = Some(Intent::Close);
+        }),
+        ("path", |window| {
+            window.session().files.typed = Some(String::new());
+        }),
+        ("picture", |window| window.harness.key_press(Key::F12)),
+        ("scene", |window| {
+            editing::perform(Action::SaveSceneAs, &mut window.session());
+        }),
+    ];
+    for (name, ask) in questions {
+        ask(&mut window);
+        window.harness.run_steps(3);
+        for key in [Key::Delete, Key::F1, Key::V, Key::F12] {
+            window.harness.key_press(key);
+            window.harness.run_steps(2);
+        }
+        assert_eq!(scene(&window), before, "{name}");
+        assert!(!window.session().sheets.is_open(Sheet::Bindings), "{name}");
+        window.harness.key_press(Key::Escape);
+        window.settle();
+        let session = window.session();
+        let files = &session.files;
+        assert!(files.undecided.is_none() && files.typed.is_none(), "{name}");
+        assert!(
+            files.saving.is_none() && !session.editing.is_asking(),
+            "{name}"
+        );
+        assert_eq!(session.selection, Some(RED), "{name}");
+    }
+}
+
+/// A ball of glass, a spot light and a camera with a lens.
+const FIELDS: &str = r#"
+[camera]
+look_from = [0, 0, 8]
+look_at = [0, 0, 0]
+fov_y_deg = 30
+lens = { radius = 0.1, focus_distance = 8, blades = 6 }
+
+[[lights]]
+spot = { position = [3, 4, 5], look_at = [0, 0, 0], outer_deg = 30, color = [0.9, 0.9, 0.9] }
+
+[[lights]]
+sphere = { center = [0, 5, 0], radius = 1, color = [0.9, 0.9, 0.9], radiance = 1 }
+
+[materials]
+glass = { optics = { transmit = [0.5, 0.5, 0.5], ior = 1.5 } }
+
+[[objects]]
+sphere = { center = [0, 0, 0], radius = 0.75 }
+material = "glass"
+"#;
+
+#[test]
+fn what_fields_take_can_be_saved_and_opened_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("fields.toml");
+    std::fs::write(&path, FIELDS).expect("a file");
+    let mut window = open(&path, "64x48");
+    let light = |index| Id::Object(ObjectRef::Light(index));
+    let fields = [
+        (
+            Id::Material(0),
+            &[
+                "Shininess",
+                "Index (ior)",
+                "Opacity",
+                "Priority",
+                "Reflect red",
+                "Transmit red",
+                "Absorption red",
+            ][..],
+        ),
+        (light(0), &["Intensity", "Inner angle", "Outer angle"]),
+        (light(1), &["Radius"]),
+        (
+            Id::Camera(0),
+            &["Field of view", "Radius", "Focus", "Blades"],
+        ),
+        (RED, &["Radius"]),
+    ];
+    let saved = folder.path().join("saved.toml");
+    for most in [-1e30, 1e30] {
+        for (id, names) in fields {
+            window.session().selection = Some(id);
+            window.settle();
+            for name in names {
+                set(&mut window, name, most);
+                let scene = scene(&window);
+                scene_file::save(&saved, &scene, true).expect("a file");
+                let read = glimray::import::load(&saved);
+                assert!(read.is_ok(), "{name} at {most:e}: {:?}", read.err());
+            }
+        }
+    }
+}
+
+#[test]
+fn no_camera_is_without_an_up() {
+    let (_folder, path) = file();
+    let text = BALLS.replace("look_at = [0, 0, 0]", "look_at = \"target\"");
+    let text = text.replace(
+        "radius = 0.75 }\nmaterial = \"red\"",
+        "radius = 0.75 }\nname = \"target\"\nmaterial = \"red\"",
+    );
+    std::fs::write(&path, text).expect("a file");
+    let mut window = open(&path, "64x48");
+    window.session().selection = Some(Id::Camera(0));
+    window.settle();
+    set(&mut window, "Up y", 0.0);
+    assert_eq!(scene(&window).cameras[0].up, DVec3::Y);
 }

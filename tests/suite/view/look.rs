@@ -244,3 +244,16 @@ fn a_click_with_the_region_tool_is_no_region() {
     assert!(window.session().look.region.is_none());
     assert_eq!(window.session().tool, Tool::Region);
 }
+
+#[test]
+fn an_edge_that_is_dragged_over_the_middle_stays_in_its_picture() {
+    let mut window = open();
+    window.session().look.compare(Sharing::SideBySide);
+    window.session().look.region = Some([0.25, 0.25, 0.75, 0.75]);
+    window.settle();
+    let whole = window.harness.get_by_label("Rendered picture").rect();
+    let from = at(&window, 0.75, 0.5);
+    drag(&mut window, from, whole.lerp_inside(egui::vec2(0.75, 0.5)));
+    let region = window.session().look.region.expect("a region");
+    assert_eq!(region, [0.25, 0.25, 1.0, 0.75]);
+}

@@ -6,9 +6,10 @@ use egui_kittest::kittest::{NodeT, Queryable, by};
 use glam::{DMat4, DVec2, DVec3, Vec3, dvec2};
 use glimray::app::view::inspector::export::{self, Format};
 use glimray::app::view::inspector::rows::{self, Filter, Row};
-use glimray::app::view::inspector::{self, Inspected, hidden, outside};
+use glimray::app::view::inspector::{self, Inspected, hidden, outside, words};
+use glimray::app::view::objects::Id;
 use glimray::render::{RayKind, RayTree, SampleTree, Tone, TracedRay};
-use glimray::scene::Camera;
+use glimray::scene::{Camera, ObjectRef};
 use std::collections::BTreeSet;
 use std::process::Command;
 
@@ -464,4 +465,24 @@ fn what_a_sphere_hides_of_a_ray_is_known() {
         hidden_count > 3 && seen_count > 3,
         "{hidden_count} {seen_count}"
     );
+}
+
+#[test]
+fn rays_name_things_as_the_outline_does() {
+    let window = open_glass([31, 18]);
+    let session = window.session();
+    let inspected = session.inspector.inspected.as_ref().expect("a tree");
+    let mut count = 0;
+    for ray in &inspected.tree.samples[0].rays {
+        let headline = words::headline(inspected, ray);
+        let object = ray.hit.as_ref().and_then(|hit| hit.object);
+        let light = ray.shadow.as_ref();
+        let light = light.map(|shadow| ObjectRef::Light(shadow.light));
+        if let Some(met) = light.or(object) {
+            let label = session.label(Id::Object(met));
+            assert!(headline.contains(&label), "{headline}: no {label}");
+            count += 1;
+        }
+    }
+    assert!(count > 3, "{count} rays");
 }

@@ -23,7 +23,7 @@ pub struct Listing {
 impl Listing {
     /// Takes up a scene and the words.
     pub fn follow(&mut self, scene: &Arc<Scene>) {
-        let is_known = (self.scene.as_ref()).is_some_and(|known| Arc::ptr_eq(known, scene));
+        let is_known = self.lists(scene);
         if !is_known {
             self.outline = Outline::of(scene);
             self.lines = (self.outline.entries.iter().enumerate())
@@ -35,6 +35,10 @@ impl Listing {
             self.searched.clone_from(&self.query);
             self.shown = self.outline.search(&self.query);
         }
+    }
+
+    fn lists(&self, scene: &Arc<Scene>) -> bool {
+        (self.scene.as_ref()).is_some_and(|known| Arc::ptr_eq(known, scene))
     }
 
     /// How many lines are shown.
@@ -54,8 +58,12 @@ impl Listing {
         self.shown.binary_search(line).ok()
     }
 
-    /// What something is called.
-    pub fn label(&self, id: Id) -> Option<&str> {
+    /// What something of `scene` is called, where it is that scene that is listed: a hidden outline is
+    /// not kept up.
+    pub fn label(&self, scene: &Arc<Scene>, id: Id) -> Option<&str> {
+        if !self.lists(scene) {
+            return None;
+        }
         let line = self.lines.get(&id)?;
         Some(&self.outline.entries[*line].label)
     }

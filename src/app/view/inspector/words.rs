@@ -1,26 +1,56 @@
 //! A ray in words: one line, and the things to tell about it.
 
-use super::super::super::explain::text::{color, kind, object, quoted, short, vector};
+use super::super::super::explain::text::{color, kind, short, vector};
+use super::super::objects::Id;
 use super::Inspected;
-use crate::render::{RayHit, RaySplit, ShadowRay, TracedRay};
+use crate::render::{RayHit, RaySplit, RayTree, ShadowRay, TracedRay};
+use crate::scene::ObjectRef;
+use std::collections::BTreeSet;
+
+/// Everything that rays of a tree met, set out for or were in.
+pub fn met(tree: &RayTree) -> BTreeSet<Id> {
+    let mut met = BTreeSet::new();
+    for ray in tree.samples.iter().flat_map(|sample| &sample.rays) {
+        if let Some(hit) = &ray.hit {
+            met.extend(hit.object.map(Id::Object));
+            met.extend(hit.material.map(Id::Material));
+        }
+        met.extend(ray.shadow.as_ref().map(light_of));
+        met.extend(ray.media.iter().copied().map(Id::Material));
+    }
+    met
+}
+
+fn light_of(shadow: &ShadowRay) -> Id {
+    Id::Object(ObjectRef::Light(shadow.light))
+}
+
+fn object(inspected: &Inspected, hit: &RayHit) -> String {
+    match hit.object {
+        Some(object) => inspected.label(Id::Object(object)).to_owned(),
+        None => format!("primitive {}", hit.primitive),
+    }
+}
 
 /// What a ray is and what it met, in a few words.
-pub fn headline(ray: &TracedRay) -> String {
+pub fn headline(inspected: &Inspected, ray: &TracedRay) -> String {
     let word = kind(ray.kind);
     match (&ray.shadow, &ray.hit) {
         (Some(shadow), hit) => {
-            let light = format!("light {}{}", shadow.light, quoted(&shadow.light_name));
+            let light = inspected.label(light_of(shadow));
             match hit {
-                Some(hit) if shadow.blocked => format!("{light} hidden by {}", object(hit)),
+                Some(hit) if shadow.blocked => {
+                    format!("{light} hidden by {}", object(inspected, hit))
+                }
                 _ if shadow.blocked => format!("{light} gives nothing"),
                 _ if shadow.crossings == 1 => format!("{light} through a surface"),
                 _ if shadow.crossings > 1 => {
                     format!("{light} through {} surfaces", shadow.crossings)
                 }
-                _ => light,
+                _ => light.to_owned(),
             }
         }
-        (None, Some(hit)) => format!("{word} hits {}", object(hit)),
+        (None, Some(hit)) => format!("{word} hits {}", object(inspected, hit)),
         (None, None) => format!("{word} hits nothing"),
     }
 }
@@ -43,22 +73,14 @@ pub fn details(inspected: &Inspected, ray: &TracedRay) -> Vec<(&'static str, Str
         ("direction", vector(ray.direction)),
     ];
     if let Some(hit) = ray.hit.as_ref().filter(|_| ray.shadow.is_none()) {
-        surface(&mut told, hit);
+        surface(inspected, &mut told, hit);
     }
     if let Some(shadow) = &ray.shadow {
-        light(&mut told, shadow, ray.hit.as_ref());
+        light(inspected, &mut told, shadow, ray.hit.as_ref());
     }
-    let materials = &inspected.order.scene.materials;
     if !ray.media.is_empty() {
-        let name = |&index: &usize| {
-            let name = materials.get(index).map(|material| material.name.clone());
-            format!(
-                "material {index}{}",
-                quoted(&name.filter(|n| !n.is_empty()))
-            )
-        };
-        let names: Vec<_> = ray.media.iter().map(name).collect();
-        told.push(("inside of", names.join(", ")));
+        let names = ray.media.iter().map(|&m| inspected.label(Id::Material(m)));
+        told.push(("inside of", names.collect::<Vec<_>>().join(", ")));
     }
     told.push(("share", color(ray.throughput)));
     if ray.arriving != ray.throughput {
@@ -68,8 +90,13 @@ pub fn details(inspected: &Inspected, ray: &TracedRay) -> Vec<(&'static str, Str
     told
 }
 
-fn surface(told: &mut Vec<(&'static str, String)>, hit: &RayHit) {
-    told.push(("hits", object(hit)));
+type Told = Vec<(&'static str, String)>;
+
+fn surface(inspected: &Inspected, told: &mut Told, hit: &RayHit) {
+    told.push(("hits", object(inspected, hit)));
+    if let Some(ObjectRef::Instance(_)) = hit.object {
+        told.push(("triangle", hit.primitive.to_string()));
+    }
     told.push(("at", vector(hit.position)));
     told.push(("distance", short(hit.distance)));
     told.push(("normal", vector(hit.normal)));
@@ -79,8 +106,8 @@ fn surface(told: &mut Vec<(&'static str, String)>, hit: &RayHit) {
     let side = if hit.outside { "outside" } else { "inside" };
     told.push(("met from", side.to_owned()));
     if let Some(material) = hit.material {
-        let name = quoted(&hit.material_name);
-        told.push(("material", format!("{material}{name}")));
+        let name = inspected.label(Id::Material(material));
+        told.push(("material", name.to_owned()));
     }
     if let Some(split) = &hit.split {
         divides(told, split);
@@ -91,7 +118,7 @@ fn surface(told: &mut Vec<(&'static str, String)>, hit: &RayHit) {
     }
 }
 
-fn divides(told: &mut Vec<(&'static str, String)>, split: &RaySplit) {
+fn divides(told: &mut Told, split: &RaySplit) {
     if split.reflect == [0.0; 3] && !split.transparent {
         return;
     }
@@ -113,13 +140,12 @@ fn divides(told: &mut Vec<(&'static str, String)>, split: &RaySplit) {
     }
 }
 
-fn light(told: &mut Vec<(&'static str, String)>, shadow: &ShadowRay, hit: Option<&RayHit>) {
-    let name = quoted(&shadow.light_name);
-    told.push(("to light", format!("{}{name}", shadow.light)));
+fn light(inspected: &Inspected, told: &mut Told, shadow: &ShadowRay, hit: Option<&RayHit>) {
+    told.push(("to", inspected.label(light_of(shadow)).to_owned()));
     let distance = shadow.distance.map_or("infinite".to_owned(), short);
     told.push(("light's distance", distance));
     if let Some(hit) = hit.filter(|_| shadow.blocked) {
-        let blocked = format!("{} after {}", object(hit), short(hit.distance));
+        let blocked = format!("{} after {}", object(inspected, hit), short(hit.distance));
         told.push(("hidden by", blocked));
     }
     if shadow.crossings > 0 {

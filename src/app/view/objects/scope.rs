@@ -96,3 +96,41 @@ fn is_carried_by(scene: &Scene, object: ObjectRef, node: usize) -> bool {
     let own = super::carrier(scene, Id::Object(object));
     std::iter::successors(own, |&index| scene.nodes[index].parent).any(|index| index == node)
 }
+
+/// What `id` of one scene is in another that one step leads to. In a list that got longer or shorter,
+/// what stands before or behind the change is known by that; `None` for what is gone or cannot be told.
+pub fn same(before: &Scene, after: &Scene, id: Id) -> Option<Id> {
+    Some(match id {
+        Id::Object(ObjectRef::Shape(index)) => {
+            let index = index_after(&before.shapes, &after.shapes, index)?;
+            Id::Object(ObjectRef::Shape(index))
+        }
+        Id::Object(ObjectRef::Instance(index)) => {
+            let index = index_after(&before.instances, &after.instances, index)?;
+            Id::Object(ObjectRef::Instance(index))
+        }
+        Id::Object(ObjectRef::Light(index)) => {
+            let index = index_after(&before.lights, &after.lights, index)?;
+            Id::Object(ObjectRef::Light(index))
+        }
+        Id::Node(index) => Id::Node(index_after(&before.nodes, &after.nodes, index)?),
+        Id::Camera(index) => Id::Camera(index_after(&before.cameras, &after.cameras, index)?),
+        Id::Material(index) => {
+            Id::Material(index_after(&before.materials, &after.materials, index)?)
+        }
+    })
+}
+
+fn index_after<T: PartialEq>(before: &[T], after: &[T], index: usize) -> Option<usize> {
+    if before.len() == after.len() {
+        return Some(index);
+    }
+    let same = |pair: &(&T, &T)| pair.0 == pair.1;
+    let first = before.iter().zip(after).take_while(same).count();
+    if index < first {
+        return Some(index);
+    }
+    let rest = (before[first..].iter().rev()).zip(after[first..].iter().rev());
+    let last = rest.take_while(same).count();
+    (index + last >= before.len()).then(|| index + after.len() - before.len())
+}

@@ -44,11 +44,8 @@ pub fn picture(ui: &mut egui::Ui, desk: &mut Desk) {
         let clip = compare::clip(comparison.sharing, space, viewports[1]);
         draw(&painter.with_clip_rect(clip), desk, &shown, viewports[1]);
     }
-    // Of two pictures side by side the mouse is in one.
-    let under = response
-        .hover_pos()
-        .or(ui.input(|input| input.pointer.press_origin()));
-    let is_right = under.is_some_and(|point| spaces[0] != spaces[1] && spaces[1].contains(point));
+    let is_right =
+        spaces[0] != spaces[1] && used_at(&response).is_some_and(|point| spaces[1].contains(point));
     let viewport = viewports[usize::from(is_right)];
     desk.session.viewport = Some(viewport);
     let is_taken = region::follow(desk.session, &response, viewport)
@@ -60,6 +57,20 @@ pub fn picture(ui: &mut egui::Ui, desk: &mut Desk) {
     rays::mark(&painter, desk.session, viewports[0]);
     desk.session.viewport = Some(viewports[0]);
     compare::overlay(ui, desk, space, viewports);
+}
+
+/// Of two pictures side by side the mouse is in one: as long as a button is down in that where it was
+/// pressed.
+fn used_at(response: &egui::Response) -> Option<Pos2> {
+    let origin = response.ctx.input(|input| input.pointer.press_origin());
+    let id = response.id.with("pressed at");
+    // It is over in the frame in which the button is let go, and a drag is not yet.
+    let before = response.ctx.data_mut(|data| {
+        let before: Option<Option<Pos2>> = data.get_temp(id);
+        data.insert_temp(id, origin);
+        before.flatten()
+    });
+    origin.or(before).or(response.hover_pos())
 }
 
 fn draw(painter: &egui::Painter, desk: &mut Desk, shown: &Shown, viewport: Viewport) {

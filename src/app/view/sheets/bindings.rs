@@ -1,6 +1,6 @@
 //! The sheet of all bindings: made from the table, searched, and changed.
 
-use super::super::bindings::{Action, Category, Manner, Mods, Preset, Trigger};
+use super::super::bindings::{Action, Category, Manner, Mods, Preset, Trigger, zooms};
 use super::super::session::Session;
 use eframe::egui::{
     self, Align, Button, Event, Key, Label, Layout, Pos2, Rect, RichText, TextEdit, Ui, vec2,
@@ -237,7 +237,8 @@ fn awaiting(ui: &mut Ui, session: &mut Session, mut capture: Capture) {
     let text = match capture.action.manner() {
         Manner::Press => "Press a key, or click here",
         Manner::Hold => "Press the key to be held",
-        Manner::Motion => "Press a button or turn the wheel here",
+        Manner::Motion if zooms(capture.action) => "Press a button or turn the wheel here",
+        Manner::Motion => "Press a button here",
     };
     let button = Button::new(RichText::new(text).italics());
     let response = ui.add_enabled(false, button);

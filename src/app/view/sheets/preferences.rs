@@ -83,12 +83,13 @@ fn appearance(ui: &mut egui::Ui, session: &mut Session) {
         }
     });
     ui.end_row();
-    let label = ui.label("Scale");
+    ui.label("Scale");
     let mut percent = (preferences.ui_scale * 100.0).round();
     let slider = Slider::new(&mut percent, 50.0..=400.0)
         .step_by(5.0)
         .suffix(" %");
-    let slider = ui.add(slider.logarithmic(true)).labelled_by(label.id);
+    // Its number is labelled by the slider, which needs a name of its own for that.
+    let slider = ui.add(slider.logarithmic(true)).accessible_name("Scale");
     // While it is dragged the scale of what is dragged must not change.
     let slider =
         slider.on_hover_text("Size of everything but the picture, in percent of the screen's own");

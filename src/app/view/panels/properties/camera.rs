@@ -128,13 +128,11 @@ pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
     lens(fields, index, camera.lens, distance);
 }
 
+/// As the reader of native scenes asks for it.
 fn looks_somewhere(camera: &crate::scene::Camera) -> bool {
-    let forward = camera.look_at - camera.look_from;
-    let is_seen = camera.target.is_some() || forward.length() > 0.0;
-    let up = forward
-        .normalize_or(DVec3::NEG_Z)
-        .cross(camera.up.normalize_or_zero());
-    is_seen && (camera.target.is_some() || up.length() > 1e-6)
+    let forward = (camera.look_at - camera.look_from).normalize_or_zero();
+    let up = camera.up.normalize_or_zero();
+    forward.cross(up).length() >= 1e-6
 }
 
 fn lens(fields: &mut Fields, index: usize, lens: Option<Lens>, distance: f64) {

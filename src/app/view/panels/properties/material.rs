@@ -106,7 +106,7 @@ pub fn show(fields: &mut Fields, index: usize) {
     let tip = "Where bodies overlap, the one of the highest priority counts; a whole number.";
     let limits = Limits {
         speed: 0.1,
-        ..Limits::between(-1000.0, 1000.0)
+        ..Limits::between(-100.0, 100.0)
     };
     let priority = f64::from(material.priority);
     fields.number("Priority", tip, priority, limits, None, move |scene, to| {

@@ -103,10 +103,14 @@ fn heading(ui: &mut egui::Ui, session: &Session, sample: usize) {
 fn ray(ui: &mut egui::Ui, session: &mut Session, (id, level, has_children): (RayId, usize, bool)) {
     let exposure = session.look.tone.exposure_ev;
     let inspector = &mut session.inspector;
-    let Some(ray) = inspector.inspected.as_ref().and_then(|it| it.ray(id)) else {
+    let Some(inspected) = inspector.inspected.as_ref() else {
         return;
     };
-    let (added, length, headline) = (ray.contribution, words::length(ray), words::headline(ray));
+    let Some(ray) = inspected.ray(id) else {
+        return;
+    };
+    let (added, length) = (ray.contribution, words::length(ray));
+    let headline = words::headline(inspected, ray);
     let (kind, blocked) = (ray.kind, ray.shadow.as_ref().is_some_and(|s| s.blocked));
     indent(ui, level);
     ui.spacing_mut().item_spacing.x = 4.0;

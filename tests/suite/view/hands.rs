@@ -1,0 +1,113 @@
+//! What keys and buttons do in the window.
+
+use super::harness::Window;
+use eframe::egui::{self, Key, Modifiers, PointerButton, Pos2, Role};
+use egui_kittest::kittest::Queryable;
+use glimray::app::view::bindings::Action;
+
+fn open(scene: &str) -> Window {
+    let path = format!("assets/scenes/{scene}");
+    let mut window = Window::open(&[&path, "--size", "64x48", "--samples", "2"]);
+    window.settle();
+    window
+}
+
+fn bind(window: &Window, action: Action, trigger: &str) {
+    let trigger = trigger.parse().expect("a trigger");
+    let bindings = &mut window.session().preferences.bindings;
+    bindings.set(action, vec![trigger]).expect("it suits");
+}
+
+fn middle(window: &Window) -> Pos2 {
+    window.session().viewport.expect("a picture").rect.center()
+}
+
+fn button(window: &mut Window, pos: Pos2, button: PointerButton, pressed: bool) {
+    window.harness.event(egui::Event::PointerButton {
+        pos,
+        button,
+        pressed,
+        modifiers: Modifiers::NONE,
+    });
+    window.harness.step();
+}
+
+#[test]
+fn keys_fly_in_a_scene_that_moves() {
+    let mut window = open("orbits.toml");
+    let before = window.camera().look_from;
+    window.harness.key_down(Key::W);
+    window.harness.run_steps(10);
+    window.harness.key_up(Key::W);
+    window.settle();
+    assert_ne!(window.camera().look_from, before);
+}
+
+#[test]
+fn a_key_can_do_what_needs_a_point_under_the_cursor() {
+    let mut window = open("sphere.scene");
+    bind(&window, Action::Select, "J");
+    bind(&window, Action::SetPivot, "Shift+J");
+    window.harness.key_press(Key::J);
+    window.settle();
+    assert_eq!(window.session().selection, None, "there is no cursor");
+    let point = middle(&window);
+    window.harness.hover_at(point);
+    window.harness.step();
+    window.harness.key_press(Key::J);
+    window.settle();
+    assert!(window.session().selection.is_some());
+    let pivot = |window: &Window| window.session().rig.as_ref().expect("a rig").pivot();
+    let before = pivot(&window);
+    window.harness.key_press_modifiers(Modifiers::SHIFT, Key::J);
+    window.settle();
+    assert_ne!(pivot(&window), before);
+}
+
+#[test]
+fn every_button_can_give_every_command() {
+    let mut window = open("sphere.scene");
+    bind(&window, Action::MoreSamples, "Click right");
+    bind(&window, Action::FewerSamples, "Click fourth");
+    bind(&window, Action::Orbit, "Drag fifth");
+    let point = middle(&window);
+    for (which, samples) in [(PointerButton::Secondary, 4), (PointerButton::Extra1, 2)] {
+        window.harness.hover_at(point);
+        window.harness.step();
+        button(&mut window, point, which, true);
+        button(&mut window, point, which, false);
+        window.settle();
+        assert_eq!(window.session().look.settings.samples, samples, "{which:?}");
+    }
+    let before = window.camera().look_from;
+    button(&mut window, point, PointerButton::Extra2, true);
+    for step in [8.0, 16.0] {
+        window.harness.hover_at(point + egui::vec2(step, 0.0));
+        window.harness.step();
+    }
+    let end = point + egui::vec2(16.0, 0.0);
+    button(&mut window, end, PointerButton::Extra2, false);
+    window.settle();
+    assert_ne!(window.camera().look_from, before);
+}
+
+#[test]
+fn a_picture_that_is_not_to_be_seen_is_not_photographed() {
+    let mut window = open("sphere.scene");
+    window.harness.get_by_label("Window").click();
+    window.harness.run_steps(3);
+    let entry = (window.harness).get_by_role_and_label(Role::CheckBox, "Picture");
+    entry.click();
+    window.settle();
+    assert_eq!(window.session().viewport, None);
+    window.harness.key_press(Key::Escape);
+    window.harness.run_steps(3);
+    window
+        .harness
+        .key_press_modifiers(Modifiers::SHIFT, Key::F12);
+    window.harness.run_steps(3);
+    let session = window.session();
+    assert!(session.files.saving.is_none());
+    let told = "The picture is not to be seen: show its panel first";
+    assert!(session.notices.all().iter().any(|n| n.text == told));
+}

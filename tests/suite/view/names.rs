@@ -1,0 +1,169 @@
+//! Everything that can be clicked, dragged or typed into has a name that is read aloud.
+
+use super::harness::Window;
+use eframe::egui::{Key, Role};
+use egui_kittest::kittest::{NodeT, Queryable, by};
+use glimray::app::view::bindings::Action;
+use glimray::app::view::editing;
+use glimray::app::view::files::Intent;
+use glimray::app::view::inspector;
+use glimray::app::view::look::Sharing;
+use glimray::app::view::objects::Id;
+use glimray::app::view::sheets::Sheet;
+use glimray::app::view::tools::Tool;
+use glimray::scene::ObjectRef;
+
+/// What a hand has to do with.
+const CONTROLS: [Role; 18] = [
+    Role::Button,
+    Role::CheckBox,
+    Role::ColorWell,
+    Role::ComboBox,
+    Role::DisclosureTriangle,
+    Role::Link,
+    Role::ListBoxOption,
+    Role::MenuItem,
+    Role::MenuItemCheckBox,
+    Role::MenuItemRadio,
+    Role::MultilineTextInput,
+    Role::RadioButton,
+    Role::SearchInput,
+    Role::Slider,
+    Role::SpinButton,
+    Role::Switch,
+    Role::Tab,
+    Role::TextInput,
+];
+
+fn open(scene: &str) -> Window {
+    let path = format!("assets/scenes/{scene}");
+    let mut window = Window::open(&[&path, "--size", "64x36", "--samples", "1"]);
+    window.settle();
+    window
+}
+
+/// Asks for the name of everything in the window.
+#[track_caller]
+fn check(window: &mut Window, what: &str) {
+    window.settle();
+    let is_control =
+        |node: &egui_kittest::kittest::AccessKitNode<'_>| CONTROLS.contains(&node.role());
+    let mut count = 0;
+    for node in window.harness.query_all(by().predicate(is_control)) {
+        let rect = node.rect();
+        let node = node.accesskit_node();
+        let name = node.label().unwrap_or_default();
+        assert!(
+            !name.trim().is_empty(),
+            "{what}: a {:?} at {rect} has no name",
+            node.role()
+        );
+        count += 1;
+    }
+    assert!(count > 20, "{what}: {count} controls");
+}
+
+#[test]
+fn what_is_in_the_panels_has_a_name() {
+    let mut window = open("orbits.toml");
+    check(&mut window, "nothing selected");
+    let ids = [
+        Id::Object(ObjectRef::Shape(0)),
+        Id::Object(ObjectRef::Light(0)),
+        Id::Object(ObjectRef::Light(1)),
+        Id::Object(ObjectRef::Light(2)),
+        Id::Node(0),
+        Id::Camera(0),
+        Id::Material(0),
+    ];
+    for id in ids {
+        window.session().selection = Some(id);
+        check(&mut window, &format!("{id:?}"));
+    }
+    window.session().begin_rename();
+    check(&mut window, "a name is typed");
+    window.session().editing.renaming = None;
+    window.session().selection = Some(ids[0]);
+    for tool in [
+        Tool::Select,
+        Tool::Inspect,
+        Tool::Region,
+        Tool::Move,
+        Tool::Rotate,
+        Tool::Scale,
+    ] {
+        window.session().tool = tool;
+        check(&mut window, &format!("{tool:?}"));
+    }
+    let look = |window: &Window| {
+        let look = &mut window.session().look;
+        look.region = Some([0.25, 0.25, 0.75, 0.75]);
+        look.tone.exposure_ev += 1.0;
+        look.settings.max_depth += 1;
+    };
+    look(&window);
+    for sharing in [Sharing::Wipe(0.5), Sharing::SideBySide] {
+        window.session().look.compare(sharing);
+        check(&mut window, &format!("{sharing:?}"));
+    }
+}
+
+#[test]
+fn what_is_in_the_inspector_has_a_name() {
+    let mut window = open("glass_and_mirrors.toml");
+    window.harness.key_press(Key::I);
+    window.settle();
+    inspector::inspect(&mut window.session(), [31, 18]);
+    window.settle();
+    window.session().inspector.select((0, 0));
+    check(&mut window, "rays");
+}
+
+#[test]
+fn what_is_in_sheets_and_questions_has_a_name() {
+    let mut window = open("sphere.scene");
+    for sheet in [
+        Sheet::Bindings,
+        Sheet::Preferences,
+        Sheet::Hint,
+        Sheet::History,
+        Sheet::Cameras,
+    ] {
+        window.harness.key_press(Key::K);
+        window.settle();
+        window.session().sheets.open(sheet);
+        check(&mut window, &format!("{sheet:?}"));
+        window.session().sheets.close(sheet);
+    }
+    window.session().files.undecided = Some(Intent::Close);
+    check(&mut window, "unsaved changes");
+    window.session().files.undecided = None;
+    window.session().files.typed = Some("x".to_owned());
+    check(&mut window, "a path");
+    window.session().files.typed = None;
+    window.settle();
+    window.harness.key_press(Key::F12);
+    window.settle();
+    for ending in ["png", "jpg"] {
+        if let Some(sheet) = &mut window.session().files.saving {
+            sheet.path = format!("picture.{ending}");
+        }
+        check(&mut window, ending);
+    }
+    window.session().files.saving = None;
+    editing::perform(Action::SaveSceneAs, &mut window.session());
+    check(&mut window, "a scene");
+}
+
+#[test]
+fn what_is_in_menus_has_a_name() {
+    let mut window = open("sphere.scene");
+    for menu in ["File", "Edit", "View", "Render", "Window", "Help"] {
+        // Panels may be called the same; the bar is above them.
+        let found = window.harness.get_all_by_label(menu).next();
+        found.expect("a menu").click();
+        check(&mut window, menu);
+        window.harness.key_press(Key::Escape);
+        window.harness.run_steps(3);
+    }
+}
