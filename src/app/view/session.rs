@@ -269,6 +269,13 @@ impl Session {
         }
     }
 
+    /// The same while the window is minimised: nothing moves, and the picture goes on.
+    pub fn update_hidden(&mut self) {
+        self.last_motion = f64::NEG_INFINITY;
+        self.drag = None;
+        self.take_scene();
+    }
+
     fn take_scene(&mut self) {
         let Some(loaded) = self.loader.as_ref().and_then(Loader::outcome) else {
             return;

@@ -12,12 +12,11 @@ mod questions;
 use super::bindings::Action;
 use super::commands;
 use super::editing;
+use super::files;
 use super::layout::Layout;
 use super::preferences::Theme;
-use super::render_thread::Place;
 use super::session::Session;
 use super::viewer::Desk;
-use super::{files, files::pictures};
 pub use bindings::BindingsSheet;
 pub use bindings::rebind;
 use eframe::egui::{self, Key};
@@ -157,8 +156,6 @@ fn closed(session: &mut Session, sheet: Sheet) {
 
 /// Draws those that are open.
 pub fn show(ui: &mut egui::Ui, desk: &mut Desk, layout: &mut Layout) {
-    let shown = desk.shown(Place::Main);
-    pictures::finish(desk.session, shown.is_some_and(|s| s.progress.is_done));
     if desk.session.files.is_posing() {
         return;
     }

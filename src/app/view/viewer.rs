@@ -2,6 +2,7 @@
 
 use super::commands;
 use super::editing;
+use super::files::pictures;
 use super::layout::Layout;
 use super::panels;
 use super::question::Answer;
@@ -22,6 +23,8 @@ pub struct Viewer {
     textures: Textures,
     layout: Layout,
     orders: Orders,
+    /// The last frame of the window that there was.
+    last_pass: Option<u64>,
 }
 
 /// What panels work with.
@@ -56,6 +59,7 @@ impl Viewer {
             textures: Textures::new(state.ok_or("eframe does not draw with wgpu")?),
             layout,
             orders: Orders::default(),
+            last_pass: None,
         })
     }
 
@@ -109,8 +113,20 @@ impl eframe::App for Viewer {
             Some(Fault::Refused(why)) => session.refused(Some(why)),
             None => session.refused(None),
         }
-        commands::keys(&mut session, &mut self.layout, ctx);
-        session.update(ctx);
+        // Of a hidden window there are no frames, and its input is still that of the last one.
+        let pass = ctx.cumulative_pass_nr();
+        let is_hidden = self.last_pass.replace(pass) == Some(pass);
+        if is_hidden {
+            session.update_hidden();
+        } else {
+            commands::keys(&mut session, &mut self.layout, ctx);
+            session.update(ctx);
+        }
+        let shown = self.render.shown(Place::Main);
+        pictures::finish(
+            &mut session,
+            shown.is_some_and(|shown| shown.progress.is_done),
+        );
         sheets::update(&mut session, ctx);
         for question in session.questions.drain(..) {
             self.render.ask(question);
@@ -124,7 +140,8 @@ impl eframe::App for Viewer {
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);
         }
         if !session.is_at_rest() {
-            ctx.request_repaint_after(Duration::from_millis(8));
+            let wait = if is_hidden { 200 } else { 8 };
+            ctx.request_repaint_after(Duration::from_millis(wait));
         }
     }
 

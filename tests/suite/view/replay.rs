@@ -2,13 +2,13 @@
 //! takes no more memory.
 
 use super::harness::Window;
-use glimray::scene::Camera;
 use super::pixels::{self, Bytes};
 use eframe::App;
 use eframe::egui::{
     Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, RawInput,
     TouchPhase, vec2,
 };
+use glimray::scene::Camera;
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
