@@ -120,8 +120,10 @@ pub fn perform(action: Action, session: &mut Session) -> bool {
                 true => "Threw all changes away; Undo brings them back",
                 false => "There is nothing to throw away",
             };
+            if document.is_changed() {
+                session.selection = None;
+            }
             document.revert();
-            session.selection = None;
             session.moved();
             session.notices.tell(told);
         }

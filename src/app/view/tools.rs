@@ -8,6 +8,15 @@ use super::session::Session;
 use super::viewport::Viewport;
 use eframe::egui::{self, LayerId, PointerButton, Pos2};
 
+/// All that a mouse may have.
+const BUTTONS: [PointerButton; 5] = [
+    PointerButton::Primary,
+    PointerButton::Middle,
+    PointerButton::Secondary,
+    PointerButton::Extra1,
+    PointerButton::Extra2,
+];
+
 /// What a click or a drag in the picture does, where it is not the camera's.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tool {
@@ -52,14 +61,7 @@ pub fn navigate(session: &mut Session, response: &egui::Response, viewport: View
     let ctx = &response.ctx;
     let (modifiers, pointer) = ctx.input(|input| (input.modifiers, input.pointer.interact_pos()));
     let bindings = session.preferences.bindings.clone();
-    let buttons = [
-        PointerButton::Primary,
-        PointerButton::Middle,
-        PointerButton::Secondary,
-        PointerButton::Extra1,
-        PointerButton::Extra2,
-    ];
-    for button in buttons {
+    for button in BUTTONS {
         if response.drag_started_by(button)
             && let (Some(from), Some(action)) = (pointer, bindings.drag(button, modifiers))
         {
@@ -87,14 +89,24 @@ pub fn navigate(session: &mut Session, response: &egui::Response, viewport: View
         }
     }
     if response.hovered() {
-        for (action, steps) in ctx.input(|input| bindings.wheel(input)) {
-            if let Some(rig) = &mut session.rig {
-                let at = pointer
-                    .filter(|_| action == Action::ZoomToCursor)
-                    .map(|point| rig.point_at(viewport.position(point), viewport.extent()));
-                rig.zoom(steps, at);
-                session.moved();
-            }
+        let turned = ctx.input(|input| bindings.wheel(input));
+        wheel(session, &turned, pointer, viewport);
+    }
+}
+
+fn wheel(
+    session: &mut Session,
+    turned: &[(Action, f64)],
+    pointer: Option<Pos2>,
+    viewport: Viewport,
+) {
+    for &(action, steps) in turned {
+        if let Some(rig) = &mut session.rig {
+            let at = pointer
+                .filter(|_| action == Action::ZoomToCursor)
+                .map(|point| rig.point_at(viewport.position(point), viewport.extent()));
+            rig.zoom(steps, at);
+            session.moved();
         }
     }
 }

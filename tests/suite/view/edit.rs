@@ -445,7 +445,8 @@ fn no_key_but_escape_goes_past_a_question() {
     window.session().selection = Some(RED);
     window.settle();
     let before = scene(&window);
-    let questions: [(&str, fn(&mut Window)); 4] = [
+    type Question = (&'static str, fn(&mut Window));
+    let questions: [Question; 4] = [
         ("unsaved", |window| {
             window.session().files.undecided = Some(Intent::Close);
         }),

@@ -50,13 +50,13 @@ fn check(window: &mut Window, what: &str) {
         |node: &egui_kittest::kittest::AccessKitNode<'_>| CONTROLS.contains(&node.role());
     let mut count = 0;
     for node in window.harness.query_all(by().predicate(is_control)) {
-        let rect = node.rect();
         let node = node.accesskit_node();
         let name = node.label().unwrap_or_default();
         assert!(
             !name.trim().is_empty(),
-            "{what}: a {:?} at {rect} has no name",
-            node.role()
+            "{what}: a {:?} at {:?} has no name",
+            node.role(),
+            node.bounding_box()
         );
         count += 1;
     }

@@ -53,12 +53,12 @@ pub fn show(fields: &mut Fields, index: usize) {
     of(fields, "Absorption", tip, P::Absorption, |m| {
         &mut m.absorption
     });
-    let tip = "Index of refraction, above 0: water 1.33, glass 1.5, diamond 2.42.";
+    let tip = "Index of refraction, from 0.01 to 100: water 1.33, glass 1.5, diamond 2.42.";
     number(
         fields,
         "Index (ior)",
         tip,
-        Limits::between(1e-3, 100.0),
+        Limits::between(0.01, 100.0),
         P::Ior,
         |m| &mut m.ior,
     );
