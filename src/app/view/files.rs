@@ -50,7 +50,8 @@ pub struct Files {
     to_watch: Option<Vec<PathBuf>>,
     /// Whether the scene's file is not there any more.
     is_gone: bool,
-    awaits_paste: bool,
+    /// For how many frames yet what is pasted is a camera: none comes from an empty clipboard.
+    awaits_paste: u8,
     may_close: bool,
     title: String,
 }
@@ -97,6 +98,11 @@ impl Files {
             || self.pending.is_writing()
     }
 
+    /// Whether someone else has changed a file of the scene and it was not read again yet.
+    pub fn have_changed(&self) -> bool {
+        self.watch.has_changed()
+    }
+
     /// Whether the window is about to be photographed, so that nothing should lie over the picture.
     pub fn is_posing(&self) -> bool {
         self.pending.is_posing()
@@ -127,7 +133,7 @@ pub fn perform(action: Action, session: &mut Session, ctx: &egui::Context) -> bo
         Action::PasteCamera => match pasted(ctx) {
             Some(text) => cameras::paste(session, &text),
             None => {
-                session.files.awaits_paste = true;
+                session.files.awaits_paste = 3;
                 ctx.send_viewport_cmd(ViewportCommand::RequestPaste);
             }
         },
@@ -159,6 +165,9 @@ pub fn go_on(session: &mut Session, intent: Intent) {
     match intent {
         Intent::Open(path) => session.open(path),
         Intent::Reload | Intent::Follow => {
+            if session.files.have_changed() {
+                session.editing.forget_written();
+            }
             session.files.watch.accept();
             session.reload();
         }
@@ -197,11 +206,13 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     if !drops.is_empty() {
         dropped::open(session, drops);
     }
-    if session.files.awaits_paste
-        && let Some(text) = pasted(ctx)
-    {
-        session.files.awaits_paste = false;
-        cameras::paste(session, &text);
+    if session.files.awaits_paste > 0 {
+        session.files.awaits_paste -= 1;
+        ctx.request_repaint();
+        if let Some(text) = pasted(ctx) {
+            session.files.awaits_paste = 0;
+            cameras::paste(session, &text);
+        }
     }
     take_environment(session);
     follow(session, ctx);
@@ -289,6 +300,9 @@ pub fn loaded(
         Ok(()) => {
             session.preferences.opened(&path);
             session.files.candidates.clear();
+            if !again {
+                session.editing.forget_written();
+            }
             if let Some(said) = session.files.said.take() {
                 session.notices.tell(said);
             } else if again {
@@ -347,7 +361,7 @@ fn follow(session: &mut Session, ctx: &egui::Context) {
             ctx.request_repaint_after(time);
             return;
         }
-        Change::Changed => {}
+        Change::Changed => session.editing.forget_written(),
     }
     let Some(path) = session.path.clone() else {
         return;

@@ -3,6 +3,8 @@
 use super::harness::Window;
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
+use glimray::app::view::bindings::Action;
+use glimray::app::view::files;
 use glimray::app::view::files::dialogs::{Dialogs, Reply};
 use glimray::image::Image;
 use glimray::scene::Background;
@@ -467,6 +469,22 @@ fn a_camera_copied_as_a_command_line_and_pasted_is_the_same_camera() {
     let pasted = window.camera();
     assert_eq!(pasted.look_from, camera.look_from);
     assert_eq!((pasted.look_at, pasted.up), (camera.look_at, camera.up));
+}
+
+#[test]
+fn an_empty_clipboard_leaves_the_next_paste_to_text() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    let ctx = window.harness.ctx.clone();
+    files::perform(Action::PasteCamera, &mut window.session(), &ctx);
+    window.harness.run_steps(5);
+    window.session().files.typed = Some(String::new());
+    window.harness.run_steps(3);
+    let text = "glimray render --look-from 9,9,9".to_owned();
+    window.harness.event(egui::Event::Paste(text.clone()));
+    window.harness.run_steps(2);
+    assert_eq!(window.session().files.typed, Some(text));
+    assert!(!has_notice(&window, "took the camera"));
 }
 
 #[test]
