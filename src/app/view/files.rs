@@ -10,6 +10,7 @@ pub mod watch;
 use super::bindings::Action;
 use super::loader::Trouble;
 use super::session::Session;
+use crate::app::cli::CameraFlags;
 use crate::import::{self, ImportError};
 use crate::scene::{Background, Picture};
 use dialogs::{Dialogs, Reply, Request, ends_in};
@@ -76,12 +77,15 @@ pub enum Intent {
     Follow,
     /// To close the window.
     Close,
+    /// To close it although a picture is to be saved that is not finished.
+    CloseUnfinished,
 }
 
 impl Files {
     /// Tells that the window is another one, which nothing was told yet.
     pub fn begin(&mut self) {
         self.title.clear();
+        self.pending.begin();
         let files = self.watch.files();
         if !files.is_empty() {
             self.to_watch = Some(files);
@@ -164,6 +168,8 @@ pub fn go_on(session: &mut Session, intent: Intent) {
     session.files.undecided = None;
     match intent {
         Intent::Open(path) => session.open(path),
+        // The scene that is being opened takes its place.
+        Intent::Reload | Intent::Follow if session.is_opening() => {}
         Intent::Reload | Intent::Follow => {
             if session.files.have_changed() {
                 session.editing.forget_written();
@@ -171,7 +177,13 @@ pub fn go_on(session: &mut Session, intent: Intent) {
             session.files.watch.accept();
             session.reload();
         }
-        Intent::Close => session.files.may_close = true,
+        Intent::Close if session.files.waits_to_save() => {
+            session.files.undecided = Some(Intent::CloseUnfinished);
+        }
+        Intent::Close | Intent::CloseUnfinished => {
+            pictures::cancel(session);
+            session.files.may_close = true;
+        }
     }
 }
 
@@ -302,6 +314,7 @@ pub fn loaded(
             session.files.candidates.clear();
             if !again {
                 session.editing.forget_written();
+                pictures::abandon(session);
             }
             if let Some(said) = session.files.said.take() {
                 session.notices.tell(said);
@@ -314,7 +327,7 @@ pub fn loaded(
         }
         Err(_) if !again && !session.files.candidates.is_empty() => {
             let next = session.files.candidates.pop_front();
-            next.into_iter().for_each(|next| session.open(next));
+            next.into_iter().for_each(|next| session.open_instead(next));
             return;
         }
         Err(trouble) => {
@@ -337,6 +350,10 @@ pub fn loaded(
 /// Takes up that the scene was saved to these files, that of the scene last: they are watched from now
 /// on, as they are.
 pub fn saved(session: &mut Session, files: Vec<PathBuf>) {
+    // The file has what the command line said of the scene.
+    session.original = session.scene().cloned();
+    session.flags.camera = CameraFlags::default();
+    session.flags.options.overrides.clear();
     session.path = files.last().cloned();
     session.files.broken = None;
     session.files.is_gone = false;
@@ -354,6 +371,9 @@ fn follow(session: &mut Session, ctx: &egui::Context) {
                 "cannot watch the scene's files: {why}. Read the scene again by hand when they change."
             ));
         }
+    }
+    if session.is_opening() {
+        return;
     }
     match session.files.watch.look() {
         Change::None => return,
@@ -383,19 +403,37 @@ fn follow(session: &mut Session, ctx: &egui::Context) {
     intend(session, Intent::Follow);
 }
 
-/// Asks about unsaved changes when the window is to be closed.
+/// Asks about what would be lost when the window is to be closed, and waits for pictures that are being
+/// written, unless the person asks once more.
 fn close(session: &mut Session, ctx: &egui::Context) {
     if session.is_device_lost() {
         return;
     }
-    if ctx.input(|input| input.viewport().close_requested())
-        && !session.files.may_close
-        && session.has_changes()
-    {
+    let is_writing = session.files.pending.is_writing();
+    let is_asked = ctx.input(|input| input.viewport().close_requested());
+    if !is_asked || session.files.may_close {
+        if session.files.may_close && !is_writing {
+            ctx.send_viewport_cmd(ViewportCommand::Close);
+        }
+        return;
+    }
+    let intent = match session.has_changes() {
+        true => Some(Intent::Close),
+        false => (session.files.waits_to_save()).then_some(Intent::CloseUnfinished),
+    };
+    if intent.is_some() {
+        // A window that is minimised would ask unseen.
+        for command in [
+            ViewportCommand::CancelClose,
+            ViewportCommand::Minimized(false),
+            ViewportCommand::Focus,
+        ] {
+            ctx.send_viewport_cmd(command);
+        }
+        session.files.undecided = intent;
+    } else if is_writing {
         ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-        session.files.undecided = Some(Intent::Close);
-    } else if session.files.may_close {
-        ctx.send_viewport_cmd(ViewportCommand::Close);
+        session.files.may_close = true;
     }
 }
 
