@@ -201,6 +201,7 @@ fn ask(session: &mut Session, ctx: &egui::Context) {
     let recent = || session.preferences.recent.first().and_then(|p| p.parent());
     let request = Request {
         saves: false,
+        kind: None,
         title: "Open a scene, a model or a picture of the surroundings".to_owned(),
         folder: folder.or_else(recent).map(Path::to_owned),
         name: None,

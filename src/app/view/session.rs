@@ -244,7 +244,9 @@ impl Session {
         let camera = scene.frame(self.playback.time).camera;
         self.rig = Some(Rig::new(&camera, scene.bounds()));
         self.selection = None;
-        self.inspector = Inspector::default();
+        let inspector = std::mem::take(&mut self.inspector);
+        // A name that is being asked for is that of rays of before.
+        self.inspector.saving = inspector.saving;
         self.original = Some(Arc::new(original));
         self.document = Some(Document::new(scene));
         Ok(())

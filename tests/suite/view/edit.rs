@@ -409,6 +409,31 @@ fn a_saved_scene_that_someone_else_changed_is_not_replaced_without_a_question() 
 }
 
 #[test]
+fn what_the_command_line_said_is_in_the_saved_file_and_not_said_again() {
+    let (folder, path) = file();
+    let path = path.to_str().expect("a path in UTF-8");
+    let set = ["--look-from", "0,0,9", "--set", "ambient=[0.5,0.5,0.5]"];
+    let mut window =
+        Window::open(&[&[path, "--size", "64x48", "--samples", "1"], set.as_slice()].concat());
+    window.settle();
+    let other = folder.path().join("other.toml");
+    enter_name(&mut window, other.to_str().expect("a path in UTF-8"));
+    window.harness.event(eframe::egui::Event::Copy);
+    window.harness.step();
+    let commands = window.harness.output().platform_output.commands.clone();
+    let line = commands.into_iter().find_map(|command| match command {
+        eframe::egui::OutputCommand::CopyText(text) => Some(text),
+        _ => None,
+    });
+    let line = line.expect("a command line");
+    assert!(line.contains("other.toml"), "{line}");
+    assert!(
+        !line.contains("--set") && !line.contains("--look-from"),
+        "{line}"
+    );
+}
+
+#[test]
 fn revert_goes_back_to_the_file_and_can_itself_be_undone() {
     let (_folder, path) = file();
     let mut window = open(&path, "64x48");

@@ -3,7 +3,7 @@
 use super::super::question::Answer;
 use super::super::render_thread::{Place, Studio};
 use super::super::session::Session;
-use super::dialogs::{Reply, Request};
+use super::dialogs::{PICTURES, Reply, Request};
 use super::{NO_DIALOG, screenshot, short};
 use crate::app::job;
 use crate::image::Image;
@@ -166,6 +166,7 @@ pub fn browse(session: &mut Session, ctx: &egui::Context) {
     let folder = path.parent().filter(|folder| folder.is_dir());
     let request = Request {
         saves: true,
+        kind: Some(PICTURES),
         title: "Save the picture".to_owned(),
         folder: folder.map(Path::to_owned),
         name: path.file_name().map(|n| n.to_string_lossy().into_owned()),
