@@ -3,12 +3,17 @@
 use super::cli::ConvertArgs;
 use super::exit::AppError;
 use super::{console, render, scene_file};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
     let scene = render::load(&arguments.scene, &arguments.reading)?;
     let stem = arguments.scene.file_stem().unwrap_or("scene".as_ref());
-    let default = || Path::new(stem).with_extension("toml");
+    // What comes before the last dot is the name, whatever dots are in it.
+    let default = || {
+        let mut name = stem.to_owned();
+        name.push(".toml");
+        PathBuf::from(name)
+    };
     let path: PathBuf = arguments.output.clone().unwrap_or_else(default);
     let is_native = path
         .extension()

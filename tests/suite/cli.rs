@@ -473,6 +473,12 @@ fn a_converted_scene_is_the_same_picture_and_nothing_in_the_way_is_replaced() {
     place.run("convert ship.toml -o ./ship.toml").expect(2);
     place.run("convert ship.toml -o ship.obj").expect(2);
     place.run("convert gone.toml").expect(3);
+    fs::copy(&model, place.path("my.model.obj")).expect("a copy");
+    fs::write(place.path("my.toml"), "mine").expect("written");
+    let run = place.run("convert my.model.obj").expect(0);
+    let last = run.text().lines().last().map(str::to_owned);
+    assert_eq!(last.as_deref(), Some("my.model.toml"));
+    assert_eq!(fs::read(place.path("my.toml")).expect("there"), b"mine");
 }
 
 /// 2×2 black pixels, and the same with the last 3 levels brighter in red.

@@ -284,6 +284,23 @@ fn a_folder_that_cannot_be_written_is_an_error_in_one_line() {
     assert!(store.save(&changed(place.path())).is_err());
 }
 
+#[cfg(unix)]
+#[test]
+fn a_file_that_cannot_be_opened_is_put_aside_and_not_replaced() {
+    let place = folder();
+    let path = place.path().join("viewer.toml");
+    // A link to itself cannot be opened, whoever tries.
+    std::os::unix::fs::symlink(&path, &path).expect("a link");
+    let mut store = Store::in_folder(place.path());
+    let (it, notes) = store.load();
+    assert_eq!((it, notes.len()), (Preferences::default(), 1));
+    assert!(notes[0].contains("viewer.toml.bak"), "{notes:?}");
+    store.save(&changed(place.path())).expect("a new file");
+    assert_eq!(names(place.path()), ["viewer.toml", "viewer.toml.bak"]);
+    let kept = fs::read_link(place.path().join("viewer.toml.bak"));
+    assert_eq!(kept.expect("the old one"), path);
+}
+
 #[test]
 fn a_reset_keeps_every_earlier_file() {
     let place = folder();

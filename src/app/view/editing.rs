@@ -80,6 +80,11 @@ impl Editing {
         self.saving.is_some()
     }
 
+    /// Notes that the scene's file is not, or no longer, one that was written here.
+    pub fn forget_written(&mut self) {
+        self.written = None;
+    }
+
     /// Bounds of a mesh in its own space.
     fn bounds_of(&mut self, mesh: &Arc<Mesh>) -> Option<(DVec3, DVec3)> {
         match &self.mesh_box {

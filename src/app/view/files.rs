@@ -10,6 +10,7 @@ pub mod watch;
 use super::bindings::Action;
 use super::loader::Trouble;
 use super::session::Session;
+use crate::app::cli::CameraFlags;
 use crate::import::{self, ImportError};
 use crate::scene::{Background, Picture};
 use dialogs::{Dialogs, Reply, Request, ends_in};
@@ -50,7 +51,8 @@ pub struct Files {
     to_watch: Option<Vec<PathBuf>>,
     /// Whether the scene's file is not there any more.
     is_gone: bool,
-    awaits_paste: bool,
+    /// For how many frames yet what is pasted is a camera: none comes from an empty clipboard.
+    awaits_paste: u8,
     may_close: bool,
     title: String,
 }
@@ -75,14 +77,15 @@ pub enum Intent {
     Follow,
     /// To close the window.
     Close,
+    /// To close it although a picture is to be saved that is not finished.
+    CloseUnfinished,
 }
 
 impl Files {
     /// Tells that the window is another one, which nothing was told yet.
     pub fn begin(&mut self) {
         self.title.clear();
-        self.pending.forget();
-        self.pending.pose = None;
+        self.pending.begin();
         let files = self.watch.files();
         if !files.is_empty() {
             self.to_watch = Some(files);
@@ -91,17 +94,17 @@ impl Files {
         }
     }
 
-    /// Takes up that the render thread could not answer.
-    pub fn failed(&mut self) {
-        self.pending.forget();
-    }
-
     /// Whether something is under way that will change what is to be seen or told.
     pub fn is_busy(&self) -> bool {
         self.watch.is_busy()
             || self.to_watch.is_some()
             || self.environment.is_some()
             || self.pending.is_writing()
+    }
+
+    /// Whether someone else has changed a file of the scene and it was not read again yet.
+    pub fn have_changed(&self) -> bool {
+        self.watch.has_changed()
     }
 
     /// Whether the window is about to be photographed, so that nothing should lie over the picture.
@@ -134,7 +137,7 @@ pub fn perform(action: Action, session: &mut Session, ctx: &egui::Context) -> bo
         Action::PasteCamera => match pasted(ctx) {
             Some(text) => cameras::paste(session, &text),
             None => {
-                session.files.awaits_paste = true;
+                session.files.awaits_paste = 3;
                 ctx.send_viewport_cmd(ViewportCommand::RequestPaste);
             }
         },
@@ -165,11 +168,22 @@ pub fn go_on(session: &mut Session, intent: Intent) {
     session.files.undecided = None;
     match intent {
         Intent::Open(path) => session.open(path),
+        // The scene that is being opened takes its place.
+        Intent::Reload | Intent::Follow if session.is_opening() => {}
         Intent::Reload | Intent::Follow => {
+            if session.files.have_changed() {
+                session.editing.forget_written();
+            }
             session.files.watch.accept();
             session.reload();
         }
-        Intent::Close => session.files.may_close = true,
+        Intent::Close if session.files.waits_to_save() => {
+            session.files.undecided = Some(Intent::CloseUnfinished);
+        }
+        Intent::Close | Intent::CloseUnfinished => {
+            pictures::cancel(session);
+            session.files.may_close = true;
+        }
     }
 }
 
@@ -187,6 +201,7 @@ fn ask(session: &mut Session, ctx: &egui::Context) {
     let recent = || session.preferences.recent.first().and_then(|p| p.parent());
     let request = Request {
         saves: false,
+        kind: None,
         title: "Open a scene, a model or a picture of the surroundings".to_owned(),
         folder: folder.or_else(recent).map(Path::to_owned),
         name: None,
@@ -204,11 +219,13 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     if !drops.is_empty() {
         dropped::open(session, drops);
     }
-    if session.files.awaits_paste
-        && let Some(text) = pasted(ctx)
-    {
-        session.files.awaits_paste = false;
-        cameras::paste(session, &text);
+    if session.files.awaits_paste > 0 {
+        session.files.awaits_paste -= 1;
+        ctx.request_repaint();
+        if let Some(text) = pasted(ctx) {
+            session.files.awaits_paste = 0;
+            cameras::paste(session, &text);
+        }
     }
     take_environment(session);
     follow(session, ctx);
@@ -296,6 +313,10 @@ pub fn loaded(
         Ok(()) => {
             session.preferences.opened(&path);
             session.files.candidates.clear();
+            if !again {
+                session.editing.forget_written();
+                pictures::abandon(session);
+            }
             if let Some(said) = session.files.said.take() {
                 session.notices.tell(said);
             } else if again {
@@ -307,7 +328,7 @@ pub fn loaded(
         }
         Err(_) if !again && !session.files.candidates.is_empty() => {
             let next = session.files.candidates.pop_front();
-            next.into_iter().for_each(|next| session.open(next));
+            next.into_iter().for_each(|next| session.open_instead(next));
             return;
         }
         Err(trouble) => {
@@ -330,6 +351,10 @@ pub fn loaded(
 /// Takes up that the scene was saved to these files, that of the scene last: they are watched from now
 /// on, as they are.
 pub fn saved(session: &mut Session, files: Vec<PathBuf>) {
+    // The file has what the command line said of the scene.
+    session.original = session.scene().cloned();
+    session.flags.camera = CameraFlags::default();
+    session.flags.options.overrides.clear();
     session.path = files.last().cloned();
     session.files.broken = None;
     session.files.is_gone = false;
@@ -348,13 +373,16 @@ fn follow(session: &mut Session, ctx: &egui::Context) {
             ));
         }
     }
+    if session.is_opening() {
+        return;
+    }
     match session.files.watch.look() {
         Change::None => return,
         Change::Wait(time) => {
             ctx.request_repaint_after(time);
             return;
         }
-        Change::Changed => {}
+        Change::Changed => session.editing.forget_written(),
     }
     let Some(path) = session.path.clone() else {
         return;
@@ -376,19 +404,37 @@ fn follow(session: &mut Session, ctx: &egui::Context) {
     intend(session, Intent::Follow);
 }
 
-/// Asks about unsaved changes when the window is to be closed.
+/// Asks about what would be lost when the window is to be closed, and waits for pictures that are being
+/// written, unless the person asks once more.
 fn close(session: &mut Session, ctx: &egui::Context) {
     if session.is_device_lost() {
         return;
     }
-    if ctx.input(|input| input.viewport().close_requested())
-        && !session.files.may_close
-        && session.has_changes()
-    {
+    let is_writing = session.files.pending.is_writing();
+    let is_asked = ctx.input(|input| input.viewport().close_requested());
+    if !is_asked || session.files.may_close {
+        if session.files.may_close && !is_writing {
+            ctx.send_viewport_cmd(ViewportCommand::Close);
+        }
+        return;
+    }
+    let intent = match session.has_changes() {
+        true => Some(Intent::Close),
+        false => (session.files.waits_to_save()).then_some(Intent::CloseUnfinished),
+    };
+    if intent.is_some() {
+        // A window that is minimised would ask unseen.
+        for command in [
+            ViewportCommand::CancelClose,
+            ViewportCommand::Minimized(false),
+            ViewportCommand::Focus,
+        ] {
+            ctx.send_viewport_cmd(command);
+        }
+        session.files.undecided = intent;
+    } else if is_writing {
         ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-        session.files.undecided = Some(Intent::Close);
-    } else if session.files.may_close {
-        ctx.send_viewport_cmd(ViewportCommand::Close);
+        session.files.may_close = true;
     }
 }
 

@@ -12,6 +12,8 @@ pub struct Loader {
     pub path: PathBuf,
     /// Whether it is the one on screen, of which camera, look and time stay.
     pub again: bool,
+    /// Whether what the command line says of a scene is meant for it.
+    pub is_own: bool,
     outcome: Receiver<Loaded>,
 }
 
@@ -95,6 +97,7 @@ impl Loader {
         Ok(Self {
             path,
             again,
+            is_own: again,
             outcome,
         })
     }

@@ -220,6 +220,15 @@ pub enum PreferencesError {
         /// Why.
         source: io::Error,
     },
+    /// The file that is there could be neither read nor put aside, and may be of worth.
+    #[error(
+        "cannot keep the settings ({}): the file that is there cannot be read, and is left as it is. Make it readable, or name another folder in {FOLDER_VARIABLE}.",
+        path.display()
+    )]
+    Unread {
+        /// The file.
+        path: PathBuf,
+    },
     /// The file could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -231,6 +240,8 @@ pub struct Store {
     folder: Option<PathBuf>,
     /// What it contains, as far as is known.
     written: Option<String>,
+    /// Whether a file is in its place that could not be read, and so must not be replaced.
+    is_unread: bool,
 }
 
 impl Store {
@@ -244,6 +255,7 @@ impl Store {
         Self {
             folder: named.map(PathBuf::from).or_else(platform),
             written: None,
+            is_unread: false,
         }
     }
 
@@ -252,6 +264,7 @@ impl Store {
         Self {
             folder: Some(folder.into()),
             written: None,
+            is_unread: false,
         }
     }
 
@@ -272,14 +285,7 @@ impl Store {
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Default::default(),
-            Err(error) => {
-                let why = output::reason(&error);
-                let note = format!(
-                    "cannot read the settings ({}): {why}. The defaults are in use.",
-                    path.display()
-                );
-                return (Preferences::default(), vec![note]);
-            }
+            Err(error) => return (Preferences::default(), vec![self.unread(&path, &error)]),
         };
         let (preferences, notes) = read::read(&bytes);
         if notes.is_empty() {
@@ -312,6 +318,24 @@ impl Store {
         (preferences, lines)
     }
 
+    /// Keeps a file that cannot be read from being replaced; returns a line about it.
+    fn unread(&mut self, path: &Path, error: &io::Error) -> String {
+        // A folder is no old file of settings: it stays where it is.
+        let is_file = fs::symlink_metadata(path).is_ok_and(|found| !found.is_dir());
+        let kept = if is_file {
+            self.put_aside(path).ok()
+        } else {
+            None
+        };
+        self.is_unread = kept.is_none();
+        let what = match kept {
+            Some(kept) => format!("It is now {}", kept.display()),
+            None => "It is left as it is, and nothing is kept".to_owned(),
+        };
+        let (path, why) = (path.display(), output::reason(error));
+        format!("cannot read the settings ({path}): {why}. {what}; the defaults are in use.")
+    }
+
     /// Writes what has changed since it was last written or read.
     ///
     /// # Errors
@@ -322,6 +346,10 @@ impl Store {
             return Ok(());
         }
         let folder = self.folder.as_ref().ok_or(PreferencesError::NoFolder)?;
+        if self.is_unread {
+            let path = folder.join(FILE);
+            return Err(PreferencesError::Unread { path });
+        }
         fs::create_dir_all(folder).map_err(|source| PreferencesError::Folder {
             path: folder.clone(),
             source,
@@ -341,6 +369,7 @@ impl Store {
             self.put_aside(&path)?;
         }
         self.written = None;
+        self.is_unread = false;
         let preferences = Preferences::default();
         self.save(&preferences)?;
         Ok(preferences)

@@ -61,10 +61,7 @@ impl Session {
             Answer::Hidden(parts) => self.inspector.hidden.take(parts),
             Answer::Nothing => {}
             Answer::Picture(taken) => pictures::taken(self, *taken),
-            Answer::Failed(why) => {
-                self.files.failed();
-                self.notices.warn(why);
-            }
+            Answer::Failed(why) => self.notices.warn(why),
         }
     }
 

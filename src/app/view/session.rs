@@ -7,7 +7,7 @@ use super::super::{demo, job, overrides};
 use super::bindings::Action;
 use super::document::Document;
 use super::editing::{self, Editing};
-use super::files::{self, Files};
+use super::files::{self, Files, Intent};
 use super::inspector::{self, Inspector};
 use super::loader::{Loader, Trouble};
 use super::look::Look;
@@ -83,6 +83,8 @@ pub struct Session {
     /// Questions that wait for the render thread.
     pub questions: Vec<super::render_thread::Question<Answer>>,
     loader: Option<Loader>,
+    /// The scene that may be lost to the one that is being opened.
+    left: Option<Arc<Scene>>,
     /// How often the picture was started over.
     restarts: u32,
     /// Room for pictures, in pixels.
@@ -98,9 +100,9 @@ pub struct Session {
 pub struct Flags {
     /// About the picture.
     pub picture: PictureFlags,
-    /// About its camera.
+    /// About the camera of the scene on screen, if the command line named that scene.
     pub camera: CameraFlags,
-    /// About the moment.
+    /// About its moment.
     pub moment: MomentFlags,
     /// About time.
     pub motion: MotionFlags,
@@ -108,6 +110,15 @@ pub struct Flags {
     pub options: import::Options,
     /// Most memory that a picture may take, in bytes.
     pub memory_limit_bytes: u64,
+}
+
+impl Flags {
+    /// What they say of one scene means nothing in another.
+    fn forget_scene(&mut self) {
+        self.camera = CameraFlags::default();
+        self.moment = MomentFlags::default();
+        self.options.overrides.clear();
+    }
 }
 
 impl Session {
@@ -163,6 +174,7 @@ impl Session {
             },
             questions: Vec::new(),
             loader: None,
+            left: None,
             restarts: 0,
             space: (0, 0),
             last_motion: f64::NEG_INFINITY,
@@ -172,7 +184,7 @@ impl Session {
         };
         match path {
             None => session.show(demo)?,
-            Some(path) => session.open(path),
+            Some(path) => session.load(path, false, true),
         }
         Ok(session)
     }
@@ -191,19 +203,39 @@ impl Session {
 
     /// Begins to read a scene; the one on screen stays until it is there.
     pub fn open(&mut self, path: PathBuf) {
-        self.load(path, false);
+        self.left = self.scene().cloned();
+        self.open_instead(path);
+    }
+
+    /// The same in place of a scene that could not be read.
+    pub fn open_instead(&mut self, path: PathBuf) {
+        let is_own = self.path.as_ref() == Some(&path);
+        self.load(path, false, is_own);
+    }
+
+    /// Whether another scene is being read.
+    pub fn is_opening(&self) -> bool {
+        self.loader.as_ref().is_some_and(|loader| !loader.again)
     }
 
     /// Begins to read the scene on screen again; camera, look and time stay.
     pub fn reload(&mut self) {
         if let Some(path) = self.path.clone() {
-            self.load(path, true);
+            self.load(path, true, true);
         }
     }
 
-    fn load(&mut self, path: PathBuf, again: bool) {
-        match Loader::new(path, self.flags.options.clone(), again, || {}) {
-            Ok(loader) => self.loader = Some(loader),
+    /// `is_own`: what the command line says of a scene is meant for this one.
+    fn load(&mut self, path: PathBuf, again: bool, is_own: bool) {
+        let mut options = self.flags.options.clone();
+        if !is_own {
+            options.overrides.clear();
+        }
+        match Loader::new(path, options, again, || {}) {
+            Ok(mut loader) => {
+                loader.is_own = is_own;
+                self.loader = Some(loader);
+            }
             Err(error) => self.notices.warn(format!("cannot read a scene: {error}.")),
         }
     }
@@ -219,6 +251,7 @@ impl Session {
             tone.curve = curve;
         }
         self.look = Look::new(settings, tone, picture.size.size.is_none());
+        self.crop();
         let clock = Clock::new(&scene.output, &self.flags.motion);
         let moment = &self.flags.moment;
         let time = (moment.frame).map_or(moment.time, |frame| Some(f64::from(frame) / clock.fps));
@@ -227,10 +260,30 @@ impl Session {
         let camera = scene.frame(self.playback.time).camera;
         self.rig = Some(Rig::new(&camera, scene.bounds()));
         self.selection = None;
-        self.inspector = Inspector::default();
+        let inspector = std::mem::take(&mut self.inspector);
+        // A name that is being asked for is that of rays of before.
+        self.inspector.saving = inspector.saving;
         self.original = Some(Arc::new(original));
         self.document = Some(Document::new(scene));
         Ok(())
+    }
+
+    /// Makes what the command line crops a region, which can be changed and ended.
+    fn crop(&mut self) {
+        let size = self.look.settings.size;
+        let crop = self.flags.picture.crop;
+        let settings = Settings {
+            crop,
+            size,
+            ..Settings::default()
+        };
+        if let Err(error) = job::picture_size(&settings) {
+            self.notices.warn(error.to_string());
+            return;
+        }
+        let lengths = [size.0, size.1, size.0, size.1].map(f64::from);
+        self.look.region =
+            crop.map(|edges| std::array::from_fn(|edge| f64::from(edges[edge]) / lengths[edge]));
     }
 
     /// How a picture of a scene is made before anything is changed: flags win over preferences, and
@@ -241,6 +294,8 @@ impl Session {
         output.samples = self.preferences.samples.unwrap_or(output.samples);
         Settings {
             memory_limit_bytes: self.flags.memory_limit_bytes,
+            // That is a region here.
+            crop: None,
             ..job::picture_settings(&output, picture)
         }
     }
@@ -280,9 +335,22 @@ impl Session {
         let Some(loaded) = self.loader.as_ref().and_then(Loader::outcome) else {
             return;
         };
-        let Some(Loader { path, again, .. }) = self.loader.take() else {
+        let Some(loader) = self.loader.take() else {
             return;
         };
+        let Loader {
+            path,
+            again,
+            is_own,
+            ..
+        } = loader;
+        if loaded.outcome.is_ok() && !again && self.has_more_changes() {
+            self.files.undecided = Some(Intent::Open(path));
+            return;
+        }
+        if loaded.outcome.is_ok() && !is_own {
+            self.flags.forget_scene();
+        }
         let shown = loaded.outcome.and_then(|scene| {
             let shown = match again {
                 true => self.show_again(scene),
@@ -291,6 +359,14 @@ impl Session {
             shown.map_err(|error| Trouble::from(error.to_string()))
         });
         files::loaded(self, path, again, &loaded.files, shown);
+    }
+
+    /// Whether there are unsaved changes made since another scene began to be read: nobody was asked
+    /// about these.
+    fn has_more_changes(&mut self) -> bool {
+        let left = self.left.take();
+        let is_left = |scene: &Arc<Scene>| left.as_ref().is_some_and(|l| Arc::ptr_eq(l, scene));
+        self.has_changes() && !self.scene().is_some_and(is_left)
     }
 
     /// Shows the scene that is on screen as it was read anew. What the person has chosen stays, and

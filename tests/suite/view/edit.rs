@@ -342,6 +342,99 @@ fn a_saved_scene_gives_the_same_picture() {
     assert_eq!(old, BALLS, "the old file was touched");
 }
 
+/// Types a name into the sheet that asks for one, and presses Enter.
+fn enter_name(window: &mut Window, name: &str) {
+    perform(window, Action::SaveSceneAs);
+    let field = window.harness.get_by_label("File name");
+    field.set_text_value_accesskit(name);
+    window.harness.run_steps(2);
+    window.harness.get_by_label("File name").focus();
+    window.harness.step();
+    window.harness.key_press(Key::Enter);
+    window.settle();
+}
+
+#[test]
+fn enter_replaces_no_file_of_a_person_and_writes_none_without_a_name() {
+    let (folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window
+        .session()
+        .edit("brighten", |scene| scene.ambient *= 2.0);
+    enter_name(&mut window, path.to_str().expect("a path in UTF-8"));
+    assert_eq!(std::fs::read_to_string(&path).expect("the file"), BALLS);
+    window.harness.get_by_label("Cancel").click();
+    window.settle();
+    for name in ["/", "/.toml"] {
+        enter_name(&mut window, &format!("{}{name}", folder.path().display()));
+        window
+            .harness
+            .get_by_label("Type a name, such as scene.toml.");
+        window.harness.get_by_label("Cancel").click();
+        window.settle();
+    }
+    assert_eq!(
+        std::fs::read_dir(folder.path()).expect("a folder").count(),
+        1
+    );
+    assert!(window.session().has_changes());
+}
+
+#[test]
+fn a_saved_scene_that_someone_else_changed_is_not_replaced_without_a_question() {
+    let (folder, path) = file();
+    let mut window = open(&path, "64x48");
+    let other = folder.path().join("other.toml");
+    window
+        .session()
+        .edit("brighten", |scene| scene.ambient *= 2.0);
+    enter_name(&mut window, other.to_str().expect("a path in UTF-8"));
+    window
+        .session()
+        .edit("brighten", |scene| scene.ambient *= 2.0);
+    perform(&mut window, Action::SaveScene);
+    assert!(
+        !window.session().has_changes(),
+        "what is our own is saved at once"
+    );
+    std::fs::write(&other, BALLS).expect("a file");
+    window
+        .session()
+        .edit("brighten", |scene| scene.ambient *= 2.0);
+    perform(&mut window, Action::SaveScene);
+    assert_eq!(std::fs::read_to_string(&other).expect("the file"), BALLS);
+    // Nor when it was read again.
+    glimray::app::view::files::go_on(&mut window.session(), Intent::Reload);
+    window.settle();
+    perform(&mut window, Action::SaveScene);
+    assert_eq!(std::fs::read_to_string(&other).expect("the file"), BALLS);
+}
+
+#[test]
+fn what_the_command_line_said_is_in_the_saved_file_and_not_said_again() {
+    let (folder, path) = file();
+    let path = path.to_str().expect("a path in UTF-8");
+    let set = ["--look-from", "0,0,9", "--set", "ambient=[0.5,0.5,0.5]"];
+    let mut window =
+        Window::open(&[&[path, "--size", "64x48", "--samples", "1"], set.as_slice()].concat());
+    window.settle();
+    let other = folder.path().join("other.toml");
+    enter_name(&mut window, other.to_str().expect("a path in UTF-8"));
+    window.harness.event(eframe::egui::Event::Copy);
+    window.harness.step();
+    let commands = window.harness.output().platform_output.commands.clone();
+    let line = commands.into_iter().find_map(|command| match command {
+        eframe::egui::OutputCommand::CopyText(text) => Some(text),
+        _ => None,
+    });
+    let line = line.expect("a command line");
+    assert!(line.contains("other.toml"), "{line}");
+    assert!(
+        !line.contains("--set") && !line.contains("--look-from"),
+        "{line}"
+    );
+}
+
 #[test]
 fn revert_goes_back_to_the_file_and_can_itself_be_undone() {
     let (_folder, path) = file();

@@ -3,6 +3,8 @@
 use super::harness::Window;
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
+use glimray::app::view::bindings::Action;
+use glimray::app::view::files;
 use glimray::app::view::files::dialogs::{Dialogs, Reply};
 use glimray::image::Image;
 use glimray::scene::Background;
@@ -470,6 +472,22 @@ fn a_camera_copied_as_a_command_line_and_pasted_is_the_same_camera() {
 }
 
 #[test]
+fn an_empty_clipboard_leaves_the_next_paste_to_text() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    let ctx = window.harness.ctx.clone();
+    files::perform(Action::PasteCamera, &mut window.session(), &ctx);
+    window.harness.run_steps(5);
+    window.session().files.typed = Some(String::new());
+    window.harness.run_steps(3);
+    let text = "glimray render --look-from 9,9,9".to_owned();
+    window.harness.event(egui::Event::Paste(text.clone()));
+    window.harness.run_steps(2);
+    assert_eq!(window.session().files.typed, Some(text));
+    assert!(!has_notice(&window, "took the camera"));
+}
+
+#[test]
 fn kept_cameras_come_after_the_scenes_own_and_outlive_the_window() {
     let place = Place::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
@@ -514,6 +532,182 @@ fn unsaved_changes_are_asked_about_before_another_scene_is_opened() {
     wait(&mut window, "two.toml is opened", |window| {
         title(window) == "two.toml"
     });
+}
+
+#[test]
+fn edits_made_while_another_scene_is_read_are_asked_about() {
+    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let mut window = place.open("one.toml");
+    window.session().open(place.path("two.toml"));
+    window
+        .session()
+        .edit("brighten", |scene| scene.ambient *= 2.0);
+    window.settle();
+    assert_eq!(title(&window), "one.toml");
+    assert!(window.session().has_changes());
+    window.harness.get_by_label("Open without saving").click();
+    window.harness.step();
+    wait(&mut window, "two.toml is opened", |window| {
+        title(window) == "two.toml"
+    });
+}
+
+#[test]
+fn a_scene_is_opened_although_the_one_on_screen_changes_meanwhile() {
+    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let mut window = place.open("one.toml");
+    window.session().open(place.path("two.toml"));
+    files::go_on(&mut window.session(), files::Intent::Follow);
+    window.settle();
+    assert_eq!(title(&window), "two.toml");
+}
+
+#[test]
+fn what_the_command_line_says_of_a_scene_is_not_said_of_the_next() {
+    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let path = place.path("one.toml");
+    let path = path.to_str().expect("a name");
+    let flags = ["--look-from", "0,0,9", "--time", "1", "--set"];
+    let words = [
+        &[path],
+        SMALL.as_slice(),
+        &flags,
+        &["ambient=[0.5,0.5,0.5]"],
+    ]
+    .concat();
+    let mut window = Window::open(&words);
+    window.settle();
+    files::go_on(&mut window.session(), files::Intent::Reload);
+    window.settle();
+    let shown = |window: &Window| {
+        let session = window.session();
+        let ambient = session.scene().expect("a scene").ambient.x;
+        (
+            session.camera().expect("a camera").look_from.z,
+            ambient,
+            session.playback.time,
+        )
+    };
+    assert_eq!(shown(&window), (9.0, 0.5, 1.0));
+    drop_files(&mut window, &[place.path("two.toml")]);
+    assert_eq!(shown(&window), (5.0, 0.2, 0.0));
+}
+
+#[test]
+fn a_crop_of_the_command_line_is_a_region_that_can_be_ended() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let path = place.path("one.toml");
+    let path = path.to_str().expect("a name");
+    let crop = ["--crop", "12,8,36,24"];
+    let mut window = Window::open(&[&[path], SMALL.as_slice(), &crop].concat());
+    window.settle();
+    assert_eq!(window.order().settings.crop, Some([12, 8, 36, 24]));
+    window.harness.key_press(egui::Key::B);
+    window.settle();
+    assert_eq!(window.order().settings.crop, None);
+    let mut window = Window::open(&[&[path, "--samples", "1"], crop.as_slice()].concat());
+    window.settle();
+    assert!(window.order().settings.crop.is_some());
+}
+
+/// Stops the picture before it is finished, and wants it saved when it is.
+fn save_later(window: &mut Window, paths: &[PathBuf]) {
+    window.session().look.paused = true;
+    window.session().look.set_samples(64);
+    window.settle();
+    for path in paths {
+        let mut session = window.session();
+        files::pictures::open(&mut session, false);
+        let sheet = session.files.saving.as_mut().expect("a sheet");
+        sheet.path = path.display().to_string();
+        files::pictures::save(&mut session, true);
+    }
+    window.settle();
+    assert!(window.session().files.waits_to_save());
+}
+
+#[test]
+fn every_picture_that_waits_to_be_finished_is_written() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    let paths = ["a.png", "b.png"].map(|name| place.path(name));
+    save_later(&mut window, &paths);
+    window.session().look.paused = false;
+    wait(&mut window, "both are written", |_| {
+        paths.iter().all(|path| path.exists())
+    });
+}
+
+#[test]
+fn a_picture_that_waits_is_not_made_of_another_scene() {
+    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let mut window = place.open("one.toml");
+    let path = place.path("one.png");
+    save_later(&mut window, std::slice::from_ref(&path));
+    drop_files(&mut window, &[place.path("two.toml")]);
+    assert_eq!(title(&window), "two.toml");
+    assert!(has_notice(&window, "one.png is not written"));
+    assert!(!window.session().files.waits_to_save() && !path.exists());
+}
+
+/// What the window asks of the desktop when the person closes it.
+fn close(window: &mut Window) -> Vec<egui::ViewportCommand> {
+    let viewports = &mut window.harness.input_mut().viewports;
+    let root = viewports.get_mut(&egui::ViewportId::ROOT);
+    (root.expect("a window").events).push(egui::ViewportEvent::Close);
+    window.harness.step();
+    let outputs = window.harness.output().viewport_output.values();
+    outputs.flat_map(|output| output.commands.clone()).collect()
+}
+
+#[test]
+fn a_minimised_window_comes_up_to_ask_about_unsaved_changes() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    window
+        .session()
+        .edit("brighten", |scene| scene.ambient *= 2.0);
+    let commands = close(&mut window);
+    for command in [
+        egui::ViewportCommand::CancelClose,
+        egui::ViewportCommand::Minimized(false),
+        egui::ViewportCommand::Focus,
+    ] {
+        assert!(commands.contains(&command), "{commands:?}");
+    }
+}
+
+#[test]
+fn closing_asks_about_a_picture_that_waits() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    assert!(!close(&mut window).contains(&egui::ViewportCommand::CancelClose));
+    save_later(&mut window, &[place.path("one.png")]);
+    assert!(close(&mut window).contains(&egui::ViewportCommand::CancelClose));
+    window.harness.run_steps(2);
+    window.harness.get_by_label("Close without that picture");
+    assert!(window.harness.query_by_label("Save them").is_none());
+}
+
+#[test]
+fn closing_waits_for_a_picture_that_is_being_written() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let mut window = place.open("one.toml");
+    let path = place.path("one.png");
+    {
+        let mut session = window.session();
+        files::pictures::open(&mut session, false);
+        let sheet = session.files.saving.as_mut().expect("a sheet");
+        sheet.path = path.display().to_string();
+        files::pictures::save(&mut session, false);
+    }
+    let commands = close(&mut window);
+    assert!(
+        commands.contains(&egui::ViewportCommand::CancelClose),
+        "{commands:?}"
+    );
+    window.settle();
+    assert!(path.exists());
 }
 
 fn titles(window: &Window) -> Vec<String> {

@@ -4,6 +4,7 @@ use super::harness::Window;
 use eframe::egui;
 use egui_kittest::kittest::{NodeT, Queryable, by};
 use glam::{DMat4, DVec2, DVec3, Vec3, dvec2};
+use glimray::app::view::files::dialogs::{Dialogs, Reply};
 use glimray::app::view::inspector::export::{self, Format};
 use glimray::app::view::inspector::rows::{self, Filter, Row};
 use glimray::app::view::inspector::{self, Inspected, hidden, outside, words};
@@ -255,11 +256,34 @@ fn what_is_saved_is_what_the_command_prints() {
         let obj = export::text(inspected, Format::Obj).expect("lines");
         assert!(obj.as_bytes() == std::fs::read(&lines).expect("lines"));
         let copy = folder.path().join("copy.json");
-        assert!(export::write(copy.clone(), &json).starts_with("saved "));
+        let told = export::write(&copy, &json).expect("a file");
+        assert!(told.starts_with("saved "), "{told}");
         assert!(std::fs::read(&copy).expect("a file") == printed.stdout);
     }
-    let nowhere = export::write("/no/such/folder/rays.json".into(), "");
-    assert!(nowhere.contains("/no/such/folder"), "{nowhere}");
+}
+
+#[test]
+fn rays_that_cannot_be_saved_are_trouble_that_is_told() {
+    let mut window = open_glass([31, 18]);
+    for (reply, words) in [
+        (Reply::Unavailable, "no file dialog"),
+        (
+            Reply::Chosen("/no/such/folder/rays.json".into()),
+            "/no/such/folder",
+        ),
+    ] {
+        window.session().files.dialogs = Dialogs::answering(move |_| reply.clone());
+        let ctx = window.harness.ctx.clone();
+        export::save(&mut window.session(), Format::Json, &ctx);
+        window.settle();
+        let session = window.session();
+        let told = session.notices.all().last().expect("a notice");
+        assert!(
+            told.text.contains(words) && told.is_trouble,
+            "{}",
+            told.text
+        );
+    }
 }
 
 /// Where a point is in a picture, by the matrices of a textbook.

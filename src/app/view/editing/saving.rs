@@ -4,7 +4,7 @@ use super::super::super::scene_file;
 use super::super::files;
 use super::super::session::Session;
 use super::super::viewer::Desk;
-use eframe::egui;
+use eframe::egui::{self, Button, Ui};
 use std::path::{Path, PathBuf};
 
 /// A question where to save.
@@ -17,9 +17,8 @@ pub(super) struct Saving {
 
 /// Saves where the scene was saved before, else asks.
 pub(super) fn save(session: &mut Session) {
-    match (&session.path, &session.editing.written) {
-        (Some(path), Some(written)) if path == written => {
-            let path = path.clone();
+    match session.path.clone() {
+        Some(path) if is_own(session, Some(&path)) => {
             if let Err(why) = write(session, &path) {
                 session.notices.warn(why);
             }
@@ -59,6 +58,42 @@ fn write(session: &mut Session, path: &Path) -> Result<(), String> {
     Ok(())
 }
 
+/// Whether a file is as it was written from here.
+fn is_own(session: &Session, path: Option<&Path>) -> bool {
+    path.is_some() && session.editing.written.as_deref() == path && !session.files.have_changed()
+}
+
+/// The file of a name, which may be typed without its ending; `None` if there is no name yet.
+fn target(name: &str) -> Option<PathBuf> {
+    let name = name.trim();
+    let path = PathBuf::from(name);
+    let is_named = !name.ends_with(std::path::is_separator)
+        && (path.file_name()).is_some_and(|name| !name.eq_ignore_ascii_case(".toml"));
+    let has_ending = (path.extension()).is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    is_named.then(|| match has_ending {
+        true => path,
+        false => PathBuf::from(format!("{name}.toml")),
+    })
+}
+
+/// Tells what is in the way of a name, or what becomes of it.
+fn say(ui: &mut Ui, trouble: Option<&str>, is_named: bool, (is_there, is_ours): (bool, bool)) {
+    let note = match (is_there, is_ours) {
+        (true, false) => {
+            "This file is there: it will be written anew, without its comments and its order."
+        }
+        (true, true) => "This file was saved from here before.",
+        _ => "A native scene (.toml); meshes and pictures go into files beside it.",
+    };
+    let trouble = trouble.or((!is_named).then_some("Type a name, such as scene.toml."));
+    ui.add_space(4.0);
+    match trouble {
+        Some(trouble) => ui.colored_label(ui.visuals().error_fg_color, trouble),
+        None => ui.weak(note),
+    };
+    ui.add_space(8.0);
+}
+
 /// The question where to save, over the window, while it is asked.
 pub fn sheet(ui: &mut egui::Ui, desk: &mut Desk) {
     let session = &mut *desk.session;
@@ -79,38 +114,28 @@ pub fn sheet(ui: &mut egui::Ui, desk: &mut Desk) {
             saving.trouble = None;
         }
         let is_entered = edit.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-        let path = PathBuf::from(saving.name.trim());
-        let path = match path.extension() {
-            Some(ending) if ending.eq_ignore_ascii_case("toml") => path,
-            _ => PathBuf::from(format!("{}.toml", path.display())),
-        };
-        let is_there = path.exists();
-        let is_ours = session.editing.written.as_ref() == Some(&path);
-        let note = match (is_there, is_ours) {
-            (true, false) => {
-                "This file is there: it will be written anew, without its comments and its order."
-            }
-            (true, true) => "This file was saved from here before.",
-            _ => "A native scene (.toml); meshes and pictures go into files beside it.",
-        };
-        ui.add_space(4.0);
-        match &saving.trouble {
-            Some(trouble) => ui.colored_label(ui.visuals().error_fg_color, trouble),
-            None => ui.weak(note),
-        };
-        ui.add_space(8.0);
+        let path = target(&saving.name);
+        let is_there = path.as_ref().is_some_and(|path| path.exists());
+        let is_ours = is_own(session, path.as_deref());
+        say(
+            ui,
+            saving.trouble.as_deref(),
+            path.is_some(),
+            (is_there, is_ours),
+        );
         let verb = if is_there { "Replace" } else { "Save" };
         let mut is_open = true;
         ui.horizontal(|ui| {
-            if ui.button(verb).clicked() || is_entered {
+            let is_clicked = ui.add_enabled(path.is_some(), Button::new(verb)).clicked();
+            // What would replace a person's own file takes more than a key.
+            let is_wanted = is_clicked || is_entered && (!is_there || is_ours);
+            if let Some(path) = path.filter(|_| is_wanted) {
                 match write(session, &path) {
                     Ok(()) => is_open = false,
                     Err(why) => saving.trouble = Some(why),
                 }
             }
-            if ui.button("Cancel").clicked() {
-                is_open = false;
-            }
+            is_open &= !ui.button("Cancel").clicked();
         });
         is_open
     });

@@ -9,11 +9,19 @@ use std::time::{Duration, Instant};
 /// Nobody closes a dialog this soon: one that did not come up did.
 const NOBODY: Duration = Duration::from_millis(150);
 
+/// What files of a kind are called together, and how their names may end.
+pub type Kind = (&'static str, &'static [&'static str]);
+
+/// Pictures as they are saved.
+pub const PICTURES: Kind = ("Pictures", &["png", "jpg", "jpeg", "exr", "hdr"]);
+
 /// What a dialog is to find out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Request {
     /// Whether a new file is wanted, rather than one that is there.
     pub saves: bool,
+    /// What a new file is called and how its name may end.
+    pub kind: Option<Kind>,
     /// What it is for.
     pub title: String,
     /// Where to begin.
@@ -80,9 +88,10 @@ fn desktop(request: Request, ctx: &egui::Context) -> Receiver<Reply> {
     // On a Mac the dialog must be made here, and may be waited for anywhere.
     let answer: Box<dyn FnOnce() -> Option<rfd::FileHandle> + Send> = match request.saves {
         true => {
-            let dialog = dialog
-                .add_filter("Pictures", &["png", "jpg", "jpeg", "exr", "hdr"])
-                .save_file();
+            if let Some((name, endings)) = request.kind {
+                dialog = dialog.add_filter(name, endings);
+            }
+            let dialog = dialog.save_file();
             Box::new(move || pollster::block_on(dialog))
         }
         false => {

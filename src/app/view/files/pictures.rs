@@ -3,7 +3,7 @@
 use super::super::question::Answer;
 use super::super::render_thread::{Place, Studio};
 use super::super::session::Session;
-use super::dialogs::{Reply, Request};
+use super::dialogs::{PICTURES, Reply, Request};
 use super::{NO_DIALOG, screenshot, short};
 use crate::app::job;
 use crate::image::Image;
@@ -44,19 +44,24 @@ pub struct SaveSheet {
 /// A picture for a file, and what is said about it.
 #[derive(Debug)]
 pub struct Taken {
-    image: Option<Image>,
+    /// `None` while it is not finished, if it is to be.
+    image: Result<Option<Image>, String>,
     samples: u32,
     of: u32,
     target: Target,
+    /// When it waits to be finished: for which scene, counted.
+    waits: Option<u32>,
 }
 
 /// What is on its way to the disk.
 #[derive(Default)]
 pub(super) struct Pending {
     /// To be saved when the picture is finished.
-    waiting: Option<Target>,
-    /// Asked of the render thread.
-    is_asking: bool,
+    waiting: Vec<Target>,
+    /// For which scene, counted.
+    turn: u32,
+    /// How many are asked of the render thread.
+    asked: u32,
     pub(super) pose: Option<screenshot::Pose>,
     writing: Vec<Receiver<Result<String, String>>>,
     quality: Option<u8>,
@@ -64,13 +69,14 @@ pub(super) struct Pending {
 }
 
 impl Pending {
-    pub fn is_writing(&self) -> bool {
-        !self.writing.is_empty() || self.is_asking || self.pose.is_some()
+    /// Tells that the renderer is another one, which answers nothing that the last one was asked.
+    pub fn begin(&mut self) {
+        self.asked = 0;
+        self.pose = None;
     }
 
-    /// Lets go of what no answer will come to.
-    pub fn forget(&mut self) {
-        self.is_asking = false;
+    pub fn is_writing(&self) -> bool {
+        !self.writing.is_empty() || self.asked > 0 || self.pose.is_some()
     }
 
     pub fn is_posing(&self) -> bool {
@@ -78,7 +84,7 @@ impl Pending {
     }
 
     pub fn waits(&self) -> bool {
-        self.waiting.is_some()
+        !self.waiting.is_empty()
     }
 }
 
@@ -161,6 +167,7 @@ pub fn browse(session: &mut Session, ctx: &egui::Context) {
     let folder = path.parent().filter(|folder| folder.is_dir());
     let request = Request {
         saves: true,
+        kind: Some(PICTURES),
         title: "Save the picture".to_owned(),
         folder: folder.map(Path::to_owned),
         name: path.file_name().map(|n| n.to_string_lossy().into_owned()),
@@ -190,37 +197,57 @@ pub fn save(session: &mut Session, waits: bool) {
         session.notices.tell(format!(
             "{name} will be written when the picture is finished"
         ));
-        session.files.pending.waiting = Some(target);
+        let waiting = &mut session.files.pending.waiting;
+        waiting.retain(|other| other.path != target.path);
+        waiting.push(target);
     } else {
-        ask(session, target, false);
+        ask(session, target, None);
     }
 }
 
-/// Forgets a picture that waits to be finished.
+/// Forgets pictures that wait to be finished.
 pub fn cancel(session: &mut Session) {
-    session.files.pending.waiting = None;
+    session.files.pending.waiting.clear();
+}
+
+/// The same, because another scene was opened; tells of each.
+pub(super) fn abandon(session: &mut Session) {
+    for target in &session.files.pending.waiting {
+        session.notices.warn(not_finished(target));
+    }
+    cancel(session);
+    session.files.pending.turn += 1;
+}
+
+fn not_finished(target: &Target) -> String {
+    format!(
+        "{} is not written: another scene was opened before the picture was finished. Open the first \
+         one again to save it.",
+        target.path.display()
+    )
 }
 
 /// Asks the render thread for the picture.
-fn ask(session: &mut Session, target: Target, waits: bool) {
+fn ask(session: &mut Session, target: Target, waits: Option<u32>) {
     let integrator = session.look.settings.integrator;
     let Some(scene) = session.scene() else {
         return;
     };
     let linear = job::tone(&scene.output, &session.flags.picture, integrator, true);
-    session.files.pending.is_asking = true;
+    session.files.pending.asked += 1;
     session.ask(move |studio| take(studio, target, waits, linear));
 }
 
-fn take(studio: &mut Studio, target: Target, waits: bool, linear: Tone) -> Answer {
+fn take(studio: &mut Studio, target: Target, waits: Option<u32>, linear: Tone) -> Answer {
     let of = studio.settings().samples;
     let mut taken = Taken {
-        image: None,
+        image: Ok(None),
         samples: 0,
         of,
         target,
+        waits,
     };
-    if waits && !studio.renderer.is_done() {
+    if waits.is_some() && !studio.renderer.is_done() {
         return Answer::Picture(Box::new(taken));
     }
     let tone = match taken.target.format.is_linear() {
@@ -230,19 +257,32 @@ fn take(studio: &mut Studio, target: Target, waits: bool, linear: Tone) -> Answe
     match studio.image(&tone) {
         Ok((image, samples)) => {
             taken.samples = samples;
-            taken.image = Some(image);
-            Answer::Picture(Box::new(taken))
+            taken.image = Ok(Some(image));
         }
-        Err(error) => Answer::Failed(error.to_string()),
+        Err(error) => taken.image = Err(error.to_string()),
     }
+    Answer::Picture(Box::new(taken))
 }
 
 /// Takes up what the render thread answered.
 pub fn taken(session: &mut Session, taken: Taken) {
-    session.files.pending.is_asking = false;
-    let Some(image) = taken.image else {
-        session.files.pending.waiting = Some(taken.target);
+    let pending = &mut session.files.pending;
+    pending.asked = pending.asked.saturating_sub(1);
+    // It may be the picture of another scene by now.
+    if taken.waits.is_some_and(|turn| turn != pending.turn) {
+        session.notices.warn(not_finished(&taken.target));
         return;
+    }
+    let image = match taken.image {
+        Ok(Some(image)) => image,
+        Ok(None) => {
+            pending.waiting.push(taken.target);
+            return;
+        }
+        Err(why) => {
+            session.notices.warn(why);
+            return;
+        }
     };
     let how_far = match taken.samples < taken.of {
         true => format!(" ({} of {} samples)", taken.samples, taken.of),
@@ -296,11 +336,10 @@ pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
 
 /// Saves a picture that waited, when what is on screen is finished.
 pub fn finish(session: &mut Session, is_done: bool) {
-    if is_done
-        && !session.files.pending.is_asking
-        && let Some(target) = session.files.pending.waiting.take()
-    {
-        ask(session, target, true);
+    let pending = &mut session.files.pending;
+    if is_done && pending.asked == 0 && !pending.waiting.is_empty() {
+        let (target, turn) = (pending.waiting.remove(0), pending.turn);
+        ask(session, target, Some(turn));
     }
 }
 

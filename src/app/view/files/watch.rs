@@ -147,7 +147,8 @@ impl Watch {
         self.news.is_some()
     }
 
-    fn has_changed(&self) -> bool {
+    /// Whether a file is not as it was, told or not.
+    pub fn has_changed(&self) -> bool {
         self.stamps
             .iter()
             .any(|(file, known)| stamp(file) != *known)

@@ -2,13 +2,14 @@
 
 use super::super::super::explain;
 use super::super::command_line::{self, CommandLine, Shown};
+use super::super::files::dialogs::{Kind, Reply, Request};
 use super::super::session::Session;
 use super::Inspected;
 use crate::output;
 use crate::render::{Integrator, Settings};
 use eframe::egui;
-use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::path::Path;
+use std::sync::mpsc::{Receiver, TryRecvError};
 
 /// What a tree is saved as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,18 +20,9 @@ pub enum Format {
     Obj,
 }
 
-/// Files that are being saved.
-pub struct Saving {
-    sender: Sender<String>,
-    receiver: Receiver<String>,
-}
-
-impl Default for Saving {
-    fn default() -> Self {
-        let (sender, receiver) = channel();
-        Self { sender, receiver }
-    }
-}
+/// A text that waits for a file's name.
+#[derive(Default)]
+pub struct Saving(Option<(Receiver<Reply>, String)>);
 
 /// The tree as a text.
 ///
@@ -49,47 +41,61 @@ pub fn save(session: &mut Session, format: Format, ctx: &egui::Context) {
     let Some(inspected) = &session.inspector.inspected else {
         return;
     };
+    if session.inspector.saving.0.is_some() {
+        return;
+    }
     let text = match text(inspected, format) {
         Ok(text) => text,
         Err(why) => return session.notices.warn(why),
     };
     let [x, y] = inspected.tree.pixel;
-    let (name, ending) = match format {
-        Format::Json => ("Rays as JSON", "json"),
-        Format::Obj => ("Rays as Wavefront OBJ lines", "obj"),
+    let (kind, ending): (Kind, _) = match format {
+        Format::Json => (("Rays as JSON", &["json"]), "json"),
+        Format::Obj => (("Rays as Wavefront OBJ lines", &["obj"]), "obj"),
     };
-    let file = format!("rays_{x}_{y}.{ending}");
-    let (sender, ctx) = (session.inspector.saving.sender.clone(), ctx.clone());
-    // A dialog of the desktop waits for a person: not here.
-    let thread = std::thread::Builder::new().name("save rays".into());
-    let spawned = thread.spawn(move || {
-        let dialog = rfd::FileDialog::new().set_file_name(file);
-        if let Some(path) = dialog.add_filter(name, &[ending]).save_file() {
-            // Whoever asked has closed the window by now if nobody listens.
-            let _ = sender.send(write(path, &text));
-            ctx.request_repaint();
-        }
-    });
-    if let Err(error) = spawned {
-        let why = format!("cannot ask for a file's name: {error}.");
-        session.notices.warn(why);
+    let request = Request {
+        saves: true,
+        kind: Some(kind),
+        title: "Save the rays".to_owned(),
+        folder: None,
+        name: Some(format!("rays_{x}_{y}.{ending}")),
+    };
+    let reply = session.files.dialogs.ask(request, ctx);
+    session.inspector.saving.0 = Some((reply, text));
+}
+
+/// Writes a text and says so.
+///
+/// # Errors
+/// The file cannot be written: one line on why.
+pub fn write(path: &Path, text: &str) -> Result<String, String> {
+    match output::write(path, text.as_bytes(), true) {
+        Ok(()) => Ok(format!("saved {}", path.display())),
+        Err(error) => Err(error.to_string()),
     }
 }
 
-/// Writes a text and says so, or why not.
-pub fn write(path: PathBuf, text: &str) -> String {
-    match output::write(&path, text.as_bytes(), true) {
-        Ok(()) => format!("saved {}", path.display()),
-        Err(error) => error.to_string(),
-    }
-}
-
-/// Tells what was saved since the last frame.
+/// Takes up the name of a file since the last frame, and tells what became of it.
 pub fn update(session: &mut Session) {
-    while let Ok(notice) = session.inspector.saving.receiver.try_recv() {
-        session.notices.tell(notice);
+    let Some((reply, text)) = &session.inspector.saving.0 else {
+        return;
+    };
+    match reply.try_recv() {
+        Err(TryRecvError::Empty) => return,
+        Ok(Reply::Chosen(path)) => match write(&path, text) {
+            Ok(told) => session.notices.tell(told),
+            Err(why) => session.notices.warn(why),
+        },
+        Ok(Reply::Cancelled) => {}
+        Ok(Reply::Unavailable) | Err(TryRecvError::Disconnected) => {
+            session.notices.warn(NO_DIALOG.to_owned());
+        }
     }
+    session.inspector.saving.0 = None;
 }
+
+/// What to say where the desktop has no dialogs.
+const NO_DIALOG: &str = "cannot save the rays: this desktop has no file dialog (no portal answers). Copy the command and run it with --json or --obj.";
 
 /// The command that prints the tree of the pixel in the picture on the screen; `sample` is its index
 /// where it is to be one only.

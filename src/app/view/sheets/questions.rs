@@ -152,6 +152,11 @@ pub fn undecided(ctx: &egui::Context, session: &mut Session) -> Option<Choice> {
             "Close without saving",
             "Go on working",
         ),
+        Intent::CloseUnfinished => (
+            "A picture is still to be saved when it is finished.".to_owned(),
+            "Close without that picture",
+            "Go on rendering",
+        ),
         Intent::Open(path) => (
             format!(
                 "There are unsaved changes in {name}, and {} is to be opened.",
@@ -178,7 +183,8 @@ pub fn undecided(ctx: &egui::Context, session: &mut Session) -> Option<Choice> {
         ui.label(RichText::new(what).strong());
         ui.add_space(8.0);
         ui.horizontal(|ui| {
-            if ui.button("Save them").clicked() {
+            let has_changes = intent != Intent::CloseUnfinished;
+            if has_changes && ui.button("Save them").clicked() {
                 choice = Some(Choice::Save(intent.clone()));
                 is_over = true;
             }
