@@ -1,8 +1,10 @@
 //! How the picture is made and looked at: what a person changes without changing the scene.
 
+use super::playback::Playback;
 use super::region::Grip;
+use super::session::Session;
 use crate::render::{Antialias, Integrator, Settings, Tone};
-use crate::scene::{Background, ToneCurve, Transfer};
+use crate::scene::{Background, OutputDefaults, ToneCurve, Transfer};
 
 /// Most samples of a pixel.
 pub const MAX_SAMPLES: u32 = 65_536;
@@ -101,6 +103,36 @@ impl Look {
         };
     }
 
+    /// What a scene would say to look like this; what scenes do not say, such as the integrator, is not in it.
+    pub fn output(&self, before: &OutputDefaults, playback: &Playback) -> OutputDefaults {
+        let settings = &self.settings;
+        let usual = Settings::from(&OutputDefaults {
+            samples: settings.samples,
+            ..OutputDefaults::default()
+        });
+        OutputDefaults {
+            size: if self.fits {
+                before.size
+            } else {
+                settings.size
+            },
+            samples: settings.samples,
+            antialias: (settings.antialias != usual.antialias).then_some(settings.antialias),
+            filter: settings.filter,
+            filter_radius: (settings.filter_radius != settings.filter.default_radius())
+                .then_some(settings.filter_radius),
+            noise: settings.noise,
+            light_samples: settings.light_samples,
+            max_depth: settings.max_depth,
+            exposure_ev: self.tone.exposure_ev,
+            tone: self.tone.curve,
+            transfer: self.tone.transfer,
+            fps: playback.clock.fps,
+            duration: before.duration,
+            shutter: playback.clock.shutter,
+        }
+    }
+
     /// How a picture of this integrator is developed.
     pub fn tone_of(&self, integrator: Integrator) -> Tone {
         match integrator {
@@ -129,6 +161,36 @@ impl Look {
             integrator,
             ..self.settings.clone()
         }
+    }
+}
+
+impl Session {
+    /// What the scene would have to say to look as it is shown; `None` if it does.
+    fn unkept(&self) -> Option<OutputDefaults> {
+        let before = &self.scene()?.output;
+        let output = self.look.output(before, &self.playback);
+        (output != *before || self.look.background.is_some()).then_some(output)
+    }
+
+    /// Whether the picture is made otherwise than the scene says.
+    pub fn has_unkept_look(&self) -> bool {
+        self.unkept().is_some()
+    }
+
+    /// Makes how the picture is made and developed the scene's own, background and timing included, to be
+    /// saved with it.
+    pub fn keep_look(&mut self) {
+        let Some(output) = self.unkept() else {
+            return;
+        };
+        let background = self.look.background.take();
+        self.change("keep the settings in the scene", |scene| {
+            scene.output = output;
+            scene.background = background.unwrap_or(scene.background.clone());
+            Ok(())
+        });
+        self.look.scene_settings = self.look.settings.clone();
+        self.look.scene_tone = self.look.tone;
     }
 }
 

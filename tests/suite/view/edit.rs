@@ -13,7 +13,7 @@ use glimray::app::view::objects::Id;
 use glimray::app::view::sheets::Sheet;
 use glimray::app::view::tools::Tool;
 use glimray::render::Tone;
-use glimray::scene::{Geometry, ObjectRef, Scene};
+use glimray::scene::{Background, Geometry, ObjectRef, Scene};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -178,7 +178,7 @@ fn a_background_and_a_light_that_are_changed_give_the_picture_of_the_changed_sce
     let mut window = open(&path, "64x48");
     let mut wanted = scene(&window);
     set(&mut window, "Background red", 0.875);
-    wanted.background = glimray::scene::Background::Color(vec3(0.875, 0.2, 0.3));
+    wanted.background = Background::Color(vec3(0.875, 0.2, 0.3));
     assert_shows(&mut window, &wanted, "background");
     window.harness.get_by_label("point light 1").click();
     window.settle();
@@ -433,6 +433,32 @@ fn what_the_command_line_said_is_in_the_saved_file_and_not_said_again() {
         !line.contains("--set") && !line.contains("--look-from"),
         "{line}"
     );
+}
+
+#[test]
+fn settings_of_the_picture_are_kept_in_the_scene_when_they_are_wanted_there() {
+    let (folder, path) = file();
+    let mut window = open(&path, "64x48");
+    {
+        let look = &mut window.session().look;
+        look.set_samples(2);
+        look.tone.exposure_ev = 0.5;
+        look.background = Some(Background::Color(vec3(0.5, 0.25, 0.125)));
+    }
+    window.settle();
+    window.harness.get_by_label("Keep in the scene").click();
+    window.settle();
+    let kept = scene(&window);
+    assert_eq!((kept.output.samples, kept.output.exposure_ev), (2, 0.5));
+    assert_eq!(kept.background, Background::Color(vec3(0.5, 0.25, 0.125)));
+    assert!(!window.session().has_unkept_look());
+    let other = folder.path().join("kept.toml");
+    glimray::app::scene_file::save(&other, &kept, false).expect("a file");
+    let read = glimray::import::load(&other).expect("a scene");
+    assert_eq!(read.output, kept.output);
+    assert_shows(&mut window, &read, "kept");
+    perform(&mut window, Action::Undo);
+    assert_eq!(scene(&window).output.samples, 1);
 }
 
 #[test]

@@ -40,6 +40,19 @@ pub fn progress(ui: &mut Ui, desk: &mut Desk) {
         if ui.button("Restart").on_hover_text(tip).clicked() {
             desk.session.restart();
         }
+        let keep = ui.add_enabled(
+            desk.session.has_unkept_look(),
+            egui::Button::new("Keep in the scene"),
+        );
+        let tip =
+            "Make samples, developing, background and timing the scene's own, to be saved with it";
+        let keep = keep.on_hover_text(tip);
+        if keep
+            .on_disabled_hover_text("The scene says all of this")
+            .clicked()
+        {
+            desk.session.keep_look();
+        }
     });
 }
 
