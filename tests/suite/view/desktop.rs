@@ -298,7 +298,7 @@ fn pictures_of_the_window_for_the_readme() {
     };
     let settings = settings();
     let mirrors = scene("glass_and_mirrors.toml");
-    let arguments = [mirrors.to_str().expect("a name"), "--samples", "36"];
+    let arguments = [mirrors.to_str().expect("a name"), "--samples", "9"];
     let opened = desktop.open(&arguments, settings.path(), "");
     let save = |name: &str| {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/gallery");

@@ -6,6 +6,10 @@ use super::fields::{Fields, Limits};
 use crate::scene::{CameraProperty, Lens, Scene, Target};
 use glam::DVec3;
 
+/// What scene files can hold: the largest lens, in scene units, and in focus distances.
+const MAX_LENS: f64 = 1e9;
+const MAX_RATIO: f64 = 1e6;
+
 /// All fields of a camera.
 pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
     let camera = fields.scene.cameras[index].clone();
@@ -159,11 +163,11 @@ fn lens(fields: &mut Fields, index: usize, lens: Option<Lens>, distance: f64) {
     };
     let tip = "Of the opening, in scene units, above 0.";
     let driven = target(CameraProperty::LensRadius);
-    let set = with(|lens, to| lens.radius = to);
+    let set = with(|lens, to| lens.radius = to.min(MAX_LENS).min(MAX_RATIO * lens.focus_distance));
     fields.number("Radius", tip, lens.radius, Limits::SIZE, driven, set);
     let tip = "Distance along the line of sight of what is sharp, in scene units, above 0.";
     let driven = target(CameraProperty::FocusDistance);
-    let set = with(|lens, to| lens.focus_distance = to);
+    let set = with(|lens, to| lens.focus_distance = to.max(lens.radius / MAX_RATIO));
     fields.number("Focus", tip, lens.focus_distance, Limits::SIZE, driven, set);
     let tip = "Corners of the opening, 3 or more; 0 for a round one.";
     let limits = Limits {
