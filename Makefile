@@ -8,10 +8,6 @@ GLIMRAY := $(or $(CARGO_TARGET_DIR),target)/release/glimray
 # Mesa's device-select layer complains on machines without a desktop session (see src/app/mesa.rs).
 export NODEVICE_SELECT := 1
 
-# Tests wait for the adapter and for windows as long as they compute: on two cores three keep them busy.
-CORES := $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
-export RUST_TEST_THREADS ?= $(shell echo $$(($(CORES) + ($(CORES) + 1) / 2)))
-
 # Followed by names of Debian packages.
 install = sh -c 'echo "missing, to be installed: $$*"; \
 	command -v apt-get >/dev/null || { echo "There is no apt-get: install them by hand." >&2; exit 1; }; \
