@@ -380,6 +380,14 @@ packed! {
         curve: u32,
         /// [`TRANSFER_SRGB`] or [`TRANSFER_LINEAR`].
         transfer: u32,
+        /// Rows of the film for each pixel: 1, or 4 where the background's part is apart.
+        film_rows: u32,
+        /// Linear radiance of another background than the scene's, straight down.
+        background: [f32; 3],
+        /// Whether there is one, 0 or 1.
+        has_background: u32,
+        /// The same, straight up.
+        background_top: [f32; 3],
         #[doc(hidden)]
         _pad: u32,
     }

@@ -47,6 +47,7 @@ pub fn run(arguments: &AnimateArgs, started: Instant) -> Result<(), AppError> {
         command: "animate",
         scene_path: arguments.scene.display().to_string(),
         scene,
+        background: arguments.camera.background,
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,

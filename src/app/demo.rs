@@ -25,6 +25,7 @@ pub fn run(arguments: &DemoArgs, started: Instant) -> Result<(), AppError> {
         command: "demo",
         scene_path: NAME.into(),
         scene,
+        background: None,
         picture: &PictureFlags {
             size: SizeFlags { size, samples },
             ..PictureFlags::default()

@@ -10,6 +10,7 @@ use crate::gpu::{AdapterReport, Gpu};
 use crate::output;
 use crate::render::{Integrator, Settings, Stats, Tone};
 use crate::scene::{OutputDefaults, Scene, ToneCurve, Transfer};
+use glam::Vec3;
 use std::path::Path;
 use std::time::Instant;
 
@@ -21,6 +22,8 @@ pub struct Job<'a> {
     pub scene_path: String,
     /// With flags that win over it applied.
     pub scene: Scene,
+    /// That of the command line, which is the scene's by now too.
+    pub background: Option<Vec3>,
     pub picture: &'a PictureFlags,
     pub device: &'a DeviceFlags,
     pub log: &'a LogFlags,
@@ -59,18 +62,24 @@ impl Job<'_> {
     }
 
     pub fn settings(&self) -> Settings {
-        settings(
-            &self.scene.output,
-            self.picture,
-            self.device,
-            self.log.count_rays,
-        )
+        Settings {
+            background_apart: self.background.is_some(),
+            ..settings(
+                &self.scene.output,
+                self.picture,
+                self.device,
+                self.log.count_rays,
+            )
+        }
     }
 
     /// How a picture is developed, for a format that holds linear light or one that does not.
     pub fn tone(&self, settings: &Settings, linear_format: bool) -> Tone {
         let output = &self.scene.output;
-        tone(output, self.picture, settings.integrator, linear_format)
+        Tone {
+            background: self.background.map(|color| [color; 2]),
+            ..tone(output, self.picture, settings.integrator, linear_format)
+        }
     }
 
     /// Times of the job so far.
@@ -263,6 +272,7 @@ pub fn tone(
         exposure_ev: flags.exposure.unwrap_or(default.0),
         curve: flags.tone.unwrap_or(default.1),
         transfer: flags.transfer.unwrap_or(default.2),
+        background: None,
     }
 }
 

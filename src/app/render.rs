@@ -25,6 +25,7 @@ pub fn run(arguments: &RenderArgs, started: Instant) -> Result<(), AppError> {
         command: "render",
         scene_path: arguments.scene.display().to_string(),
         scene,
+        background: arguments.camera.background,
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,

@@ -54,6 +54,7 @@ pub fn run(arguments: &TurntableArgs, started: Instant) -> Result<(), AppError> 
         command: "turntable",
         scene_path: arguments.scene.display().to_string(),
         scene,
+        background: turn.background,
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,

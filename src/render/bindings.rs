@@ -238,7 +238,8 @@ fn film(gpu: &Gpu, rows: usize) -> Result<(Buffer, Buffer), GpuError> {
     Ok((film, staging))
 }
 
-fn frame_group(
+/// The view's frame and lights, with the accounts of a slice.
+pub fn frame_group(
     gpu: &Gpu,
     layouts: &Layouts,
     view: &PackedView,

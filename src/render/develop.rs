@@ -1,6 +1,8 @@
 //! From sums to a picture: `kernels/develop.wesl`.
 
-use super::{Integrator, RenderError, Renderer, film::Window, layouts::group, slice::Slice};
+use super::{
+    Integrator, RenderError, Renderer, Settings, film::Window, layouts::group, slice::Slice,
+};
 use crate::{
     gpu::{GpuError, Kernel, Source},
     image::Image,
@@ -10,6 +12,7 @@ use crate::{
     scene::{ToneCurve, Transfer},
 };
 use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec};
+use glam::Vec3;
 use std::time::Instant;
 use wgpu::BufferUsages;
 
@@ -22,6 +25,9 @@ pub struct Tone {
     pub curve: ToneCurve,
     /// Applied last.
     pub transfer: Transfer,
+    /// Linear radiance of another background than the scene's, straight down and straight up. It has an
+    /// effect where the film keeps the background apart: [`Settings::keeps_background_apart`].
+    pub background: Option<[Vec3; 2]>,
 }
 
 impl Tone {
@@ -30,9 +36,11 @@ impl Tone {
         exposure_ev: 0.0,
         curve: ToneCurve::None,
         transfer: Transfer::Linear,
+        background: None,
     };
 
-    pub(super) fn packed(&self) -> PackedTone {
+    pub(super) fn packed(&self, settings: &Settings) -> PackedTone {
+        let [below, above] = self.background.unwrap_or_default();
         PackedTone {
             exposure_scale: self.exposure_ev.exp2(),
             curve: match self.curve {
@@ -45,6 +53,10 @@ impl Tone {
                 Transfer::Srgb => TRANSFER_SRGB,
                 Transfer::Linear => TRANSFER_LINEAR,
             },
+            film_rows: settings.rows_of_rectangles() as u32,
+            background: below.to_array(),
+            has_background: self.background.is_some().into(),
+            background_top: above.to_array(),
             _pad: 0,
         }
     }
@@ -113,7 +125,7 @@ impl Renderer {
         let gpu = &device.gpu;
         gpu.write(&device.buffers.slice, 0, bytes_of(&packed))?;
         gpu.write(&device.buffers.film, 0, cast_slice(means))?;
-        gpu.write(&developer.tone, 0, bytes_of(&tone.packed()))?;
+        gpu.write(&developer.tone, 0, bytes_of(&tone.packed(&self.settings)))?;
 
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
@@ -158,7 +170,7 @@ impl Renderer {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
         let bytes = self.film.largest_window() as u64 * 16;
         let developed = gpu.allocate("developed", bytes, usage)?;
-        let tone = gpu.upload("tone", bytes_of(&Tone::LINEAR.packed()))?;
+        let tone = gpu.upload("tone", bytes_of(&PackedTone::default()))?;
         let resources = [tone.as_entire_binding(), developed.as_entire_binding()];
         let group = group(gpu, &layouts.develop, &resources);
         Ok(Developer {

@@ -8,7 +8,7 @@ mod tree;
 pub use tree::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
 
 use super::{
-    Integrator, RenderError, Renderer, Settings,
+    Integrator, RenderError, Renderer, Settings, bindings,
     device::{self, Task},
     layouts::group,
     whitted::{self, Overrides},
@@ -16,8 +16,10 @@ use super::{
 use crate::{
     gpu::{GpuError, Kernel, Source},
     layout::{NONE, PROBE_ROWS, PackedProbe, PackedRay, PackedSlice, RAY_ROWS},
+    pack::PackedView,
 };
 use bytemuck::{Pod, bytes_of, cast_slice, pod_read_unaligned};
+use glam::Vec3;
 use std::ops::Range;
 use tree::Reader;
 use wgpu::BufferUsages;
@@ -32,8 +34,8 @@ const MOST_PROBES: usize = 1024;
 const MOST_RECORDS: u32 = (32 << 20) / (16 * RAY_ROWS);
 /// Lanes of a workgroup, each of which takes a sample.
 const LANES: usize = 64;
-/// The override `COUNT_RAYS`, and `ADAPTIVE`: there is no film here.
-const WITHOUT: [&str; 2] = ["7", "23"];
+/// The overrides `COUNT_RAYS`, `ADAPTIVE` and `BACKGROUND_APART`: there is no film here.
+const WITHOUT: [&str; 3] = ["7", "23", "30"];
 
 /// What explaining keeps on the GPU once it has been used.
 pub struct Explainer {
@@ -65,8 +67,25 @@ impl Renderer {
         pixel: [u32; 2],
         samples: Range<u32>,
     ) -> Result<RayTree, RenderError> {
-        let samples = self.explain_samples(samples.map(|sample| (pixel, sample)).collect())?;
-        Ok(RayTree::new(pixel, samples))
+        self.explain_before(None, pixel, samples)
+    }
+
+    /// The same before another background than the scene's: see [`super::Tone::background`].
+    ///
+    /// # Errors
+    /// As [`Self::explain`].
+    pub fn explain_before(
+        &mut self,
+        background: Option<[Vec3; 2]>,
+        pixel: [u32; 2],
+        samples: Range<u32>,
+    ) -> Result<RayTree, RenderError> {
+        let view = match background {
+            Some(ends) => self.view.before(ends),
+            None => self.view.clone(),
+        };
+        let wanted = samples.map(|sample| (pixel, sample)).collect();
+        Ok(RayTree::new(pixel, self.explain_samples(&view, wanted)?))
     }
 
     /// The same for several pixels, which takes fewer submissions than one after the other.
@@ -81,7 +100,8 @@ impl Renderer {
             let of = |sample| (*pixel, sample);
             samples.clone().map(of)
         });
-        let mut traced = self.explain_samples(places.collect())?.into_iter();
+        let view = self.view.clone();
+        let mut traced = self.explain_samples(&view, places.collect())?.into_iter();
         let tree = |(pixel, samples): &([u32; 2], Range<u32>)| {
             RayTree::new(*pixel, traced.by_ref().take(samples.len()).collect())
         };
@@ -101,6 +121,7 @@ impl Renderer {
 
     fn explain_samples(
         &mut self,
+        view: &PackedView,
         wanted: Vec<([u32; 2], u32)>,
     ) -> Result<Vec<SampleTree>, RenderError> {
         let mut trees = Vec::with_capacity(wanted.len());
@@ -115,7 +136,7 @@ impl Renderer {
                 })
                 .collect();
             // Once to count the rays, so that there is just enough room for them.
-            let counted = self.record(&probes, 0)?.probes;
+            let counted = self.record(view, &probes, 0)?.probes;
             for (probe, counted) in probes.iter_mut().zip(&counted) {
                 let place = Some([probe.pixel_x, probe.pixel_y]);
                 if pixel != place {
@@ -128,8 +149,8 @@ impl Renderer {
             while !rest.is_empty() {
                 let (now, later) = rest.split_at_mut(fitting(rest));
                 let record_count = place(now);
-                let records = self.record(now, record_count)?;
-                let reader = Reader::new(&self.scene, &self.view);
+                let records = self.record(view, now, record_count)?;
+                let reader = Reader::new(&self.scene, view);
                 let mut rays = &records.rays[..];
                 for probe in &records.probes {
                     let (own, others) = rays.split_at(probe.ray_limit as usize);
@@ -145,12 +166,13 @@ impl Renderer {
     /// Traces the probes, each in a lane of its own, with room for so many rays behind them.
     fn record(
         &mut self,
+        view: &PackedView,
         probes: &[PackedProbe],
         record_count: u32,
     ) -> Result<Records, RenderError> {
         let records = self.surviving_losses(|renderer| {
-            renderer.prepare()?;
-            renderer.dispatch_probes(probes, record_count)
+            renderer.prepare(view)?;
+            renderer.dispatch_probes(view, probes, record_count)
         })?;
         match records.accounts.cut_off_paths {
             0 => Ok(records),
@@ -159,14 +181,14 @@ impl Renderer {
     }
 
     /// Compiles the kernel unless it is there already.
-    fn prepare(&mut self) -> Result<(), GpuError> {
+    fn prepare(&mut self, view: &PackedView) -> Result<(), GpuError> {
         let settings = Settings {
             integrator: Integrator::Whitted,
             ..self.settings.clone()
         };
         let task = Task {
             scene: &self.scene,
-            view: &self.view,
+            view,
             settings: &settings,
             film_rows: self.film.largest_window(),
         };
@@ -189,6 +211,7 @@ impl Renderer {
 
     fn dispatch_probes(
         &self,
+        view: &PackedView,
         probes: &[PackedProbe],
         record_count: u32,
     ) -> Result<Records, GpuError> {
@@ -215,6 +238,8 @@ impl Renderer {
         let mapped = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
         let records = gpu.allocate("records", bytes, storage)?;
         let staging = gpu.allocate("staging", slice_bytes + bytes, mapped)?;
+        let slice = &device.buffers.slice;
+        let frame_group = bindings::frame_group(gpu, &device.layouts, view, slice)?;
         let own_group = group(gpu, &device.layouts.film, &[records.as_entire_binding()]);
         gpu.write(&records, 0, cast_slice(&padded))?;
         gpu.write(&device.buffers.slice, 0, bytes_of(&self.packed(groups)))?;
@@ -224,7 +249,7 @@ impl Renderer {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(&explainer.pipeline);
             pass.set_bind_group(0, &device.buffers.scene_group, &[]);
-            pass.set_bind_group(1, &device.buffers.frame_group, &[]);
+            pass.set_bind_group(1, &frame_group, &[]);
             pass.set_bind_group(2, &own_group, &[]);
             pass.dispatch_workgroups(groups, 1, 1);
         }

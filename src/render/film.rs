@@ -29,8 +29,11 @@ pub struct Window {
     pub samples: Range<u32>,
     /// The pixels of a list, in film order; empty for a rectangle.
     places: Vec<[u32; 2]>,
+    /// Rows of the film for each pixel.
+    rows_per_pixel: usize,
     /// Rows of the film in the current chunk: for each pixel its radiance sum and in the fourth
-    /// component its weights, and in a list another of its square sum, place, and 1.
+    /// component its weights; in a list another of its square sum, place, and 1; where the background is
+    /// kept apart three more, of sums as the first.
     pub sums: Vec<[f32; 4]>,
     /// The same of all finished chunks; empty before the first is.
     totals: Vec<[f64; 4]>,
@@ -38,7 +41,11 @@ pub struct Window {
 
 impl Window {
     /// A rectangle of the picture.
-    pub fn new([x, y, width, height]: [u32; 4], samples: Range<u32>) -> Self {
+    pub fn new(
+        [x, y, width, height]: [u32; 4],
+        samples: Range<u32>,
+        rows_per_pixel: usize,
+    ) -> Self {
         Self {
             x,
             y,
@@ -46,6 +53,7 @@ impl Window {
             height,
             samples,
             places: Vec::new(),
+            rows_per_pixel,
             sums: Vec::new(),
             totals: Vec::new(),
         }
@@ -53,7 +61,7 @@ impl Window {
 
     /// A list of pixels of the picture, at least one.
     pub fn list(places: Vec<[u32; 2]>, samples: Range<u32>) -> Self {
-        let mut window = Self::new([0, 0, TILE_SIDE, TILE_SIDE], samples);
+        let mut window = Self::new([0, 0, TILE_SIDE, TILE_SIDE], samples, 2);
         window.places = places;
         window
     }
@@ -74,7 +82,7 @@ impl Window {
 
     /// Rows of the film for each pixel.
     pub fn rows_per_pixel(&self) -> usize {
-        if self.places.is_empty() { 1 } else { 2 }
+        self.rows_per_pixel
     }
 
     pub fn tile_columns(&self) -> u32 {
@@ -156,7 +164,7 @@ impl Window {
     pub fn developable(&self) -> Vec<[f32; 4]> {
         if self.totals.is_empty() {
             return if self.sums.is_empty() {
-                vec![[0.0; 4]; self.pixel_count()]
+                vec![[0.0; 4]; self.row_count()]
             } else {
                 self.sums.clone()
             };
@@ -273,7 +281,9 @@ impl Film {
 /// The region cut into rectangles of at most the longest side of a window.
 fn rectangles(settings: &Settings) -> Vec<Window> {
     let [x, y, width, height] = settings.region();
-    let side = settings.slicing.window_side;
+    let rows = settings.rows_of_rectangles();
+    // A window of as many bytes, whatever a pixel takes.
+    let side = settings.slicing.window_side / (rows as u32).isqrt();
     let cuts = |start: u32, length: u32| {
         (0..length.div_ceil(side)).map(move |i| {
             let offset = i * side;
@@ -281,7 +291,7 @@ fn rectangles(settings: &Settings) -> Vec<Window> {
         })
     };
     let row = |(wy, wh)| {
-        cuts(x, width).map(move |(wx, ww)| Window::new([wx, wy, ww, wh], 0..settings.samples))
+        cuts(x, width).map(move |(wx, ww)| Window::new([wx, wy, ww, wh], 0..settings.samples, rows))
     };
     cuts(y, height).flat_map(row).collect()
 }

@@ -5,7 +5,10 @@ use super::{
     layouts::{SCREEN_FORMAT, group_at},
     slice::Slice,
 };
-use crate::gpu::{GpuError, Kernel};
+use crate::{
+    gpu::{GpuError, Kernel},
+    layout::PackedTone,
+};
 use bytemuck::{bytes_of, cast_slice};
 
 /// What a window or a test shows: a texture as large as a picture, 8 bits a channel, encoded as its
@@ -103,7 +106,7 @@ impl Renderer {
         };
         let packed = slice.packed(window, &self.settings);
         gpu.write(&buffers.slice, 0, bytes_of(&packed))?;
-        gpu.write(&projector.tone, 0, bytes_of(&tone.packed()))?;
+        gpu.write(&projector.tone, 0, bytes_of(&tone.packed(&self.settings)))?;
         let resources = [
             (0, projector.tone.as_entire_binding()),
             (2, wgpu::BindingResource::TextureView(&screen.view)),
@@ -138,7 +141,7 @@ impl Renderer {
         let source = Kernel::SHOW.source(false, false);
         Ok(Projector {
             pipeline: gpu.pipeline(Kernel::SHOW.name, source, Some(&layout), &[])?,
-            tone: gpu.upload("tone", bytes_of(&Tone::LINEAR.packed()))?,
+            tone: gpu.upload("tone", bytes_of(&PackedTone::default()))?,
         })
     }
 }

@@ -21,6 +21,7 @@ pub fn overrides(task: Task) -> Overrides {
     overrides.push(("9", flag(task.view.has_lights)));
     overrides.push(("20", f64::from(task.view.background)));
     overrides.push(("16", flag(task.view.has_area_lights)));
+    overrides.push(("30", flag(task.settings.keeps_background_apart())));
     overrides
 }
 

@@ -32,9 +32,8 @@ struct Golden {
 
 fn golden(name: &'static str, scene: Scene) -> Golden {
     let tone = Tone {
-        exposure_ev: 0.0,
-        curve: ToneCurve::None,
         transfer: Transfer::Srgb,
+        ..Tone::LINEAR
     };
     Golden {
         name,

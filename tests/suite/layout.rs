@@ -363,6 +363,7 @@ const OVERRIDES: &[&str] = &[
     "LIGHT_MOTION",
     "ORTHOGRAPHIC",
     "HAS_UVS",
+    "BACKGROUND_APART",
 ];
 
 #[test]

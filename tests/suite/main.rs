@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod animate;
+mod backgrounds;
 mod bvh;
 mod cli;
 mod drivers;

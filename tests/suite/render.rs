@@ -662,6 +662,7 @@ fn very_bright_pixels_develop_to_finite_values_under_every_curve() {
                 exposure_ev: 4.0,
                 curve,
                 transfer: Transfer::Srgb,
+                ..Tone::LINEAR
             };
             let image = renderer.develop(&tone).expect("a picture");
             let [r, g, b, _] = image.pixel(15, 4).expect("a pixel");

@@ -46,6 +46,7 @@ impl Screen {
                 exposure_ev: output.exposure_ev,
                 curve: output.tone,
                 transfer: output.transfer,
+                ..Tone::LINEAR
             },
             time: 0.0,
             fps: output.fps,

@@ -45,6 +45,8 @@ fn changed(place: &Path) -> Preferences {
     it.samples = Some(777);
     it.tone = Some(ToneCurve::Agx);
     it.window = Some([1234.5, 777.0]);
+    it.window_position = Some([-20.0, 31.0]);
+    it.maximized = true;
     it.bindings.set_preset(Preset::Blender);
     let keys = vec!["Ctrl+U".parse().expect("a key")];
     it.bindings.set(Action::Undo, keys).expect("a key");
@@ -160,7 +162,7 @@ fn one_bad_setting_costs_nothing_but_itself() {
     let good = good_file(place.path());
     let whole = changed(place.path());
     type Repair = fn(&mut Preferences);
-    let rows: [(&str, &str, &str, Repair); 12] = [
+    let rows: [(&str, &str, &str, Repair); 14] = [
         ("theme = \"light\"", "theme = \"pink\"", "`pink`", |it| {
             it.theme = Theme::System
         }),
@@ -181,6 +183,15 @@ fn one_bad_setting_costs_nothing_but_itself() {
         }),
         ("window = [", "window = [0.0, ", "`window`", |it| {
             it.window = None
+        }),
+        (
+            "window_position = [",
+            "window_position = [nan, ",
+            "`window_position`",
+            |it| it.window_position = None,
+        ),
+        ("maximized = true", "maximized = 1", "`maximized`", |it| {
+            it.maximized = false
         }),
         ("preset = \"blender\"", "preset = \"vi\"", "`vi`", |it| {
             it.bindings.set_preset(Preset::Glimray);

@@ -128,7 +128,8 @@ impl Bindings {
                     let others = self.triggers(second).iter();
                     others.clone().any(|other| trigger.collides(other))
                 };
-                if let Some(trigger) = self.triggers(first).iter().find(collides) {
+                let meet = first.is_of_handles() == second.is_of_handles();
+                if let Some(trigger) = self.triggers(first).iter().find(collides).filter(|_| meet) {
                     found.push(Conflict {
                         trigger: *trigger,
                         actions: [first, second],
@@ -144,7 +145,8 @@ impl Bindings {
         let actions = Action::ALL.iter().copied();
         let takes = |other: &Action| self.triggers(*other).iter().any(|t| t.collides(trigger));
         actions
-            .filter(|other| *other != action && takes(other))
+            .filter(|other| *other != action && other.is_of_handles() == action.is_of_handles())
+            .filter(takes)
             .collect()
     }
 
@@ -193,7 +195,7 @@ impl Bindings {
         let mods = Mods::from(input.modifiers);
         self.triggers(action).iter().any(|trigger| match *trigger {
             Trigger::Hold(key) => !mods.command && !mods.alt && input.key_down(key),
-            Trigger::HoldMods(held) => mods == held,
+            Trigger::HoldMods(held) => mods.include(held),
             _ => false,
         })
     }

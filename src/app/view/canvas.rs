@@ -409,14 +409,15 @@ impl Canvas {
 
 /// The scene as the order's camera sees it.
 fn seen(order: &Order) -> Arc<Scene> {
-    if order.camera.is_none() && order.background.is_none() {
+    let background = order.baked_background();
+    if order.camera.is_none() && background.is_none() {
         return order.scene.clone();
     }
     let mut scene = Scene::clone(&order.scene);
     if let Some(camera) = &order.camera {
         overrides::see_by(&mut scene, camera);
     }
-    if let Some(background) = &order.background {
+    if let Some(background) = background {
         scene.background = background.clone();
     }
     Arc::new(scene)
@@ -428,7 +429,8 @@ fn view(
     frames: &[Frame],
     order: &Order,
 ) -> Result<PackedView, pack::PackError> {
-    if order.camera.is_none() && order.background.is_none() {
+    let background = order.baked_background();
+    if order.camera.is_none() && background.is_none() {
         return packed.shot(frames);
     }
     let mut frames = frames.to_vec();
@@ -436,7 +438,7 @@ fn view(
         if let Some(camera) = &order.camera {
             frame.camera = camera.clone();
         }
-        if let Some(background) = &order.background {
+        if let Some(background) = background {
             frame.background = background.clone();
         }
     }

@@ -19,12 +19,14 @@ const TURN: f64 = PI / 12.0;
 /// What a key brightens by, in stops.
 const EXPOSURE_STEP: f32 = 1.0 / 3.0;
 
-/// Does what clicks and keys ask for; keys only where no text is edited and no question is asked.
+/// Does what clicks and keys ask for; keys only where no text is edited, no question is asked and no menu
+/// is open.
 pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
     for action in std::mem::take(&mut session.clicked) {
         perform(action, session, layout, ctx);
     }
-    if sheets::take_keys(session, ctx)
+    if egui::Popup::is_any_open(ctx)
+        || sheets::take_keys(session, ctx)
         || ctx.egui_wants_keyboard_input() && !editing::keys(session, ctx)
     {
         if let Some(rig) = &mut session.rig {
@@ -177,6 +179,10 @@ fn window(action: Action, session: &mut Session, layout: &mut Layout, ctx: &egui
         Action::ToggleOutline => {
             let visible = layout.is_visible(Panel::Outline);
             layout.set_visible(Panel::Outline, !visible);
+        }
+        Action::Rename => {
+            layout.set_visible(Panel::Outline, true);
+            session.begin_rename();
         }
         Action::ToggleOverlays => session.shows_overlays = !session.shows_overlays,
         Action::ToggleStatistics => session.shows_statistics = !session.shows_statistics,

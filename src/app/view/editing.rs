@@ -139,7 +139,7 @@ pub fn perform(action: Action, session: &mut Session) -> bool {
     true
 }
 
-/// Whether arrow keys go through the outline, and other keys to commands. Takes the arrows.
+/// Whether arrow keys go through the outline, which takes them, and other keys to commands.
 pub fn keys(session: &mut Session, ctx: &egui::Context) -> bool {
     if !has_list_focus(session, ctx) {
         return false;
@@ -149,9 +149,6 @@ pub fn keys(session: &mut Session, ctx: &egui::Context) -> bool {
     if steps != 0 {
         let next = session.editing.listing.step(session.selection, steps);
         session.selection = next.or(session.selection);
-    }
-    if take(Key::F2) > 0 {
-        session.begin_rename();
     }
     true
 }
@@ -331,6 +328,12 @@ impl Session {
             && let Some(name) = objects::name(scene, id)
         {
             self.editing.renaming = Some((id, name.to_owned()));
+        } else if let Some(id) = self.selection {
+            let told = format!(
+                "{} has no name of its own: materials, cameras and nodes do",
+                self.label(id)
+            );
+            self.notices.tell(told);
         }
     }
 

@@ -21,6 +21,7 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::SystemTime;
 use watch::{Change, Watch};
 
 /// A picture, or why it cannot be read.
@@ -49,7 +50,7 @@ pub struct Files {
     environment: Option<(PathBuf, Receiver<PictureRead>)>,
     watch: Watch,
     /// What to watch from now on.
-    to_watch: Option<Vec<PathBuf>>,
+    to_watch: Option<(Vec<PathBuf>, SystemTime)>,
     /// Whether the scene's file is not there any more.
     is_gone: bool,
     /// For how many frames yet what is pasted is a camera: none comes from an empty clipboard.
@@ -89,7 +90,7 @@ impl Files {
         self.pending.begin();
         let files = self.watch.files();
         if !files.is_empty() {
-            self.to_watch = Some(files);
+            self.to_watch = Some((files, SystemTime::now()));
             // The old one would wake a window that is gone.
             self.watch = Watch::default();
         }
@@ -306,7 +307,7 @@ pub fn loaded(
     session: &mut Session,
     path: PathBuf,
     again: bool,
-    files: &[PathBuf],
+    (files, began): (&[PathBuf], SystemTime),
     shown: Result<(), Trouble>,
 ) {
     let is_first = session.scene().is_none();
@@ -346,7 +347,7 @@ pub fn loaded(
         }
     }
     session.files.is_gone = false;
-    session.files.to_watch = Some(files.to_vec());
+    session.files.to_watch = Some((files.to_vec(), began));
 }
 
 /// Takes up that the scene was saved to these files, that of the scene last: they are watched from now
@@ -360,14 +361,14 @@ pub fn saved(session: &mut Session, files: Vec<PathBuf>) {
     session.files.broken = None;
     session.files.is_gone = false;
     session.files.watch.accept();
-    session.files.to_watch = Some(files);
+    session.files.to_watch = Some((files, SystemTime::now()));
 }
 
 /// Reads the scene again when its files have changed.
 fn follow(session: &mut Session, ctx: &egui::Context) {
-    if let Some(files) = session.files.to_watch.take() {
+    if let Some((files, since)) = session.files.to_watch.take() {
         let waker = ctx.clone();
-        let followed = (session.files.watch).follow(&files, move || waker.request_repaint());
+        let followed = (session.files.watch).follow(&files, since, move || waker.request_repaint());
         if let Err(why) = followed {
             session.notices.warn(format!(
                 "cannot watch the scene's files: {why}. Read the scene again by hand when they change."

@@ -6,6 +6,7 @@ use miette::Diagnostic;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::SystemTime;
 
 /// A scene that is being read on a thread of its own.
 pub struct Loader {
@@ -23,6 +24,8 @@ pub struct Loaded {
     pub outcome: Result<Scene, Trouble>,
     /// The scene's file and those that it refers to, as far as they are known.
     pub files: Vec<PathBuf>,
+    /// When it was begun: what was written later may not be in it.
+    pub began: SystemTime,
 }
 
 /// Why a scene was refused.
@@ -88,10 +91,15 @@ impl Loader {
         std::thread::Builder::new()
             .name("load".into())
             .spawn(move || {
+                let began = SystemTime::now();
                 let (scene, files) = import::load_watched(&from, &options);
                 let outcome = scene.map_err(|error| Trouble::from(&error));
                 // Nobody waits any more when the window was closed meanwhile.
-                let _ = sender.send(Loaded { outcome, files });
+                let _ = sender.send(Loaded {
+                    outcome,
+                    files,
+                    began,
+                });
                 wake();
             })?;
         Ok(Self {
@@ -113,6 +121,7 @@ impl Loader {
                 Some(Loaded {
                     outcome: Err(why.into()),
                     files: vec![self.path.clone()],
+                    began: SystemTime::now(),
                 })
             }
         }

@@ -141,6 +141,7 @@ impl Look {
                 exposure_ev: 0.0,
                 curve: ToneCurve::None,
                 transfer: Transfer::Linear,
+                background: None,
             },
         }
     }

@@ -70,6 +70,10 @@ pub struct Preferences {
     pub cameras: BTreeMap<PathBuf, Vec<SavedCamera>>,
     /// Width and height of the window's inside, in points.
     pub window: Option<[f32; 2]>,
+    /// Where its upper left corner is, in points of the desktop; `None` is up to that.
+    pub window_position: Option<[f32; 2]>,
+    /// Whether it fills the screen; size and place are those of before then.
+    pub maximized: bool,
     /// The arrangement of the panels; `Null` is the default one.
     layout: serde_json::Value,
     /// Whether the hint of the first run was read.
@@ -89,6 +93,8 @@ impl Default for Preferences {
             recent: Vec::new(),
             cameras: BTreeMap::new(),
             window: None,
+            window_position: None,
+            maximized: false,
             layout: serde_json::Value::Null,
             hint_seen: false,
             samples: None,
@@ -120,6 +126,16 @@ impl Preferences {
         }
         let surplus = cameras.len().saturating_sub(MAX_CAMERAS);
         cameras.drain(..surplus);
+    }
+
+    /// Keeps for a scene that was saved under another name what was kept for it before.
+    pub fn copy_cameras(&mut self, from: &Path, to: &Path) {
+        let known = self.cameras_of(to).to_vec();
+        for camera in self.cameras_of(from).to_vec() {
+            if known.iter().all(|other| other.name != camera.name) {
+                self.keep_camera(to, camera);
+            }
+        }
     }
 
     /// Drops a camera that was kept for a scene.
@@ -163,6 +179,10 @@ impl Preferences {
         if let Some(size) = self.window {
             put("window", size.map(plain).to_vec().into());
         }
+        if let Some(position) = self.window_position {
+            put("window_position", position.map(plain).to_vec().into());
+        }
+        put("maximized", self.maximized.into());
         if !self.layout.is_null() {
             put("layout", self.layout.to_string().into());
         }

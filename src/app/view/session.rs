@@ -1,6 +1,7 @@
 //! What the person works on: everything that outlives a lost device.
 
 mod opening;
+mod room;
 
 use super::super::cli::{CameraFlags, MomentFlags, MotionFlags, PictureFlags, ViewArgs};
 use super::super::clock::Clock;
@@ -25,16 +26,23 @@ use super::replay::Tape;
 use super::sheets::Sheets;
 use super::tools::{Drag, Tool};
 use super::viewport::Viewport;
+use crate::gpu::AdapterReport;
 use crate::import;
-use crate::render::{Integrator, Settings};
-use crate::scene::{Camera, Scene};
+use crate::render::{Integrator, Settings, Tone};
+use crate::scene::{Background, Camera, Scene};
 use eframe::egui;
 use glam::DVec3;
+use room::Room;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Seconds after the last movement until the picture is made in full.
 const SETTLE: f64 = 0.12;
+
+/// What a pixel takes in a film that keeps the background apart, and the most that such a film takes, in
+/// bytes: that of 3840×2160 pixels.
+const OPEN_PIXEL: u64 = 64;
+const MAX_OPEN_FILM: u64 = 544 << 20;
 
 /// Everything about the window but what is on the GPU.
 pub struct Session {
@@ -89,8 +97,9 @@ pub struct Session {
     left: Option<Arc<Scene>>,
     /// How often the picture was started over.
     restarts: u32,
-    /// Room for pictures, in pixels.
-    space: (u32, u32),
+    room: Room,
+    /// The largest film that the device holds, in bytes.
+    max_film: u64,
     /// When something moved last, in egui's time; and what egui's time is.
     last_motion: f64,
     now: f64,
@@ -178,7 +187,8 @@ impl Session {
             loader: None,
             left: None,
             restarts: 0,
-            space: (0, 0),
+            room: Room::default(),
+            max_film: 0,
             last_motion: f64::NEG_INFINITY,
             now: 0.0,
             is_device_lost: false,
@@ -288,7 +298,7 @@ impl Session {
             paused: self.look.paused,
             ..Orders::default()
         };
-        if self.space.0 > 0 && self.space.1 > 0 {
+        if self.room.taken.0 > 0 && self.room.taken.1 > 0 {
             orders.pictures[Place::Main as usize] = self.order(self.look.settings.integrator);
             orders.pictures[Place::Beside as usize] =
                 (self.look.comparison).and_then(|comparison| self.order(comparison.integrator));
@@ -305,19 +315,45 @@ impl Session {
             camera: (!rig.is_home()).then(|| rig.camera()),
             background: self.look.background.clone(),
             shot: self.playback.shot(),
-            settings: self.look.settings_in(self.space, integrator),
-            tone: self.look.tone_of(integrator),
+            settings: self.opened(self.look.settings_in(self.room.taken, integrator)),
+            tone: self.tone_of(integrator),
         })
+    }
+
+    /// Settings of a picture before which the background can be changed without tracing it again, where there
+    /// is room for such a film; its edges are whole tiles.
+    pub fn opened(&self, settings: Settings) -> Settings {
+        let [.., width, height] = settings.region();
+        let film = u64::from(width + 7) * u64::from(height + 7) * OPEN_PIXEL;
+        let most = MAX_OPEN_FILM.min(self.flags.memory_limit_bytes / 8);
+        Settings {
+            background_apart: film <= most.min(self.max_film),
+            ..settings
+        }
+    }
+
+    /// What the device can do that draws from now on.
+    pub fn set_device(&mut self, adapter: &AdapterReport) {
+        self.max_film = adapter.max_binding_bytes;
+    }
+
+    /// How a picture of this integrator is developed. A background of the command line is put in here too,
+    /// which is how the command line does it: else pictures would differ in the last bits.
+    pub fn tone_of(&self, integrator: Integrator) -> Tone {
+        let flag = self.flags.camera.background.map(Background::Color);
+        let said = flag.filter(|flag| self.scene().is_some_and(|scene| scene.background == *flag));
+        let background = self.look.background.as_ref().or(said.as_ref());
+        Tone {
+            background: background.and_then(Background::ends),
+            ..self.look.tone_of(integrator)
+        }
     }
 
     /// The size of the picture, in pixels.
     pub fn picture_size(&self) -> (u32, u32) {
-        self.look.settings_in(self.space, Integrator::Whitted).size
-    }
-
-    /// Room for a picture, in pixels.
-    pub fn set_space(&mut self, pixels: (u32, u32)) {
-        self.space = pixels;
+        self.look
+            .settings_in(self.room.taken, Integrator::Whitted)
+            .size
     }
 
     /// What an empty window waits for.

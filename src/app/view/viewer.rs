@@ -50,6 +50,7 @@ impl Viewer {
         context.egui_ctx.set_fonts(fonts());
         let state = context.wgpu_render_state.clone();
         let ctx = context.egui_ctx.clone();
+        session.borrow_mut().set_device(gpu.adapter());
         let render = RenderThread::new(gpu, move || ctx.request_repaint())?;
         session.borrow_mut().begin();
         let layout = Layout::kept(&session.borrow().preferences);
@@ -123,10 +124,12 @@ impl eframe::App for Viewer {
             session.update(ctx);
         }
         let shown = self.render.shown(Place::Main);
-        pictures::finish(
-            &mut session,
-            shown.is_some_and(|shown| shown.progress.is_done),
-        );
+        let progress = shown.map(|shown| shown.progress).unwrap_or_default();
+        pictures::finish(&mut session, progress.is_done);
+        session.set_spent(match progress.is_coarse {
+            true => 0.0,
+            false => progress.trace_seconds,
+        });
         sheets::update(&mut session, ctx);
         for question in session.questions.drain(..) {
             self.render.ask(question);

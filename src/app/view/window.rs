@@ -2,6 +2,7 @@
 
 use super::super::exit::AppError;
 use super::super::{console, scene_file};
+use super::preferences::Preferences;
 use super::session::Session;
 use super::sheets;
 use super::viewer::Viewer;
@@ -102,10 +103,9 @@ const SIZE: [f32; 2] = [1280.0, 800.0];
 /// Whether there was a window; it is closed by now.
 fn open(session: &Rc<RefCell<Session>>, gpu: &Gpu) -> Result<bool, AppError> {
     let options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default()
+        viewport: place(&session.borrow().preferences)
             .with_title("glimray")
             .with_app_id("glimray")
-            .with_inner_size(session.borrow().preferences.window.unwrap_or(SIZE))
             .with_min_inner_size([320.0, 240.0])
             .with_drag_and_drop(true),
         wgpu_options: configuration(gpu),
@@ -117,6 +117,7 @@ fn open(session: &Rc<RefCell<Session>>, gpu: &Gpu) -> Result<bool, AppError> {
         let (session, gpu, has_opened) = (session.clone(), gpu.clone(), has_opened.clone());
         move |context: &eframe::CreationContext| {
             has_opened.set(true);
+            bring_in(context);
             let viewer = Viewer::new(context, gpu, session)?;
             Ok(Box::new(viewer) as Box<dyn eframe::App>)
         }
@@ -130,6 +131,40 @@ fn open(session: &Rc<RefCell<Session>>, gpu: &Gpu) -> Result<bool, AppError> {
         Err(_) => session.borrow_mut().lost_device(),
     }
     Ok(has_opened.get())
+}
+
+/// A window where it was last.
+fn place(kept: &Preferences) -> egui::ViewportBuilder {
+    let size = kept.window.unwrap_or(SIZE);
+    let viewport = egui::ViewportBuilder::default().with_inner_size(size);
+    let viewport = viewport.with_maximized(kept.maximized);
+    match kept.window_position {
+        Some(position) => viewport.with_position(position),
+        None => viewport,
+    }
+}
+
+/// The screen on which the window was may be gone: it comes to where its title can be reached.
+fn bring_in(context: &eframe::CreationContext) {
+    let Some(window) = context.winit_window() else {
+        return;
+    };
+    let Ok(corner) = window.outer_position() else {
+        return;
+    };
+    let middle = corner
+        .x
+        .saturating_add_unsigned(window.outer_size().width / 2);
+    let screens: Vec<_> = window.available_monitors().collect();
+    let shows_title = screens.iter().any(|screen| {
+        let (place, size) = (screen.position(), screen.size());
+        (place.x..place.x.saturating_add_unsigned(size.width)).contains(&middle)
+            && (place.y..place.y.saturating_add_unsigned(size.height)).contains(&corner.y)
+    });
+    if !shows_title && !screens.is_empty() {
+        let corner = egui::ViewportCommand::OuterPosition(egui::Pos2::ZERO);
+        context.egui_ctx.send_viewport_cmd(corner);
+    }
 }
 
 /// Without one of these there is nothing to connect to, and the attempt would only say so in worse

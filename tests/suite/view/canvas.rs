@@ -124,6 +124,41 @@ fn developing_otherwise_takes_no_new_samples() {
 }
 
 #[test]
+fn another_background_takes_no_new_samples_unless_sampling_goes_by_it() {
+    let open = |settings| Settings {
+        background_apart: true,
+        ..settings
+    };
+    let adaptive = Settings {
+        samples: 16,
+        antialias: Antialias::Adaptive,
+        ..stratified(16)
+    };
+    for (settings, is_kept) in [(stratified(4), true), (adaptive, false)] {
+        let mut easel = Easel::new(&scenes::everything(), open(settings));
+        easel.settle();
+        let before = easel.shown();
+        let first = pixels::on(&before.screen.expect("a screen"), &easel.gpu);
+        let background = Background::Color(Vec3::new(0.1, 0.5, 0.2));
+        easel.want(|order| {
+            order.tone.background = background.ends();
+            order.background = Some(background);
+        });
+        easel.settle();
+        let after = easel.shown();
+        assert_eq!(
+            after.stats.samples == before.stats.samples,
+            is_kept,
+            "{:?}",
+            after.stats
+        );
+        assert!(after.progress.is_done, "{:?}", after.progress);
+        let second = pixels::on(&after.screen.expect("a screen"), &easel.gpu);
+        assert!(first != second, "the background is not on the screen");
+    }
+}
+
+#[test]
 fn a_pause_does_not_show_in_the_picture() {
     let scene = scenes::everything();
     let settings = stratified(600);
@@ -479,6 +514,45 @@ fn a_finer_screen_gets_a_picture_of_as_many_pixels_more() {
     assert!(high.abs_diff(2 * height) <= 2, "{height} and {high}");
 }
 
+#[test]
+fn samples_outlast_a_window_of_another_size_until_the_picture_begins_again() {
+    let mut window = Window::open(&["--samples", "1"]);
+    window.settle();
+    let size = window.shown().size;
+    // What took little is made anew for the room that there is.
+    window.session().set_spent(0.1);
+    window.session().set_space((size.0 - 40, size.1 - 30));
+    assert_eq!(
+        window.session().picture_size(),
+        (size.0 - 40, size.1 - 30),
+        "a short picture does not follow"
+    );
+    window.settle();
+    assert_eq!(window.shown().size, size, "back to the real room");
+
+    window.session().set_spent(60.0);
+    window.session().set_space((size.0 - 40, size.1 - 30));
+    assert_eq!(
+        window.session().picture_size(),
+        size,
+        "the samples are gone"
+    );
+    window.session().look.tone.exposure_ev += 1.0;
+    window.session().set_space((size.0 + 40, size.1 + 30));
+    assert_eq!(
+        window.session().picture_size(),
+        size,
+        "the samples are gone"
+    );
+    window.session().look.settings.seed += 1;
+    window.session().set_space((size.0 + 40, size.1 + 30));
+    assert_eq!(
+        window.session().picture_size(),
+        (size.0 + 40, size.1 + 30),
+        "a new picture does not take its room"
+    );
+}
+
 /// Opens a scene, lets `change` happen, and holds what is on the GPU against what the command line
 /// writes that says the same.
 #[track_caller]
@@ -527,6 +601,32 @@ fn what_is_on_the_screen_is_the_png_of_the_command_line() {
     check("patterns.toml", &crop, |_| Vec::new());
     let normals = ["--size", "72x48", "--integrator", "normals"];
     check("shapes.toml", &normals, |_| Vec::new());
+}
+
+#[test]
+fn a_background_that_was_changed_gives_the_png_of_the_command_line() {
+    let green = Vec3::new(0.1, 0.5, 0.2);
+    let flags = ["--size", "72x48", "--samples", "4"];
+    let change = |window: &mut Window| {
+        let before = window.shown().stats.samples;
+        window.session().look.background = Some(Background::Color(green));
+        window.settle();
+        assert_eq!(window.shown().stats.samples, before, "traced again");
+        vec!["--background".into(), "0.1,0.5,0.2".into()]
+    };
+    for scene in ["glass_and_mirrors.toml", "lighthouse.obj"] {
+        check(scene, &flags, change);
+    }
+    // Of the command line from the start, and back to it.
+    let flags = [&flags[..], &["--background", "0.1,0.5,0.2"]].concat();
+    check("media.toml", &flags, |window| {
+        window.session().look.background = Some(Background::Color(Vec3::ONE));
+        window.settle();
+        window.session().look.background = None;
+        Vec::new()
+    });
+    let adaptive = [&flags[..], &["--antialias", "adaptive"]].concat();
+    check("glass_and_mirrors.toml", &adaptive, |_| Vec::new());
 }
 
 #[test]

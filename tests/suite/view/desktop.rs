@@ -65,6 +65,15 @@ impl Desktop {
         String::from_utf8_lossy(&output.stdout).trim().to_owned()
     }
 
+    /// With the left button, and with time for each event to become a frame.
+    fn drag(&self, from: [i32; 2], to: [i32; 2]) {
+        let middle = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2];
+        let [from, middle, to] = [from, middle, to].map(|[x, y]| format!("mousemove {x} {y}"));
+        let words =
+            format!("{from} mousedown 1 sleep 0.5 {middle} sleep 0.5 {to} sleep 0.5 mouseup 1");
+        self.xdotool(&words.split(' ').collect::<Vec<_>>());
+    }
+
     /// The pixels of a rectangle of the screen: x, y, width, height.
     fn screenshot(&self, [x, y, width, height]: [u16; 4]) -> Vec<u8> {
         let (connection, screen) =
@@ -216,12 +225,7 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
     let opened = desktop.open(&[], settings.path(), "");
     let first = desktop.calm(INSIDE);
 
-    for words in [
-        "mousemove 500 300 mousedown 1 sleep 0.5",
-        "mousemove 520 300 sleep 0.5 mousemove 560 310 sleep 0.5 mouseup 1",
-    ] {
-        desktop.xdotool(&words.split(' ').collect::<Vec<_>>());
-    }
+    desktop.drag([500, 300], [560, 310]);
     let turned = desktop.calm(INSIDE);
     assert!(
         differ(&first, &turned),
@@ -257,6 +261,9 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
         picture.height()
     );
 
+    desktop.xdotool(&["windowsize", &opened.id, "900", "600"]);
+    desktop.xdotool(&["windowmove", &opened.id, "40", "30"]);
+    desktop.calm([400, 200, 200, 100]);
     opened.key("ctrl+q");
     assert_eq!(opened.wait(), Some(0));
     let kept = std::fs::read_to_string(settings.path().join("viewer.toml")).expect("settings");
@@ -264,6 +271,15 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
         kept.contains("sphere.scene"),
         "not among recent files: {kept}"
     );
+    let again = desktop.open(&[], settings.path(), "");
+    wait_for("the window where it was", || {
+        let place = desktop.xdotool(&["getwindowgeometry", "--shell", &again.id]);
+        let wanted = ["X=40", "Y=30", "WIDTH=900", "HEIGHT=600"];
+        let is_there = |line: &&str| place.lines().any(|other| other == *line);
+        wanted.iter().all(is_there).then_some(())
+    });
+    again.key("ctrl+q");
+    assert_eq!(again.wait(), Some(0));
 }
 
 #[test]
@@ -313,13 +329,7 @@ fn pictures_of_the_window_for_the_readme() {
     };
     let click = |x: &str, y: &str| desktop.xdotool(&["mousemove", x, y, "click", "1"]);
     desktop.calm(INSIDE);
-    for words in [
-        "mousemove 600 330 mousedown 1",
-        "mousemove 630 335 mouseup 1",
-    ] {
-        desktop.xdotool(&words.split(' ').collect::<Vec<_>>());
-        std::thread::sleep(Duration::from_millis(500));
-    }
+    desktop.drag([600, 330], [630, 335]);
     save("window.jpg");
 
     opened.key("Home");

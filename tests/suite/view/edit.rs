@@ -310,6 +310,8 @@ fn a_saved_scene_gives_the_same_picture() {
     window.settle();
     set(&mut window, "Position y", 0.375);
     let edited = scene(&window);
+    window.harness.key_press(Key::K);
+    window.settle();
     perform(&mut window, Action::SaveSceneAs);
     let other = folder.path().join("other.toml");
     let name = other.to_str().expect("a path in UTF-8");
@@ -340,6 +342,12 @@ fn a_saved_scene_gives_the_same_picture() {
     );
     let old = std::fs::read_to_string(&path).expect("the old file");
     assert_eq!(old, BALLS, "the old file was touched");
+    let preferences = window.session().preferences.clone();
+    assert_eq!(preferences.cameras_of(&path).len(), 1);
+    assert_eq!(
+        preferences.cameras_of(&other),
+        preferences.cameras_of(&path)
+    );
 }
 
 /// Types a name into the sheet that asks for one, and presses Enter.
@@ -555,6 +563,59 @@ fn escape_in_a_field_leaves_only_the_field() {
     window.harness.key_press(Key::Escape);
     window.settle();
     assert_eq!(window.session().tool, Tool::Select);
+}
+
+#[test]
+fn escape_closes_a_menu_and_nothing_else() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.session().selection = Some(RED);
+    window.settle();
+    window.harness.get_by_label("View").click();
+    window.settle();
+    let is_open = |window: &Window| window.harness.query_by_label("Frame all").is_some();
+    assert!(is_open(&window), "there is no menu");
+    window.harness.key_press(Key::Escape);
+    window.settle();
+    assert!(!is_open(&window), "the menu stays");
+    assert_eq!(window.session().selection, Some(RED));
+}
+
+#[test]
+fn a_key_renames_what_is_selected() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    let red = Id::Material(0);
+    assert_eq!(window.session().label(red), "red");
+    window.session().selection = Some(red);
+    window.settle();
+    window.harness.key_press(Key::O);
+    window.settle();
+    assert!(
+        window
+            .harness
+            .query_by_label("Search the outline")
+            .is_none()
+    );
+    window.harness.key_press(Key::F2);
+    window.settle();
+    window
+        .harness
+        .get_by_label("New name")
+        .set_text_value_accesskit("apple");
+    window.harness.step();
+    window.harness.key_press(Key::Enter);
+    window.settle();
+    assert_eq!(window.session().label(red), "apple");
+
+    window.session().selection = Some(RED);
+    window.harness.key_press(Key::F2);
+    window.settle();
+    assert!(
+        notices(&window).iter().any(|told| told.contains("no name")),
+        "{:?}",
+        notices(&window)
+    );
 }
 
 #[test]

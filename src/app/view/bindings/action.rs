@@ -98,7 +98,7 @@ macro_rules! actions {
 actions! {
     Camera {
         Orbit "orbit" Motion "Go round the pivot",
-        Pan "pan" Motion "Shift the camera; what is under the cursor stays under it",
+        Pan "pan" Motion "Shift the camera; what is as far away as the pivot stays under the cursor",
         Zoom "zoom" Motion "Come nearer or go away",
         ZoomToCursor "zoom-to-cursor" Motion "Come nearer to what is under the cursor, or go away from it",
         LookAround "look-around" Motion "Turn the camera where it is",
@@ -180,8 +180,11 @@ actions! {
         MoveTool "move-tool" Press "Move what is selected",
         RotateTool "rotate-tool" Press "Rotate what is selected",
         ScaleTool "scale-tool" Press "Scale what is selected",
+        SnapHandles "snap-handles" Hold "Drag a handle in whole steps",
+        FineHandles "fine-handles" Hold "Drag a handle at a tenth of the pace",
         SelectNothing "select-nothing" Press "Leave the tool, or select nothing",
         ToggleVisible "toggle-visible" Press "Hide or show what is selected",
+        Rename "rename" Press "Rename what is selected",
         Duplicate "duplicate" Press "Duplicate what is selected",
         Delete "delete" Press "Delete what is selected",
         Undo "undo" Press "Undo",
@@ -215,6 +218,11 @@ actions! {
 }
 
 impl Action {
+    /// Whether it is given while a handle is dragged, when keys that fly or move the camera do not.
+    pub fn is_of_handles(self) -> bool {
+        matches!(self, Self::SnapHandles | Self::FineHandles)
+    }
+
     /// The one of that name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL

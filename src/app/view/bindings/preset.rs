@@ -138,8 +138,11 @@ pub(super) const GLIMRAY: &str = "
     move-tool: G
     rotate-tool: R
     scale-tool: Z
+    snap-handles: Hold Ctrl
+    fine-handles: Hold Shift
     select-nothing: Escape
     toggle-visible: V
+    rename: F2
     duplicate: Ctrl+D
     delete: Delete, Backspace
     undo: Ctrl+Z

@@ -22,6 +22,13 @@ impl Mods {
         shift: false,
         alt: false,
     };
+
+    /// Whether these are held, whatever else is.
+    pub fn include(self, others: Self) -> bool {
+        (self.command || !others.command)
+            && (self.shift || !others.shift)
+            && (self.alt || !others.alt)
+    }
 }
 
 impl From<Modifiers> for Mods {

@@ -1,5 +1,6 @@
 //! What is drawn over the picture for editing: a box round what is selected, and its handles.
 
+use super::super::bindings::Action;
 use super::super::objects::{self, Id};
 use super::super::session::Session;
 use super::super::tools::Tool;
@@ -72,12 +73,14 @@ pub fn overlay(
         return false;
     };
     let ctx = &response.ctx;
-    let (pointer, pressed, modifiers) = ctx.input(|input| {
+    let bindings = &session.preferences.bindings;
+    let (pointer, pressed, is_fine, snaps) = ctx.input(|input| {
         let pointer = &input.pointer;
         (
             pointer.latest_pos(),
             pointer.press_origin(),
-            input.modifiers,
+            bindings.is_held(Action::FineHandles, input),
+            bindings.is_held(Action::SnapHandles, input),
         )
     });
     let part_at = |at: Pos2| handles.part_at(eye, viewport.position(at), pixels(SLACK));
@@ -97,9 +100,9 @@ pub fn overlay(
         return false;
     };
     let now = pointer.unwrap_or(last);
-    grip.follow(viewport.length(now - last), modifiers.shift);
+    grip.follow(viewport.length(now - last), is_fine);
     let mut shown = handles;
-    if let Some(dragged) = grip.dragged(eye, modifiers.command) {
+    if let Some(dragged) = grip.dragged(eye, snaps) {
         if now != last {
             let verb = match tool {
                 Tool::Move => "move",

@@ -1,7 +1,7 @@
 //! Saving the scene as a native file.
 
 use super::super::super::scene_file;
-use super::super::files;
+use super::super::files::{self, cameras};
 use super::super::session::Session;
 use super::super::viewer::Desk;
 use eframe::egui::{self, Button, Ui};
@@ -46,6 +46,8 @@ fn write(session: &mut Session, path: &Path) -> Result<(), String> {
     };
     let written = scene_file::save(path, document.scene(), true).map_err(|e| e.to_string())?;
     document.mark_saved();
+    let before = cameras::key(session);
+    session.preferences.copy_cameras(&before, path);
     session.preferences.opened(path);
     session.editing.written = Some(path.to_owned());
     let beside = written.len() - 1;

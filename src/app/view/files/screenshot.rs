@@ -50,8 +50,12 @@ pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
     };
     match shot.try_recv() {
         Ok(image) => {
-            let rect = session.viewport.map_or(Rect::EVERYTHING, |view| view.rect);
-            let image = cut(&image, rect, ctx.pixels_per_point());
+            let Some(view) = session.viewport else {
+                let why = "the picture is not to be seen. Show its panel, and save it again.";
+                session.notices.warn(why.to_owned());
+                return;
+            };
+            let image = cut(&image, view.rect, ctx.pixels_per_point());
             pictures::write(session, image, pose.target, String::new());
         }
         Err(TryRecvError::Empty) => session.files.pending.pose = Some(pose),

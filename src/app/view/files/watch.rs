@@ -41,21 +41,31 @@ pub enum Change {
 }
 
 impl Watch {
-    /// Watches these from now on. `wake` is called from another thread when something happens.
+    /// Watches these from now on. What was written after `since` counts as changed, unless it was watched
+    /// before. `wake` is called from another thread when something happens.
     ///
     /// # Errors
     /// The system cannot watch a folder: why, in a few words.
     pub fn follow(
         &mut self,
         files: &[PathBuf],
+        since: SystemTime,
         wake: impl Fn() + Send + 'static,
     ) -> Result<(), String> {
         let files: BTreeSet<PathBuf> = files.iter().map(|file| absolute(file)).collect();
         self.stamps.retain(|file, _| files.contains(file));
         for file in &files {
-            self.stamps
-                .entry(file.clone())
-                .or_insert_with(|| stamp(file));
+            let (news, stamps) = (&mut self.news, &mut self.stamps);
+            stamps.entry(file.clone()).or_insert_with(|| {
+                let found = stamp(file);
+                match found {
+                    Some((written, _)) if written > since => {
+                        *news = Some(Instant::now());
+                        None
+                    }
+                    _ => found,
+                }
+            });
         }
         let folders: BTreeSet<PathBuf> = (files.iter())
             .filter_map(|file| file.parent().map(Path::to_owned))

@@ -129,6 +129,7 @@ fn edit(menu: &mut Menu) {
     menu.entry("Undo", A::Undo);
     menu.entry("Redo", A::Redo);
     menu.line();
+    menu.entry_if(has_selection, "Rename", A::Rename);
     menu.entry_if(has_selection, "Duplicate", A::Duplicate);
     menu.entry_if(has_selection, "Delete", A::Delete);
     menu.entry_if(has_selection, "Hide or show", A::ToggleVisible);

@@ -65,6 +65,15 @@ fn fill(preferences: &mut Preferences, mut table: Table, notes: &mut Vec<String>
             false => notes.push("`window` is no size of a window".to_owned()),
         }
     }
+    if let Some(position) = take::<[f32; 2]>(&mut table, "window_position", notes) {
+        match position.iter().all(|at| at.abs() <= 100_000.0) {
+            true => it.window_position = Some(position),
+            false => notes.push("`window_position` is no place on a desktop".to_owned()),
+        }
+    }
+    if let Some(maximized) = take(&mut table, "maximized", notes) {
+        it.maximized = maximized;
+    }
     if let Some(text) = take::<String>(&mut table, "layout", notes) {
         match serde_json::from_str(&text) {
             Ok(layout) => it.layout = layout,

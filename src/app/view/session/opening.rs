@@ -142,7 +142,8 @@ impl Session {
             };
             shown.map_err(|error| Trouble::from(error.to_string()))
         });
-        files::loaded(self, path, again, &loaded.files, shown);
+        let read = (&loaded.files[..], loaded.began);
+        files::loaded(self, path, again, read, shown);
     }
 
     /// Whether there are unsaved changes made since another scene began to be read: nobody was asked

@@ -49,7 +49,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     }
     kept.looked = Some(Instant::now());
     kept.is_due = true;
-    keep_size(session, ctx);
+    keep_window(session, ctx);
     write(session);
 }
 
@@ -90,22 +90,28 @@ fn apply(session: &mut Session, ctx: &egui::Context) {
     ctx.set_zoom_factor(wanted.1);
 }
 
-/// Notes how large the window is, unless it fills the screen.
-fn keep_size(session: &mut Session, ctx: &egui::Context) {
-    let size = ctx.input(|input| {
-        let viewport = input.viewport();
-        let is_full = viewport.fullscreen.unwrap_or(false) || viewport.maximized.unwrap_or(false);
-        viewport
-            .inner_rect
-            .filter(|_| !is_full)
-            .map(|rect| rect.size())
-    });
-    if let Some(size) = size {
-        // Points of the screen's own scale: with another one the window would grow at each start.
-        let size = size * ctx.zoom_factor();
-        if size.x >= 320.0 && size.y >= 240.0 {
-            session.preferences.window = Some([size.x.round(), size.y.round()]);
-        }
+/// Notes whether the window fills the screen, and else how large it is and where.
+fn keep_window(session: &mut Session, ctx: &egui::Context) {
+    let viewport = ctx.input(|input| input.viewport().clone());
+    let is_minimized = viewport.minimized.unwrap_or(false);
+    if is_minimized || viewport.fullscreen.unwrap_or(false) {
+        return;
+    }
+    let kept = &mut session.preferences;
+    kept.maximized = viewport.maximized.unwrap_or(false);
+    if kept.maximized {
+        return;
+    }
+    // Points of the screen's own scale: with another one the window would grow at each start.
+    let own = |vec: egui::Vec2| (vec * ctx.zoom_factor()).round().into();
+    if let Some(size) = viewport.inner_rect.map(|rect| rect.size())
+        && size.x >= 320.0
+        && size.y >= 240.0
+    {
+        kept.window = Some(own(size));
+    }
+    if let Some(rect) = viewport.outer_rect {
+        kept.window_position = Some(own(rect.min.to_vec2()));
     }
 }
 

@@ -21,7 +21,8 @@ const USUAL: [(u32, u32); 6] = [
 pub fn size(ui: &mut Ui, desk: &mut Desk) {
     let now = desk.session.picture_size();
     let look = &mut desk.session.look;
-    let tip = "The picture is as large as there is room for, in pixels of the screen";
+    let tip =
+        "The picture is as large as there is room for when it begins, in pixels of the screen";
     let label = ui.label("Fits the window").on_hover_text(tip);
     let mut fits = look.fits;
     (ui.checkbox(&mut fits, "").labelled_by(label.id)).on_hover_text(tip);
