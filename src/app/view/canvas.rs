@@ -4,7 +4,7 @@
 mod noise;
 mod pace;
 
-pub use pace::Pace;
+pub use pace::{Pace, patience};
 
 use super::super::overrides;
 use super::order::Order;
@@ -27,6 +27,8 @@ pub struct Shown {
     pub screen: Option<Screen>,
     /// A coarse one of the same or what was before, to lie under it, stretched.
     pub under: Option<Screen>,
+    /// Whether that is a coarse one, which comes as a whole.
+    pub under_is_coarse: bool,
     /// While this is a part: the whole picture as it was last, to lie under both.
     pub whole: Option<Screen>,
     /// Which part of the picture this is: x, y, width and height in pixels of `size`.
@@ -378,6 +380,7 @@ impl Canvas {
         Some(Shown {
             screen: self.screen.clone().filter(|_| has_picture),
             under: self.coarse.clone().or(self.screen.clone()),
+            under_is_coarse: self.coarse.is_some(),
             whole: self.whole.clone(),
             region: order.settings.region(),
             size: order.settings.size,

@@ -117,7 +117,7 @@ impl Layout {
     /// Draws all panels.
     pub fn show(&mut self, ui: &mut egui::Ui, desk: &mut Desk) {
         egui::CentralPanel::default()
-            .frame(egui::Frame::NONE.fill(ui.visuals().panel_fill))
+            .frame(egui::Frame::NONE)
             .show(ui, |ui| {
                 self.resize(ui.available_size().into());
                 // The picture says where it is, if it is to be seen.

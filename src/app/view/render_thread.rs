@@ -11,6 +11,7 @@ use crate::image::Image;
 use crate::render::{RenderError, Renderer, Settings, Tone};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
 /// Where a picture is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,11 +93,18 @@ struct State<A> {
     is_closing: bool,
     /// How often something was wanted.
     wishes: u64,
+    /// The last wish of which there is something to see.
+    seen: u64,
+    /// Whether the window waits for that, and needs no other frame for it.
+    is_awaited: bool,
 }
 
 struct Shared<A> {
     state: Mutex<State<A>>,
+    /// For the thread: there is something to do.
     news: Condvar,
+    /// For the window: there is something to see, or nothing to wait for.
+    looks: Condvar,
 }
 
 impl<A> Shared<A> {
@@ -124,8 +132,11 @@ impl<A: Send + 'static> RenderThread<A> {
                 is_settled: true,
                 is_closing: false,
                 wishes: 0,
+                seen: 0,
+                is_awaited: false,
             }),
             news: Condvar::new(),
+            looks: Condvar::new(),
         });
         let theirs = shared.clone();
         let thread = std::thread::Builder::new()
@@ -151,6 +162,19 @@ impl<A: Send + 'static> RenderThread<A> {
         state.wishes += 1;
         drop(state);
         self.shared.news.notify_one();
+    }
+
+    /// Waits until there is something to see of what was ordered last, so that it is in the next frame of
+    /// the window and not in the one after. Whether that came in time, or there is nothing to wait for.
+    pub fn wait_for_look(&self, patience: Duration) -> bool {
+        let goes_on = |state: &mut State<A>| {
+            state.is_awaited =
+                state.seen < state.wishes && !state.is_settled && state.fault.is_none();
+            state.is_awaited
+        };
+        let (looks, state) = (&self.shared.looks, self.shared.lock());
+        let waited = looks.wait_timeout_while(state, patience, goes_on);
+        waited.is_ok_and(|(mut state, _)| !std::mem::take(&mut state.is_awaited))
     }
 
     /// Asks something of the main picture's renderer; not before there is one.
@@ -223,10 +247,15 @@ impl Painter {
             let looks = self.looks();
             let was_refused = self.has_refused(&orders);
             let (outcome, unanswered, answers) = self.round(&orders, questions);
-            let is_news = looks != self.looks() || outcome != Ok(true) || !answers.is_empty();
+            let is_picture = looks != self.looks();
+            let is_other_news = outcome != Ok(true) || !answers.is_empty();
             let mut state = shared.lock();
             state.answers.extend(answers);
             let has_news = state.wishes != known;
+            let wakes = is_other_news || is_picture && !state.is_awaited;
+            if is_picture || is_other_news {
+                state.seen = known;
+            }
             state.questions.splice(0..0, unanswered);
             for (canvas, place) in self.canvases.iter().zip(Place::ALL) {
                 state.shown[place as usize] = canvas.shown();
@@ -247,7 +276,8 @@ impl Painter {
                 }
             }
             drop(state);
-            if is_news {
+            shared.looks.notify_all();
+            if wakes {
                 wake();
             }
         }

@@ -35,9 +35,14 @@ use glam::DVec3;
 use room::Room;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Seconds after the last movement until the picture is made in full.
 const SETTLE: f64 = 0.12;
+
+/// The shortest time between two frames that something moves in, and between two looks at what others do.
+const FRAME: Duration = Duration::from_millis(8);
+const LOOK: Duration = Duration::from_millis(50);
 
 /// What a pixel takes in a film that keeps the background apart, and the most that such a film takes, in
 /// bytes: that of 3840×2160 pixels.
@@ -216,6 +221,8 @@ impl Session {
     /// What happened since the last frame.
     pub fn update(&mut self, ctx: &egui::Context) {
         let (now, seconds) = ctx.input(|input| (input.time, f64::from(input.stable_dt).min(0.1)));
+        // A frame that is drawn again takes no time.
+        let seconds = if now > self.now { seconds } else { 0.0 };
         self.now = now;
         self.take_scene();
         files::update(self, ctx);
@@ -378,6 +385,26 @@ impl Session {
             && !self.is_moving()
             && !self.playback.is_playing
             && !self.tape.is_playing()
+    }
+
+    /// How long the window may sleep before something happens by itself; `None` until a person or another
+    /// thread wakes it. On software each frame that shows nothing new delays the one that does.
+    pub fn until_next_frame(&self) -> Option<Duration> {
+        let glides = self.rig.as_ref().is_some_and(Rig::is_moving);
+        if glides
+            || self.playback.is_playing
+            || self.tape.is_playing()
+            || !self.questions.is_empty()
+        {
+            return Some(FRAME);
+        }
+        if self.loader.is_some() || self.files.is_busy() {
+            return Some(LOOK);
+        }
+        // Nothing settles while a button is held.
+        let settles = self.last_motion + SETTLE - self.now;
+        let is_due = settles > 0.0 && self.drag.is_none();
+        is_due.then(|| Duration::from_secs_f64(settles.min(SETTLE)).max(FRAME))
     }
 
     /// Notes that the window must be opened again on another device.

@@ -1,5 +1,6 @@
 //! The window's contents: hands what happens to the [`Session`], orders pictures, shows them.
 
+use super::canvas::patience;
 use super::commands;
 use super::editing;
 use super::files::pictures;
@@ -16,13 +17,21 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Duration;
 
+/// How often a window that nobody sees looks after what it does.
+const HIDDEN: Duration = Duration::from_millis(200);
+
+/// Orders that follow one another without waiting, once one was waited for in vain.
+const IN_VAIN: u32 = 16;
+
 /// What is drawn in a window, and what renders for it. Lives as long as its device.
 pub struct Viewer {
     session: Rc<RefCell<Session>>,
     render: RenderThread<Answer>,
     textures: Textures,
     layout: Layout,
-    orders: Orders,
+    wanted: Wanted,
+    /// Whether whoever draws the window begins with [`eframe::App::clear_color`].
+    is_cleared: bool,
     /// The last frame of the window that there was.
     last_pass: Option<u64>,
 }
@@ -51,6 +60,11 @@ impl Viewer {
         let state = context.wgpu_render_state.clone();
         let ctx = context.egui_ctx.clone();
         session.borrow_mut().set_device(gpu.adapter());
+        let wanted = Wanted {
+            orders: Orders::default(),
+            patience: patience(&gpu),
+            until_wait: 0,
+        };
         let render = RenderThread::new(gpu, move || ctx.request_repaint())?;
         session.borrow_mut().begin();
         let layout = Layout::kept(&session.borrow().preferences);
@@ -59,7 +73,8 @@ impl Viewer {
             render,
             textures: Textures::new(state.ok_or("eframe does not draw with wgpu")?),
             layout,
-            orders: Orders::default(),
+            wanted,
+            is_cleared: context.winit_window().is_some(),
             last_pass: None,
         })
     }
@@ -134,21 +149,26 @@ impl eframe::App for Viewer {
         for question in session.questions.drain(..) {
             self.render.ask(question);
         }
-        let orders = session.orders();
-        if !orders.is_same(&self.orders) {
-            self.render.order(orders.clone());
-            self.orders = orders;
-        }
+        self.wanted.order(&self.render, &session);
         if session.is_at_rest() && session.tape.is_to_close() {
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);
         }
-        if !session.is_at_rest() {
-            let wait = if is_hidden { 200 } else { 8 };
-            ctx.request_repaint_after(Duration::from_millis(wait));
+        if let Some(wait) = session.until_next_frame() {
+            let least = if is_hidden { HIDDEN } else { Duration::ZERO };
+            ctx.request_repaint_after(wait.max(least));
         }
     }
 
+    /// The panels' ground: on software, clearing takes less time than filling.
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        if !self.is_cleared {
+            let ground = ui.visuals().panel_fill;
+            ui.painter().rect_filled(ui.max_rect(), 0.0, ground);
+        }
         let mut session = self.session.borrow_mut();
         self.textures.begin();
         let mut desk = Desk {
@@ -163,6 +183,41 @@ impl eframe::App for Viewer {
         editing::sheet(ui, &mut desk);
         panels::notices(ui, &mut desk);
         self.textures.end();
+        // What a hand has done in this frame is to be seen in this frame.
+        if self.wanted.order(&self.render, &session) {
+            ui.ctx().request_discard("another picture is there");
+        }
+    }
+}
+
+/// What was ordered last, and whether the window waits for it.
+struct Wanted {
+    orders: Orders,
+    /// How long.
+    patience: Duration,
+    /// How many orders it will not.
+    until_wait: u32,
+}
+
+impl Wanted {
+    /// Orders what is wanted now, if that is something else. Whether there is already something to see of
+    /// it: the coarse picture mostly, unless it kept the window waiting in vain of late.
+    fn order(&mut self, render: &RenderThread<Answer>, session: &Session) -> bool {
+        let orders = session.orders();
+        if orders.is_same(&self.orders) {
+            return false;
+        }
+        render.order(orders.clone());
+        self.orders = orders;
+        if self.until_wait > 0 {
+            self.until_wait -= 1;
+            return false;
+        }
+        let is_there = render.wait_for_look(self.patience);
+        if !is_there {
+            self.until_wait = IN_VAIN;
+        }
+        is_there
     }
 }
 

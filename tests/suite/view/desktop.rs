@@ -103,7 +103,17 @@ impl Desktop {
     }
 
     fn open(&self, arguments: &[&str], settings: &Path, faults: &str) -> Opened<'_> {
-        let program = Command::new(env!("CARGO_BIN_EXE_glimray"))
+        let mut opened = Opened {
+            desktop: self,
+            program: self.program(arguments, settings, faults),
+            id: String::new(),
+        };
+        opened.find();
+        opened
+    }
+
+    fn program(&self, arguments: &[&str], settings: &Path, faults: &str) -> Child {
+        Command::new(env!("CARGO_BIN_EXE_glimray"))
             .arg("view")
             .args(arguments)
             .env("DISPLAY", &self.display)
@@ -113,14 +123,7 @@ impl Desktop {
             .env("GLIMRAY_FAULT", faults)
             .stderr(Stdio::piped())
             .spawn()
-            .expect("glimray");
-        let mut opened = Opened {
-            desktop: self,
-            program,
-            id: String::new(),
-        };
-        opened.find();
-        opened
+            .expect("glimray")
     }
 }
 
@@ -213,6 +216,9 @@ fn settings() -> TempDir {
 /// The window as it opens.
 const WINDOW: [u16; 4] = [0, 0, 1280, 800];
 
+/// A part of the picture that looks otherwise whenever the camera moves.
+const SPOT: [u16; 4] = [600, 300, 64, 64];
+
 /// Within the picture, wherever panels are.
 const INSIDE: [u16; 4] = [420, 200, 300, 200];
 
@@ -304,6 +310,55 @@ fn a_lost_device_is_replaced_while_the_window_is_open() {
     ]);
     disturbed.key("ctrl+q");
     assert_eq!(disturbed.wait(), Some(0));
+}
+
+/// Seconds from the start of the program to its first picture, and from a movement of the mouse to a
+/// changed one. See benches/LOG.md.
+#[test]
+#[ignore = "measures"]
+fn how_soon_pictures_come() {
+    let Some(desktop) = Desktop::start() else {
+        return;
+    };
+    let settings = settings();
+    let mut starts = Vec::new();
+    for _ in 0..5 {
+        let start = Instant::now();
+        let mut program = desktop.program(&[], settings.path(), "");
+        wait_for("a picture", || {
+            (colors(&desktop.screenshot(INSIDE)) > 64).then_some(())
+        });
+        starts.push(start.elapsed().as_secs_f64());
+        program.kill().expect("its end");
+        program.wait().expect("its end");
+        wait_for("an empty screen", || {
+            (colors(&desktop.screenshot(INSIDE)) == 1).then_some(())
+        });
+    }
+    let _opened = desktop.open(&["--samples", "1"], settings.path(), "");
+    desktop.calm(INSIDE);
+    desktop.xdotool(&["mousemove", "500", "400", "mousedown", "1", "sleep", "0.5"]);
+    let mut movements: Vec<f64> = (0..30)
+        .map(|number| {
+            let x = if number % 2 == 0 { "560" } else { "530" };
+            std::thread::sleep(Duration::from_millis(500));
+            let before = desktop.screenshot(SPOT);
+            let start = Instant::now();
+            desktop.xdotool(&["mousemove", x, "400"]);
+            while desktop.screenshot(SPOT) == before && start.elapsed() < PATIENCE {
+                std::thread::sleep(Duration::from_millis(2));
+            }
+            start.elapsed().as_secs_f64()
+        })
+        .collect();
+    movements.sort_by(f64::total_cmp);
+    println!("start to first picture: {starts:.2?} s");
+    println!(
+        "movement to changed picture: median {:.3}, longest {:.3} s of {}",
+        movements[movements.len() / 2],
+        movements[movements.len() - 1],
+        movements.len()
+    );
 }
 
 /// `make gallery` runs this.

@@ -44,6 +44,34 @@ fn keys_fly_in_a_scene_that_moves() {
 }
 
 #[test]
+fn what_a_hand_moves_is_in_the_same_frame_and_a_still_hand_costs_none() {
+    let mut window = open("sphere.scene");
+    let middle = middle(&window);
+    window.harness.hover_at(middle);
+    window.harness.step();
+    button(&mut window, middle, PointerButton::Primary, true);
+    let mut in_time = 0;
+    for number in 1..=20 {
+        let before = window.shown().stats.samples;
+        let to = middle + egui::vec2(10.0 + number as f32, 0.0);
+        window.harness.hover_at(to);
+        window.harness.step();
+        in_time += u32::from(window.shown().stats.samples > before);
+    }
+    // On a busy machine a frame may be too short for a picture.
+    assert!(in_time > 0, "never in the same frame");
+    assert!(window.shown().progress.is_coarse);
+    for _ in 0..200 {
+        window.harness.step();
+    }
+    assert_eq!(window.session().until_next_frame(), None);
+    button(&mut window, middle, PointerButton::Primary, false);
+    window.settle();
+    assert!(!window.shown().progress.is_coarse);
+    assert_eq!(window.session().until_next_frame(), None);
+}
+
+#[test]
 fn a_key_can_do_what_needs_a_point_under_the_cursor() {
     let mut window = open("sphere.scene");
     bind(&window, Action::Select, "J");

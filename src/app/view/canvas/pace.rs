@@ -10,7 +10,7 @@ const SLICE: Duration = Duration::from_millis(8);
 const SLICE_ON_CPU: Duration = Duration::from_millis(30);
 /// Time that a coarse picture should take in all.
 const COARSE: Duration = Duration::from_millis(12);
-const COARSE_ON_CPU: Duration = Duration::from_millis(40);
+const COARSE_ON_CPU: Duration = Duration::from_millis(30);
 /// The least time between two looks at a picture that is being refined. On software the window takes the
 /// cores from what it shows.
 const LOOK: Duration = Duration::from_millis(16);
@@ -77,6 +77,13 @@ impl Pace {
         }
         self.divisor
     }
+}
+
+/// How long a frame of the window is worth holding back for the coarse picture: what draws the window would
+/// take its time from it, only to show what was before.
+pub fn patience(gpu: &Gpu) -> Duration {
+    let coarse = if gpu.is_cpu() { COARSE_ON_CPU } else { COARSE };
+    coarse.mul_f64(1.5)
 }
 
 /// How long a picture that is being refined is worth no other look.

@@ -28,7 +28,6 @@ pub fn picture(ui: &mut egui::Ui, desk: &mut Desk) {
     let space = ui.available_rect_before_wrap();
     let response = ui.allocate_rect(space, egui::Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Rendered picture"));
-    (ui.painter()).rect_filled(space, 0.0, ui.visuals().extreme_bg_color);
     let comparison = desk.session.look.comparison;
     let spaces = compare::spaces(comparison, space);
     let pixels = (spaces[0].size() * pixels_per_point).max(Vec2::splat(1.0));
@@ -37,7 +36,13 @@ pub fn picture(ui: &mut egui::Ui, desk: &mut Desk) {
     let viewports = spaces.map(|space| Viewport::fitting(space, size, pixels_per_point));
     desk.session.viewport = Some(viewports[0]);
     let painter = ui.painter_at(space);
-    if let Some(shown) = desk.shown(Place::Main) {
+    let shown = desk.shown(Place::Main);
+    let covered = match (&shown, comparison) {
+        (Some(shown), None) if is_opaque(shown) => viewports[0].rect,
+        _ => Rect::NOTHING,
+    };
+    surround(&painter, space, covered, ui.visuals().extreme_bg_color);
+    if let Some(shown) = shown {
         draw(&painter, desk, &shown, viewports[0]);
     }
     if let (Some(comparison), Some(shown)) = (comparison, desk.shown(Place::Beside)) {
@@ -73,6 +78,43 @@ fn used_at(response: &egui::Response) -> Option<Pos2> {
     origin.or(before).or(response.hover_pos())
 }
 
+/// Whether every pixel of the picture shows something. On software each layer that is not drawn beneath is
+/// time for the picture.
+fn is_opaque(shown: &Shown) -> bool {
+    let is_whole = shown.whole.is_none() && shown.region == [0, 0, shown.size.0, shown.size.1];
+    is_whole && (shown.under_is_coarse || has_samples(shown))
+}
+
+/// Whether every pixel of the fine picture has a sample.
+fn has_samples(shown: &Shown) -> bool {
+    let progress = &shown.progress;
+    progress.samples > 0 && !progress.is_coarse && shown.screen.is_some()
+}
+
+/// Fills what of `space` is not in `covered`.
+fn surround(painter: &egui::Painter, space: Rect, covered: Rect, color: Color32) {
+    let covered = covered.intersect(space);
+    if !covered.is_positive() {
+        painter.rect_filled(space, 0.0, color);
+        return;
+    }
+    let band = |y: f32, height: f32| {
+        let min = Pos2::new(space.min.x, y);
+        Rect::from_min_size(min, Vec2::new(space.width(), height))
+    };
+    let rows = Rect::from_x_y_ranges(space.x_range(), covered.y_range());
+    for rect in [
+        band(space.min.y, covered.min.y - space.min.y),
+        band(covered.max.y, space.max.y - covered.max.y),
+        rows.with_max_x(covered.min.x),
+        rows.with_min_x(covered.max.x),
+    ] {
+        if rect.is_positive() {
+            painter.rect_filled(rect, 0.0, color);
+        }
+    }
+}
+
 fn draw(painter: &egui::Painter, desk: &mut Desk, shown: &Shown, viewport: Viewport) {
     let is_exact = viewport.is_exact(painter.pixels_per_point());
     let region = viewport.part(shown.region);
@@ -81,7 +123,8 @@ fn draw(painter: &egui::Painter, desk: &mut Desk, shown: &Shown, viewport: Viewp
         painter.image(id, viewport.rect, WHOLE, DIMMED);
     }
     // A picture of other proportions than there is room for by now is stretched until the next one.
-    for (screen, is_smooth) in [(&shown.under, true), (&shown.screen, !is_exact)] {
+    let under = shown.under.as_ref().filter(|_| !has_samples(shown));
+    for (screen, is_smooth) in [(under, true), (shown.screen.as_ref(), !is_exact)] {
         if let Some(screen) = screen {
             let id = desk.textures.id(screen, is_smooth);
             painter.image(id, region, WHOLE, Color32::WHITE);

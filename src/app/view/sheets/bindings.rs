@@ -3,7 +3,7 @@
 use super::super::bindings::{Action, Category, Manner, Mods, Preset, Trigger, zooms};
 use super::super::session::Session;
 use eframe::egui::{
-    self, Align, Button, Event, Key, Label, Layout, Pos2, Rect, RichText, TextEdit, Ui, vec2,
+    self, Align, Button, Event, Key, Label, Layout, Pos2, Rect, RichText, TextEdit, Ui, Vec2, vec2,
 };
 
 /// What is being done in the sheet.
@@ -61,6 +61,10 @@ pub fn rebind(
     }
     bindings.set(action, triggers)
 }
+
+/// A small button of a row, and what is between two, in points.
+const SMALL: Vec2 = vec2(24.0, 18.0);
+const GAP: f32 = 4.0;
 
 /// Draws it. Whether it stays.
 pub fn show(ctx: &egui::Context, session: &mut Session) -> bool {
@@ -158,16 +162,14 @@ fn matches(session: &Session, action: Action, search: &str) -> bool {
 fn row(ui: &mut Ui, session: &mut Session, action: Action) {
     let what = action.description();
     ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.spacing_mut().item_spacing.x = GAP;
+        // A row that is wider than there is room for would make all those below wider.
         let width = ui.available_width();
-        ui.allocate_ui_with_layout(
-            vec2(width * 0.58, ui.spacing().interact_size.y),
-            Layout::left_to_right(Align::Center),
-            |ui| {
-                ui.set_min_width(width * 0.58);
-                ui.add(Label::new(what).truncate());
-            },
-        );
+        let size = vec2(width * 0.58, ui.spacing().interact_size.y);
+        let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+        let place = egui::UiBuilder::new().max_rect(rect);
+        let mut ui_of_text = ui.new_child(place.layout(Layout::left_to_right(Align::Center)));
+        ui_of_text.add(Label::new(what).truncate());
         let capture = session.sheets.bindings.capture;
         if let Some(capture) = capture.filter(|capture| capture.action == action) {
             awaiting(ui, session, capture);
@@ -186,7 +188,7 @@ fn row(ui: &mut Ui, session: &mut Session, action: Action) {
             place: None,
             is_ready: false,
         };
-        let width = (ui.available_width() - 72.0).max(40.0);
+        let width = (ui.available_width() - 3.0 * (SMALL.x + GAP)).max(40.0);
         let button = Button::new(text).truncate().min_size(vec2(width, 0.0));
         let hover = match label.is_empty() {
             true => "Bind it".to_owned(),
@@ -197,7 +199,11 @@ fn row(ui: &mut Ui, session: &mut Session, action: Action) {
             session.sheets.bindings.capture = Some(begin(false));
             session.sheets.bindings.refusal = None;
         }
-        let more = ui.small_button("+");
+        let small = |ui: &mut Ui, is_on, text| {
+            let add = |ui: &mut Ui| ui.add_sized(SMALL, Button::new(text).small());
+            ui.add_enabled_ui(is_on, add).inner
+        };
+        let more = small(ui, true, "+");
         if named(more, "Add to", what)
             .on_hover_text("One more way to give it")
             .clicked()
@@ -205,7 +211,7 @@ fn row(ui: &mut Ui, session: &mut Session, action: Action) {
             session.sheets.bindings.capture = Some(begin(true));
             session.sheets.bindings.refusal = None;
         }
-        let none = ui.add_enabled(!label.is_empty(), Button::new("×").small());
+        let none = small(ui, !label.is_empty(), "×");
         if named(none, "Unbind", what)
             .on_hover_text("Bind it to nothing")
             .clicked()
@@ -213,7 +219,7 @@ fn row(ui: &mut Ui, session: &mut Session, action: Action) {
             // Nothing suits every command.
             let _ = session.preferences.bindings.set(action, Vec::new());
         }
-        let reset = ui.add_enabled(is_changed, Button::new("↺").small());
+        let reset = small(ui, is_changed, "↺");
         if named(reset, "Reset", what)
             .on_hover_text("As the preset has it")
             .clicked()
