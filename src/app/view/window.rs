@@ -1,17 +1,21 @@
 //! The window of the operating system: opened with our device, and opened again when that is lost.
 
+mod events;
+
 use super::super::exit::AppError;
 use super::super::{console, scene_file};
 use super::preferences::Preferences;
 use super::session::Session;
 use super::sheets;
 use super::viewer::Viewer;
-use crate::gpu::{self, AdapterChoice, Gpu, GpuError};
+use crate::gpu::{AdapterChoice, Gpu, GpuError};
+use eframe::UserEvent;
 use eframe::egui;
 use eframe::egui_wgpu::{RendererOptions, WgpuConfiguration, WgpuSetup, WgpuSetupExisting};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::time::{Duration, Instant};
+use winit::event_loop::EventLoop;
 
 /// How often a lost device is replaced within this time before the window stays closed.
 const MAX_LOSSES: usize = 3;
@@ -21,11 +25,13 @@ const RECENT: Duration = Duration::from_secs(600);
 pub fn run(session: Session, choice: &AdapterChoice) -> Result<(), AppError> {
     check_display()?;
     let session = Rc::new(RefCell::new(session));
+    let events = EventLoop::with_user_event().build();
+    let mut events = events.map_err(|error| no_display(&error.to_string()))?;
     let mut losses = Vec::new();
     loop {
         let shown = Gpu::with_all_limits(choice)
             .map_err(AppError::from)
-            .and_then(|gpu| show(&session, &gpu));
+            .and_then(|gpu| show(&mut events, &session, &gpu));
         if let Err(error) = shown {
             return Err(rescued(&session.borrow(), error));
         }
@@ -63,20 +69,6 @@ fn rescued(session: &Session, error: AppError) -> AppError {
     error
 }
 
-/// Shows the session until the window is closed or the device is lost.
-fn show(session: &Rc<RefCell<Session>>, gpu: &Gpu) -> Result<(), AppError> {
-    let mut has_opened = open(session, gpu)?;
-    // A loss in the middle of drawing leaves winit (0.30) as if it were running: what comes next ends at
-    // once, and only then can a window be opened.
-    if !has_opened {
-        has_opened = open(session, gpu)?;
-    }
-    match has_opened {
-        true => Ok(()),
-        false => Err(no_display("the desktop gave none")),
-    }
-}
-
 /// How eframe draws with our device.
 pub fn configuration(gpu: &Gpu) -> WgpuConfiguration {
     let (instance, adapter, device, queue) = gpu.handles();
@@ -100,8 +92,12 @@ pub const OPTIONS: RendererOptions = RendererOptions {
 /// Width and height of the window at first, in points.
 const SIZE: [f32; 2] = [1280.0, 800.0];
 
-/// Whether there was a window; it is closed by now.
-fn open(session: &Rc<RefCell<Session>>, gpu: &Gpu) -> Result<bool, AppError> {
+/// Shows the session until the window is closed or the device is lost.
+fn show(
+    events: &mut EventLoop<UserEvent>,
+    session: &Rc<RefCell<Session>>,
+    gpu: &Gpu,
+) -> Result<(), AppError> {
     let options = eframe::NativeOptions {
         viewport: place(&session.borrow().preferences)
             .with_title("glimray")
@@ -112,25 +108,26 @@ fn open(session: &Rc<RefCell<Session>>, gpu: &Gpu) -> Result<bool, AppError> {
         dithering: false,
         ..Default::default()
     };
-    let has_opened = Rc::new(Cell::new(false));
+    // eframe keeps what becomes of this to itself.
+    let opened = Rc::new(Cell::new(Err("the desktop gave none".to_owned())));
     let creator = {
-        let (session, gpu, has_opened) = (session.clone(), gpu.clone(), has_opened.clone());
+        let (session, gpu, opened) = (session.clone(), gpu.clone(), opened.clone());
         move |context: &eframe::CreationContext| {
-            has_opened.set(true);
             bring_in(context);
-            let viewer = Viewer::new(context, gpu, session)?;
-            Ok(Box::new(viewer) as Box<dyn eframe::App>)
+            let viewer = Viewer::new(context, gpu, session);
+            let outcome = viewer.as_ref().map(|_| ()).map_err(ToString::to_string);
+            opened.set(outcome);
+            Ok(Box::new(viewer?) as Box<dyn eframe::App>)
         }
     };
-    let closed = gpu::surviving_loss(gpu, || {
-        eframe::run_native("glimray", options, Box::new(creator))
-    });
+    let app = eframe::create_native("glimray", options, Box::new(creator), events);
+    let is_lost = events::run(events, app, gpu).map_err(|error| no_display(&error.to_string()))?;
     sheets::write(&mut session.borrow_mut());
-    match closed {
-        Ok(closed) => closed.map_err(|error| no_display(&error.to_string()))?,
-        Err(_) => session.borrow_mut().lost_device(),
+    if is_lost {
+        session.borrow_mut().lost_device();
+        return Ok(());
     }
-    Ok(has_opened.get())
+    opened.replace(Ok(())).map_err(|why| no_display(&why))
 }
 
 /// A window where it was last.

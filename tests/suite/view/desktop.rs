@@ -289,7 +289,6 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
 }
 
 #[test]
-#[ignore = "passes alone; on a busy machine the window once did not come back, and it is not known why"]
 fn a_lost_device_is_replaced_while_the_window_is_open() {
     let Some(desktop) = Desktop::start() else {
         return;

@@ -1,0 +1,102 @@
+//! What the window system says, handed to eframe piece by piece: a device that is lost in the middle of a
+//! frame costs that window and not the program.
+
+use crate::gpu::{self, Gpu, GpuError};
+use eframe::{EframeWinitApplication, UserEvent};
+use winit::application::ApplicationHandler;
+use winit::error::EventLoopError;
+use winit::event::{DeviceEvent, DeviceId, StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, EventLoop};
+use winit::platform::run_on_demand::EventLoopExtRunOnDemand;
+use winit::window::WindowId;
+
+/// Runs `app`, which draws with `gpu`, until its window is closed.
+///
+/// # Errors
+/// The window system failed.
+///
+/// # Returns
+/// Whether the device was lost meanwhile and eframe stumbled over it.
+pub fn run(
+    events: &mut EventLoop<UserEvent>,
+    app: EframeWinitApplication,
+    gpu: &Gpu,
+) -> Result<bool, EventLoopError> {
+    let mut guarded = Guarded {
+        app,
+        gpu,
+        is_lost: false,
+    };
+    events.run_app_on_demand(&mut guarded)?;
+    let Guarded { app, is_lost, .. } = guarded;
+    // What a frame has left half done may panic again when it is put away: not within the first panic, which
+    // would end the program.
+    let put_away = gpu::surviving_loss(gpu, || drop(app));
+    Ok(is_lost || matches!(put_away, Err(GpuError::Lost)))
+}
+
+/// eframe, which gets no more events once it has panicked over a lost device.
+struct Guarded<'a> {
+    app: EframeWinitApplication<'a>,
+    gpu: &'a Gpu,
+    is_lost: bool,
+}
+
+impl<'a> Guarded<'a> {
+    fn hand(
+        &mut self,
+        events: &ActiveEventLoop,
+        act: impl FnOnce(&mut EframeWinitApplication<'a>, &ActiveEventLoop),
+    ) {
+        if self.is_lost {
+            return;
+        }
+        let app = &mut self.app;
+        if gpu::surviving_loss(self.gpu, || act(app, events)).is_err() {
+            self.is_lost = true;
+            events.exit();
+        }
+    }
+}
+
+impl ApplicationHandler<UserEvent> for Guarded<'_> {
+    fn new_events(&mut self, events: &ActiveEventLoop, cause: StartCause) {
+        self.hand(events, |app, events| app.new_events(events, cause));
+    }
+
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        self.hand(events, |app, events| app.resumed(events));
+    }
+
+    fn user_event(&mut self, events: &ActiveEventLoop, event: UserEvent) {
+        self.hand(events, |app, events| app.user_event(events, event));
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, window: WindowId, event: WindowEvent) {
+        self.hand(events, |app, events| {
+            app.window_event(events, window, event)
+        });
+    }
+
+    fn device_event(&mut self, events: &ActiveEventLoop, device: DeviceId, event: DeviceEvent) {
+        self.hand(events, |app, events| {
+            app.device_event(events, device, event)
+        });
+    }
+
+    fn about_to_wait(&mut self, events: &ActiveEventLoop) {
+        self.hand(events, |app, events| app.about_to_wait(events));
+    }
+
+    fn suspended(&mut self, events: &ActiveEventLoop) {
+        self.hand(events, |app, events| app.suspended(events));
+    }
+
+    fn exiting(&mut self, events: &ActiveEventLoop) {
+        self.hand(events, |app, events| app.exiting(events));
+    }
+
+    fn memory_warning(&mut self, events: &ActiveEventLoop) {
+        self.hand(events, |app, events| app.memory_warning(events));
+    }
+}
