@@ -26,7 +26,7 @@ pub fn run(session: Session, choice: &AdapterChoice) -> Result<(), AppError> {
     check_display()?;
     let session = Rc::new(RefCell::new(session));
     let events = EventLoop::with_user_event().build();
-    let mut events = events.map_err(|error| no_display(&error.to_string()))?;
+    let mut events = events.map_err(|error| no_display(reason(&error.to_string())))?;
     let mut losses = Vec::new();
     loop {
         let shown = Gpu::with_all_limits(choice)
@@ -121,7 +121,8 @@ fn show(
         }
     };
     let app = eframe::create_native("glimray", options, Box::new(creator), events);
-    let is_lost = events::run(events, app, gpu).map_err(|error| no_display(&error.to_string()))?;
+    let is_lost =
+        events::run(events, app, gpu).map_err(|error| no_display(reason(&error.to_string())))?;
     sheets::write(&mut session.borrow_mut());
     if is_lost {
         session.borrow_mut().lost_device();
@@ -180,6 +181,11 @@ pub fn has_display() -> bool {
         || ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"]
             .into_iter()
             .any(is_set)
+}
+
+/// What winit says without the places in its source that it says it from.
+fn reason(words: &str) -> &str {
+    words.rsplit(": ").next().unwrap_or(words)
 }
 
 fn no_display(why: &str) -> AppError {

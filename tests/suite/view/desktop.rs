@@ -3,6 +3,7 @@
 
 mod drag_source;
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -35,11 +36,12 @@ impl Desktop {
         }
         let folder = tempfile::tempdir().expect("a folder");
         let number = folder.path().join("display");
+        // With `-noreset`: else it refuses connections for a moment whenever the last one is closed.
         let screen = format!("{}x{}x24", SCREEN.0, SCREEN.1);
         let server = Command::new("sh")
             .arg("-c")
             .arg(format!(
-                "exec Xvfb -displayfd 3 -screen 0 {screen} -nolisten tcp 3>{}",
+                "exec Xvfb -displayfd 3 -screen 0 {screen} -nolisten tcp -noreset 3>{}",
                 number.display()
             ))
             .stdout(Stdio::null())
@@ -146,7 +148,10 @@ impl Opened<'_> {
         let before = self.id.clone();
         self.id = wait_for("the window", || {
             if let Ok(Some(status)) = self.program.try_wait() {
-                panic!("the program ended: {status}");
+                let mut said = String::new();
+                let stderr = self.program.stderr.take();
+                let _ = stderr.map(|mut stderr| stderr.read_to_string(&mut said));
+                panic!("the program ended: {status}, {said}");
             }
             let found = self
                 .desktop

@@ -98,7 +98,7 @@ macro_rules! actions {
 actions! {
     Camera {
         Orbit "orbit" Motion "Go round the pivot",
-        Pan "pan" Motion "Shift the camera; what is as far as the pivot follows the cursor",
+        Pan "pan" Motion "Shift the camera; the pivot stays under the hand",
         Zoom "zoom" Motion "Come nearer or go away",
         ZoomToCursor "zoom-to-cursor" Motion "Come nearer to what is under the cursor, or go away from it",
         LookAround "look-around" Motion "Turn the camera where it is",

@@ -189,12 +189,12 @@ fn row(ui: &mut Ui, session: &mut Session, action: Action) {
             is_ready: false,
         };
         let width = (ui.available_width() - 3.0 * (SMALL.x + GAP)).max(40.0);
-        let button = Button::new(text).truncate().min_size(vec2(width, 0.0));
+        let button = Button::new(text).truncate();
         let hover = match label.is_empty() {
             true => "Bind it".to_owned(),
             false => format!("{label}: change it"),
         };
-        let place = ui.allocate_ui(vec2(width, 0.0), |ui| ui.add(button)).inner;
+        let place = ui.add_sized(vec2(width, SMALL.y), button);
         if named(place, "Change", what).on_hover_text(hover).clicked() {
             session.sheets.bindings.capture = Some(begin(false));
             session.sheets.bindings.refusal = None;
