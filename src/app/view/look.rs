@@ -4,7 +4,7 @@ use super::playback::Playback;
 use super::region::Grip;
 use super::session::Session;
 use crate::render::{Antialias, Integrator, Settings, Tone};
-use crate::scene::{Background, OutputDefaults, ToneCurve, Transfer};
+use crate::scene::{Background, OutputDefaults};
 
 /// Most samples of a pixel.
 pub const MAX_SAMPLES: u32 = 65_536;
@@ -137,12 +137,7 @@ impl Look {
     pub fn tone_of(&self, integrator: Integrator) -> Tone {
         match integrator {
             Integrator::Whitted => self.tone,
-            _ => Tone {
-                exposure_ev: 0.0,
-                curve: ToneCurve::None,
-                transfer: Transfer::Linear,
-                background: None,
-            },
+            _ => Tone::LINEAR,
         }
     }
 

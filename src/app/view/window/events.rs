@@ -10,13 +10,11 @@ use winit::event_loop::{ActiveEventLoop, EventLoop};
 use winit::platform::run_on_demand::EventLoopExtRunOnDemand;
 use winit::window::WindowId;
 
-/// Runs `app`, which draws with `gpu`, until its window is closed.
+/// Runs `app`, which draws with `gpu`, until its window is closed. Returns whether the device was lost
+/// meanwhile and eframe stumbled over it.
 ///
 /// # Errors
 /// The window system failed.
-///
-/// # Returns
-/// Whether the device was lost meanwhile and eframe stumbled over it.
 pub fn run(
     events: &mut EventLoop<UserEvent>,
     app: EframeWinitApplication,
