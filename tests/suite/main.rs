@@ -5,6 +5,7 @@ mod animate;
 mod backgrounds;
 mod bvh;
 mod cli;
+mod closed_mirrors;
 mod drivers;
 mod explain;
 mod export;

@@ -3,6 +3,7 @@
 use crate::support::{
     harness::gpu,
     random::Random,
+    types::ray,
     verdict::{Tolerance, Verdict, ulp},
 };
 use glam::DVec3;
@@ -167,4 +168,95 @@ fn offsets_follow_the_normal_to_the_side_of_the_ray() {
         ("a slanted normal adds the errors up", (o, error, [0.6, 0.0, 0.8], [1.0, 0.0, 0.0]), [0.6 * 3.8e-3, 0.0, 0.8 * 3.8e-3]),
         ("without error a point at the origin stays", (o, [0.0; 3], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0]), [0.0; 3]),
     ]);
+}
+
+#[test]
+fn a_mirrored_ray_starts_on_the_way_of_the_one_before() {
+    let error = [0f32, 1e-3, 0.0];
+    let (up, o) = ([0f32, 1.0, 0.0], [0f32; 3]);
+    let slanted = |length: f32| ray([-0.6 * length, 0.8 * length, 0.0], [0.6, -0.8, 0.0]);
+    const RETREAT: &str = "
+        import package::types::Ray;
+        import package::lib::offset::retreat;
+        fn probe(error: vec3f, ng: vec3f, arriving: Ray, distance: f32, is_flat: bool) -> vec3f {
+            return retreat(vec3f(0.0), error, ng, arriving, distance, is_flat);
+        }
+    ";
+    let down = [0f32, -1.0, 0.0];
+    #[rustfmt::skip]
+    let rows = [
+        ("head on, straight back by the error", (error, up, ray(up, down), 1f32, true), [0.0, 1e-3, 0.0]),
+        ("the sign of the normal does not matter", (error, down, ray(up, down), 1.0, true), [0.0, 1e-3, 0.0]),
+        ("aslant, to the same height", (error, up, slanted(1.0), 1.0, true), [-0.75e-3, 1e-3, 0.0]),
+        ("from too near a flat surface, where the other ray started", (error, up, slanted(2e-3), 2e-3, true), [-1.2e-3, 1.6e-3, 0.0]),
+        ("from too near a curved surface, along the normal", (error, up, slanted(2e-3), 2e-3, false), [0.0, 1e-3, 0.0]),
+        ("without error it starts where the other ends", (o, up, slanted(1.0), 1.0, true), [0.0; 3]),
+    ];
+    let inputs: Vec<_> = rows.iter().map(|row| row.1).collect();
+    let origins: Vec<[f32; 3]> = gpu().map_source(RETREAT, &inputs);
+    let mut verdict = Verdict::on("retreat");
+    for ((name, _, expected), got) in rows.iter().zip(&origins) {
+        verdict.near(name, got, expected, Tolerance::Absolute(1e-9));
+    }
+    verdict.close();
+}
+
+/// Two triangles that meet at a sharp edge; a ray from between them is mirrored close to it.
+#[test]
+fn a_mirrored_ray_starts_between_the_two_faces_of_a_sharp_edge() {
+    const MIRROR: &str = "
+        import package::types::{NONE, NO_INSTANCE, Ray};
+        import package::lib::numeric::normalize_or;
+        import package::lib::offset::{retreat, triangle_error};
+        fn probe(v0: vec3f, v1: vec3f, v2: vec3f, weights: vec2f, origin: vec3f) -> vec3f {
+            let p = (1.0 - weights.x - weights.y) * v0 + weights.x * v1 + weights.y * v2;
+            let ng = normalize_or(cross(v1 - v0, v2 - v0), v0);
+            let direction = normalize(p - origin);
+            let arriving = Ray(origin, 3e38, direction, NONE, NO_INSTANCE);
+            let error = triangle_error(v0, v1, v2, weights.x, weights.y);
+            return retreat(p, error, ng, arriving, length(p - origin), true);
+        }
+    ";
+    let mut random = Random::new(18);
+    let mut rows = Vec::new();
+    let mut others = Vec::new();
+    for _ in 0..50_000 {
+        let scale = 10f64.powf(random.between(-6.0, 6.0));
+        let place = scale * random.in_cube();
+        let (x, aside) = (random.direction(), random.direction());
+        let y = x.cross(aside).normalize();
+        let z = x.cross(y);
+        let angle = random.between(0.01, 1.5);
+        let single = |v: DVec3| (place + scale * v).as_vec3();
+        let [v0, v1, v2] = [-x, x, y].map(single);
+        let other = single(angle.cos() * y + angle.sin() * z);
+        let (turn, far) = (angle * random.between(0.2, 0.8), random.between(0.1, 0.5));
+        let origin =
+            single(far * (turn.cos() * y + turn.sin() * z) + random.between(-0.2, 0.2) * x);
+        let from_edge = 10f64.powf(random.between(-7.0, -2.0)) as f32;
+        rows.push((
+            v0.to_array(),
+            v1.to_array(),
+            v2.to_array(),
+            [random.between(0.3, 0.6) as f32, from_edge],
+            origin.to_array(),
+        ));
+        others.push(other.as_dvec3());
+    }
+    let origins: Vec<[f32; 3]> = gpu().map_source(MIRROR, &rows);
+    let mut verdict = Verdict::on("rays mirrored in an edge");
+    for ((row, other), got) in rows.iter().zip(&others).zip(&origins) {
+        let [a, b, c, from, got] =
+            [row.0, row.1, row.2, row.4, *got].map(|v| DVec3::from(v.map(f64::from)));
+        let largest = a.abs().max(b.abs()).max(c.abs()).max_element();
+        for (face, corner) in [("its own", c), ("the other", *other)] {
+            let n = (b - a).cross(corner - a).normalize();
+            let side = n.dot(from - a).signum();
+            let clearance = side * n.dot(got - a) / ulp(largest);
+            verdict.that(format!("{face} face, {row:?}"), clearance > -4.0, || {
+                format!("{clearance} ulp inside")
+            });
+        }
+    }
+    verdict.close();
 }

@@ -1,0 +1,112 @@
+//! Closed bodies that mirror everything, seen from inside: no ray ever gets out.
+
+use crate::reference::compare::{render, sized};
+use crate::reference::scenes::{self, Build};
+use crate::support::verdict::Verdict;
+use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
+use glimray::render::Settings;
+use glimray::scene::{Form, Geometry, Material, Mesh, Scene, Shape};
+
+/// Sharp edges in all directions.
+fn tetrahedron() -> Mesh {
+    let corners = [
+        vec3(1.0, 1.0, 1.0),
+        vec3(1.0, -1.0, -1.0),
+        vec3(-1.0, 1.0, -1.0),
+        vec3(-1.0, -1.0, 1.0),
+    ];
+    let mut mesh = Mesh::default();
+    for face in [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]] {
+        let [a, b, c] = face.map(|i: usize| corners[i]);
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend([a, b, c]);
+        mesh.normals.extend([(b - a).cross(c - a).normalize(); 3]);
+        mesh.materials.extend([0; 3]);
+        mesh.triangles.push([first, first + 1, first + 2]);
+    }
+    mesh
+}
+
+/// A ball with spikes and interpolated normals, which mirror rays deep into its corners.
+fn spiky() -> Mesh {
+    let mut mesh = scenes::ball(UVec2::new(24, 12), 0);
+    for position in &mut mesh.positions {
+        // The same for all vertices of one place.
+        let place = (*position * 1e3).round().as_ivec3();
+        let odd = (place.x + 3 * place.y + 5 * place.z).rem_euclid(2);
+        *position *= if odd == 1 { 2.2 } else { 1.0 };
+    }
+    mesh.normals.clear();
+    mesh.repair();
+    mesh
+}
+
+/// Looks from inside, all round but for what is behind.
+fn mirrors(look_from: DVec3) -> Scene {
+    let mut scene = scenes::empty();
+    let camera = &mut scene.cameras[0];
+    camera.look_from = look_from;
+    camera.look_at = look_from + dvec3(1.0, 0.01, 0.02);
+    camera.fov_y = 2.4;
+    scene.materials[0] = Material {
+        diffuse: Vec3::ZERO,
+        ambient: Vec3::ZERO,
+        reflect: Vec3::ONE,
+        ..Material::default()
+    };
+    scene
+}
+
+#[test]
+fn no_mirrored_ray_gets_out_of_a_closed_body() {
+    let inside = dvec3(0.1, 0.1, 0.1);
+    let with_mesh = |mesh: Mesh, scale: f64| {
+        let mut scene = mirrors(scale * inside);
+        scene.add_mesh(mesh, DAffine3::from_scale(DVec3::splat(scale)));
+        scene
+    };
+    let with_form = |form: Form| {
+        let mut scene = mirrors(inside);
+        scene.shapes.push(Shape {
+            geometry: Geometry::Placed {
+                form,
+                world_from_form: DAffine3::IDENTITY,
+            },
+            material: 0,
+            node: None,
+        });
+        scene
+    };
+    let cone = Form::Cone {
+        bottom: 1.0,
+        top: 0.0,
+        capped: true,
+    };
+    let mut verdict = Verdict::on("closed mirrors");
+    for (name, scene) in [
+        ("tetrahedron", with_mesh(tetrahedron(), 1.0)),
+        ("large tetrahedron", with_mesh(tetrahedron(), 1e4)),
+        ("spiky ball", with_mesh(spiky(), 1.0)),
+        ("box", with_form(Form::Box)),
+        ("cone", with_form(cone)),
+    ] {
+        let settings = Settings {
+            max_depth: 200,
+            count_rays: true,
+            ..sized(128, 96)
+        };
+        let (_, stats) = render(&scene, &settings);
+        let rays = stats.rays.expect("counts");
+        let seen = format!("{rays:?}");
+        verdict.that(
+            format!("{name}: all rays are mirrored to the end"),
+            { rays.primary_hits == 128 * 96 && rays.reflection == 200 * rays.primary },
+            || seen.clone(),
+        );
+        let escaped = rays.reflection - rays.reflection_hits;
+        verdict.that(format!("{name}: no ray escapes"), escaped == 0, || {
+            format!("{escaped} do, of {seen}")
+        });
+    }
+    verdict.close();
+}
