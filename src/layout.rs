@@ -62,19 +62,20 @@ packed! {
         material: u32,
     }
     /// An analytic shape; `kind` says what its sizes mean. All but spheres and planes are canonical
-    /// surfaces in a space of their own, into which the rows lead.
+    /// surfaces in a space of their own, into which the rows lead. A globe is a huge sphere nearby.
     PackedShape {
-        /// Sphere: its centre. Plane: a point on it. Others: their space's origin. In render space.
+        /// Sphere: its centre. Globe: its point nearest to the origin. Plane: a point on it. Others:
+        /// their space's origin. In render space.
         position: [f32; 3],
         /// [`SHAPE_SPHERE`], [`SHAPE_PLANE`] and so on.
         kind: u32,
         /// What a point less `position` is multiplied by for its x in the shape's space. Plane: what a
         /// point is multiplied by for u, to which `size0` is added.
         row_x: [f32; 3],
-        /// Sphere: radius. Disc: radius of its hole. Cone: radius at the bottom. Torus: small radius.
-        /// The larger radius of a cone is 1.
+        /// Sphere: radius. Globe: reciprocal of the radius. Disc: radius of its hole. Cone: radius at
+        /// the bottom, the larger one is 1. Torus: small radius.
         size0: f32,
-        /// The same for y. Plane: its unit normal.
+        /// The same for y. Plane: its unit normal. Globe: that at `position`.
         row_y: [f32; 3],
         /// Cone: radius at the top.
         size1: f32,

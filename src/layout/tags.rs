@@ -50,6 +50,9 @@ pub const SHAPE_CONE: u32 = 5;
 pub const SHAPE_TORUS: u32 = 6;
 /// [`super::PackedShape::kind`]: [`crate::scene::Form::Ellipsoid`].
 pub const SHAPE_ELLIPSOID: u32 = 7;
+/// [`super::PackedShape::kind`]: a sphere that is huge compared to its distance from the origin of
+/// render space.
+pub const SHAPE_GLOBE: u32 = 8;
 /// Bit of [`super::PackedShape::flags`]: a cone has both of its caps.
 pub const SHAPE_CAPPED: u32 = 1;
 

@@ -10,7 +10,7 @@ use crate::{
     bvh::Aabb,
     layout::{
         PackedShape, PackedTriangle, PackedVertex, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC,
-        SHAPE_ELLIPSOID, SHAPE_PLANE, SHAPE_RECTANGLE, SHAPE_SPHERE, SHAPE_TORUS,
+        SHAPE_ELLIPSOID, SHAPE_GLOBE, SHAPE_PLANE, SHAPE_RECTANGLE, SHAPE_SPHERE, SHAPE_TORUS,
     },
     scene::{Form, Frame, Geometry, Mesh, Scene},
 };
@@ -18,6 +18,10 @@ use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// Beyond this, squares of coordinates leave the range of f32.
 const COORDINATE_LIMIT: f64 = 1e15;
+
+/// A sphere with a radius of more than so many times its distance from the camera is packed as a globe:
+/// with a centre and a radius in f32, its surface would be off by a visible part of that distance.
+const GLOBE_RATIO: f64 = 16.0;
 
 /// Geometry in scene order.
 #[derive(Default)]
@@ -55,12 +59,12 @@ impl Flat {
                 None => shape.geometry,
                 Some(_) => shape.geometry.placed(world_from(rest, shape.node)),
             };
-            flat.add_shape(&geometry, shape.material, id, origin)?;
+            flat.add_shape(&geometry, shape.material, id, Some(origin))?;
         }
         for &index in &plan.still_lamps {
             let (material, id) = light::material_and_id(scene, index);
             if let Some(surface) = light::surface(&rest.lights[index].kind) {
-                flat.add_shape(&surface, material, id, origin)?;
+                flat.add_shape(&surface, material, id, Some(origin))?;
             }
         }
         Ok(flat)
@@ -79,13 +83,15 @@ impl Flat {
         )
     }
 
+    /// Adds a shape in render space, which has its origin at `camera`, or in a space of its own.
     pub fn add_shape(
         &mut self,
         geometry: &Geometry,
         material: usize,
         id: usize,
-        origin: DVec3,
+        camera: Option<DVec3>,
     ) -> Result<(), PackError> {
+        let origin = camera.unwrap_or(DVec3::ZERO);
         let mut packed = PackedShape {
             material: material as u32,
             id: id as u32,
@@ -94,9 +100,20 @@ impl Flat {
         match *geometry {
             Geometry::Sphere { center, radius } => {
                 in_range(radius)?;
-                packed.kind = SHAPE_SPHERE;
-                packed.position = render_point(center, origin)?.into();
-                packed.size0 = radius as f32;
+                let center_from_origin = center - origin;
+                let height = center_from_origin.length() - radius;
+                if camera.is_some() && radius > GLOBE_RATIO * height.abs() {
+                    let normal = -center_from_origin.normalize();
+                    in_range(center_from_origin.abs().max_element())?;
+                    packed.kind = SHAPE_GLOBE;
+                    packed.position = (-height * normal).as_vec3().into();
+                    packed.row_y = normal.as_vec3().into();
+                    packed.size0 = radius.recip() as f32;
+                } else {
+                    packed.kind = SHAPE_SPHERE;
+                    packed.position = render_point(center, origin)?.into();
+                    packed.size0 = radius as f32;
+                }
             }
             Geometry::Plane { point, normal } => {
                 // The foot of the perpendicular from the origin is the point f32 keeps best.

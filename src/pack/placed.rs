@@ -152,7 +152,7 @@ impl Plan {
         }
         let mut add_shape = |geometry: &Geometry, material, id, carrier| {
             let start = flat.mark();
-            flat.add_shape(geometry, material, id, DVec3::ZERO)?;
+            flat.add_shape(geometry, material, id, None)?;
             trees.push(PlacedTree {
                 tree: flat.plant_from(start, forest),
                 shape: Some(*geometry),

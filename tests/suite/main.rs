@@ -41,6 +41,7 @@ mod shader_colormap;
 mod shader_filter;
 mod shader_forms;
 mod shader_fresnel;
+mod shader_globe;
 mod shader_light;
 mod shader_media;
 mod shader_motion;
