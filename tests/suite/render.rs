@@ -6,6 +6,7 @@ use crate::reference::compare::{
 };
 use crate::reference::scenes::{self, Build, Random};
 use crate::reference::trace;
+use crate::support::skip::{Need, skip};
 use glam::{DAffine3, DVec3, Vec3, dvec3, vec3};
 use glimray::gpu::GpuError;
 use glimray::image::Image;
@@ -507,7 +508,10 @@ fn brute_force_over_more_triangles_than_the_drivers_loop_limit_is_refused() {
         Err(error @ RenderError::PathTooLong) => assert_eq!(error.exit_code(), 7),
         Err(error) => panic!("{error}"),
         Ok(_) if open_gpu().is_cpu() => panic!("the driver's limit was not noticed"),
-        Ok(_) => println!("skipped: this adapter has no limit of loop rounds"),
+        Ok(_) => skip(
+            Need::LoopLimit,
+            "this adapter does not limit the rounds of loops",
+        ),
     }
 }
 

@@ -3,7 +3,12 @@
 
 pub mod harness;
 pub mod random;
+pub mod skip;
 pub mod statistics;
 pub mod types;
 pub mod verdict;
 pub mod words;
+
+/// How long tests wait for what must come. No test measures by it: it turns a hang into a failure,
+/// on machines that have other things to do.
+pub const PATIENCE: std::time::Duration = std::time::Duration::from_secs(300);

@@ -3,6 +3,8 @@
 
 mod drag_source;
 
+use crate::support::PATIENCE;
+use crate::support::skip::{Need, skip};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -11,8 +13,6 @@ use tempfile::TempDir;
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{ConnectionExt as _, ImageFormat};
 
-/// How long anything may take, on a machine that has other things to do.
-const PATIENCE: Duration = Duration::from_secs(120);
 const SCREEN: (u16, u16) = (1300, 820);
 
 /// An X server of our own.
@@ -30,7 +30,8 @@ impl Desktop {
         };
         for (tool, package) in [("Xvfb", "xvfb"), ("xdotool", "xdotool")] {
             if !is_there(tool) {
-                eprintln!("skipped: there is no {tool}. Install the package {package}.");
+                let why = format!("there is no {tool}. Install the package {package}.");
+                skip(Need::Xvfb, why);
                 return None;
             }
         }
@@ -67,13 +68,22 @@ impl Desktop {
         String::from_utf8_lossy(&output.stdout).trim().to_owned()
     }
 
-    /// With the left button, and with time for each event to become a frame.
+    /// With the left button and a stop on the way, from where on the picture follows: it is another
+    /// one at each stop before the mouse goes on.
     fn drag(&self, from: [i32; 2], to: [i32; 2]) {
-        let middle = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2];
-        let [from, middle, to] = [from, middle, to].map(|[x, y]| format!("mousemove {x} {y}"));
-        let words =
-            format!("{from} mousedown 1 sleep 0.5 {middle} sleep 0.5 {to} sleep 0.5 mouseup 1");
-        self.xdotool(&words.split(' ').collect::<Vec<_>>());
+        let go = |[x, y]: [i32; 2], then: &[&str]| {
+            let (x, y) = (x.to_string(), y.to_string());
+            self.xdotool(&[&["mousemove", &x, &y], then].concat());
+        };
+        go(from, &["mousedown", "1"]);
+        for stop in [[(from[0] + to[0]) / 2, (from[1] + to[1]) / 2], to] {
+            let before = self.screenshot(SPOT);
+            go(stop, &[]);
+            wait_for("a picture that follows the mouse", || {
+                differ(&before, &self.screenshot(SPOT)).then_some(())
+            });
+        }
+        self.xdotool(&["mouseup", "1"]);
     }
 
     /// The pixels of a rectangle of the screen: x, y, width, height.
@@ -243,10 +253,9 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
         "a drag leaves the picture as it is"
     );
     opened.key("Home");
-    assert!(
-        !differ(&first, &desktop.calm(INSIDE)),
-        "Home does not lead back"
-    );
+    wait_for("the picture that Home leads back to", || {
+        (!differ(&first, &desktop.screenshot(INSIDE))).then_some(())
+    });
 
     let dropped = scene("sphere.scene");
     let target = opened.id.parse().expect("the window's number");
