@@ -1,5 +1,6 @@
 //! A window without a screen: egui_kittest with our device.
 
+use crate::support::PATIENCE;
 use eframe::egui;
 use egui_kittest::Harness;
 use glimray::app::view;
@@ -19,9 +20,6 @@ use std::rc::Rc;
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-
-/// Longest wait for anything, on a machine that has other things to do.
-const PATIENCE: Duration = Duration::from_secs(120);
 
 /// An open window.
 pub struct Window {
