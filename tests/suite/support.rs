@@ -1,6 +1,7 @@
 //! What several subjects need: shader functions run on the GPU, verdicts that name every failure,
 //! random numbers that are the same in every run, and how much work something is.
 
+pub mod devices;
 pub mod effort;
 pub mod harness;
 pub mod random;

@@ -1,5 +1,6 @@
 //! Rendering a picture in a test, and holding two pictures against each other.
 
+use crate::support::devices::Devices;
 use glimray::gpu::{AdapterChoice, Gpu};
 use glimray::image::Image;
 use glimray::pack;
@@ -10,7 +11,8 @@ use std::sync::Arc;
 
 /// The device that all tests use: the default one.
 pub fn open_gpu() -> Gpu {
-    Gpu::new(&AdapterChoice::default()).unwrap_or_else(|error| panic!("{error}"))
+    static DEVICES: Devices = Devices::new(|| Gpu::new(&AdapterChoice::default()));
+    DEVICES.lease()
 }
 
 /// A renderer at its first step.

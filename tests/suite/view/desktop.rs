@@ -5,6 +5,7 @@ mod drag_source;
 
 use crate::support::PATIENCE;
 use crate::support::skip::{Need, skip};
+use std::cell::Cell;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -19,6 +20,8 @@ const SCREEN: (u16, u16) = (1300, 820);
 struct Desktop {
     server: Child,
     display: String,
+    /// The number of the program that was started last.
+    program: Cell<u32>,
 }
 
 impl Desktop {
@@ -55,7 +58,12 @@ impl Desktop {
                 .ends_with('\n')
                 .then(|| format!(":{}", number.trim()))
         });
-        Some(Self { server, display })
+        let program = Cell::new(server.id());
+        Some(Self {
+            server,
+            display,
+            program,
+        })
     }
 
     /// What xdotool prints.
@@ -100,17 +108,30 @@ impl Desktop {
             .data
     }
 
-    /// A screenshot once there is a picture and it stays the same for a while.
+    /// A screenshot once there is a picture, and nothing has moved or been at work in twenty looks.
     fn calm(&self, place: [u16; 4]) -> Vec<u8> {
-        let mut last = (self.screenshot(place), Instant::now());
+        let mut last = self.screenshot(place);
+        let mut looks = 0;
         wait_for("a calm screen", || {
-            std::thread::sleep(Duration::from_millis(100));
+            std::thread::sleep(Duration::from_millis(80));
             let now = self.screenshot(place);
-            if now != last.0 {
-                last = (now, Instant::now());
-            }
-            let is_picture = colors(&last.0) > 64;
-            (is_picture && last.1.elapsed() > Duration::from_secs(2)).then(|| last.0.clone())
+            let is_calm = now == last && colors(&now) > 64 && !self.is_at_work();
+            looks = if is_calm { looks + 1 } else { 0 };
+            last = now;
+            (looks >= 20).then(|| last.clone())
+        })
+    }
+
+    /// Whether a thread of the program or of the X server runs, or would if there were a core for it.
+    fn is_at_work(&self) -> bool {
+        [self.server.id(), self.program.get()].iter().any(|id| {
+            let tasks = std::fs::read_dir(format!("/proc/{id}/task"));
+            tasks.into_iter().flatten().flatten().any(|task| {
+                let stat = std::fs::read_to_string(task.path().join("stat")).unwrap_or_default();
+                // The state comes after the name, which is in brackets.
+                let state = stat.rsplit_once(") ").map_or("", |(_, rest)| rest);
+                state.starts_with(['R', 'D'])
+            })
         })
     }
 
@@ -125,7 +146,7 @@ impl Desktop {
     }
 
     fn program(&self, arguments: &[&str], settings: &Path, faults: &str) -> Child {
-        Command::new(env!("CARGO_BIN_EXE_glimray"))
+        let program = Command::new(env!("CARGO_BIN_EXE_glimray"))
             .arg("view")
             .args(arguments)
             .env("DISPLAY", &self.display)
@@ -135,7 +156,9 @@ impl Desktop {
             .env("GLIMRAY_FAULT", faults)
             .stderr(Stdio::piped())
             .spawn()
-            .expect("glimray")
+            .expect("glimray");
+        self.program.set(program.id());
+        program
     }
 }
 

@@ -25,6 +25,10 @@ fn inspect(window: &mut Window, pixel: [u32; 2]) {
     window.settle();
     window.harness.key_press(egui::Key::I);
     window.settle();
+    click(window, pixel);
+}
+
+fn click(window: &mut Window, pixel: [u32; 2]) {
     let viewport = window.session().viewport.expect("a picture");
     let [x, y] = pixel.map(f64::from);
     let point = viewport.point(dvec2(x + 0.5, y + 0.5));
@@ -56,8 +60,9 @@ fn weighted(tree: &RayTree) -> DVec3 {
 
 #[test]
 fn a_click_with_the_tool_shows_rays_that_add_up_to_the_pixel() {
+    let mut window = open_glass([31, 18]);
     for pixel in [[31, 18], [12, 20], [47, 22], [5, 3]] {
-        let mut window = open_glass(pixel);
+        click(&mut window, pixel);
         let image = window.image(Tone::LINEAR);
         let [red, green, blue, _] = image.pixels[(pixel[1] * image.width + pixel[0]) as usize];
         let expected = Vec3::new(red, green, blue).as_dvec3();
@@ -183,7 +188,7 @@ fn shadow_rays_and_bounces_are_left_out_where_that_is_asked_for() {
         ..all
     });
     assert!(without.iter().all(|id| kind(*id) != RayKind::Shadow));
-    assert!(without.len() < every);
+    assert!((1..every).contains(&without.len()));
     // Of no bounce: the primary rays, and what these sent to lights.
     for id in listed(Filter { bounces: 0, ..all }) {
         let ray = inspected.ray(id).expect("a ray");
