@@ -194,6 +194,7 @@ fn corners_of_patches_keep_their_normals() {
         [0.0, 0.6, 0.8],
         [-half, 0.0, half],
     ];
+    assert_eq!(mesh.normals.len(), expected.len());
     for (normal, expected) in mesh.normals.iter().zip(expected) {
         assert!(normal.distance(expected.into()) < 1e-6, "{normal}");
     }
