@@ -8,6 +8,14 @@ GLIMRAY := $(or $(CARGO_TARGET_DIR),target)/release/glimray
 # Mesa's device-select layer complains on machines without a desktop session (see src/app/mesa.rs).
 export NODEVICE_SELECT := 1
 
+# A test that lacks one of these fails instead of being skipped (tests/suite/support/skip.rs): what
+# `make test` installs with apt-get, and FFmpeg where it is installed; it would double what is downloaded.
+comma := ,
+ifneq ($(shell command -v apt-get),)
+GLIMRAY_REQUIRE ?= gl,xvfb$(if $(shell command -v ffmpeg >/dev/null && command -v ffprobe),$(comma)ffmpeg)
+export GLIMRAY_REQUIRE
+endif
+
 # Followed by names of Debian packages.
 install = sh -c 'echo "missing, to be installed: $$*"; \
 	command -v apt-get >/dev/null || { echo "There is no apt-get: install them by hand." >&2; exit 1; }; \
@@ -18,7 +26,7 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench gallery build compiler display driver lint headless
+.PHONY: help demo test bench gallery build compiler display driver opengl lint headless
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png'
@@ -34,7 +42,7 @@ demo: build driver
 # Tests are built first, the program with them: `driver` needs it.
 test: lint headless
 	$(CARGO) test $(FLAGS) --no-run
-	@$(MAKE) --no-print-directory driver display
+	@$(MAKE) --no-print-directory driver opengl display
 	$(CARGO) test $(FLAGS)
 
 bench: build driver
@@ -62,11 +70,17 @@ driver:
 	if [ $$status -ne 5 ]; then exit 0; fi; \
 	$(install) libvulkan1 mesa-vulkan-drivers && $(GLIMRAY) doctor --backend vulkan
 
-# An X server without a screen, and a hand for its mouse. Without them tests of the real window are skipped.
+# The second driver that scenes are rendered with. Without it that test is skipped.
+opengl:
+	@if [ "$$(uname -s)" != Linux ]; then exit 0; fi; \
+	status=0; $(GLIMRAY) doctor --backend gl >/dev/null 2>&1 || status=$$?; \
+	if [ $$status -eq 5 ] && command -v apt-get >/dev/null; then $(install) libegl1 libgl1-mesa-dri; fi
+
+# An X server without a screen, and a program that moves its mouse. Without them tests of the real
+# window are skipped.
 display:
-	@if [ "$$(uname -s)" = Linux ] && ! { command -v Xvfb && command -v xdotool; } >/dev/null; then \
-		$(install) xvfb xdotool || echo 'Xvfb or xdotool is missing: the real window is not tested.'; \
-	fi
+	@if [ "$$(uname -s)" = Linux ] && command -v apt-get >/dev/null && \
+		! { command -v Xvfb && command -v xdotool; } >/dev/null; then $(install) xvfb xdotool; fi
 
 lint: compiler
 	@$(CARGO) fmt --version >/dev/null && $(CARGO) clippy --version >/dev/null || \

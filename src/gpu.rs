@@ -44,6 +44,8 @@ pub struct Gpu {
     lost: Arc<AtomicBool>,
     /// The first error that no scope caught.
     stray_error: Arc<Mutex<Option<String>>>,
+    /// What was compiled so far: the next renderer on this device may need the same.
+    pipelines: Arc<Mutex<shader::Pipelines>>,
 }
 
 /// Sizes that may exceed WebGPU's default limits, in bytes and texels.
@@ -125,6 +127,7 @@ impl Gpu {
             queue,
             lost,
             stray_error,
+            pipelines: Arc::default(),
         })
     }
 

@@ -103,9 +103,13 @@ impl Renderer {
         let gpu = gpu.serving(bindings::needs(&scene, &view, fetch, task.film_rows))?;
         let choice = gpu.choice().clone();
         let device = Device::new(gpu, fetch, task, &mut stats);
-        let device = or_replacement(device, &mut stats, 0, |stats| {
-            device::reopen(&choice, fetch, task, stats)
-        })?;
+        let device = match device {
+            // Others draw with this device, and cannot with another.
+            Err(GpuError::Lost) if !settings.slicing.host_copy => return Err(GpuError::Lost.into()),
+            device => or_replacement(device, &mut stats, 0, |stats| {
+                device::reopen(&choice, fetch, task, stats)
+            })?,
+        };
         Ok(Self {
             planner: Planner::new(settings.slicing),
             scene,

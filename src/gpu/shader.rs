@@ -1,6 +1,22 @@
 //! The linked kernels and the pipelines made of them.
 
 use super::{Gpu, GpuError};
+use std::collections::VecDeque;
+
+/// How many pipelines of a device are kept: each may be a megabyte of machine code.
+const MOST_PIPELINES: usize = 64;
+
+/// Pipelines by what they are made of, the newest first.
+#[derive(Default)]
+pub(super) struct Pipelines(VecDeque<(Ingredients, wgpu::ComputePipeline)>);
+
+/// What a pipeline is made of. The layout is not among it: it follows from the source.
+#[derive(PartialEq)]
+struct Ingredients {
+    name: String,
+    source: &'static str,
+    overrides: Vec<(String, f64)>,
+}
 
 /// A compute kernel: WGSL linked by `build.rs`, and its entry point.
 #[derive(Clone, Copy, Debug)]
@@ -52,9 +68,37 @@ impl Kernel {
 }
 
 impl Gpu {
-    /// Compiles a kernel. A shader that the driver refuses is our fault: the error carries the
-    /// driver's words, and the linked text lies in the folder for temporary files.
+    /// A kernel, compiled unless that was done before. A shader that the driver refuses is our fault:
+    /// the error carries the driver's words, and the linked text lies in the folder for temporary files.
     pub(crate) fn pipeline(
+        &self,
+        name: &str,
+        source: &'static str,
+        layout: Option<&wgpu::PipelineLayout>,
+        overrides: &[(&str, f64)],
+    ) -> Result<wgpu::ComputePipeline, GpuError> {
+        let named = |(id, value): &(&str, f64)| (id.to_string(), *value);
+        let wanted = Ingredients {
+            name: name.to_owned(),
+            source,
+            overrides: overrides.iter().map(named).collect(),
+        };
+        let known = |Pipelines(kept): &Pipelines| {
+            let found = kept.iter().find(|(of, _)| *of == wanted);
+            found.map(|(_, pipeline)| pipeline.clone())
+        };
+        if let Some(known) = self.pipelines.lock().ok().and_then(|kept| known(&kept)) {
+            return Ok(known);
+        }
+        let pipeline = self.compile(name, source, layout, overrides)?;
+        if let Ok(mut kept) = self.pipelines.lock() {
+            kept.0.truncate(MOST_PIPELINES - 1);
+            kept.0.push_front((wanted, pipeline.clone()));
+        }
+        Ok(pipeline)
+    }
+
+    fn compile(
         &self,
         name: &str,
         source: &str,

@@ -443,6 +443,7 @@ fn a_converted_scene_is_the_same_picture_and_nothing_in_the_way_is_replaced() {
             .run(&format!("convert {} -o new.toml", from.display()))
             .expect(0);
         let files: Vec<_> = run.text().lines().map(|line| place.path(line)).collect();
+        assert!(!files.is_empty(), "no files are named");
         assert!(files.iter().all(|file| file.is_file()), "{files:?}");
         let flags = "--size 40x30 --samples 1 --quiet";
         place

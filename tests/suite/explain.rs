@@ -425,6 +425,7 @@ fn the_tree_is_that_of_an_independent_tracer_in_every_scene() {
                 let spent = started.elapsed().as_secs_f64();
                 let wanted: Vec<_> = pixels.iter().map(|&pixel| (pixel, 0..1)).collect();
                 let got = renderer.explain_pixels(&wanted).expect("trees");
+                assert_eq!((got.len(), expected.len()), (pixels.len(), pixels.len()));
                 let mut rays = 0;
                 let mut problems = Vec::new();
                 for (tree, (color, nodes)) in got.iter().zip(&expected) {

@@ -1,6 +1,7 @@
 //! What a user meets when the GPU fails, rehearsed through `GLIMRAY_FAULT` (see `src/gpu/fault.rs`):
 //! the same picture after a lost device, or one clear line and an exit code, and never half a file.
 
+use crate::reference::compare::assert_none;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::PathBuf;
@@ -108,11 +109,6 @@ fn message_lines(stderr: &str) -> Vec<&str> {
         .lines()
         .filter(|line| !line.contains("XDG_RUNTIME_DIR") && !line.starts_with("MESA"))
         .collect()
-}
-
-fn assert_none(problems: impl IntoIterator<Item = Result<(), String>>) {
-    let problems: Vec<_> = problems.into_iter().filter_map(Result::err).collect();
-    assert!(problems.is_empty(), "{}", problems.join("\n"));
 }
 
 #[test]

@@ -27,6 +27,7 @@ mod pack;
 mod pack_surfaces;
 mod pack_view;
 mod pictures;
+mod readme;
 mod reference;
 mod render;
 mod sampling;

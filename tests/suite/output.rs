@@ -1,5 +1,6 @@
 //! Pictures on the disk: what comes back is what was written, and a file is complete or absent.
 
+use crate::support::skip::{Need, skip};
 use glimray::image::Image;
 use glimray::output::{self, Format, OutputError, SaveOptions};
 use std::fs;
@@ -462,7 +463,7 @@ mod unix {
     fn a_full_device_is_an_error_in_every_format() {
         let full = Path::new("/dev/full");
         if !full.exists() {
-            return eprintln!("skipped: there is no /dev/full here");
+            return skip(Need::Special, "there is no /dev/full");
         }
         for format in [Format::Png, Format::Jpeg, Format::Exr, Format::Hdr] {
             let options = SaveOptions {
@@ -500,7 +501,7 @@ mod unix {
         let path = folder.path().join("pipe.png");
         let made = Command::new("mkfifo").arg(&path).status();
         if !made.is_ok_and(|status| status.success()) {
-            return eprintln!("skipped: cannot make a pipe here");
+            return skip(Need::Special, "mkfifo makes no pipe");
         }
         let reader = std::thread::spawn({
             let path = path.clone();
@@ -524,7 +525,7 @@ mod unix {
         // Even root cannot create files there.
         let path = Path::new("/proc/glimray.png");
         if !Path::new("/proc/self").exists() {
-            return eprintln!("skipped: there is no /proc here");
+            return skip(Need::Special, "there is no /proc");
         }
         for result in [
             output::check(path, &SaveOptions::default(), 1, 1),
@@ -543,14 +544,14 @@ mod unix {
                 .arg(env!("CARGO_BIN_EXE_glimray"))
                 .args(arguments)
                 .output()
-                .ok()
         };
-        let probe = unshare("mount -t tmpfs none \"$2\"")?;
-        if !probe.status.success() {
-            eprintln!("skipped: cannot mount here");
-            return None;
-        }
-        unshare(script)
+        let why = match unshare("mount -t tmpfs none \"$2\"") {
+            Ok(probe) if probe.status.success() => return Some(unshare(script).expect("unshare")),
+            Ok(probe) => String::from_utf8_lossy(&probe.stderr).trim().to_owned(),
+            Err(error) => format!("unshare: {error}"),
+        };
+        skip(Need::Mounts, why);
+        None
     }
 
     /// Two pictures whose difference `compare --diff` writes, which needs no GPU.

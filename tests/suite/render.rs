@@ -6,8 +6,9 @@ use crate::reference::compare::{
 };
 use crate::reference::scenes::{self, Build, Random};
 use crate::reference::trace;
+use crate::support::skip::{Need, skip};
 use glam::{DAffine3, DVec3, Vec3, dvec3, vec3};
-use glimray::gpu::GpuError;
+use glimray::gpu::{AdapterChoice, Gpu, GpuError};
 use glimray::image::Image;
 use glimray::pack;
 use glimray::render::{
@@ -496,6 +497,28 @@ fn layers(count: u32) -> Scene {
     scene
 }
 
+/// A window draws with the device that it gave: a picture on another one would be of no use to it.
+#[test]
+fn a_device_that_is_shared_is_never_replaced() {
+    let scene = scenes::everything();
+    let packed = Arc::new(pack::scene(&scene).expect("packed"));
+    let view = packed.frame(&scene.frame(0.0)).expect("a view");
+    let renderer = |host_copy| {
+        let gpu = Gpu::new(&AdapterChoice::default()).expect("a device");
+        gpu.lose();
+        let mut settings = sized(16, 12);
+        settings.slicing.host_copy = host_copy;
+        Renderer::new(gpu, packed.clone(), &view, settings)
+    };
+    let shared = renderer(false).map(drop);
+    assert!(
+        matches!(shared, Err(RenderError::Gpu(GpuError::Lost))),
+        "{shared:?}"
+    );
+    let own = renderer(true).expect("another device");
+    assert_eq!(own.stats().device_losses, 1);
+}
+
 #[test]
 fn brute_force_over_more_triangles_than_the_drivers_loop_limit_is_refused() {
     let scene = layers(70_000);
@@ -507,7 +530,10 @@ fn brute_force_over_more_triangles_than_the_drivers_loop_limit_is_refused() {
         Err(error @ RenderError::PathTooLong) => assert_eq!(error.exit_code(), 7),
         Err(error) => panic!("{error}"),
         Ok(_) if open_gpu().is_cpu() => panic!("the driver's limit was not noticed"),
-        Ok(_) => println!("skipped: this adapter has no limit of loop rounds"),
+        Ok(_) => skip(
+            Need::LoopLimit,
+            "this adapter does not limit the rounds of loops",
+        ),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Runs that go on where another one stopped.
 
 use super::place::{MOVING, Place};
+use crate::support::PATIENCE;
 use crate::support::random::Random;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -10,9 +11,9 @@ use std::time::{Duration, Instant};
 
 /// Waits until a folder has `count` frames.
 fn wait_for(place: &Place, folder: &str, count: usize) {
-    let patience = Instant::now();
+    let start = Instant::now();
     while place.frames(folder).len() < count {
-        assert!(patience.elapsed() < Duration::from_secs(60), "no frames");
+        assert!(start.elapsed() < PATIENCE, "no frames");
         sleep(Duration::from_millis(2));
     }
 }

@@ -1,5 +1,6 @@
 //! Rendering a picture in a test, and holding two pictures against each other.
 
+use crate::support::devices::Devices;
 use glimray::gpu::{AdapterChoice, Gpu};
 use glimray::image::Image;
 use glimray::pack;
@@ -10,7 +11,8 @@ use std::sync::Arc;
 
 /// The device that all tests use: the default one.
 pub fn open_gpu() -> Gpu {
-    Gpu::new(&AdapterChoice::default()).unwrap_or_else(|error| panic!("{error}"))
+    static DEVICES: Devices = Devices::new(|| Gpu::new(&AdapterChoice::default()));
+    DEVICES.lease()
 }
 
 /// A renderer at its first step.
@@ -103,10 +105,12 @@ pub fn check_same_bits(name: &str, expected: &Image, actual: &Image) -> Result<(
     ))
 }
 
-/// Fails with all the problems at once.
+/// Fails with all the problems at once, or if nothing was looked at.
 #[track_caller]
-pub fn assert_none(problems: impl IntoIterator<Item = Result<(), String>>) {
-    let problems: Vec<_> = problems.into_iter().filter_map(Result::err).collect();
+pub fn assert_none(results: impl IntoIterator<Item = Result<(), String>>) {
+    let results: Vec<_> = results.into_iter().collect();
+    assert!(!results.is_empty(), "nothing was looked at");
+    let problems: Vec<_> = results.into_iter().filter_map(Result::err).collect();
     assert!(problems.is_empty(), "{}", problems.join("\n"));
 }
 
@@ -134,4 +138,10 @@ fn write_comparison(name: &str, expected: &Image, actual: &Image) -> PathBuf {
     let path = std::env::temp_dir().join(format!("glimray-{}.png", name.replace([' ', '/'], "-")));
     glimray::output::save(&path, &canvas).expect("a comparison");
     path
+}
+
+#[test]
+#[should_panic(expected = "nothing was looked at")]
+fn no_results_are_no_success() {
+    assert_none([]);
 }

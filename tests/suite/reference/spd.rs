@@ -1,8 +1,10 @@
 //! Scenes of the Standard Procedural Database (Haines 1987), where they are at hand: in the folder
-//! that `GLIMRAY_SPD` names, or beside the repository. Tests of them pass without, and say so.
+//! that `GLIMRAY_SPD` names, or beside the repository. Without them tests are skipped.
 
+use crate::support::skip::{Need, skip};
 use glimray::import;
 use glimray::scene::Scene;
+use std::fmt::Display;
 use std::path::PathBuf;
 
 fn folder() -> PathBuf {
@@ -10,14 +12,16 @@ fn folder() -> PathBuf {
     std::env::var_os("GLIMRAY_SPD").map_or_else(beside, PathBuf::from)
 }
 
+fn missing(what: impl Display) {
+    let why = format!("there is no {what}; set GLIMRAY_SPD to a folder with SPD's scenes");
+    skip(Need::Spd, why);
+}
+
 /// The scene and the text of its file.
 pub fn load(name: &str) -> Option<(Scene, String)> {
     let path = folder().join(name);
     let Ok(text) = std::fs::read_to_string(&path) else {
-        println!(
-            "skipped: there is no {}; set GLIMRAY_SPD to a folder with SPD's scenes",
-            path.display()
-        );
+        missing(path.display());
         return None;
     };
     let scene = import::load(&path).unwrap_or_else(|error| panic!("{error}"));
@@ -32,10 +36,7 @@ pub fn files() -> Vec<String> {
     let mut names: Vec<_> = names.filter(|name| name.ends_with(".nff")).collect();
     names.sort();
     if names.is_empty() {
-        println!(
-            "skipped: there are no .nff files in {}; set GLIMRAY_SPD to a folder with SPD's scenes",
-            folder().display()
-        );
+        missing(folder().join("*.nff").display());
     }
     names
 }

@@ -21,6 +21,7 @@ pub fn check_even(verdict: &mut Verdict, name: impl Display, counts: &[u32]) {
 
 /// The same of counts with expectations of their own, all of which should be 5 or more.
 pub fn check_counts(verdict: &mut Verdict, name: impl Display, counts: &[u32], expected: &[f64]) {
+    assert_eq!(counts.len(), expected.len());
     let terms = counts.iter().zip(expected);
     let chi2: f64 = terms
         .map(|(&count, expected)| (f64::from(count) - expected).powi(2) / expected)

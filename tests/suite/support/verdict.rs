@@ -89,6 +89,15 @@ pub struct Verdict {
     subject: String,
     rows: usize,
     failures: Vec<String>,
+    is_closed: bool,
+}
+
+/// Failures in a verdict that nobody closes would be lost.
+impl Drop for Verdict {
+    fn drop(&mut self) {
+        let is_lost = !self.is_closed && !std::thread::panicking();
+        assert!(!is_lost, "the verdict on {} is not closed", self.subject);
+    }
 }
 
 impl Verdict {
@@ -100,6 +109,7 @@ impl Verdict {
             subject: subject.to_string(),
             rows: 0,
             failures: Vec::new(),
+            is_closed: false,
         }
     }
 
@@ -129,13 +139,16 @@ impl Verdict {
         }
     }
 
-    /// Fails with every row that did not hold.
-    pub fn close(self) {
+    /// Fails with every row that did not hold, or if there were none.
+    pub fn close(mut self) {
+        self.is_closed = true;
         let Self {
             subject,
             rows,
             failures,
-        } = self;
+            ..
+        } = &self;
+        assert!(*rows > 0, "{subject}: there were no rows");
         let unlisted = failures.len().saturating_sub(Self::LISTED);
         let more = if unlisted > 0 {
             format!("\n  … and {unlisted} more")
@@ -150,4 +163,25 @@ impl Verdict {
             listed.join("\n"),
         );
     }
+}
+
+#[test]
+#[should_panic(expected = "nothing: there were no rows")]
+fn a_verdict_without_rows_fails() {
+    Verdict::on("nothing").close();
+}
+
+#[test]
+#[should_panic(expected = "one of two: 1 of 2 rows fail\n  second\n    it is odd")]
+fn a_verdict_fails_with_the_rows_that_do_not_hold() {
+    let mut verdict = Verdict::on("one of two");
+    verdict.that("first", true, || "");
+    verdict.that("second", false, || "it is odd");
+    verdict.close();
+}
+
+#[test]
+#[should_panic(expected = "the verdict on something is not closed")]
+fn a_verdict_that_is_not_closed_fails() {
+    Verdict::on("something").that("row", false, || "");
 }

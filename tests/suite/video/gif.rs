@@ -93,6 +93,7 @@ fn what_is_still_does_not_flicker() {
             assert!(old != new || shown[0][at] == shown[1][at], "pixel {at}");
         }
     }
+    assert_eq!((shown.frames.len(), shown.drawn.len()), (10, 10));
     // The gradient, half of the picture, is drawn once.
     assert_eq!(shown.drawn[0], 120 * 90);
     assert!(shown.drawn[1..].iter().all(|&drawn| drawn < 120 * 45));

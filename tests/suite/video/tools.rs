@@ -1,6 +1,7 @@
 //! Videos as FFmpeg sees them, where it is installed.
 
 use super::{encode_to, options, psnr, scene};
+use crate::support::skip::{Need, skip};
 use glimray::output::video::{FrameRate, Picture8, Planes, VideoFormat};
 use std::path::Path;
 use std::process::Command;
@@ -16,7 +17,7 @@ fn tool(name: &str, arguments: &[&str], file: &Path) -> Option<Vec<u8>> {
         .args(&arguments[position + 1..])
         .output();
     let Ok(run) = run else {
-        eprintln!("skipped: {name} is not installed");
+        skip(Need::Ffmpeg, format_args!("{name} is not installed"));
         return None;
     };
     let said = String::from_utf8_lossy(&run.stderr);

@@ -3,6 +3,9 @@
 
 mod drag_source;
 
+use crate::support::PATIENCE;
+use crate::support::skip::{Need, skip};
+use std::cell::Cell;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -11,14 +14,14 @@ use tempfile::TempDir;
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{ConnectionExt as _, ImageFormat};
 
-/// How long anything may take, on a machine that has other things to do.
-const PATIENCE: Duration = Duration::from_secs(120);
 const SCREEN: (u16, u16) = (1300, 820);
 
 /// An X server of our own.
 struct Desktop {
     server: Child,
     display: String,
+    /// The number of the program that was started last.
+    program: Cell<u32>,
 }
 
 impl Desktop {
@@ -30,7 +33,8 @@ impl Desktop {
         };
         for (tool, package) in [("Xvfb", "xvfb"), ("xdotool", "xdotool")] {
             if !is_there(tool) {
-                eprintln!("skipped: there is no {tool}. Install the package {package}.");
+                let why = format!("there is no {tool}. Install the package {package}.");
+                skip(Need::Xvfb, why);
                 return None;
             }
         }
@@ -54,7 +58,12 @@ impl Desktop {
                 .ends_with('\n')
                 .then(|| format!(":{}", number.trim()))
         });
-        Some(Self { server, display })
+        let program = Cell::new(server.id());
+        Some(Self {
+            server,
+            display,
+            program,
+        })
     }
 
     /// What xdotool prints.
@@ -67,13 +76,22 @@ impl Desktop {
         String::from_utf8_lossy(&output.stdout).trim().to_owned()
     }
 
-    /// With the left button, and with time for each event to become a frame.
+    /// With the left button and a stop on the way, from where on the picture follows: it is another
+    /// one at each stop before the mouse goes on.
     fn drag(&self, from: [i32; 2], to: [i32; 2]) {
-        let middle = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2];
-        let [from, middle, to] = [from, middle, to].map(|[x, y]| format!("mousemove {x} {y}"));
-        let words =
-            format!("{from} mousedown 1 sleep 0.5 {middle} sleep 0.5 {to} sleep 0.5 mouseup 1");
-        self.xdotool(&words.split(' ').collect::<Vec<_>>());
+        let go = |[x, y]: [i32; 2], then: &[&str]| {
+            let (x, y) = (x.to_string(), y.to_string());
+            self.xdotool(&[&["mousemove", &x, &y], then].concat());
+        };
+        go(from, &["mousedown", "1"]);
+        for stop in [[(from[0] + to[0]) / 2, (from[1] + to[1]) / 2], to] {
+            let before = self.screenshot(SPOT);
+            go(stop, &[]);
+            wait_for("a picture that follows the mouse", || {
+                differ(&before, &self.screenshot(SPOT)).then_some(())
+            });
+        }
+        self.xdotool(&["mouseup", "1"]);
     }
 
     /// The pixels of a rectangle of the screen: x, y, width, height.
@@ -90,17 +108,30 @@ impl Desktop {
             .data
     }
 
-    /// A screenshot once there is a picture and it stays the same for a while.
+    /// A screenshot once there is a picture, and nothing has moved or been at work in twenty looks.
     fn calm(&self, place: [u16; 4]) -> Vec<u8> {
-        let mut last = (self.screenshot(place), Instant::now());
+        let mut last = self.screenshot(place);
+        let mut looks = 0;
         wait_for("a calm screen", || {
-            std::thread::sleep(Duration::from_millis(100));
+            std::thread::sleep(Duration::from_millis(80));
             let now = self.screenshot(place);
-            if now != last.0 {
-                last = (now, Instant::now());
-            }
-            let is_picture = colors(&last.0) > 64;
-            (is_picture && last.1.elapsed() > Duration::from_secs(2)).then(|| last.0.clone())
+            let is_calm = now == last && colors(&now) > 64 && !self.is_at_work();
+            looks = if is_calm { looks + 1 } else { 0 };
+            last = now;
+            (looks >= 20).then(|| last.clone())
+        })
+    }
+
+    /// Whether a thread of the program or of the X server runs, or would if there were a core for it.
+    fn is_at_work(&self) -> bool {
+        [self.server.id(), self.program.get()].iter().any(|id| {
+            let tasks = std::fs::read_dir(format!("/proc/{id}/task"));
+            tasks.into_iter().flatten().flatten().any(|task| {
+                let stat = std::fs::read_to_string(task.path().join("stat")).unwrap_or_default();
+                // The state comes after the name, which is in brackets.
+                let state = stat.rsplit_once(") ").map_or("", |(_, rest)| rest);
+                state.starts_with(['R', 'D'])
+            })
         })
     }
 
@@ -115,7 +146,7 @@ impl Desktop {
     }
 
     fn program(&self, arguments: &[&str], settings: &Path, faults: &str) -> Child {
-        Command::new(env!("CARGO_BIN_EXE_glimray"))
+        let program = Command::new(env!("CARGO_BIN_EXE_glimray"))
             .arg("view")
             .args(arguments)
             .env("DISPLAY", &self.display)
@@ -125,7 +156,9 @@ impl Desktop {
             .env("GLIMRAY_FAULT", faults)
             .stderr(Stdio::piped())
             .spawn()
-            .expect("glimray")
+            .expect("glimray");
+        self.program.set(program.id());
+        program
     }
 }
 
@@ -243,10 +276,9 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
         "a drag leaves the picture as it is"
     );
     opened.key("Home");
-    assert!(
-        !differ(&first, &desktop.calm(INSIDE)),
-        "Home does not lead back"
-    );
+    wait_for("the picture that Home leads back to", || {
+        (!differ(&first, &desktop.screenshot(INSIDE))).then_some(())
+    });
 
     let dropped = scene("sphere.scene");
     let target = opened.id.parse().expect("the window's number");

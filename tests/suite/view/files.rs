@@ -1,6 +1,7 @@
 //! Files in the window: dropped, watched, mended, saved; cameras as command lines.
 
 use super::harness::Window;
+use crate::support::PATIENCE;
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
 use glimray::app::view::bindings::Action;
@@ -78,7 +79,7 @@ fn drop_files(window: &mut Window, paths: &[PathBuf]) {
 fn wait(window: &mut Window, what: &str, is_so: impl Fn(&Window) -> bool) {
     let start = Instant::now();
     while !is_so(window) {
-        assert!(start.elapsed() < Duration::from_secs(60), "{what}");
+        assert!(start.elapsed() < PATIENCE, "{what}");
         window.harness.step();
         std::thread::sleep(Duration::from_millis(5));
     }

@@ -1,5 +1,7 @@
 //! A window without a screen: egui_kittest with our device.
 
+use crate::support::PATIENCE;
+use crate::support::devices::Devices;
 use eframe::egui;
 use egui_kittest::Harness;
 use glimray::app::view;
@@ -19,9 +21,6 @@ use std::rc::Rc;
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-
-/// Longest wait for anything, on a machine that has other things to do.
-const PATIENCE: Duration = Duration::from_secs(120);
 
 /// An open window.
 pub struct Window {
@@ -51,7 +50,8 @@ impl Window {
         let store = Store::in_folder(settings.path());
         let session = view::session(arguments.iter().copied(), store).expect("a session");
         let session = Rc::new(RefCell::new(session));
-        let gpu = Gpu::with_all_limits(&AdapterChoice::default()).expect("an adapter");
+        static DEVICES: Devices = Devices::new(|| Gpu::with_all_limits(&AdapterChoice::default()));
+        let gpu = DEVICES.lease();
         let (kept, theirs) = (session.clone(), gpu.clone());
         let harness = Harness::builder()
             .with_size(egui::vec2(1000.0, 700.0))
@@ -70,16 +70,17 @@ impl Window {
     /// Steps until nothing is left to read, to move or to render.
     pub fn settle(&mut self) {
         let start = Instant::now();
-        let mut calm = 0;
+        let (mut calm, mut restless) = (0, 0);
         // What is clicked comes to the window in several frames, and leaves it in the next.
         while calm < 8 {
             assert!(start.elapsed() < PATIENCE, "the window does not settle");
             self.harness.step();
-            calm = match self.harness.state().is_settled() {
-                true => calm + 1,
-                false => 0,
+            (calm, restless) = match self.harness.state().is_settled() {
+                true => (calm + 1, 0),
+                false => (0, restless + 1),
             };
-            std::thread::sleep(Duration::from_millis(2));
+            // The longer it takes, the rarer its frames: they cost as much as what they wait for.
+            std::thread::sleep(Duration::from_millis(2 << (restless / 2).min(4)));
         }
     }
 

@@ -1,6 +1,7 @@
 //! The rays of a pixel in the window: shown, folded, drawn in space and saved.
 
 use super::harness::Window;
+use crate::support::effort;
 use eframe::egui;
 use egui_kittest::kittest::{NodeT, Queryable, by};
 use glam::{DMat4, DVec2, DVec3, Vec3, dvec2};
@@ -24,6 +25,10 @@ fn inspect(window: &mut Window, pixel: [u32; 2]) {
     window.settle();
     window.harness.key_press(egui::Key::I);
     window.settle();
+    click(window, pixel);
+}
+
+fn click(window: &mut Window, pixel: [u32; 2]) {
     let viewport = window.session().viewport.expect("a picture");
     let [x, y] = pixel.map(f64::from);
     let point = viewport.point(dvec2(x + 0.5, y + 0.5));
@@ -55,8 +60,9 @@ fn weighted(tree: &RayTree) -> DVec3 {
 
 #[test]
 fn a_click_with_the_tool_shows_rays_that_add_up_to_the_pixel() {
+    let mut window = open_glass([31, 18]);
     for pixel in [[31, 18], [12, 20], [47, 22], [5, 3]] {
-        let mut window = open_glass(pixel);
+        click(&mut window, pixel);
         let image = window.image(Tone::LINEAR);
         let [red, green, blue, _] = image.pixels[(pixel[1] * image.width + pixel[0]) as usize];
         let expected = Vec3::new(red, green, blue).as_dvec3();
@@ -182,7 +188,7 @@ fn shadow_rays_and_bounces_are_left_out_where_that_is_asked_for() {
         ..all
     });
     assert!(without.iter().all(|id| kind(*id) != RayKind::Shadow));
-    assert!(without.len() < every);
+    assert!((1..every).contains(&without.len()));
     // Of no bounce: the primary rays, and what these sent to lights.
     for id in listed(Filter { bounces: 0, ..all }) {
         let ray = inspected.ray(id).expect("a ray");
@@ -421,10 +427,9 @@ fn a_tree_of_very_many_rays_is_listed_at_once() {
         ..inspected.tree.clone()
     };
     let long = Inspected::new(tree, inspected.order.clone(), true);
-    let start = std::time::Instant::now();
-    let rows = rows::rows(&long, &Filter::default(), &BTreeSet::new(), None);
+    let rows = || rows::rows(&long, &Filter::default(), &BTreeSet::new(), None);
+    let rows = effort::within(2000.0, rows);
     assert_eq!(rows.len(), COUNT);
-    assert!(start.elapsed().as_secs_f64() < 2.0);
     assert_eq!(long.max_bounces() as usize, COUNT - 1);
     let camera = session.camera().expect("a camera");
     let lines = outside::lines(

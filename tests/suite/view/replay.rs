@@ -11,7 +11,6 @@ use eframe::egui::{
 use glimray::scene::Camera;
 use std::path::Path;
 use std::process::Command;
-use std::time::{Duration, Instant};
 
 /// Seconds of a frame.
 const FRAME: f64 = 1.0 / 60.0;
@@ -195,8 +194,9 @@ fn what_is_no_recording_is_refused_with_its_line() {
     assert_eq!(output.status.code(), Some(4));
 }
 
-/// Names the seconds that the long test takes, in place of a few.
-const SOAK: &str = "GLIMRAY_SOAK_SECONDS";
+/// Names how often the long test does the same, in place of a few times.
+const SOAK: &str = "GLIMRAY_SOAK_ROUNDS";
+const FEW_ROUNDS: usize = 10;
 
 /// Kibibytes of this process that are in memory.
 fn resident() -> u64 {
@@ -208,41 +208,34 @@ fn resident() -> u64 {
         .expect("a number")
 }
 
-/// The same over and over for as long as [`SOAK`] says, in a process of its own: what it takes after a
-/// third of the time is compared with what it takes at the end.
+/// The same over and over, as often as [`SOAK`] says, in a process of its own: the memory that it takes
+/// in the first two fifths of the rounds is compared with what it takes at the end.
 #[test]
 #[ignore = "run by the test below"]
 fn soak() {
-    let seconds: f64 = std::env::var(SOAK)
-        .ok()
-        .and_then(|s| s.parse().ok())
-        .unwrap_or(10.0);
+    let rounds = std::env::var(SOAK).map_or(FEW_ROUNDS, |n| n.parse().expect("a number"));
+    assert!(
+        rounds >= 5,
+        "{rounds} rounds tell nothing: give {SOAK} more"
+    );
     let mut window = Window::open(&["--samples", "2"]);
     window.settle();
     let middle = window.session().viewport.expect("a picture").rect.center();
-    let start = Instant::now();
-    let (mut rounds, mut early, mut late) = (0, 0, 0);
+    let (mut early, mut late) = (0, 0);
     let mut number = 0;
-    while start.elapsed() < Duration::from_secs_f64(seconds) {
+    for round in 0..rounds {
         for events in script(middle) {
             frame(&mut window, events, number);
             number += 1;
         }
         window.session().rig.as_mut().expect("a rig").go_home();
         window.settle();
-        rounds += 1;
-        let share = start.elapsed().as_secs_f64() / seconds;
-        let now = resident();
-        if share <= 0.4 || early == 0 {
-            early = early.max(now);
+        late = resident();
+        if round < rounds * 2 / 5 {
+            early = early.max(late);
         }
-        late = now;
     }
-    println!("{rounds} rounds in {seconds} s: {early} KiB early, {late} KiB at the end");
-    assert!(
-        rounds >= 2,
-        "{rounds} rounds tell nothing: give {SOAK} more seconds"
-    );
+    println!("{rounds} rounds: {early} KiB early, {late} KiB at the end");
     let growth = late as f64 / early as f64 - 1.0;
     assert!(
         growth < 0.05,
@@ -255,7 +248,6 @@ fn soak() {
 fn long_use_takes_no_more_memory() {
     let output = Command::new(std::env::current_exe().expect("this test"))
         .args(["--exact", "view::replay::soak", "--ignored", "--nocapture"])
-        .env(SOAK, std::env::var(SOAK).unwrap_or("10".into()))
         .output()
         .expect("this test runs");
     let text = String::from_utf8_lossy(&output.stdout);

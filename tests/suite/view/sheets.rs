@@ -136,8 +136,8 @@ fn theme_scale_and_panels_come_back_and_are_reset_in_one_click() {
     window.session().preferences.ui_scale = 1.25;
     window.harness.key_press(egui::Key::O);
     window.settle();
-    std::thread::sleep(std::time::Duration::from_millis(1100));
-    window.harness.run_steps(4);
+    // More than a second of the window's own clock.
+    window.harness.run_steps(8);
     sheets::write(&mut window.session());
     let Window { settings, .. } = window;
     let mut again = Window::open_with(&SMALL, settings);

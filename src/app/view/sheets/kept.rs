@@ -5,7 +5,7 @@ use super::super::preferences::{Preferences, Theme};
 use super::super::session::Session;
 use super::Sheet;
 use eframe::egui::{self, ThemePreference};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// How long the settings stay unwritten while they change, such as a window that is being resized.
 const PAUSE: Duration = Duration::from_secs(1);
@@ -14,7 +14,8 @@ const PAUSE: Duration = Duration::from_secs(1);
 #[derive(Default)]
 pub struct Kept {
     written: Option<Preferences>,
-    looked: Option<Instant>,
+    /// By the window's clock, in seconds.
+    looked: Option<f64>,
     has_failed: bool,
     is_begun: bool,
     /// Whether the panels are to be noted.
@@ -41,13 +42,14 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     }
     apply(session, ctx);
     let kept = &mut session.sheets.kept;
-    if kept.looked.is_some_and(|at| at.elapsed() < PAUSE) {
+    let now = ctx.input(|input| input.time);
+    if kept.looked.is_some_and(|at| now - at < PAUSE.as_secs_f64()) {
         if kept.written.as_ref() != Some(&session.preferences) {
             ctx.request_repaint_after(PAUSE);
         }
         return;
     }
-    kept.looked = Some(Instant::now());
+    kept.looked = Some(now);
     kept.is_due = true;
     keep_window(session, ctx);
     write(session);

@@ -1,12 +1,12 @@
 //! Triangles of polygons: together they are the polygon, each lies in it, and none is turned over.
 
 use super::{file, scene, triangles};
+use crate::support::effort;
 use crate::support::random::Random;
 use glam::{DMat3, DVec2, DVec3};
 use glimray::import;
 use std::f64::consts::TAU;
 use std::fmt::Write;
-use std::time::{Duration, Instant};
 
 /// The signed area, by the shoelace formula.
 fn area(outline: &[DVec2]) -> f64 {
@@ -194,6 +194,7 @@ fn corners_of_patches_keep_their_normals() {
         [0.0, 0.6, 0.8],
         [-half, 0.0, half],
     ];
+    assert_eq!(mesh.normals.len(), expected.len());
     for (normal, expected) in mesh.normals.iter().zip(expected) {
         assert!(normal.distance(expected.into()) < 1e-6, "{normal}");
     }
@@ -241,13 +242,11 @@ fn polygons_that_meet_themselves_are_refused_soon() {
         ),
     ];
     for (name, outline) in outlines {
-        let start = Instant::now();
         let text = polygon(&outline, DMat3::IDENTITY, DVec3::ZERO);
-        let message = super::messages("a.nff", &[text]);
+        let message = effort::within(5000.0, || super::messages("a.nff", &[text]));
         let expected = "bad scene (a.nff:9:1): the polygon crosses itself. \
             List its corners in order round its edge.";
         assert_eq!(message, expected, "{name}");
-        assert!(start.elapsed() < Duration::from_secs(5), "{name}");
     }
 }
 
@@ -255,19 +254,12 @@ fn polygons_that_meet_themselves_are_refused_soon() {
 fn a_file_may_not_ask_for_endless_cutting() {
     let comb = polygon(&comb(16_001), DMat3::IDENTITY, DVec3::ZERO);
     let (head, one) = comb.split_once("\np ").expect("a polygon");
-    let start = Instant::now();
-    let error = import::parse(
-        "a.nff",
-        &format!("{head}{}", format!("\np {one}").repeat(8)),
-        &import::Options::default(),
-    )
-    .expect_err("too much");
+    let text = format!("{head}{}", format!("\np {one}").repeat(8));
+    let parsed = effort::within(30_000.0, || {
+        import::parse("a.nff", &text, &Default::default())
+    });
+    let error = parsed.expect_err("too much");
     assert!(error.is_too_big(), "{error}");
-    assert!(
-        start.elapsed() < Duration::from_secs(30),
-        "{:?}",
-        start.elapsed()
-    );
 
     let large = star((0..20_000).map(|i| if i % 2 == 0 { 1.0 } else { 0.5 }));
     let message = super::messages("a.nff", &[polygon(&large, DMat3::IDENTITY, DVec3::ZERO)]);

@@ -147,9 +147,7 @@ fn balls_and_teapot_take_as_many_mirrored_rays_as_in_pov_ray() {
         let Some((scene, _)) = load(name) else {
             return;
         };
-        let start = std::time::Instant::now();
         let rays = count::count(&scene, (512, 512), 5);
-        assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
         let ratio = rays.reflection as f64 / expected;
         assert!((ratio - 1.0).abs() < 1e-3, "{name}: {rays:?}");
         assert_eq!(rays.primary, 512 * 512);

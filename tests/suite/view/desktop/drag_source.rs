@@ -1,6 +1,7 @@
 //! The other end of a drop: what a file manager does, by the XDND protocol, version 5
 //! (https://freedesktop.org/wiki/Specifications/XDND).
 
+use crate::support::PATIENCE;
 use std::error::Error;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -13,8 +14,6 @@ use x11rb::protocol::xproto::{
 use x11rb::rust_connection::RustConnection;
 use x11rb::wrapper::ConnectionExt as _;
 
-/// How long the window may take to answer.
-const PATIENCE: Duration = Duration::from_secs(30);
 const VERSION: u32 = 5;
 
 struct Atoms {

@@ -1,0 +1,122 @@
+//! Tests of what a machine may lack: without it they are skipped, in plain sight, unless
+//! `GLIMRAY_REQUIRE` says that it has to be there.
+
+use std::fmt::Display;
+use std::io::Write;
+
+/// What a test may need, and how `GLIMRAY_REQUIRE` names it: `GLIMRAY_REQUIRE=gl,xvfb`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// FFmpeg's programs, `ffmpeg` and `ffprobe`.
+    Ffmpeg,
+    /// An adapter of wgpu's OpenGL backend.
+    Gl,
+    /// A driver that limits the rounds of a shader's loops, as lavapipe does.
+    LoopLimit,
+    /// Mounts that only one process sees.
+    Mounts,
+    /// Named pipes, `/dev/full` and `/proc`.
+    Special,
+    /// The scenes of the Standard Procedural Database.
+    Spd,
+    /// An X server without a screen, and xdotool to move its mouse.
+    Xvfb,
+}
+
+impl Need {
+    const ALL: [Self; 7] = [
+        Self::Ffmpeg,
+        Self::Gl,
+        Self::LoopLimit,
+        Self::Mounts,
+        Self::Special,
+        Self::Spd,
+        Self::Xvfb,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Ffmpeg => "ffmpeg",
+            Self::Gl => "gl",
+            Self::LoopLimit => "loop-limit",
+            Self::Mounts => "mounts",
+            Self::Special => "special",
+            Self::Spd => "spd",
+            Self::Xvfb => "xvfb",
+        }
+    }
+}
+
+/// To be called by a test that returns early because something it needs is missing. Panics where
+/// that is required; else it writes a line that the test harness does not swallow.
+#[track_caller]
+pub fn skip(need: Need, why: impl Display) {
+    let required = std::env::var("GLIMRAY_REQUIRE").unwrap_or_default();
+    match judge(&required, need, why) {
+        // `eprintln!` is captured where a test passes.
+        Ok(line) => _ = writeln!(std::io::stderr(), "{line}"),
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// The line that a skipped test writes, or why it may not be skipped.
+fn judge(required: &str, need: Need, why: impl Display) -> Result<String, String> {
+    let mut is_required = false;
+    for name in required.split(',').filter(|name| !name.is_empty()) {
+        let known = Need::ALL.iter().find(|need| need.name() == name);
+        let known = known.ok_or_else(|| {
+            let names = Need::ALL.map(Need::name).join(", ");
+            format!("GLIMRAY_REQUIRE names `{name}`, which is none of {names}")
+        })?;
+        is_required |= *known == need;
+    }
+    let (name, thread) = (need.name(), std::thread::current());
+    let test = thread.name().unwrap_or("a test");
+    match is_required {
+        true => Err(format!("{why}, but GLIMRAY_REQUIRE has `{name}`")),
+        false => Ok(format!("skipped: {test}: {why} ({name})")),
+    }
+}
+
+#[test]
+fn what_is_required_is_not_skipped() {
+    let gone = |required| judge(required, Need::Gl, "there is no OpenGL adapter");
+    for required in ["gl", "xvfb,gl", "gl,ffmpeg"] {
+        let error = gone(required).expect_err(required);
+        assert_eq!(
+            error,
+            "there is no OpenGL adapter, but GLIMRAY_REQUIRE has `gl`"
+        );
+    }
+    for required in ["", "xvfb", "xvfb,ffmpeg"] {
+        let line = gone(required).expect(required);
+        assert!(line.starts_with("skipped: "), "{line}");
+        assert!(line.ends_with("there is no OpenGL adapter (gl)"), "{line}");
+    }
+}
+
+#[test]
+fn a_misspelt_requirement_fails() {
+    for required in ["gk", "xvfb,gk", "GL", "gl ,xvfb"] {
+        let error = judge(required, Need::Gl, "").expect_err(required);
+        assert!(error.starts_with("GLIMRAY_REQUIRE names `"), "{error}");
+    }
+}
+
+/// A test that says so itself would go unnoticed where it is required.
+#[test]
+fn tests_are_skipped_here_and_nowhere_else() {
+    let mut open = vec![std::path::PathBuf::from("tests/suite")];
+    let mut read = 0;
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            let entries = std::fs::read_dir(&path).expect("a folder");
+            open.extend(entries.map(|entry| entry.expect("an entry").path()));
+        } else if !path.ends_with("support/skip.rs") {
+            let text = std::fs::read_to_string(&path).unwrap_or_default();
+            assert!(!text.contains("\"skipped:"), "{}", path.display());
+            read += 1;
+        }
+    }
+    assert!(read > 100, "{read} files");
+}
