@@ -20,8 +20,8 @@ const RADIANCE: f32 = 1e12;
 /// at a distance in metres takes 2e25.
 const INTENSITY: f32 = 1e30;
 
-/// What indices of refraction may be.
-const IOR: (f32, f32) = (0.01, 100.0);
+/// What indices of refraction may be; their squares are computed with.
+const IOR: (f32, f32) = (1e-6, 1e6);
 
 /// Brings the colours of `scene` into range and says how many were not.
 pub(super) fn limit(scene: &mut Scene) {
