@@ -262,8 +262,7 @@ impl<'a> Reader<'a> {
     /// Takes more memory, before it is used.
     fn take(&mut self, bytes: u64) -> Result<(), ImportError> {
         self.taken = self.taken.saturating_add(bytes);
-        let budget = Budget::of(self.bytes.len());
-        budget.check(self.taken, |why, todo| self.refuse(&why, todo))
+        Budget::of(self.bytes.len()).check(self.taken, |why, todo| self.refuse(&why, todo))
     }
 
     fn cut(&self) -> ImportError {
