@@ -9,11 +9,12 @@ use crate::scene::{
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
-/// The most of a coefficient, such as a diffuse colour.
+/// The most of a coefficient, such as a diffuse colour, and of the colours of a pattern, by which it is
+/// multiplied.
 const COEFFICIENT: f32 = 1e3;
 
 /// The most of a radiance: of the background, ambient light, emission, lights that do not fall off, and
-/// of textures and pictures, which may multiply or be one.
+/// of pictures, which may be the background.
 const RADIANCE: f32 = 1e12;
 
 /// The most of a light that falls off with the distance, and of the surface of a lamp. The Sun's light
@@ -117,7 +118,7 @@ impl Counts {
             | Pattern::Gradient { a, b }
             | Pattern::Noise { a, b, .. } => {
                 for color in [a, b] {
-                    lower(color, RADIANCE, &mut self.radiances);
+                    lower(color, COEFFICIENT, &mut self.coefficients);
                 }
             }
             Pattern::Picture { .. } => {}
