@@ -11,21 +11,24 @@
 //! Pictures that scenes and models name are read by `picture.rs`.
 //!
 //! Files are hostile until read: nothing here panics, follows a path out of the scene's folder, or
-//! takes more memory than a few times the file's size and that of what it places, which is counted
-//! first. What cannot be rendered but does no harm is
-//! left out and named in [`Scene::skipped`]; everything else is one [`ImportError`] with the place
-//! it happened at.
+//! takes more memory than eight times the file's size (and 64 MiB; see `budget.rs`). Colours that no
+//! arithmetic could bear are lowered (`range.rs`). What cannot be rendered but does no harm is left
+//! out and named in [`Scene::skipped`]; everything else is one [`ImportError`] with the place it
+//! happened at.
 
+mod budget;
 mod course;
 mod error;
 mod native;
 mod nff;
+mod notes;
 mod number;
 mod obj;
 mod paths;
 mod picture;
 mod ply;
 mod polygon;
+mod range;
 mod source;
 mod stage;
 mod suggest;
@@ -86,6 +89,13 @@ pub fn load_watched(path: &Path, options: &Options) -> (Result<Scene, ImportErro
 }
 
 fn load_seen(path: &Path, options: &Options, seen: &Seen) -> Result<Scene, ImportError> {
+    let mut scene = load_as_written(path, options, seen)?;
+    range::limit(&mut scene);
+    Ok(scene)
+}
+
+/// The scene in the file at `path`, whatever its colours are.
+fn load_as_written(path: &Path, options: &Options, seen: &Seen) -> Result<Scene, ImportError> {
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
     let is_native = match ending.to_str() {
         Some("toml") => true,
@@ -120,11 +130,13 @@ fn load_seen(path: &Path, options: &Options, seen: &Seen) -> Result<Scene, Impor
 pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportError> {
     let path = Path::new(name);
     let source = Source::new("bad scene", path, text.as_bytes().to_vec())?;
-    match path.extension().and_then(|ending| ending.to_str()) {
+    let mut scene = match path.extension().and_then(|ending| ending.to_str()) {
         Some("scene") => course::read(&source),
         Some("nff") => nff::read(&source),
         _ => native::read(&source, options, &Files::none()),
-    }
+    }?;
+    range::limit(&mut scene);
+    Ok(scene)
 }
 
 /// The picture in the file at `path`, as linear colours.
@@ -166,20 +178,4 @@ fn unknown_format(path: &Path) -> ImportError {
         &ending,
         "Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file",
     ))
-}
-
-/// What [`crate::scene::Mesh::repair`] did, as notes for [`Scene::skipped`].
-fn repair_notes(repairs: crate::scene::Repairs) -> Vec<String> {
-    let count = |count: usize, what: &str| match count {
-        0 => None,
-        1 => Some(format!("1 {what}")),
-        _ => Some(format!("{count} {}s", what)),
-    };
-    let dropped = count(repairs.dropped_triangles, "triangle");
-    let recomputed = count(repairs.recomputed_normals, "normal");
-    dropped
-        .map(|triangles| format!("{triangles} without area dropped"))
-        .into_iter()
-        .chain(recomputed.map(|normals| format!("{normals} without length recomputed")))
-        .collect()
 }

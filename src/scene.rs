@@ -14,6 +14,7 @@ mod bounds;
 mod curve;
 mod frame;
 mod light;
+mod lit;
 mod material;
 mod mesh;
 mod node;
@@ -81,7 +82,8 @@ pub struct Scene {
     pub tracks: Vec<Track>,
     /// What the file says about the picture; flags win over it.
     pub output: OutputDefaults,
-    /// What the importer left out or repaired, one sentence each, in file order.
+    /// What the importer left out or repaired: of each kind the first few, a sentence each, and how
+    /// many more there were.
     pub skipped: Vec<String>,
 }
 

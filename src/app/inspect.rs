@@ -6,6 +6,7 @@ mod textures;
 use super::cli::{InspectArgs, TONES, TRANSFERS};
 use super::console;
 use super::exit::AppError;
+use super::job::UNLIT;
 use super::render;
 use super::report::SceneReport;
 use crate::scene::{Attenuation, Background, Camera, Light, LightKind, Material, Scene};
@@ -55,6 +56,7 @@ fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
         "tone": TONES.word(&output.tone), "transfer": TRANSFERS.word(&output.transfer),
     });
     value["animation"] = motion::to_json(scene);
+    value["unlit"] = json!(scene.is_unlit());
     Ok(value)
 }
 
@@ -208,7 +210,11 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
     })?;
     list(out, "skipped", &scene.skipped, |out, _, reason| {
         write!(out, "{reason}")
-    })
+    })?;
+    match scene.is_unlit() {
+        true => writeln!(out, "warning    {UNLIT}"),
+        false => Ok(()),
+    }
 }
 
 fn list<T>(

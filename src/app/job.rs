@@ -14,6 +14,10 @@ use glam::Vec3;
 use std::path::Path;
 use std::time::Instant;
 
+/// What is said about a scene without light.
+pub const UNLIT: &str = "the scene has no light, so its surfaces are black. Add a light, an ambient \
+                         light, or a material with emission.";
+
 /// A scene to be rendered, and everything the command line says about how.
 pub struct Job<'a> {
     /// The command's name, for the report.
@@ -54,10 +58,13 @@ impl Job<'_> {
         Console::new(self.log)
     }
 
-    /// Says what was left out of the scene.
+    /// Says what was left out of the scene, and whether it has no light.
     pub fn warn_of_skipped(&self) {
         for skipped in &self.scene.skipped {
             console::warning(skipped);
+        }
+        if self.scene.is_unlit() {
+            console::warning(UNLIT);
         }
     }
 

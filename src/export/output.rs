@@ -83,7 +83,8 @@ impl Writer<'_> {
         let mut table = Table::default();
         let size_text = list([size.0.to_string(), size.1.to_string()]);
         table.put_if(size != plain.size, "size", size_text);
-        table.put_if(samples != plain.samples, "samples", samples.to_string());
+        let is_said = samples != self.scene.default_samples();
+        table.put_if(is_said, "samples", samples.to_string());
         if let Some(antialias) = antialias {
             table.put(
                 "antialias",

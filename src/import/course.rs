@@ -16,7 +16,9 @@ mod area;
 mod palette;
 mod tokens;
 
+use super::budget::{self, Budget};
 use super::error::ImportError;
+use super::notes::{self, Notes};
 use super::number;
 use super::source::{Source, Token};
 use super::suggest;
@@ -93,10 +95,13 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
         area: Area::default(),
     };
     let announced = reader.header()?;
+    let budget = Budget::of(source.bytes.len());
     let mut found = 0_u64;
     while let Some(token) = reader.next_object()? {
         reader.object(token)?;
         found += 1;
+        let refuse = |why, todo: &str| source.malformed(token.span(), why, todo);
+        budget.check(reader.memory(), refuse)?;
     }
     reader.close_light()?;
     if announced != found as f64 {
@@ -138,6 +143,16 @@ impl<'s> Reader<'s> {
         }
         self.scene.ambient = DVec3::from(self.color("amb:")?).as_vec3();
         Ok(announced)
+    }
+
+    /// The memory that the file takes by now, with what will be made of it.
+    fn memory(&self) -> u64 {
+        self.source.bytes.len() as u64
+            + budget::size::<Shape>(self.scene.shapes.len())
+            + budget::size::<Light>(self.scene.lights.len())
+            + budget::size::<(DVec3, [Vec3; 2], u32)>(self.positions.len())
+            + budget::size::<[u32; 3]>(self.mesh.triangles.len())
+            + self.palette.memory()
     }
 
     /// The keyword of the next object, or `None` at the end.
@@ -368,8 +383,9 @@ impl<'s> Reader<'s> {
         }
         let (local, offset) = Mesh::from_world_positions(&self.positions);
         self.mesh.positions = local;
-        let repairs = self.mesh.repair();
-        self.scene.skipped.extend(super::repair_notes(repairs));
+        let mut notes = Notes::default();
+        notes::of_repairs(&mut notes, self.mesh.repair());
+        self.scene.skipped.extend(notes.into_lines());
         if !self.mesh.triangles.is_empty() {
             let world_from_object = DAffine3::from_translation(offset);
             self.scene.meshes.push(self.mesh.into());

@@ -24,6 +24,7 @@ mod mesh;
 mod view;
 mod words;
 
+use super::budget::{self, Budget};
 use super::error::ImportError;
 use super::source::{Source, Token};
 use super::{number, suggest};
@@ -104,8 +105,11 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
         surface: Surface::new(),
         inside_out: 0,
     };
+    let budget = Budget::of(source.bytes.len());
     while let Some(word) = reader.words.next() {
         reader.read_entity(word)?;
+        let refuse = |why, todo: &str| source.malformed(word.span(), why, todo);
+        budget.check(reader.memory(), refuse)?;
     }
     reader.finish()
 }
@@ -145,6 +149,16 @@ impl<'s> Reader<'s> {
             b"s" => self.sphere(word),
             patch_or_polygon => self.polygon(word, patch_or_polygon == b"pp"),
         }
+    }
+
+    /// The memory that the file takes by now, with what will be made of it.
+    fn memory(&self) -> u64 {
+        // A number and its key are kept in a table with free places.
+        self.source.bytes.len() as u64
+            + budget::size::<Shape>(self.scene.shapes.len())
+            + budget::size::<(Light, usize)>(self.scene.lights.len())
+            + budget::size::<(Material, [[u64; 9]; 2])>(self.scene.materials.len())
+            + self.surface.memory()
     }
 
     fn unknown(&self, word: Token) -> ImportError {

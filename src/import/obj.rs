@@ -1,33 +1,34 @@
 //! Wavefront OBJ with MTL: polygons, normals, and the Phong part of materials.
 //!
-//! All groups of a file become one [`Mesh`]. Polygons are triangulated, concave ones too. Corners
-//! without normals get the area-weighted mean of the faces round their vertex, or the face's own
-//! normal after `s off`. Lines, points and curves are left out and reported. Vertices have u and v only
-//! where some material wants them: they part vertices that are one without.
+//! All groups of a file become one [`Mesh`]. Polygons are triangulated, concave ones too. Faces
+//! without normals are flat unless they are in a smoothing group; see `smooth.rs`. Lines, points and
+//! curves are left out and reported. Vertices have u and v only where some material wants them: they
+//! part vertices that are one without.
 
 mod face;
 mod lines;
 mod materials;
 mod mtl;
+mod smooth;
 mod uv;
 mod weld;
 
+use super::budget::{self, Budget};
 use super::error::ImportError;
-use super::paths::{self, Files, Refusal};
+use super::notes::{self, Notes};
+use super::paths::{self, Files};
 use super::picture::Pictures;
 use super::polygon::{self, Cutter, Defect};
 use super::source::{Source, Token, quote};
-use super::{number, repair_notes, stage};
+use super::{number, stage};
 use crate::scene::{Instance, Material, Mesh, OutputDefaults, Scene, Texture};
 use face::Corner;
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use lines::{Line, Lines};
+use smooth::SmoothFace;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use std::path::Path;
-
-/// The largest material file, in bytes.
-const MAX_MTL_BYTES: u64 = 64 << 20;
 
 /// Statements of the format that say nothing about triangles.
 const IGNORED: [&[u8]; 17] = [
@@ -59,8 +60,7 @@ pub(super) struct Model {
     /// Their textures are indices into `textures`.
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
-    /// Notes for [`Scene::skipped`].
-    pub skipped: Vec<String>,
+    pub notes: Notes,
 }
 
 /// The model in `source` as a scene, with a camera and lights that show it.
@@ -76,7 +76,7 @@ pub(super) fn read_scene(source: &Source, files: &Files) -> Result<Scene, Import
             samples: 4,
             ..OutputDefaults::default()
         },
-        skipped: model.skipped,
+        skipped: model.notes.into_lines(),
         ..Scene::default()
     };
     if model.mesh.triangles.is_empty() {
@@ -123,19 +123,20 @@ fn read(
         positions: Vec::new(),
         normals: Vec::new(),
         uvs: Vec::new(),
-        face_normals: Vec::new(),
-        smooth_normals: Vec::new(),
+        made_normals: Vec::new(),
+        smooth_faces: Vec::new(),
         corners: Vec::new(),
         cutter: Cutter::new(),
         fan_count: 0,
         triangles: Vec::new(),
-        material: 0,
-        material_names: vec![String::new()],
+        material: None,
+        material_names: Vec::new(),
         material_ids: HashMap::new(),
-        flat: false,
-        library: HashMap::new(),
+        smoothing: 0,
+        libraries: Vec::new(),
         textures: Vec::new(),
-        skipped: Vec::new(),
+        notes: Notes::default(),
+        budget: Budget::of(source.bytes.len()),
         left_out: BTreeMap::new(),
         unknown: None,
         known_count: 0,
@@ -143,6 +144,8 @@ fn read(
     for mut line in Lines::new(&source.bytes) {
         if let Some(keyword) = line.word() {
             reader.statement(keyword, &mut line)?;
+            let refuse = |why, todo: &str| source.malformed(keyword.span(), why, todo);
+            reader.budget.check(reader.memory(), refuse)?;
         }
     }
     if let (Some(span), 0) = (reader.unknown.clone(), reader.known_count) {
@@ -152,7 +155,7 @@ fn read(
         );
         return Err(source.malformed(span, why, "Check that this is a Wavefront OBJ file"));
     }
-    Ok(reader.finish())
+    reader.finish()
 }
 
 struct Reader<'s> {
@@ -163,26 +166,27 @@ struct Reader<'s> {
     positions: Vec<DVec3>,
     normals: Vec<Vec3>,
     uvs: Vec<Vec2>,
-    /// Normals of flat faces, which the file does not have.
-    face_normals: Vec<Vec3>,
-    /// For each position, the sum of the normals of the faces that have none there; shorter than
-    /// `positions` where there are none at all.
-    smooth_normals: Vec<DVec3>,
+    /// Normals that the file does not have.
+    made_normals: Vec<Vec3>,
+    smooth_faces: Vec<SmoothFace>,
     corners: Vec<Corner>,
     cutter: Cutter,
     /// Faces that could only be cut into fans.
     fan_count: usize,
     /// Indices into `corners`.
     triangles: Vec<[u32; 3]>,
-    /// Index into `material_names` of the material in use; 0 before the first `usemtl`.
-    material: u32,
-    material_names: Vec<String>,
-    material_ids: HashMap<Vec<u8>, u32>,
-    /// Whether faces without normals are flat.
-    flat: bool,
-    library: HashMap<String, mtl::Entry>,
+    /// The name of the material in use; `None` before the first `usemtl`.
+    material: Option<&'s [u8]>,
+    /// Those that faces use.
+    material_names: Vec<Option<&'s [u8]>>,
+    material_ids: HashMap<Option<&'s [u8]>, u32>,
+    /// The smoothing group of the faces that follow; 0 for none.
+    smoothing: u32,
+    /// Material libraries, of which only what is used becomes more than text.
+    libraries: Vec<Source>,
     textures: Vec<Texture>,
-    skipped: Vec<String>,
+    notes: Notes,
+    budget: Budget,
     /// How much of what was left out.
     left_out: BTreeMap<&'static str, usize>,
     /// The first statement that we do not know.
@@ -190,8 +194,8 @@ struct Reader<'s> {
     known_count: usize,
 }
 
-impl Reader<'_> {
-    fn statement(&mut self, keyword: Token, line: &mut Line) -> Result<(), ImportError> {
+impl<'s> Reader<'s> {
+    fn statement(&mut self, keyword: Token, line: &mut Line<'s>) -> Result<(), ImportError> {
         self.known_count += 1;
         match keyword.bytes {
             b"v" => self.vertex(keyword, line)?,
@@ -201,9 +205,9 @@ impl Reader<'_> {
             }
             b"vt" => self.texture_coordinates(keyword, line)?,
             b"f" | b"fo" => self.face(keyword, line)?,
-            b"usemtl" => self.use_material(line),
+            b"usemtl" => self.material = Some(line.rest().bytes),
             b"mtllib" => self.material_library(line)?,
-            b"s" => self.flat = matches!(line.word().map(|w| w.bytes), Some(b"off" | b"0")),
+            b"s" => self.smoothing = smooth::group(line.word()),
             b"l" | b"p" => self.leave_out("lines and points"),
             b"curv" | b"curv2" | b"surf" | b"cstype" | b"deg" | b"bmat" | b"step" | b"parm"
             | b"trim" | b"hole" | b"scrv" | b"sp" | b"con" => {
@@ -263,11 +267,14 @@ impl Reader<'_> {
 
     fn face(&mut self, keyword: Token, line: &mut Line) -> Result<(), ImportError> {
         let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
-        let mut face = face::read(self.source, keyword, line, counts, self.material)?;
+        let mut face = face::read(self.source, keyword, line, counts)?;
         if face.len() < 3 {
             self.leave_out("faces of fewer than three corners");
             return Ok(());
         }
+        let material = self.material_in_use();
+        face.iter_mut()
+            .for_each(|corner| corner.material = material);
         let points: Vec<DVec3> = face
             .iter()
             .map(|c| self.positions[c.position as usize])
@@ -292,142 +299,81 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Sees to the corners of `face` that have no normals, where `normal` is the face's own, as
-    /// long as its area: the whole face counts, so that it matters not how it is cut.
-    fn complete_normals(&mut self, face: &mut [Corner], normal: DVec3) {
-        let mut bare = face
-            .iter_mut()
-            .filter(|corner| corner.normal == face::NONE)
-            .peekable();
-        if bare.peek().is_none() {
-            return;
-        }
-        if self.flat {
-            let index = face::FACE_NORMAL | self.face_normals.len() as u32;
-            self.face_normals.push(normal.normalize_or_zero().as_vec3());
-            bare.for_each(|corner| corner.normal = index);
-        } else {
-            self.smooth_normals
-                .resize(self.positions.len(), DVec3::ZERO);
-            bare.for_each(|corner| self.smooth_normals[corner.position as usize] += normal);
-        }
+    /// The memory that the file takes by now, with what will be made of it.
+    fn memory(&self) -> u64 {
+        /// While vertices are welded, a corner is in an order and has the number of a vertex, which has a
+        /// corner, a position, a normal, a material, and u and v. `repair` takes less.
+        const WELDED: usize = 3 * size_of::<u32>() + size_of::<(Vec3, Vec3, u32, Vec2)>();
+        let libraries = self
+            .libraries
+            .iter()
+            .map(|library| library.bytes.len() as u64);
+        self.source.bytes.len() as u64
+            + libraries.sum::<u64>()
+            + budget::size::<DVec3>(self.positions.len())
+            + budget::size::<Vec3>(self.normals.len() + self.made_normals.len())
+            + budget::size::<Vec2>(self.uvs.len())
+            + budget::size::<(Corner, [u8; WELDED])>(self.corners.len())
+            + budget::size::<[u32; 3]>(self.triangles.len())
+            + budget::size::<(SmoothFace, [Vec3; 3])>(self.smooth_faces.len())
+            // A name and its number are kept three times, once of them in a table with free places.
+            + budget::size::<(Material, [&[u8]; 6])>(self.material_names.len())
     }
 
-    fn use_material(&mut self, line: &Line) {
-        let name = line.rest().bytes;
-        self.material = match self.material_ids.get(name) {
-            Some(&id) => id,
-            None => {
-                let id = self.material_names.len() as u32;
-                self.material_names
-                    .push(String::from_utf8_lossy(name).into_owned());
-                self.material_ids.insert(name.to_vec(), id);
-                id
-            }
-        };
-    }
-
-    /// Reads the libraries that `line` names: one whose name may have spaces, else several.
-    fn material_library(&mut self, line: &mut Line) -> Result<(), ImportError> {
-        let whole = line.rest();
-        if self.library_file(whole)? {
-            return Ok(());
-        }
-        let mut words = Vec::new();
-        while let Some(word) = line.word() {
-            words.push(word);
-        }
-        for word in words {
-            if word.bytes.len() == whole.bytes.len() || !self.library_file(word)? {
-                let note = format!("the material file {} does not exist", word.quote());
-                if !self.skipped.contains(&note) {
-                    self.skipped.push(note);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Whether the library `name` exists and was read.
-    fn library_file(&mut self, name: Token) -> Result<bool, ImportError> {
-        let text = String::from_utf8_lossy(name.bytes);
-        let path = match self.files.resolve(&text) {
-            Ok(path) => path,
-            Err(Refusal::Missing(_)) => return Ok(false),
-            Err(refusal) => {
-                let malformed = |why, todo: &str| self.source.malformed(name.span(), why, todo);
-                return Err(refusal.into_error("material file", malformed));
-            }
-        };
-        let bytes = paths::read(&path, MAX_MTL_BYTES)?;
-        // Exporters do write empty libraries.
-        if !bytes.is_empty() {
-            let source = Source::new("bad material file", &path, bytes)?;
-            let library = mtl::read(&source)?;
-            self.library.extend(library.materials);
-            self.skipped.extend(library.skipped);
-        }
-        Ok(true)
-    }
-
-    fn finish(mut self) -> Model {
-        let (materials, material_of_id) = self.materials();
-        self.drop_unwanted_uvs(&materials, &material_of_id);
+    fn finish(mut self) -> Result<Model, ImportError> {
+        let materials = self.materials()?;
+        self.drop_unwanted_uvs(&materials);
+        self.smooth();
         let (vertices, vertex_of_corner) = weld::weld(&self.corners);
-        drop(std::mem::take(&mut self.corners));
+        for corner in self.triangles.as_flattened_mut() {
+            *corner = vertex_of_corner[*corner as usize];
+        }
+        drop(vertex_of_corner);
         let uvs = self.uvs_of(&vertices, &materials);
 
-        let world: Vec<DVec3> = vertices
-            .iter()
-            .map(|v| self.positions[v.position as usize])
-            .collect();
-        let (positions, offset) = Mesh::from_world_positions(&world);
-        let normal = |v: &Corner| match v.normal {
-            face::NONE => self.smooth_normals[v.position as usize]
-                .normalize_or_zero()
-                .as_vec3(),
-            index if index & face::FACE_NORMAL != 0 => {
-                self.face_normals[(index & !face::FACE_NORMAL) as usize]
-            }
-            index => self.normals[index as usize],
+        let corners = &self.corners;
+        let corners = || vertices.iter().map(|&vertex| corners[vertex as usize]);
+        let world = corners().map(|corner| &self.positions[corner.position as usize]);
+        let (positions, offset) = Mesh::from_world_positions(world);
+        let normal = |corner: Corner| match corner.normal & face::MADE {
+            0 => self.normals[corner.normal as usize],
+            mark => self.made_normals[(corner.normal ^ mark) as usize],
         };
         let name = self.source.path.file_stem().unwrap_or_default();
         let mut mesh = Mesh {
             name: name.to_string_lossy().into_owned(),
             positions,
-            normals: vertices.iter().map(normal).collect(),
+            normals: corners().map(normal).collect(),
             uvs,
-            materials: vertices
-                .iter()
-                .map(|v| material_of_id[v.material as usize])
-                .collect(),
+            materials: corners().map(|corner| corner.material).collect(),
             triangles: self.triangles,
         };
-        for triangle in &mut mesh.triangles {
-            *triangle = triangle.map(|corner| vertex_of_corner[corner as usize]);
+        for (what, count) in self.left_out {
+            self.notes.add("models with parts left out", || {
+                format!("{what} left out: {count}")
+            });
         }
-        let left_out = self.left_out.iter();
-        self.skipped
-            .extend(left_out.map(|(what, count)| format!("{what} left out: {count}")));
         if self.fan_count > 0 {
-            let note = format!(
-                "faces that cross themselves or are too large, cut into fans: {}",
-                self.fan_count
-            );
-            self.skipped.push(note);
+            self.notes.add("models with faces cut into fans", || {
+                format!(
+                    "faces that cross themselves or are too large, cut into fans: {}",
+                    self.fan_count
+                )
+            });
         }
-        if let Some(span) = &self.unknown {
-            let first = quote(&self.source.bytes[span.clone()]);
-            self.skipped
-                .push(format!("the first unknown statement is {first}"));
+        if let Some(span) = self.unknown {
+            let first = quote(&self.source.bytes[span]);
+            self.notes.add("unknown statements", || {
+                format!("the first unknown statement is {first}")
+            });
         }
-        self.skipped.extend(repair_notes(mesh.repair()));
-        Model {
+        notes::of_repairs(&mut self.notes, mesh.repair());
+        Ok(Model {
             mesh,
             offset,
             materials,
             textures: self.textures,
-            skipped: self.skipped,
-        }
+            notes: self.notes,
+        })
     }
 }

@@ -8,7 +8,10 @@ use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 use std::rc::Rc;
 
-/// Every file that was looked for, each once.
+/// How many files are kept in mind; nobody watches more.
+const MAX_SEEN: usize = 4096;
+
+/// Every file that was looked for, each once, up to [`MAX_SEEN`].
 #[derive(Clone, Default)]
 pub(super) struct Seen(Rc<RefCell<Vec<PathBuf>>>);
 
@@ -16,7 +19,7 @@ impl Seen {
     /// Notes a file.
     pub fn note(&self, path: &Path) {
         let mut paths = self.0.borrow_mut();
-        if !paths.iter().any(|known| known == path) {
+        if paths.len() < MAX_SEEN && !paths.iter().any(|known| known == path) {
             paths.push(path.to_owned());
         }
     }

@@ -1,6 +1,9 @@
 //! Pictures that scenes name: PNG, JPEG, Radiance HDR and OpenEXR, told apart by their first bytes.
 //!
-//! PNG and JPEG are taken as sRGB, HDR and EXR as linear Rec. 709. Transparency is left out.
+//! PNG and JPEG are taken as sRGB, HDR and EXR as linear Rec. 709. Transparency is left out. A file
+//! that is truncated is refused, whatever its decoder would make of it.
+
+mod complete;
 
 use super::error::{Fault, ImportError};
 use super::paths::{self, Files, Refusal};
@@ -142,10 +145,15 @@ fn decode(path: &Path, name: &str, taken: u64) -> Result<Picture, Refused> {
             format!("has {width} × {height}{others}, but at most {MAX_TEXELS} texels are read");
         return Err(too_big(why));
     }
+    if let Some(format) = body.format() {
+        complete::check(format, &bytes, count)
+            .map_err(|why| unfit(why, "Check that it was written completely"))?;
+    }
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_DECODED_BYTES);
     body.limits(limits);
-    let texels = linear(body.decode().map_err(explain)?);
+    let image = body.decode().map_err(explain)?;
+    let texels = linear(image);
     Ok(Picture {
         width,
         height,
@@ -169,10 +177,20 @@ fn linear(image: DynamicImage) -> Vec<Vec3> {
             let curve: Vec<f32> = (0..=u16::MAX)
                 .map(|code| linear_from_srgb(f64::from(code) / f64::from(u16::MAX)) as f32)
                 .collect();
-            // 8 bits become 16 without loss: 65535 is 255 times 257.
-            let image = image.into_rgb16();
-            let texel = |p: &image::Rgb<u16>| Vec3::from(p.0.map(|code| curve[usize::from(code)]));
-            image.pixels().map(texel).collect()
+            let texel = |p: &[u16; 3]| Vec3::from(p.map(|code| curve[usize::from(code)]));
+            let channels = usize::from(image.color().channel_count());
+            if usize::from(image.color().bytes_per_pixel()) == channels {
+                // 8 bits become 16 without loss: 65535 is 255 times 257.
+                let wide = |byte: u8| 257 * u16::from(byte);
+                let texels = image.as_bytes().chunks_exact(channels);
+                return texels
+                    .map(|p| match *p {
+                        [r, g, b] | [r, g, b, _] => texel(&[r, g, b].map(wide)),
+                        _ => texel(&[wide(p[0]); 3]),
+                    })
+                    .collect();
+            }
+            image.into_rgb16().pixels().map(|p| texel(&p.0)).collect()
         }
     }
 }

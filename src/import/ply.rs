@@ -4,12 +4,13 @@
 //! a `material`, which is ours; of faces the list `vertex_indices` (also `vertex_index`). All else is
 //! passed over. Single precision is taken as it is; of double precision the offset is kept.
 
+use super::budget::{self, Budget};
 use super::error::{ImportError, fault};
 use super::number::in_range;
 use super::paths;
 use super::source::quote;
 use crate::scene::Mesh;
-use glam::{DAffine3, DMat3, DVec3, Vec2};
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use std::path::Path;
 
 /// The longest header, in bytes.
@@ -54,6 +55,7 @@ pub(super) fn places(path: &Path) -> Result<Vec<DAffine3>, ImportError> {
         let place = reader.columns(&element, &["x", "y", "z"])?;
         let place = place.ok_or_else(|| reader.refuse("its vertices lack x, y or z", AGAIN))?;
         let axes = reader.columns(&element, &AXES)?;
+        reader.take(budget::size::<DAffine3>(element.count))?;
         let mut places = Vec::with_capacity(element.count);
         let mut row = Vec::new();
         for _ in 0..element.count {
@@ -93,6 +95,14 @@ fn vertices(
     let is_double = place
         .iter()
         .any(|&i| element.properties[i].kind == Kind::Double);
+    // A position, a normal, what it is computed from, and a material; see `Mesh::repair`.
+    let mut needed = budget::size::<(Vec3, Vec3, u32)>(element.count);
+    if normal.is_none() {
+        needed += budget::size::<Option<DVec3>>(element.count);
+    }
+    needed += budget::size::<Vec2>(if uv.is_some() { element.count } else { 0 });
+    needed += budget::size::<DVec3>(if is_double { element.count } else { 0 });
+    reader.take(needed)?;
     let mut places = Vec::with_capacity(if is_double { element.count } else { 0 });
     let mut row = Vec::new();
     for _ in 0..element.count {
@@ -132,6 +142,7 @@ fn faces(reader: &mut Reader, element: &Element, mesh: &mut Mesh) -> Result<(), 
     let at = element.properties.iter().position(is_wanted);
     let at = at.filter(|&at| element.properties[at].count.is_some());
     let at = at.ok_or_else(|| reader.refuse("its faces have no list `vertex_indices`", AGAIN))?;
+    reader.take(budget::size::<[u32; 3]>(element.count))?;
     for _ in 0..element.count {
         for (i, property) in element.properties.iter().enumerate() {
             let count = reader.length(property)?;
@@ -225,6 +236,8 @@ struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,
     encoding: Encoding,
+    /// Bytes of memory that the file takes.
+    taken: u64,
 }
 
 impl<'a> Reader<'a> {
@@ -234,6 +247,7 @@ impl<'a> Reader<'a> {
             bytes,
             at: 0,
             encoding: Encoding::Text,
+            taken: bytes.len() as u64,
         };
         match bytes.starts_with(b"ply") {
             true => Ok(reader),
@@ -243,6 +257,12 @@ impl<'a> Reader<'a> {
 
     fn refuse(&self, why: &str, todo: &str) -> ImportError {
         ImportError::Malformed(fault("bad mesh", self.path, why, todo))
+    }
+
+    /// Takes more memory, before it is used.
+    fn take(&mut self, bytes: u64) -> Result<(), ImportError> {
+        self.taken = self.taken.saturating_add(bytes);
+        Budget::of(self.bytes.len()).check(self.taken, |why, todo| self.refuse(&why, todo))
     }
 
     fn cut(&self) -> ImportError {

@@ -41,30 +41,25 @@ impl Mesh {
         let given_normals = self.normals.len();
         self.normals.resize(self.positions.len(), Vec3::ZERO);
 
-        let corner = |i: u32| self.positions[i as usize].as_dvec3();
-        let cross = |t: &[u32; 3]| (corner(t[1]) - corner(t[0])).cross(corner(t[2]) - corner(t[0]));
-        let mut area_normals = vec![DVec3::ZERO; self.positions.len()];
         let before = self.triangles.len();
-        let mut kept = Vec::with_capacity(before);
-        for triangle in &self.triangles {
-            let normal = cross(triangle);
-            let longest = (0..3)
-                .map(|i| corner(triangle[i]).distance_squared(corner(triangle[(i + 1) % 3])))
-                .fold(0.0, f64::max);
-            // Below one f32 rounding of the longest edge the height is noise, not area.
-            if normal.length() <= longest * f64::from(f32::EPSILON) * 0.5 {
-                continue;
-            }
-            for &i in triangle {
-                area_normals[i as usize] += normal;
-            }
-            kept.push(*triangle);
-        }
-        self.triangles = kept;
+        let positions = &self.positions;
+        self.triangles
+            .retain(|triangle| area_normal(positions, triangle).is_some());
 
-        let mut used = vec![false; self.positions.len()];
-        for &i in self.triangles.iter().flatten() {
-            used[i as usize] = true;
+        let has_direction = |n: &Vec3| {
+            let length = n.as_dvec3().length();
+            length.is_finite() && length > 1e-30
+        };
+        // Empty where every vertex has a normal, which saves most of the memory that this takes.
+        let mut area_normals = Vec::new();
+        if !self.normals.iter().all(has_direction) {
+            area_normals.resize(self.positions.len(), None::<DVec3>);
+            for triangle in &self.triangles {
+                let normal = area_normal(positions, triangle).unwrap_or_default();
+                for &i in triangle {
+                    *area_normals[i as usize].get_or_insert_default() += normal;
+                }
+            }
         }
         let mut recomputed_normals = 0;
         for (i, normal) in self.normals.iter_mut().enumerate() {
@@ -74,14 +69,13 @@ impl Mesh {
             if (length - 1.0).abs() <= f64::from(f32::EPSILON) {
                 continue;
             }
-            *normal = if length.is_finite() && length > 1e-30 {
+            *normal = if has_direction(normal) {
                 (given / length).as_vec3()
             } else {
-                recomputed_normals += usize::from(i < given_normals && used[i]);
-                area_normals[i]
-                    .try_normalize()
-                    .unwrap_or(DVec3::Y)
-                    .as_vec3()
+                let around = area_normals[i];
+                recomputed_normals += usize::from(i < given_normals && around.is_some());
+                let normal = around.and_then(DVec3::try_normalize);
+                normal.unwrap_or(DVec3::Y).as_vec3()
             };
         }
         Repairs {
@@ -92,9 +86,13 @@ impl Mesh {
 
     /// Moves the vertices so that their box is centred on the origin and returns the translation
     /// that brings them back. Of use to importers whose files place vertices far from the origin.
-    pub fn from_world_positions(positions: &[DVec3]) -> (Vec<Vec3>, DVec3) {
+    pub fn from_world_positions<'a, P>(positions: P) -> (Vec<Vec3>, DVec3)
+    where
+        P: IntoIterator<Item = &'a DVec3, IntoIter: Clone>,
+    {
+        let positions = positions.into_iter();
         let Some((min, max)) = positions
-            .iter()
+            .clone()
             .map(|&p| (p, p))
             .reduce(super::bounds::union)
         else {
@@ -107,7 +105,21 @@ impl Mesh {
         } else {
             DVec3::ZERO
         };
-        let local = positions.iter().map(|p| (*p - offset).as_vec3()).collect();
+        let local = positions.map(|p| (*p - offset).as_vec3()).collect();
         (local, offset)
     }
+}
+
+/// The triangle's normal, as long as twice its area; `None` where f32 cannot tell that from nothing.
+fn area_normal(positions: &[Vec3], triangle: &[u32; 3]) -> Option<DVec3> {
+    let [a, b, c] = triangle.map(|i| positions[i as usize].as_dvec3());
+    let normal = (b - a).cross(c - a);
+    let edges = [
+        a.distance_squared(b),
+        b.distance_squared(c),
+        c.distance_squared(a),
+    ];
+    let longest = edges.into_iter().fold(0.0, f64::max);
+    // Below one f32 rounding of the longest edge the height is noise, not area.
+    (normal.length() > longest * f64::from(f32::EPSILON) * 0.5).then_some(normal)
 }

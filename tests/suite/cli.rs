@@ -851,6 +851,25 @@ fn sigterm_exits_143_and_leaves_the_old_picture() {
 }
 
 #[test]
+fn a_scene_without_light_says_so_once() {
+    let place = Workplace::new();
+    let ball = "[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n";
+    fs::write(place.path("dark.toml"), ball).expect("a scene");
+    let lit = format!("[[lights]]\npoint = {{ position = [3, 3, 3] }}\n{ball}");
+    fs::write(place.path("lit.toml"), lit).expect("a scene");
+    for (name, count) in [("dark", 1), ("lit", 0)] {
+        let render = place.run(&format!("render {name}.toml --size 8x8 -o {name}.png"));
+        let said = render.expect(0).stderr;
+        assert_eq!(said.matches("has no light").count(), count, "{said}");
+        let inspect = place.run(&format!("inspect {name}.toml")).expect(0);
+        let text = inspect.text();
+        assert_eq!(text.matches("has no light").count(), count, "{text}");
+        let json = place.run(&format!("inspect {name}.toml --json"));
+        assert_eq!(json.expect(0).json()["unlit"], count == 1);
+    }
+}
+
+#[test]
 fn inspect_tells_of_lenses_and_area_lights() {
     let place = Workplace::new();
     let text = "[camera]\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\nlens = { radius = 0.5, blades = 7 }\n\

@@ -1,9 +1,12 @@
 //! Scene files in: what each format means, and what everything that is wrong with one gets.
 
 mod assets;
+mod corpus;
 mod course;
+mod defaults;
 mod files;
 mod hostile;
+mod memory;
 mod native;
 mod native_animation;
 mod native_groups;
@@ -13,6 +16,7 @@ mod nodes_and_ply;
 mod obj;
 mod optics;
 mod pictures;
+mod range;
 mod shapes;
 mod textures;
 

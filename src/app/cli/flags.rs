@@ -40,7 +40,8 @@ pub struct SizeFlags {
     /// Width and height in pixels [default: the scene's, else 640x480]
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = values::size)]
     pub size: Option<(u32, u32)>,
-    /// Samples per pixel, 1 to 65536 [default: the scene's, else 1]
+    /// Samples per pixel, 1 to 65536 [default: the scene's, else 16 with a lens, a light with extent
+    /// or an open shutter, else 1]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub samples: Option<u32>,
 }

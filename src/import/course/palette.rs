@@ -1,5 +1,6 @@
 //! Materials of a format that repeats them at every vertex, each kept once.
 
+use crate::import::budget;
 use crate::scene::{Material, Mixing};
 use glam::Vec3;
 use std::collections::HashMap;
@@ -31,6 +32,12 @@ impl Palette {
             });
             self.materials.len() as u32 - 1
         })
+    }
+
+    /// The memory that they take.
+    pub fn memory(&self) -> u64 {
+        // A number and its key are kept in a table with free places.
+        budget::size::<(Material, [[u32; 8]; 2])>(self.materials.len())
     }
 
     /// The materials, at least one.

@@ -9,6 +9,7 @@ use super::file::{AnimationTable, PropertyName, SceneFile};
 use super::lights::NamedLight;
 use super::nodes::Nodes;
 use crate::import::error::ImportError;
+use crate::import::notes::Notes;
 use crate::import::source::quote;
 use crate::import::suggest;
 use crate::scene::{
@@ -27,13 +28,6 @@ pub(super) struct Found<'a> {
     pub lights: &'a mut [NamedLight],
     /// Materials by name.
     pub materials: &'a HashMap<String, usize>,
-}
-
-/// All tracks, and what came of no use.
-#[derive(Default)]
-pub(super) struct Tracks {
-    pub tracks: Vec<Track>,
-    pub skipped: Vec<String>,
 }
 
 /// The properties of one kind of thing, and what the host model calls them.
@@ -88,14 +82,20 @@ const OF_MATERIALS: Properties<MaterialProperty> = &[
     (P::Absorption, "absorption", MaterialProperty::Absorption),
 ];
 
-/// The tracks of all animations in `file`.
-pub(super) fn tracks(file: &SceneFile, found: Found, texts: &Texts) -> Result<Tracks, ImportError> {
+/// The tracks of all animations in `file`. Notes of what came of no use go to `notes`.
+pub(super) fn tracks(
+    file: &SceneFile,
+    found: Found,
+    texts: &Texts,
+    notes: &mut Notes,
+) -> Result<Vec<Track>, ImportError> {
     let mut reader = Reader {
         file,
         found,
         texts,
         given: HashSet::new(),
-        made: Tracks::default(),
+        made: Vec::new(),
+        notes,
     };
     for table in &file.animation {
         reader.note(table)?;
@@ -115,7 +115,8 @@ struct Reader<'a> {
     texts: &'a Texts<'a>,
     /// Every property that is animated.
     given: HashSet<(&'static str, &'a str, PropertyName)>,
-    made: Tracks,
+    made: Vec<Track>,
+    notes: &'a mut Notes,
 }
 
 impl<'a> Reader<'a> {
@@ -173,12 +174,12 @@ impl<'a> Reader<'a> {
         };
         if targets.is_empty() {
             let quoted = quote(name.get_ref().as_bytes());
-            self.made.skipped.push(format!(
-                "animation of {quoted} left out: it is in no part of the scene"
-            ));
+            self.notes.add("animations left out", || {
+                format!("animation of {quoted} left out: it is in no part of the scene")
+            });
             return Ok(());
         }
-        self.made.tracks.push(Track { targets, curve });
+        self.made.push(Track { targets, curve });
         Ok(())
     }
 

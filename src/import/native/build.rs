@@ -8,6 +8,7 @@ use super::surfaces::{MeshKey, MeshPlace, PlacedMesh, Triangles};
 use super::textures::Textures;
 use super::{Texts, animation, cameras, lights, materials};
 use crate::import::error::ImportError;
+use crate::import::notes::Notes;
 use crate::import::number::in_range;
 use crate::import::paths::Files;
 use crate::import::{stage, suggest};
@@ -25,6 +26,7 @@ pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Sce
     builder.finish_triangles();
     let background = builder.textures.background(&file.background)?;
     let (mut nodes, names) = (builder.nodes, builder.names);
+    let mut notes = builder.notes;
     let mut scene = Scene {
         nodes: std::mem::take(&mut nodes.nodes),
         textures: builder.textures.textures,
@@ -49,10 +51,12 @@ pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Sce
         lights: &mut lights,
         materials: &names,
     };
-    let tracks = animation::tracks(&file, found, texts)?;
-    scene.tracks = tracks.tracks;
-    scene.skipped.extend(tracks.skipped);
+    scene.tracks = animation::tracks(&file, found, texts, &mut notes)?;
+    scene.skipped = notes.into_lines();
     scene.lights = lights.into_iter().map(|named| named.light).collect();
+    if file.output.samples.is_none() {
+        scene.output.samples = scene.default_samples();
+    }
     Ok(scene)
 }
 
@@ -64,6 +68,7 @@ pub(super) struct Builder<'a> {
     /// Still without its textures, pictures, background and nodes.
     pub scene: Scene,
     pub textures: Textures<'a>,
+    pub notes: Notes,
     /// Of materials.
     names: HashMap<String, usize>,
     /// The material of objects that name none, once there is one.
@@ -100,6 +105,7 @@ impl<'a> Builder<'a> {
             objects,
             nodes: Nodes::new(objects, file, texts)?,
             textures,
+            notes: Notes::default(),
             scene: Scene {
                 materials,
                 ambient: file.ambient.0,
@@ -247,7 +253,7 @@ fn output(table: &OutputTable) -> OutputDefaults {
     let [open, close] = table.shutter.0;
     OutputDefaults {
         size: (width, height),
-        samples: table.samples.0,
+        samples: table.samples.map_or(1, |count| count.0),
         antialias: table.antialias.map(Into::into),
         noise: table.noise.0,
         max_depth: table.max_depth.0,

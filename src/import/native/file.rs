@@ -113,8 +113,8 @@ pub(super) struct SceneFile {
 pub(super) struct OutputTable {
     /// Width and height in pixels; [640, 480] if left out.
     pub size: Size,
-    /// Samples per pixel; 1 if left out.
-    pub samples: Count,
+    /// Samples per pixel; if left out 16 with a lens, a light with extent or an open shutter, else 1.
+    pub samples: Option<Count>,
     /// Where samples lie: none (all at the centre), stratified, or adaptive, which spends up to
     /// `samples` where there is noise. Stratified for more than one sample if left out.
     pub antialias: Option<AntialiasName>,
@@ -150,7 +150,7 @@ impl Default for OutputTable {
     fn default() -> Self {
         Self {
             size: Size([640, 480]),
-            samples: Count(1),
+            samples: None,
             antialias: None,
             noise: Noise(0.01),
             max_depth: Bounces(5),

@@ -7,8 +7,9 @@ use super::nodes::Place;
 use super::shapes;
 use super::values::Vector;
 use crate::import::error::ImportError;
+use crate::import::notes::{self, Notes};
 use crate::import::source::quote;
-use crate::import::{obj, ply, repair_notes, suggest};
+use crate::import::{obj, ply, suggest};
 use crate::scene::{self, Geometry, Instance, Mesh, Repairs, Shape, Space};
 use glam::{DAffine3, DVec3, Vec2};
 use std::collections::HashMap;
@@ -255,9 +256,9 @@ impl Builder<'_> {
         for material in &mut mesh.materials {
             *material = materials[*material as usize] as u32;
         }
-        let notes = repair_notes(mesh.repair()).into_iter();
-        let notes = notes.map(|note| format!("{}: {note}", quote(name.as_bytes())));
-        self.scene.skipped.extend(notes);
+        let mut notes = Notes::default();
+        notes::of_repairs(&mut notes, mesh.repair());
+        self.notes.append(notes, &quote(name.as_bytes()));
         Ok(self.add_mesh(mesh, offset))
     }
 
@@ -287,12 +288,7 @@ impl Builder<'_> {
         let wants_uvs = material.map(|index| self.wants_uvs(index));
         let pictures = &mut self.textures.pictures;
         let mut model = obj::read_model(path, self.files, pictures, wants_uvs)?;
-        self.scene.skipped.extend(
-            model
-                .skipped
-                .into_iter()
-                .map(|note| format!("{}: {note}", quote(name.as_bytes()))),
-        );
+        self.notes.append(model.notes, &quote(name.as_bytes()));
         if model.mesh.triangles.is_empty() {
             return Ok(None);
         }
@@ -356,6 +352,6 @@ impl Builder<'_> {
                 node,
             });
         }
-        self.scene.skipped.extend(repair_notes(all));
+        notes::of_repairs(&mut self.notes, all);
     }
 }

@@ -1,9 +1,10 @@
 //! The `p` and `pp` entities: polygons and patches, as triangles of one mesh.
 
 use super::Reader;
+use crate::import::budget;
 use crate::import::error::ImportError;
+use crate::import::notes::{self, Notes};
 use crate::import::polygon::{self, Cutter, Defect};
-use crate::import::repair_notes;
 use crate::import::source::Token;
 use crate::scene::{Instance, Mesh, Scene};
 use glam::{DAffine3, DVec3, Vec3};
@@ -80,6 +81,12 @@ impl Surface {
         Ok(())
     }
 
+    /// The memory that all polygons take, with what will be made of them.
+    pub fn memory(&self) -> u64 {
+        budget::size::<(DVec3, [Vec3; 2], u32)>(self.positions.len())
+            + budget::size::<[u32; 3]>(self.mesh.triangles.len())
+    }
+
     /// Adds the mesh to `scene`, and what there is to say about it.
     pub fn add_to(mut self, scene: &mut Scene) {
         let counts = [
@@ -98,8 +105,11 @@ impl Surface {
         scene.skipped.extend(notes);
 
         let (local, offset) = Mesh::from_world_positions(&self.positions);
+        drop(self.positions);
         self.mesh.positions = local;
-        scene.skipped.extend(repair_notes(self.mesh.repair()));
+        let mut notes = Notes::default();
+        notes::of_repairs(&mut notes, self.mesh.repair());
+        scene.skipped.extend(notes.into_lines());
         if !self.mesh.triangles.is_empty() {
             scene.meshes.push(self.mesh.into());
             scene.instances.push(Instance {

@@ -8,11 +8,14 @@ use crate::import::source::{Source, Token};
 /// The normal of a corner that has none.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Marks indices of normals that belong to flat faces and are not in the file.
-pub(super) const FACE_NORMAL: u32 = 1 << 31;
+/// Marks indices of normals that were made and are not in the file.
+pub(super) const MADE: u32 = 1 << 31;
+
+/// Marks indices of faces of smoothing groups, whose normals are still to be made.
+pub(super) const SMOOTH: u32 = 1 << 30;
 
 /// How many corners all faces may have together: indices are u32, and some are marked.
-pub(super) const MAX_CORNERS: usize = FACE_NORMAL as usize - 1;
+pub(super) const MAX_CORNERS: usize = MADE as usize - 1;
 
 /// How many corners one face may have.
 const MAX_FACE_CORNERS: usize = 65_536;
@@ -20,10 +23,10 @@ const MAX_FACE_CORNERS: usize = 65_536;
 /// The place in a texture of a corner that has none, or needs none.
 pub(super) const NO_UV: u32 = NONE;
 
-/// One corner of a face. Ordered such that those without normals come last.
+/// One corner of a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Corner {
-    /// Index of a `vn`, or [`NONE`], or [`FACE_NORMAL`] and an index.
+    /// Index of a `vn`, or [`NONE`], or an index with [`MADE`] or [`SMOOTH`].
     pub normal: u32,
     /// Index of a `v`.
     pub position: u32,
@@ -32,14 +35,18 @@ pub(super) struct Corner {
     pub uv: u32,
 }
 
-/// The corners in `line`; `counts` are the numbers of positions, texture coordinates and normals so
-/// far.
+/// The index of the face that a corner's normal is made of, if it is.
+pub(super) fn smooth_index(normal: u32) -> Option<usize> {
+    (normal & MADE == 0 && normal & SMOOTH != 0).then_some((normal & !SMOOTH) as usize)
+}
+
+/// The corners in `line`, still without their material; `counts` are the numbers of positions, texture
+/// coordinates and normals so far.
 pub(super) fn read(
     source: &Source,
     keyword: Token,
     line: &mut Line,
     counts: [usize; 3],
-    material: u32,
 ) -> Result<Vec<Corner>, ImportError> {
     let mut corners = Vec::new();
     while let Some(word) = line.word() {
@@ -47,7 +54,7 @@ pub(super) fn read(
             let why = format!("a face has more than {MAX_FACE_CORNERS} corners");
             return Err(source.malformed(word.span(), why, "Split it"));
         }
-        corners.push(corner(source, word, counts, material)?);
+        corners.push(corner(source, word, counts)?);
     }
     if corners.is_empty() {
         let why = "a face has no corners".to_owned();
@@ -56,12 +63,7 @@ pub(super) fn read(
     Ok(corners)
 }
 
-fn corner(
-    source: &Source,
-    word: Token,
-    counts: [usize; 3],
-    material: u32,
-) -> Result<Corner, ImportError> {
+fn corner(source: &Source, word: Token, counts: [usize; 3]) -> Result<Corner, ImportError> {
     const NAMES: [&str; 3] = ["vertex", "texture coordinate", "normal"];
     let mut indices = [NONE; 3];
     let mut at = word.at;
@@ -80,7 +82,7 @@ fn corner(
     Ok(Corner {
         position: indices[0],
         normal: indices[2],
-        material,
+        material: 0,
         uv: indices[1],
     })
 }

@@ -1,62 +1,132 @@
-//! The materials of a model that are in use, with their pictures.
+//! The materials of a model that are in use, from the libraries that it names, with their pictures.
 
+use super::lines::Line;
 use super::{Reader, mtl};
-use crate::import::source::quote;
+use crate::import::error::ImportError;
+use crate::import::notes::Notes;
+use crate::import::paths::{self, Refusal};
+use crate::import::source::{Source, Token, quote};
 use crate::scene::{Material, Pattern, Space, Texture};
 use glam::DAffine3;
 use std::path::Path;
 
-impl Reader<'_> {
-    /// The materials that corners use, and the index of each by its id.
-    pub(super) fn materials(&mut self) -> (Vec<Material>, Vec<u32>) {
-        let mut is_used = vec![false; self.material_names.len()];
-        for corner in &self.corners {
-            is_used[corner.material as usize] = true;
+/// The largest material file, in bytes.
+const MAX_MTL_BYTES: u64 = 64 << 20;
+
+impl<'s> Reader<'s> {
+    /// The number of the material in use, which has one from the first face on that uses it.
+    pub(super) fn material_in_use(&mut self) -> u32 {
+        let names = &mut self.material_names;
+        let name = self.material;
+        *self.material_ids.entry(name).or_insert_with(|| {
+            names.push(name);
+            names.len() as u32 - 1
+        })
+    }
+
+    /// Reads the libraries that `line` names: one whose name may have spaces, else several.
+    pub(super) fn material_library(&mut self, line: &mut Line) -> Result<(), ImportError> {
+        let whole = line.rest();
+        if self.library_file(whole)? {
+            return Ok(());
         }
-        let mut materials = Vec::new();
-        let mut index_of_id = vec![0; is_used.len()];
-        for id in (0..is_used.len()).filter(|&id| is_used[id]) {
-            index_of_id[id] = materials.len() as u32;
-            let name = self.material_names[id].clone();
-            materials.push(match self.library.get(&name).cloned() {
-                Some(entry) => self.with_pictures(entry),
-                None => {
-                    if id > 0 {
-                        let quoted = quote(name.as_bytes());
-                        self.skipped.push(format!(
-                            "the material {quoted} is not defined: the default takes its place"
-                        ));
+        while let Some(word) = line.word() {
+            if word.bytes.len() == whole.bytes.len() || !self.library_file(word)? {
+                self.notes.add("missing material files", || {
+                    format!("the material file {} does not exist", word.quote())
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the library `name` exists. It is checked, and kept as the text that it is.
+    fn library_file(&mut self, name: Token) -> Result<bool, ImportError> {
+        let text = String::from_utf8_lossy(name.bytes);
+        let path = match self.files.resolve(&text) {
+            Ok(path) => path,
+            Err(Refusal::Missing(_)) => return Ok(false),
+            Err(refusal) => {
+                let malformed = |why, todo: &str| self.source.malformed(name.span(), why, todo);
+                return Err(refusal.into_error("material file", malformed));
+            }
+        };
+        if self.libraries.iter().any(|known| known.path == path) {
+            return Ok(true);
+        }
+        let bytes = paths::read(&path, MAX_MTL_BYTES)?;
+        // Exporters do write empty libraries.
+        if !bytes.is_empty() {
+            let source = Source::new("bad material file", &path, bytes)?;
+            mtl::read(&source, &mut self.notes, |_, _| false)?;
+            self.libraries.push(source);
+        }
+        Ok(true)
+    }
+
+    /// The materials that corners use, by their numbers.
+    pub(super) fn materials(&mut self) -> Result<Vec<Material>, ImportError> {
+        let mut found: Vec<Option<Material>> = Vec::new();
+        found.resize_with(self.material_names.len(), || None);
+        // Of two libraries the later one wins, but of two equal names in one the first is what viewers
+        // take.
+        for library in std::mem::take(&mut self.libraries).iter().rev() {
+            let mut entries = Vec::new();
+            let ids = &self.material_ids;
+            mtl::read(library, &mut Notes::default(), |name, entry| {
+                let id = ids.get(&Some(name)).map(|&id| id as usize);
+                let id = id.filter(|&id| found[id].is_none());
+                if let (Some(id), Some(entry)) = (id, entry) {
+                    found[id] = Some(entry.material);
+                    entries.push((id, entry.maps));
+                }
+                id.is_some()
+            })?;
+            for (id, maps) in entries {
+                if let Some(mut material) = found[id].take() {
+                    self.pictures_of(&mut material, maps, &library.path);
+                    found[id] = Some(material);
+                }
+            }
+        }
+        let names = std::mem::take(&mut self.material_names);
+        let notes = &mut self.notes;
+        let mut materials: Vec<Material> = (found.into_iter().zip(names))
+            .map(|(material, name)| {
+                material.unwrap_or_else(|| {
+                    let name = name.unwrap_or_default();
+                    if !name.is_empty() {
+                        notes.add("undefined materials", || {
+                            format!(
+                                "the material {} is not defined: the default takes its place",
+                                quote(name)
+                            )
+                        });
                     }
                     Material {
-                        name,
+                        name: String::from_utf8_lossy(name).into_owned(),
                         ..Material::default()
                     }
-                }
-            });
-        }
+                })
+            })
+            .collect();
         if materials.is_empty() {
             materials.push(Material::default());
         }
-        (materials, index_of_id)
+        Ok(materials)
     }
 
-    fn with_pictures(&mut self, entry: mtl::Entry) -> Material {
-        let mtl::Entry {
-            mut material,
-            maps,
-            file,
-        } = entry;
+    fn pictures_of(&mut self, material: &mut Material, maps: mtl::Maps, file: &Path) {
         if self.replaced.is_some() {
-            return material;
+            return;
         }
-        material.textures.diffuse = self.picture(maps.diffuse, &file);
-        material.textures.specular = self.picture(maps.specular, &file);
+        material.textures.diffuse = self.picture(maps.diffuse, file);
+        material.textures.specular = self.picture(maps.specular, file);
         // Few exporters write an ambient picture, and all mean the diffuse one.
         material.textures.ambient = match maps.ambient {
             None => material.textures.diffuse,
-            name => self.picture(name, &file),
+            name => self.picture(name, file),
         };
-        material
     }
 
     /// The texture that shows the picture called `name` in `file`; what cannot be read is left out.
@@ -64,10 +134,9 @@ impl Reader<'_> {
         let picture = match self.pictures.read(&self.files.named_in(file), &name?) {
             Ok(picture) => picture,
             Err(refused) => {
-                let note = format!("texture left out: {}", refused.into_note());
-                if !self.skipped.contains(&note) {
-                    self.skipped.push(note);
-                }
+                self.notes.add("textures left out", || {
+                    format!("texture left out: {}", refused.into_note())
+                });
                 return None;
             }
         };

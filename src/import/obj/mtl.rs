@@ -3,51 +3,51 @@
 
 use super::lines::{Line, Lines};
 use crate::import::error::ImportError;
+use crate::import::notes::Notes;
 use crate::import::number;
 use crate::import::source::{Source, Token};
 use crate::scene::Material;
 use glam::Vec3;
-use std::collections::{BTreeMap, HashMap};
-use std::path::PathBuf;
-
-/// The materials of one file.
-#[derive(Default)]
-pub(super) struct Library {
-    pub materials: HashMap<String, Entry>,
-    /// Notes for [`crate::scene::Scene::skipped`].
-    pub skipped: Vec<String>,
-}
+use std::collections::BTreeMap;
 
 /// A material, still without its pictures.
-#[derive(Clone)]
 pub(super) struct Entry {
     pub material: Material,
     pub maps: Maps,
-    /// The file that it stands in, which the names of pictures are relative to.
-    pub file: PathBuf,
 }
 
 /// File names of pictures that colours are multiplied by.
-#[derive(Clone, Default)]
+#[derive(Default)]
 pub(super) struct Maps {
     pub diffuse: Option<String>,
     pub specular: Option<String>,
     pub ambient: Option<String>,
 }
 
-/// A material while it is read.
-struct Draft {
-    name: String,
+/// A material while it is read. It takes no memory of its own: a library may have millions.
+struct Draft<'s> {
+    name: &'s [u8],
     diffuse: Option<Vec3>,
     specular: Option<Vec3>,
     ambient: Option<Vec3>,
     shininess: f32,
-    maps: Maps,
+    map_diffuse: Option<&'s [u8]>,
+    map_specular: Option<&'s [u8]>,
+    map_ambient: Option<&'s [u8]>,
 }
 
-/// The library in `source`.
-pub(super) fn read(source: &Source) -> Result<Library, ImportError> {
-    let mut library = Library::default();
+/// Checks the library in `source` and gives those of its materials that `place` has a place for, by
+/// their names. Notes go to `notes`.
+pub(super) fn read(
+    source: &Source,
+    notes: &mut Notes,
+    mut place: impl FnMut(&[u8], Option<Entry>) -> bool,
+) -> Result<(), ImportError> {
+    let mut close = |draft: Option<Draft>| {
+        if let Some(draft) = draft.filter(|draft| place(draft.name, None)) {
+            place(draft.name, Some(draft.entry()));
+        }
+    };
     let mut draft: Option<Draft> = None;
     let mut left_out: BTreeMap<&str, usize> = BTreeMap::new();
     for mut line in Lines::new(&source.bytes) {
@@ -55,7 +55,7 @@ pub(super) fn read(source: &Source) -> Result<Library, ImportError> {
             continue;
         };
         if keyword.bytes == b"newmtl" {
-            library.insert(source, draft.replace(begin(source, keyword, &line)?));
+            close(draft.replace(begin(source, keyword, &line)?));
             continue;
         }
         let Some(draft) = &mut draft else {
@@ -82,11 +82,11 @@ pub(super) fn read(source: &Source) -> Result<Library, ImportError> {
                     *left_out.entry("options of textures").or_default() += 1;
                 }
                 let name = line.rest().bytes;
-                let name = (!name.is_empty()).then(|| String::from_utf8_lossy(name).into_owned());
+                let name = (!name.is_empty()).then_some(name);
                 match keyword.bytes {
-                    b"map_Kd" => draft.maps.diffuse = name,
-                    b"map_Ks" => draft.maps.specular = name,
-                    _ => draft.maps.ambient = name,
+                    b"map_Kd" => draft.map_diffuse = name,
+                    b"map_Ks" => draft.map_specular = name,
+                    _ => draft.map_ambient = name,
                 }
             }
             word if word.starts_with(b"map_") || matches!(word, b"bump" | b"disp" | b"refl") => {
@@ -95,12 +95,13 @@ pub(super) fn read(source: &Source) -> Result<Library, ImportError> {
             _ => {}
         }
     }
-    library.insert(source, draft);
-    let notes = left_out
-        .iter()
-        .map(|(what, count)| format!("{what} of materials left out: {count}"));
-    library.skipped.extend(notes);
-    Ok(library)
+    close(draft);
+    for (what, count) in left_out {
+        notes.add("material files with parts left out", || {
+            format!("{what} of materials left out: {count}")
+        });
+    }
+    Ok(())
 }
 
 /// Moves behind the options of a texture and says whether there were any.
@@ -127,52 +128,49 @@ fn skip_options(line: &mut Line) -> bool {
     found
 }
 
-impl Library {
-    fn insert(&mut self, source: &Source, draft: Option<Draft>) {
-        let Some(draft) = draft else { return };
+impl Draft<'_> {
+    fn entry(self) -> Entry {
         // A picture alone is shown as it is.
-        let or_white = |color: Option<Vec3>, map: &Option<String>, default: Vec3| {
+        let or_white = |color: Option<Vec3>, map: Option<&[u8]>, default: Vec3| {
             color.unwrap_or(if map.is_some() { Vec3::ONE } else { default })
         };
-        let Maps {
-            diffuse, specular, ..
-        } = &draft.maps;
-        let diffuse = or_white(draft.diffuse, diffuse, Material::default().diffuse);
-        let specular = or_white(draft.specular, specular, Material::default().specular);
-        let material = Material {
-            name: draft.name,
-            diffuse,
-            specular,
-            ambient: draft.ambient.unwrap_or(diffuse),
-            shininess: draft.shininess,
-            ..Material::default()
-        };
-        let entry = Entry {
-            material,
-            maps: draft.maps,
-            file: source.path.clone(),
-        };
-        // The first of two equal names is the one that viewers take.
-        self.materials
-            .entry(entry.material.name.clone())
-            .or_insert(entry);
+        let default = Material::default();
+        let diffuse = or_white(self.diffuse, self.map_diffuse, default.diffuse);
+        let specular = or_white(self.specular, self.map_specular, default.specular);
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        Entry {
+            material: Material {
+                name: text(self.name),
+                diffuse,
+                specular,
+                ambient: self.ambient.unwrap_or(diffuse),
+                shininess: self.shininess,
+                ..default
+            },
+            maps: Maps {
+                diffuse: self.map_diffuse.map(text),
+                specular: self.map_specular.map(text),
+                ambient: self.map_ambient.map(text),
+            },
+        }
     }
 }
 
-fn begin(source: &Source, keyword: Token, line: &Line) -> Result<Draft, ImportError> {
+fn begin<'s>(source: &Source, keyword: Token, line: &Line<'s>) -> Result<Draft<'s>, ImportError> {
     let name = line.rest().bytes;
     if name.is_empty() {
         let why = "a material has no name".to_owned();
         return Err(source.malformed(keyword.span(), why, "Write `newmtl NAME`"));
     }
-    let name = String::from_utf8_lossy(name).into_owned();
     Ok(Draft {
         name,
         diffuse: None,
         specular: None,
         ambient: None,
         shininess: Material::default().shininess,
-        maps: Maps::default(),
+        map_diffuse: None,
+        map_specular: None,
+        map_ambient: None,
     })
 }
 

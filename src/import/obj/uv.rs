@@ -1,7 +1,7 @@
 //! Texture coordinates: the `vt` statement, and which vertices have them.
 
 use super::Reader;
-use super::face::{self, Corner};
+use super::face;
 use super::lines::Line;
 use crate::import::error::ImportError;
 use crate::import::number;
@@ -34,9 +34,9 @@ impl Reader<'_> {
 
     /// Takes u and v from the corners whose material has no use for them, so that they part no
     /// vertices.
-    pub(super) fn drop_unwanted_uvs(&mut self, materials: &[Material], index_of_id: &[u32]) {
+    pub(super) fn drop_unwanted_uvs(&mut self, materials: &[Material]) {
         for corner in &mut self.corners {
-            let material = &materials[index_of_id[corner.material as usize] as usize];
+            let material = &materials[corner.material as usize];
             if !self.replaced.unwrap_or_else(|| is_textured(material)) {
                 corner.uv = face::NO_UV;
             }
@@ -44,15 +44,17 @@ impl Reader<'_> {
     }
 
     /// u and v of `vertices`: none at all if all have none. Says so where `materials` want some.
-    pub(super) fn uvs_of(&mut self, vertices: &[Corner], materials: &[Material]) -> Vec<Vec2> {
-        if vertices.iter().any(|v| v.uv != face::NO_UV) {
-            let uv = |v: &Corner| self.uvs.get(v.uv as usize).copied().unwrap_or_default();
-            return vertices.iter().map(uv).collect();
+    pub(super) fn uvs_of(&mut self, vertices: &[u32], materials: &[Material]) -> Vec<Vec2> {
+        let uv = |&vertex: &u32| self.corners[vertex as usize].uv;
+        if vertices.iter().any(|v| uv(v) != face::NO_UV) {
+            let place = |v: &u32| self.uvs.get(uv(v) as usize).copied().unwrap_or_default();
+            return vertices.iter().map(place).collect();
         }
         let own = || materials.iter().any(is_textured);
         if self.replaced.unwrap_or_else(own) {
-            let note = "there are no texture coordinates: textures show one colour each";
-            self.skipped.push(note.to_owned());
+            self.notes.add("meshes without texture coordinates", || {
+                "there are no texture coordinates: textures show one colour each".to_owned()
+            });
         }
         Vec::new()
     }

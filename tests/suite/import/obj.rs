@@ -109,35 +109,119 @@ fn faces_that_cross_themselves_become_fans_and_are_reported() {
     assert_eq!(scene.skipped, [note]);
 }
 
-#[test]
-fn missing_normals_are_smooth_across_faces_and_materials() {
-    // Two faces of a roof, the right one twice as large.
-    let roof = "v 0 1 0\nv 0 1 1\nv -1 0 0\nv -1 0 1\nv 2 -1 0\nv 2 -1 1\n";
-    let both = format!("{roof}usemtl a\nf 1 3 4 2\nusemtl b\nf 2 6 5 1\n");
-    let scene = scene("a.obj", both);
+/// The distinct normals of the vertices at `place`.
+fn normals_at(scene: &Scene, place: Vec3) -> Vec<Vec3> {
     let mesh = &scene.meshes[0];
-    assert_eq!(
-        mesh.positions.len(),
-        8,
-        "vertices on the ridge are split by material"
-    );
-    let ridge: Vec<_> = (0..8)
-        .filter(|&i| mesh.positions[i] == Vec3::Y)
-        .map(|i| mesh.normals[i])
-        .collect();
-    assert_eq!(ridge.len(), 2);
-    assert_eq!(ridge[0], ridge[1]);
-    assert!(ridge[0].x > 0.1 && ridge[0].y > 0.8, "{}", ridge[0]);
+    let mut found: Vec<Vec3> = Vec::new();
+    for (&position, &normal) in mesh.positions.iter().zip(&mesh.normals) {
+        if position == place && !found.iter().any(|n| n.distance(normal) < 1e-6) {
+            found.push(normal);
+        }
+    }
+    found
+}
+
+/// The sides and ends of a prism of height 1 over a regular polygon of radius 1.
+fn prism(sides: usize) -> String {
+    let mut text = String::new();
+    for y in 0..2 {
+        for i in 0..sides {
+            let (sin, cos) = (std::f64::consts::TAU * i as f64 / sides as f64).sin_cos();
+            text += &format!("v {cos} {y} {}\n", -sin);
+        }
+    }
+    for i in 1..=sides {
+        let next = i % sides + 1;
+        text += &format!("f {i} {next} {} {}\n", sides + next, sides + i);
+    }
+    let top: String = (sides + 1..=2 * sides).map(|i| format!(" {i}")).collect();
+    let bottom: String = (1..=sides).rev().map(|i| format!(" {i}")).collect();
+    text + &format!("f{top}\nf{bottom}\n")
 }
 
 #[test]
-fn smoothing_off_makes_faces_flat() {
-    let roof =
-        "v 0 1 0\nv 0 1 1\nv -1 0 0\nv -1 0 1\nv 1 0 0\nv 1 0 1\ns off\nf 1 3 4 2\nf 2 6 5 1\n";
-    let scene = scene("a.obj", roof);
-    let half = 0.5_f32.sqrt();
-    let is_flat = |n: &Vec3| n.distance(Vec3::new(n.x.signum() * half, half, 0.0)) < 1e-6;
-    assert!(scene.meshes[0].normals.iter().all(is_flat));
+fn faces_without_normals_are_flat_unless_smoothed() {
+    let roof = "v 0 1 0\nv 0 1 1\nv -1 0 0\nv -1 0 1\nv 1 0 0\nv 1 0 1\n";
+    for smoothing in ["", "s off\n", "s 0\n", "s\n", "s 1\ns off\n"] {
+        let text = format!("{roof}{smoothing}f 1 3 4 2\nf 2 6 5 1\n");
+        let scene = scene("a.obj", text);
+        let half = 0.5_f32.sqrt();
+        let is_flat = |n: &Vec3| n.distance(Vec3::new(n.x.signum() * half, half, 0.0)) < 1e-6;
+        assert!(scene.meshes[0].normals.iter().all(is_flat), "{smoothing:?}");
+    }
+}
+
+#[test]
+fn a_cube_looks_like_a_cube_smoothed_or_not() {
+    for smoothing in ["", "s 1\n"] {
+        let scene = scene("a.obj", smoothing.to_owned() + &prism(4));
+        assert_eq!(scene.meshes[0].positions.len(), 24, "{smoothing:?}");
+        for normal in &scene.meshes[0].normals {
+            // The sides look along the diagonals of x and z.
+            let is_side = normal.y.abs() < 1e-6 && (normal.x.abs() - normal.z.abs()).abs() < 1e-6;
+            assert!(is_side || (normal.y.abs() - 1.0).abs() < 1e-6, "{normal}");
+        }
+    }
+}
+
+#[test]
+fn smoothing_groups_are_smooth_up_to_sixty_degrees() {
+    // The sides of a prism of seven meet at 51.4°, its ends and sides at 90°.
+    let scene = scene("a.obj", "s 7\n".to_owned() + &prism(7));
+    assert_eq!(scene.meshes[0].positions.len(), 28);
+    let corner = scene.meshes[0]
+        .positions
+        .iter()
+        .find(|p| p.x == 1.0 && p.y == 1.0);
+    let corner = *corner.expect("the first corner");
+    let normals = normals_at(&scene, corner);
+    assert_eq!(normals.len(), 2);
+    // By symmetry, the mean of the two sides is the direction of the corner.
+    let goes = |wanted: Vec3| normals.iter().any(|n| n.distance(wanted) < 1e-6);
+    assert!(goes(Vec3::X) && goes(Vec3::Y), "{normals:?}");
+}
+
+#[test]
+fn faces_of_different_smoothing_groups_do_not_mix() {
+    // A crease of 20°, which one group would smooth.
+    let slope = 10f64.to_radians().tan();
+    let roof = format!("v 0 {slope} 0\nv 0 {slope} 1\nv -1 0 0\nv -1 0 1\nv 1 0 0\nv 1 0 1\n");
+    let ridge = Vec3::new(0.0, slope as f32, 0.0);
+    let normals = |text: String| normals_at(&scene("a.obj", roof.clone() + &text), ridge);
+    assert_eq!(
+        normals("s 1\nf 1 3 4 2\ns 2\nf 2 6 5 1\n".to_owned()).len(),
+        2
+    );
+    assert_eq!(
+        normals("s 1\nf 1 3 4 2\ns off\nf 2 6 5 1\n".to_owned()).len(),
+        2
+    );
+    // Materials part vertices, but not what they look like.
+    let both = normals("s 1\nusemtl a\nf 1 3 4 2\nusemtl b\nf 2 6 5 1\n".to_owned());
+    assert!(
+        matches!(both[..], [n] if n.distance(Vec3::Y) < 1e-6),
+        "{both:?}"
+    );
+}
+
+#[test]
+fn the_tip_of_a_cone_of_many_sides_points_along_its_axis() {
+    const SIDES: usize = 100;
+    let mut text = "v 0 3 0\ns 1\n".to_owned();
+    for i in 0..SIDES {
+        let (sin, cos) = (std::f64::consts::TAU * i as f64 / SIDES as f64).sin_cos();
+        text += &format!("v {cos} 0 {}\n", -sin);
+    }
+    for i in 0..SIDES {
+        text += &format!("f 1 {} {}\n", i + 2, (i + 1) % SIDES + 2);
+    }
+    let scene = scene("a.obj", text);
+    let tip = normals_at(&scene, Vec3::new(0.0, 3.0, 0.0));
+    assert!(
+        matches!(tip[..], [n] if n.distance(Vec3::Y) < 1e-6),
+        "{tip:?}"
+    );
+    assert_eq!(scene.meshes[0].positions.len(), SIDES + 1);
 }
 
 #[test]

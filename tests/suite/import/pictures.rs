@@ -214,7 +214,7 @@ fn every_picture_that_is_none_has_its_message() {
     assert_snapshot!(lines.join("\n"), @r"
 picture refused (a.toml:2:26): `empty.png` is not a picture that is known. Name a PNG, JPEG, HDR or EXR file.
 picture refused (a.toml:2:26): `text.png` is not a picture that is known. Name a PNG, JPEG, HDR or EXR file.
-picture refused (a.toml:2:26): `cut.png` is broken: unexpected end of file. Check that it was written completely.
+picture refused (a.toml:2:26): `cut.png` is truncated: its end is missing. Check that it was written completely.
 picture refused (a.toml:2:26): `wide.png` has 100000 × 100000, but at most 33554431 texels are read. Use a smaller picture.
 picture refused (a.toml:2:26): `huge.png` takes too much memory to decode. Use a smaller picture.
 picture refused (a.toml:2:26): `flat.png` is broken: Format error decoding Png: Invalid image dimensions. Check that it was written completely.
@@ -228,6 +228,96 @@ picture refused (a.toml:2:26): `/etc/passwd` points outside the scene folder. Us
 picture refused (a.toml:2:26): `` is not a file name. Name a plain file in the scene folder.
 picture refused (a.toml:2:26): `http://a.org/a.png` points outside the scene folder. Use --allow-dir DIR to permit.
 ");
+}
+
+/// Whole pictures of all formats, and the names of their files.
+fn whole_pictures() -> Vec<(&'static str, Vec<u8>)> {
+    let color = ImageBuffer::from_fn(61, 47, |x, y| Rgb([(4 * x) as u8, (5 * y) as u8, 77u8]));
+    let light = ImageBuffer::from_fn(61, 47, |x, y| Rgb([x as f32, y as f32 / 9.0, 0.5f32]));
+    vec![
+        ("a.jpg", encode(color.clone(), ImageFormat::Jpeg)),
+        // Written by libjpeg, with chroma at half the resolution.
+        (
+            "progressive.jpg",
+            include_bytes!("../../corpus/progressive.jpg").to_vec(),
+        ),
+        ("a.png", encode(color, ImageFormat::Png)),
+        ("a.hdr", encode(light.clone(), ImageFormat::Hdr)),
+        ("a.exr", encode(light, ImageFormat::OpenExr)),
+    ]
+}
+
+/// What becomes of a picture with these bytes.
+fn read(folder: &tempfile::TempDir, bytes: &[u8]) -> Result<(), import::ImportError> {
+    let path = folder.path().join("picture");
+    std::fs::write(&path, bytes).expect("a file");
+    import::picture(&path).map(|_| ())
+}
+
+#[test]
+fn a_truncated_picture_is_refused_wherever_it_is_cut() {
+    let folder = folder(&[]);
+    for (name, whole) in whole_pictures() {
+        read(&folder, &whole).unwrap_or_else(|error| panic!("{error}"));
+        let cuts = (0..100).map(|percent| whole.len() * percent / 100);
+        for length in cuts.chain(whole.len() - 20..whole.len()) {
+            let Err(error) = read(&folder, &whole[..length]) else {
+                panic!("{name}: {length} of {} bytes were accepted", whole.len());
+            };
+            assert!(!error.is_too_big(), "{error}");
+        }
+    }
+}
+
+#[test]
+fn bytes_behind_a_picture_do_no_harm() {
+    let folder = folder(&[]);
+    for (name, mut whole) in whole_pictures().into_iter().take(3) {
+        whole.extend(b"\0\0whatever");
+        let read = read(&folder, &whole);
+        read.unwrap_or_else(|error| panic!("{name}: {error}"));
+    }
+}
+
+#[test]
+fn a_picture_that_claims_more_than_its_bytes_can_hold_is_refused() {
+    let folder = folder(&[]);
+    let bytes_of = |name: &str| {
+        let mut pictures = whole_pictures().into_iter();
+        pictures.find(|picture| picture.0 == name).expect("one").1
+    };
+    // The frame header: its marker, length, precision, and then height and width.
+    for (name, marker) in [("a.jpg", 0xc0), ("progressive.jpg", 0xc2)] {
+        let mut bytes = bytes_of(name);
+        let frame = bytes.windows(2).position(|pair| pair == [0xff, marker]);
+        let frame = frame.expect("a frame header");
+        bytes[frame + 5..frame + 9].copy_from_slice(&[0x16, 0xa0, 0x16, 0xa0]);
+        let error = read(&folder, &bytes).expect_err("refused");
+        assert!(error.to_string().contains("cannot hold"), "{name}: {error}");
+    }
+    // The same of a picture that is one colour all over, which no format stores in less.
+    let header = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 5792 +X 5792\n";
+    let error = read(&folder, header).expect_err("refused");
+    assert!(error.to_string().contains("cannot hold"), "{error}");
+    let mut png = png_header(5792, 5792);
+    png.extend(b"\0\0\0\0IEND\xae\x42\x60\x82");
+    let error = read(&folder, &png).expect_err("refused");
+    assert!(error.to_string().contains("cannot hold"), "{error}");
+}
+
+#[test]
+fn pictures_that_compress_best_are_read() {
+    let folder = folder(&[]);
+    let plain = ImageBuffer::from_pixel(2048, 2048, Luma([9u8]));
+    for format in [ImageFormat::Jpeg, ImageFormat::Png] {
+        let read = read(&folder, &encode(plain.clone(), format));
+        read.unwrap_or_else(|error| panic!("{error}"));
+    }
+    let plain = ImageBuffer::from_pixel(2048, 1024, Rgb([0.5f32; 3]));
+    for format in [ImageFormat::Hdr, ImageFormat::OpenExr] {
+        let read = read(&folder, &encode(plain.clone(), format));
+        read.unwrap_or_else(|error| panic!("{error}"));
+    }
 }
 
 #[test]

@@ -1,0 +1,84 @@
+//! What importers have to say about what they left out. A file can give cause for millions of equal
+//! notes, so of each kind only the first few are kept, and the others are counted.
+
+/// How many notes of one kind are kept.
+const MOST: usize = 8;
+
+/// Notes for [`crate::scene::Scene::skipped`], in order, those of one kind together.
+#[derive(Debug, Default)]
+pub(super) struct Notes {
+    kinds: Vec<Kind>,
+}
+
+#[derive(Debug)]
+struct Kind {
+    /// What the notes are about, in the plural.
+    what: &'static str,
+    kept: Vec<String>,
+    more: usize,
+}
+
+impl Notes {
+    fn kind(&mut self, what: &'static str) -> &mut Kind {
+        let known = self.kinds.iter().position(|kind| kind.what == what);
+        let index = known.unwrap_or_else(|| {
+            self.kinds.push(Kind {
+                what,
+                kept: Vec::new(),
+                more: 0,
+            });
+            self.kinds.len() - 1
+        });
+        &mut self.kinds[index]
+    }
+
+    /// Adds a note about one of `what`, a plural such as "undefined materials", unless it is kept
+    /// already.
+    pub fn add(&mut self, what: &'static str, note: impl FnOnce() -> String) {
+        let kind = self.kind(what);
+        if kind.kept.len() >= MOST {
+            kind.more += 1;
+            return;
+        }
+        let note = note();
+        if !kind.kept.contains(&note) {
+            kind.kept.push(note);
+        }
+    }
+
+    /// Adds those of one of several files, whose name then stands before each.
+    pub fn append(&mut self, other: Self, name: &str) {
+        for Kind { what, kept, more } in other.kinds {
+            for note in kept {
+                self.add(what, || format!("{name}: {note}"));
+            }
+            self.kind(what).more += more;
+        }
+    }
+
+    /// One sentence each.
+    pub fn into_lines(self) -> Vec<String> {
+        let lines = self.kinds.into_iter().flat_map(|kind| {
+            let more = (kind.more > 0).then(|| format!("and {} more {}", kind.more, kind.what));
+            kind.kept.into_iter().chain(more)
+        });
+        lines.collect()
+    }
+}
+
+/// What [`crate::scene::Mesh::repair`] did.
+pub(super) fn of_repairs(notes: &mut Notes, repairs: crate::scene::Repairs) {
+    const WHAT: &str = "repaired meshes";
+    let count = |count: usize, what: &str| match count {
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
+    };
+    if repairs.dropped_triangles > 0 {
+        let triangles = count(repairs.dropped_triangles, "triangle");
+        notes.add(WHAT, || format!("{triangles} without area dropped"));
+    }
+    if repairs.recomputed_normals > 0 {
+        let normals = count(repairs.recomputed_normals, "normal");
+        notes.add(WHAT, || format!("{normals} without length recomputed"));
+    }
+}

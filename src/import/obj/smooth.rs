@@ -1,0 +1,110 @@
+//! Normals of corners that have none: those of flat faces, and smoothing groups.
+//!
+//! A face is flat unless an `s N` comes before it. In a smoothing group a corner gets the mean of the
+//! faces of the group round its vertex, weighted by area, of those at least that are turned from its
+//! own by at most the crease angle of 60°: a cube stays a cube, and a tube of seven sides is round.
+
+use super::Reader;
+use super::face::{self, Corner};
+use crate::import::source::Token;
+use glam::{DVec3, Vec3};
+
+/// The cosine of the crease angle.
+const CREASE: f64 = 0.5;
+
+/// Where more faces of a group than these meet in a vertex, all of them count: comparing each with
+/// each would take quadratic time.
+const MANY: usize = 64;
+
+/// A face of a smoothing group.
+pub(super) struct SmoothFace {
+    /// As long as its area: the whole face counts, so that it matters not how it is cut.
+    normal: DVec3,
+    group: u32,
+}
+
+/// The smoothing group that an `s` statement begins; 0 is none.
+pub(super) fn group(word: Option<Token>) -> u32 {
+    match word.map(|word| word.bytes) {
+        None | Some(b"off" | b"0") => 0,
+        Some(word) => {
+            let number = std::str::from_utf8(word).ok();
+            // `s on` is what some exporters write.
+            number.and_then(|number| number.parse().ok()).unwrap_or(1)
+        }
+    }
+}
+
+impl Reader<'_> {
+    /// Sees to the corners of `face` that have no normals, where `normal` is the face's own, as long
+    /// as its area.
+    pub(super) fn complete_normals(&mut self, face: &mut [Corner], normal: DVec3) {
+        let is_bare = |corner: &Corner| corner.normal == face::NONE;
+        if !face.iter().any(is_bare) {
+            return;
+        }
+        let index = if self.smoothing == 0 {
+            face::MADE | self.made(normal.normalize_or_zero().as_vec3())
+        } else {
+            let group = self.smoothing;
+            self.smooth_faces.push(SmoothFace { normal, group });
+            face::SMOOTH | (self.smooth_faces.len() - 1) as u32
+        };
+        for corner in face.iter_mut().filter(|corner| is_bare(corner)) {
+            corner.normal = index;
+        }
+    }
+
+    /// The index of a normal that the file does not have. Equal ones in a row are one, which lets
+    /// the faces of a plane share their vertices.
+    fn made(&mut self, normal: Vec3) -> u32 {
+        if self.made_normals.last() != Some(&normal) {
+            self.made_normals.push(normal);
+        }
+        (self.made_normals.len() - 1) as u32
+    }
+
+    /// Gives the corners of smoothing groups their normals.
+    pub(super) fn smooth(&mut self) {
+        let face_of = |corner: &Corner| face::smooth_index(corner.normal);
+        let corners = &self.corners;
+        let mut order: Vec<u32> = (0..corners.len() as u32)
+            .filter(|&i| face_of(&corners[i as usize]).is_some())
+            .collect();
+        let face = |i: u32| &self.smooth_faces[face_of(&corners[i as usize]).unwrap_or_default()];
+        let key = |i: u32| (corners[i as usize].position, face(i).group);
+        order.sort_unstable_by_key(|&i| (key(i), i));
+
+        let mut means: Vec<Vec3> = Vec::new();
+        let mut made = vec![0; order.len()];
+        let mut start = 0;
+        for round in order.chunk_by(|&a, &b| key(a) == key(b)) {
+            let first = means.len();
+            for (i, &corner) in round.iter().enumerate() {
+                let own = face(corner).normal;
+                let near = |other: &DVec3| {
+                    round.len() > MANY || own.dot(*other) >= CREASE * own.length() * other.length()
+                };
+                let around = round.iter().map(|&other| face(other).normal).filter(near);
+                let mean = around.sum::<DVec3>().normalize_or_zero().as_vec3();
+                // All of a large round have the same.
+                let known = means[first..].iter().position(|known| *known == mean);
+                made[start + i] = (first + known.unwrap_or(means.len() - first)) as u32;
+                if known.is_none() {
+                    means.push(mean);
+                }
+                if round.len() > MANY {
+                    made[start..start + round.len()].fill(first as u32);
+                    break;
+                }
+            }
+            start += round.len();
+        }
+        let before = self.made_normals.len() as u32;
+        self.made_normals.append(&mut means);
+        for (&corner, index) in order.iter().zip(made) {
+            self.corners[corner as usize].normal = face::MADE | (before + index);
+        }
+        self.smooth_faces = Vec::new();
+    }
+}

@@ -1,0 +1,218 @@
+//! Colours that are finite in a file but whose products are not: they are brought into ranges in which
+//! light stays finite over many bounces. Real scenes are far within them.
+
+use super::notes::Notes;
+use crate::scene::{
+    Attenuation, Background, Light, LightProperty, Material, MaterialProperty, Pattern, Scene,
+    Target, Texture, Values,
+};
+use glam::{DVec3, Vec3};
+use std::sync::Arc;
+
+/// The most of a coefficient, such as a diffuse colour, and of the colours of a pattern, by which it is
+/// multiplied.
+const COEFFICIENT: f32 = 1e3;
+
+/// The most of a radiance: of the background, ambient light, emission, lights that do not fall off, and
+/// of pictures, which may be the background.
+const RADIANCE: f32 = 1e12;
+
+/// The most of a light that falls off with the distance, and of the surface of a lamp. The Sun's light
+/// at a distance in metres takes 2e25.
+const INTENSITY: f32 = 1e30;
+
+/// What indices of refraction may be; their squares are computed with.
+const IOR: (f32, f32) = (1e-6, 1e6);
+
+/// Brings the colours of `scene` into range and says how many were not.
+pub(super) fn limit(scene: &mut Scene) {
+    let mut counts = Counts::default();
+    for material in &mut scene.materials {
+        counts.material(material);
+    }
+    for texture in &mut scene.textures {
+        counts.texture(texture);
+    }
+    for picture in &mut scene.pictures {
+        if picture.texels.iter().any(|c| c.max_element() > RADIANCE) {
+            counts.radiances += 1;
+            for texel in &mut Arc::make_mut(picture).texels {
+                *texel = texel.min(Vec3::splat(RADIANCE));
+            }
+        }
+    }
+    for light in &mut scene.lights {
+        counts.light(light);
+    }
+    counts.radiance(&mut scene.ambient);
+    match &mut scene.background {
+        Background::Color(color) => counts.radiance(color),
+        Background::Gradient { bottom, top } => {
+            counts.radiance(bottom);
+            counts.radiance(top);
+        }
+        Background::Picture { strength, .. } => {
+            lower_number(strength, RADIANCE, &mut counts.radiances);
+        }
+    }
+    counts.tracks(scene);
+    counts.report(scene);
+}
+
+/// How many values were out of range.
+#[derive(Default)]
+struct Counts {
+    coefficients: usize,
+    radiances: usize,
+    intensities: usize,
+    indices: usize,
+}
+
+/// Lowers what of `color` is above `most`.
+fn lower(color: &mut Vec3, most: f32, count: &mut usize) {
+    if color.max_element() > most {
+        *color = color.min(Vec3::splat(most));
+        *count += 1;
+    }
+}
+
+fn lower_number(number: &mut f32, most: f32, count: &mut usize) {
+    if *number > most {
+        *number = most;
+        *count += 1;
+    }
+}
+
+impl Counts {
+    fn radiance(&mut self, color: &mut Vec3) {
+        lower(color, RADIANCE, &mut self.radiances);
+    }
+
+    fn material(&mut self, material: &mut Material) {
+        let Material {
+            diffuse,
+            specular,
+            ambient,
+            reflect,
+            transmit,
+            emission,
+            absorption,
+            ior,
+            ..
+        } = material;
+        for color in [diffuse, specular, ambient, reflect, transmit] {
+            lower(color, COEFFICIENT, &mut self.coefficients);
+        }
+        self.radiance(emission);
+        lower(absorption, RADIANCE, &mut self.coefficients);
+        if !(IOR.0..=IOR.1).contains(ior) {
+            *ior = ior.clamp(IOR.0, IOR.1);
+            self.indices += 1;
+        }
+    }
+
+    fn texture(&mut self, texture: &mut Texture) {
+        match &mut texture.pattern {
+            Pattern::Checker { a, b }
+            | Pattern::Stripes { a, b }
+            | Pattern::Gradient { a, b }
+            | Pattern::Noise { a, b, .. } => {
+                for color in [a, b] {
+                    lower(color, COEFFICIENT, &mut self.coefficients);
+                }
+            }
+            Pattern::Picture { .. } => {}
+        }
+    }
+
+    fn light(&mut self, light: &mut Light) {
+        // Of a small lamp the surface is brighter than what it gives.
+        let surface = light.kind.radiance().unwrap_or(1.0).max(1.0);
+        let most = most_of(light.attenuation).min((f64::from(INTENSITY) / surface) as f32);
+        lower(&mut light.color, most, &mut self.intensities);
+    }
+
+    fn tracks(&mut self, scene: &mut Scene) {
+        for track in &mut scene.tracks {
+            let most = |target: &Target| match *target {
+                Target::Light(light, LightProperty::Color | LightProperty::Intensity) => {
+                    Some(most_of(scene.lights[light].attenuation))
+                }
+                Target::Material(_, MaterialProperty::Emission | MaterialProperty::Absorption) => {
+                    Some(RADIANCE)
+                }
+                Target::Material(
+                    _,
+                    MaterialProperty::Diffuse
+                    | MaterialProperty::Specular
+                    | MaterialProperty::Ambient
+                    | MaterialProperty::Reflect
+                    | MaterialProperty::Transmit,
+                ) => Some(COEFFICIENT),
+                _ => None,
+            };
+            let Some(most) = track.targets.iter().filter_map(most).reduce(f32::min) else {
+                continue;
+            };
+            let most = f64::from(most);
+            let before = self.intensities;
+            match &mut track.curve.values {
+                Values::Scalar(numbers) => {
+                    for number in numbers.iter_mut().filter(|number| number.abs() > most) {
+                        *number = number.clamp(-most, most);
+                        self.intensities += 1;
+                    }
+                }
+                Values::Vector(colors) => {
+                    for color in colors.iter_mut().filter(|c| c.abs().max_element() > most) {
+                        *color = color.clamp(DVec3::splat(-most), DVec3::splat(most));
+                        self.intensities += 1;
+                    }
+                }
+                Values::Rotation(_) => {}
+            }
+            // One value or many of a track are one fault.
+            self.intensities = self.intensities.min(before + 1);
+        }
+    }
+
+    fn report(self, scene: &mut Scene) {
+        let mut notes = Notes::default();
+        for (count, what) in [
+            (
+                self.coefficients,
+                format!("coefficients above {COEFFICIENT} lowered to it"),
+            ),
+            (
+                self.radiances,
+                format!("radiances above {RADIANCE:e} lowered to it"),
+            ),
+            (
+                self.intensities,
+                format!(
+                    "lights too bright, lowered to {RADIANCE:e}, or {INTENSITY:e} where they fall off"
+                ),
+            ),
+            (
+                self.indices,
+                format!(
+                    "indices of refraction brought between {} and {}",
+                    IOR.0, IOR.1
+                ),
+            ),
+        ] {
+            if count > 0 {
+                notes.add("values out of range", || format!("{what}: {count}"));
+            }
+        }
+        scene.skipped.extend(notes.into_lines());
+    }
+}
+
+/// The most of a light's colour.
+fn most_of(attenuation: Attenuation) -> f32 {
+    match attenuation {
+        Attenuation::None => RADIANCE,
+        Attenuation::InverseSquare => INTENSITY,
+    }
+}

@@ -1,0 +1,116 @@
+//! What a scene gets where it says nothing: samples, and a word where there is no light.
+
+use super::{folder, scene};
+use glimray::export;
+use glimray::import::{self, Options};
+use glimray::scene::Scene;
+
+const BALL: &str = "[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n";
+
+fn native(text: &str) -> Scene {
+    scene("a.toml", text)
+}
+
+/// Scenes whose pictures are noise with one sample for each pixel.
+const NOISY: [&str; 4] = [
+    "[camera]\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\nlens = { radius = 0.1 }\n",
+    "[[lights]]\nrectangle = { center = [0, 4, 0], look_at = [0, 0, 0], size = [1, 1] }\n",
+    "[[lights]]\nsphere = { center = [0, 4, 0], radius = 0.5 }\n",
+    "[output]\nshutter = \"180deg\"\n[[objects]]\nname = 'b'\nsphere = { center = [0, 0, 0], radius = 1 }\n\
+     [[animation]]\nobject = 'b'\nproperty = 'translate'\nkeys = [[0, [0, 0, 0]], [1, [1, 0, 0]]]\n",
+];
+
+#[test]
+fn a_lens_an_area_light_or_a_shutter_gets_sixteen_samples() {
+    for text in NOISY {
+        assert_eq!(native(text).output.samples, 16, "{text}");
+    }
+    assert_eq!(native(BALL).output.samples, 1);
+    // A shutter alone blurs nothing.
+    assert_eq!(native("output.shutter = 0.5").output.samples, 1);
+}
+
+#[test]
+fn samples_that_a_scene_says_win_and_survive_a_conversion() {
+    for text in NOISY {
+        for samples in [None, Some(1), Some(4), Some(16)] {
+            let text = match samples {
+                Some(samples) => match text.strip_prefix("[output]") {
+                    Some(rest) => format!("[output]\nsamples = {samples}{rest}"),
+                    None => format!("output.samples = {samples}\n{text}"),
+                },
+                None => text.to_owned(),
+            };
+            let scene = native(&text);
+            assert_eq!(scene.output.samples, samples.unwrap_or(16), "{text}");
+            let written = export::native(&scene, "a", &|_, _| false)
+                .expect("written")
+                .text;
+            let again = import::parse("a.toml", &written, &Options::default());
+            let again = again.unwrap_or_else(|error| panic!("{error}\n{written}"));
+            assert_eq!(again.output, scene.output, "{written}");
+        }
+    }
+}
+
+#[test]
+fn a_scene_without_light_is_known() {
+    let dark = [
+        BALL.to_owned(),
+        format!("background = [1, 1, 1]\n{BALL}"),
+        format!("[[lights]]\npoint = {{ position = [0, 3, 0], intensity = 0 }}\n{BALL}"),
+        format!("ambient = [1, 1, 1]\n{BALL}material = {{ phong = {{ ambient = [0, 0, 0] }} }}\n"),
+        format!("{BALL}material = {{ reflect = {{ amount = 1 }} }}\n"),
+    ];
+    for text in dark {
+        assert!(native(&text).is_unlit(), "{text}");
+    }
+    assert!(
+        scene(
+            "a.scene",
+            "1 amb: 0 0 0 sphere pos: 0 0 -5 rad: 1 dif: 1 1 1 spe: 0 0 0 shi: 1"
+        )
+        .is_unlit()
+    );
+
+    let lit = [
+        format!("[[lights]]\npoint = {{ position = [0, 3, 0] }}\n{BALL}"),
+        format!("ambient = [0, 0.1, 0]\n{BALL}"),
+        format!("{BALL}material = {{ emission = [1, 0, 0] }}\n"),
+        format!("background = [1, 1, 1]\n{BALL}material = {{ reflect = {{ amount = 1 }} }}\n"),
+        format!(
+            "background = {{ bottom = [0, 0, 0], top = [1, 1, 1] }}\n{BALL}material = {{ refract = {{ ior = 1.5 }} }}\n"
+        ),
+        // Light that comes later.
+        format!(
+            "[[lights]]\nname = 'l'\npoint = {{ position = [0, 3, 0] }}\n\
+             [[animation]]\nlight = 'l'\nproperty = 'intensity'\nkeys = [[0, 0], [1, 1]]\n{BALL}"
+        ),
+        // Nothing to be lit.
+        "background = [1, 1, 1]".to_owned(),
+    ];
+    for text in lit {
+        assert!(!native(&text).is_unlit(), "{text}");
+    }
+    assert!(!scene("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3").is_unlit());
+}
+
+/// The scenes that the manual prints.
+#[test]
+fn the_scenes_in_the_readme_are_lit_and_sampled_well() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let readme = std::fs::read_to_string(path).expect("README.md");
+    let blocks = readme.split("```toml\n").skip(1);
+    let scenes: Vec<_> = (blocks.filter_map(|block| block.split("```").next()))
+        .filter(|text| text.contains("[[objects]]"))
+        .collect();
+    assert_eq!(scenes.len(), 2);
+    for text in scenes {
+        let folder = folder(&[("a.toml", text.as_bytes())]);
+        let scene = import::load(&folder.path().join("a.toml"));
+        let scene = scene.unwrap_or_else(|error| panic!("{error}\n{text}"));
+        assert_eq!(scene.skipped, [""; 0], "{text}");
+        assert!(!scene.is_unlit(), "{text}");
+        assert!(scene.output.samples >= 16, "{text}");
+    }
+}
