@@ -1,6 +1,6 @@
 //! Image → file. A file is complete or absent: the picture is encoded in memory, written beside its
 //! name, synced and renamed, and an old file stays intact until then. Pipes and devices are written
-//! to directly and never replaced.
+//! to directly and never replaced. A symbolic link that a person names stays, and its file is written.
 //!
 //! What the values of an [`Image`] mean is settled before they get here: PNG and JPEG take them as
 //! display values in [0, 1], OpenEXR and Radiance HDR as linear light ([`Format::is_linear`]). Frames

@@ -38,7 +38,7 @@ pub struct Interrupt(Arc<State>);
 struct State {
     /// Set by the handlers: the exit code that a signal asks for; 0 is none.
     signal: Arc<AtomicUsize>,
-    /// The same once the thread has seen it.
+    /// The same once the thread has decided that the work may end by itself.
     exit_code: AtomicUsize,
     /// Whether the work notices by itself.
     is_deferred: AtomicBool,
@@ -84,10 +84,7 @@ impl Interrupt {
     /// # Errors
     /// [`AppError::Interrupted`] when a signal has asked for the end.
     pub fn check(&self) -> Result<(), AppError> {
-        let seen = self.0.exit_code.load(Ordering::SeqCst);
-        // What the thread has not seen yet.
-        let code = seen.max(self.0.signal.load(Ordering::SeqCst));
-        match u8::try_from(code) {
+        match u8::try_from(self.0.exit_code.load(Ordering::SeqCst)) {
             Ok(0) => Ok(()),
             Ok(exit_code) => Err(AppError::Interrupted { exit_code }),
             Err(_) => Err(AppError::Internal("unknown signal".into())),
@@ -111,6 +108,7 @@ impl State {
         if !self.is_deferred.load(Ordering::SeqCst) {
             end(first, false);
         }
+        self.exit_code.store(first, Ordering::SeqCst);
         let second = self.next(Some(Instant::now() + GRACE));
         end(second.unwrap_or(first), true);
     }
@@ -118,11 +116,8 @@ impl State {
     /// The exit code that the next signal asks for, unless there is none until `deadline`.
     fn next(&self, deadline: Option<Instant>) -> Option<usize> {
         loop {
-            let code = self.signal.load(Ordering::SeqCst);
+            let code = self.signal.swap(0, Ordering::SeqCst);
             if code != 0 {
-                // In this order: one of them is always set for `check`.
-                self.exit_code.store(code, Ordering::SeqCst);
-                self.signal.store(0, Ordering::SeqCst);
                 return Some(code);
             }
             if deadline.is_some_and(|deadline| Instant::now() >= deadline) {

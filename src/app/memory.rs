@@ -9,8 +9,6 @@ use super::exit::AppError;
 use crate::scene::Scene;
 use std::fs;
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 const MIB: u64 = 1 << 20;
 
@@ -104,7 +102,7 @@ pub fn is_short() -> bool {
 #[cfg(unix)]
 pub fn exit_as_too_big() {
     if room().is_some() {
-        let always = Arc::new(AtomicBool::new(true));
+        let always = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true));
         let abort = signal_hook::consts::SIGABRT;
         // Where there is no handler, the program is no worse off than before.
         let _ = signal_hook::flag::register_conditional_shutdown(abort, 7, always);

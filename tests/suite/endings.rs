@@ -115,14 +115,15 @@ fn a_second_signal_in_the_midst_of_a_write_leaves_no_part_of_the_file() {
         }
         let code = end_of(&mut child);
         let left = left(&place, &["a.scene"]);
-        if is_writing {
+        assert!(left.is_empty() || left == ["a.exr"], "{code:?}: {left:?}");
+        // A write that was nearly done may have ended before the program did.
+        if is_writing && code != Some(0) {
             assert!(code == Some(130) || code == Some(143), "{code:?}");
-            assert!(left.is_empty() || left == ["a.exr"], "{left:?}");
             return;
         }
         let _ = fs::remove_file(place.path("a.exr"));
     }
-    panic!("no write was met");
+    panic!("no write was interrupted");
 }
 
 fn part(place: &Place) -> std::path::PathBuf {
@@ -206,8 +207,10 @@ fn what_does_not_fit_into_a_memory_limit_exits_7() {
             "animate a.scene --frames 0..1 -o f_%d.png",
             "error: too big for the memory",
         ),
-        // A file that it is not known to read beforehand: Rust's own words.
-        (62_000, "inspect names.toml", "memory"),
+        // That this file is read is not known beforehand.
+        (62_000, "inspect names.toml", "do not fit into the memory"),
+        // Nor how much it takes: the words are Rust's own.
+        (80_000, "inspect names.toml", "memory allocation of"),
     ] {
         let run = shell(&place, &format!("ulimit -v {limit}; exec $G {line}"));
         let says_so = run.code == Some(7) && run.stderr.contains(words);

@@ -119,7 +119,7 @@ fn with_progress_in_json_every_line_is_a_json_object() {
         (
             "animate a.scene --frames 0..1 --size 16x16 -o f_%d.png",
             0,
-            "frames",
+            "note",
         ),
     ] {
         for flag in ["--progress json", "--progress=json"] {

@@ -53,18 +53,18 @@ impl Target {
         };
         let video = match format {
             SequenceFormat::Video(VideoFormat::Y4m) if is_stream(&path) => Some(Video::Stream),
-            SequenceFormat::Video(format) if is_stream(&path) && flags.frames_dir.is_none() => {
-                return Err(AppError::Usage(format!(
-                    "cannot write {format} ({shown}): its frames are kept in a folder, and a pipe or a \
-                     device has none beside it. Name one with --frames-dir, or write --format y4m."
-                )));
-            }
             _ if path == Path::new("-") => {
                 return Err(AppError::Usage(
                     "cannot write that format (standard output): only Y4M can be streamed. \
                      Write --format y4m, or name a file."
                         .into(),
                 ));
+            }
+            SequenceFormat::Video(format) if is_stream(&path) && flags.frames_dir.is_none() => {
+                return Err(AppError::Usage(format!(
+                    "cannot write {format} ({shown}): its frames are kept in a folder, and a pipe or a \
+                     device has none beside it. Name one with --frames-dir, or write --format y4m."
+                )));
             }
             SequenceFormat::Video(format) => Some(Video::File(format)),
             SequenceFormat::Frames(_) => None,
@@ -185,7 +185,9 @@ impl Target {
         }
         output::check_own(files.pattern.journal())?;
         let (width, height) = size;
-        let path = files.pattern.path(first);
+        // A link may be to a frame that is done, and is refused where it is not.
+        let mut paths = (first..).map(|number| files.pattern.path(number));
+        let path = paths.find(|path| !path.is_symlink()).unwrap_or_default();
         Ok(output::check(path, &files.options, width, height)?)
     }
 }
