@@ -135,8 +135,8 @@ fn end(exit_code: usize, speaks: bool) -> ! {
         let (sender, receiver) = channel();
         let _ = std::thread::Builder::new().spawn(move || {
             console::error(
-                "interrupted: the program was ended before its work could stop. What was being \
-                 written is removed.",
+                "interrupted: the program was ended before its work could stop. No part of a file is \
+                 left.",
                 exit_code as u8,
             );
             let _ = sender.send(());

@@ -20,9 +20,11 @@ const BYTES_PER_TRIANGLE: u64 = 300;
 const BYTES_PER_TEXEL: u64 = 24;
 const BYTES_PER_PIXEL: u64 = 100;
 
-/// What a driver reserves: for itself, and for each of its threads, of which it has one for a core.
+/// What a driver reserves: for itself, and for each of its threads, of which it has one for a core, up to
+/// a number of them.
 const DRIVER_BYTES: u64 = 768 * MIB;
 const THREAD_BYTES: u64 = 128 * MIB;
+const MOST_THREADS: usize = 16;
 
 /// A process with less room than this that fails has failed for want of it.
 const SHORTAGE: u64 = 512 * MIB;
@@ -78,14 +80,14 @@ pub fn check_scene(
     place: &str,
     (width, height): (u32, u32),
 ) -> Result<(), AppError> {
-    let cores = std::thread::available_parallelism().map_or(1, |count| count.get() as u64);
+    let cores = std::thread::available_parallelism().map_or(1, |count| count.get());
     let triangles: usize = (scene.meshes.iter()).map(|mesh| mesh.triangles.len()).sum();
     let texels: usize = (scene.pictures.iter())
         .map(|picture| picture.texels.len())
         .sum();
     let pixels = u64::from(width) * u64::from(height);
     let need = DRIVER_BYTES
-        + THREAD_BYTES * cores
+        + THREAD_BYTES * cores.min(MOST_THREADS) as u64
         + BYTES_PER_TRIANGLE * triangles as u64
         + BYTES_PER_TEXEL * texels as u64
         + BYTES_PER_PIXEL.saturating_mul(pixels);

@@ -7,6 +7,7 @@ use crate::animate::place::{Place, Run};
 use crate::support::verdict::Verdict;
 use std::fs;
 use std::io::{BufRead, BufReader};
+use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -34,9 +35,9 @@ fn end_of(child: &mut Child) -> Option<i32> {
     None
 }
 
-/// Everything in a folder but what is named.
+/// Everything in the folder but what is named.
 fn left(place: &Place, known: &[&str]) -> Vec<String> {
-    let names = place.files(".").into_keys();
+    let names = place.names(".").into_iter();
     names
         .filter(|name| !known.contains(&name.as_str()))
         .collect()
@@ -86,50 +87,56 @@ fn one_signal_ends_a_run_that_is_stuck_in_its_output() {
         });
     }
     verdict.close();
-    assert_eq!(left(&place, &["a.scene"]), Vec::<String>::new());
+    assert_eq!(left(&place, &["a.scene", "pipe"]), Vec::<String>::new());
+}
+
+/// The part of a file that is being written, once there is something in it.
+fn part(place: &Place) -> Option<PathBuf> {
+    let names = place.names(".");
+    let name = names.into_iter().find(|name| name.contains(".part-"))?;
+    let path = place.path(&name);
+    let has_begun = fs::metadata(&path).is_ok_and(|part| part.len() > 0);
+    has_begun.then_some(path)
 }
 
 #[test]
 fn a_second_signal_in_the_midst_of_a_write_leaves_no_part_of_the_file() {
-    let place = Place::new();
+    let place = Place::moving();
+    let line = "animate a.toml --size 1024x768 --samples 1 --frames 0..7 --quiet -o v.y4m";
+    place.run(line).expect(0);
     for _ in 0..20 {
-        let mut child = place.start("render a.scene --size 1536x1536 --quiet -o a.exr");
-        let has_part = || {
-            left(&place, &["a.scene"])
-                .iter()
-                .any(|name| name.contains(".part-"))
-        };
-        while !has_part() && child.try_wait().expect("a process").is_none() {
+        let mut child = place.start(&format!("{line} --encode-only"));
+        while part(&place).is_none() && child.try_wait().expect("a process").is_none() {
             sleep(Duration::from_millis(1));
         }
-        // While it is stopped both signals come; it meets them at once when it goes on.
+        // While it is stopped both signals come; it meets them together when it goes on.
         let id = child.id().to_string();
-        let _ = Command::new("kill").args(["-STOP", &id]).status();
-        // The check of the place, before anything is rendered, makes a part too.
-        let is_writing = has_part() && fs::metadata(part(&place)).is_ok_and(|part| part.len() > 0);
-        for name in ["-INT", "-TERM", "-CONT"] {
-            let _ = Command::new("kill")
-                .args([name, &id])
+        // It may have ended meanwhile.
+        let send = |name: &str| {
+            let mut kill = Command::new("kill");
+            let _ = kill
+                .args([name, id.as_str()])
                 .stderr(Stdio::null())
                 .status();
+        };
+        send("-STOP");
+        let is_writing = part(&place).is_some();
+        for name in ["-INT", "-TERM", "-CONT"] {
+            send(name);
         }
         let code = end_of(&mut child);
-        let left = left(&place, &["a.scene"]);
-        assert!(left.is_empty() || left == ["a.exr"], "{code:?}: {left:?}");
-        // A write that was nearly done may have ended before the program did.
+        assert_eq!(
+            place.names("."),
+            ["a.toml", "v.y4m", "v.y4m.frames"],
+            "{code:?}"
+        );
+        // What was nearly written may have been complete before the program ended.
         if is_writing && code != Some(0) {
             assert!(code == Some(130) || code == Some(143), "{code:?}");
             return;
         }
-        let _ = fs::remove_file(place.path("a.exr"));
     }
     panic!("no write was interrupted");
-}
-
-fn part(place: &Place) -> std::path::PathBuf {
-    let names = left(place, &["a.scene"]);
-    let name = names.into_iter().find(|name| name.contains(".part-"));
-    place.path(&name.unwrap_or_default())
 }
 
 #[test]
