@@ -15,9 +15,11 @@ mod device;
 mod doctor;
 pub mod exit;
 mod explain;
+mod inputs;
 mod inspect;
 mod interrupt;
 mod job;
+mod memory;
 pub mod mesa;
 mod overrides;
 mod picture;
@@ -41,7 +43,13 @@ use std::time::Instant;
 /// the standard error, and returns the exit code. `started` is when the process began: reports
 /// count from there.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, started: Instant) -> ExitCode {
-    let cli = match Cli::try_parse_from(with_command(arguments)) {
+    interrupt::survive_file_size_limit();
+    memory::exit_as_too_big();
+    let arguments = with_command(arguments);
+    if wants_json(&arguments) {
+        console::speak_json();
+    }
+    let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(error) => return exit::command_line(&error),
     };
@@ -59,6 +67,12 @@ fn with_command(arguments: impl IntoIterator<Item = OsString>) -> Vec<OsString> 
         return [arguments, vec!["view".into()]].concat();
     }
     arguments
+}
+
+/// Whether a program reads the standard error: mistakes in the other arguments are told in its way too.
+fn wants_json(arguments: &[OsString]) -> bool {
+    let is_pair = |pair: &[OsString]| pair[0] == "--progress" && pair[1] == "json";
+    arguments.windows(2).any(is_pair) || arguments.iter().any(|word| word == "--progress=json")
 }
 
 fn dispatch(command: Command, started: Instant) -> Result<(), AppError> {

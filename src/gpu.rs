@@ -100,13 +100,8 @@ impl Gpu {
             required_limits,
             ..Default::default()
         };
-        let (device, queue) =
-            pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
-                GpuError::NoDevice {
-                    adapter: report.name.clone(),
-                    why: error.to_string(),
-                }
-            })?;
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+            .map_err(|error| no_device(&report.name, &error.to_string()))?;
         let lost = Arc::new(AtomicBool::new(false));
         let on_loss = lost.clone();
         // The callback may run with locks held, so it only sets a flag.
@@ -258,6 +253,19 @@ impl Gpu {
             });
         }
         made.map_err(|_| GpuError::Lost)
+    }
+}
+
+/// What it means that a driver refuses to open the adapter. wgpu tells that it lacks memory in words only.
+fn no_device(adapter: &str, why: &str) -> GpuError {
+    match why.contains("Not enough memory") {
+        true => GpuError::OutOfMemory {
+            what: format!("opening {adapter}"),
+        },
+        false => GpuError::NoDevice {
+            adapter: adapter.into(),
+            why: why.trim_end_matches('.').into(),
+        },
     }
 }
 

@@ -1,6 +1,6 @@
 //! Image → file. A file is complete or absent: the picture is encoded in memory, written beside its
 //! name, synced and renamed, and an old file stays intact until then. Pipes and devices are written
-//! to directly and never replaced.
+//! to directly and never replaced. A symbolic link that a person names stays, and its file is written.
 //!
 //! What the values of an [`Image`] mean is settled before they get here: PNG and JPEG take them as
 //! display values in [0, 1], OpenEXR and Radiance HDR as linear light ([`Format::is_linear`]). Frames
@@ -10,11 +10,13 @@ mod atomic;
 mod encode;
 mod error;
 mod format;
+mod litter;
 pub mod video;
 
 pub use error::OutputError;
 pub(crate) use error::reason;
 pub use format::Format;
+pub(crate) use litter::{Litter, clear_away};
 
 use crate::image::Image;
 use std::io::Write;
@@ -29,15 +31,19 @@ pub struct SaveOptions {
     pub quality: u8,
     /// Whether a file of that name may be replaced.
     pub clobber: bool,
+    /// Whether a name that is a symbolic link stands for the file that it leads to. Names that a person
+    /// gave do; a link under a name that the program made up is an error.
+    pub follow_links: bool,
 }
 
 impl Default for SaveOptions {
-    /// The format that the name says, quality 90, replacing what is there.
+    /// The format that the name says, quality 90, replacing what is there, also behind a link.
     fn default() -> Self {
         Self {
             format: None,
             quality: 90,
             clobber: true,
+            follow_links: true,
         }
     }
 }
@@ -63,11 +69,8 @@ pub fn save_with(
     let path = path.as_ref();
     let format = format_of(path, options)?;
     format.check_size(image.width, image.height)?;
-    write(
-        path,
-        &encode::encode(image, format, options.quality)?,
-        options.clobber,
-    )
+    let bytes = encode::encode(image, format, options.quality)?;
+    atomic::write(path, &bytes, options.clobber, options.follow_links)
 }
 
 /// Writes `image` to the standard output, as PNG unless `options` names a format.
@@ -99,7 +102,7 @@ pub fn check(
 ) -> Result<(), OutputError> {
     let path = path.as_ref();
     format_of(path, options)?.check_size(width, height)?;
-    check_file(path, options.clobber)
+    atomic::check(path, options.clobber, options.follow_links)
 }
 
 /// Like [`check`], for a file that is no picture.
@@ -107,7 +110,24 @@ pub fn check(
 /// # Errors
 /// Those of [`write()`] that can be known beforehand.
 pub fn check_file(path: impl AsRef<Path>, clobber: bool) -> Result<(), OutputError> {
-    atomic::check(path.as_ref(), clobber)
+    atomic::check(path.as_ref(), clobber, true)
+}
+
+/// Like [`check_file`], for a name that the program made up: a file of that name may be replaced, and
+/// the name must not be a symbolic link, unless it is one to a pipe or a device.
+///
+/// # Errors
+/// Those of [`write_own`] that can be known beforehand.
+pub(crate) fn check_own(path: impl AsRef<Path>) -> Result<(), OutputError> {
+    atomic::check(path.as_ref(), true, false)
+}
+
+/// Refuses a name that is a symbolic link, unless it is one to a pipe or a device.
+///
+/// # Errors
+/// [`OutputError::Link`].
+pub(crate) fn check_no_link(path: impl AsRef<Path>) -> Result<(), OutputError> {
+    atomic::check_no_link(path.as_ref())
 }
 
 /// Writes any `bytes` to `path` with the care that pictures get. `clobber` says whether a file of
@@ -116,7 +136,15 @@ pub fn check_file(path: impl AsRef<Path>, clobber: bool) -> Result<(), OutputErr
 /// # Errors
 /// Whatever keeps the file from being written; what was at `path` is then still there.
 pub fn write(path: impl AsRef<Path>, bytes: &[u8], clobber: bool) -> Result<(), OutputError> {
-    atomic::write(path.as_ref(), bytes, clobber)
+    atomic::write(path.as_ref(), bytes, clobber, true)
+}
+
+/// Writes any `bytes` to `path`, a name that the program made up: see [`check_own`].
+///
+/// # Errors
+/// As [`write()`], and [`OutputError::Link`].
+pub(crate) fn write_own(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputError> {
+    atomic::write(path.as_ref(), bytes, true, false)
 }
 
 /// What the options say, else the ending, else PNG for pipes and devices, whose names say nothing.

@@ -13,6 +13,7 @@ mod studio;
 mod target;
 mod timeline;
 
+pub use target::Target;
 pub use timeline::Timeline;
 
 use super::cli::{AnimateArgs, SequenceFlags};
@@ -20,9 +21,9 @@ use super::clock::Clock;
 use super::exit::AppError;
 use super::interrupt::Interrupt;
 use super::job::{self, Job, Outcome};
+use super::overrides;
 use super::progress::FrameProgress;
-use super::report::{AnimationReport, Seconds};
-use super::{overrides, render};
+use super::report::{AnimationReport, Draft};
 use crate::output::OutputError;
 use crate::output::video::{self, FrameRate, VideoOptions};
 use crate::render::Stats;
@@ -34,36 +35,46 @@ use std::io::{self, ErrorKind};
 use std::path::Path;
 use std::time::Instant;
 use studio::{Sink, Studio};
-use target::{Files, Target, Video};
+use target::{Files, Video};
 
 pub fn run(arguments: &AnimateArgs, started: Instant) -> Result<(), AppError> {
-    let loading = Instant::now();
-    let mut scene = render::load(&arguments.scene, &arguments.reading)?;
-    let load_seconds = loading.elapsed().as_secs_f64();
+    let stem = arguments.scene.file_stem().unwrap_or("video".as_ref());
+    let target = Target::new(&arguments.output, Path::new(stem))?;
+    target.check_report_name(&arguments.log)?;
+    let name = arguments.scene.display().to_string();
+    let mut draft = Draft::new("animate", &arguments.log, name, &target.path, started);
+    let outcome = render(arguments, target, &mut draft);
+    draft.close(outcome)
+}
+
+fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
+    let mut scene = draft.load(&arguments.scene, &arguments.reading)?;
     overrides::apply(&mut scene, &arguments.camera)?;
     let clock = Clock::new(&scene.output, &arguments.motion);
     let timeline = Timeline::new(&scene, &arguments.range, clock)?;
     let job = Job {
-        command: "animate",
-        scene_path: arguments.scene.display().to_string(),
         scene,
         background: arguments.camera.background,
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,
-        started,
-        load_seconds,
     };
-    let stem = arguments.scene.file_stem().unwrap_or("video".as_ref());
-    Sequence::new(job, timeline, &arguments.output, Path::new(stem))?.run()
+    let flags = &arguments.output;
+    Sequence {
+        job,
+        timeline,
+        flags,
+        target,
+    }
+    .run(draft)
 }
 
 /// Frames to be rendered and joined.
 pub struct Sequence<'a> {
-    job: Job<'a>,
-    timeline: Timeline,
-    flags: &'a SequenceFlags,
-    target: Target,
+    pub job: Job<'a>,
+    pub timeline: Timeline,
+    pub flags: &'a SequenceFlags,
+    pub target: Target,
 }
 
 /// What became of the frames.
@@ -77,49 +88,30 @@ struct Frames {
 }
 
 impl<'a> Sequence<'a> {
-    /// Without a name in the flags, the video is called `stem`.
-    ///
-    /// # Errors
-    /// The flags make no sense together.
-    pub fn new(
-        job: Job<'a>,
-        timeline: Timeline,
-        flags: &'a SequenceFlags,
-        stem: &Path,
-    ) -> Result<Self, AppError> {
-        Ok(Self {
-            target: Target::new(flags, stem)?,
-            job,
-            timeline,
-            flags,
-        })
-    }
-
     /// Renders the frames that are not done, writes the video if one is asked for, and the report.
     ///
     /// # Errors
     /// Whatever goes wrong on the way. Finished frames stay, and a video is complete or absent.
-    pub fn run(&self) -> Result<(), AppError> {
+    pub fn run(&self, draft: &mut Draft) -> Result<(), AppError> {
         let interrupt = Interrupt::install()?;
         self.job.warn_of_skipped();
         let settings = self.job.settings();
         let size = job::picture_size(&settings)?;
         let video = self.video_options()?;
         let files = self.target.frames.as_ref();
-        self.job.check_report(&self.target.path, |report| {
-            files.is_some_and(|files| files.pattern.names(report))
-        })?;
-        let mut seconds = self.job.seconds();
+        draft.plan(self.job.image(&self.target.path, &settings, size));
+        self.target.spare(&draft.inputs)?;
+        self.job.check_report(draft)?;
         let gpu = if self.flags.encode_only {
             None
         } else {
-            Some(self.job.open_gpu(&mut seconds)?)
+            Some(self.job.open_gpu(size, draft)?)
         };
         let first = self.timeline.first;
         self.target
             .check(size, first, video.as_ref(), !self.flags.encode_only)?;
         let mut studio = Studio::new(self, settings, gpu)?;
-        seconds.bvh = studio.build_seconds();
+        draft.seconds.bvh = studio.build_seconds();
 
         // From here on nothing may end at once: the folder is locked.
         let _deferred = interrupt.defer();
@@ -127,16 +119,19 @@ impl<'a> Sequence<'a> {
         let lock = lock.transpose()?;
         let mut journal = files.map(|files| Journal::open(&files.pattern));
         let plan = Plan::new(self, &studio, journal.as_ref(), &interrupt)?;
+        plan.spare(self, &draft.inputs)?;
         let sink = match (&self.target.video, &video) {
-            (Some(Video::Stream), Some(options)) => Some(Sink::new(size, options)?),
+            (Some(Video::Stream), Some(options)) => {
+                Some(Sink::new(&self.target.path, size, options)?)
+            }
             _ => None,
         };
         let frames = studio.render(plan, journal.as_mut(), sink, &interrupt)?;
         if let Some(journal) = &mut journal {
             journal.close();
         }
-        seconds.take(&frames.stats);
-        seconds.write = studio.write_seconds();
+        draft.seconds.take(&frames.stats);
+        draft.seconds.write = studio.write_seconds();
         let encode_seconds = match &video {
             Some(options) => self.encode(options, &interrupt)?,
             None => 0.0,
@@ -147,9 +142,9 @@ impl<'a> Sequence<'a> {
             // Stays if there is anything else in it.
             let _ = fs::remove_dir(files.pattern.folder());
         }
-        seconds.total = self.job.started.elapsed().as_secs_f64();
+        draft.seconds.total = draft.started.elapsed().as_secs_f64();
         Job::warn_of_losses(&frames.stats);
-        self.tell(&frames, &seconds, encode_seconds);
+        self.tell(&frames, draft.seconds.total, encode_seconds);
         let animation = self.report(&frames, encode_seconds);
         self.job.report(
             studio.settings(),
@@ -159,9 +154,9 @@ impl<'a> Sequence<'a> {
                 pictures: frames.rendered,
                 adapter: frames.adapter.as_ref(),
                 stats: &frames.stats,
-                seconds,
                 animation: Some(animation),
             },
+            draft,
         )
     }
 
@@ -211,10 +206,9 @@ impl<'a> Sequence<'a> {
     }
 
     /// Says what was made.
-    fn tell(&self, frames: &Frames, seconds: &Seconds, encode_seconds: f64) {
+    fn tell(&self, frames: &Frames, total: f64, encode_seconds: f64) {
         let console = self.job.console();
         let count = self.timeline.count;
-        let total = seconds.total;
         let pace = match frames.pace() {
             Some(pace) => format!(", {} frames/s", short(pace)),
             None => String::new(),

@@ -6,6 +6,8 @@ mod read;
 use super::cli::CompareArgs;
 use super::console;
 use super::exit::AppError;
+use super::inputs::Inputs;
+use super::interrupt::Interrupt;
 use crate::image::Image;
 use crate::output;
 use figures::Figures;
@@ -14,7 +16,9 @@ use serde_json::json;
 use std::path::Path;
 
 pub fn run(arguments: &CompareArgs) -> Result<(), AppError> {
+    Interrupt::install()?;
     if let Some(path) = &arguments.diff {
+        Inputs::new([&arguments.a, &arguments.b]).spare(path, "difference", "--diff")?;
         output::check(path, &output::SaveOptions::default(), 1, 1)?;
     }
     let a = read::picture(&arguments.a)?;

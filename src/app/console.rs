@@ -1,10 +1,22 @@
 //! What a person reads. A closed or full standard error is nobody's fault and loses nothing but
 //! words; the standard output carries results, so its errors count.
+//!
+//! With `--progress json` a program reads the standard error: then each line is a JSON object.
 
 use super::cli::LogFlags;
 use super::exit::AppError;
+use serde_json::{Value, json};
 use std::fmt::Display;
-use std::io::{ErrorKind, Write};
+use std::io::{ErrorKind, IsTerminal, Write, stderr};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether lines are JSON.
+static IS_JSON: AtomicBool = AtomicBool::new(false);
+
+/// What an error and a warning begin with on a terminal: bold red and bold yellow.
+const RED: &str = "\u{1b}[1;31m";
+const YELLOW: &str = "\u{1b}[1;33m";
+const PLAIN: &str = "\u{1b}[0m";
 
 /// Says as much about the work as the flags ask for, on the standard error.
 #[derive(Clone, Copy, Debug)]
@@ -24,37 +36,103 @@ impl Console {
     /// A line for everybody who did not ask for quiet.
     pub fn status(self, text: impl Display) {
         if !self.quiet {
-            line(text);
+            note(text);
         }
     }
 
     /// A line for those who asked for more.
     pub fn detail(self, text: impl Display) {
         if self.verbose {
-            line(text);
+            note(text);
         }
     }
 }
 
+/// From now on every line is a JSON object.
+pub fn speak_json() {
+    IS_JSON.store(true, Ordering::Relaxed);
+}
+
+/// Whether every line is a JSON object.
+pub fn speaks_json() -> bool {
+    IS_JSON.load(Ordering::Relaxed)
+}
+
+fn note(text: impl Display) {
+    let text = text.to_string();
+    match speaks_json() {
+        true => json_line(&json!({ "note": text })),
+        false => line("", "", &text),
+    }
+}
+
 pub fn warning(text: impl Display) {
-    line(format_args!("warning: {text}"));
+    let text = text.to_string();
+    match speaks_json() {
+        true => json_line(&json!({ "warning": text })),
+        false => line("warning:", YELLOW, &format!(" {text}")),
+    }
 }
 
-pub fn error(text: impl Display) {
-    line(format_args!("error: {text}"));
+/// Says what ended the command, which returns `exit_code`.
+pub fn error(text: impl Display, exit_code: u8) {
+    let text = text.to_string();
+    match speaks_json() {
+        true => json_line(&json!({ "error": text, "code": exit_code })),
+        false => line("error:", RED, &format!(" {text}")),
+    }
 }
 
-/// Writes `text` to the standard error and ends the line. Whatever could break the line or steer
-/// the terminal is escaped: scene files choose some of the words.
-pub fn line(text: impl Display) {
-    let text = escape(&text.to_string(), |c| c == '\t');
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+/// Writes a JSON object to the standard error, in one line.
+pub fn json_line(value: &Value) {
+    let _ = writeln!(stderr().lock(), "{value}");
+}
+
+/// Writes `label` and `text` to the standard error and ends the line; a terminal gets the label in
+/// colour, and lines that end between two words. Whatever could break the line or steer the terminal is
+/// escaped: scene files choose some of the words.
+fn line(label: &str, color: &str, text: &str) {
+    let mut text = format!("{label}{}", escape(text, |c| c == '\t'));
+    let is_terminal = stderr().is_terminal();
+    if is_terminal && let Some((width, _)) = terminal_size::terminal_size_of(stderr()) {
+        text = wrap(&text, width.0.into());
+    }
+    if is_terminal && !label.is_empty() && shows_color() {
+        text.replace_range(..label.len(), &format!("{color}{label}{PLAIN}"));
+    }
+    let _ = writeln!(stderr().lock(), "{text}");
+}
+
+/// Whether the person wants colour, and the terminal is known to have it.
+fn shows_color() -> bool {
+    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let is_dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
+    !is_set("NO_COLOR") && !is_dumb
+}
+
+/// `text` in lines of at most `width` characters; a longer word has a line for itself.
+fn wrap(text: &str, width: usize) -> String {
+    let mut wrapped = String::with_capacity(text.len() + 8);
+    let mut column = 0;
+    for (index, word) in text.split(' ').enumerate() {
+        let length = word.chars().count();
+        if index > 0 && column + 1 + length > width {
+            wrapped.push('\n');
+            column = 0;
+        } else if index > 0 {
+            wrapped.push(' ');
+            column += 1;
+        }
+        wrapped.push_str(word);
+        column += length;
+    }
+    wrapped
 }
 
 /// Writes several lines to the standard error as they are, but for what could steer the terminal.
 pub fn block(text: &str, keep: impl Fn(char) -> bool) {
     let text = escape(text, |c| c == '\t' || c == '\n' || keep(c));
-    let _ = writeln!(std::io::stderr().lock(), "{}", text.trim_end());
+    let _ = writeln!(stderr().lock(), "{}", text.trim_end());
 }
 
 /// Writes a result to the standard output. A reader that has seen enough and closed its end

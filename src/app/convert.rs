@@ -2,11 +2,14 @@
 
 use super::cli::ConvertArgs;
 use super::exit::AppError;
+use super::interrupt::Interrupt;
 use super::{console, render, scene_file};
 use std::path::PathBuf;
 
 pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
-    let scene = render::load(&arguments.scene, &arguments.reading)?;
+    Interrupt::install()?;
+    let (scene, inputs) = render::load(&arguments.scene, &arguments.reading);
+    let scene = scene?;
     let stem = arguments.scene.file_stem().unwrap_or("scene".as_ref());
     // What comes before the last dot is the name, whatever dots are in it.
     let default = || {
@@ -25,19 +28,7 @@ pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
             path.display()
         )));
     }
-    let is_itself = |there: &PathBuf| {
-        arguments
-            .scene
-            .canonicalize()
-            .is_ok_and(|own| own == *there)
-    };
-    if path.canonicalize().as_ref().is_ok_and(is_itself) {
-        return Err(AppError::Usage(format!(
-            "cannot convert ({}): it would replace the scene that it is made of. Name another file \
-             with -o.",
-            path.display()
-        )));
-    }
+    inputs.spare(&path, "scene", "-o")?;
     let files = scene_file::save(&path, &scene, !arguments.no_clobber)?;
     let list = files.iter().map(|path| format!("{}\n", path.display()));
     console::print(&list.collect::<String>())

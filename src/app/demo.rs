@@ -3,8 +3,9 @@
 use super::cli::{DemoArgs, PictureFlags, SizeFlags};
 use super::destination::Destination;
 use super::exit::AppError;
-use super::job::Job;
+use super::job::{self, Job};
 use super::picture;
+use super::report::Draft;
 use crate::import;
 use crate::scene::Scene;
 use std::path::Path;
@@ -18,12 +19,25 @@ const TEXT: &str = include_str!(concat!(
 ));
 
 pub fn run(arguments: &DemoArgs, started: Instant) -> Result<(), AppError> {
+    let destination = Destination::new(&arguments.output, Path::new("glimray"));
+    job::check_report_name(&arguments.log, destination.path(), |_| false)?;
+    let path = destination.path();
+    let mut draft = Draft::new("demo", &arguments.log, NAME.into(), path, started);
+    let outcome = render(arguments, &destination, &mut draft);
+    draft.close(outcome)
+}
+
+fn render(
+    arguments: &DemoArgs,
+    destination: &Destination,
+    draft: &mut Draft,
+) -> Result<(), AppError> {
     let loading = Instant::now();
     let scene = scene()?;
+    draft.seconds.load = loading.elapsed().as_secs_f64();
+    draft.read(&scene);
     let SizeFlags { size, samples } = arguments.size;
     let job = Job {
-        command: "demo",
-        scene_path: NAME.into(),
         scene,
         background: None,
         picture: &PictureFlags {
@@ -32,11 +46,8 @@ pub fn run(arguments: &DemoArgs, started: Instant) -> Result<(), AppError> {
         },
         device: &arguments.device,
         log: &arguments.log,
-        started,
-        load_seconds: loading.elapsed().as_secs_f64(),
     };
-    let destination = Destination::new(&arguments.output, Path::new("glimray"));
-    picture::run(&job, &destination, (0.0, 0.0))
+    picture::run(&job, destination, (0.0, 0.0), draft)
 }
 
 /// The showcase scene, read anew.

@@ -24,6 +24,7 @@ impl Destination {
                 format: flags.format,
                 quality: flags.quality,
                 clobber: !flags.no_clobber,
+                ..SaveOptions::default()
             },
         }
     }
@@ -49,14 +50,7 @@ impl Destination {
         if !self.is_stdout() {
             return Ok(output::check(&self.path, &self.options, width, height)?);
         }
-        if std::io::stdout().is_terminal() {
-            return Err(AppError::Usage(
-                "cannot show a picture (standard output): it is a terminal. \
-                 Redirect it to a file or a program."
-                    .into(),
-            ));
-        }
-        Ok(())
+        check_stdout("a picture")
     }
 
     pub fn save(&self, image: &Image) -> Result<(), AppError> {
@@ -67,6 +61,39 @@ impl Destination {
         };
         saved.map_err(AppError::from)
     }
+}
+
+/// Refuses to write `what` to a standard output that shows no pictures, or that is not there.
+pub fn check_stdout(what: &str) -> Result<(), AppError> {
+    if std::io::stdout().is_terminal() {
+        return Err(AppError::Usage(format!(
+            "cannot show {what} (standard output): it is a terminal. \
+             Redirect it to a file or a program."
+        )));
+    }
+    check_open(what)
+}
+
+/// Refuses to write `what` to a standard output that is not there.
+pub fn check_open(what: &str) -> Result<(), AppError> {
+    match is_stdout_closed() {
+        false => Ok(()),
+        true => Err(AppError::Unwritable(format!(
+            "cannot write {what} (standard output): it is closed. Redirect it to a file or a program."
+        ))),
+    }
+}
+
+/// Whether the program was started without a standard output. Rust opens `/dev/null` in its place before
+/// `main`, for reading and writing; a shell that redirects to it opens it for writing only.
+fn is_stdout_closed() -> bool {
+    let is_null =
+        std::fs::read_link("/proc/self/fd/1").is_ok_and(|to| to == Path::new("/dev/null"));
+    let info = is_null.then(|| std::fs::read_to_string("/proc/self/fdinfo/1").ok());
+    let info = info.flatten().unwrap_or_default();
+    let flags = info.lines().find_map(|line| line.strip_prefix("flags:"));
+    // The last octal digit has the access mode in its lower two bits: 2 is for both.
+    flags.is_some_and(|flags| flags.trim().ends_with(['2', '6']))
 }
 
 fn ending(format: Format) -> &'static str {

@@ -1,7 +1,7 @@
 //! Adapters: handing one a scene, and adapters in words.
 
 use super::exit::AppError;
-use crate::gpu::{AdapterReport, Gpu};
+use crate::gpu::{AdapterReport, Backend, Gpu};
 use crate::pack;
 use crate::render::{Renderer, Settings};
 use crate::scene::Scene;
@@ -37,8 +37,15 @@ pub fn kind(adapter: &AdapterReport) -> &str {
     }
 }
 
-/// How to get a first adapter on this system.
-pub fn advice() -> &'static str {
+/// How to get a first adapter on this system: with this backend, if it is to be that one.
+pub fn advice(backend: Option<Backend>) -> &'static str {
+    if backend.is_some_and(|backend| backend.absence().is_some()) {
+        return "Leave out --backend, or choose another one.";
+    }
+    if backend == Some(Backend::Gl) && cfg!(target_os = "linux") {
+        return "Install Mesa's OpenGL driver, or leave out --backend:\n  \
+            Debian, Ubuntu  sudo apt-get install libegl1 libgl1-mesa-dri";
+    }
     if cfg!(target_os = "linux") {
         "Install the driver of your GPU, or Mesa's software driver:\n  \
          Debian, Ubuntu  sudo apt-get install mesa-vulkan-drivers libvulkan1\n  \

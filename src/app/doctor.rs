@@ -23,12 +23,17 @@ pub fn run(arguments: &DoctorArgs) -> Result<(), AppError> {
         .map_err(AppError::from)
         .and_then(|gpu| self_test::run(gpu, arguments.device.memory_limit_bytes()));
 
+    let advice = (adapters.is_empty()).then(|| device::advice(choice.backend));
     if arguments.json {
-        console::print_json(&to_json(&adapters, chosen.as_ref(), outcome.as_ref().ok()))?;
+        let passed = outcome.as_ref().ok();
+        console::print_json(&to_json(&adapters, chosen.as_ref(), passed, advice))?;
     } else {
         let mut text = String::new();
         write_text(&mut text, &adapters, chosen.as_ref(), outcome.as_ref().ok())
             .map_err(|error| AppError::Internal(format!("doctor: {error}")))?;
+        if let Some(advice) = advice {
+            text = text + advice + "\n";
+        }
         console::print(&text)?;
     }
     verdict(chosen.as_ref(), outcome?)
@@ -50,6 +55,7 @@ fn to_json(
     adapters: &[AdapterReport],
     chosen: Option<&AdapterReport>,
     outcome: Option<&Outcome>,
+    advice: Option<&str>,
 ) -> Value {
     json!({
         "adapters": adapters.iter().map(adapter_json).collect::<Value>(),
@@ -57,7 +63,7 @@ fn to_json(
         "self_test": outcome.map(|outcome| json!({
             "passed": outcome.is_right(), "found": outcome.found, "expected": outcome.expected,
         })),
-        "advice": adapters.is_empty().then(device::advice),
+        "advice": advice,
     })
 }
 
@@ -105,9 +111,6 @@ fn write_text(
         )?,
         Some(_) => writeln!(out, "self-test  failed")?,
         None => writeln!(out, "self-test  not done")?,
-    }
-    if adapters.is_empty() {
-        writeln!(out, "{}", device::advice())?;
     }
     Ok(())
 }

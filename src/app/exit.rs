@@ -1,6 +1,7 @@
 //! How the program ends: one error for everything that can go wrong, its exit code, and its words.
 
 use super::console;
+use super::memory;
 use crate::gpu::{self, GpuError};
 use crate::import::ImportError;
 use crate::output::{self, OutputError};
@@ -46,6 +47,9 @@ pub enum AppError {
     /// Files of ours or of others are in the way.
     #[error("{0}")]
     Unwritable(String),
+    /// It would take more memory than the process may have.
+    #[error("{0}")]
+    TooBig(String),
     /// Work of many steps ended early.
     #[error("{}{kept}", lead(error))]
     Stopped {
@@ -82,7 +86,7 @@ impl AppError {
             Self::Output(_) | Self::Stdout(_) | Self::Unwritable(_) => 4,
             Self::Stopped { error, .. } => error.exit_code(),
             Self::SelfTest(_) | Self::NoDisplay(_) => 5,
-            Self::Pack(_) => 7,
+            Self::Pack(_) | Self::TooBig(_) => 7,
             Self::Different(_) => 8,
             Self::Gpu(error) => error.exit_code(),
             Self::Render(error) => error.exit_code(),
@@ -101,8 +105,9 @@ fn lead(error: &AppError) -> String {
 
 /// Prints `error` and returns its exit code.
 pub fn failure(error: &AppError) -> ExitCode {
-    console::error(error);
+    console::error(error, error.exit_code());
     if let AppError::Import(error) = error
+        && !console::speaks_json()
         && io::stderr().is_terminal()
         && let Some(snippet) = snippet(error)
     {
@@ -114,6 +119,10 @@ pub fn failure(error: &AppError) -> ExitCode {
 /// Prints what clap has to say: help and version to the standard output, mistakes to the standard
 /// error; and returns the exit code.
 pub fn command_line(error: &clap::Error) -> ExitCode {
+    if error.use_stderr() && console::speaks_json() {
+        console::error(mistake(&error.to_string()), 2);
+        return ExitCode::from(2);
+    }
     let printed = error.print();
     match (error.use_stderr(), printed) {
         (true, _) => ExitCode::from(2),
@@ -122,6 +131,13 @@ pub fn command_line(error: &clap::Error) -> ExitCode {
         }
         (false, _) => ExitCode::SUCCESS,
     }
+}
+
+/// What clap has to say of a mistake, in one line and without the usage.
+fn mistake(text: &str) -> String {
+    let text = text.split("\n\nUsage:").next().unwrap_or_default();
+    let text = text.strip_prefix("error: ").unwrap_or(text);
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Makes a panic, which is always our bug, end the program with one line and exit code 1. While
@@ -137,10 +153,22 @@ pub fn install_panic_hook() {
         );
         let what = panic.payload_as_str().unwrap_or("no message");
         let what = what.trim_end().trim_end_matches('.');
-        console::error(format_args!(
-            "internal fault ({place}): {what}. Please report it."
-        ));
-        std::process::exit(1);
+        let (message, exit_code) = match memory::is_short() {
+            true => (
+                format!(
+                    "out of memory ({what}): the limit (`ulimit -v`) leaves too little. Raise the \
+                     limit, or use a smaller scene or picture."
+                ),
+                7,
+            ),
+            false => (
+                format!("internal fault ({place}): {what}. Please report it."),
+                1,
+            ),
+        };
+        output::clear_away();
+        console::error(message, exit_code);
+        std::process::exit(exit_code.into());
     }));
 }
 

@@ -8,7 +8,9 @@ use super::clock::Clock;
 use super::console;
 use super::device;
 use super::exit::AppError;
+use super::interrupt::Interrupt;
 use super::job;
+use super::memory;
 use super::overrides;
 use super::render;
 use crate::gpu::Gpu;
@@ -18,17 +20,25 @@ use serde_json::json;
 use std::ops::Range;
 
 pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
-    let mut scene = render::load(&arguments.scene, &arguments.reading)?;
+    Interrupt::install()?;
+    let (scene, inputs) = render::load(&arguments.scene, &arguments.reading);
+    let mut scene = scene?;
     overrides::apply(&mut scene, &arguments.camera)?;
     let settings = job::settings(&scene.output, &arguments.picture, &arguments.device, false);
     check(arguments.pixel, &settings)?;
     if let Some(path) = &arguments.obj {
+        inputs.spare(path, "rays", "--obj")?;
         output::check_file(path, true)?;
     }
     for skipped in &scene.skipped {
         console::warning(skipped);
     }
     let shot = Clock::new(&scene.output, &arguments.motion).moment(&arguments.moment);
+    memory::check_scene(
+        &scene,
+        &arguments.scene.display().to_string(),
+        settings.size,
+    )?;
     let gpu = Gpu::new(&arguments.device.choice())?;
     let (mut renderer, _) = device::renderer(gpu, &scene, shot, settings.clone())?;
     let samples = samples(arguments, &settings, &mut renderer)?;

@@ -18,7 +18,7 @@ use std::fmt::{self, Write};
 const MAX_LISTED: usize = 20;
 
 pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
-    let scene = render::load(&arguments.scene, &arguments.reading)?;
+    let scene = render::load(&arguments.scene, &arguments.reading).0?;
     let path = arguments.scene.display().to_string();
     if arguments.json {
         return console::print_json(&to_json(&path, &scene)?);

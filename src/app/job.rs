@@ -3,9 +3,14 @@
 
 use super::cli::{DeviceFlags, INTEGRATORS, LogFlags, PictureFlags};
 use super::console::{self, Console};
+use super::destination;
 use super::device;
 use super::exit::AppError;
-use super::report::{self, AnimationReport, ImageReport, Memory, Report, SceneReport, Seconds};
+use super::inputs;
+use super::memory;
+use super::report::{
+    self, AnimationReport, Draft, ImageReport, Memory, Report, SceneReport, Seconds,
+};
 use crate::gpu::{AdapterReport, Gpu};
 use crate::output;
 use crate::render::{Integrator, Settings, Stats, Tone};
@@ -20,10 +25,6 @@ pub const UNLIT: &str = "the scene has no light, so its surfaces are black. Add 
 
 /// A scene to be rendered, and everything the command line says about how.
 pub struct Job<'a> {
-    /// The command's name, for the report.
-    pub command: &'static str,
-    /// The scene's name, for the report.
-    pub scene_path: String,
     /// With flags that win over it applied.
     pub scene: Scene,
     /// That of the command line, which is the scene's by now too.
@@ -31,10 +32,6 @@ pub struct Job<'a> {
     pub picture: &'a PictureFlags,
     pub device: &'a DeviceFlags,
     pub log: &'a LogFlags,
-    /// When the process began.
-    pub started: Instant,
-    /// What it took to read the scene.
-    pub load_seconds: f64,
 }
 
 /// What came of a job.
@@ -48,7 +45,6 @@ pub struct Outcome<'a> {
     /// `None` where none was needed.
     pub adapter: Option<&'a AdapterReport>,
     pub stats: &'a Stats,
-    pub seconds: Seconds,
     /// Of a moving picture.
     pub animation: Option<AnimationReport>,
 }
@@ -89,19 +85,27 @@ impl Job<'_> {
         }
     }
 
-    /// Times of the job so far.
-    pub fn seconds(&self) -> Seconds {
-        Seconds {
-            load: self.load_seconds,
-            ..Seconds::default()
+    /// What is to be rendered, for the report.
+    pub fn image(&self, path: &Path, settings: &Settings, size: (u32, u32)) -> ImageReport {
+        ImageReport {
+            path: path.display().to_string(),
+            width: size.0,
+            height: size.1,
+            samples: settings.samples,
+            mean_samples: 0.0,
+            integrator: INTEGRATORS.word(&settings.integrator),
+            max_depth: settings.max_depth,
+            seed: settings.seed,
         }
     }
 
-    /// Opens the adapter.
-    pub fn open_gpu(&self, seconds: &mut Seconds) -> Result<Gpu, AppError> {
+    /// Opens the adapter, for pictures of `size` pixels.
+    pub fn open_gpu(&self, size: (u32, u32), draft: &mut Draft) -> Result<Gpu, AppError> {
+        memory::check_scene(&self.scene, &draft.scene_path, size)?;
         let started = Instant::now();
         let gpu = Gpu::new(&self.device.choice())?;
-        seconds.gpu = started.elapsed().as_secs_f64();
+        draft.seconds.gpu = started.elapsed().as_secs_f64();
+        draft.adapter = Some(gpu.adapter().into());
         Ok(gpu)
     }
 
@@ -115,22 +119,15 @@ impl Job<'_> {
         ));
     }
 
-    /// Refuses a report that would replace what goes to `path` or is `taken` otherwise, or that cannot
-    /// be written.
-    pub fn check_report(
-        &self,
-        path: &Path,
-        taken: impl FnOnce(&Path) -> bool,
-    ) -> Result<(), AppError> {
+    /// Refuses a report that would replace what the run reads, or that cannot be written.
+    pub fn check_report(&self, draft: &Draft) -> Result<(), AppError> {
         match self.log.report.as_deref() {
-            Some(report) if is_same(report, path) || taken(report) => {
-                Err(AppError::Usage(format!(
-                    "cannot write the report ({}): the picture goes there. Choose another name.",
-                    report.display()
-                )))
+            Some(report) if report != Path::new("-") => {
+                draft.inputs.spare(report, "report", "--report")?;
+                Ok(output::check_file(report, true)?)
             }
-            Some(report) if report != Path::new("-") => Ok(output::check_file(report, true)?),
-            _ => Ok(()),
+            Some(_) => destination::check_open("the report"),
+            None => Ok(()),
         }
     }
 
@@ -158,27 +155,26 @@ impl Job<'_> {
     }
 
     /// Reports what came of it, if a report is asked for.
-    pub fn report(&self, settings: &Settings, outcome: Outcome) -> Result<(), AppError> {
+    pub fn report(
+        &self,
+        settings: &Settings,
+        outcome: Outcome,
+        draft: &Draft,
+    ) -> Result<(), AppError> {
         let stats = outcome.stats;
         let (width, height) = outcome.size;
         let samples = outcome.pictures as f64 * f64::from(width) * f64::from(height);
         let report = Report {
-            glimray: env!("CARGO_PKG_VERSION"),
-            command: self.command,
-            scene: SceneReport::new(&self.scene_path, &self.scene),
+            glimray: Report::VERSION,
+            command: draft.command,
+            scene: SceneReport::new(&draft.scene_path, &self.scene),
             image: ImageReport {
-                path: outcome.path.display().to_string(),
-                width,
-                height,
-                samples: settings.samples,
                 // Nothing rendered has nothing to average.
                 mean_samples: stats.samples as f64 / samples.max(1.0),
-                integrator: INTEGRATORS.word(&settings.integrator),
-                max_depth: settings.max_depth,
-                seed: settings.seed,
+                ..self.image(outcome.path, settings, outcome.size)
             },
             adapter: outcome.adapter.map(Into::into),
-            seconds: outcome.seconds,
+            seconds: draft.seconds.clone(),
             rays: stats.rays.as_ref().map(Into::into),
             submissions: stats.into(),
             nonfinite_samples: stats.nonfinite_samples,
@@ -188,12 +184,30 @@ impl Job<'_> {
                 host_peak_bytes: report::host_peak_bytes(),
             },
             animation: outcome.animation,
+            error: None,
         };
         details(self.console(), &report);
         match &self.log.report {
-            Some(path) => write_report(path, &report),
+            Some(path) => report::write(path, &report),
             None => Ok(()),
         }
+    }
+}
+
+/// Refuses a report that would go where the pictures go: to `path`, or to one of those that are `taken`.
+pub fn check_report_name(
+    log: &LogFlags,
+    path: &Path,
+    taken: impl FnOnce(&Path) -> bool,
+) -> Result<(), AppError> {
+    match log.report.as_deref() {
+        Some(report) if inputs::is_same(report, path) || taken(report) => {
+            Err(AppError::Usage(format!(
+                "cannot write the report ({}): the picture goes there. Choose another name.",
+                report.display()
+            )))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -283,17 +297,6 @@ pub fn tone(
     }
 }
 
-fn write_report(path: &Path, report: &Report) -> Result<(), AppError> {
-    let mut text = serde_json::to_string_pretty(report)
-        .map_err(|error| AppError::Internal(format!("report: {error}")))?;
-    text.push('\n');
-    if path == Path::new("-") {
-        console::print_bytes(text.as_bytes())
-    } else {
-        Ok(output::write(path, text.as_bytes(), true)?)
-    }
-}
-
 fn details(console: Console, report: &Report) {
     let Seconds {
         load,
@@ -316,13 +319,4 @@ fn details(console: Console, report: &Report) {
         report.submissions.longest_ms,
         report.memory.gpu_bytes as f64 / f64::from(1 << 20)
     ));
-}
-
-/// Whether two names mean the same file, which need not exist.
-pub fn is_same(a: &Path, b: &Path) -> bool {
-    let folder = |path: &Path| match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder.canonicalize().ok(),
-        _ => Path::new(".").canonicalize().ok(),
-    };
-    a == b || (a.file_name() == b.file_name() && folder(a).is_some() && folder(a) == folder(b))
 }

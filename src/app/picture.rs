@@ -6,6 +6,7 @@ use super::exit::AppError;
 use super::interrupt::Interrupt;
 use super::job::{self, Job, Outcome};
 use super::progress::Progress;
+use super::report::Draft;
 use crate::image::Image;
 use crate::render::{Renderer, Settings};
 use std::time::Instant;
@@ -14,36 +15,42 @@ use std::time::Instant;
 /// seconds, and writes it, and the report if one is asked for.
 ///
 /// # Errors
-/// Whatever goes wrong on the way; nothing is then left on the disk.
-pub fn run(job: &Job, destination: &Destination, shot: (f64, f64)) -> Result<(), AppError> {
+/// Whatever goes wrong on the way; no picture is then left on the disk.
+pub fn run(
+    job: &Job,
+    destination: &Destination,
+    shot: (f64, f64),
+    draft: &mut Draft,
+) -> Result<(), AppError> {
     let interrupt = Interrupt::install()?;
     job.warn_of_skipped();
     let settings = job.settings();
     let size = job::picture_size(&settings)?;
+    draft.plan(job.image(destination.path(), &settings, size));
+    draft.inputs.spare(destination.path(), "picture", "-o")?;
     destination.check(size.0, size.1)?;
-    job.check_report(destination.path(), |_| false)?;
+    job.check_report(draft)?;
 
-    let mut seconds = job.seconds();
-    let gpu = job.open_gpu(&mut seconds)?;
+    let gpu = job.open_gpu(size, draft)?;
     job.announce("", &settings, gpu.adapter());
     let (mut renderer, bvh_seconds) = device::renderer(gpu, &job.scene, shot, settings.clone())?;
-    seconds.bvh = bvh_seconds;
+    draft.seconds.bvh = bvh_seconds;
     {
         let _deferred = interrupt.defer();
         let image = trace(job, &mut renderer, &settings, destination, &interrupt)?;
         let started = Instant::now();
         destination.save(&image)?;
-        seconds.write = started.elapsed().as_secs_f64();
+        draft.seconds.write = started.elapsed().as_secs_f64();
     }
     let stats = renderer.stats();
-    seconds.take(stats);
-    seconds.total = job.started.elapsed().as_secs_f64();
+    draft.seconds.take(stats);
+    draft.seconds.total = draft.started.elapsed().as_secs_f64();
     Job::warn_of_losses(stats);
     let path = destination.path();
     job.console().status(format_args!(
         "wrote {} ({:.2} s)",
         path.display(),
-        seconds.total
+        draft.seconds.total
     ));
     job.report(
         &settings,
@@ -53,9 +60,9 @@ pub fn run(job: &Job, destination: &Destination, shot: (f64, f64)) -> Result<(),
             pictures: 1,
             adapter: Some(renderer.adapter()),
             stats,
-            seconds,
             animation: None,
         },
+        draft,
     )
 }
 

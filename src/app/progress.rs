@@ -144,7 +144,7 @@ impl Display {
                     return;
                 }
                 *next = now + JSON_INTERVAL;
-                console::line(json());
+                console::json_line(&json());
             }
         }
     }

@@ -1,6 +1,13 @@
-//! The report of a finished picture, for programs. Fields are promises: add to them, rename nothing.
+//! The report of a run, for programs. Fields are promises: add to them, rename nothing.
 
+mod draft;
+
+pub use draft::Draft;
+
+use super::console;
+use super::exit::AppError;
 use crate::gpu::AdapterReport;
+use crate::output;
 use crate::render::{Rays, Stats};
 use crate::scene::{Geometry, Scene};
 use serde::Serialize;
@@ -29,6 +36,13 @@ pub struct Report {
     /// Of `animate` and `turntable`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub animation: Option<AnimationReport>,
+    /// Null here; the report of a run that failed says what ended it (see [`Draft`]).
+    pub error: Option<()>,
+}
+
+impl Report {
+    /// The program's version.
+    pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 }
 
 /// The frames, and the video if there is one.
@@ -116,7 +130,7 @@ pub struct Adapter {
 
 /// Wall-clock seconds. `total` is from the start of the process to the file on disk; the others are
 /// parts of it that do not overlap.
-#[derive(Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Seconds {
     pub total: f64,
     /// Reading the scene.
@@ -213,6 +227,21 @@ impl From<&Stats> for Submissions {
             count: stats.submissions,
             longest_ms: stats.longest_submission_ms,
         }
+    }
+}
+
+/// Writes a report to `path`; `-` is the standard output.
+///
+/// # Errors
+/// It cannot be written there.
+pub fn write(path: &Path, report: &impl Serialize) -> Result<(), AppError> {
+    let mut text = serde_json::to_string_pretty(report)
+        .map_err(|error| AppError::Internal(format!("report: {error}")))?;
+    text.push('\n');
+    if path == Path::new("-") {
+        console::print_bytes(text.as_bytes())
+    } else {
+        Ok(output::write(path, text.as_bytes(), true)?)
     }
 }
 

@@ -1,11 +1,11 @@
 //! `glimray turntable MODEL`: a turn round a model, as a video or as frames.
 
-use super::animate::{Sequence, Timeline};
+use super::animate::{Sequence, Target, Timeline};
 use super::cli::{MotionFlags, Range, RangeFlags, TurnFlags, TurntableArgs};
 use super::clock::Clock;
 use super::exit::AppError;
 use super::job::Job;
-use super::render;
+use super::report::Draft;
 use crate::scene::{self, Background, Scene, Turntable};
 use std::path::Path;
 use std::time::Instant;
@@ -17,9 +17,17 @@ const SAMPLES: u32 = 4;
 const MAX_FRAMES: f64 = 1e6;
 
 pub fn run(arguments: &TurntableArgs, started: Instant) -> Result<(), AppError> {
-    let loading = Instant::now();
-    let mut scene = render::load(&arguments.scene, &arguments.reading)?;
-    let load_seconds = loading.elapsed().as_secs_f64();
+    let stem = arguments.scene.file_stem().unwrap_or("turntable".as_ref());
+    let target = Target::new(&arguments.output, Path::new(stem))?;
+    target.check_report_name(&arguments.log)?;
+    let name = arguments.scene.display().to_string();
+    let mut draft = Draft::new("turntable", &arguments.log, name, &target.path, started);
+    let outcome = render(arguments, target, &mut draft);
+    draft.close(outcome)
+}
+
+fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
+    let mut scene = draft.load(&arguments.scene, &arguments.reading)?;
     let turn = &arguments.turn;
     if scene.output.samples == 1 {
         scene.output.samples = SAMPLES;
@@ -51,18 +59,20 @@ pub fn run(arguments: &TurntableArgs, started: Instant) -> Result<(), AppError> 
     };
     let timeline = Timeline::new(&scene, &range, Clock::new(&scene.output, &flags))?;
     let job = Job {
-        command: "turntable",
-        scene_path: arguments.scene.display().to_string(),
         scene,
         background: turn.background,
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,
-        started,
-        load_seconds,
     };
-    let stem = arguments.scene.file_stem().unwrap_or("turntable".as_ref());
-    Sequence::new(job, timeline, &arguments.output, Path::new(stem))?.run()
+    let flags = &arguments.output;
+    Sequence {
+        job,
+        timeline,
+        flags,
+        target,
+    }
+    .run(draft)
 }
 
 /// The scene with a camera that goes once round it in `seconds`.

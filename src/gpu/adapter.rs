@@ -15,6 +15,32 @@ pub enum Backend {
     Gl,
 }
 
+impl Backend {
+    /// Why it is not to be had here, whatever is installed, as a clause; `None` where it may be.
+    pub fn absence(self) -> Option<&'static str> {
+        let is_apple = cfg!(target_vendor = "apple");
+        match self {
+            Self::Vulkan if is_apple => Some("this program uses Metal on Apple's systems"),
+            Self::Metal if !is_apple => Some("only Apple's systems have Metal"),
+            Self::Dx12 if !cfg!(windows) => Some("only Windows has DirectX 12"),
+            Self::Gl if cfg!(not(feature = "gl")) => {
+                Some("this program was built without it, the cargo feature `gl`")
+            }
+            _ => None,
+        }
+    }
+
+    /// Its name on the command line and in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Vulkan => "vulkan",
+            Self::Metal => "metal",
+            Self::Dx12 => "dx12",
+            Self::Gl => "gl",
+        }
+    }
+}
+
 /// What the user wants; the default leaves it to us.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AdapterChoice {
@@ -67,6 +93,9 @@ pub fn adapters(choice: &AdapterChoice) -> Vec<AdapterReport> {
 /// The adapter asked for, else the first of the best kind: a card of its own, one in the processor,
 /// a virtual one, a software renderer; among equals a modern API before GL.
 pub(super) fn choose(choice: &AdapterChoice) -> Result<Found, GpuError> {
+    if let Some((backend, why)) = choice.backend.and_then(|b| Some((b.name(), b.absence()?))) {
+        return Err(GpuError::NoBackend { backend, why });
+    }
     // Looking for GL devices takes as long as a small picture, so it is done only when it must.
     let mut enumerated = match (choice.backend, &choice.adapter) {
         (None, None) => enumerate(wgpu::Backends::PRIMARY),

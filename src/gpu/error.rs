@@ -5,11 +5,22 @@
 pub enum GpuError {
     /// No adapter that can run compute shaders was found.
     #[error(
-        "no usable GPU (tried {tried}): no driver was found. Install a Vulkan driver, or Mesa's software one (Debian and Ubuntu: apt-get install libvulkan1 mesa-vulkan-drivers)."
+        "no usable GPU (tried {tried}): no driver was found. {}",
+        Self::INSTALL
     )]
     NoAdapter {
         /// The backend that was asked for, or that it was all of them.
         tried: String,
+    },
+    /// The backend that was asked for is not to be had here, whatever is installed.
+    #[error(
+        "no usable GPU (--backend {backend}): {why}. Leave out --backend, or choose another one."
+    )]
+    NoBackend {
+        /// The backend.
+        backend: &'static str,
+        /// Why it is not there, as a clause.
+        why: &'static str,
     },
     /// There are adapters, but not the one that was asked for.
     #[error(
@@ -42,8 +53,7 @@ pub enum GpuError {
     },
     /// The scene or picture needs more than a limit of the adapter.
     #[error(
-        "too big for this adapter ({name}): {need} needed, {limit} allowed. {}",
-        Self::ADVICE
+        "too big for this adapter ({name}): {need} needed, {limit} allowed. Use a smaller scene or picture, or an adapter with higher limits (see `glimray doctor`)."
     )]
     Limit {
         /// The limit, with its unit.
@@ -55,8 +65,7 @@ pub enum GpuError {
     },
     /// All allocations together would exceed [`crate::render::Settings::memory_limit_bytes`].
     #[error(
-        "too big for the memory limit ({what}): {need} bytes needed in all, {limit} allowed. {}",
-        Self::ADVICE
+        "too big for the memory limit ({what}): {need} bytes needed in all, {limit} allowed. Use a smaller scene or picture, or raise --memory-limit if memory allows."
     )]
     Budget {
         /// The largest allocation and its size.
@@ -68,8 +77,7 @@ pub enum GpuError {
     },
     /// The driver refused an allocation within the limits.
     #[error(
-        "the GPU is out of memory ({what}): the driver refused to allocate. {}",
-        Self::ADVICE
+        "the GPU is out of memory ({what}): the driver refused to allocate. Use a smaller scene or picture, or end other programs that use its memory."
     )]
     OutOfMemory {
         /// What was to be allocated or made.
@@ -84,14 +92,24 @@ pub enum GpuError {
 }
 
 impl GpuError {
-    const ADVICE: &str =
-        "Use a smaller scene or picture, or raise --memory-limit if memory allows.";
+    /// How to get a first adapter on this system.
+    const INSTALL: &str = if cfg!(target_os = "linux") {
+        "Install the driver of your GPU, or Mesa's software driver (Debian and Ubuntu: apt-get install \
+         libvulkan1 mesa-vulkan-drivers)."
+    } else if cfg!(any(target_os = "windows", target_os = "macos")) {
+        "Update the driver of your GPU, or the system."
+    } else {
+        "Install a Vulkan driver, or Mesa's software one."
+    };
 
     /// The process's exit code for this error: 5 no usable adapter, 6 kept failing, 7 too big,
     /// 1 our own fault.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::NoAdapter { .. } | Self::NoSuchAdapter { .. } | Self::NoDevice { .. } => 5,
+            Self::NoAdapter { .. }
+            | Self::NoBackend { .. }
+            | Self::NoSuchAdapter { .. }
+            | Self::NoDevice { .. } => 5,
             Self::Lost | Self::KeptFailing { .. } => 6,
             Self::Limit { .. } | Self::Budget { .. } | Self::OutOfMemory { .. } => 7,
             Self::Internal { .. } => 1,

@@ -201,9 +201,11 @@ pub(super) fn read(path: &Path, limit: u64) -> Result<Vec<u8>, ImportError> {
     }
     let mut bytes = Vec::new();
     let capacity = usize::try_from(metadata.len()).unwrap_or(usize::MAX);
-    bytes
-        .try_reserve_exact(capacity)
-        .map_err(|_| too_big(metadata.len()))?;
+    bytes.try_reserve_exact(capacity).map_err(|_| {
+        let why = format!("{capacity} bytes do not fit into the memory");
+        let todo = "Use a smaller file, or raise the memory limit (`ulimit -v`) if there is one";
+        ImportError::TooBig(fault("file too big", path, &why, todo))
+    })?;
     // The length may be a lie, as in /proc.
     let mut file = File::open(path).map_err(failed)?.take(limit + 1);
     file.read_to_end(&mut bytes).map_err(failed)?;

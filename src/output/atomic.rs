@@ -1,7 +1,7 @@
 //! Bytes → file, so that a reader, a crash or a full disk never sees half of it: a new file beside
 //! the old one, written, synced, renamed over it; then the folder synced and the result looked at.
 
-use super::OutputError;
+use super::{Litter, OutputError};
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, ErrorKind, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -14,11 +14,14 @@ const PART: &str = ".part-";
 /// Names of files end at 255 bytes nearly everywhere; this leaves room for what is put round them.
 const MAX_STEM: usize = 200;
 
+/// Links in a row that lead to a file that is yet to be made. Systems give up at about as many.
+const MAX_LINKS: usize = 40;
+
 /// Where bytes for a path really go.
 enum Target {
     /// A file, new or old, to be put in place by renaming.
     File {
-        /// With symbolic links resolved, so that the link survives and its file is replaced.
+        /// With symbolic links resolved, so that a link survives and its file is replaced or made.
         path: PathBuf,
         /// Of the file that is there.
         permissions: Option<Permissions>,
@@ -27,16 +30,24 @@ enum Target {
     Stream,
 }
 
-pub(super) fn check(path: &Path, clobber: bool) -> Result<(), OutputError> {
-    if let Target::File { path: file, .. } = target(path, clobber)? {
+/// A part of a file beside its place, and its entry among what is cleared away with the process.
+type Part = (NamedTempFile, Litter);
+
+pub(super) fn check(path: &Path, clobber: bool, follow_links: bool) -> Result<(), OutputError> {
+    if let Target::File { path: file, .. } = target(path, clobber, follow_links)? {
         remove_leftovers(&file);
         part_file(&file).map_err(|source| failed(path, source))?;
     }
     Ok(())
 }
 
-pub(super) fn write(path: &Path, bytes: &[u8], clobber: bool) -> Result<(), OutputError> {
-    write_with(path, clobber, |file| {
+pub(super) fn write(
+    path: &Path,
+    bytes: &[u8],
+    clobber: bool,
+    follow_links: bool,
+) -> Result<(), OutputError> {
+    write_with(path, clobber, follow_links, |file| {
         file.write_all(bytes).map_err(|source| failed(path, source))
     })
 }
@@ -46,9 +57,10 @@ pub(super) fn write(path: &Path, bytes: &[u8], clobber: bool) -> Result<(), Outp
 pub(super) fn write_with(
     path: &Path,
     clobber: bool,
+    follow_links: bool,
     fill: impl FnOnce(&mut dyn Write) -> Result<(), OutputError>,
 ) -> Result<(), OutputError> {
-    match target(path, clobber)? {
+    match target(path, clobber, follow_links)? {
         Target::Stream => {
             let mut stream = OpenOptions::new()
                 .write(true)
@@ -62,7 +74,7 @@ pub(super) fn write_with(
             permissions,
         } => {
             let mut part = part_file(&file).map_err(|source| failed(path, source))?;
-            fill(&mut part)?;
+            fill(&mut part.0)?;
             let length =
                 replace(&file, part, permissions, clobber).map_err(|source| {
                     match source.kind() {
@@ -77,7 +89,20 @@ pub(super) fn write_with(
     }
 }
 
-fn target(path: &Path, clobber: bool) -> Result<Target, OutputError> {
+/// Refuses a link, unless it is one to a pipe or a device.
+pub(super) fn check_no_link(path: &Path) -> Result<(), OutputError> {
+    let is_link = fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink());
+    let is_stream = || fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
+    match is_link && !is_stream() {
+        true => Err(OutputError::Link { path: path.into() }),
+        false => Ok(()),
+    }
+}
+
+fn target(path: &Path, clobber: bool, follow_links: bool) -> Result<Target, OutputError> {
+    if !follow_links {
+        check_no_link(path)?;
+    }
     let found = match fs::metadata(path) {
         Ok(found) => found,
         Err(error) if error.kind() == ErrorKind::NotFound => return new_target(path),
@@ -104,10 +129,11 @@ fn target(path: &Path, clobber: bool) -> Result<Target, OutputError> {
 /// Of a path at which there is nothing yet.
 fn new_target(path: &Path) -> Result<Target, OutputError> {
     let ends_in_separator = path.to_string_lossy().ends_with(std::path::is_separator);
+    let file = end_of_links(path).map_err(|source| failed(path, source))?;
     let folder = if ends_in_separator {
         path
     } else {
-        folder_of(path)
+        folder_of(&file)
     };
     if path.file_name().is_none() || !folder.exists() {
         return Err(OutputError::MissingFolder {
@@ -116,15 +142,27 @@ fn new_target(path: &Path) -> Result<Target, OutputError> {
         });
     }
     Ok(Target::File {
-        path: path.into(),
+        path: file,
         permissions: None,
     })
+}
+
+/// The file, which does not exist, that a path leads to over any links.
+fn end_of_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..MAX_LINKS {
+        match fs::read_link(&path) {
+            Ok(next) => path = folder_of(&path).join(next),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(ErrorKind::InvalidFilename.into())
 }
 
 /// Puts a part that has been filled in its place, and returns how many bytes went into it.
 fn replace(
     path: &Path,
-    mut part: NamedTempFile,
+    (mut part, litter): Part,
     permissions: Option<Permissions>,
     clobber: bool,
 ) -> io::Result<u64> {
@@ -140,12 +178,13 @@ fn replace(
     } else {
         part.persist_noclobber(path)?;
     }
+    drop(litter);
     sync_folder(folder_of(path));
     Ok(length)
 }
 
 /// A new empty file beside `path`, gone when it is dropped.
-fn part_file(path: &Path) -> io::Result<NamedTempFile> {
+fn part_file(path: &Path) -> io::Result<Part> {
     let prefix = format!("{}{}-", part_prefix(path), std::process::id());
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix);
@@ -153,7 +192,8 @@ fn part_file(path: &Path) -> io::Result<NamedTempFile> {
     // the system takes the umask off.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder_of(path))
+    let make = || builder.tempfile_in(folder_of(path));
+    Litter::make(make, |part| part.path().to_owned())
 }
 
 fn part_prefix(path: &Path) -> String {

@@ -95,6 +95,17 @@ pub enum OutputError {
         path: PathBuf,
     },
 
+    /// The name is one that the program made up, and there is a symbolic link of that name.
+    #[error(
+        "cannot write the file ({}): it is a link that leads elsewhere. Remove the link, or choose \
+         another folder.",
+        show(path)
+    )]
+    Link {
+        /// The link.
+        path: PathBuf,
+    },
+
     /// The operating system refused.
     #[error(
         "cannot write the file ({}): {}. {}",
@@ -292,7 +303,8 @@ pub(crate) fn reason(error: &io::Error) -> String {
 fn advice(error: &io::Error) -> &'static str {
     use io::ErrorKind::*;
     match error.kind() {
-        StorageFull | QuotaExceeded | FileTooLarge => "Free some space or choose another disk.",
+        StorageFull | QuotaExceeded => "Free some space or choose another disk.",
+        FileTooLarge => "Raise the limit of file sizes (`ulimit -f`), or write a smaller file.",
         PermissionDenied | ReadOnlyFilesystem => "Choose a folder that you may write to.",
         InvalidFilename | InvalidInput | NotADirectory => "Choose another name.",
         BrokenPipe => "Keep the reading program running until the end.",

@@ -162,7 +162,7 @@ pub fn encode(
         #[cfg(not(feature = "video"))]
         VideoFormat::Mp4 | VideoFormat::Gif => Err(OutputError::VideoLeftOut { format }),
         // The only one that need not be held in memory, and is too long to be.
-        VideoFormat::Y4m => atomic::write_with(path, options.clobber, |file| {
+        VideoFormat::Y4m => atomic::write_with(path, options.clobber, true, |file| {
             y4m::encode(frames, options.rate, path, file)
         }),
     }

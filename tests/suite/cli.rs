@@ -365,16 +365,24 @@ fn outputs_that_cannot_be_written_exit_4_before_any_rendering() {
 fn without_an_adapter_the_exit_code_is_5_and_doctor_says_what_to_install() {
     let place = Workplace::new();
     let run = |line: &str| {
-        // Metal is nowhere but on Apple's systems.
+        // A loader of Vulkan that finds no driver.
         let mut command = place.command(line.split_whitespace());
-        let output = command
-            .args(["--backend", "metal"])
-            .output()
-            .expect("glimray runs");
-        Run::from(output).expect(5)
+        command.args(["--backend", "vulkan"]);
+        for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+            command.env(name, "/nonexistent.json");
+        }
+        Run::from(command.output().expect("glimray runs")).expect(5)
     };
     let render = run("render a.scene");
-    assert!(render.stderr.starts_with("error: "), "{}", render.stderr);
+    assert!(
+        render
+            .stderr
+            .starts_with("error: no usable GPU (tried Vulkan)"),
+        "{}",
+        render.stderr
+    );
+    let install = "apt-get install libvulkan1 mesa-vulkan-drivers";
+    assert!(render.stderr.contains(install), "{}", render.stderr);
     let doctor = run("doctor");
     assert!(
         doctor
@@ -385,6 +393,29 @@ fn without_an_adapter_the_exit_code_is_5_and_doctor_says_what_to_install() {
     assert_eq!(doctor["adapters"], serde_json::json!([]));
     assert_eq!(doctor["chosen"], Value::Null);
     assert!(place.made().is_empty());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_backend_of_another_system_is_refused_without_drivers_to_install() {
+    let place = Workplace::new();
+    for (backend, why) in [
+        ("metal", "only Apple's systems have Metal"),
+        ("dx12", "only Windows has DirectX 12"),
+    ] {
+        let run = place
+            .run(&format!("render a.scene --backend {backend}"))
+            .expect(5);
+        assert_eq!(
+            run.stderr,
+            format!(
+                "error: no usable GPU (--backend {backend}): {why}. Leave out --backend, or choose \
+                 another one.\n"
+            )
+        );
+        let doctor = place.run(&format!("doctor --backend {backend}")).expect(5);
+        assert!(!doctor.text().contains("install"), "{}", doctor.text());
+    }
 }
 
 #[test]
@@ -471,7 +502,7 @@ fn a_converted_scene_is_the_same_picture_and_nothing_in_the_way_is_replaced() {
     );
     assert_eq!(files(), before + 1);
     place.run(&format!("{convert} --no-clobber")).expect(4);
-    place.run("convert ship.toml -o ./ship.toml").expect(2);
+    place.run("convert ship.toml -o ./ship.toml").expect(4);
     place.run("convert ship.toml -o ship.obj").expect(2);
     place.run("convert gone.toml").expect(3);
     fs::copy(&model, place.path("my.model.obj")).expect("a copy");
@@ -662,7 +693,7 @@ fn the_report_has_the_promised_fields() {
     let text = fs::read_to_string(place.path("r.json")).expect("a report");
     let report: Value = serde_json::from_str(&text).expect("JSON");
     let promised = "adapter.backend adapter.device_type adapter.driver adapter.name command \
-        cut_off_trees glimray image.height image.integrator image.max_depth image.mean_samples image.path image.samples image.seed \
+        cut_off_trees error glimray image.height image.integrator image.max_depth image.mean_samples image.path image.samples image.seed \
         image.width memory.gpu_bytes memory.host_peak_bytes nonfinite_samples rays.primary \
         rays.primary_hits rays.reflection rays.reflection_hits rays.refraction \
         rays.refraction_hits rays.shadow rays.shadow_blocked scene.instances scene.lights \
@@ -820,15 +851,18 @@ fn interrupted(place: &Workplace, signal: &str) -> Option<i32> {
         .spawn()
         .expect("glimray runs");
     let mut lines = BufReader::new(child.stderr.take().expect("a pipe")).lines();
-    let under_way = lines.any(|line| line.is_ok_and(|line| line.starts_with('{')));
+    let under_way = lines.any(|line| line.is_ok_and(|line| line.contains("\"progress\"")));
     assert!(under_way, "the render ended early");
     let kill = Command::new("kill")
         .args([signal, &child.id().to_string()])
         .status();
     assert!(kill.expect("kill runs").success());
     let rest: Vec<_> = lines.map_while(Result::ok).collect();
-    let last = rest.last().map(String::as_str);
-    assert_eq!(last, Some("error: interrupted: no picture was written."));
+    let last = rest
+        .last()
+        .and_then(|line| serde_json::from_str::<Value>(line).ok());
+    let last = last.expect("JSON");
+    assert_eq!(last["error"], "interrupted: no picture was written.");
     child.wait().expect("it ends").code()
 }
 

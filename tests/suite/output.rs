@@ -460,6 +460,31 @@ mod unix {
     }
 
     #[test]
+    fn a_link_to_a_file_that_is_not_there_stays_and_its_file_is_made() {
+        let folder = folder();
+        let place = |name: &str| folder.path().join(name);
+        fs::create_dir(place("far")).expect("a folder");
+        symlink("second.png", place("first.png")).expect("a link");
+        symlink("far/away.png", place("second.png")).expect("a link");
+        let image = sample(2, 2);
+        output::check(place("first.png"), &SaveOptions::default(), 2, 2).expect("it can be made");
+        output::save(place("first.png"), &image).expect("saved");
+        assert!(place("first.png").is_symlink() && place("second.png").is_symlink());
+        let made = fs::read(place("far/away.png")).expect("a picture");
+        output::save(place("plain.png"), &image).expect("saved");
+        assert!(made == fs::read(place("plain.png")).expect("a picture"));
+        assert_eq!(names(&place("far")), ["away.png"]);
+
+        symlink("nowhere/away.png", place("lost.png")).expect("a link");
+        let error = output::save(place("lost.png"), &image).expect_err("no folder");
+        assert!(
+            error.to_string().contains("nowhere does not exist"),
+            "{error}"
+        );
+        assert!(place("lost.png").is_symlink());
+    }
+
+    #[test]
     fn a_full_device_is_an_error_in_every_format() {
         let full = Path::new("/dev/full");
         if !full.exists() {

@@ -218,7 +218,7 @@ impl Journal {
         for (&number, record) in &self.frames {
             text += &line(number, record.as_ref())?;
         }
-        Ok(output::write(&self.path, text.as_bytes(), true)?)
+        Ok(output::write_own(&self.path, text.as_bytes())?)
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::super::console;
 use super::super::exit::AppError;
-use crate::output::OutputError;
+use crate::output::{self, Litter, OutputError};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -15,6 +15,12 @@ pub struct Lock {
     path: PathBuf,
     /// `None` where the file system has no locks.
     file: Option<File>,
+    _litter: Litter,
+}
+
+/// The file in `folder` that is locked.
+pub fn path(folder: &Path) -> PathBuf {
+    folder.join(NAME)
 }
 
 impl Lock {
@@ -23,7 +29,8 @@ impl Lock {
     /// # Errors
     /// Another run has it, or no file can be written there.
     pub fn take(folder: &Path) -> Result<Self, AppError> {
-        let path = folder.join(NAME);
+        let path = path(folder);
+        output::check_no_link(&path)?;
         loop {
             let failed = |source| OutputError::Io {
                 path: path.clone(),
@@ -57,7 +64,13 @@ impl Lock {
             // A run that ended in between has removed the file that we have locked.
             let is_current = (file.as_ref()).map_or(Ok(true), |file| is_same(file, &path));
             if is_current.map_err(failed)? {
-                return Ok(Self { path, file });
+                let listed = Litter::make(|| Ok(()), |()| path.clone());
+                let ((), litter) = listed.map_err(failed)?;
+                return Ok(Self {
+                    path,
+                    file,
+                    _litter: litter,
+                });
             }
         }
     }

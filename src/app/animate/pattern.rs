@@ -1,6 +1,6 @@
 //! Names of numbered files: `walk_%04d.png`, or `walk_####.png`.
 
-use super::super::job::is_same;
+use super::super::inputs::is_same;
 use std::path::{Path, PathBuf};
 
 /// A file name with room for a number, in a folder.

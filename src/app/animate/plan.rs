@@ -1,11 +1,13 @@
 //! What is to be done: which frames are there, and why others are not good enough.
 
 use super::super::exit::AppError;
+use super::super::inputs::Inputs;
 use super::super::interrupt::Interrupt;
 use super::super::report::Redone;
 use super::Sequence;
 use super::journal::{Journal, State};
 use super::studio::Studio;
+use crate::output;
 
 /// Longer lists of frames are cut in messages.
 const MAX_LISTED: usize = 6;
@@ -40,6 +42,24 @@ impl Plan {
         plan.check(sequence)?;
         plan.tell(sequence);
         Ok(plan)
+    }
+
+    /// Refuses to write a frame, or to remove one at the end, that the run reads; or to write one through
+    /// a link that leads out of the folder.
+    pub fn spare(&self, sequence: &Sequence, inputs: &Inputs) -> Result<(), AppError> {
+        let Some(files) = &sequence.target.frames else {
+            return Ok(());
+        };
+        for (number, state) in &self.0 {
+            let path = files.pattern.path(*number);
+            if *state != State::Done {
+                output::check_no_link(&path)?;
+            }
+            if *state != State::Done || sequence.flags.discard_frames {
+                inputs.spare(&path, "frame", files.flag(&sequence.target))?;
+            }
+        }
+        Ok(())
     }
 
     pub fn frames(&self) -> impl Iterator<Item = (u32, bool)> {

@@ -14,7 +14,9 @@ use crate::output::video::{self, Picture8, VideoOptions, Y4mWriter};
 use crate::output::{self, Format, OutputError};
 use crate::pack::{self, PackedScene, PackedView};
 use crate::render::{Fetch, Renderer, Settings, Slicing, Stats, Tone};
-use std::io::{self, Stdout};
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -211,26 +213,50 @@ impl<'a> Studio<'a> {
     }
 }
 
-/// Frames on their way to the standard output.
-pub struct Sink(Y4mWriter<Stdout>);
+/// Frames on their way to the standard output, a pipe or a device.
+pub struct Sink {
+    writer: Y4mWriter<Box<dyn Write>>,
+    path: PathBuf,
+}
 
 impl Sink {
-    pub fn new((width, height): (u32, u32), options: &VideoOptions) -> Result<Self, AppError> {
-        let writer = Y4mWriter::new(io::stdout(), width, height, options.rate);
-        Ok(Self(writer.map_err(no_more)?))
+    /// `path` is `-` for the standard output.
+    pub fn new(
+        path: &Path,
+        (width, height): (u32, u32),
+        options: &VideoOptions,
+    ) -> Result<Self, AppError> {
+        let failed = |source| no_more(path, source);
+        let out: Box<dyn Write> = match path == Path::new("-") {
+            true => Box::new(io::stdout()),
+            false => Box::new(File::options().write(true).open(path).map_err(failed)?),
+        };
+        let writer = Y4mWriter::new(out, width, height, options.rate).map_err(failed)?;
+        Ok(Self {
+            writer,
+            path: path.into(),
+        })
     }
 
     fn send(&mut self, picture: &Picture8) -> Result<(), AppError> {
-        Ok(self.0.write(picture).map_err(no_more)?)
+        let sent = self.writer.write(picture);
+        Ok(sent.map_err(|source| no_more(&self.path, source))?)
     }
 
     fn finish(self) -> Result<(), AppError> {
-        Ok(self.0.finish().map_err(no_more)?)
+        let Self { writer, path } = self;
+        Ok(writer.finish().map_err(|source| no_more(&path, source))?)
     }
 }
 
-fn no_more(source: io::Error) -> OutputError {
-    OutputError::Stdout { source }
+fn no_more(path: &Path, source: io::Error) -> OutputError {
+    match path == Path::new("-") {
+        true => OutputError::Stdout { source },
+        false => OutputError::Io {
+            path: path.into(),
+            source,
+        },
+    }
 }
 
 /// Of everything but scene and view that can show in a frame's file.

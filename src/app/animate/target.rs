@@ -1,12 +1,14 @@
 //! Where moving pictures go: frames in files, a video made of them, or a stream.
 
-use super::super::cli::{SequenceFlags, SequenceFormat};
+use super::super::cli::{LogFlags, SequenceFlags, SequenceFormat};
 use super::super::exit::AppError;
+use super::super::inputs::Inputs;
+use super::super::{destination, job};
+use super::lock;
 use super::pattern::Pattern;
 use crate::output::video::{self, VideoFormat, VideoOptions};
 use crate::output::{self, Format, OutputError, SaveOptions};
 use std::ffi::OsString;
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 /// The way out.
@@ -28,12 +30,13 @@ pub struct Files {
 /// What the frames are joined to.
 pub enum Video {
     File(VideoFormat),
-    /// Y4M on the standard output.
+    /// Y4M into the standard output, a pipe or a device, frame by frame.
     Stream,
 }
 
 impl Target {
-    /// What the flags say; without a name, a video called `stem` in the current folder.
+    /// What the flags say; without a name, a video called `stem` in the current folder. A pipe or a device
+    /// has no frames beside it: Y4M is streamed into it, other videos need a folder for their frames.
     ///
     /// # Errors
     /// The name says no format, has no place for a number, or does not go with the other flags.
@@ -43,18 +46,25 @@ impl Target {
         let format = match flags.format {
             Some(format) => format,
             None if path == Path::new("-") => SequenceFormat::Video(VideoFormat::Y4m),
-            None => format_of(&path)?,
+            None => match format_of(&path) {
+                Err(_) if is_stream(&path) => SequenceFormat::Video(VideoFormat::Y4m),
+                format => format?,
+            },
         };
         let video = match format {
-            SequenceFormat::Video(VideoFormat::Y4m) if path == Path::new("-") => {
-                Some(Video::Stream)
-            }
+            SequenceFormat::Video(VideoFormat::Y4m) if is_stream(&path) => Some(Video::Stream),
             _ if path == Path::new("-") => {
                 return Err(AppError::Usage(
                     "cannot write that format (standard output): only Y4M can be streamed. \
                      Write --format y4m, or name a file."
                         .into(),
                 ));
+            }
+            SequenceFormat::Video(format) if is_stream(&path) && flags.frames_dir.is_none() => {
+                return Err(AppError::Usage(format!(
+                    "cannot write {format} ({shown}): its frames are kept in a folder, and a pipe or a \
+                     device has none beside it. Name one with --frames-dir, or write --format y4m."
+                )));
             }
             SequenceFormat::Video(format) => Some(Video::File(format)),
             SequenceFormat::Frames(_) => None,
@@ -102,6 +112,7 @@ impl Target {
                     format: Some(format),
                     quality: flags.quality,
                     clobber: true,
+                    follow_links: false,
                 },
             }),
             path,
@@ -112,6 +123,31 @@ impl Target {
     /// Whether the frames hold linear light rather than display values.
     pub fn is_linear(&self) -> bool {
         (self.frames.as_ref()).is_some_and(|frames| frames.format.is_linear())
+    }
+
+    /// Refuses a report that would go where the video or a frame goes.
+    pub fn check_report_name(&self, log: &LogFlags) -> Result<(), AppError> {
+        job::check_report_name(log, &self.path, |report| {
+            (self.frames.as_ref()).is_some_and(|files| files.pattern.names(report))
+        })
+    }
+
+    /// Refuses to replace what the run reads, by the video or by what is written beside the frames.
+    pub fn spare(&self, inputs: &Inputs) -> Result<(), AppError> {
+        if matches!(self.video, Some(Video::File(_))) {
+            inputs.spare(&self.path, "video", "-o")?;
+        }
+        let Some(files) = &self.frames else {
+            return Ok(());
+        };
+        if self.video.is_some() && files.pattern.names(&self.path) {
+            return Err(AppError::Usage(format!(
+                "cannot write the video ({}): a frame of it goes there. Choose another name.",
+                self.path.display()
+            )));
+        }
+        let beside = [files.pattern.journal(), lock::path(files.pattern.folder())];
+        (beside.iter()).try_for_each(|path| inputs.spare(path, "file", files.flag(self)))
     }
 
     /// Refuses, before any rendering, what would fail after it; makes the folder of the frames if
@@ -128,12 +164,8 @@ impl Target {
             (Some(Video::File(format)), Some(options)) => {
                 video::check(&self.path, *format, options, size.0, size.1)?;
             }
-            (Some(Video::Stream), Some(_)) if std::io::stdout().is_terminal() => {
-                return Err(AppError::Usage(
-                    "cannot show a video (standard output): it is a terminal. \
-                     Redirect it to a file or a program."
-                        .into(),
-                ));
+            (Some(Video::Stream), Some(_)) if self.path == Path::new("-") => {
+                destination::check_stdout("a video")?;
             }
             _ => {}
         }
@@ -151,11 +183,29 @@ impl Target {
         if !folder.exists() {
             make_folder(folder)?;
         }
-        output::check_file(files.pattern.journal(), true)?;
+        output::check_own(files.pattern.journal())?;
         let (width, height) = size;
-        let path = files.pattern.path(first);
+        // A link may be to a frame that is done, and is refused where it is not.
+        let mut paths = (first..).map(|number| files.pattern.path(number));
+        let path = paths.find(|path| !path.is_symlink()).unwrap_or_default();
         Ok(output::check(path, &files.options, width, height)?)
     }
+}
+
+impl Files {
+    /// The flag that says where they are.
+    pub fn flag(&self, target: &Target) -> &'static str {
+        match target.video {
+            Some(_) => "--frames-dir",
+            None => "-o",
+        }
+    }
+}
+
+/// Whether `path` is the standard output, a pipe or a device.
+fn is_stream(path: &Path) -> bool {
+    let found = || path.metadata();
+    path == Path::new("-") || found().is_ok_and(|found| !found.is_file() && !found.is_dir())
 }
 
 fn default(flags: &SequenceFlags, stem: &Path) -> PathBuf {

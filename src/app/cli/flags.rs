@@ -209,14 +209,14 @@ impl DeviceFlags {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Messages")]
 pub struct LogFlags {
-    /// Write a report (JSON: counts, settings, adapter, times in seconds, memory in bytes) here;
-    /// `-` is the standard output
+    /// Write a report (JSON: counts, settings, adapter, times in seconds, memory in bytes) here, of a
+    /// run that fails too, with its error and exit code; `-` is the standard output
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
     /// Count the rays of each kind for the report, which costs a little time
     #[arg(long)]
     pub count_rays: bool,
-    /// How progress is shown on the standard error
+    /// How progress is shown on the standard error; with json all messages there are lines of JSON
     #[arg(long, default_value = "auto", value_parser = PROGRESS.parser())]
     pub progress: ProgressMode,
     /// Print warnings and errors only

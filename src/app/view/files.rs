@@ -12,6 +12,7 @@ use super::bindings::Action;
 use super::loader::Trouble;
 use super::session::Session;
 use crate::app::cli::CameraFlags;
+use crate::app::inputs::Inputs;
 use crate::import::{self, ImportError};
 use crate::scene::{Background, Picture};
 use dialogs::{Dialogs, Reply, Request, ends_in};
@@ -48,6 +49,8 @@ pub struct Files {
     pending: Pending,
     /// Surroundings that are being read, and where they will come.
     environment: Option<(PathBuf, Receiver<PictureRead>)>,
+    /// Pictures of surroundings that were read.
+    surroundings: Vec<PathBuf>,
     watch: Watch,
     /// What to watch from now on.
     to_watch: Option<(Vec<PathBuf>, SystemTime)>,
@@ -107,6 +110,11 @@ impl Files {
     /// Whether someone else has changed a file of the scene and it was not read again yet.
     pub fn have_changed(&self) -> bool {
         self.watch.has_changed()
+    }
+
+    /// What the scene on screen comes from, which no picture may replace.
+    pub fn inputs(&self) -> Inputs {
+        Inputs::new(self.watch.files().iter().chain(&self.surroundings))
     }
 
     /// Whether the window is about to be photographed, so that nothing should lie over the picture.
@@ -297,6 +305,7 @@ fn take_environment(session: &mut Session) {
             session.moved();
             let name = short(&path);
             session.notices.tell(format!("{name} is all round now"));
+            session.files.surroundings.push(path);
         }
     }
     session.files.environment = None;

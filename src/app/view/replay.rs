@@ -3,12 +3,13 @@
 
 use crate::app::cli::TapeFlags;
 use crate::app::exit::AppError;
+use crate::app::inputs::Inputs;
 use crate::output::reason;
 use eframe::egui::{self, DroppedFile, Event, RawInput};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::fs::File;
-use std::io::{BufRead, BufReader, BufWriter, Write};
+use std::io::{BufRead, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -71,7 +72,9 @@ impl Tape {
                 closes: flags.close_after_replay,
             }),
         };
-        // Last, because it may be the same file.
+        if let (Some(record), Some(replay)) = (&flags.record, &flags.replay) {
+            Inputs::new([replay]).spare(record, "recording", "--record")?;
+        }
         let recorder = flags.record.as_deref().map(Recorder::new).transpose()?;
         Ok(Self {
             recorder,
@@ -111,8 +114,23 @@ impl Tape {
     }
 }
 
+/// Whether nothing is lost at `path` but an older recording, whose lines are JSON objects. Scenes and
+/// what they name are not: which files those are is not known yet.
+fn is_free(path: &Path) -> bool {
+    let is_file = path.is_file();
+    let first = || File::open(path).ok()?.bytes().next();
+    !is_file || first().is_none_or(|byte| byte.is_ok_and(|byte| byte == b'{'))
+}
+
 impl Recorder {
     fn new(path: &Path) -> Result<Self, AppError> {
+        if !is_free(path) {
+            return Err(AppError::Unwritable(format!(
+                "cannot record ({}): that file is no recording, and would be lost. Name another one with \
+                 --record.",
+                path.display()
+            )));
+        }
         let file = File::create(path).map_err(|error| {
             AppError::Unwritable(format!(
                 "cannot record ({}): {}. Name a file in a folder that can be written to.",

@@ -131,6 +131,17 @@ impl Place {
         read_folder(&self.path(folder))
     }
 
+    /// The names of everything in a folder, hidden files, folders and pipes too.
+    pub fn names(&self, folder: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.path(folder)).expect("a folder");
+        let names = entries.map(|entry| entry.expect("an entry").file_name());
+        let mut names: Vec<_> = names
+            .map(|name| name.to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
     /// The names of frames in a folder.
     pub fn frames(&self, folder: &str) -> Vec<String> {
         let names = self.files(folder).into_keys();

@@ -341,6 +341,38 @@ fn a_saved_picture_has_the_bytes_of_the_command_lines() {
 }
 
 #[test]
+fn no_picture_is_saved_over_a_file_that_the_scene_reads() {
+    let painted = "material = { phong = { diffuse = { picture = \"paint.png\" } } }";
+    let text = scene("1").replace("material = \"red\"", painted);
+    let place = Place::new(&[("one.toml", &text)]);
+    let paint = place.path("paint.png");
+    let image = Image {
+        width: 1,
+        height: 1,
+        pixels: vec![[1.0; 4]],
+    };
+    glimray::output::save(&paint, &image).expect("a picture");
+    let before = fs::read(&paint).expect("a picture");
+    let mut window = place.open("one.toml");
+    window.harness.key_press(egui::Key::F12);
+    window.harness.run_steps(3);
+    let refusal = |window: &Window, path: &Path| {
+        let mut session = window.session.borrow_mut();
+        let sheet = session.files.saving.as_mut().expect("a sheet");
+        sheet.path = path.to_string_lossy().into_owned();
+        sheet.target().err()
+    };
+    let says = Some("The scene reads that file. Choose another name.".to_owned());
+    assert_eq!(refusal(&window, &place.path("new.png")), None);
+    assert_eq!(refusal(&window, &paint), says);
+    window.harness.run_steps(3);
+    window.harness.key_press(egui::Key::Enter);
+    window.harness.run_steps(3);
+    window.settle();
+    assert!(fs::read(&paint).expect("a picture") == before);
+}
+
+#[test]
 fn the_name_of_a_picture_is_under_the_keys_and_enter_saves_it() {
     let place = Place::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");

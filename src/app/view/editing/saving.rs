@@ -1,6 +1,6 @@
 //! Saving the scene as a native file.
 
-use super::super::super::scene_file;
+use super::super::super::{inputs, scene_file};
 use super::super::files::{self, cameras};
 use super::super::session::Session;
 use super::super::viewer::Desk;
@@ -41,6 +41,16 @@ pub(super) fn ask(session: &mut Session) {
 }
 
 fn write(session: &mut Session, path: &Path) -> Result<(), String> {
+    let is_scene = session
+        .path
+        .as_ref()
+        .is_some_and(|own| inputs::is_same(own, path));
+    if !is_scene && session.files.inputs().contain(path) {
+        let path = path.display();
+        return Err(format!(
+            "cannot save the scene ({path}): it reads that file. Choose another name."
+        ));
+    }
     let Some(document) = &mut session.document else {
         return Ok(());
     };

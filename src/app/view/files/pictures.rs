@@ -5,6 +5,7 @@ use super::super::render_thread::{Place, Studio};
 use super::super::session::Session;
 use super::dialogs::{PICTURES, Reply, Request};
 use super::{NO_DIALOG, screenshot, short};
+use crate::app::inputs::Inputs;
 use crate::app::job;
 use crate::image::Image;
 use crate::output::{self, Format, SaveOptions};
@@ -36,6 +37,8 @@ pub struct SaveSheet {
     pub overlays: bool,
     /// Whether the name is yet to be put under the keys.
     pub is_new: bool,
+    /// What no picture may replace: the files of the scene.
+    inputs: Inputs,
     /// The name that a dialog gave, after asking whether to replace what is there.
     agreed: Option<PathBuf>,
     asked: Option<Receiver<Reply>>,
@@ -108,6 +111,9 @@ impl SaveSheet {
         if folder.is_some_and(|folder| !folder.is_dir()) {
             return Err("There is no such folder.".to_owned());
         }
+        if self.inputs.contain(&path) {
+            return Err("The scene reads that file. Choose another name.".to_owned());
+        }
         Ok(Target {
             replaces: path.exists(),
             path,
@@ -134,6 +140,7 @@ pub fn open(session: &mut Session, overlays: bool) {
         quality: session.files.pending.quality.unwrap_or(90),
         overlays,
         is_new: true,
+        inputs: session.files.inputs(),
         agreed: None,
         asked: None,
     });
@@ -302,6 +309,7 @@ pub(super) fn write(session: &mut Session, image: Image, target: Target, how_far
             format: Some(target.format),
             quality: target.quality,
             clobber: target.replaces,
+            ..SaveOptions::default()
         };
         let written = output::save_with(&target.path, &image, &options);
         let outcome = match written {

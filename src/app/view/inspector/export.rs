@@ -82,6 +82,12 @@ pub fn update(session: &mut Session) {
     };
     match reply.try_recv() {
         Err(TryRecvError::Empty) => return,
+        Ok(Reply::Chosen(path)) if session.files.inputs().contain(&path) => {
+            let path = path.display();
+            session.notices.warn(format!(
+                "cannot save the rays ({path}): the scene reads that file. Choose another name."
+            ));
+        }
         Ok(Reply::Chosen(path)) => match write(&path, text) {
             Ok(told) => session.notices.tell(told),
             Err(why) => session.notices.warn(why),

@@ -1,0 +1,226 @@
+//! What is told about a run that fails: the report with its error, lines of JSON for a program, colour
+//! and whole words for a person.
+
+use crate::animate::place::Place;
+use crate::support::verdict::Verdict;
+use glimray::gpu::GpuError;
+use serde_json::Value;
+use std::process::{Command, Stdio};
+
+/// Names of all fields, as `outer.inner`; those of the adapter and of the rays count as one each, which
+/// may be null.
+fn fields(report: &Value) -> Vec<String> {
+    let mut names = Vec::new();
+    for (outer, value) in report.as_object().expect("an object") {
+        match value.as_object() {
+            Some(inner) if !["adapter", "rays", "error"].contains(&outer.as_str()) => {
+                names.extend(inner.keys().map(|name| format!("{outer}.{name}")));
+            }
+            _ => names.push(outer.clone()),
+        }
+    }
+    names.sort();
+    names
+}
+
+#[test]
+fn a_run_that_fails_reports_its_error_and_all_other_fields() {
+    let place = Place::new();
+    place.write("bad.scene", "1\nsphere\npos: 0 0 x\n");
+    let run = place
+        .run("render a.scene --size 8x8 -o a.png --report -")
+        .expect(0);
+    assert_eq!(run.report["error"], Value::Null);
+    let promised = fields(&run.report);
+    let mut verdict = Verdict::on("reports of failures");
+    for (line, code, lights, width) in [
+        ("render gone.scene", 3, Value::Null, Value::Null),
+        ("render bad.scene", 3, Value::Null, Value::Null),
+        ("render a.scene --camera nobody", 2, 1.into(), Value::Null),
+        (
+            "render a.scene --crop 0,0,9,9 --size 8x8",
+            2,
+            1.into(),
+            Value::Null,
+        ),
+        (
+            "render a.scene -o no/where.png --size 8x8",
+            4,
+            1.into(),
+            8.into(),
+        ),
+        (
+            "render a.scene --adapter nothing_like_it --size 8x8",
+            5,
+            1.into(),
+            8.into(),
+        ),
+        (
+            "render a.scene --memory-limit 1 --size 2048x2048",
+            7,
+            1.into(),
+            2048.into(),
+        ),
+        (
+            "demo --memory-limit 1 --size 2048x2048",
+            7,
+            Value::Null,
+            2048.into(),
+        ),
+    ] {
+        let run = place.run(&format!("{line} --report -")).expect(code);
+        let report = &run.report;
+        let said = run.stderr.lines().last().unwrap_or_default();
+        let message = report["error"]["message"].as_str().unwrap_or_default();
+        verdict.that(line, said == format!("error: {message}"), || {
+            said.to_owned()
+        });
+        verdict.that(line, report["error"]["code"] == code, || report.to_string());
+        verdict.that(line, fields(report) == promised, || report.to_string());
+        let is_scene_known = line.starts_with("demo") || report["scene"]["lights"] == lights;
+        verdict.that(
+            line,
+            is_scene_known && report["image"]["width"] == width,
+            || report.to_string(),
+        );
+    }
+    verdict.close();
+    let run = place.run("animate a.scene --report -").expect(2);
+    assert_eq!(run.report["animation"], Value::Null);
+    assert_eq!(run.report["command"], "animate");
+    assert_eq!(run.report["error"]["code"], 2);
+    // Into a file as well, in place of an older one.
+    for code in [5, 3] {
+        let line = match code {
+            5 => "render a.scene --adapter nothing_like_it --report r.json",
+            _ => "render gone.scene --report r.json",
+        };
+        place.run(line).expect(code);
+        let report: Value = serde_json::from_slice(&place.read("r.json")).expect("JSON");
+        assert_eq!(report["error"]["code"], code);
+    }
+}
+
+#[test]
+fn with_progress_in_json_every_line_is_a_json_object() {
+    let place = Place::new();
+    // More objects are announced than there are: a warning.
+    let text = String::from_utf8(place.read("a.scene")).expect("text");
+    place.write("warns.scene", text.replacen('2', "9 # skip", 1));
+    let mut verdict = Verdict::on("lines");
+    for (line, code, key) in [
+        ("render warns.scene --size 8x8 --verbose", 0, "warning"),
+        ("render a.scene --size 8x8 --verbose", 0, "note"),
+        ("render a.scene --size 8x8", 0, "progress"),
+        ("render gone.scene", 3, "error"),
+        ("render a.scene --samples many", 2, "error"),
+        ("render a.scene --bogus", 2, "error"),
+        ("render a.scene -o no/where.png", 4, "error"),
+        (
+            "animate a.scene --frames 0..1 --size 16x16 -o f_%d.png",
+            0,
+            "note",
+        ),
+    ] {
+        for flag in ["--progress json", "--progress=json"] {
+            let run = place.run(&format!("{line} {flag}")).expect(code);
+            let lines = run.stderr.lines().map(serde_json::from_str::<Value>);
+            let lines: Vec<_> = lines.map(|line| line.unwrap_or_default()).collect();
+            let is_json = !lines.is_empty() && lines.iter().all(Value::is_object);
+            verdict.that(format!("{line} {flag}"), is_json, || run.stderr.clone());
+            let has_key = lines.iter().any(|line| !line[key].is_null());
+            verdict.that(format!("{line} {flag}"), has_key, || run.stderr.clone());
+            let last = lines
+                .last()
+                .map_or(Value::Null, |line| line["code"].clone());
+            let is_code = code == 0 || last == code;
+            verdict.that(format!("{line} {flag}"), is_code, || run.stderr.clone());
+        }
+    }
+    verdict.close();
+}
+
+/// What a terminal of so many columns gets of a shell's line, in which `$G` is the program, with its
+/// line ends as they are in a file; `None` where there is no `script` to make a terminal.
+#[cfg(target_os = "linux")]
+fn on_a_terminal(place: &Place, columns: u32, line: &str) -> Option<String> {
+    let mut command = Command::new("script");
+    command.args([
+        "-qec",
+        &format!("stty cols {columns} rows 24; {line}"),
+        "/dev/null",
+    ]);
+    command
+        .env("G", place.command("").get_program())
+        .env("TERM", "xterm");
+    command
+        .env_remove("NO_COLOR")
+        .current_dir(place.path("."))
+        .stdin(Stdio::null());
+    let output = command.output().ok()?;
+    Some(String::from_utf8_lossy(&output.stdout).replace("\r\n", "\n"))
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn labels_are_coloured_on_a_terminal_only() {
+    let place = Place::new();
+    let plain = "error: cannot read the file (gone.scene)";
+    let colored = "\u{1b}[1;31merror:\u{1b}[0m cannot read the file (gone.scene)";
+    let line = "$G inspect gone.scene";
+    let Some(on_terminal) = on_a_terminal(&place, 200, line) else {
+        assert!(
+            std::env::var_os("GLIMRAY_REQUIRE").is_none(),
+            "there is no `script`"
+        );
+        return;
+    };
+    assert!(on_terminal.starts_with(colored), "{on_terminal:?}");
+    for line in [
+        "NO_COLOR=1 $G inspect gone.scene",
+        "TERM=dumb $G inspect gone.scene",
+        "$G inspect gone.scene 2>&1 | cat",
+    ] {
+        let text = on_a_terminal(&place, 200, line).expect("a terminal");
+        assert!(text.starts_with(plain), "{line}: {text:?}");
+    }
+    assert!(place.run("inspect gone.scene").stderr.starts_with(plain));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_gets_lines_that_end_between_words() {
+    let place = Place::new();
+    let line = "$G inspect gone.scene --allow-dir a_folder_that_is_not_there_and_has_a_long_name";
+    let whole = place.run(&line["$G ".len()..]).expect(3).stderr;
+    assert_eq!(whole.lines().count(), 1, "{whole}");
+    for columns in [60, 30] {
+        let Some(text) = on_a_terminal(&place, columns, &format!("NO_COLOR=1 {line}")) else {
+            return;
+        };
+        let lines: Vec<_> = text.trim_end().lines().collect();
+        let is_fit = |line: &&str| line.chars().count() <= columns as usize || !line.contains(' ');
+        assert!(lines.len() > 1 && lines.iter().all(is_fit), "{text}");
+        assert_eq!(lines.join(" "), whole.trim_end());
+    }
+}
+
+#[test]
+fn a_limit_of_the_adapter_is_not_blamed_on_the_memory_limit() {
+    let limit = GpuError::Limit {
+        name: "bytes in one storage buffer binding",
+        need: 2 << 30,
+        limit: 128 << 20,
+    };
+    let refused = GpuError::OutOfMemory {
+        what: "film".into(),
+    };
+    let budget = GpuError::Budget {
+        what: "film 5 bytes".into(),
+        need: 5,
+        limit: 4,
+    };
+    let says_so = |error: &GpuError| error.to_string().contains("--memory-limit");
+    assert!(!says_so(&limit) && !says_so(&refused) && says_so(&budget));
+    assert!(limit.to_string().contains("an adapter with higher limits"));
+}
