@@ -354,7 +354,7 @@ packed! {
         nonfinite_samples: u32,
         /// Invocations in which a loop ended before its condition did.
         cut_off_paths: u32,
-        /// Samples whose ray tree outgrew its stack or had too many rays.
+        /// Samples whose ray tree outgrew its stack, had too many rays, or one inside too many bodies.
         cut_off_trees: u32,
         /// Camera rays. This and the following are kept where override `COUNT_RAYS` is on.
         primary: u32,

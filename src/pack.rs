@@ -98,11 +98,11 @@ pub struct Features {
     pub shape_kinds: u32,
     /// Some triangle's corners differ in material.
     pub mixed_materials: bool,
-    /// Something mirrors.
+    /// Something mirrors, be it only by total reflection, or shows only part of its local light.
     pub reflection: bool,
     /// Something is transparent.
     pub refraction: bool,
-    /// A transparent body may touch another body.
+    /// A transparent body may touch or overlap another body.
     pub contact: bool,
     /// Shadow rays go on through what is transparent.
     pub filtered_shadows: bool,
@@ -202,6 +202,7 @@ pub fn scene_with(scene: &Scene, most_laid_out: usize) -> Result<PackedScene, Pa
     let features = Features {
         shape_kinds: (flat.bounded.iter()).fold(0, |kinds, (shape, _)| kinds | 1 << shape.kind),
         mixed_materials: flat.mixed_materials,
+        contact: media::may_touch(scene),
         filtered_shadows: scene.shadows == Shadows::Filtered,
         instances: !placed.is_empty(),
         ..material::features(scene)

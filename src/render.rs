@@ -6,6 +6,8 @@ mod bindings;
 mod debug_view;
 mod develop;
 mod device;
+mod effort;
+mod error;
 mod explain;
 mod film;
 mod layouts;
@@ -17,6 +19,8 @@ mod whitted;
 
 pub use crate::scene::{Antialias, Filter};
 pub use develop::Tone;
+pub use effort::LongPath;
+pub use error::RenderError;
 pub use explain::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
 pub use settings::{Fetch, Integrator, MIN_THROUGHPUT, Settings, Slicing, TriangleTest};
 pub use show::Screen;
@@ -54,31 +58,8 @@ struct Cursor {
     sweep_samples: u32,
 }
 
-/// Why a picture cannot be rendered.
-#[derive(Debug, thiserror::Error)]
-pub enum RenderError {
-    /// The device or its driver failed.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// The driver ended a shader's loops early, even with one sample in an invocation.
-    #[error(
-        "too much work in one pixel (lights, or primitives with --no-bvh): this driver ends a shader's loops after 65,535 rounds, and the picture would be wrong. Use fewer lights, or leave out --no-bvh."
-    )]
-    PathTooLong,
-}
-
-impl RenderError {
-    /// The process's exit code for this error.
-    pub fn exit_code(&self) -> u8 {
-        match self {
-            Self::Gpu(error) => error.exit_code(),
-            Self::PathTooLong => 7,
-        }
-    }
-}
-
 impl Renderer {
-    /// Checks the memory limit, uploads the scene and compiles the kernels. The settings' sizes and
+    /// Checks the limits of memory and of work, uploads the scene and compiles the kernels. The settings' sizes and
     /// counts must be in the ranges they document.
     pub fn new(
         gpu: Gpu,
@@ -86,6 +67,7 @@ impl Renderer {
         view: &PackedView,
         settings: Settings,
     ) -> Result<Self, RenderError> {
+        effort::check(view, &settings)?;
         let view = view.with_aspect(settings.size.0, settings.size.1);
         let film = Film::new(&settings);
         let mut stats = Stats {
@@ -111,7 +93,7 @@ impl Renderer {
             })?,
         };
         Ok(Self {
-            planner: Planner::new(settings.slicing),
+            planner: Planner::new(settings.slicing, effort::shadow_rays(&view, &settings)),
             scene,
             settings,
             view,
@@ -142,6 +124,7 @@ impl Renderer {
         view: &PackedView,
         settings: Settings,
     ) -> Result<(), RenderError> {
+        effort::check(view, &settings)?;
         let view = view.with_aspect(settings.size.0, settings.size.1);
         let film = Film::new(&settings);
         let bytes = planned_bytes(&scene, &view, &settings, &film)?;
@@ -150,8 +133,10 @@ impl Renderer {
         if settings.count_rays {
             self.stats.rays.get_or_insert_default();
         }
-        if settings.slicing != self.settings.slicing {
-            self.planner = Planner::new(settings.slicing);
+        let planner = Planner::new(settings.slicing, effort::shadow_rays(&view, &settings));
+        if settings.slicing != self.settings.slicing || planner.is_for_more_work_than(&self.planner)
+        {
+            self.planner = planner;
         }
         let is_other_scene = !Arc::ptr_eq(&scene, &self.scene);
         (self.scene, self.view, self.settings) = (scene, view, settings);
@@ -315,10 +300,15 @@ impl Renderer {
                 self.planner.shorten_paths();
                 parts.extend([later, earlier]);
             } else {
-                return Err(RenderError::PathTooLong);
+                return Err(self.path_too_long());
             }
         }
         Ok(true)
+    }
+
+    /// The error of a sample that the driver's loops are too short for.
+    fn path_too_long(&self) -> RenderError {
+        RenderError::PathTooLong(LongPath::of(&self.scene, &self.view, &self.settings))
     }
 
     fn advance(&mut self, slice: &Slice) -> Result<(), RenderError> {

@@ -147,8 +147,9 @@ impl Job<'_> {
         }
         if stats.cut_off_trees > 0 {
             console::warning(format_args!(
-                "{} samples had too many rays and were cut off. Lower --max-depth, or raise \
-                 --min-throughput.",
+                "{} samples had too many rays and were cut off, or passed through more than 4 \
+                 transparent bodies at once. Lower --max-depth, raise --min-throughput, or nest fewer \
+                 bodies.",
                 stats.cut_off_trees
             ));
         }

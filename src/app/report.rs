@@ -30,7 +30,8 @@ pub struct Report {
     pub submissions: Submissions,
     /// Samples that were dropped because they were infinite or no number.
     pub nonfinite_samples: u64,
-    /// Samples whose ray tree was cut off: it outgrew its stack, or had too many rays.
+    /// Samples whose ray tree was cut off: it outgrew its stack, had too many rays, or a ray that came into
+    /// too many bodies at once.
     pub cut_off_trees: u64,
     pub memory: Memory,
     /// Of `animate` and `turntable`.

@@ -89,17 +89,38 @@ pub fn clear(scene: &Scene) -> Vec<bool> {
     is_lit(scene, |m| m.transmit, MaterialProperty::Transmit)
 }
 
+/// Whether total reflection turns the light that some material lets through into mirrored light. Where
+/// Fresnel's equations count, `reflect` says what is mirrored there too, and a sum has no such rule.
+fn has_total_reflection(scene: &Scene) -> bool {
+    let mut materials = scene.materials.iter().zip(clear(scene));
+    materials.any(|(material, is_clear)| {
+        is_clear && material.fresnel == Fresnel::None && material.mixing != Mixing::Sum
+    })
+}
+
+/// Whether some material shows only part of its local light at some time.
+fn has_thin_material(scene: &Scene) -> bool {
+    let is_layer = |material: &Material| material.mixing == Mixing::Layer;
+    let is_thin = |material: &Material| is_layer(material) && material.opacity != 1.0;
+    let thins = |target: &Target| {
+        matches!(*target, Target::Material(index, MaterialProperty::Opacity)
+            if is_layer(&scene.materials[index]))
+    };
+    let mut targets = scene.tracks.iter().flat_map(|track| &track.targets);
+    scene.materials.iter().any(is_thin) || targets.any(thins)
+}
+
 /// What the materials, textures and pictures of a scene ask for.
 pub fn features(scene: &Scene) -> Features {
-    let reflection = is_lit(scene, |m| m.reflect, MaterialProperty::Reflect).contains(&true);
+    let mirrors = is_lit(scene, |m| m.reflect, MaterialProperty::Reflect).contains(&true);
     let refraction = clear(scene).contains(&true);
     let emission = is_lit(scene, |m| m.emission, MaterialProperty::Emission).contains(&true);
-    let bodies = scene.shapes.len() + scene.instances.len();
     Features {
-        reflection,
+        // Refraction brings the code for thin materials along.
+        reflection: mirrors
+            || has_total_reflection(scene)
+            || !refraction && has_thin_material(scene),
         refraction,
-        // One mesh may hold several bodies, which then mostly differ in material.
-        contact: refraction && (bodies > 1 || scene.materials.len() > 1),
         textures: !scene.textures.is_empty(),
         emission: emission || light::visible(scene).next().is_some(),
         ..Features::default()

@@ -1,12 +1,15 @@
 //! Which transparent bodies the camera is inside of.
 
-use super::{PackError, material};
+use super::{PackError, light, material};
 use crate::{
     layout::NONE,
     scene::{Form, Frame, Geometry, Mesh, Scene},
 };
 use glam::{DAffine3, DVec3, Vec3};
-use std::sync::Arc;
+use std::{
+    collections::{HashMap, HashSet},
+    sync::Arc,
+};
 
 /// Most media that a ray remembers.
 pub const MEDIA_SIZE: usize = 4;
@@ -64,6 +67,44 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
         })
     });
     shapes.chain(meshes).collect()
+}
+
+/// Whether a body that is transparent at some time may touch or overlap another body. One mesh may hold
+/// several: mostly they differ in material, but parts that do not hang together are bodies as well.
+pub fn may_touch(scene: &Scene) -> bool {
+    let lamps = light::visible(scene).count();
+    let bodies = scene.shapes.len() + scene.instances.len() + lamps;
+    let is_divided = || scene.meshes.iter().any(|mesh| part_count(mesh) > 1);
+    material::clear(scene).contains(&true)
+        && (bodies > 1 || scene.materials.len() > 1 || is_divided())
+}
+
+/// Sets of triangles that hang together by the positions of their vertices.
+fn part_count(mesh: &Mesh) -> usize {
+    let mut first_at = HashMap::new();
+    // A forest over the vertices: each leads to an earlier one of its part, or to itself.
+    let mut leads_to: Vec<usize> = (mesh.positions.iter().enumerate())
+        .map(|(i, p)| *first_at.entry(p.to_array().map(f32::to_bits)).or_insert(i))
+        .collect();
+    let root = |leads_to: &mut [usize], mut i: usize| {
+        while leads_to[i] != i {
+            leads_to[i] = leads_to[leads_to[i]];
+            i = leads_to[i];
+        }
+        i
+    };
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|i| root(&mut leads_to, i as usize));
+        let first = a.min(b).min(c);
+        for i in [a, b, c] {
+            leads_to[i] = first;
+        }
+    }
+    // Vertices that no triangle uses are no part.
+    let roots: HashSet<usize> = (mesh.triangles.iter())
+        .map(|triangle| root(&mut leads_to, triangle[0] as usize))
+        .collect();
+    roots.len()
 }
 
 /// The materials of the bodies round a point in the world that are transparent in this frame, the

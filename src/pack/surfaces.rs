@@ -54,6 +54,7 @@ impl PackedScene {
                 shape_kinds: self.features.shape_kinds,
                 mixed_materials: self.features.mixed_materials,
                 instances: self.features.instances,
+                contact: media::may_touch(scene),
                 filtered_shadows: scene.shadows == Shadows::Filtered,
                 ..material::features(scene)
             },

@@ -9,12 +9,25 @@ const FIRST_SAMPLES: u32 = 4;
 /// A pixel with this many times fewer samples than a noisy neighbour is behind it.
 const BEHIND: u32 = 4;
 
+/// Rounds in which pixels look at their neighbours. What one of them has found spreads by a pixel a round:
+/// this is how far it gets, and how wide the margin round a crop must be.
+const NEIGHBOUR_ROUNDS: u32 = 32;
+
 /// What all rounds have gathered, pixel by pixel of the region.
+///
+/// A pixel looks at its neighbours, which have looked at theirs a round before, so it depends on all pixels
+/// within as many steps as there are such rounds. A margin of that width is sampled round a crop, which then
+/// has the pixels of the whole picture. Pixels of the margin take part for as long as the crop depends on them.
 #[derive(Clone, Debug)]
 pub struct Adaptive {
+    /// The crop and its margin: x, y, width, height.
     region: [u32; 4],
+    /// The part of it that is asked for, in the same coordinates.
+    crop: [u32; 4],
     noise: f64,
     samples: u32,
+    /// Rounds after the first.
+    rounds: u32,
     /// Most pixels of a window.
     window_pixels: usize,
     pixels: Vec<Account>,
@@ -34,17 +47,28 @@ struct Account {
 
 impl Adaptive {
     pub fn new(settings: &Settings) -> Self {
-        let region = settings.region();
+        let crop = settings.region();
+        // With so few samples there are no rounds.
+        let has_rounds = settings.samples > FIRST_SAMPLES;
+        let margin = if has_rounds { NEIGHBOUR_ROUNDS } else { 0 };
+        let region = widened(crop, margin, settings.size);
         let [.., width, height] = region;
         let side = settings.slicing.window_side as usize;
         Self {
             region,
+            crop,
+            rounds: 0,
             noise: f64::from(settings.noise),
             samples: settings.samples,
             window_pixels: side * side,
             front: 0..FIRST_SAMPLES.min(settings.samples),
             pixels: vec![Account::default(); width as usize * height as usize],
         }
+    }
+
+    /// What is to be sampled: the crop and its margin.
+    pub fn region(&self) -> [u32; 4] {
+        self.region
     }
 
     /// Windows over all the pixels.
@@ -55,6 +79,7 @@ impl Adaptive {
     /// Windows over the pixels that need more samples, those that have as many together; none when
     /// all are done. A round doubles the samples of a pixel.
     pub fn next_round(&mut self) -> Vec<Window> {
+        self.rounds += 1;
         let [x0, y0, width, height] = self.region;
         let tiles = |length: u32| 0..length.div_ceil(8);
         let mut going_on: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
@@ -128,7 +153,8 @@ impl Adaptive {
     /// still needs samples and has many more.
     fn goes_on(&self, x: u32, y: u32) -> bool {
         let account = self.account(x, y);
-        if account.count >= self.samples {
+        let rounds_left = NEIGHBOUR_ROUNDS.saturating_sub(self.rounds);
+        if account.count >= self.samples || self.steps_to_crop(x, y) > rounds_left {
             return false;
         }
         let missed = |other: &Account| {
@@ -136,7 +162,19 @@ impl Adaptive {
             let is_ahead = other.count >= BEHIND * account.count && other.error() > self.noise;
             differs && (account.count <= FIRST_SAMPLES || is_ahead)
         };
-        account.error() > self.noise || self.around(x, y).any(missed)
+        let asks = self.rounds <= NEIGHBOUR_ROUNDS;
+        account.error() > self.noise || (asks && self.around(x, y).any(missed))
+    }
+
+    /// Steps from a pixel of the region to the nearest of the crop; 0 within it.
+    fn steps_to_crop(&self, x: u32, y: u32) -> u32 {
+        let [x0, y0, ..] = self.region;
+        let [left, top, width, height] = self.crop;
+        let beyond = |at: u32, start: u32, length: u32| {
+            let last = start + length - 1;
+            start.saturating_sub(at).max(at.saturating_sub(last))
+        };
+        beyond(x0 + x, left, width).max(beyond(y0 + y, top, height))
     }
 
     /// The pixel and its neighbours.
@@ -150,6 +188,17 @@ impl Adaptive {
     fn account(&self, x: u32, y: u32) -> &Account {
         &self.pixels[y as usize * self.region[2] as usize + x as usize]
     }
+}
+
+/// A rectangle with this margin around it, as far as the picture reaches.
+fn widened([x, y, width, height]: [u32; 4], margin: u32, size: (u32, u32)) -> [u32; 4] {
+    let along = |start: u32, length: u32, most: u32| {
+        let first = start.saturating_sub(margin);
+        let end = (start + length).saturating_add(margin).min(most);
+        (first, end - first)
+    };
+    let ((x, width), (y, height)) = (along(x, width, size.0), along(y, height, size.1));
+    [x, y, width, height]
 }
 
 impl Account {

@@ -176,7 +176,7 @@ impl Renderer {
         })?;
         match records.accounts.cut_off_paths {
             0 => Ok(records),
-            _ => Err(RenderError::PathTooLong),
+            _ => Err(self.path_too_long()),
         }
     }
 

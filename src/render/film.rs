@@ -191,9 +191,11 @@ pub struct Film {
 impl Film {
     /// Cuts the region into windows and plans the first round.
     pub fn new(settings: &Settings) -> Self {
+        let adaptive = settings.is_adaptive().then(|| Adaptive::new(settings));
+        let region = (adaptive.as_ref()).map_or(settings.region(), Adaptive::region);
         let mut film = Self {
-            windows: rectangles(settings),
-            adaptive: settings.is_adaptive().then(|| Adaptive::new(settings)),
+            windows: rectangles(settings, region),
+            adaptive,
             largest_window: 0,
         };
         film.largest_window = film.largest_row_count();
@@ -229,7 +231,7 @@ impl Film {
 
     /// The windows to develop: rectangles with what has been gathered so far.
     pub fn developable(&self, settings: &Settings) -> Vec<(Window, Vec<[f32; 4]>)> {
-        let rectangles = rectangles(settings);
+        let rectangles = rectangles(settings, settings.region());
         match &self.adaptive {
             None => (rectangles.into_iter().zip(&self.windows))
                 .map(|(rectangle, window)| (rectangle, window.developable()))
@@ -278,9 +280,8 @@ impl Film {
     }
 }
 
-/// The region cut into rectangles of at most the longest side of a window.
-fn rectangles(settings: &Settings) -> Vec<Window> {
-    let [x, y, width, height] = settings.region();
+/// A region of the picture cut into rectangles of at most the longest side of a window.
+fn rectangles(settings: &Settings, [x, y, width, height]: [u32; 4]) -> Vec<Window> {
     let rows = settings.rows_of_rectangles();
     // A window of as many bytes, whatever a pixel takes.
     let side = settings.slicing.window_side / (rows as u32).isqrt();

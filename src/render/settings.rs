@@ -105,8 +105,12 @@ impl From<&OutputDefaults> for Settings {
 impl Settings {
     /// Whether pixels stop when they are good enough.
     pub fn is_adaptive(&self) -> bool {
-        let is_traced = matches!(self.integrator, Integrator::Whitted | Integrator::Samples);
-        self.antialias == Antialias::Adaptive && is_traced
+        self.antialias == Antialias::Adaptive && self.is_lit()
+    }
+
+    /// Whether lights count: the integrator traces more than what is first hit.
+    pub(super) fn is_lit(&self) -> bool {
+        matches!(self.integrator, Integrator::Whitted | Integrator::Samples)
     }
 
     /// Whether the film keeps what a background adds apart from the rest, so that [`super::Tone::background`]

@@ -9,6 +9,8 @@ use crate::layout::PackedSlice;
 
 /// Tiles of the first submission; one that turns out heavier than planned stays short.
 const FIRST_TILES: f64 = 8.0;
+/// Shadow rays from one point for which it is that many; with more of them it is fewer.
+const FEW_SHADOW_RAYS: f64 = 256.0;
 /// The most by which a submission may be larger than the one before.
 const GROWTH: f64 = 4.0;
 /// Where twice the work takes no more than this much longer, time goes elsewhere: to the submission itself,
@@ -101,6 +103,8 @@ impl Slice {
 #[derive(Clone, Debug)]
 pub struct Planner {
     slicing: Slicing,
+    /// Work of the first submission.
+    first: f64,
     /// Work that should fit into the target time.
     budget: f64,
     /// Work below which time is wasted.
@@ -112,14 +116,23 @@ pub struct Planner {
 }
 
 impl Planner {
-    pub fn new(slicing: Slicing) -> Self {
+    /// For a picture whose points take this many shadow rays each.
+    pub fn new(slicing: Slicing, shadow_rays: u64) -> Self {
+        let share = FEW_SHADOW_RAYS / (shadow_rays as f64).max(FEW_SHADOW_RAYS);
+        let first = (FIRST_TILES * share).max(1.0);
         Self {
             slicing,
-            budget: FIRST_TILES,
+            first,
+            budget: first,
             floor: 1.0,
             last: None,
             max_samples: slicing.max_samples,
         }
+    }
+
+    /// Whether it begins more carefully than another, which has learned from lighter work.
+    pub fn is_for_more_work_than(&self, other: &Self) -> bool {
+        self.first < other.first
     }
 
     /// The next slice of a sweep over `tile_count` tiles that stands at `first_tile`; all slices of
@@ -175,7 +188,7 @@ impl Planner {
         }
         .max(1.0);
         self.last = Some((work, seconds));
-        let most = work.max(FIRST_TILES) * GROWTH;
+        let most = work.max(self.first) * GROWTH;
         let fitting = work * self.slicing.target_seconds / seconds.max(1e-6);
         self.budget = fitting.clamp(self.floor.min(most), most);
     }

@@ -23,8 +23,9 @@ pub struct Stats {
     pub longest_submission_ms: f64,
     /// Samples that were dropped: with them a sum would be infinite or not a number.
     pub nonfinite_samples: u64,
-    /// Samples whose ray tree outgrew its stack or had too many rays; what was cut off is missing
-    /// in the picture.
+    /// Samples whose ray tree outgrew its stack or had too many rays, or a ray of which came into more
+    /// transparent bodies, one inside the other, than it remembers. What was cut off is missing in the
+    /// picture, and behind bodies that were forgotten it is wrong.
     pub cut_off_trees: u64,
     /// Planned memory in bytes, of the frame that takes most; see [`super::Settings::memory_limit_bytes`].
     pub gpu_bytes: u64,

@@ -2,6 +2,7 @@
 
 use crate::reference::compare::{assert_none, check_same_bits, render, start};
 use crate::reference::scenes;
+use crate::render::cut;
 use glam::{Vec3, dvec3};
 use glimray::image::Image;
 use glimray::render::{Antialias, Filter, Integrator, Settings, Slicing, Stats, Tone};
@@ -126,7 +127,7 @@ fn the_map_of_samples_shows_where_they_went() {
 }
 
 #[test]
-fn the_cut_of_the_work_and_a_crop_do_not_show() {
+fn the_cut_of_the_work_does_not_show_in_adaptive_pictures() {
     let scene = detail_in_a_fifth();
     let whole = settings(Antialias::Adaptive, 300, 0.01);
     let expected = render(&scene, &whole).0;
@@ -150,9 +151,8 @@ fn the_cut_of_the_work_and_a_crop_do_not_show() {
     ));
 }
 
-#[test]
-fn no_pixel_of_a_blurred_light_stays_black_beside_bright_ones() {
-    // A small bright ball far out of focus: a disc that few rays of a pixel find.
+/// A small bright ball far out of focus: a disc that few rays of a pixel find.
+fn blurred_light() -> Scene {
     let mut scene = Scene {
         cameras: vec![Camera {
             look_from: dvec3(0.0, 0.0, 8.0),
@@ -179,6 +179,12 @@ fn no_pixel_of_a_blurred_light_stays_black_beside_bright_ones() {
         material: 0,
         node: None,
     });
+    scene
+}
+
+#[test]
+fn no_pixel_of_a_blurred_light_stays_black_beside_bright_ones() {
+    let scene = blurred_light();
     let disc = |antialias| render(&scene, &settings(antialias, 1024, 0.02)).0;
     let (even, adaptive) = (disc(Antialias::Stratified), disc(Antialias::Adaptive));
     let mut holes = 0;
@@ -187,6 +193,42 @@ fn no_pixel_of_a_blurred_light_stays_black_beside_bright_ones() {
     }
     assert_eq!(holes, 0);
     assert!(even.pixels.iter().filter(|pixel| pixel[0] > 0.2).count() > 300);
+}
+
+#[test]
+fn an_adaptive_crop_is_the_same_pixels_of_the_whole_picture() {
+    // Edges through detail, through noise, one pixel, a corner, and rows up to the picture's edge.
+    let crops = [
+        [13, 37, 60, 71],
+        [47, 47, 48, 48],
+        [40, 20, 49, 75],
+        [95, 95, 96, 96],
+        [0, 60, 96, 61],
+    ];
+    let scenes = [
+        ("detail", detail_in_a_fifth(), 16),
+        ("detail", detail_in_a_fifth(), 300),
+        ("blur", blurred_light(), 64),
+    ];
+    let rows = scenes.into_iter().flat_map(|(name, scene, samples)| {
+        [Integrator::Whitted, Integrator::Samples].map(|integrator| {
+            let whole = Settings {
+                integrator,
+                ..settings(Antialias::Adaptive, samples, 0.01)
+            };
+            let expected = render(&scene, &whole).0;
+            let of = |crop| Settings {
+                crop: Some(crop),
+                ..whole.clone()
+            };
+            crops.map(|crop| {
+                let name = format!("{name}, {samples} samples, {integrator:?}, {crop:?}");
+                let actual = render(&scene, &of(crop)).0;
+                check_same_bits(&name, &cut(&expected, crop), &actual)
+            })
+        })
+    });
+    assert_none(rows.flatten());
 }
 
 #[test]

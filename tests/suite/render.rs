@@ -12,7 +12,7 @@ use glimray::gpu::{AdapterChoice, Gpu, GpuError};
 use glimray::image::Image;
 use glimray::pack;
 use glimray::render::{
-    Antialias, Integrator, RenderError, Renderer, Settings, Slicing, Stats, Tone,
+    Antialias, Integrator, LongPath, RenderError, Renderer, Settings, Slicing, Stats, Tone,
 };
 use glimray::scene::{
     Attenuation, Camera, Light, LightKind, Material, Mesh, Scene, ToneCurve, Transfer,
@@ -179,7 +179,8 @@ fn a_crop_is_the_same_pixels_of_the_whole_picture() {
     }));
 }
 
-fn cut(image: &Image, [x0, y0, x1, y1]: [u32; 4]) -> Image {
+/// Part of a picture.
+pub fn cut(image: &Image, [x0, y0, x1, y1]: [u32; 4]) -> Image {
     let pixels = (y0..y1).flat_map(|y| (x0..x1).filter_map(move |x| image.pixel(x, y)));
     Image {
         width: x1 - x0,
@@ -435,7 +436,11 @@ fn right_or_refused(
 ) -> Result<(), String> {
     match try_render(scene, settings) {
         Ok((image, _)) => check_alike(name, expected, &image, 2.0, 0.001),
-        Err(error @ RenderError::PathTooLong) if error.exit_code() == 7 => Ok(()),
+        Err(error @ (RenderError::PathTooLong(_) | RenderError::TooManyShadowRays { .. }))
+            if error.exit_code() == 7 =>
+        {
+            Ok(())
+        }
         Err(error) => Err(format!("{name}: {error}")),
     }
 }
@@ -474,6 +479,140 @@ fn lights_behind_the_surface_count_towards_the_loop_limit() {
         &sized(16, 12),
         &expected,
     )]);
+}
+
+/// Lamps with extent, each of so many samples, over a floor.
+fn under_area_lamps(count: usize, samples: u32) -> Scene {
+    let mut scene = under_lamps(count);
+    for light in &mut scene.lights {
+        let LightKind::Point { position } = light.kind else {
+            continue;
+        };
+        light.kind = LightKind::Disc {
+            center: position,
+            normal: DVec3::NEG_Y,
+            radius: 0.5,
+        };
+        light.samples = samples;
+    }
+    scene
+}
+
+#[test]
+fn more_shadow_rays_from_a_point_than_a_submission_should_take_are_refused_before_any_is_sent() {
+    let scene = under_area_lamps(300, 65_536);
+    let with = |light_samples| Settings {
+        light_samples,
+        ..sized(8, 8)
+    };
+    let error = start(&scene, &with(1.0))
+        .map(|_| ())
+        .expect_err("a refusal");
+    assert_eq!(error.exit_code(), 7);
+    let text = error.to_string();
+    for part in [
+        "300 lights",
+        "19660800",
+        "65536",
+        "--light-samples",
+        "--samples",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    // One light at the limit of the formats, few samples, and pictures that no light is in.
+    assert!(start(&under_area_lamps(1, 65_536), &with(1.0)).is_ok());
+    assert!(start(&scene, &with(1e-3)).is_ok());
+    let normals = Settings {
+        integrator: Integrator::Normals,
+        ..with(1.0)
+    };
+    assert!(start(&scene, &normals).is_ok());
+    // A picture that is under way is restarted.
+    let mut renderer = start(&scene, &with(1e-3)).expect("a renderer");
+    let packed = Arc::new(pack::scene(&scene).expect("packed"));
+    let view = packed.frame(&scene.frame(0.0)).expect("a frame");
+    assert!(renderer.restart(packed, &view, with(1.0)).is_err());
+}
+
+#[test]
+fn the_first_submission_is_one_tile_where_points_take_thousands_of_shadow_rays() {
+    for (samples, tiles) in [(1, 8.0), (2048, 1.0)] {
+        let scene = under_area_lamps(1, samples);
+        let mut renderer = start(&scene, &sized(64, 64)).expect("a renderer");
+        renderer.step().expect("a step");
+        assert_eq!(renderer.progress(), tiles / 64.0, "{samples} samples");
+    }
+}
+
+#[test]
+fn the_message_of_the_loop_limit_names_what_is_too_much() {
+    let mut mirrors = scenes::spheres();
+    mirrors.materials[0].reflect = Vec3::splat(0.99);
+    let deep = Settings {
+        max_depth: 1000,
+        ..sized(8, 8)
+    };
+    let brute = Settings {
+        brute_force: true,
+        ..sized(8, 8)
+    };
+    let rows = [
+        (
+            under_lamps(20_000),
+            sized(8, 8),
+            "(20000 lights, 20000 shadow rays from each point)",
+            "fewer lights",
+        ),
+        (
+            under_area_lamps(2, 10_000),
+            sized(8, 8),
+            "(2 lights, 20000 shadow rays from each point)",
+            "--light-samples",
+        ),
+        (mirrors, deep, "(up to 1000 bounces)", "--max-depth"),
+        (
+            layers(5000),
+            brute,
+            "(every ray tests 5000 primitives)",
+            "--no-bvh",
+        ),
+        (
+            layers(5000),
+            sized(8, 8),
+            "(very many surfaces in one place",
+            "duplicates",
+        ),
+    ];
+    for (scene, settings, cause, remedy) in rows {
+        let packed = pack::scene(&scene).expect("packed");
+        let view = packed.frame(&scene.frame(0.0)).expect("a frame");
+        let error = RenderError::PathTooLong(LongPath::of(&packed, &view, &settings));
+        let text = error.to_string();
+        assert!(text.contains(cause) && text.contains(remedy), "{text}");
+    }
+}
+
+#[test]
+fn more_coincident_triangles_than_the_drivers_loop_limit_are_refused_as_such() {
+    let mut mesh = Mesh {
+        positions: vec![
+            vec3(-9.0, -9.0, 0.0),
+            vec3(9.0, -9.0, 0.0),
+            vec3(0.0, 9.0, 0.0),
+        ],
+        triangles: vec![[0, 1, 2]; 70_000],
+        materials: vec![0; 3],
+        ..Mesh::default()
+    };
+    mesh.repair();
+    let mut scene = scenes::empty();
+    scene.add_mesh(mesh, DAffine3::IDENTITY);
+    match try_render(&scene, &sized(8, 8)) {
+        Err(RenderError::PathTooLong(cause)) => assert_eq!(cause, LongPath::Crowded),
+        Err(error) => panic!("{error}"),
+        Ok(_) if open_gpu().is_cpu() => panic!("the driver's limit was not noticed"),
+        Ok(_) => println!("skipped: this adapter has no limit of loop rounds"),
+    }
 }
 
 /// `count` triangles in layers, the last one in front of the others.
@@ -527,7 +666,9 @@ fn brute_force_over_more_triangles_than_the_drivers_loop_limit_is_refused() {
         ..sized(8, 8)
     };
     match try_render(&scene, &settings) {
-        Err(error @ RenderError::PathTooLong) => assert_eq!(error.exit_code(), 7),
+        Err(RenderError::PathTooLong(cause)) => {
+            assert_eq!(cause, LongPath::BruteForce { primitives: 70_000 });
+        }
         Err(error) => panic!("{error}"),
         Ok(_) if open_gpu().is_cpu() => panic!("the driver's limit was not noticed"),
         Ok(_) => skip(
@@ -553,7 +694,7 @@ fn brute_force_below_the_loop_limit_is_right() {
             let (expected, _) = depth(&scene, false).expect("through the tree");
             check_same_bits(&format!("{count} layers"), &expected, &image)
         }
-        Err(RenderError::PathTooLong) => Ok(()),
+        Err(RenderError::PathTooLong(_)) => Ok(()),
         Err(error) => Err(format!("{count} layers: {error}")),
     }));
 }

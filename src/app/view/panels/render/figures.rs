@@ -137,7 +137,7 @@ fn rows(shown: &Shown) -> Vec<(&'static str, &'static str, String)> {
     if stats.cut_off_trees > 0 {
         rows.push((
             "Cut off",
-            "Samples that had too many rays: lower the depth, or raise the least throughput",
+            "Samples that had too many rays, or passed more than 4 transparent bodies at once: lower the depth, raise the least throughput, or nest fewer bodies",
             format!("{} samples", stats.cut_off_trees),
         ));
     }

@@ -1,0 +1,41 @@
+//! Why a picture cannot be rendered.
+
+use super::effort::LongPath;
+use crate::gpu::GpuError;
+
+/// Why a picture cannot be rendered.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// The device or its driver failed.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The driver ended a shader's loops early, even with one sample in an invocation.
+    #[error(
+        "too much work in one sample ({0}): this driver ends a shader's loops after 65,535 rounds, and the picture would be wrong. {remedy}",
+        remedy = .0.remedy()
+    )]
+    PathTooLong(LongPath),
+    /// One sample would keep a GPU busy for longer than drivers allow.
+    #[error(
+        "too many shadow rays ({lights} lights): every point takes {rays}, at most {limit} are possible before a driver may reset the GPU. {remedy}",
+        remedy = LongPath::ShadowRays { lights: *lights, rays: *rays }.remedy()
+    )]
+    TooManyShadowRays {
+        /// Of the scene.
+        lights: u64,
+        /// From each point that a camera ray meets.
+        rays: u64,
+        /// The most possible.
+        limit: u64,
+    },
+}
+
+impl RenderError {
+    /// The process's exit code for this error.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Gpu(error) => error.exit_code(),
+            Self::PathTooLong(_) | Self::TooManyShadowRays { .. } => 7,
+        }
+    }
+}
