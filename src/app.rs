@@ -18,6 +18,7 @@ mod explain;
 mod inspect;
 mod interrupt;
 mod job;
+pub mod legend;
 pub mod mesa;
 mod overrides;
 mod picture;

@@ -16,6 +16,7 @@ mod instances;
 mod kernels;
 mod layout;
 mod lens;
+mod levels;
 mod motion_blur;
 mod moving;
 mod moving_pictures;
