@@ -19,6 +19,7 @@ mod inputs;
 mod inspect;
 mod interrupt;
 mod job;
+pub mod legend;
 mod memory;
 pub mod mesa;
 mod overrides;

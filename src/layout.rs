@@ -389,8 +389,10 @@ packed! {
         has_background: u32,
         /// The same, straight up.
         background_top: [f32; 3],
-        #[doc(hidden)]
-        _pad: u32,
+        /// What the film holds: [`VIEW_DEPTH`] and [`VIEW_HEAT`] are quantities, all else is colours.
+        view: u32,
+        /// The least and the greatest value of a quantity; 1 if it is to be shown over that range; 0.
+        range: [f32; 4],
     }
     /// A sample of which every ray is to be recorded, and what came of it.
     PackedProbe {

@@ -13,7 +13,7 @@ use super::report::{
 };
 use crate::gpu::{AdapterReport, Gpu};
 use crate::output;
-use crate::render::{Integrator, Settings, Stats, Tone};
+use crate::render::{Integrator, Levels, Settings, Stats, Tone};
 use crate::scene::{OutputDefaults, Scene, ToneCurve, Transfer};
 use glam::Vec3;
 use std::path::Path;
@@ -277,8 +277,11 @@ pub fn picture_size(settings: &Settings) -> Result<(u32, u32), AppError> {
     }
 }
 
-/// Flags win. Without them, linear formats get what was traced, debug views are stored as they
-/// are, and pictures are developed as the scene says.
+/// Steps of the tree walk that the heat view shows in white with `--exposure 0`.
+const FULL_HEAT: f32 = 128.0;
+
+/// Flags win. Without them, linear formats get what was traced, pictures are developed as the scene says,
+/// quantities are shown over the range found in them, and other debug views are stored as they are.
 pub fn tone(
     scene: &OutputDefaults,
     flags: &PictureFlags,
@@ -290,11 +293,26 @@ pub fn tone(
     } else {
         (scene.exposure_ev, scene.tone, scene.transfer)
     };
-    Tone {
+    let tone = Tone {
         exposure_ev: flags.exposure.unwrap_or(default.0),
         curve: flags.tone.unwrap_or(default.1),
         transfer: flags.transfer.unwrap_or(default.2),
         background: None,
+        levels: Levels::Raw,
+    };
+    match (integrator, flags.exposure) {
+        _ if linear_format || integrator.quantity().is_none() => tone,
+        (_, None) => Tone {
+            levels: Levels::Found,
+            ..tone
+        },
+        // The exposure scales the steps, not their colours.
+        (Integrator::Heat, Some(exposure_ev)) => Tone {
+            exposure_ev: 0.0,
+            levels: Levels::Fixed([0.0, FULL_HEAT * (-exposure_ev).exp2()]),
+            ..tone
+        },
+        (_, Some(_)) => tone,
     }
 }
 

@@ -5,10 +5,11 @@ use super::device;
 use super::exit::AppError;
 use super::interrupt::Interrupt;
 use super::job::{self, Job, Outcome};
+use super::legend;
 use super::progress::Progress;
 use super::report::Draft;
 use crate::image::Image;
-use crate::render::{Renderer, Settings};
+use crate::render::{Levels, Renderer, Settings};
 use std::time::Instant;
 
 /// Renders the picture that is taken while the shutter is open, from `shot.0` to `shot.1` in
@@ -79,7 +80,13 @@ fn trace(
         renderer.step()?;
         progress.update(renderer.progress());
     }
-    let image = renderer.develop(&job.tone(settings, destination.is_linear()))?;
+    let tone = job.tone(settings, destination.is_linear());
+    let image = renderer.develop(&tone)?;
     interrupt.check()?;
+    if let (Levels::Found, Some(quantity)) = (tone.levels, settings.integrator.quantity())
+        && let Some(range) = renderer.range()?
+    {
+        (job.console()).status(format_args!("{}", legend::sentence(quantity, range)));
+    }
     Ok(image)
 }

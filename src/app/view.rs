@@ -20,6 +20,7 @@ pub mod outline;
 mod panels;
 pub mod playback;
 pub mod preferences;
+mod presses;
 pub mod question;
 pub mod region;
 pub mod render_thread;

@@ -1,7 +1,8 @@
 //! From sums to a picture: `kernels/develop.wesl`.
 
 use super::{
-    Integrator, RenderError, Renderer, Settings, film::Window, layouts::group, slice::Slice,
+    Integrator, Levels, RenderError, Renderer, Settings, film::Window, layouts::group, levels,
+    slice::Slice,
 };
 use crate::{
     gpu::{GpuError, Kernel, Source},
@@ -28,6 +29,8 @@ pub struct Tone {
     /// Linear radiance of another background than the scene's, straight down and straight up. It has an
     /// effect where the film keeps the background apart: [`Settings::keeps_background_apart`].
     pub background: Option<[Vec3; 2]>,
+    /// The range of a view that shows a quantity, such as distances.
+    pub levels: Levels,
 }
 
 impl Tone {
@@ -37,9 +40,12 @@ impl Tone {
         curve: ToneCurve::None,
         transfer: Transfer::Linear,
         background: None,
+        levels: Levels::Raw,
     };
 
-    pub(super) fn packed(&self, settings: &Settings) -> PackedTone {
+    /// Over this range, where there is one.
+    pub(super) fn packed(&self, settings: &Settings, range: Option<[f32; 2]>) -> PackedTone {
+        let [least, most] = range.unwrap_or_default();
         let [below, above] = self.background.unwrap_or_default();
         PackedTone {
             exposure_scale: self.exposure_ev.exp2(),
@@ -57,7 +63,8 @@ impl Tone {
             background: below.to_array(),
             has_background: self.background.is_some().into(),
             background_top: above.to_array(),
-            _pad: 0,
+            view: settings.integrator.developed_view(),
+            range: [least, most, f32::from(range.is_some()), 0.0],
         }
     }
 }
@@ -76,19 +83,25 @@ impl Renderer {
     pub fn develop(&mut self, tone: &Tone) -> Result<Image, RenderError> {
         let start = Instant::now();
         self.fetch_film()?;
+        let range = self.range_of(tone)?;
         let [x, y, width, height] = self.settings.region();
         let mut image = Image::new(width, height);
         if self.settings.integrator == Integrator::Samples {
             for (index, pixel) in image.pixels.iter_mut().enumerate() {
                 let place = [x + index as u32 % width, y + index as u32 / width];
-                let share = self.film.samples_at(place) as f32 / self.settings.samples as f32;
-                *pixel = [share, share, share, 1.0];
+                let count = self.film.samples_at(place) as f32;
+                let level = match range {
+                    Some(range) => levels::place(count, range),
+                    None => count / self.settings.samples as f32,
+                };
+                *pixel = [level, level, level, 1.0];
             }
             return Ok(image);
         }
+        let tone = tone.packed(&self.settings, range);
         for (window, means) in self.film.developable(&self.settings) {
             let pixels =
-                self.surviving_losses(|renderer| renderer.develop_window(&window, &means, tone))?;
+                self.surviving_losses(|renderer| renderer.develop_window(&window, &means, &tone))?;
             for (row, line) in pixels.chunks_exact(window.width as usize).enumerate() {
                 let start = (window.y - y) as usize + row;
                 let start = start * width as usize + (window.x - x) as usize;
@@ -104,7 +117,7 @@ impl Renderer {
         &mut self,
         window: &Window,
         means: &[[f32; 4]],
-        tone: &Tone,
+        tone: &PackedTone,
     ) -> Result<Vec<[f32; 4]>, GpuError> {
         if self.device.developer.is_none() {
             self.device.developer = Some(self.new_developer()?);
@@ -125,7 +138,7 @@ impl Renderer {
         let gpu = &device.gpu;
         gpu.write(&device.buffers.slice, 0, bytes_of(&packed))?;
         gpu.write(&device.buffers.film, 0, cast_slice(means))?;
-        gpu.write(&developer.tone, 0, bytes_of(&tone.packed(&self.settings)))?;
+        gpu.write(&developer.tone, 0, bytes_of(tone))?;
 
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {

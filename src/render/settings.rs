@@ -147,9 +147,9 @@ pub enum Integrator {
     /// Texture coordinates: u in red and v in green, from 0 to 1 and again, over a pattern of 8 by 8 fields;
     /// black where nothing is hit and on meshes that have none.
     Uv,
-    /// Steps of the tree walk, from black over blue, green, yellow and red to white.
+    /// Steps of the tree walk.
     Heat,
-    /// The samples that adaptive sampling spent, as a share of those allowed.
+    /// The samples that adaptive sampling spent; raw, as a share of those allowed.
     Samples,
 }
 

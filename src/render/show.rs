@@ -1,7 +1,7 @@
 //! From sums to a picture on the screen, without leaving the GPU: `kernels/show.wesl`.
 
 use super::{
-    Integrator, RenderError, Renderer, Tone,
+    Integrator, Levels, RenderError, Renderer, Tone,
     layouts::{SCREEN_FORMAT, group_at},
     slice::Slice,
 };
@@ -69,20 +69,29 @@ impl Renderer {
     }
 
     /// Puts what has been gathered so far on a screen of the picture's size: for every pixel that has a
-    /// sample what [`Self::develop`] gives, rounded to 8 bits.
-    pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<(), RenderError> {
+    /// sample what [`Self::develop`] gives, rounded to 8 bits. Returns the range of a quantity over which it
+    /// is shown.
+    pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
+        let range = self.range_of(tone)?;
         if self.shows_directly() {
-            return self.surviving_losses(|renderer| renderer.project(tone, screen));
+            let tone = tone.packed(&self.settings, range);
+            self.surviving_losses(|renderer| renderer.project(&tone, screen))?;
+            return Ok(range);
         }
+        let tone = &Tone {
+            levels: range.map_or(Levels::Raw, Levels::Fixed),
+            ..*tone
+        };
         let image = self.develop(tone)?;
         let quantized = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
         let bytes: Vec<u8> = (image.pixels.iter())
             .flat_map(|[r, g, b, _]| [quantized(*r), quantized(*g), quantized(*b), 255])
             .collect();
-        Ok(self.device.gpu.write_image(&screen.view, 0, &bytes)?)
+        self.device.gpu.write_image(&screen.view, 0, &bytes)?;
+        Ok(range)
     }
 
-    fn project(&mut self, tone: &Tone, screen: &Screen) -> Result<(), GpuError> {
+    fn project(&mut self, tone: &PackedTone, screen: &Screen) -> Result<(), GpuError> {
         if self.device.projector.is_none() {
             self.device.projector = Some(self.new_projector()?);
         }
@@ -106,7 +115,7 @@ impl Renderer {
         };
         let packed = slice.packed(window, &self.settings);
         gpu.write(&buffers.slice, 0, bytes_of(&packed))?;
-        gpu.write(&projector.tone, 0, bytes_of(&tone.packed(&self.settings)))?;
+        gpu.write(&projector.tone, 0, bytes_of(tone))?;
         let resources = [
             (0, projector.tone.as_entire_binding()),
             (2, wgpu::BindingResource::TextureView(&screen.view)),

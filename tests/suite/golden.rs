@@ -8,7 +8,9 @@ use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::image::Image;
 use glimray::output;
 use glimray::pack;
-use glimray::render::{Antialias, Filter, Integrator, Renderer, Settings, Tone, TriangleTest};
+use glimray::render::{
+    Antialias, Filter, Integrator, Levels, Renderer, Settings, Tone, TriangleTest,
+};
 use glimray::scene::{
     Attenuation, Lens, Light, LightKind, Material, Scene, Shadows, ToneCurve, Transfer,
 };
@@ -55,6 +57,13 @@ impl Golden {
             ..Tone::LINEAR
         };
         Self { tone, ..self }.set(|settings| settings.integrator = integrator)
+    }
+
+    /// Over the range found in the picture.
+    fn ranged(mut self, integrator: Integrator) -> Self {
+        self = self.viewed(integrator, 0.0);
+        self.tone.levels = Levels::Found;
+        self
     }
 
     fn toned(mut self, exposure_ev: f32, curve: ToneCurve) -> Self {
@@ -212,7 +221,8 @@ fn goldens() -> Vec<Golden> {
         golden("normals", lit()).viewed(Integrator::Normals, 0.0),
         golden("depth", lit()).viewed(Integrator::Depth, -4.0),
         golden("ids", lit()).viewed(Integrator::Ids, 0.0),
-        golden("heat", lit()).viewed(Integrator::Heat, 0.0),
+        golden("heat", lit()).ranged(Integrator::Heat),
+        golden("depth-range", lit()).ranged(Integrator::Depth),
         golden("triangle-plane", lit()).set(|s| s.triangle_test = TriangleTest::Plane),
         golden("triangle-moller-trumbore", lit())
             .set(|s| s.triangle_test = TriangleTest::MollerTrumbore),

@@ -21,6 +21,7 @@ mod instances;
 mod kernels;
 mod layout;
 mod lens;
+mod levels;
 mod messages;
 mod motion_blur;
 mod moving;

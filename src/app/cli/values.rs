@@ -106,17 +106,21 @@ pub static INTEGRATORS: Words<Integrator> = Words(&[
         Integrator::Whitted,
     ),
     ("normals", "shading normals as colours", Integrator::Normals),
-    ("depth", "distance along the ray", Integrator::Depth),
+    (
+        "depth",
+        "distances, from white for the nearest to dark grey for the farthest",
+        Integrator::Depth,
+    ),
     ("ids", "one colour for each primitive", Integrator::Ids),
     ("uv", "texture coordinates as red and green", Integrator::Uv),
     (
         "heat",
-        "how much of the tree a ray visits",
+        "steps of each ray through the tree, from black over blue to white",
         Integrator::Heat,
     ),
     (
         "samples",
-        "the samples that --antialias adaptive spent",
+        "the samples that --antialias adaptive spent, from black to white",
         Integrator::Samples,
     ),
 ]);

@@ -3,17 +3,18 @@
 
 mod noise;
 mod pace;
+mod packing;
 
 pub use pace::{Pace, patience};
 
-use super::super::overrides;
 use super::order::Order;
 use super::render_thread::{CanvasError, Place, Studio};
 use crate::gpu::Gpu;
-use crate::pack::{self, PackedScene, PackedView};
+use crate::pack::{self, PackedScene};
 use crate::render::{Antialias, Renderer, Screen, Settings, Stats};
 use crate::scene::{Camera, Frame, Scene};
 use noise::Noise;
+use packing::{seen, view};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -35,6 +36,8 @@ pub struct Shown {
     pub region: [u32; 4],
     /// Width and height of the whole picture.
     pub size: (u32, u32),
+    /// The range of a quantity over which it is shown.
+    pub range: Option<[f32; 2]>,
     /// How far it is.
     pub progress: Progress,
     /// What the renderer has cost since the window was opened.
@@ -83,6 +86,8 @@ pub struct Canvas {
     screen: Option<Screen>,
     coarse: Option<Screen>,
     whole: Option<Screen>,
+    /// The range over which the last look was shown.
+    range: Option<[f32; 2]>,
     is_shown: bool,
     last_look: Option<Instant>,
     looks: u64,
@@ -119,6 +124,7 @@ impl Canvas {
             screen: None,
             coarse: None,
             whole: None,
+            range: None,
             is_shown: true,
             last_look: None,
             looks: 0,
@@ -344,7 +350,7 @@ impl Canvas {
             Some(screen) if screen.size() == (width, height) => screen,
             _ => screen.insert(renderer.new_screen()?),
         };
-        renderer.show(&order.tone, screen)?;
+        self.range = renderer.show(&order.tone, screen)?;
         self.busy += started.elapsed().as_secs_f64();
         if self.is_coarse && self.last_look.is_none() {
             (self.pace).measured(self.busy, u64::from(width) * u64::from(height));
@@ -384,6 +390,7 @@ impl Canvas {
             whole: self.whole.clone(),
             region: order.settings.region(),
             size: order.settings.size,
+            range: self.range,
             progress: Progress {
                 samples: renderer.samples_done(),
                 target: order.settings.samples,
@@ -408,42 +415,4 @@ impl Canvas {
             outside: None,
         })
     }
-}
-
-/// The scene as the order's camera sees it.
-fn seen(order: &Order) -> Arc<Scene> {
-    let background = order.baked_background();
-    if order.camera.is_none() && background.is_none() {
-        return order.scene.clone();
-    }
-    let mut scene = Scene::clone(&order.scene);
-    if let Some(camera) = &order.camera {
-        overrides::see_by(&mut scene, camera);
-    }
-    if let Some(background) = background {
-        scene.background = background.clone();
-    }
-    Arc::new(scene)
-}
-
-/// The frames with the order's camera and background.
-fn view(
-    packed: &PackedScene,
-    frames: &[Frame],
-    order: &Order,
-) -> Result<PackedView, pack::PackError> {
-    let background = order.baked_background();
-    if order.camera.is_none() && background.is_none() {
-        return packed.shot(frames);
-    }
-    let mut frames = frames.to_vec();
-    for frame in &mut frames {
-        if let Some(camera) = &order.camera {
-            frame.camera = camera.clone();
-        }
-        if let Some(background) = background {
-            frame.background = background.clone();
-        }
-    }
-    packed.shot(&frames)
 }

@@ -25,9 +25,10 @@ pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
     for action in std::mem::take(&mut session.clicked) {
         perform(action, session, layout, ctx);
     }
-    if egui::Popup::is_any_open(ctx)
-        || sheets::take_keys(session, ctx)
-        || ctx.egui_wants_keyboard_input() && !editing::keys(session, ctx)
+    if session.editing.modal.is_none()
+        && (egui::Popup::is_any_open(ctx)
+            || sheets::take_keys(session, ctx)
+            || ctx.egui_wants_keyboard_input() && !editing::keys(session, ctx))
     {
         if let Some(rig) = &mut session.rig {
             rig.fly(Default::default());
@@ -35,12 +36,17 @@ pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
         return;
     }
     let bindings = &session.preferences.bindings;
-    let (pressed, flight) = ctx.input(|input| (bindings.pressed(input), bindings.flight(input)));
+    let (events, flight) = ctx.input(|input| (input.events.clone(), bindings.flight(input)));
     if let Some(rig) = &mut session.rig {
         rig.fly(flight);
     }
-    for action in pressed {
-        perform(action, session, layout, ctx);
+    for event in &events {
+        if editing::modal::key(session, event) {
+            continue;
+        }
+        if let Some(action) = session.preferences.bindings.pressed_by(event) {
+            perform(action, session, layout, ctx);
+        }
     }
 }
 
@@ -66,8 +72,8 @@ fn camera(action: Action, session: &mut Session) -> bool {
     };
     // Every vertex is looked at for it.
     let bounds = match action {
-        Action::FrameSelection => session.selection_bounds().or_else(|| session.bounds()),
-        Action::FrameAll => session.bounds(),
+        Action::FrameSelection => session.selection_bounds().or_else(|| session.subject()),
+        Action::FrameAll => session.subject(),
         _ => None,
     };
     let Some(rig) = &mut session.rig else {
@@ -200,11 +206,18 @@ fn window(action: Action, session: &mut Session, layout: &mut Layout, ctx: &egui
 }
 
 fn tool(action: Action, session: &mut Session) -> bool {
+    let handled = match action {
+        Action::MoveTool => Some(Tool::Move),
+        Action::RotateTool => Some(Tool::Rotate),
+        Action::ScaleTool => Some(Tool::Scale),
+        _ => None,
+    };
+    if let Some(tool) = handled {
+        editing::modal::take(session, tool);
+        return true;
+    }
     session.tool = match action {
         Action::SelectMode => Tool::Select,
-        Action::MoveTool => Tool::Move,
-        Action::RotateTool => Tool::Rotate,
-        Action::ScaleTool => Tool::Scale,
         Action::RegionRender => {
             // The second time it ends.
             match session.look.region.take() {

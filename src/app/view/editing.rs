@@ -2,6 +2,7 @@
 
 pub mod handles;
 mod listing;
+pub mod modal;
 mod overlay;
 mod saving;
 
@@ -20,6 +21,7 @@ use crate::scene::{Camera, Mesh, Scene};
 use eframe::egui::{self, Key, Modifiers, Pos2};
 use glam::DVec3;
 use handles::Grip;
+use modal::Modal;
 use saving::Saving;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -30,10 +32,13 @@ pub struct Editing {
     pub listing: Listing,
     /// A handle in the hand, and where the pointer was last.
     pub grip: Option<(Grip, Pos2)>,
+    /// A movement without a button, which then holds the grip.
+    pub modal: Option<Modal>,
     /// What is being renamed, and its name so far.
     pub renaming: Option<(Id, String)>,
-    /// Whether arrow keys go through the outline.
-    pub has_list_focus: bool,
+    /// The line of the outline that had the focus in the last frame: arrow keys go through the outline
+    /// from there.
+    pub list_focus: Option<egui::Id>,
     /// The selection that the outline has brought into sight.
     pub seen_selection: Option<Id>,
     /// From where to where the outline is in sight, in points from its beginning.
@@ -60,8 +65,9 @@ impl Default for Editing {
         Self {
             listing: Listing::default(),
             grip: None,
+            modal: None,
             renaming: None,
-            has_list_focus: false,
+            list_focus: None,
             seen_selection: None,
             seen_lines: egui::Rangef::EVERYTHING,
             saving: None,
@@ -101,13 +107,7 @@ impl Editing {
 /// Carries out a command that changes the scene. Whether it does.
 pub fn perform(action: Action, session: &mut Session) -> bool {
     match action {
-        Action::SelectNothing if session.editing.grip.is_some() => {
-            session.editing.grip = None;
-            if let Some(document) = &mut session.document {
-                document.cancel();
-            }
-            session.moved();
-        }
+        Action::SelectNothing if session.editing.grip.is_some() => modal::cancel(session),
         Action::ToggleVisible => with_selection(session, |session, id| {
             let scene = session.scene().cloned();
             let visible = scene.is_some_and(|scene| objects::is_visible(&scene, id));
@@ -153,10 +153,17 @@ pub fn keys(session: &mut Session, ctx: &egui::Context) -> bool {
     true
 }
 
-/// Whether the keyboard is for lines of the outline, and not for a text.
+/// Whether the outline has the keyboard focus: nothing else has it, and no line is being renamed.
 pub fn has_list_focus(session: &Session, ctx: &egui::Context) -> bool {
     let editing = &session.editing;
-    editing.has_list_focus && editing.renaming.is_none() && !ctx.text_edit_focused()
+    editing.renaming.is_none() && holds_focus(editing.list_focus, ctx)
+}
+
+/// Whether the line of the outline that had the focus still has it, or at least nothing else has: a line
+/// that is scrolled out of sight loses it.
+pub fn holds_focus(line: Option<egui::Id>, ctx: &egui::Context) -> bool {
+    let focused = ctx.memory(|memory| memory.focused());
+    line.is_some() && (focused.is_none() || focused == line)
 }
 
 /// What changes of the scene bring with them.

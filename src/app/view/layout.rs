@@ -68,6 +68,22 @@ pub struct Layout {
     /// Width and height that shares are of, in points.
     #[serde(default)]
     room: Option<[f32; 2]>,
+    /// How large tiles beside the picture are to be once there is room for them again.
+    #[serde(default)]
+    wishes: Vec<Wish>,
+    /// The layout before all panels were hidden at once.
+    #[serde(default)]
+    before: Option<Box<Self>>,
+}
+
+/// A tile that had to become smaller than it was.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Wish {
+    tile: TileId,
+    /// Its width or height before, in points.
+    wished: f32,
+    /// What it got. If it has another size by now, someone has resized it since, and that size counts.
+    given: f32,
 }
 
 impl Default for Layout {
@@ -99,6 +115,8 @@ impl Default for Layout {
         Self {
             tree: Tree::new(egui::Id::unique("panels"), root, tiles),
             room: Some(USUAL),
+            wishes: Vec::new(),
+            before: None,
         }
     }
 }
@@ -126,8 +144,8 @@ impl Layout {
             });
     }
 
-    /// What is beside the picture stays as large as it is, down to where the picture would have too little:
-    /// a larger window is a larger picture.
+    /// Panels beside the picture keep their sizes until the picture would get too little, and get them back
+    /// when there is room again: a larger window is a larger picture.
     fn resize(&mut self, room: [f32; 2]) {
         // A window that is rolled up or minimised is not for long.
         if room.iter().any(|length| *length < LEAST) {
@@ -141,13 +159,14 @@ impl Layout {
         };
         while let Some(parent) = self.tree.tiles.parent_of(tile) {
             let tiles = &self.tree.tiles;
+            let wishes = &mut self.wishes;
             let is_visible = |child: TileId| tiles.is_visible(child);
             if let Some(Tile::Container(Container::Linear(linear))) = tiles.get(parent) {
                 let side = match linear.dir {
                     LinearDir::Horizontal => 0,
                     LinearDir::Vertical => 1,
                 };
-                let shares = resized(linear, tile, is_visible, before[side], room[side]);
+                let shares = resized(linear, tile, is_visible, wishes, before[side], room[side]);
                 if let Some(Tile::Container(Container::Linear(linear))) =
                     self.tree.tiles.get_mut(parent)
                 {
@@ -173,16 +192,28 @@ impl Layout {
         }
     }
 
-    /// Hides everything but the picture, or shows everything.
+    /// Hides everything but the picture, or restores the layout that was there before.
     pub fn toggle_all(&mut self) {
         let others = || {
             Panel::ALL
                 .into_iter()
                 .filter(|panel| *panel != Panel::Picture)
         };
-        let is_any = others().any(|panel| self.is_visible(panel));
-        for panel in others() {
-            self.set_visible(panel, !is_any);
+        if others().any(|panel| self.is_visible(panel)) {
+            self.before = None;
+            self.before = Some(Box::new(self.clone()));
+            others().for_each(|panel| self.set_visible(panel, false));
+        } else if let Some(before) = self.before.take() {
+            *self = *before;
+        } else {
+            // They were hidden one by one.
+            let usual = Self::default();
+            let shown = others().filter(|panel| usual.is_visible(*panel));
+            shown.for_each(|panel| {
+                if let Some(id) = self.find(panel) {
+                    self.tree.set_visible(id, true);
+                }
+            });
         }
     }
 
@@ -196,9 +227,12 @@ fn resized(
     linear: &Linear,
     picture: TileId,
     is_visible: impl Fn(TileId) -> bool,
+    wishes: &mut Vec<Wish>,
     before: f32,
     now: f32,
 ) -> Shares {
+    /// Rounding moves a tile by less, in points.
+    const SAME: f32 = 0.5;
     let mut shares = linear.shares.clone();
     let total: f32 = (linear.children.iter())
         .filter(|child| is_visible(**child))
@@ -206,14 +240,27 @@ fn resized(
         .sum();
     let points = before / total.max(f32::MIN_POSITIVE);
     let mut beside = 0.0;
-    for child in linear.children.iter().filter(|child| **child != picture) {
-        let length = shares[*child] * points;
-        shares.set_share(*child, length);
-        beside += if is_visible(*child) { length } else { 0.0 };
+    let mut wished = Vec::new();
+    for &child in linear.children.iter().filter(|child| **child != picture) {
+        let length = shares[child] * points;
+        let wish = wishes.iter().find(|wish| wish.tile == child);
+        let wish = wish.filter(|wish| (wish.given - length).abs() < SAME);
+        let length = wish.map_or(length, |wish| wish.wished);
+        wished.push((child, length));
+        beside += if is_visible(child) { length } else { 0.0 };
     }
     let shrunk = ((1.0 - PICTURE) * now / beside.max(f32::MIN_POSITIVE)).min(1.0);
-    for child in linear.children.iter().filter(|child| **child != picture) {
-        shares[*child] *= shrunk;
+    for &(tile, wished) in &wished {
+        let given = wished * shrunk;
+        shares.set_share(tile, given);
+        wishes.retain(|wish| wish.tile != tile);
+        if shrunk < 1.0 {
+            wishes.push(Wish {
+                tile,
+                wished,
+                given,
+            });
+        }
     }
     shares.set_share(picture, now - beside * shrunk);
     shares

@@ -3,7 +3,7 @@
 use super::playback::Playback;
 use super::region::Grip;
 use super::session::Session;
-use crate::render::{Antialias, Integrator, Settings, Tone};
+use crate::render::{Antialias, Integrator, Levels, Settings, Tone};
 use crate::scene::{Background, OutputDefaults};
 
 /// Most samples of a pixel.
@@ -137,7 +137,10 @@ impl Look {
     pub fn tone_of(&self, integrator: Integrator) -> Tone {
         match integrator {
             Integrator::Whitted => self.tone,
-            _ => Tone::LINEAR,
+            _ => Tone {
+                levels: Levels::Found,
+                ..Tone::LINEAR
+            },
         }
     }
 

@@ -7,7 +7,7 @@ mod scope;
 
 pub use frame::{of_geometry, of_light};
 pub use place::{Freedom, Scaling, freedom, place, set_place};
-pub use scope::{bounds, hide_others, is_there, name, rename, same, show_all};
+pub use scope::{bounds, hide_others, is_there, name, rename, same, show_all, subject};
 
 use crate::scene::{Node, ObjectRef, Scene, Target};
 use std::sync::Arc;

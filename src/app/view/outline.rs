@@ -153,7 +153,7 @@ impl Labels {
         let instances = scene
             .instances
             .iter()
-            .map(|i| scene.meshes[i.mesh].name.as_str());
+            .map(|i| kind_of_mesh(&scene.meshes[i.mesh].name));
         let lights = scene.lights.iter().map(|light| kind_of_light(&light.kind));
         Self {
             shapes: numbers(shapes),
@@ -180,11 +180,7 @@ impl Labels {
             }
             Id::Object(ObjectRef::Instance(index)) => {
                 let mesh = &scene.meshes[scene.instances[index].mesh];
-                let name = if mesh.name.is_empty() {
-                    "mesh"
-                } else {
-                    &mesh.name
-                };
+                let name = kind_of_mesh(&mesh.name);
                 let number = self.instances[index];
                 let first = mesh.materials.first().copied().unwrap_or(0);
                 match mesh.materials.iter().all(|material| *material == first) {
@@ -213,6 +209,18 @@ fn numbers<'a>(kinds: impl Iterator<Item = &'a str>) -> Vec<usize> {
             *count
         })
         .collect()
+}
+
+/// What an instance of a mesh is called, less its number. Every mesh in a file has a name: where it had
+/// none, it was saved as "mesh 2" or the like, which stands for no name here, so that saving renames nothing.
+fn kind_of_mesh(name: &str) -> &str {
+    let number = name.strip_prefix("mesh ");
+    let is_numbered =
+        number.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()));
+    match name.is_empty() || is_numbered {
+        true => "mesh",
+        false => name,
+    }
 }
 
 fn kind_of(geometry: &Geometry) -> &'static str {

@@ -216,6 +216,7 @@ impl Session {
         self.drag = None;
         self.look.grip = None;
         self.editing.grip = None;
+        self.editing.modal = None;
     }
 
     /// What happened since the last frame.
@@ -274,6 +275,11 @@ impl Session {
     /// Bounds of all there is, in the world.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         self.scene().and_then(|scene| scene.bounds())
+    }
+
+    /// Bounds of what there is to look at, in the world.
+    pub fn subject(&self) -> Option<(DVec3, DVec3)> {
+        self.scene().and_then(|scene| objects::subject(scene))
     }
 
     /// Bounds of what is selected, in the world.
@@ -363,12 +369,18 @@ impl Session {
             .size
     }
 
-    /// What an empty window waits for.
+    /// What a window without a picture waits for.
     pub fn waiting_for(&self) -> String {
         match &self.loader {
             Some(loader) => format!("reading {}", loader.path.display()),
+            None if self.document.is_none() => "no scene is open".into(),
             None => "preparing".into(),
         }
+    }
+
+    /// Whether there is no scene, and none is being read.
+    pub fn is_empty(&self) -> bool {
+        self.document.is_none() && self.loader.is_none()
     }
 
     /// The name of what is on screen.

@@ -6,6 +6,7 @@ use super::editing;
 use super::files::pictures;
 use super::layout::Layout;
 use super::panels;
+use super::presses::Presses;
 use super::question::Answer;
 use super::render_thread::{Fault, Orders, Place, RenderThread};
 use super::session::Session;
@@ -30,6 +31,7 @@ pub struct Viewer {
     textures: Textures,
     layout: Layout,
     wanted: Wanted,
+    presses: Presses,
     /// Whether whoever draws the window begins with [`eframe::App::clear_color`].
     is_cleared: bool,
     /// The last frame of the window that there was.
@@ -74,6 +76,7 @@ impl Viewer {
             textures: Textures::new(state.ok_or("eframe does not draw with wgpu")?),
             layout,
             wanted,
+            presses: Presses::default(),
             is_cleared: context.winit_window().is_some(),
             last_pass: None,
         })
@@ -114,6 +117,9 @@ impl eframe::App for Viewer {
         if let Some(note) = session.tape.pass(ctx, raw) {
             session.notices.warn(note);
         }
+        if self.presses.pass(raw) {
+            ctx.request_repaint();
+        }
     }
 
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
@@ -150,7 +156,7 @@ impl eframe::App for Viewer {
             self.render.ask(question);
         }
         self.wanted.order(&self.render, &session);
-        if session.is_at_rest() && session.tape.is_to_close() {
+        if session.is_at_rest() && self.presses.is_empty() && session.tape.is_to_close() {
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);
         }
         if let Some(wait) = session.until_next_frame() {
@@ -179,6 +185,7 @@ impl eframe::App for Viewer {
         panels::menu(ui, &mut desk, &mut self.layout);
         panels::status(ui, &mut desk);
         self.layout.show(ui, &mut desk);
+        editing::modal::shield(ui.ctx(), desk.session);
         sheets::show(ui, &mut desk, &mut self.layout);
         editing::sheet(ui, &mut desk);
         panels::notices(ui, &mut desk);
@@ -221,15 +228,15 @@ impl Wanted {
     }
 }
 
-/// egui's fonts; what text has no letter for, such as arrows, comes from that of code.
+/// egui's fonts. Glyphs that the text font lacks, such as arrows, come from the code font first: it suits
+/// text better than the symbol fonts do.
 fn fonts() -> egui::FontDefinitions {
     let mut fonts = egui::FontDefinitions::default();
     let code = (fonts.families.get(&egui::FontFamily::Monospace)).cloned();
     let text = (fonts.families.entry(egui::FontFamily::Proportional)).or_default();
-    for font in code.unwrap_or_default() {
-        if !text.contains(&font) {
-            text.push(font);
-        }
+    if let Some(font) = code.unwrap_or_default().into_iter().next() {
+        text.retain(|other| *other != font);
+        text.insert(text.len().min(1), font);
     }
     fonts
 }

@@ -195,5 +195,6 @@ shader_struct!(PackedTone = "package::types::PackedTone" {
     background: [f32; 3],
     has_background: u32,
     background_top: [f32; 3],
-    _pad: u32,
+    view: u32,
+    range: [f32; 4],
 });

@@ -325,6 +325,52 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
     assert_eq!(again.wait(), Some(0));
 }
 
+/// Settings on the right, and a part of the picture that lies beside the panels on the left.
+const SETTINGS: [u16; 4] = [1000, 110, 270, 450];
+const BESIDE: [u16; 4] = [275, 602, 40, 10];
+
+#[test]
+fn after_a_click_on_a_line_letters_are_text_and_a_quick_drag_takes_a_border() {
+    let Some(desktop) = Desktop::start() else {
+        return;
+    };
+    let settings = settings();
+    let opened = desktop.open(&["--samples", "1"], settings.path(), "");
+    desktop.calm(WINDOW);
+    let before = desktop.screenshot(SETTINGS);
+    let click = |x: &str, y: &str| desktop.xdotool(&["mousemove", x, y, "click", "1"]);
+    click("80", "160");
+    desktop.calm(WINDOW);
+    click("100", "64");
+    desktop.calm(WINDOW);
+    let empty = desktop.screenshot([6, 54, 250, 22]);
+    // As a shortcut it would hide all panels.
+    desktop.xdotool(&["type", "n"]);
+    desktop.calm(WINDOW);
+    assert!(
+        differ(&empty, &desktop.screenshot([6, 54, 250, 22])),
+        "nothing was typed"
+    );
+    assert!(
+        !differ(&before, &desktop.screenshot(SETTINGS)),
+        "a letter was a shortcut"
+    );
+
+    assert!(
+        colors(&desktop.screenshot(BESIDE)) > 2,
+        "there is no picture"
+    );
+    let quick = "mousemove 264 500 mousedown 1 mousemove 340 500 mouseup 1";
+    desktop.xdotool(&quick.split(' ').collect::<Vec<_>>());
+    desktop.calm(WINDOW);
+    assert!(
+        colors(&desktop.screenshot(BESIDE)) <= 2,
+        "the border stayed where it was"
+    );
+    opened.key("ctrl+q");
+    assert_eq!(opened.wait(), Some(0));
+}
+
 #[test]
 fn a_lost_device_is_replaced_while_the_window_is_open() {
     let Some(desktop) = Desktop::start() else {

@@ -43,11 +43,11 @@ sphere = { center = [1, 0, 0], radius = 0.75 }
 material = "blue"
 "#;
 
-const RED: Id = Id::Object(ObjectRef::Shape(0));
-const BLUE: Id = Id::Object(ObjectRef::Shape(1));
+pub(super) const RED: Id = Id::Object(ObjectRef::Shape(0));
+pub(super) const BLUE: Id = Id::Object(ObjectRef::Shape(1));
 
 /// A file of these balls in a folder of its own.
-fn file() -> (TempDir, PathBuf) {
+pub(super) fn file() -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("balls.toml");
     std::fs::write(&path, BALLS).expect("a file");
@@ -55,7 +55,7 @@ fn file() -> (TempDir, PathBuf) {
 }
 
 /// A window that shows them in so many pixels, with one sample each.
-fn open(path: &Path, size: &str) -> Window {
+pub(super) fn open(path: &Path, size: &str) -> Window {
     let path = path.to_str().expect("a path in UTF-8");
     let mut window = Window::open(&[path, "--size", size, "--samples", "1"]);
     window.settle();
@@ -67,7 +67,7 @@ fn perform(window: &mut Window, action: Action) {
     window.settle();
 }
 
-fn scene(window: &Window) -> Scene {
+pub(super) fn scene(window: &Window) -> Scene {
     let session = window.session();
     Scene::clone(session.scene().expect("a scene"))
 }
@@ -78,7 +78,7 @@ fn notices(window: &Window) -> Vec<String> {
 }
 
 /// Where on the screen a point of the world is.
-fn on_screen(window: &Window, point: DVec3) -> Pos2 {
+pub(super) fn on_screen(window: &Window, point: DVec3) -> Pos2 {
     let session = window.session();
     let viewport = session.viewport.expect("a picture");
     let camera = session.camera().expect("a camera");
@@ -745,4 +745,59 @@ fn no_camera_is_without_an_up() {
     window.settle();
     set(&mut window, "Up y", 0.0);
     assert_eq!(scene(&window).cameras[0].up, DVec3::Y);
+}
+
+/// Labels of all lines of the outline.
+fn labels(scene: &Scene) -> Vec<String> {
+    let outline = glimray::app::view::outline::Outline::of(scene);
+    outline
+        .entries
+        .into_iter()
+        .map(|entry| entry.label)
+        .collect()
+}
+
+#[test]
+fn saving_a_scene_and_reading_it_again_renames_nothing() {
+    let mut scene = crate::reference::scenes::meshes();
+    for mesh in &mut scene.meshes {
+        std::sync::Arc::make_mut(mesh).name.clear();
+    }
+    // A mesh of two instances, so that numbers of meshes and of instances differ.
+    let twice = scene.instances[0].clone();
+    scene.instances.push(twice);
+    let folder = tempfile::tempdir().expect("a folder");
+    for turn in ["once.toml", "twice.toml"] {
+        let path = folder.path().join(turn);
+        scene_file::save(&path, &scene, false).expect("a file");
+        let read = glimray::import::load(&path).expect("a scene");
+        assert_eq!(labels(&read), labels(&scene), "{turn}");
+        scene = read;
+    }
+}
+
+#[test]
+fn showing_all_of_a_scene_leaves_lamps_aside_unless_there_is_nothing_else() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let lamp = "\n[materials.lamp]\nemission = [8, 8, 8]\n\n[[objects]]\n\
+                rectangle = { center = [-40, 60, 5], normal = [0, -1, 0], size = [3, 3] }\n\
+                material = \"lamp\"\n";
+    let all = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("a file");
+        let mut window = open(&path, "64x48");
+        window
+            .harness
+            .key_press_modifiers(eframe::egui::Modifiers::SHIFT, Key::F);
+        window.settle();
+        window.camera()
+    };
+    let lit = all("lit.toml", &format!("{BALLS}{lamp}"));
+    assert_eq!(lit, all("balls.toml", BALLS));
+    let (camera, _) = BALLS.split_once("[materials]").expect("materials");
+    let alone = all("lamp.toml", &format!("{camera}{lamp}"));
+    assert!(
+        alone.look_at.distance(dvec3(-40.0, 60.0, 5.0)) < 1e-6,
+        "{alone:?}"
+    );
 }

@@ -3,7 +3,7 @@
 use super::harness::Window;
 use crate::support::PATIENCE;
 use eframe::egui;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{Queryable, by};
 use glimray::app::view::bindings::Action;
 use glimray::app::view::files;
 use glimray::app::view::files::dialogs::{Dialogs, Reply};
@@ -791,4 +791,42 @@ fn a_picture_saved_with_overlays_is_what_the_window_shows() {
             "{shot} for {expected}"
         );
     }
+}
+
+#[test]
+fn a_file_that_cannot_be_read_leaves_its_error_and_an_empty_window_that_says_so() {
+    let place = Place::new(&[("model.glb", "glTF"), ("one.toml", &scene("1"))]);
+    let mut window = place.open("model.glb");
+    let broken = window.session().files.broken.clone().expect("an error");
+    assert!(broken.trouble.message.contains("model.glb"), "{broken:?}");
+    window.harness.get_by_label(&broken.trouble.message);
+    let has = |window: &Window, words| {
+        let mut found = window.harness.query_all(by().label_contains(words));
+        found.next().is_some()
+    };
+    assert!(has(&window, "Drop a scene here"));
+    assert!(has(&window, "no scene is open"));
+    assert!(!has(&window, "preparing"), "it waits for nothing");
+    assert!(!has(&window, "0 of 0 samples"));
+    files::open(&mut window.session(), vec![place.path("one.toml")]);
+    window.settle();
+    assert!(window.shown().progress.is_done);
+    assert!(!has(&window, "Drop a scene here"));
+}
+
+#[test]
+fn while_a_scene_is_read_the_panel_names_it_and_counts_no_samples() {
+    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let path = place.path("one.toml");
+    let window = Window::open(&[path.to_str().expect("a name")]);
+    // The harness has drawn one frame, and nothing was taken up yet.
+    let waiting = window.session().waiting_for();
+    if window.session().scene().is_none() {
+        assert!(
+            waiting.starts_with("reading ") && waiting.contains("one.toml"),
+            "{waiting}"
+        );
+    }
+    let mut found = (window.harness).query_all(by().label_contains("0 of 0 samples"));
+    assert!(found.next().is_none());
 }

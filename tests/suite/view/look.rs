@@ -1,13 +1,16 @@
 //! How the picture is looked at: the panel of its settings, comparing, and rendering a part.
 
 use super::harness::Window;
+use crate::reference::compare::start;
 use eframe::egui::{self, Key, Pos2};
-use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::kittest::{NodeT, Queryable, by};
+use glam::Vec3;
 use glimray::app::view::look::{Comparison, Sharing};
+use glimray::app::view::preferences::Theme;
 use glimray::app::view::render_thread::Place;
 use glimray::app::view::tools::Tool;
 use glimray::render::Integrator;
-use glimray::scene::Antialias;
+use glimray::scene::{Antialias, Background};
 
 fn open() -> Window {
     let mut window = Window::open(&["--size", "64x48", "--samples", "4"]);
@@ -256,4 +259,102 @@ fn an_edge_that_is_dragged_over_the_middle_stays_in_its_picture() {
     drag(&mut window, from, whole.lerp_inside(egui::vec2(0.75, 0.5)));
     let region = window.session().look.region.expect("a region");
     assert_eq!(region, [0.25, 0.25, 1.0, 0.75]);
+}
+
+#[test]
+fn a_view_of_a_quantity_has_a_legend_with_its_range_and_unit() {
+    let mut window = Window::open(&["--size", "64x48", "--samples", "1"]);
+    window.settle();
+    let legends = |window: &Window| {
+        let found = window.harness.query_all(by().label_contains("Legend: "));
+        found
+            .filter_map(|node| node.accesskit_node().label())
+            .collect::<Vec<_>>()
+    };
+    assert!(legends(&window).is_empty());
+    for (integrator, words) in [
+        (Integrator::Depth, "scene units"),
+        (Integrator::Heat, "steps"),
+        (Integrator::Samples, "samples from 1 (black) to 1"),
+    ] {
+        window.session().look.settings.integrator = integrator;
+        window.settle();
+        let tone = window.order().tone;
+        let [least, most] = window.shown().range.expect("a range");
+        assert!(
+            least <= most && most > 0.0,
+            "{integrator:?}: {least}, {most}"
+        );
+        let found = legends(&window);
+        assert!(found.len() == 1 && found[0].contains(words), "{found:?}");
+        assert!(
+            found[0].contains(&glimray::app::legend::number(least)),
+            "{found:?}"
+        );
+        // What is saved and what the command line renders is what is shown.
+        let settings = window.order().settings;
+        let mut renderer = start(&window.order().scene, &settings).expect("a renderer");
+        while !renderer.is_done() {
+            renderer.step().expect("a step");
+        }
+        assert_eq!(renderer.range().expect("a range"), Some([least, most]));
+        let expected = renderer.develop(&tone).expect("a picture");
+        assert!(window.image(tone) == expected, "{integrator:?}");
+    }
+    // Two of them in a comparison, and none without overlays.
+    window.session().look.comparison = Some(Comparison {
+        integrator: Integrator::Depth,
+        sharing: Sharing::Wipe(0.5),
+    });
+    window.settle();
+    assert_eq!(legends(&window).len(), 2);
+    window.session().shows_overlays = false;
+    window.settle();
+    assert!(legends(&window).is_empty());
+}
+
+#[test]
+fn stops_are_shown_with_two_decimals() {
+    let mut window = open();
+    let exposure = 0.2 + 1.0 / 3.0;
+    window.session().look.tone.exposure_ev = exposure;
+    window.settle();
+    window.harness.get_by_value("0.53 EV");
+    assert_eq!(window.session().look.tone.exposure_ev, exposure);
+}
+
+#[test]
+fn every_glyph_of_buttons_is_in_the_fonts() {
+    let mut window = open();
+    window.harness.step();
+    // Those of egui's colour picker, of panels and of tabs.
+    for glyph in "📋⚠↺↻➕≤≥→←↑↓×½°".chars() {
+        let font = egui::FontId::proportional(13.0);
+        let is_there = (window.harness.ctx).fonts_mut(|fonts| fonts.has_glyph(&font, glyph));
+        assert!(is_there, "{glyph}");
+    }
+}
+
+#[test]
+fn a_pale_colour_has_an_edge_that_is_seen_on_a_light_panel() {
+    let mut window = Window::open(&["--size", "64x48", "--samples", "1"]);
+    window.session().preferences.theme = Theme::Light;
+    window.session().edit("whiten", |scene| {
+        scene.background = Background::Color(Vec3::ONE)
+    });
+    window.settle();
+    let rect = window.harness.get_by_label("Background colour").rect();
+    let picture = window.harness.render().expect("a picture of the window");
+    let grey = |pos: Pos2| {
+        let pixel = picture.get_pixel(pos.x as u32, pos.y as u32).0;
+        pixel[..3]
+            .iter()
+            .map(|level| i32::from(*level))
+            .sum::<i32>()
+            / 3
+    };
+    let panel = grey(rect.left_center() - egui::vec2(2.0, 0.0));
+    let edges = [-0.5, 0.5, 1.5].map(|y| grey(rect.center_top() + egui::vec2(0.0, y)));
+    let darkest = edges.into_iter().min().expect("a pixel");
+    assert!(panel - darkest > 60, "{edges:?} on {panel}");
 }

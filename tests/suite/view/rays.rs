@@ -515,3 +515,37 @@ fn rays_name_things_as_the_outline_does() {
     }
     assert!(count > 3, "{count} rays");
 }
+
+#[test]
+fn the_mark_of_the_pixel_is_there_while_the_inspector_is_in_hand() {
+    let mut window = Window::open(&[GLASS, "--size", "64x36", "--samples", "4"]);
+    window.settle();
+    let part = |window: &mut Window| {
+        window.harness.hover_at(egui::pos2(4.0, 690.0));
+        window.settle();
+        let viewport = window.session().viewport.expect("a picture");
+        let rect = viewport.part([31, 18, 1, 1]).expand(12.0);
+        let picture = window.harness.render().expect("a picture of the window");
+        let (x, y) = (rect.min.x as u32, rect.min.y as u32);
+        let (width, height) = (rect.width() as u32, rect.height() as u32);
+        image::imageops::crop_imm(&picture, x, y, width, height).to_image()
+    };
+    let before = part(&mut window);
+    inspect(&mut window, [31, 18]);
+    assert!(part(&mut window) != before, "the pixel is not marked");
+    window.harness.key_press(egui::Key::Escape);
+    window.settle();
+    assert!(part(&mut window) == before, "the mark stays");
+    // The rays stay too, and the tool brings the mark back.
+    assert!(window.session().inspector.inspected.is_some());
+}
+
+#[test]
+fn no_control_of_the_rays_is_cut_off_at_the_edge_of_the_panel() {
+    let window = open_glass([31, 18]);
+    let right = window.harness.ctx.content_rect().max.x;
+    for label in ["All samples", "Shadow rays", "Follow the cursor"] {
+        let rect = window.harness.get_by_label(label).rect();
+        assert!(rect.max.x <= right, "{label}: {rect:?} beyond {right}");
+    }
+}

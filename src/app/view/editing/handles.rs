@@ -2,11 +2,13 @@
 //! which one is under the pointer, and what dragging it makes of a place. Nothing here draws or knows a
 //! window; positions in the picture are its pixels from the upper left corner, y down.
 
+mod amounts;
+
 use super::super::navigation::{project, ray_through};
 use super::super::objects::{Freedom, Scaling};
 use super::super::tools::Tool;
 use crate::scene::Camera;
-use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
 /// Lines that a ring is drawn and met by.
@@ -17,8 +19,6 @@ const SQUARE: (f64, f64) = (0.28, 0.46);
 const OUTER: f64 = 1.2;
 /// Sine of the angle between a plane and the line of sight below which the plane tells nothing.
 const EDGE_ON: f64 = 0.15;
-/// The least that one drag scales by.
-const LEAST: f64 = 0.01;
 /// With Ctrl, turns go by this and factors by this.
 const SNAP_ANGLE: f64 = PI / 12.0;
 const SNAP_FACTOR: f64 = 0.1;
@@ -296,15 +296,7 @@ impl Grip {
             }
             _ => DVec3::from(in_plane(eye.forward())?.to_array().map(whole)),
         };
-        let told = ["x", "y", "z"].into_iter().zip(way.to_array());
-        let told = told.filter(|(_, by)| by.abs() > 1e-9 * reach);
-        let told: Vec<String> = told.map(|(name, by)| format!("{name} {by:+.3}")).collect();
-        let mut place = self.start;
-        place.translation += way;
-        Some(Dragged {
-            place,
-            told: told.join("  "),
-        })
+        Some(self.moved_by(way))
     }
 
     fn turned(&self, eye: Eye, snap: bool) -> Option<Dragged> {
@@ -332,14 +324,7 @@ impl Grip {
         if snap {
             angle = (angle / SNAP_ANGLE).round() * SNAP_ANGLE;
         }
-        let turn = DMat3::from_quat(DQuat::from_axis_angle(axis, angle));
-        Some(Dragged {
-            place: DAffine3 {
-                matrix3: turn * self.start.matrix3,
-                translation: self.start.translation,
-            },
-            told: format!("{:+.1}°", angle.to_degrees()),
-        })
+        Some(self.turned_by(axis, angle))
     }
 
     fn scaled(&self, eye: Eye, snap: bool) -> Option<Dragged> {
@@ -358,22 +343,7 @@ impl Grip {
         if snap {
             factor = (factor / SNAP_FACTOR).round() * SNAP_FACTOR;
         }
-        let factor = if factor.is_finite() {
-            factor.max(LEAST)
-        } else {
-            1.0
-        };
-        let scale = match self.part {
-            Part::Axis(axis) => DVec3::ONE + DMat3::IDENTITY.col(axis) * (factor - 1.0),
-            _ => DVec3::splat(factor),
-        };
-        Some(Dragged {
-            place: DAffine3 {
-                matrix3: self.start.matrix3 * DMat3::from_diagonal(scale),
-                translation: self.start.translation,
-            },
-            told: format!("× {factor:.3}"),
-        })
+        Some(self.scaled_by(factor))
     }
 }
 

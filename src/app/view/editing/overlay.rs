@@ -6,6 +6,7 @@ use super::super::session::Session;
 use super::super::tools::Tool;
 use super::super::viewport::Viewport;
 use super::handles::{Eye, Grip, Handles, Part};
+use super::modal::Modal;
 use crate::scene::{Camera, Geometry, LightKind, ObjectRef, Scene};
 use eframe::egui::{self, Align2, Color32, FontId, Painter, Pos2, Shape, Stroke};
 use glam::{DAffine3, DVec3};
@@ -43,10 +44,10 @@ pub fn overlay(
         scene.clone(),
         session.camera(),
     ) else {
-        session.editing.grip = None;
+        let_go(session);
         return false;
     };
-    if !session.shows_overlays {
+    if !session.shows_overlays && session.editing.modal.is_none() {
         return false;
     }
     let eye = Eye {
@@ -64,12 +65,13 @@ pub fn overlay(
     let tool = session.tool;
     let is_handled = matches!(tool, Tool::Move | Tool::Rotate | Tool::Scale);
     let (Some(place), true) = (place, is_handled) else {
-        session.editing.grip = None;
+        let_go(session);
         return false;
     };
     let pixels = |points: f32| viewport.length(egui::vec2(points, 0.0)).x;
     let free = objects::freedom(&scene, id);
     let Some(handles) = Handles::new(tool, place, free, eye, pixels(LENGTH)) else {
+        session.editing.modal = None;
         return false;
     };
     let ctx = &response.ctx;
@@ -91,6 +93,11 @@ pub fn overlay(
         let grip = Grip::new(part, handles.clone(), place, viewport.position(pressed));
         session.editing.grip = Some((grip, pressed));
     }
+    if session.editing.modal.is_some() && session.editing.grip.is_none() {
+        let from = pointer.unwrap_or(viewport.rect.center());
+        let grip = Grip::new(Part::All, handles.clone(), place, viewport.position(from));
+        session.editing.grip = Some((grip, from));
+    }
     let Some((mut grip, last)) = session.editing.grip.take() else {
         let hovered = pointer.filter(|_| response.hovered()).and_then(part_at);
         view.handles(&handles, hovered);
@@ -101,9 +108,22 @@ pub fn overlay(
     };
     let now = pointer.unwrap_or(last);
     grip.follow(viewport.length(now - last), is_fine);
+    let mut modal = session.editing.modal.take();
+    let dragged = match &modal {
+        Some(modal) => {
+            grip.part = modal.part(&grip.handles);
+            let exact = modal.amount().map(|amount| grip.by(eye, amount));
+            exact.or_else(|| grip.dragged(eye, snaps))
+        }
+        None => grip.dragged(eye, snaps),
+    };
     let mut shown = handles;
-    if let Some(dragged) = grip.dragged(eye, snaps) {
-        if now != last {
+    if let Some(dragged) = dragged {
+        let is_news = match &mut modal {
+            Some(modal) => modal.place.replace(dragged.place).unwrap_or(place) != dragged.place,
+            None => now != last,
+        };
+        if is_news {
             let verb = match tool {
                 Tool::Move => "move",
                 Tool::Rotate => "rotate",
@@ -116,17 +136,39 @@ pub fn overlay(
         }
         shown.origin = dragged.place.translation;
         let at = now + egui::vec2(18.0, -18.0);
-        view.text(at, &dragged.told);
+        match modal
+            .as_ref()
+            .map(Modal::typed)
+            .filter(|typed| !typed.is_empty())
+        {
+            Some(typed) => view.text(at, &format!("{}   [{typed}]", dragged.told)),
+            None => view.text(at, &dragged.told),
+        }
     }
     ctx.set_cursor_icon(egui::CursorIcon::Grabbing);
     view.handles(&shown, Some(grip.part));
-    if response.dragged_by(egui::PointerButton::Primary) {
-        session.moved();
-        session.editing.grip = Some((grip, now));
-    } else if let Some(document) = &mut session.document {
-        document.release();
+    match modal {
+        Some(modal) if !modal.is_confirmed => {
+            session.editing.grip = Some((grip, now));
+            session.editing.modal = Some(modal);
+        }
+        None if response.dragged_by(egui::PointerButton::Primary) => {
+            session.moved();
+            session.editing.grip = Some((grip, now));
+        }
+        _ => {
+            if let Some(document) = &mut session.document {
+                document.release();
+            }
+        }
     }
     true
+}
+
+/// Ends what there is nothing left to do with.
+fn let_go(session: &mut Session) {
+    session.editing.grip = None;
+    session.editing.modal = None;
 }
 
 /// What lines are drawn in.

@@ -86,6 +86,22 @@ pub fn bounds(scene: &Scene, id: Id, time: f64) -> Option<(DVec3, DVec3)> {
     }
 }
 
+/// Bounds of what there is to look at, in the world at time 0: all surfaces but lamps, which shine all over
+/// and often stand far away; lamps too where there is nothing else.
+pub fn subject(scene: &Scene) -> Option<(DVec3, DVec3)> {
+    let shines = |material: usize| {
+        let material = scene.materials.get(material);
+        material.is_some_and(|material| material.emission.max_element() > 0.0)
+    };
+    let mut lit = scene.clone();
+    lit.shapes.retain(|shape| !shines(shape.material));
+    lit.instances.retain(|instance| {
+        let mut materials = scene.meshes[instance.mesh].materials.iter();
+        materials.len() == 0 || !materials.all(|material| shines(*material as usize))
+    });
+    lit.bounds().or_else(|| scene.bounds())
+}
+
 fn surfaces(scene: &Scene) -> Vec<ObjectRef> {
     let instances = (0..scene.instances.len()).map(ObjectRef::Instance);
     let shapes = (0..scene.shapes.len()).map(ObjectRef::Shape);

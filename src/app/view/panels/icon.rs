@@ -10,6 +10,11 @@ pub fn named(response: &egui::Response, name: &str) {
     let _ = (response.ctx).accesskit_node_builder(response.id, |node| node.set_label(name));
 }
 
+/// The edge of a patch of any colour: it is seen on the panel behind it, however pale or dark the patch is.
+pub fn edge(visuals: &egui::Visuals) -> Color32 {
+    visuals.weak_text_color()
+}
+
 /// A linear colour on the screen; what is brighter than white is white.
 pub fn on_screen(color: Vec3) -> Color32 {
     let [r, g, b] = color.to_array().map(|c| c.clamp(0.0, 1.0));

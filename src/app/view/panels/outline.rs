@@ -90,7 +90,7 @@ fn lines(
     if count == 0 {
         ui.weak("Nothing has such a label");
     }
-    let had_focus = std::mem::take(&mut session.editing.has_list_focus);
+    let had_focus = session.editing.list_focus.take();
     let output = area.show_rows(ui, row_height, count, |ui, range| {
         let entries: Vec<Entry> = session
             .editing
@@ -121,7 +121,7 @@ fn line(
     scene: &crate::scene::Scene,
     entry: &Entry,
     id: Id,
-    had_focus: bool,
+    had_focus: Option<egui::Id>,
     wishes: &mut Vec<Wish>,
 ) {
     let is_selected = session.selection == Some(id);
@@ -173,13 +173,14 @@ fn line(
     if response.double_clicked() {
         wishes.push(Wish::Frame(id));
     }
-    // Arrow keys go on from the line that was clicked.
-    if response.clicked() || is_selected && had_focus && !response.has_focus() {
+    // Arrow keys go on from the line that was clicked. The focus follows the selection from line to line,
+    // and is never taken from a widget outside the list.
+    let follows = is_selected && editing::holds_focus(had_focus, ui.ctx());
+    if response.clicked() || follows && !response.has_focus() {
         response.request_focus();
-        session.editing.has_list_focus = true;
     }
     if response.has_focus() {
-        session.editing.has_list_focus = true;
+        session.editing.list_focus = Some(response.id);
         ui.memory_mut(|memory| {
             let filter = egui::EventFilter {
                 vertical_arrows: true,

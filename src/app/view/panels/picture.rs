@@ -1,7 +1,9 @@
 //! The picture, and the camera under the mouse.
 
 mod compare;
+mod legend;
 
+use super::super::bindings::Action;
 use super::super::canvas::Shown;
 use super::super::editing;
 use super::super::inspector;
@@ -11,7 +13,7 @@ use super::super::tools;
 use super::super::viewer::Desk;
 use super::super::viewport::Viewport;
 use super::rays;
-use eframe::egui::{self, Color32, Pos2, Rect, Vec2};
+use eframe::egui::{self, Color32, Pos2, Rect, RichText, Vec2};
 
 /// Texture coordinates of a whole texture.
 const WHOLE: Rect = Rect {
@@ -62,6 +64,40 @@ pub fn picture(ui: &mut egui::Ui, desk: &mut Desk) {
     rays::mark(&painter, desk.session, viewports[0]);
     desk.session.viewport = Some(viewports[0]);
     compare::overlay(ui, desk, space, viewports);
+    if desk.session.shows_overlays {
+        legends(ui, desk, space, viewports);
+    }
+    if desk.session.is_empty() {
+        empty(ui, desk, space);
+    }
+}
+
+/// What the levels of the pictures stand for.
+fn legends(ui: &egui::Ui, desk: &Desk, space: Rect, viewports: [Viewport; 2]) {
+    let painter = ui.painter_at(space);
+    let look = &desk.session.look;
+    let rects = viewports.map(|viewport| viewport.rect.intersect(space));
+    if let Some(shown) = desk.shown(Place::Main) {
+        let integrator = look.settings.integrator;
+        legend::legend(ui, &painter, &shown, integrator, (rects[0], false));
+    }
+    if let (Some(comparison), Some(shown)) = (look.comparison, desk.shown(Place::Beside)) {
+        let place = (rects[1], true);
+        legend::legend(ui, &painter, &shown, comparison.integrator, place);
+    }
+}
+
+/// What to do where there is no scene.
+fn empty(ui: &mut egui::Ui, desk: &Desk, space: Rect) {
+    let key = desk.session.preferences.bindings.label(Action::Open);
+    let key = match key.is_empty() {
+        true => String::new(),
+        false => format!(" ({key})"),
+    };
+    let text = format!("Drop a scene here, or open one{key}");
+    let area = Rect::from_center_size(space.center(), Vec2::new(space.width(), 24.0));
+    let label = egui::Label::new(RichText::new(text).size(16.0)).selectable(false);
+    ui.put(area, label);
 }
 
 /// Of two pictures side by side the mouse is in one: as long as a button is down in that where it was

@@ -14,6 +14,8 @@ use super::super::viewer::Desk;
 use eframe::egui::{self, Align, Layout};
 use glam::DVec3;
 
+/// Between controls of a line, so that each line fits the panel's usual width, in points.
+const GAP: f32 = 4.0;
 /// Most bounces whose colours are shown.
 const MOST_SWATCHES: usize = 24;
 
@@ -96,7 +98,8 @@ fn sample(ui: &mut egui::Ui, session: &mut Session) {
     };
     let count = inspected.tree.samples.len();
     let before = inspector.filter;
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP;
         let label = ui.label("Sample");
         let mut shown = inspector.filter.sample.unwrap_or(0);
         let is_one = inspector.filter.sample.is_some();
@@ -144,6 +147,7 @@ fn bounces(ui: &mut egui::Ui, session: &mut Session) {
     let most = inspected.max_bounces();
     let sums = rows::by_bounce(inspected, inspector.filter.sample);
     ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP;
         let label = ui.label("Up to bounce");
         let mut shown = inspector.filter.bounces.min(most);
         ui.spacing_mut().slider_width = 48.0;

@@ -259,7 +259,10 @@ fn developing(ui: &mut Ui, look: &mut Look) {
         ),
         &mut tone.exposure_ev,
         &usual.exposure_ev,
-        |ui, value| number(ui, value, -64.0..=64.0, 0.02, " EV"),
+        |ui, value| {
+            let stops = egui::DragValue::new(value).range(-64.0..=64.0).speed(0.02);
+            ui.add(stops.max_decimals(2).suffix(" EV"))
+        },
     );
     line(
         ui,

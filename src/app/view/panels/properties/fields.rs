@@ -1,7 +1,7 @@
 //! Rows of a label and what is set there; every one asks for a change of the scene that has a name.
 
 use super::super::super::objects::EditError;
-use super::super::icon::named;
+use super::super::icon::{edge, named};
 use crate::scene::{Scene, Target};
 use eframe::egui::{self, DragValue, Ui, UiBuilder, vec2};
 use glam::{DVec3, Vec3};
@@ -214,6 +214,9 @@ impl Fields<'_> {
             ui.spacing_mut().item_spacing.x = 3.0;
             let button = 22.0;
             ui.spacing_mut().interact_size.x = button;
+            // egui draws the button's edge in this colour.
+            let edge = edge(ui.visuals());
+            ui.visuals_mut().widgets.inactive.bg_fill = edge;
             // What is brighter than white keeps its brightness while its hue changes.
             let scale = value.max_element().max(1.0);
             let mut shown = (value / scale).to_array();

@@ -5,6 +5,7 @@ use super::super::super::inspector::rows::RayId;
 use super::super::super::session::Session;
 use super::super::super::tools::Tool;
 use super::super::super::viewport::Viewport;
+use super::super::icon;
 use crate::render::RayKind;
 use eframe::egui::{self, Color32, Rect, Response, Rgba, Sense, Shape, Stroke, StrokeKind, vec2};
 use glam::DVec3;
@@ -32,7 +33,7 @@ fn display(linear: [f32; 3], exposure_ev: f32) -> Color32 {
 /// A patch of a colour.
 pub fn swatch(ui: &mut egui::Ui, linear: [f32; 3], exposure_ev: f32) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
-    let edge = ui.visuals().widgets.noninteractive.bg_stroke;
+    let edge = Stroke::new(1.0, icon::edge(ui.visuals()));
     ui.painter().rect(
         rect.shrink(1.0),
         2.0,
@@ -59,7 +60,7 @@ pub fn bounce(
     let edge = match (response.hovered() || response.has_focus(), shown) {
         (true, _) => ui.visuals().widgets.hovered.fg_stroke,
         (false, true) => Stroke::new(1.0, ui.visuals().selection.bg_fill),
-        (false, false) => ui.visuals().widgets.noninteractive.bg_stroke,
+        (false, false) => Stroke::new(1.0, icon::edge(ui.visuals())),
     };
     painter.rect_stroke(rect, 2.0, edge, StrokeKind::Inside);
     let name = format!("Bounce {bounce}");
@@ -128,14 +129,12 @@ fn sign(painter: &egui::Painter, rect: Rect, ray: RayKind, blocked: bool, stroke
     }
 }
 
-/// Marks the inspected pixel in the picture.
+/// Marks the inspected pixel in the picture while the inspector is in hand.
 pub fn mark(painter: &egui::Painter, session: &Session, viewport: Viewport) {
-    let Some([x, y]) = session.inspector.pixel.filter(|_| session.shows_overlays) else {
+    let is_shown = session.shows_overlays && session.tool == Tool::Inspect;
+    let Some([x, y]) = session.inspector.pixel.filter(|_| is_shown) else {
         return;
     };
-    if session.tool != Tool::Inspect && session.inspector.inspected.is_none() {
-        return;
-    }
     let pixel = viewport.part([x, y, 1, 1]);
     let frame = pixel.expand(3.0);
     let center = frame.center();

@@ -18,7 +18,10 @@ pub fn progress(ui: &mut Ui, desk: &mut Desk) {
     } else {
         progress.share
     };
-    let text = state(&progress, desk.session.look.paused);
+    let text = match &shown {
+        Some(_) => state(&progress, desk.session.look.paused),
+        None => desk.session.waiting_for(),
+    };
     let bar = egui::ProgressBar::new(share as f32).text(text);
     ui.add(bar)
         .on_hover_text("Share of the samples of this picture that are done");

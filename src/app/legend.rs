@@ -1,0 +1,52 @@
+//! What the levels of a view of a quantity stand for, in words and in colours.
+
+use crate::render::Quantity;
+
+/// Which levels stand for the least and the greatest value, such as "samples from 4 (black) to 64 (white)".
+pub fn sentence(quantity: Quantity, [least, most]: [f32; 2]) -> String {
+    let (what, first, last) = match quantity {
+        Quantity::Distance => ("distances", "white", "dark grey"),
+        Quantity::Samples => ("samples", "black", "white"),
+        Quantity::Work => ("work", "black", "white"),
+    };
+    let [least, most] = [least, most].map(number);
+    match quantity {
+        Quantity::Samples => format!("{what} from {least} ({first}) to {most} ({last})"),
+        _ => format!(
+            "{what} from {least} ({first}) to {most} {} ({last}), less {:.1} % of the pixels at either end",
+            quantity.unit(),
+            100.0 * quantity.outliers()
+        ),
+    }
+}
+
+/// The colours from the least value to the greatest, in sRGB levels, at equal distances; in between they go
+/// over into one another.
+pub fn stops(quantity: Quantity) -> &'static [[u8; 3]] {
+    match quantity {
+        Quantity::Distance => &[[255; 3], [26; 3]],
+        Quantity::Samples => &[[0; 3], [255; 3]],
+        Quantity::Work => &[
+            [0, 0, 0],
+            [0, 0, 255],
+            [0, 255, 0],
+            [255, 255, 0],
+            [255, 0, 0],
+            [255, 255, 255],
+        ],
+    }
+}
+
+/// A value with three significant digits, and all of those before the point.
+pub fn number(value: f32) -> String {
+    let digits = match value.abs() {
+        0.0 => 0,
+        size if !(1e-4..1e7).contains(&size) => return format!("{value:.2e}"),
+        size => (2 - size.log10().floor() as i32).max(0) as usize,
+    };
+    let text = format!("{value:.digits$}");
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}

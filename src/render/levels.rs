@@ -1,0 +1,135 @@
+//! Views of quantities (distances, samples, work) and the range over which they are shown.
+
+use super::{Integrator, RenderError, Renderer, Tone};
+use crate::layout::{VIEW_DEPTH, VIEW_HEAT, VIEW_NORMALS};
+
+/// Share of a pixel's samples that must hit something, as in `lib/quantity.wesl`.
+const LEAST_COVERAGE: f32 = 0.01;
+
+/// The range over which a view of a quantity is shown. Other pictures are not affected.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Levels {
+    /// None: the values stay as they are, and are developed like radiance.
+    #[default]
+    Raw,
+    /// Over the range found in the picture so far: [`Renderer::range`].
+    Found,
+    /// From the first of these values to the second.
+    Fixed([f32; 2]),
+}
+
+/// What a view measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Distance along the ray in scene units. The nearest is white, the farthest dark grey, and doubling
+    /// the distance is the same step everywhere; black is no hit.
+    Distance,
+    /// Samples of a pixel, from black for the fewest to white for the most.
+    Samples,
+    /// Steps of the tree walk for a ray: black, blue, green, yellow, red, white.
+    Work,
+}
+
+impl Integrator {
+    /// What the view measures; `None` for those that show colours.
+    pub fn quantity(self) -> Option<Quantity> {
+        match self {
+            Self::Depth => Some(Quantity::Distance),
+            Self::Samples => Some(Quantity::Samples),
+            Self::Heat => Some(Quantity::Work),
+            Self::Whitted | Self::Normals | Self::Ids | Self::Uv => None,
+        }
+    }
+
+    /// What the film holds, as the shader that develops it has to know.
+    pub(super) fn developed_view(self) -> u32 {
+        match self {
+            Self::Depth => VIEW_DEPTH,
+            Self::Heat => VIEW_HEAT,
+            _ => VIEW_NORMALS,
+        }
+    }
+}
+
+impl Quantity {
+    /// Share of the pixels at either end that a range leaves out: a horizon, or a few expensive rays along
+    /// an edge, would leave no levels for the rest.
+    pub fn outliers(self) -> f64 {
+        match self {
+            Self::Distance => 0.02,
+            Self::Samples => 0.0,
+            Self::Work => 0.002,
+        }
+    }
+
+    /// The unit of its values, in the plural.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Distance => "scene units",
+            Self::Samples => "samples",
+            Self::Work => "steps",
+        }
+    }
+}
+
+/// Where a value lies in a range, from 0 to 1; in the middle of one that has no extent.
+pub(super) fn place(value: f32, [least, most]: [f32; 2]) -> f32 {
+    match most > least {
+        true => ((value - least) / (most - least)).clamp(0.0, 1.0),
+        false => 0.5,
+    }
+}
+
+impl Renderer {
+    /// The least and the greatest value in the picture so far, less [`Quantity::outliers`]. `None` where it
+    /// shows no quantity or has no value yet. Pixels without a hit have no distance.
+    ///
+    /// # Errors
+    /// The device failed while the film was fetched.
+    pub fn range(&mut self) -> Result<Option<[f32; 2]>, RenderError> {
+        let Some(quantity) = self.settings.integrator.quantity() else {
+            return Ok(None);
+        };
+        if quantity == Quantity::Samples {
+            let [x, y, width, height] = self.settings.region();
+            let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
+            let counts = pixels.map(|pixel| self.film.samples_at(pixel) as f32);
+            return Ok(extent(counts.collect(), quantity.outliers()));
+        }
+        self.fetch_film()?;
+        let value = |[value, hits, _, weight]: [f32; 4]| {
+            // Padding and what has no sample yet weigh nothing.
+            let is_sampled = weight.abs() > 0.5;
+            let hits = hits / weight;
+            match quantity {
+                Quantity::Distance => {
+                    (is_sampled && hits >= LEAST_COVERAGE).then(|| value / weight / hits)
+                }
+                _ => is_sampled.then(|| value / weight),
+            }
+        };
+        let windows = self.film.developable(&self.settings);
+        let rows = windows.into_iter().flat_map(|(_, rows)| rows);
+        Ok(extent(
+            rows.filter_map(value).collect(),
+            quantity.outliers(),
+        ))
+    }
+
+    /// The range that a tone asks for.
+    pub(super) fn range_of(&mut self, tone: &Tone) -> Result<Option<[f32; 2]>, RenderError> {
+        match tone.levels {
+            Levels::Raw => Ok(None),
+            Levels::Found => self.range(),
+            Levels::Fixed(range) => Ok((self.settings.integrator.quantity()).map(|_| range)),
+        }
+    }
+}
+
+/// The least and the greatest value once this share of them is left out at either end.
+fn extent(mut values: Vec<f32>, share: f64) -> Option<[f32; 2]> {
+    let last = values.len().checked_sub(1)?;
+    let skipped = (values.len() as f64 * share) as usize;
+    let mut nth = |index| *values.select_nth_unstable_by(index, f32::total_cmp).1;
+    Some([nth(skipped), nth(last - skipped)])
+}
