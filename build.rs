@@ -1,6 +1,5 @@
-//! Links every kernel under `shaders/` to plain WGSL, once for each way of fetching geometry with and
-//! without what places instances and moves, so that the binary carries its shaders and a broken import
-//! stops the build. `explain` is the kernel `whitted` with the feature `record`.
+//! Links every kernel under `shaders/` to plain WGSL, once for each way of fetching geometry, so that the
+//! binary carries its shaders and a broken import stops the build. `explain` is the kernel `whitted` with the feature `record`.
 
 use std::{error::Error, path::Path, process::ExitCode};
 
@@ -24,16 +23,9 @@ fn link_kernels() -> Result<(), Box<dyn Error>> {
         ("show", "show"),
         ("explain", "whitted"),
     ] {
-        let variants = [
-            ("image", true, false),
-            ("buffer", false, false),
-            ("moving_image", true, true),
-            ("moving_buffer", false, true),
-        ];
-        for (variant, image_fetch, moving) in variants {
+        for (variant, image_fetch) in [("image", true), ("buffer", false)] {
             let mut compiler = wesl::Wesl::new("shaders");
             compiler.set_feature("image_fetch", image_fetch);
-            compiler.set_feature("moving", moving);
             compiler.set_feature("record", kernel != module);
             let linked = compiler.compile(&format!("package::kernels::{module}").parse()?)?;
             let path = Path::new(&out).join(format!("{kernel}_{variant}.wgsl"));

@@ -11,6 +11,7 @@ mod fault;
 mod guard;
 mod readback;
 mod shader;
+mod specialize;
 
 pub use adapter::{AdapterChoice, AdapterReport, Backend, adapters};
 pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};

@@ -1,7 +1,7 @@
 //! The linked kernels and the pipelines made of them.
 
-use super::{Gpu, GpuError};
-use std::collections::VecDeque;
+use super::{Gpu, GpuError, specialize::specialize};
+use std::{borrow::Cow, collections::VecDeque};
 
 /// How many pipelines of a device are kept: each may be a megabyte of machine code.
 const MOST_PIPELINES: usize = 64;
@@ -10,11 +10,11 @@ const MOST_PIPELINES: usize = 64;
 #[derive(Default)]
 pub(super) struct Pipelines(VecDeque<(Ingredients, wgpu::ComputePipeline)>);
 
-/// What a pipeline is made of. The layout is not among it: it follows from the source.
+/// What a pipeline is made of. The layout is not among it: it follows from the kernel and its variant.
 #[derive(PartialEq)]
 struct Ingredients {
-    name: String,
-    source: &'static str,
+    kernel: &'static str,
+    from_images: bool,
     overrides: Vec<(String, f64)>,
 }
 
@@ -24,10 +24,8 @@ pub struct Kernel {
     /// Also the entry point's, and its file's in `shaders/kernels/`; `explain` is `whitted` that keeps
     /// records.
     pub name: &'static str,
-    /// Its variants, by name: geometry is read from images or from buffers, and those called moving can
-    /// place instances and move while the shutter is open. The others are shorter, which drivers
-    /// compile sooner.
-    pub sources: [(&'static str, &'static str); 4],
+    /// Its variants, by name: geometry is read from images or from buffers.
+    pub sources: [(&'static str, &'static str); 2],
 }
 
 macro_rules! kernels {
@@ -37,8 +35,6 @@ macro_rules! kernels {
             sources: [
                 ("image", include_str!(concat!(env!("OUT_DIR"), "/", $name, "_image.wgsl"))),
                 ("buffer", include_str!(concat!(env!("OUT_DIR"), "/", $name, "_buffer.wgsl"))),
-                ("moving_image", include_str!(concat!(env!("OUT_DIR"), "/", $name, "_moving_image.wgsl"))),
-                ("moving_buffer", include_str!(concat!(env!("OUT_DIR"), "/", $name, "_moving_buffer.wgsl"))),
             ],
         };)*
         /// All kernels.
@@ -60,27 +56,37 @@ impl Kernel {
         SHOW "show"
     }
 
-    /// The variant that reads geometry from images or from buffers, and can move or cannot.
-    pub fn source(&self, from_images: bool, moving: bool) -> &'static str {
-        let index = usize::from(!from_images) + 2 * usize::from(moving);
-        self.sources[index].1
+    /// The module of the variant that reads geometry from images or from buffers, specialised by these
+    /// overrides: values by the ids that `bindings.wesl` gives them. The error is naga's, with the lines
+    /// of the linked source.
+    pub fn specialized(
+        &self,
+        from_images: bool,
+        overrides: &[(&str, f64)],
+    ) -> Result<naga::Module, String> {
+        specialize(self.source(from_images), overrides)
+    }
+
+    fn source(&self, from_images: bool) -> &'static str {
+        self.sources[usize::from(!from_images)].1
     }
 }
 
 impl Gpu {
-    /// A kernel, compiled unless that was done before. A shader that the driver refuses is our fault:
-    /// the error carries the driver's words, and the linked text lies in the folder for temporary files.
+    /// A kernel specialised by these overrides, compiled unless that was done before. A shader that the
+    /// driver refuses is our fault: the error carries the driver's words, and the linked text lies in the
+    /// folder for temporary files.
     pub(crate) fn pipeline(
         &self,
-        name: &str,
-        source: &'static str,
-        layout: Option<&wgpu::PipelineLayout>,
+        kernel: &Kernel,
+        from_images: bool,
+        layout: &wgpu::PipelineLayout,
         overrides: &[(&str, f64)],
     ) -> Result<wgpu::ComputePipeline, GpuError> {
         let named = |(id, value): &(&str, f64)| (id.to_string(), *value);
         let wanted = Ingredients {
-            name: name.to_owned(),
-            source,
+            kernel: kernel.name,
+            from_images,
             overrides: overrides.iter().map(named).collect(),
         };
         let known = |Pipelines(kept): &Pipelines| {
@@ -90,7 +96,7 @@ impl Gpu {
         if let Some(known) = self.pipelines.lock().ok().and_then(|kept| known(&kept)) {
             return Ok(known);
         }
-        let pipeline = self.compile(name, source, layout, overrides)?;
+        let pipeline = self.compile(kernel, from_images, layout, overrides)?;
         if let Ok(mut kept) = self.pipelines.lock() {
             kept.0.truncate(MOST_PIPELINES - 1);
             kept.0.push_front((wanted, pipeline.clone()));
@@ -100,43 +106,47 @@ impl Gpu {
 
     fn compile(
         &self,
-        name: &str,
-        source: &str,
-        layout: Option<&wgpu::PipelineLayout>,
+        kernel: &Kernel,
+        from_images: bool,
+        layout: &wgpu::PipelineLayout,
         overrides: &[(&str, f64)],
     ) -> Result<wgpu::ComputePipeline, GpuError> {
+        let name = kernel.name;
+        let refused = |what: String| GpuError::Internal {
+            what: dumped(name, kernel.source(from_images), &what),
+        };
+        let module = kernel
+            .specialized(from_images, overrides)
+            .map_err(refused)?;
         let made = self.scoped(name, || {
             let module = self
                 .device
                 .create_shader_module(wgpu::ShaderModuleDescriptor {
                     label: Some(name),
-                    source: wgpu::ShaderSource::Wgsl(source.into()),
+                    source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
                 });
             self.device
                 .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                     label: Some(name),
-                    layout,
+                    layout: Some(layout),
                     module: &module,
                     entry_point: None,
-                    compilation_options: wgpu::PipelineCompilationOptions {
-                        constants: overrides,
-                        ..Default::default()
-                    },
+                    compilation_options: Default::default(),
                     cache: None,
                 })
         });
         made.map_err(|error| match error {
-            GpuError::Internal { what } => {
-                let dump = std::env::temp_dir().join(format!("glimray-{name}.wgsl"));
-                let place = match std::fs::write(&dump, source) {
-                    Ok(()) => format!(" (linked shader: {})", dump.display()),
-                    Err(_) => String::new(),
-                };
-                GpuError::Internal {
-                    what: format!("{what}{place}"),
-                }
-            }
+            GpuError::Internal { what } => refused(what),
             other => other,
         })
+    }
+}
+
+/// An error about a kernel, with the file that its linked text was written to.
+fn dumped(name: &str, source: &str, what: &str) -> String {
+    let dump = std::env::temp_dir().join(format!("glimray-{name}.wgsl"));
+    match std::fs::write(&dump, source) {
+        Ok(()) => format!("{what} (linked shader: {})", dump.display()),
+        Err(_) => what.to_owned(),
     }
 }

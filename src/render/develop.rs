@@ -178,8 +178,7 @@ impl Renderer {
                 ],
                 immediate_size: 0,
             });
-        let source = Kernel::DEVELOP.source(false, false);
-        let pipeline = gpu.pipeline(Kernel::DEVELOP.name, source, Some(&layout), &[])?;
+        let pipeline = gpu.pipeline(&Kernel::DEVELOP, false, &layout, &[])?;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
         let bytes = self.film.largest_window() as u64 * 16;
         let developed = gpu.allocate("developed", bytes, usage)?;

@@ -188,7 +188,6 @@ pub fn reopen(
 #[derive(PartialEq)]
 struct Variant {
     kernel: &'static str,
-    moves: bool,
     overrides: Overrides,
 }
 
@@ -197,7 +196,6 @@ impl Variant {
         let (kernel, overrides) = kernel(task);
         Self {
             kernel: kernel.name,
-            moves: whitted::moves(task),
             overrides,
         }
     }
@@ -223,8 +221,7 @@ fn compile(
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let start = Instant::now();
     let (kernel, overrides) = kernel(task);
-    let moving = whitted::moves(task);
-    let pipeline = pipeline(gpu, fetch, layouts, kernel, (overrides, moving))?;
+    let pipeline = pipeline(gpu, fetch, layouts, kernel, &overrides)?;
     let idle = PackedSlice {
         tile_count: 1,
         tile_columns: 1,
@@ -239,13 +236,13 @@ fn compile(
     Ok(pipeline)
 }
 
-/// A kernel that traces, for groups 0 to 2, with what it is made with and whether it is to move.
+/// A kernel that traces, for groups 0 to 2, specialised by these overrides.
 pub fn pipeline(
     gpu: &Gpu,
     fetch: Fetch,
     layouts: &Layouts,
     kernel: Kernel,
-    (overrides, moving): (Overrides, bool),
+    overrides: &Overrides,
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
     let layout = gpu
@@ -255,11 +252,7 @@ pub fn pipeline(
             bind_group_layouts: &groups,
             immediate_size: 0,
         });
-    let source = kernel.source(fetch == Fetch::Image, moving);
-    // The linker leaves out overrides that a kernel has no use for.
-    let known = |(id, _): &(&str, f64)| source.contains(&format!("@id({id})"));
-    let overrides: Vec<_> = overrides.into_iter().filter(known).collect();
-    gpu.pipeline(kernel.name, source, Some(&layout), &overrides)
+    gpu.pipeline(&kernel, fetch == Fetch::Image, &layout, overrides)
 }
 
 fn dispatch(

@@ -39,7 +39,7 @@ const WITHOUT: [&str; 3] = ["7", "23", "30"];
 
 /// What explaining keeps on the GPU once it has been used.
 pub struct Explainer {
-    made_with: (Overrides, bool),
+    overrides: Overrides,
     pipeline: wgpu::ComputePipeline,
 }
 
@@ -194,15 +194,13 @@ impl Renderer {
         };
         let mut overrides = whitted::overrides(task);
         overrides.retain(|(id, _)| !WITHOUT.contains(id));
-        let made_with = (overrides, whitted::moves(task));
         let device = &mut self.device;
         let known = device.explainer.as_ref();
-        if known.is_none_or(|explainer| explainer.made_with != made_with) {
+        if known.is_none_or(|explainer| explainer.overrides != overrides) {
             let (gpu, fetch, layouts) = (&device.gpu, device.fetch, &device.layouts);
-            let pipeline =
-                device::pipeline(gpu, fetch, layouts, Kernel::EXPLAIN, made_with.clone())?;
+            let pipeline = device::pipeline(gpu, fetch, layouts, Kernel::EXPLAIN, &overrides)?;
             device.explainer = Some(Explainer {
-                made_with,
+                overrides,
                 pipeline,
             });
         }

@@ -147,9 +147,8 @@ impl Renderer {
             bind_group_layouts: &groups,
             immediate_size: 0,
         });
-        let source = Kernel::SHOW.source(false, false);
         Ok(Projector {
-            pipeline: gpu.pipeline(Kernel::SHOW.name, source, Some(&layout), &[])?,
+            pipeline: gpu.pipeline(&Kernel::SHOW, false, &layout, &[])?,
             tone: gpu.upload("tone", bytes_of(&PackedTone::default()))?,
         })
     }

@@ -47,7 +47,7 @@ pub fn tracing(task: Task) -> Overrides {
     };
     let features = scene.features;
     let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
-    let mut overrides = vec![
+    vec![
         ("0", f64::from(triangle_test)),
         ("1", flag(!scene.triangles.is_empty())),
         ("2", flag(scene.bounded_shape_count() > 0)),
@@ -71,23 +71,13 @@ pub fn tracing(task: Task) -> Overrides {
         ),
         ("22", flag(features.emission)),
         ("23", flag(settings.is_adaptive())),
+        ("24", flag(features.instances)),
+        ("25", flag(view.has_moving_instances())),
+        ("26", flag(!view.cameras.is_empty())),
+        ("27", flag(view.frame.light_key_count > 1)),
         ("28", flag(view.orthographic)),
         ("29", flag(!scene.uvs.is_empty())),
-    ];
-    if moves(task) {
-        overrides.extend([
-            ("24", flag(features.instances)),
-            ("25", flag(view.has_moving_instances())),
-            ("26", flag(!view.cameras.is_empty())),
-            ("27", flag(view.frame.light_key_count > 1)),
-        ]);
-    }
-    overrides
-}
-
-/// Whether the view needs the kernel's variant that places instances and moves.
-pub fn moves(Task { scene, view, .. }: Task) -> bool {
-    scene.features.instances || !view.cameras.is_empty() || view.frame.light_key_count > 1
+    ]
 }
 
 fn flag(on: bool) -> f64 {

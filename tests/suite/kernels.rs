@@ -2,7 +2,11 @@
 
 use crate::support::verdict::Verdict;
 use glimray::gpu::Kernel;
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::{
+    Expression,
+    valid::{Capabilities, ValidationFlags, Validator},
+};
+use std::fs;
 
 /// All variants of every kernel: (name, WGSL).
 fn sources() -> impl Iterator<Item = (String, &'static str)> {
@@ -57,6 +61,106 @@ fn workgroups_are_rows_of_a_multiple_of_eight() {
                 format!("{x} x {y} x {z}")
             });
         }
+    }
+    verdict.close();
+}
+
+/// Seeded choices for every override of `bindings.wesl`.
+fn random_overrides(seed: u64) -> Vec<(String, f64)> {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        state >> 33
+    };
+    let bindings = fs::read_to_string("shaders/bindings.wesl").expect("shaders/bindings.wesl");
+    let declared = bindings
+        .lines()
+        .filter_map(|line| line.strip_prefix("@id(")?.split_once(") override "));
+    declared
+        .map(|(id, rest)| {
+            let value = if rest.contains(": bool") {
+                (next() % 2) as f64
+            } else {
+                (next() % 4) as f64
+            };
+            (id.to_owned(), value)
+        })
+        .collect()
+}
+
+/// Whether a block or a block in it branches on a literal.
+fn branches_on_a_literal(function: &naga::Function, block: &naga::Block) -> bool {
+    block.iter().any(|statement| match statement {
+        naga::Statement::If {
+            condition,
+            accept,
+            reject,
+        } => {
+            matches!(function.expressions[*condition], Expression::Literal(_))
+                || branches_on_a_literal(function, accept)
+                || branches_on_a_literal(function, reject)
+        }
+        naga::Statement::Block(inner) => branches_on_a_literal(function, inner),
+        naga::Statement::Loop {
+            body, continuing, ..
+        } => branches_on_a_literal(function, body) || branches_on_a_literal(function, continuing),
+        naga::Statement::Switch { cases, .. } => cases
+            .iter()
+            .any(|case| branches_on_a_literal(function, &case.body)),
+        _ => false,
+    })
+}
+
+#[test]
+fn specialised_kernels_are_valid_and_branch_on_no_constant() {
+    let mut verdict = Verdict::on("specialised kernels");
+    for kernel in Kernel::ALL {
+        for seed in 0..12 {
+            let overrides = random_overrides(seed);
+            let overrides: Vec<_> = overrides.iter().map(|(id, v)| (&**id, *v)).collect();
+            let module = kernel
+                .specialized(seed % 2 == 0, &overrides)
+                .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
+            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+            let checked = validator.validate(&module);
+            let what = format!("{} with the choices of seed {seed}", kernel.name);
+            verdict.that(&what, checked.is_ok(), || format!("{checked:?}"));
+            let functions = module.functions.iter().map(|(_, function)| function);
+            let entries = module.entry_points.iter().map(|entry| &entry.function);
+            let branches = functions
+                .chain(entries)
+                .any(|function| branches_on_a_literal(function, &function.body));
+            verdict.that(&what, !branches, || "branches on a constant");
+        }
+    }
+    verdict.close();
+}
+
+#[test]
+fn a_feature_that_is_off_leaves_no_function_behind() {
+    let functions = |overrides: &[(&str, f64)]| -> String {
+        let module = Kernel::WHITTED.specialized(true, overrides).expect("WGSL");
+        let names = module.functions.iter();
+        names
+            .filter_map(|(_, function)| function.name.clone())
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    let mut verdict = Verdict::on("functions");
+    // By the ids of `bindings.wesl`, with what only this feature needs.
+    for (feature, id, name) in [
+        ("HAS_TEXTURES", "21", "package_lib_noise"),
+        ("HAS_INSTANCES", "24", "load_instance"),
+        ("HAS_AREA_LIGHTS", "16", "area_incident"),
+        ("HAS_LENS", "17", "lens_ray"),
+        ("HAS_CONTACT", "14", "is_near"),
+    ] {
+        let all = functions(&[]);
+        verdict.that(feature, all.contains(name), || format!("not in {all}"));
+        let without = functions(&[(id, 0.0)]);
+        verdict.that(feature, !without.contains(name), || without.clone());
     }
     verdict.close();
 }

@@ -372,7 +372,6 @@ fn overrides_have_the_numbers_that_the_host_uses() {
     let source = fs::read_to_string("shaders/bindings.wesl").expect("shaders/bindings.wesl");
     let declared: Vec<_> = source
         .lines()
-        .map(|line| line.strip_prefix("@if(moving) ").unwrap_or(line))
         .filter_map(|line| line.strip_prefix("@id(")?.split_once(") override "))
         .map(|(id, rest)| {
             (

@@ -1,0 +1,259 @@
+//! Kernels specialised before the driver sees them: overrides become constants, branches on constants
+//! are folded, and what nothing reaches any more is dropped. A driver reads, inlines and simplifies a
+//! whole module before it drops the code that overrides switch off, and no disk cache saves that time.
+
+use naga::{
+    Arena, Block, Expression, Handle, Literal, LocalVariable, Module, Statement, UnaryOperator,
+    compact::{KeepUnused, compact},
+};
+use std::collections::HashMap;
+
+/// The module of a linked kernel with these values for its overrides, by their ids; an override that
+/// is not named keeps its default. The error is naga's, with the lines of the source.
+pub fn specialize(source: &str, overrides: &[(&str, f64)]) -> Result<Module, String> {
+    let source = with_constants(source, overrides);
+    let mut module =
+        naga::front::wgsl::parse_str(&source).map_err(|error| error.emit_to_string(&source))?;
+    for (_, function) in module.functions.iter_mut() {
+        fold_function(function, &module.constants, &module.global_expressions);
+    }
+    for entry in &mut module.entry_points {
+        fold_function(
+            &mut entry.function,
+            &module.constants,
+            &module.global_expressions,
+        );
+    }
+    compact(&mut module, KeepUnused::No);
+    Ok(module)
+}
+
+/// The source with each `@id(N) override NAME: TYPE = DEFAULT;` as a `const` instead. The front end folds
+/// constants, and what is calculated from them.
+fn with_constants(source: &str, overrides: &[(&str, f64)]) -> String {
+    let mut parts = source.split("@id(");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let Some((declared, rest)) = Override::parse(part) else {
+            text = text + "@id(" + part;
+            continue;
+        };
+        let Override {
+            id,
+            name,
+            ty,
+            default,
+        } = declared;
+        let chosen = overrides.iter().find(|(known, _)| *known == id);
+        let value = chosen.map_or_else(|| default.into(), |&(_, value)| literal(ty, value));
+        text += &format!("const {name}: {ty} = {value};{rest}");
+    }
+    text
+}
+
+struct Override<'a> {
+    id: &'a str,
+    name: &'a str,
+    ty: &'a str,
+    default: &'a str,
+}
+
+impl<'a> Override<'a> {
+    /// What stands behind `@id(`, as the linker prints it, and what follows the declaration.
+    fn parse(text: &'a str) -> Option<(Self, &'a str)> {
+        let (id, rest) = text.split_once(')')?;
+        let (declaration, rest) = rest
+            .trim_start()
+            .strip_prefix("override ")?
+            .split_once(';')?;
+        let (name, value) = declaration.split_once(": ")?;
+        let (ty, default) = value.split_once(" = ")?;
+        let declared = Self {
+            id,
+            name,
+            ty,
+            default,
+        };
+        Some((declared, rest))
+    }
+}
+
+/// A value as WGSL writes it.
+fn literal(ty: &str, value: f64) -> String {
+    match ty {
+        "bool" => (value != 0.0).to_string(),
+        "f32" => format!("{:?}f", value as f32),
+        _ => format!("{value}"),
+    }
+}
+
+fn fold_function(
+    function: &mut naga::Function,
+    constants: &Arena<naga::Constant>,
+    globals: &Arena<Expression>,
+) {
+    let mut body = std::mem::take(&mut function.body);
+    let mut fold = Fold {
+        function,
+        constants,
+        globals,
+        temporaries: HashMap::new(),
+    };
+    // Each round may leave one more temporary with a constant.
+    loop {
+        body = fold.block(body);
+        let found = fold.constant_temporaries(&body);
+        if found == fold.temporaries {
+            break;
+        }
+        fold.temporaries = found;
+    }
+    function.body = body;
+    // `compact` keeps named expressions, and cannot keep those that are no longer evaluated.
+    function.named_expressions.clear();
+}
+
+/// What tells whether an expression of a function is constant.
+struct Fold<'a> {
+    function: &'a naga::Function,
+    constants: &'a Arena<naga::Constant>,
+    globals: &'a Arena<Expression>,
+    /// Temporaries that hold the same value wherever they are read.
+    temporaries: HashMap<Handle<LocalVariable>, bool>,
+}
+
+impl Fold<'_> {
+    /// The block with the branch taken in place of each `if` on a constant, and nothing behind a
+    /// statement that leaves the block.
+    fn block(&self, block: Block) -> Block {
+        let mut folded = Block::with_capacity(block.len());
+        for (mut statement, span) in block.span_into_iter() {
+            match &mut statement {
+                Statement::If {
+                    condition,
+                    accept,
+                    reject,
+                } => {
+                    let accept = self.block(std::mem::take(accept));
+                    let reject = self.block(std::mem::take(reject));
+                    match self.constant(*condition) {
+                        Some(true) => folded.extend_block(accept),
+                        Some(false) => folded.extend_block(reject),
+                        None => {
+                            let condition = *condition;
+                            let kept = Statement::If {
+                                condition,
+                                accept,
+                                reject,
+                            };
+                            folded.push(kept, span);
+                        }
+                    }
+                }
+                Statement::Block(inner) => {
+                    *inner = self.block(std::mem::take(inner));
+                    folded.push(statement, span);
+                }
+                Statement::Loop {
+                    body, continuing, ..
+                } => {
+                    *body = self.block(std::mem::take(body));
+                    *continuing = self.block(std::mem::take(continuing));
+                    folded.push(statement, span);
+                }
+                Statement::Switch { cases, .. } => {
+                    for case in cases {
+                        case.body = self.block(std::mem::take(&mut case.body));
+                    }
+                    folded.push(statement, span);
+                }
+                _ => folded.push(statement, span),
+            }
+            if folded.last().is_some_and(leaves) {
+                break;
+            }
+        }
+        folded
+    }
+
+    /// The temporaries to which the block stores one constant and nothing else.
+    fn constant_temporaries(&self, block: &Block) -> HashMap<Handle<LocalVariable>, bool> {
+        let mut found = Vec::new();
+        stores(block, &mut found);
+        let mut values = HashMap::<_, Option<bool>>::new();
+        for (pointer, value) in found {
+            if let Some(temporary) = self.temporary(pointer) {
+                let value = self.constant(value);
+                let known = values.entry(temporary).or_insert(value);
+                *known = known.filter(|known| Some(*known) == value);
+            }
+        }
+        let constant = |(temporary, value): (_, Option<bool>)| Some((temporary, value?));
+        values.into_iter().filter_map(constant).collect()
+    }
+
+    /// The variable that a pointer points to if the front end made it: for the result of `&&` or `||`,
+    /// to which it stores before it reads.
+    fn temporary(&self, pointer: Handle<Expression>) -> Option<Handle<LocalVariable>> {
+        match self.function.expressions[pointer] {
+            Expression::LocalVariable(variable) => {
+                let LocalVariable { name, init, .. } = &self.function.local_variables[variable];
+                (name.is_none() && init.is_none()).then_some(variable)
+            }
+            _ => None,
+        }
+    }
+
+    /// The value of a condition that is the same for all invocations.
+    fn constant(&self, expression: Handle<Expression>) -> Option<bool> {
+        let literal = match self.function.expressions[expression] {
+            Expression::Load { pointer } => {
+                return self.temporaries.get(&self.temporary(pointer)?).copied();
+            }
+            Expression::Unary {
+                op: UnaryOperator::LogicalNot,
+                expr,
+            } => return self.constant(expr).map(|value| !value),
+            Expression::Constant(constant) => &self.globals[self.constants[constant].init],
+            ref other => other,
+        };
+        match *literal {
+            Expression::Literal(Literal::Bool(value)) => Some(value),
+            _ => None,
+        }
+    }
+}
+
+/// All stores in a block and the blocks in it: (pointer, value).
+fn stores(block: &Block, found: &mut Vec<(Handle<Expression>, Handle<Expression>)>) {
+    for statement in block {
+        match statement {
+            Statement::Store { pointer, value } => found.push((*pointer, *value)),
+            Statement::If { accept, reject, .. } => {
+                stores(accept, found);
+                stores(reject, found);
+            }
+            Statement::Block(inner) => stores(inner, found),
+            Statement::Loop {
+                body, continuing, ..
+            } => {
+                stores(body, found);
+                stores(continuing, found);
+            }
+            Statement::Switch { cases, .. } => {
+                for case in cases {
+                    stores(&case.body, found);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Whether nothing behind this statement in its block is reached.
+fn leaves(statement: &Statement) -> bool {
+    matches!(
+        statement,
+        Statement::Return { .. } | Statement::Break | Statement::Continue | Statement::Kill
+    )
+}
