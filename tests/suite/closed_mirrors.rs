@@ -98,9 +98,10 @@ fn no_mirrored_ray_gets_out_of_a_closed_body() {
         let (_, stats) = render(&scene, &settings);
         let rays = stats.rays.expect("counts");
         let seen = format!("{rays:?}");
+        let is_complete = rays.primary_hits == 128 * 96 && rays.reflection == 200 * rays.primary;
         verdict.that(
             format!("{name}: all rays are mirrored to the end"),
-            { rays.primary_hits == 128 * 96 && rays.reflection == 200 * rays.primary },
+            is_complete,
             || seen.clone(),
         );
         let escaped = rays.reflection - rays.reflection_hits;

@@ -245,8 +245,8 @@ fn the_ground_of_a_huge_sphere_is_lit_as_its_closed_form_says() {
     let (width, height_px) = (64u32, 48u32);
     let (intensity, above_ground) = (9.0, 3.0);
     let mut verdict = Verdict::on("pictures of a lamp above a huge sphere");
-    for radius in RADII {
-        for height in [0.0078125, 0.125, 2.0] {
+    for radius in [1e3, 1e6, 1e9] {
+        for height in [0.0078125, 2.0] {
             let mut scene = ground(radius, height, DVec3::Y);
             let camera = &mut scene.cameras[0];
             camera.look_at = camera.look_from + dvec3(0.0, -0.01, -4.0);
