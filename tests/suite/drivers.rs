@@ -1,6 +1,7 @@
 //! The same pictures through a second driver: wgpu's OpenGL backend, where there is one.
 
 use crate::reference::compare::{assert_none, check_alike, render};
+use crate::support::devices::Devices;
 use crate::support::skip::{Need, skip};
 use glimray::gpu::{AdapterChoice, Backend, Gpu};
 use glimray::import;
@@ -17,7 +18,8 @@ const GL: AdapterChoice = AdapterChoice {
 
 /// The scene through OpenGL, in linear radiance.
 fn through_gl(scene: &Scene, settings: &Settings) -> Image {
-    let gpu = Gpu::new(&GL).expect("a device");
+    static DEVICES: Devices = Devices::new(|| Gpu::new(&GL));
+    let gpu = DEVICES.lease();
     let packed = Arc::new(pack::scene(scene).expect("a packed scene"));
     let view = packed.frame(&scene.frame(0.0)).expect("a packed frame");
     let mut renderer = Renderer::new(gpu, packed, &view, settings.clone()).expect("a renderer");

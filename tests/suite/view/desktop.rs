@@ -86,10 +86,14 @@ impl Desktop {
         go(from, &["mousedown", "1"]);
         for stop in [[(from[0] + to[0]) / 2, (from[1] + to[1]) / 2], to] {
             let before = self.screenshot(SPOT);
-            go(stop, &[]);
+            let mut aside = 0;
+            // A movement that comes in one frame with the press is no drag yet; a hand keeps moving.
             wait_for("a picture that follows the mouse", || {
+                aside = 1 - aside;
+                go([stop[0] + aside, stop[1]], &[]);
                 differ(&before, &self.screenshot(SPOT)).then_some(())
             });
+            go(stop, &[]);
         }
         self.xdotool(&["mouseup", "1"]);
     }

@@ -1,7 +1,6 @@
 //! A window without a screen: egui_kittest with our device.
 
 use crate::support::PATIENCE;
-use crate::support::devices::Devices;
 use eframe::egui;
 use egui_kittest::Harness;
 use glimray::app::view;
@@ -50,8 +49,7 @@ impl Window {
         let store = Store::in_folder(settings.path());
         let session = view::session(arguments.iter().copied(), store).expect("a session");
         let session = Rc::new(RefCell::new(session));
-        static DEVICES: Devices = Devices::new(|| Gpu::with_all_limits(&AdapterChoice::default()));
-        let gpu = DEVICES.lease();
+        let gpu = Gpu::with_all_limits(&AdapterChoice::default()).expect("an adapter");
         let (kept, theirs) = (session.clone(), gpu.clone());
         let harness = Harness::builder()
             .with_size(egui::vec2(1000.0, 700.0))
@@ -70,17 +68,16 @@ impl Window {
     /// Steps until nothing is left to read, to move or to render.
     pub fn settle(&mut self) {
         let start = Instant::now();
-        let (mut calm, mut restless) = (0, 0);
+        let mut calm = 0;
         // What is clicked comes to the window in several frames, and leaves it in the next.
         while calm < 8 {
             assert!(start.elapsed() < PATIENCE, "the window does not settle");
             self.harness.step();
-            (calm, restless) = match self.harness.state().is_settled() {
-                true => (calm + 1, 0),
-                false => (0, restless + 1),
+            calm = match self.harness.state().is_settled() {
+                true => calm + 1,
+                false => 0,
             };
-            // The longer it takes, the rarer its frames: they cost as much as what they wait for.
-            std::thread::sleep(Duration::from_millis(2 << (restless / 2).min(4)));
+            std::thread::sleep(Duration::from_millis(2));
         }
     }
 
