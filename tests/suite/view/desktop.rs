@@ -314,11 +314,10 @@ fn after_a_click_on_a_line_letters_are_text_and_a_quick_drag_takes_a_border() {
     let empty = desktop.screenshot([6, 54, 250, 22]);
     // As a shortcut it would hide all panels.
     desktop.xdotool(&["type", "n"]);
+    wait_for("the typed letter", || {
+        differ(&empty, &desktop.screenshot([6, 54, 250, 22])).then_some(())
+    });
     desktop.calm(WINDOW);
-    assert!(
-        differ(&empty, &desktop.screenshot([6, 54, 250, 22])),
-        "nothing was typed"
-    );
     assert!(
         !differ(&before, &desktop.screenshot(SETTINGS)),
         "a letter was a shortcut"
@@ -330,11 +329,9 @@ fn after_a_click_on_a_line_letters_are_text_and_a_quick_drag_takes_a_border() {
     );
     let quick = "mousemove 264 500 mousedown 1 mousemove 340 500 mouseup 1";
     desktop.xdotool(&quick.split(' ').collect::<Vec<_>>());
-    desktop.calm(WINDOW);
-    assert!(
-        colors(&desktop.screenshot(BESIDE)) <= 2,
-        "the border stayed where it was"
-    );
+    wait_for("the panel over what was the picture", || {
+        (colors(&desktop.screenshot(BESIDE)) <= 2).then_some(())
+    });
     opened.key("ctrl+q");
     assert_eq!(opened.wait(), Some(0));
 }
