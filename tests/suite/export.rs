@@ -3,6 +3,7 @@
 mod random;
 mod text;
 
+use crate::support::skip::{Need, skip};
 use crate::support::verdict::Verdict;
 use glimray::export::{self, Export};
 use glimray::import;
@@ -149,8 +150,14 @@ fn every_scene_of_the_project_is_packed_to_the_same_bytes_after_it_was_written_a
 #[test]
 fn models_from_elsewhere_are_packed_to_the_same_bytes_after_they_were_written_and_read() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
+    let mut scenes = scenes_in(&folder);
+    // Those that are broken on purpose.
+    scenes.retain(|path| !path.starts_with(folder.join("faults")));
+    if scenes.is_empty() {
+        return skip(Need::Models, "there are no models in ../shared/data");
+    }
     let mut verdict = Verdict::on("round trips");
-    for path in scenes_in(&folder) {
+    for path in scenes {
         let lost = loss(&import::load(&path).expect("a scene"));
         verdict.that(path.display(), lost.is_ok(), || lost.clone().unwrap_err());
     }

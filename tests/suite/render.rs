@@ -611,7 +611,10 @@ fn more_coincident_triangles_than_the_drivers_loop_limit_are_refused_as_such() {
         Err(RenderError::PathTooLong(cause)) => assert_eq!(cause, LongPath::Crowded),
         Err(error) => panic!("{error}"),
         Ok(_) if open_gpu().is_cpu() => panic!("the driver's limit was not noticed"),
-        Ok(_) => println!("skipped: this adapter has no limit of loop rounds"),
+        Ok(_) => skip(
+            Need::LoopLimit,
+            "this adapter does not limit the rounds of loops",
+        ),
     }
 }
 

@@ -8,7 +8,7 @@ use glimray::app::view::navigation::Rig;
 use glimray::import;
 use glimray::output;
 use glimray::pack;
-use glimray::render::{Antialias, Integrator, Settings, Tone, TriangleTest};
+use glimray::render::{Antialias, Integrator, Levels, Settings, Tone, TriangleTest};
 use glimray::scene::{
     Background, Beyond, Camera, CameraProperty, Curve, Easing, Filter, Interpolation, Lens, Node,
     OutputDefaults, Scene, Shutter, Target, ToneCurve, Track, Transfer, Values,
@@ -186,7 +186,10 @@ fn every_setting_that_a_pixel_depends_on_is_in_the_line() {
         ),
         ("--integrator depth", |s| {
             s.settings.integrator = Integrator::Depth;
-            s.tone = Tone::LINEAR;
+            s.tone = Tone {
+                levels: Levels::Found,
+                ..Tone::LINEAR
+            };
         }),
         ("--triangle-test plane", |s| {
             s.settings.triangle_test = TriangleTest::Plane

@@ -13,6 +13,8 @@ pub enum Need {
     Gl,
     /// A driver that limits the rounds of a shader's loops, as lavapipe does.
     LoopLimit,
+    /// Models of other people in `../shared/data`.
+    Models,
     /// Mounts that only one process sees.
     Mounts,
     /// Named pipes, `/dev/full` and `/proc`.
@@ -24,10 +26,11 @@ pub enum Need {
 }
 
 impl Need {
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Ffmpeg,
         Self::Gl,
         Self::LoopLimit,
+        Self::Models,
         Self::Mounts,
         Self::Special,
         Self::Spd,
@@ -39,6 +42,7 @@ impl Need {
             Self::Ffmpeg => "ffmpeg",
             Self::Gl => "gl",
             Self::LoopLimit => "loop-limit",
+            Self::Models => "models",
             Self::Mounts => "mounts",
             Self::Special => "special",
             Self::Spd => "spd",
