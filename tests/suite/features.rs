@@ -466,7 +466,8 @@ fn without(scene: &Scene, feature: fn(&mut pack::Features) -> &mut bool) -> Imag
 
 #[test]
 fn a_feature_that_is_compiled_out_although_it_is_needed_is_seen() {
-    let features: [(usize, fn(&mut pack::Features) -> &mut bool); 5] = [
+    type Feature = fn(&mut pack::Features) -> &mut bool;
+    let features: [(usize, Feature); 5] = [
         (2, |features| &mut features.reflection),
         (3, |features| &mut features.refraction),
         (5, |features| &mut features.reflection),

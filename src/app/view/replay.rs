@@ -117,9 +117,15 @@ impl Tape {
 /// Whether nothing is lost at `path` but an older recording, whose lines are JSON objects. Scenes and
 /// what they name are not: which files those are is not known yet.
 fn is_free(path: &Path) -> bool {
-    let is_file = path.is_file();
-    let first = || File::open(path).ok()?.bytes().next();
-    !is_file || first().is_none_or(|byte| byte.is_ok_and(|byte| byte == b'{'))
+    if !path.is_file() {
+        return true;
+    }
+    let Ok(mut file) = File::open(path) else {
+        return true;
+    };
+    // Stays as it is where the file is empty.
+    let mut first = *b"{";
+    file.read(&mut first).is_ok() && first == *b"{"
 }
 
 impl Recorder {
