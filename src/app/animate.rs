@@ -118,7 +118,8 @@ impl<'a> Sequence<'a> {
         let lock = files.map(|files| Lock::take(files.pattern.folder()));
         let lock = lock.transpose()?;
         let mut journal = files.map(|files| Journal::open(&files.pattern));
-        let plan = Plan::new(self, &studio, journal.as_ref(), &interrupt)?;
+        let origin = |number| Ok(studio.origin(&studio.view(number)?));
+        let plan = Plan::new(self, origin, journal.as_ref(), &interrupt)?;
         plan.spare(self, &draft.inputs)?;
         let sink = match (&self.target.video, &video) {
             (Some(Video::Stream), Some(options)) => {

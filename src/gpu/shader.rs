@@ -57,8 +57,8 @@ impl Kernel {
     }
 
     /// The module of the variant that reads geometry from images or from buffers, specialised by these
-    /// overrides: values by the ids that `bindings.wesl` gives them. The error is naga's, with the lines
-    /// of the linked source.
+    /// overrides of `bindings.wesl`, by name. The error names an override that there is not, or is naga's with
+    /// the lines of the linked source.
     pub fn specialized(
         &self,
         from_images: bool,

@@ -16,8 +16,8 @@ mod objects;
 mod repeat;
 mod set;
 mod shapes;
-mod surfaces;
 mod textures;
+mod transforms;
 mod values;
 
 use super::Options;

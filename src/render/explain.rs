@@ -34,8 +34,8 @@ const MOST_PROBES: usize = 1024;
 const MOST_RECORDS: u32 = (32 << 20) / (16 * RAY_ROWS);
 /// Lanes of a workgroup, each of which takes a sample.
 const LANES: usize = 64;
-/// The overrides `COUNT_RAYS`, `ADAPTIVE` and `BACKGROUND_APART`: there is no film here.
-const WITHOUT: [&str; 3] = ["7", "23", "30"];
+/// The overrides that stay off: there is no film here, and nothing is counted.
+const WITHOUT: [&str; 3] = ["COUNT_RAYS", "ADAPTIVE", "BACKGROUND_APART"];
 
 /// What explaining keeps on the GPU once it has been used.
 pub struct Explainer {
@@ -193,7 +193,7 @@ impl Renderer {
             film_rows: self.film.largest_window(),
         };
         let mut overrides = whitted::overrides(task);
-        overrides.retain(|(id, _)| !WITHOUT.contains(id));
+        overrides.retain(|(name, _)| !WITHOUT.contains(name));
         let device = &mut self.device;
         let known = device.explainer.as_ref();
         if known.is_none_or(|explainer| explainer.overrides != overrides) {

@@ -1,6 +1,8 @@
 //! Who may import whom, and how long a file may grow. What this table does not allow is a design
 //! question, not a formality.
 
+mod circles;
+
 use crate::support::verdict::Verdict;
 use std::{
     collections::BTreeSet,

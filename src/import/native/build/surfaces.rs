@@ -1,12 +1,13 @@
 //! The surfaces of a native scene, each in the space of its node: analytic ones, single triangles and
 //! the meshes of files.
 
-use super::build::{Builder, chain, normal_matrix};
-use super::file::{MeshOrName, MeshTable, ObjectTable, TriangleTable};
-use super::nodes::Place;
-use super::shapes;
-use super::values::Vector;
+use super::Builder;
 use crate::import::error::ImportError;
+use crate::import::native::file::{MeshOrName, MeshTable, ObjectTable, TriangleTable};
+use crate::import::native::nodes::Place;
+use crate::import::native::shapes;
+use crate::import::native::transforms::{chain, normal_matrix};
+use crate::import::native::values::Vector;
 use crate::import::notes::{self, Notes};
 use crate::import::source::quote;
 use crate::import::{obj, ply, suggest};
