@@ -1,6 +1,6 @@
 //! Host and shader mean the same bytes: structs, tags, bindings and overrides.
 
-use crate::support::verdict::{Tolerance, Verdict};
+use crate::support::verdict::Verdict;
 use glimray::{
     gpu::Kernel,
     layout::{self, PACKED_STRUCTS},
