@@ -2,6 +2,7 @@
 
 use super::{
     device::Task,
+    layers,
     settings::{Integrator, TriangleTest},
 };
 use crate::{
@@ -21,7 +22,6 @@ pub fn overrides(task: Task) -> Overrides {
     overrides.push(("9", flag(task.view.has_lights)));
     overrides.push(("20", f64::from(task.view.background)));
     overrides.push(("16", flag(task.view.has_area_lights)));
-    overrides.push(("30", flag(task.settings.keeps_background_apart())));
     overrides
 }
 
@@ -46,6 +46,8 @@ pub fn tracing(task: Task) -> Overrides {
         Filter::Mitchell => FILTER_MITCHELL,
     };
     let features = scene.features;
+    let layers = layers::of_sampling(settings);
+    let squares_row = layers::row_of(layers, &layers::SQUARES).unwrap_or_default();
     let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
     vec![
         ("0", f64::from(triangle_test)),
@@ -77,6 +79,8 @@ pub fn tracing(task: Task) -> Overrides {
         ("27", flag(view.frame.light_key_count > 1)),
         ("28", flag(view.orthographic)),
         ("29", flag(!scene.uvs.is_empty())),
+        ("30", layers::rows(layers) as f64),
+        ("31", squares_row as f64),
     ]
 }
 

@@ -363,7 +363,8 @@ const OVERRIDES: &[&str] = &[
     "LIGHT_MOTION",
     "ORTHOGRAPHIC",
     "HAS_UVS",
-    "BACKGROUND_APART",
+    "FILM_ROWS",
+    "SQUARES_ROW",
 ];
 
 #[test]
