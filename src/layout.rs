@@ -381,18 +381,14 @@ packed! {
         curve: u32,
         /// [`TRANSFER_SRGB`] or [`TRANSFER_LINEAR`].
         transfer: u32,
-        /// Rows of the film for each pixel: 1, or 4 where the background's part is apart.
-        film_rows: u32,
-        /// Linear radiance of another background than the scene's, straight down.
-        background: [f32; 3],
-        /// Whether there is one, 0 or 1.
-        has_background: u32,
-        /// The same, straight up.
-        background_top: [f32; 3],
         /// What the film holds: [`VIEW_DEPTH`] and [`VIEW_HEAT`] are quantities, all else is colours.
         view: u32,
-        /// The least and the greatest value of a quantity; 1 if it is to be shown over that range; 0.
-        range: [f32; 4],
+        /// The least and the greatest value of a quantity.
+        range: [f32; 2],
+        /// Whether it is to be shown over that range, 0 or 1.
+        has_range: u32,
+        /// Rows of the film for each pixel.
+        film_rows: u32,
     }
     /// A sample of which every ray is to be recorded, and what came of it.
     PackedProbe {

@@ -10,6 +10,7 @@ mod effort;
 mod error;
 mod explain;
 mod film;
+mod layers;
 mod layouts;
 mod levels;
 mod settings;

@@ -54,7 +54,6 @@ fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<
     let timeline = Timeline::new(&scene, &arguments.range, clock)?;
     let job = Job {
         scene,
-        background: arguments.camera.background,
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,

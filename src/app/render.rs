@@ -32,7 +32,6 @@ fn render(
     let shot = clock.moment(&arguments.moment);
     let job = Job {
         scene,
-        background: arguments.camera.background,
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,

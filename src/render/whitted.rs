@@ -2,6 +2,7 @@
 
 use super::{
     device::Task,
+    layers,
     settings::{Integrator, TriangleTest},
 };
 use crate::{
@@ -21,10 +22,6 @@ pub fn overrides(task: Task) -> Overrides {
     overrides.push(("HAS_LIGHTS", flag(task.view.has_lights)));
     overrides.push(("BACKGROUND", f64::from(task.view.background)));
     overrides.push(("HAS_AREA_LIGHTS", flag(task.view.has_area_lights)));
-    overrides.push((
-        "BACKGROUND_APART",
-        flag(task.settings.keeps_background_apart()),
-    ));
     overrides
 }
 
@@ -49,6 +46,8 @@ pub fn tracing(task: Task) -> Overrides {
         Filter::Mitchell => FILTER_MITCHELL,
     };
     let features = scene.features;
+    let layers = layers::of_sampling(settings);
+    let squares_row = layers::row_of(layers, &layers::SQUARES).unwrap_or_default();
     let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
     vec![
         ("TRIANGLE_TEST", f64::from(triangle_test)),
@@ -92,6 +91,8 @@ pub fn tracing(task: Task) -> Overrides {
         ("LIGHT_MOTION", flag(view.frame.light_key_count > 1)),
         ("ORTHOGRAPHIC", flag(view.orthographic)),
         ("HAS_UVS", flag(!scene.uvs.is_empty())),
+        ("FILM_ROWS", layers::rows(layers) as f64),
+        ("SQUARES_ROW", squares_row as f64),
     ]
 }
 

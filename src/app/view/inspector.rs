@@ -219,8 +219,7 @@ fn rays(studio: &mut Studio, pixel: [u32; 2]) -> Result<Inspected, String> {
             "no rays for pixel {x},{y}: it is not in the picture, or has no sample yet."
         ));
     }
-    let background = studio.order.tone.background;
-    let tree = (studio.renderer).explain_before(background, pixel, 0..count);
+    let tree = studio.renderer.explain(pixel, 0..count);
     let is_final = !studio.settings().is_adaptive() || studio.renderer.is_done();
     let tree = tree.map_err(|error| error.to_string())?;
     Ok(Inspected::new(tree, studio.order.clone(), is_final))

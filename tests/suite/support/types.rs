@@ -191,10 +191,8 @@ shader_struct!(PackedTone = "package::types::PackedTone" {
     exposure_scale: f32,
     curve: u32,
     transfer: u32,
-    film_rows: u32,
-    background: [f32; 3],
-    has_background: u32,
-    background_top: [f32; 3],
     view: u32,
-    range: [f32; 4],
+    range: [f32; 2],
+    has_range: u32,
+    film_rows: u32,
 });

@@ -8,17 +8,11 @@ use std::sync::Arc;
 
 /// The scene as the order's camera sees it.
 pub fn seen(order: &Order) -> Arc<Scene> {
-    let background = order.baked_background();
-    if order.camera.is_none() && background.is_none() {
+    let Some(camera) = &order.camera else {
         return order.scene.clone();
-    }
+    };
     let mut scene = Scene::clone(&order.scene);
-    if let Some(camera) = &order.camera {
-        overrides::see_by(&mut scene, camera);
-    }
-    if let Some(background) = background {
-        scene.background = background.clone();
-    }
+    overrides::see_by(&mut scene, camera);
     Arc::new(scene)
 }
 
@@ -28,8 +22,7 @@ pub fn view(
     frames: &[Frame],
     order: &Order,
 ) -> Result<PackedView, pack::PackError> {
-    let background = order.baked_background();
-    if order.camera.is_none() && background.is_none() {
+    if order.camera.is_none() && order.background.is_none() {
         return packed.shot(frames);
     }
     let mut frames = frames.to_vec();
@@ -37,7 +30,7 @@ pub fn view(
         if let Some(camera) = &order.camera {
             frame.camera = camera.clone();
         }
-        if let Some(background) = background {
+        if let Some(background) = &order.background {
             frame.background = background.clone();
         }
     }
