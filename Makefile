@@ -26,7 +26,7 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench gallery build compiler display driver opengl lint headless
+.PHONY: help demo test bench gallery build compiler display driver opengl lint features headless
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png'
@@ -40,7 +40,7 @@ demo: build driver
 	$(GLIMRAY) demo -o glimray.png
 
 # Tests are built first, the program with them: `driver` needs it.
-test: lint headless
+test: lint features headless
 	$(CARGO) test $(FLAGS) --no-run
 	@$(MAKE) --no-print-directory driver opengl display
 	$(CARGO) test $(FLAGS)
@@ -89,8 +89,19 @@ lint: compiler
 	$(CARGO) clippy $(FLAGS) --all-targets -- --deny warnings
 	RUSTDOCFLAGS=--deny=warnings $(CARGO) doc $(FLAGS) --no-deps
 
-# Without default features nothing of a window system may be there.
+# The library alone, and with each feature by itself: what they share is built once.
+features: compiler
+	@for feature in '' cli gl parallel video viewer; do \
+		echo "without default features, with: $${feature:-none}"; \
+		$(CARGO) clippy --quiet $(FLAGS) --lib --bins --no-default-features --features "$$feature" \
+			-- --deny warnings || exit; \
+	done
+
+# Without default features there is nothing of a window system, of the program, or of C and C++.
 headless:
 	@if $(CARGO) tree --locked --no-default-features --edges normal --prefix none | \
 		grep -E '^(winit|softbuffer|smithay|wayland|x11|xcb|xkb|sdl|glfw|gtk|egui|minifb)'; \
 	then echo 'The crates above need a window system.' >&2; exit 1; fi
+	@if $(CARGO) tree --locked --no-default-features --edges normal,build --prefix none | \
+		grep -E '^(clap|miette|indicatif|console|signal-hook|terminal_size|nv-flip|openh264|rayon|cc) '; \
+	then echo 'The crates above have no place in the library alone.' >&2; exit 1; fi

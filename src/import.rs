@@ -33,7 +33,7 @@ mod source;
 mod stage;
 mod suggest;
 
-pub use error::{Fault, ImportError, Position};
+pub use error::{Excerpt, Fault, ImportError, Position};
 
 use crate::scene::{Picture, Scene};
 use error::fault;
@@ -108,7 +108,7 @@ fn load_as_written(path: &Path, options: &Options, seen: &Seen) -> Result<Scene,
     }
     if !options.overrides.is_empty() {
         let why = "only native scenes (.toml) have keys to set";
-        let fault = fault("override refused", path, why, "Leave out --set");
+        let fault = fault("override refused", path, why, "Leave out the overrides");
         return Err(ImportError::Malformed(fault));
     }
     let bytes = paths::read(path, MAX_GEOMETRY_BYTES)?;

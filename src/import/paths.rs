@@ -61,7 +61,7 @@ impl Refusal {
             Self::Outside(why) => (
                 ImportError::OutsideFolder,
                 why,
-                "Use --allow-dir DIR to permit",
+                "Name a file in it, or permit the other folder",
             ),
             Self::Missing(why) => (
                 ImportError::Unreadable,
@@ -95,7 +95,7 @@ impl Files {
         let folder = resolve("cannot find the scene folder", parent(path))?;
         let allowed = allow_dirs
             .iter()
-            .map(|dir| resolve("cannot use --allow-dir", dir));
+            .map(|dir| resolve("cannot use the permitted folder", dir));
         Ok(Self {
             base: folder.clone(),
             folder: Some(folder),

@@ -5,6 +5,7 @@ use super::super::render_thread::{Place, Studio};
 use super::super::session::Session;
 use super::dialogs::{PICTURES, Reply, Request};
 use super::{NO_DIALOG, screenshot, short};
+use crate::app::advice;
 use crate::app::inputs::Inputs;
 use crate::app::job;
 use crate::image::Image;
@@ -266,7 +267,7 @@ fn take(studio: &mut Studio, target: Target, waits: Option<u32>, linear: Tone) -
             taken.samples = samples;
             taken.image = Ok(Some(image));
         }
-        Err(error) => taken.image = Err(error.to_string()),
+        Err(error) => taken.image = Err(advice::render(&error)),
     }
     Answer::Picture(Box::new(taken))
 }
