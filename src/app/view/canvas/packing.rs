@@ -1,26 +1,8 @@
 //! What of an order the renderer gets.
 
-use super::super::super::overrides;
 use super::super::order::Order;
 use crate::pack::{self, PackedScene, PackedView};
-use crate::scene::{Frame, Scene};
-use std::sync::Arc;
-
-/// The scene as the order's camera sees it.
-pub fn seen(order: &Order) -> Arc<Scene> {
-    let background = order.baked_background();
-    if order.camera.is_none() && background.is_none() {
-        return order.scene.clone();
-    }
-    let mut scene = Scene::clone(&order.scene);
-    if let Some(camera) = &order.camera {
-        overrides::see_by(&mut scene, camera);
-    }
-    if let Some(background) = background {
-        scene.background = background.clone();
-    }
-    Arc::new(scene)
-}
+use crate::scene::Frame;
 
 /// The frames with the order's camera and background.
 pub fn view(
