@@ -91,6 +91,7 @@ pub fn load_watched(path: &Path, options: &Options) -> (Result<Scene, ImportErro
 fn load_seen(path: &Path, options: &Options, seen: &Seen) -> Result<Scene, ImportError> {
     let mut scene = load_as_written(path, options, seen)?;
     range::limit(&mut scene);
+    scene.pin_render_origin();
     Ok(scene)
 }
 
@@ -136,6 +137,7 @@ pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportE
         _ => native::read(&source, options, &Files::none()),
     }?;
     range::limit(&mut scene);
+    scene.pin_render_origin();
     Ok(scene)
 }
 

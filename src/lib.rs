@@ -46,7 +46,7 @@
 //!   other than spheres and planes are canonical in a space of their own ([`scene::Form`]). On the GPU
 //!   what instances place (what moves, and large meshes that stand in several places) is f32 in the
 //!   space of its own tree, and everything else f32 in render space, which is world space moved so that
-//!   the scene's default camera is at the origin ([`pack::PackedScene::origin`]).
+//!   the scene's render origin is at the origin ([`scene::Scene::render_origin`]).
 //! * **Movement**: a [`scene::Scene`] stands still; its [`scene::Track`]s say how nodes, cameras, lights
 //!   and materials change, and a [`scene::Frame`] is all of that at one moment. The GPU gets the frames of
 //!   a shot at equal distances of time, and every sample has a moment between the first and the last.

@@ -76,8 +76,7 @@ pub struct PackedScene {
     changing: Option<Changing>,
     /// What everything is in the scene.
     origins: Origins,
-    /// Where render space has its origin, in world space: at the scene's default camera, where the
-    /// picture needs f32 to be finest.
+    /// Where render space has its origin, in world space: [`Scene::render_origin`].
     pub origin: DVec3,
     /// Seconds that building the tree took.
     pub build_seconds: f64,
@@ -134,7 +133,7 @@ pub enum PackError {
         "scene too spread out (object coordinates): {value:e} units from the camera is beyond the range of f32 arithmetic, at most {limit:e}. Scale the scene down."
     )]
     OutOfRange {
-        /// Its magnitude in scene units, seen from the default camera.
+        /// Its magnitude in scene units, seen from the render origin.
         value: f64,
         /// The largest allowed.
         limit: f64,
@@ -170,7 +169,7 @@ pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
 /// have at most this many triangles, and else are one tree with many instances.
 pub fn scene_with(scene: &Scene, most_laid_out: usize) -> Result<PackedScene, PackError> {
     let rest = scene.frame(0.0);
-    let origin = rest.camera.look_from;
+    let origin = scene.render_origin_at(&rest);
     let plan = Plan::new(scene, &rest, most_laid_out);
     let mut flat = Flat::of_still(&plan, scene, &rest, origin)?;
 

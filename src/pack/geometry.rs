@@ -19,7 +19,7 @@ use glam::{DAffine3, DMat3, DVec3, Vec3};
 /// Beyond this, squares of coordinates leave the range of f32.
 const COORDINATE_LIMIT: f64 = 1e15;
 
-/// A sphere with a radius of more than so many times its distance from the camera is packed as a globe:
+/// A sphere with a radius of more than so many times its distance from the render origin is packed as a globe:
 /// with a centre and a radius in f32, its surface would be off by a visible part of that distance.
 const GLOBE_RATIO: f64 = 16.0;
 
@@ -83,15 +83,15 @@ impl Flat {
         )
     }
 
-    /// Adds a shape in render space, which has its origin at `camera`, or in a space of its own.
+    /// Adds a shape in render space, which has this origin, or in a space of its own.
     pub fn add_shape(
         &mut self,
         geometry: &Geometry,
         material: usize,
         id: usize,
-        camera: Option<DVec3>,
+        render_origin: Option<DVec3>,
     ) -> Result<(), PackError> {
-        let origin = camera.unwrap_or(DVec3::ZERO);
+        let origin = render_origin.unwrap_or(DVec3::ZERO);
         let mut packed = PackedShape {
             material: material as u32,
             id: id as u32,
@@ -102,7 +102,7 @@ impl Flat {
                 in_range(radius)?;
                 let center_from_origin = center - origin;
                 let height = center_from_origin.length() - radius;
-                if camera.is_some() && radius > GLOBE_RATIO * height.abs() {
+                if render_origin.is_some() && radius > GLOBE_RATIO * height.abs() {
                     let normal = -center_from_origin.normalize();
                     in_range(center_from_origin.abs().max_element())?;
                     packed.kind = SHAPE_GLOBE;

@@ -36,7 +36,7 @@ impl PackedScene {
     /// There are more textures or texels than can be told apart.
     pub fn with_surfaces(&self, was: &Scene, scene: &Scene) -> Result<Option<Self>, PackError> {
         let rest = scene.frame(0.0);
-        if rest.camera.look_from != self.origin || !has_same_surfaces(was, scene) {
+        if scene.render_origin_at(&rest) != self.origin || !has_same_surfaces(was, scene) {
             return Ok(None);
         }
         let (texels, pictures) = match is_shared(&was.pictures, &scene.pictures) {

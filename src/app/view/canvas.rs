@@ -12,9 +12,9 @@ use super::render_thread::{CanvasError, Place, Studio};
 use crate::gpu::Gpu;
 use crate::pack::{self, PackedScene};
 use crate::render::{Antialias, Renderer, Screen, Settings, Stats};
-use crate::scene::{Camera, Frame, Scene};
+use crate::scene::{Frame, Scene};
 use noise::Noise;
-use packing::{seen, view};
+use packing::view;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -79,8 +79,6 @@ pub struct Canvas {
     packed: Option<Arc<PackedScene>>,
     /// What it was packed from.
     packed_from: Option<Arc<Scene>>,
-    /// The camera that it was packed for.
-    packed_for: Option<Camera>,
     frames: Vec<Frame>,
     renderer: Option<Renderer>,
     screen: Option<Screen>,
@@ -118,7 +116,6 @@ impl Canvas {
             is_coarse: false,
             packed: None,
             packed_from: None,
-            packed_for: None,
             frames: Vec::new(),
             renderer: None,
             screen: None,
@@ -218,32 +215,20 @@ impl Canvas {
     }
 
     fn pack(&mut self, order: &Order) -> Result<(), CanvasError> {
-        let scene = seen(order);
+        let scene = &order.scene;
         let kept = match (&self.packed, &self.packed_from) {
-            (Some(packed), Some(was)) => packed.with_surfaces(was, &scene)?,
+            (Some(packed), Some(was)) => packed.with_surfaces(was, scene)?,
             _ => None,
         };
         let packed = match kept {
             Some(packed) => packed,
-            None => pack::scene(&scene)?,
+            None => pack::scene(scene)?,
         };
         self.packed = Some(Arc::new(packed));
         self.packed_from = Some(scene.clone());
-        self.packed_for = order.camera.clone();
         // The scene's own, with its own camera and background: see `view`.
         self.frames = order.scene.shot(order.shot.0, order.shot.1);
         Ok(())
-    }
-
-    /// Goes on from the coarse picture to the fine one, for which the scene is packed round the camera
-    /// (pack.rs): while something moves that is not worth its time.
-    fn refine(&mut self) -> Result<(), CanvasError> {
-        if let Some(order) = self.order.clone()
-            && (self.packed.is_none() || self.packed_for != order.camera)
-        {
-            self.pack(&order)?;
-        }
-        self.begin(false)
     }
 
     /// Starts the picture over.
@@ -319,7 +304,7 @@ impl Canvas {
         let started = Instant::now();
         let is_traced = self.renderer.as_ref().is_some_and(Renderer::is_done);
         if self.is_coarse && !self.stays_coarse && is_traced && self.is_shown && !paused {
-            self.refine()?;
+            self.begin(false)?;
         }
         let (Some(renderer), Some(order)) = (&mut self.renderer, &self.order) else {
             return Ok(());

@@ -1,20 +1,8 @@
 //! What of an order the renderer gets.
 
-use super::super::super::overrides;
 use super::super::order::Order;
 use crate::pack::{self, PackedScene, PackedView};
-use crate::scene::{Frame, Scene};
-use std::sync::Arc;
-
-/// The scene as the order's camera sees it.
-pub fn seen(order: &Order) -> Arc<Scene> {
-    let Some(camera) = &order.camera else {
-        return order.scene.clone();
-    };
-    let mut scene = Scene::clone(&order.scene);
-    overrides::see_by(&mut scene, camera);
-    Arc::new(scene)
-}
+use crate::scene::Frame;
 
 /// The frames with the order's camera and background.
 pub fn view(
