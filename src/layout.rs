@@ -158,13 +158,13 @@ packed! {
         flags: u32,
         /// Multiplies [`PackedFrame::ambient`].
         ambient: [f32; 3],
-        /// Share of the light that is not transmitted, in 0..=1.
+        /// Fraction of the light that is not transmitted, in 0..=1.
         opacity: f32,
-        /// Share that is mirrored, before Fresnel's split.
+        /// Fraction that is mirrored, before Fresnel's equations.
         reflect: [f32; 3],
         /// Index of refraction of what is inside, above 0.
         ior: f32,
-        /// Share that is transmitted, before Fresnel's split.
+        /// Fraction that is transmitted, before Fresnel's equations.
         transmit: [f32; 3],
         /// Where media overlap, the higher one counts.
         priority: i32,
@@ -344,7 +344,7 @@ packed! {
         seed: u32,
         /// Bounces after the first hit.
         max_depth: u32,
-        /// Rays whose share in the pixel is smaller than this are not sent.
+        /// Rays of a throughput below this are not sent.
         min_throughput: f32,
         /// Factor on [`PackedLight::sample_count`].
         light_samples: f32,
@@ -435,11 +435,11 @@ packed! {
         ng: [f32; 3],
         /// Index of a [`PackedMaterial`], or [`NONE`].
         material: u32,
-        /// Share in the sample where it starts.
+        /// Throughput where it starts.
         throughput: [f32; 3],
         /// Number of the ray that sent it, or [`NONE`].
         parent: u32,
-        /// Share in the sample where it ends.
+        /// Throughput where it ends.
         arriving: [f32; 3],
         /// [`RAY_OUTSIDE`] and so on.
         flags: u32,
@@ -455,11 +455,11 @@ packed! {
         emission: [f32; 3],
         /// Material of the medium behind the surface, or [`NONE`].
         medium_behind: u32,
-        /// Share that is mirrored.
+        /// Fraction that is mirrored.
         reflect: [f32; 3],
         /// Fresnel's.
         reflectance: f32,
-        /// Share that is refracted; of a shadow ray: that came through.
+        /// Fraction that is refracted; of a shadow ray: that came through.
         transmit: [f32; 3],
         /// Index of refraction in front of the surface.
         ior: f32,
