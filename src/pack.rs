@@ -17,6 +17,7 @@ mod view;
 pub use frame::PackedView;
 pub use placed::MOST_LAID_OUT;
 
+use crate::clock::Instant;
 use crate::{
     bvh::Aabb,
     layout::{
@@ -31,7 +32,6 @@ use geometry::Flat;
 use glam::DVec3;
 use object::Origins;
 use placed::{Placed, PlacedTree, Plan};
-use std::time::Instant;
 
 /// A scene as the GPU wants it.
 #[derive(Clone, Debug)]

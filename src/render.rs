@@ -29,6 +29,7 @@ pub use settings::{Fetch, Integrator, MIN_THROUGHPUT, Settings, Slicing, Triangl
 pub use show::Screen;
 pub use stats::{Rays, Stats};
 
+use crate::clock::Instant;
 use crate::{
     gpu::{AdapterReport, Gpu, GpuError},
     pack::{PackedScene, PackedView},
@@ -36,7 +37,7 @@ use crate::{
 use device::{Device, Task};
 use film::{CHUNK, Film};
 use slice::{Planner, Slice};
-use std::{ops::Range, sync::Arc, time::Instant};
+use std::{ops::Range, sync::Arc};
 
 /// Renders one frame after another of one scene.
 pub struct Renderer {

@@ -142,8 +142,12 @@ impl Gpu {
     }
 }
 
-/// An error about a kernel, with the file that its linked text was written to.
+/// An error about a kernel, with the file that its linked text was written to. There are no files in a
+/// browser.
 fn dumped(name: &str, source: &str, what: &str) -> String {
+    if cfg!(target_arch = "wasm32") {
+        return what.to_owned();
+    }
     let dump = std::env::temp_dir().join(format!("glimray-{name}.wgsl"));
     match std::fs::write(&dump, source) {
         Ok(()) => format!("{what} (linked shader: {})", dump.display()),

@@ -4,6 +4,7 @@ use super::{
     Integrator, Levels, RenderError, Renderer, Settings, film::Window, layouts::group, levels,
     slice::Slice,
 };
+use crate::clock::Instant;
 use crate::{
     gpu::{GpuError, Kernel, Source},
     image::Image,
@@ -13,7 +14,6 @@ use crate::{
     scene::{ToneCurve, Transfer},
 };
 use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec};
-use std::time::Instant;
 use wgpu::BufferUsages;
 
 /// How linear radiance becomes a picture.

@@ -13,14 +13,18 @@ use std::{
 /// What each module of `src/` may use of the others; "*" is everything.
 const MODULES: &[(&str, &[&str])] = &[
     ("scene", &[]),
+    ("clock", &[]),
     ("image", &[]),
     ("layout", &[]),
     ("gpu", &[]),
     ("bvh", &[]),
     ("import", &["scene"]),
     ("export", &["scene"]),
-    ("pack", &["scene", "bvh", "layout"]),
-    ("render", &["scene", "pack", "layout", "gpu", "image"]),
+    ("pack", &["clock", "scene", "bvh", "layout"]),
+    (
+        "render",
+        &["clock", "scene", "pack", "layout", "gpu", "image"],
+    ),
     ("output", &["image"]),
     ("app", &["*"]),
     ("main", &["*"]),

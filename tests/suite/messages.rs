@@ -5,6 +5,7 @@ use crate::animate::place::Place;
 use crate::support::verdict::Verdict;
 use glimray::app::exit::AppError;
 use glimray::gpu::GpuError;
+use insta::assert_snapshot;
 use serde_json::Value;
 use std::process::{Command, Stdio};
 
@@ -186,6 +187,35 @@ fn labels_are_coloured_on_a_terminal_only() {
         assert!(text.starts_with(plain), "{line}: {text:?}");
     }
     assert!(place.run("inspect gone.scene").stderr.starts_with(plain));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_gets_the_line_at_fault_with_a_mark() {
+    let place = Place::new();
+    place.write(
+        "bad.toml",
+        "ambient = [0, 0, 0]\nbackground = [0, oops, 0]\n",
+    );
+    let line = "NO_COLOR=1 $G inspect bad.toml";
+    let Some(text) = on_a_terminal(&place, 200, line) else {
+        return;
+    };
+    let (message, drawing) = text.split_once('\n').expect("lines");
+    assert!(
+        message.starts_with("error: bad scene (bad.toml:2:18): "),
+        "{text}"
+    );
+    assert_snapshot!(drawing, @r"
+  ╭─[bad.toml:2:18]
+2 │ background = [0, oops, 0]
+  ·                  ──┬─
+  ·                    ╰── here
+  ╰────
+");
+    // A program that reads along gets the message alone.
+    let run = place.run("inspect bad.toml").expect(3);
+    assert_eq!(run.stderr.trim_end(), message);
 }
 
 #[cfg(target_os = "linux")]

@@ -65,7 +65,7 @@ pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Sce
 
 struct Builder<'a> {
     pub texts: &'a Texts<'a>,
-    pub files: &'a Files,
+    pub files: &'a Files<'a>,
     objects: &'a Objects<'a>,
     pub nodes: Nodes<'a>,
     /// Still without its textures, pictures, background and nodes.
@@ -93,7 +93,7 @@ impl<'a> Builder<'a> {
         file: &'a SceneFile,
         objects: &'a Objects<'a>,
         texts: &'a Texts<'a>,
-        files: &'a Files,
+        files: &'a Files<'a>,
     ) -> Result<Self, ImportError> {
         let mut textures = Textures::new(file, texts, files)?;
         let in_file = in_order(&file.materials);

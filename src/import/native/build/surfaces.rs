@@ -10,7 +10,7 @@ use crate::import::native::transforms::{chain, normal_matrix};
 use crate::import::native::values::Vector;
 use crate::import::notes::{self, Notes};
 use crate::import::source::quote;
-use crate::import::{obj, ply, suggest};
+use crate::import::{MAX_GEOMETRY_BYTES, obj, ply, suggest};
 use crate::scene::{self, Geometry, Instance, Mesh, Repairs, Shape, Space};
 use glam::{DAffine3, DVec3, Vec2};
 use std::collections::HashMap;
@@ -253,7 +253,8 @@ impl Builder<'_> {
         name: &str,
         materials: &[usize],
     ) -> Result<PlacedMesh, ImportError> {
-        let (mut mesh, offset) = ply::mesh(path, materials.len())?;
+        let bytes = self.files.read(path, MAX_GEOMETRY_BYTES)?;
+        let (mut mesh, offset) = ply::mesh(path, &bytes, materials.len())?;
         for material in &mut mesh.materials {
             *material = materials[*material as usize] as u32;
         }
