@@ -11,7 +11,7 @@ pub use wide::{Child, WideNode};
 
 use glam::Vec3;
 
-/// An axis-aligned box; `min` ≤ `max` in every component, both finite.
+/// An axis-aligned box; `min` ≤ `max` in every component, both finite, but for [`Aabb::EMPTY`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// Lower corner.
@@ -21,6 +21,20 @@ pub struct Aabb {
 }
 
 impl Aabb {
+    /// The box round nothing, which adds nothing to a union.
+    pub const EMPTY: Self = Self {
+        min: Vec3::INFINITY,
+        max: Vec3::NEG_INFINITY,
+    };
+
+    /// The smallest box round three points.
+    pub fn of([a, b, c]: [Vec3; 3]) -> Self {
+        Self {
+            min: a.min(b).min(c),
+            max: a.max(b).max(c),
+        }
+    }
+
     /// The smallest box round both.
     pub fn union(self, other: Self) -> Self {
         Self {

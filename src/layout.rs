@@ -269,7 +269,7 @@ packed! {
         light_count: u32,
         /// Linear radiance of the ambient term, multiplied by [`PackedMaterial::ambient`].
         ambient: [f32; 3],
-        /// Number of triangles.
+        /// Number of triangles that are not instanced.
         triangle_count: u32,
         /// Number of shapes in the tree, which come first among the shapes.
         shape_count: u32,
@@ -305,10 +305,10 @@ packed! {
         camera_key_count: u32,
         /// Of the lights; more than 1 where one moves. Each key has all lights.
         light_key_count: u32,
+        /// The first triangle that is not instanced.
+        first_triangle: u32,
         #[doc(hidden)]
-        _pad0: u32,
-        #[doc(hidden)]
-        _pad1: u32,
+        _pad: u32,
     }
     /// What one submission is to do, and from `tiles_done` on what came of it.
     PackedSlice {

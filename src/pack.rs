@@ -1,93 +1,101 @@
 //! From the host model to the arrays that the GPU reads. Pure: no device is involved, the same
 //! scene gives the same bytes.
 
-mod forest;
+mod blas;
 mod frame;
 mod geometry;
+mod instance;
 mod light;
 mod material;
 mod media;
+mod mesh;
 mod nodes;
 mod object;
-mod placed;
 mod placement;
+mod segments;
 mod surfaces;
-mod view;
+mod tlas;
+mod trees;
 
 pub use frame::PackedView;
-pub use placed::MOST_LAID_OUT;
+pub use instance::MOST_BAKED;
+pub use segments::Segments;
+pub use trees::TreeWork;
 
 use crate::clock::Instant;
 use crate::{
-    bvh::Aabb,
     layout::{
-        LEAF_FIRST_MASK, PackedMaterial, PackedNode, PackedShape, PackedTexture, PackedTriangle,
-        PackedVertex, STACK_SIZE,
+        IMAGE_WIDTH_LOG2, LEAF_FIRST_MASK, NODE_ROWS, PackedMaterial, PackedNode, PackedShape,
+        PackedTexture, PackedTriangle, PackedVertex, SHAPE, leaf_reference,
     },
-    scene::{Material, Scene, Shadows},
+    scene::{Geometry, Scene, Shadows},
 };
 use bytemuck::cast_slice;
-use forest::Forest;
 use geometry::Flat;
 use glam::DVec3;
+use instance::{Instance, InstancedBlas, Plan, TransformSource};
+use material::PackedPicture;
+use mesh::CachedMesh;
 use object::Origins;
-use placed::{Placed, PlacedTree, Plan};
+use std::sync::Arc;
+use surfaces::Changing;
+use tlas::TlasSource;
+use trees::Trees;
 
 /// A scene as the GPU wants it.
+///
+/// Its arrays consist of runs that [`scene_from`] shares between scenes: of each tree its own nodes,
+/// triangles and vertices, in the order of the scene, first those of trees that are instanced, then of
+/// those that are baked into the world, then of the one that shapes and small meshes share. What
+/// changes most lies last.
 #[derive(Clone, Debug)]
 pub struct PackedScene {
-    /// Four-way nodes with boxes of 8 bits a plane: the tree of what stands still, whose root is node
-    /// 0, then those that instances place.
-    pub nodes: Vec<PackedNode>,
-    /// In leaf order, tree by tree.
-    pub triangles: Vec<PackedTriangle>,
-    /// Those of them that are in the first tree, in render space; others are in a space of their own.
-    pub still_triangle_count: u32,
-    /// Bounded shapes of the first tree in leaf order, then `plane_count` planes, then those of other
-    /// trees.
-    pub shapes: Vec<PackedShape>,
-    /// Shapes of the first tree.
-    pub still_shape_count: u32,
+    /// Four-way nodes with boxes of 8 bits a plane. Node 0 is the root of all that is baked, if nothing
+    /// is instanced; the nodes between it and the baked trees lie behind those of all trees.
+    pub nodes: Segments<PackedNode>,
+    /// In leaf order, tree by tree. Those of baked meshes that are hidden are all 0.
+    pub triangles: Segments<PackedTriangle>,
+    /// The first triangle that is in render space; those before it are in a space of their own.
+    pub first_baked_triangle: u32,
+    /// Triangles in render space.
+    pub baked_triangle_count: u32,
+    /// Bounded shapes that are baked in leaf order, then `plane_count` planes, then those that are
+    /// instanced.
+    pub shapes: Segments<PackedShape>,
+    /// Bounded shapes that are baked.
+    pub baked_shape_count: u32,
     /// Shapes behind them that are in no tree.
     pub plane_count: u32,
-    /// In scene order, mesh by mesh.
-    pub vertices: Vec<PackedVertex>,
+    /// Tree by tree, mesh by mesh.
+    pub vertices: Segments<PackedVertex>,
     /// (u, v, 0, 0) of each vertex, zeros in meshes without; empty where no mesh has any.
-    pub uvs: Vec<[f32; 4]>,
+    pub uvs: Segments<[f32; 4]>,
     /// In scene order, then those of visible lights.
-    pub materials: Vec<PackedMaterial>,
+    pub materials: Arc<[PackedMaterial]>,
     /// In scene order.
-    pub textures: Vec<PackedTexture>,
+    pub textures: Arc<[PackedTexture]>,
     /// Linear texels of all pictures, one after the other, as half floats; the fourth is 1.
-    pub texels: Vec<[u16; 4]>,
+    pub texels: Segments<[u16; 4]>,
     /// For each of the scene's pictures its first texel, width and height.
     pub pictures: Vec<[u32; 3]>,
     /// What the scene has, so that all else is compiled out.
     pub features: Features,
     /// Bodies that are transparent at some time, which the camera may be inside of.
     bodies: Vec<media::Body>,
-    /// Boxes near the root of the first tree, where there are others beside it.
-    still_parts: Vec<(Aabb, u32)>,
-    /// The most entries on the stack in any of the trees.
-    stack_need: usize,
-    placed_trees: Vec<PlacedTree>,
-    placed: Vec<Placed>,
+    meshes: Vec<Arc<CachedMesh>>,
+    trees: Trees,
+    tlas_source: Arc<TlasSource>,
+    packed_pictures: Vec<PackedPicture>,
     /// The scene's materials where its visible lights or a track may change some.
     changing: Option<Changing>,
     /// What everything is in the scene.
     origins: Origins,
     /// Where render space has its origin, in world space: [`Scene::render_origin`].
     pub origin: DVec3,
-    /// Seconds that building the tree took.
+    /// Seconds that building and refitting trees took.
     pub build_seconds: f64,
-}
-
-/// What [`PackedScene::materials`] are made of.
-#[derive(Clone, Debug)]
-struct Changing {
-    materials: Vec<Material>,
-    /// Indices of the visible lights.
-    lamps: Vec<usize>,
+    /// What had to be built.
+    pub work: TreeWork,
 }
 
 /// What is in a scene that a kernel needs code for.
@@ -109,7 +117,7 @@ pub struct Features {
     pub textures: bool,
     /// Something shines that rays can see.
     pub emission: bool,
-    /// There are trees that instances place.
+    /// There are instances.
     pub instances: bool,
 }
 
@@ -161,100 +169,193 @@ pub enum PackError {
 }
 
 /// Packs a scene and builds its trees.
+///
+/// # Errors
+/// It is too big for the formats the GPU reads.
 pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
-    scene_with(scene, MOST_LAID_OUT)
+    pack(None, scene, MOST_BAKED)
 }
 
-/// The same, where meshes that stand still in several places are laid out in the world if their copies
-/// have at most this many triangles, and else are one tree with many instances.
-pub fn scene_with(scene: &Scene, most_laid_out: usize) -> Result<PackedScene, PackError> {
+/// The same, bit by bit, with all that `previous` has of it: trees of meshes that are the same objects
+/// at the same places, and pictures. An object that is added, moved, hidden or changed takes its own
+/// tree at most, and the one above. Where one in the middle is removed, those behind it are moved up
+/// in the arrays.
+///
+/// # Errors
+/// As [`scene`].
+pub fn scene_from(previous: &PackedScene, scene: &Scene) -> Result<PackedScene, PackError> {
+    pack(Some(previous), scene, MOST_BAKED)
+}
+
+/// The same as [`scene`], where static meshes in several places are baked into the world if their
+/// copies have at most this many triangles, and else are one tree with many instances.
+///
+/// # Errors
+/// As [`scene`].
+pub fn scene_with(scene: &Scene, most_baked: usize) -> Result<PackedScene, PackError> {
+    pack(None, scene, most_baked)
+}
+
+fn pack(
+    previous: Option<&PackedScene>,
+    scene: &Scene,
+    most_baked: usize,
+) -> Result<PackedScene, PackError> {
     let rest = scene.frame(0.0);
     let origin = scene.render_origin_at(&rest);
-    let plan = Plan::new(scene, &rest, most_laid_out);
-    let mut flat = Flat::of_still(&plan, scene, &rest, origin)?;
+    let meshes = mesh::cached(previous.map_or(&[], |previous| &previous.meshes), scene);
+    let plan = Plan::new(scene, &rest, most_baked)?;
 
     let start = Instant::now();
-    let mut forest = Forest::default();
-    let stack_size = match plan.is_still() {
-        // The last store of a traversal step lies one beyond the entries that count.
-        true => STACK_SIZE as usize - 1,
-        false => placed::PLACED_STACK,
-    };
-    let still = forest.plant(&flat.triangles, &flat.bounded, stack_size);
-    let (still_triangle_count, still_shape_count) = (flat.triangles.len(), flat.bounded.len());
-    forest.shapes.extend_from_slice(&flat.planes);
-    let (placed_trees, placed) = plan.plant(scene, &mut flat, &mut forest)?;
+    let before = previous.map(|previous| &previous.trees);
+    let trees = Trees::build(before, scene, (&rest, origin), &plan, &meshes)?;
     let build_seconds = start.elapsed().as_secs_f64();
 
+    let joint = &trees.joint.blas;
+    let first_instanced = (joint.shapes.len() + trees.joint.planes.len()) as u32;
+    let (shapes, blas_of_shapes) = instanced_shapes(scene, &plan, first_instanced)?;
+    let instanced_shapes: Arc<[_]> = shapes.into();
+    let first_baked_triangle = (trees.baked.first())
+        .map_or(joint.place, |t| t.blas.place)
+        .triangle;
+    let end = joint.end();
+    let shape_count = joint.shapes.len() + instanced_shapes.len();
     let limit = LEAF_FIRST_MASK as usize;
-    let counts = [
-        ("triangles", flat.triangles.len()),
-        ("shapes", flat.bounded.len()),
-    ];
-    for (what, count) in counts {
+    for (what, count) in [
+        ("triangles", end.triangle as usize),
+        ("shapes", shape_count),
+    ] {
         if count > limit {
             return Err(PackError::TooMany { what, count, limit });
         }
     }
-    let (texels, pictures) = material::texels(scene)?;
-    let textures = material::textures(scene, origin, &pictures)?;
+    let nodes: Segments<_> = trees.nodes();
+    let tlas_source = TlasSource {
+        origin,
+        first_node: first_view_node(nodes.len()),
+        parts: trees.top.parts.clone(),
+        blas: (trees.instanced.iter().map(trees::MeshTree::instanced))
+            .chain(blas_of_shapes)
+            .collect(),
+        instances: instances(&plan, trees.instanced.len()),
+        stack_need: trees.stack_need(),
+    };
+    let before = previous.map(|previous| &previous.tlas_source);
+    let tlas_source = match before.filter(|before| ***before == tlas_source) {
+        Some(before) => before.clone(),
+        None => Arc::new(tlas_source),
+    };
+
+    let before = previous.map_or(&[][..], |previous| &previous.packed_pictures);
+    let (packed_pictures, pictures) = material::texels(scene, before)?;
+    let bounded = joint.shapes.iter().chain(&*instanced_shapes);
     let features = Features {
-        shape_kinds: (flat.bounded.iter()).fold(0, |kinds, (shape, _)| kinds | 1 << shape.kind),
-        mixed_materials: flat.mixed_materials,
-        contact: media::may_touch(scene),
+        shape_kinds: bounded.fold(0, |kinds, shape| kinds | 1 << shape.kind),
+        mixed_materials: trees.meshes().any(|mesh| mesh.mixes_materials),
+        contact: media::may_touch(scene, &meshes),
         filtered_shadows: scene.shadows == Shadows::Filtered,
-        instances: !placed.is_empty(),
+        instances: plan.instance_count() > 0,
         ..material::features(scene)
     };
+    let has_uvs = scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty());
     let (materials, changing) = surfaces::materials(scene, &rest);
     Ok(PackedScene {
-        nodes: forest.nodes,
-        triangles: forest.triangles,
-        still_triangle_count: still_triangle_count as u32,
-        shapes: forest.shapes,
-        still_shape_count: still_shape_count as u32,
-        plane_count: flat.planes.len() as u32,
-        vertices: flat.vertices,
-        uvs: if scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty()) {
-            flat.uvs
-        } else {
-            Vec::new()
+        nodes,
+        triangles: trees.triangles(&plan),
+        first_baked_triangle,
+        baked_triangle_count: end.triangle - first_baked_triangle,
+        shapes: [&joint.shapes, &trees.joint.planes, &instanced_shapes]
+            .map(Arc::clone)
+            .into_iter()
+            .collect(),
+        baked_shape_count: joint.shapes.len() as u32,
+        plane_count: trees.joint.planes.len() as u32,
+        vertices: trees.vertices(),
+        uvs: match has_uvs {
+            true => trees.meshes().map(CachedMesh::uvs).collect(),
+            false => Segments::default(),
         },
         materials,
-        textures,
-        texels,
+        textures: material::textures(scene, origin, &pictures)?,
+        texels: (packed_pictures.iter().map(|(_, texels)| texels.clone())).collect(),
         pictures,
         features,
-        bodies: media::bodies(scene),
-        stack_need: (placed_trees.iter().map(|placed| placed.tree.stack_need))
-            .fold(still.stack_need, usize::max),
-        still_parts: if placed.is_empty() {
-            Vec::new()
-        } else {
-            still.parts
-        },
-        placed_trees,
-        placed,
+        bodies: media::bodies(scene, &meshes),
+        origins: Origins::new(scene, &plan, &trees),
+        work: trees.work,
+        meshes,
+        trees,
+        tlas_source,
+        packed_pictures,
         changing,
-        origins: Origins::new(scene, &plan),
         origin,
         build_seconds,
     })
 }
 
+/// Shapes that move, each a tree of its own, the first of which has the number `first`.
+fn instanced_shapes(
+    scene: &Scene,
+    plan: &Plan,
+    first: u32,
+) -> Result<(Vec<PackedShape>, Vec<InstancedBlas>), PackError> {
+    let mut flat = Flat::default();
+    let mut blas = Vec::new();
+    let mut add = |geometry: Geometry, material, id| {
+        let index = first + flat.bounded.len() as u32;
+        flat.add_shape(&geometry, material, id, None)?;
+        blas.push(InstancedBlas {
+            root: leaf_reference(index, 1, true),
+            first: SHAPE | index,
+            count: 1,
+            boxes: Vec::new(),
+            shape: Some(geometry),
+        });
+        Ok::<_, PackError>(())
+    };
+    for &(index, _) in &plan.shapes {
+        let shape = &scene.shapes[index];
+        add(shape.geometry, shape.material, index)?;
+    }
+    for &index in &plan.lamps {
+        let (material, id) = light::material_and_id(scene, index);
+        if let Some(surface) = light::unit_surface(&scene.lights[index].kind) {
+            add(surface, material, id)?;
+        }
+    }
+    let shapes = flat.bounded.into_iter().map(|(shape, _)| shape);
+    Ok((shapes.collect(), blas))
+}
+
+/// All instances: of meshes, then of shapes and lamps, whose trees follow those of `mesh_count` meshes.
+fn instances(plan: &Plan, mesh_count: usize) -> Vec<Instance> {
+    let meshes = (plan.instances.iter()).map(|&(_, blas, source)| Instance { blas, source });
+    let nodes = (plan.shapes.iter())
+        .map(|&(_, node)| TransformSource::Node(node, glam::DAffine3::IDENTITY));
+    let lamps = plan.lamps.iter().map(|&index| TransformSource::Lamp(index));
+    let own_trees = (mesh_count..)
+        .zip(nodes.chain(lamps))
+        .map(|(blas, source)| Instance { blas, source });
+    meshes.chain(own_trees).collect()
+}
+
+/// Index of the first node of a view of a scene with so many nodes: at the beginning of a row of an
+/// image.
+fn first_view_node(node_count: usize) -> u32 {
+    (node_count as u32).next_multiple_of((1 << IMAGE_WIDTH_LOG2) / NODE_ROWS)
+}
+
 impl PackedScene {
     /// Every byte that a picture depends on but for the view: what a fingerprint is made of.
     pub fn parts(&self) -> Vec<&[u8]> {
-        vec![
-            cast_slice(&self.nodes),
-            cast_slice(&self.triangles),
-            cast_slice(&self.shapes),
-            cast_slice(&self.vertices),
-            cast_slice(&self.uvs),
-            cast_slice(&self.materials),
-            cast_slice(&self.textures),
-            cast_slice(&self.texels),
-        ]
+        let mut parts: Vec<_> = (self.nodes.bytes().chain(self.triangles.bytes()))
+            .chain(self.shapes.bytes())
+            .chain(self.vertices.bytes())
+            .chain(self.uvs.bytes())
+            .collect();
+        parts.extend([cast_slice(&self.materials), cast_slice(&self.textures)]);
+        parts.extend(self.texels.bytes());
+        parts
     }
 
     /// Number of shapes in all trees.
@@ -264,6 +365,12 @@ impl PackedScene {
 
     /// Number of instances that a view can have.
     pub fn instance_count(&self) -> usize {
-        self.placed.len()
+        self.tlas_source.instances.len()
+    }
+
+    /// Index of the first node of a view: behind all of the scene's, at the beginning of a row of an
+    /// image.
+    pub fn first_view_node(&self) -> u32 {
+        self.tlas_source.first_node
     }
 }

@@ -2,6 +2,7 @@
 //! develops the picture. Every front end runs this same loop.
 
 mod adaptive;
+mod arrays;
 mod bindings;
 mod debug_view;
 mod develop;
@@ -27,7 +28,7 @@ pub use explain::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, Tra
 pub use levels::{Levels, Quantity};
 pub use settings::{Fetch, Integrator, MIN_THROUGHPUT, Settings, Slicing, TriangleTest};
 pub use show::Screen;
-pub use stats::{Rays, Stats};
+pub use stats::{Rays, Stats, Uploads};
 
 use crate::clock::Instant;
 use crate::{
@@ -146,7 +147,8 @@ impl Renderer {
         (self.scene, self.view, self.settings) = (scene, view, settings);
         self.film = film;
         self.cursor = Cursor::default();
-        self.prepare_device(is_other_scene)
+        let spare = self.settings.memory_limit_bytes.saturating_sub(bytes);
+        self.prepare_device(is_other_scene, spare)
     }
 
     /// Goes on to another number of samples with those that there are: sample `i` of a pixel is the same,
@@ -182,8 +184,8 @@ impl Renderer {
         true
     }
 
-    /// Brings the device to what is to be rendered.
-    fn prepare_device(&mut self, is_other_scene: bool) -> Result<(), RenderError> {
+    /// Brings the device to what is to be rendered. `spare` bytes may be allocated beyond what is needed.
+    fn prepare_device(&mut self, is_other_scene: bool, spare: u64) -> Result<(), RenderError> {
         let (gpu, scene, view) = (&self.device.gpu, &self.scene, &self.view);
         let fetch = match is_other_scene {
             true => bindings::choose_fetch(self.settings.fetch, gpu, scene, view),
@@ -207,7 +209,7 @@ impl Renderer {
                 *device = Device::new(device.gpu.clone(), fetch, task, stats)?;
                 return Ok(());
             }
-            device.set(task, is_other_scene, stats)
+            device.set(task, spare, stats)
         })
     }
 

@@ -137,7 +137,7 @@ fn render(
         memory_limit_bytes: arguments.device.memory_limit_bytes(),
         ..Settings::from(&scene.output)
     };
-    let packed = Arc::new(pack::scene_with(scene, workload.most_laid_out)?);
+    let packed = Arc::new(pack::scene_with(scene, workload.most_baked)?);
     let bvh = packed.build_seconds;
     let view = packed.shot(&scene.shot(shot.0, shot.1))?;
     let mut renderer = Renderer::new(gpu, packed, &view, settings)?;

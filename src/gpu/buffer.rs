@@ -90,21 +90,8 @@ impl Gpu {
         })
     }
 
-    /// A read-only image in rows of `width` texels: a storage image of unsigned integers, or a
-    /// texture of floats.
-    pub(crate) fn upload_image(
-        &self,
-        what: &'static str,
-        contents: &[u8],
-        width: u32,
-        format: wgpu::TextureFormat,
-    ) -> Result<wgpu::TextureView, GpuError> {
-        let image = self.allocate_image(what, contents.len() as u64, width, format)?;
-        self.write_image(&image, 0, contents)?;
-        Ok(image)
-    }
-
-    /// The same with room for so many bytes, all zero.
+    /// A read-only image in rows of `width` texels with room for so many bytes, all zero: a storage image
+    /// of unsigned integers, or a texture of floats.
     pub(crate) fn allocate_image(
         &self,
         what: &'static str,
@@ -165,39 +152,49 @@ impl Gpu {
         Ok(texture.create_view(&Default::default()))
     }
 
-    /// Writes rows of an image from `first_row` on; what the last of them lacks is zero.
+    /// Writes whole texels of an image from number `first` on, row by row.
     pub(crate) fn write_image(
         &self,
         image: &wgpu::TextureView,
-        first_row: u32,
+        first: u64,
         contents: &[u8],
     ) -> Result<(), GpuError> {
-        const ROWS: usize = 512;
+        const ROWS: u32 = 512;
         let texture = image.texture();
         let width = texture.width();
-        let row_bytes = row_bytes(width, texture.format()) as usize;
+        let texel = row_bytes(1, texture.format()) as usize;
+        let (mut x, mut y) = (
+            (first % u64::from(width)) as u32,
+            (first / u64::from(width)) as u32,
+        );
+        let mut rest = contents;
         self.scoped("write", || {
-            for (i, part) in contents.chunks(ROWS * row_bytes).enumerate() {
-                let mut padded = part.to_vec();
-                padded.resize(part.len().next_multiple_of(row_bytes), 0);
+            while !rest.is_empty() {
+                // What is left of a row, then whole rows, then the beginning of one.
+                let texels = (rest.len() / texel) as u32;
+                let (columns, rows) = match (x, texels / width) {
+                    (0, 0) => (texels, 1),
+                    (0, rows) => (width, rows.min(ROWS)),
+                    _ => (texels.min(width - x), 1),
+                };
                 let target = wgpu::TexelCopyTextureInfo {
                     texture,
                     mip_level: 0,
-                    origin: wgpu::Origin3d {
-                        x: 0,
-                        y: first_row + (i * ROWS) as u32,
-                        z: 0,
-                    },
+                    origin: wgpu::Origin3d { x, y, z: 0 },
                     aspect: wgpu::TextureAspect::All,
                 };
                 let layout = wgpu::TexelCopyBufferLayout {
                     offset: 0,
-                    bytes_per_row: Some(row_bytes as u32),
+                    bytes_per_row: Some(columns * texel as u32),
                     rows_per_image: None,
                 };
-                let rows = (padded.len() / row_bytes) as u32;
-                self.queue
-                    .write_texture(target, &padded, layout, extent(width, rows));
+                let (now, later) = rest.split_at((columns * rows) as usize * texel);
+                (self.queue).write_texture(target, now, layout, extent(columns, rows));
+                (x, y, rest) = (
+                    (x + columns) % width,
+                    y + (x + columns) / width * rows,
+                    later,
+                );
             }
         })
     }

@@ -4,20 +4,20 @@ use super::{
     PackError, PackedScene,
     geometry::{in_range, render_point},
     light, material, media,
-    view::Placements,
+    tlas::Tlas,
 };
 use crate::{
     layout::{
         ATTENUATION_INVERSE_SQUARE, ATTENUATION_NONE, BACKGROUND_COLOR, BACKGROUND_GRADIENT,
-        BACKGROUND_PICTURE, IMAGE_WIDTH_LOG2, INSTANCE_ROWS, KEY_ROWS, LIGHT_DIRECTIONAL,
-        LIGHT_DISC, LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, MOVING, NODE_ROWS,
-        PackedCamera, PackedFrame, PackedLight, PackedMaterial,
+        BACKGROUND_PICTURE, INSTANCE_ROWS, KEY_ROWS, LIGHT_DIRECTIONAL, LIGHT_DISC, LIGHT_POINT,
+        LIGHT_RECTANGLE, LIGHT_SPHERE, LIGHT_SPOT, MOVING, NODE_ROWS, PackedCamera, PackedFrame,
+        PackedLight, PackedMaterial,
     },
     scene::{Attenuation, Background, Camera, Frame, Light, LightKind},
 };
 use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
-use std::slice;
+use std::{slice, sync::Arc};
 
 /// A [`Frame`] as the GPU wants it.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,12 +28,12 @@ pub struct PackedView {
     /// key.
     pub lights: Vec<PackedLight>,
     /// Keys of a moving camera, whose `right` is that of a square picture too; else empty.
-    pub cameras: Vec<PackedCamera>,
-    /// Trees that instances place.
-    placements: Placements,
+    pub cameras: Arc<[PackedCamera]>,
+    /// The tree over the instances, which views share as long as nothing moves.
+    pub(super) tlas: Arc<Tlas>,
     /// In place of the scene's, if any changes over time; else empty. They are as they are when the
     /// shutter opens, but lamps show the mean of what they shine with while it is open.
-    pub materials: Vec<PackedMaterial>,
+    pub materials: Arc<[PackedMaterial]>,
     /// Whether rays start side by side rather than in one point.
     pub orthographic: bool,
     /// Whether there is a light that is not dark.
@@ -53,6 +53,19 @@ impl PackedScene {
     /// Packs what [`crate::scene::Scene::shot`] of the scene that this was made from gives: at least
     /// one frame, evenly spaced over the time in which the shutter is open.
     pub fn shot(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
+        self.shot_from(None, frames)
+    }
+
+    /// The same, with the tree over the instances of another view of this scene or of the one that it was
+    /// packed from, if it serves: where only camera, lights, materials or background differ.
+    ///
+    /// # Errors
+    /// As [`Self::shot`].
+    pub fn shot_from(
+        &self,
+        previous: Option<&PackedView>,
+        frames: &[Frame],
+    ) -> Result<PackedView, PackError> {
         let first = &frames[0];
         let mut cameras = (frames.iter())
             .map(|frame| camera(&frame.camera, self.origin))
@@ -80,21 +93,22 @@ impl PackedScene {
         let light_count = lights.len() as u32 / light_key_count;
 
         let first_node = self.first_view_node();
-        let placements = match self.features.instances {
-            true => self.placements(frames, first_node)?,
-            false => Placements::default(),
+        let tlas = match self.features.instances {
+            true => self.tlas(frames, previous)?,
+            false => Arc::default(),
         };
-        let moving = if placements.moves { MOVING } else { 0 };
-        let instance_row = NODE_ROWS * (first_node + placements.nodes.len() as u32);
-        let key_row = instance_row + INSTANCE_ROWS * placements.instances.len() as u32;
-        let camera_row = key_row + KEY_ROWS * placements.keys.len() as u32;
+        let moving = if tlas.moves { MOVING } else { 0 };
+        let instance_row = NODE_ROWS * (first_node + tlas.nodes.len() as u32);
+        let key_row = instance_row + INSTANCE_ROWS * tlas.instances.len() as u32;
+        let camera_row = key_row + KEY_ROWS * tlas.keys.len() as u32;
         Ok(PackedView {
             frame: PackedFrame {
                 camera: cameras[0],
                 light_count,
                 ambient: first.ambient.into(),
-                triangle_count: self.still_triangle_count,
-                shape_count: self.still_shape_count,
+                first_triangle: self.first_baked_triangle,
+                triangle_count: self.baked_triangle_count,
+                shape_count: self.baked_shape_count,
                 plane_count: self.plane_count,
                 vertex_count: self.vertices.len() as u32,
                 material_count: self.materials.len() as u32,
@@ -105,7 +119,7 @@ impl PackedScene {
                     0
                 },
                 instance_row,
-                instance_count: placements.instances.len() as u32,
+                instance_count: tlas.instances.len() as u32,
                 key_row,
                 camera_row,
                 camera_key_count: cameras.len() as u32,
@@ -121,26 +135,19 @@ impl PackedScene {
             has_lights: lights.iter().any(|light| light.color != [0.0; 3]),
             has_area_lights: lights.iter().any(|light| light.kind >= LIGHT_RECTANGLE),
             lights,
-            cameras: if cameras.len() > 1 {
-                cameras
-            } else {
-                Vec::new()
+            cameras: match cameras.len() {
+                1 => Arc::default(),
+                _ => cameras.into(),
             },
-            placements,
+            tlas,
             materials: self.materials_of(frames),
         })
     }
 
-    /// Index of the first node of a view: behind all of the scene's, at the beginning of a row of an
-    /// image.
-    pub fn first_view_node(&self) -> u32 {
-        (self.nodes.len() as u32).next_multiple_of((1 << IMAGE_WIDTH_LOG2) / NODE_ROWS)
-    }
-
     /// The materials of a shot; empty if they never change.
-    fn materials_of(&self, frames: &[Frame]) -> Vec<PackedMaterial> {
+    fn materials_of(&self, frames: &[Frame]) -> Arc<[PackedMaterial]> {
         let Some(changing) = &self.changing else {
-            return Vec::new();
+            return Arc::default();
         };
         let materials = match &frames[0].materials[..] {
             [] => &changing.materials,
@@ -198,32 +205,39 @@ impl PackedView {
     /// What follows the scene's nodes on the GPU.
     pub fn node_parts(&self) -> [&[u8]; 4] {
         [
-            cast_slice(&self.placements.nodes),
-            cast_slice(&self.placements.instances),
-            cast_slice(&self.placements.keys),
+            cast_slice(&self.tlas.nodes),
+            cast_slice(&self.tlas.instances),
+            cast_slice(&self.tlas.keys),
             cast_slice(&self.cameras),
         ]
     }
 
-    /// Which of the things that the scene places is this instance of the view; hidden ones are none.
-    pub(super) fn placed_index(&self, instance: u32) -> Option<usize> {
-        let instance = self.placements.instances.get(instance as usize)?;
+    /// Whether both have one tree over their instances.
+    pub fn shares_tlas(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.tlas, &other.tlas)
+    }
+
+    /// Which of the things that the scene instances is this instance of the view; hidden ones are none.
+    pub(super) fn instanced_index(&self, instance: u32) -> Option<usize> {
+        let instance = self.tlas.instances.get(instance as usize)?;
         Some(instance.id as usize - 1)
     }
 
     /// Whether instances move while the shutter is open.
     pub fn has_moving_instances(&self) -> bool {
-        self.placements.moves
+        self.tlas.moves
     }
 
     /// The view for a picture of `width` × `height` pixels: aspect = width / height.
     pub fn with_aspect(&self, width: u32, height: u32) -> Self {
         let mut view = self.clone();
         let aspect = f64::from(width) / f64::from(height);
-        let cameras = view.cameras.iter_mut().chain([&mut view.frame.camera]);
-        for camera in cameras {
-            camera.right = camera.right.map(|c| (f64::from(c) * aspect) as f32);
-        }
+        let widen = |camera: &PackedCamera| PackedCamera {
+            right: camera.right.map(|c| (f64::from(c) * aspect) as f32),
+            ..*camera
+        };
+        view.frame.camera = widen(&self.frame.camera);
+        view.cameras = self.cameras.iter().map(widen).collect();
         view
     }
 }

@@ -1,18 +1,13 @@
-//! Instances and shapes laid out in render space, or in the space of a tree that is placed.
+//! Meshes and shapes in render space, or in the space of a tree that is instanced.
 
-use super::{
-    Forest, PackError,
-    forest::Tree,
-    light,
-    placed::{PLACED_STACK, Plan, world_from},
-};
+use super::PackError;
 use crate::{
     bvh::Aabb,
     layout::{
         PackedShape, PackedTriangle, PackedVertex, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC,
         SHAPE_ELLIPSOID, SHAPE_GLOBE, SHAPE_PLANE, SHAPE_RECTANGLE, SHAPE_SPHERE, SHAPE_TORUS,
     },
-    scene::{Form, Frame, Geometry, Mesh, Scene},
+    scene::{Form, Geometry, Mesh},
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
@@ -28,59 +23,22 @@ const GLOBE_RATIO: f64 = 16.0;
 pub struct Flat {
     pub triangles: Vec<PackedTriangle>,
     pub vertices: Vec<PackedVertex>,
-    /// (u, v, 0, 0) of each vertex.
-    pub uvs: Vec<[f32; 4]>,
     /// Shapes that have bounds, and those that have none.
     pub bounded: Vec<(PackedShape, Aabb)>,
     pub planes: Vec<PackedShape>,
-    pub mixed_materials: bool,
 }
 
-/// How far a [`Flat`] was filled at some time: triangles and bounded shapes.
-pub type Mark = (usize, usize);
-
 impl Flat {
-    /// Lays out all that the plan says stands still. All arithmetic before the last rounding is f64.
-    pub fn of_still(
-        plan: &Plan,
-        scene: &Scene,
-        rest: &Frame,
+    /// A mesh alone; see [`Self::add_mesh`].
+    pub fn of_mesh(
+        mesh: &Mesh,
+        world_from_object: DAffine3,
         origin: DVec3,
+        vertex: u32,
     ) -> Result<Self, PackError> {
         let mut flat = Self::default();
-        for &index in &plan.still_instances {
-            let instance = &scene.instances[index];
-            let world_from_object = world_from(rest, instance.node) * instance.placement;
-            flat.add_mesh(&scene.meshes[instance.mesh], world_from_object, origin)?;
-        }
-        for &id in &plan.still_shapes {
-            let shape = &scene.shapes[id];
-            let geometry = match shape.node {
-                None => shape.geometry,
-                Some(_) => shape.geometry.placed(world_from(rest, shape.node)),
-            };
-            flat.add_shape(&geometry, shape.material, id, Some(origin))?;
-        }
-        for &index in &plan.still_lamps {
-            let (material, id) = light::material_and_id(scene, index);
-            if let Some(surface) = light::surface(&rest.lights[index].kind) {
-                flat.add_shape(&surface, material, id, Some(origin))?;
-            }
-        }
+        flat.add_mesh(mesh, world_from_object, origin, vertex)?;
         Ok(flat)
-    }
-
-    pub fn mark(&self) -> Mark {
-        (self.triangles.len(), self.bounded.len())
-    }
-
-    /// A tree of all that came since the mark.
-    pub fn plant_from(&self, (triangles, shapes): Mark, forest: &mut Forest) -> Tree {
-        forest.plant(
-            &self.triangles[triangles..],
-            &self.bounded[shapes..],
-            PLACED_STACK,
-        )
     }
 
     /// Adds a shape in render space, which has this origin, or in a space of its own.
@@ -174,15 +132,18 @@ impl Flat {
         Ok(())
     }
 
+    /// Adds a mesh in render space. The first vertex of all is number `vertex` of the scene. All
+    /// arithmetic before the last rounding is f64.
     pub fn add_mesh(
         &mut self,
         mesh: &Mesh,
         world_from_object: DAffine3,
         origin: DVec3,
+        vertex: u32,
     ) -> Result<(), PackError> {
         // Normals go by the inverse transpose; a mirroring keeps them on their side.
         let normal_matrix: DMat3 = world_from_object.matrix3.inverse().transpose();
-        let first_vertex = self.vertices.len();
+        let first_vertex = vertex as usize + self.vertices.len();
         if first_vertex + mesh.positions.len() > u32::MAX as usize {
             return Err(PackError::TooMany {
                 what: "vertices",
@@ -191,10 +152,7 @@ impl Flat {
             });
         }
         let mut positions = Vec::with_capacity(mesh.positions.len());
-        self.uvs
-            .extend(mesh.uvs.iter().map(|uv| [uv.x, uv.y, 0.0, 0.0]));
-        self.uvs
-            .resize(first_vertex + mesh.positions.len(), [0.0; 4]);
+        self.vertices.reserve(mesh.positions.len());
         for (i, position) in mesh.positions.iter().enumerate() {
             let world = world_from_object.transform_point3(position.as_dvec3());
             positions.push(render_point(world, origin)?);
@@ -204,20 +162,19 @@ impl Flat {
                 material: mesh.materials[i],
             });
         }
-        for &[a, b, c] in &mesh.triangles {
-            let material = |i: u32| mesh.materials[i as usize];
-            self.mixed_materials |= material(a) != material(b) || material(a) != material(c);
-            let corner = |i: u32| positions[i as usize].into();
-            let vertex = |i: u32| first_vertex as u32 + i;
-            self.triangles.push(PackedTriangle {
-                v0: corner(a),
-                i0: vertex(a),
-                v1: corner(b),
-                i1: vertex(b),
-                v2: corner(c),
-                i2: vertex(c),
-            });
-        }
+        self.triangles
+            .extend(mesh.triangles.iter().map(|&[a, b, c]| {
+                let corner = |i: u32| positions[i as usize].into();
+                let vertex = |i: u32| first_vertex as u32 + i;
+                PackedTriangle {
+                    v0: corner(a),
+                    i0: vertex(a),
+                    v1: corner(b),
+                    i1: vertex(b),
+                    v2: corner(c),
+                    i2: vertex(c),
+                }
+            }));
         Ok(())
     }
 }
@@ -250,9 +207,5 @@ fn large_enough(size: f64) -> Result<(), PackError> {
 }
 
 pub fn triangle_box(triangle: &PackedTriangle) -> Aabb {
-    let [a, b, c] = [triangle.v0, triangle.v1, triangle.v2].map(Vec3::from);
-    Aabb {
-        min: a.min(b).min(c),
-        max: a.max(b).max(c),
-    }
+    Aabb::of([triangle.v0, triangle.v1, triangle.v2].map(Vec3::from))
 }

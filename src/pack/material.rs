@@ -9,11 +9,13 @@ use crate::{
         TEXTURE_UV,
     },
     scene::{
-        Fresnel, Material, MaterialProperty, Mixing, Pattern, Scene, Space, Target, Texture, Values,
+        Fresnel, Material, MaterialProperty, Mixing, Pattern, Picture, Scene, Space, Target,
+        Texture, Values,
     },
 };
 use glam::{DAffine3, DVec3, Vec3};
 use half::f16;
+use std::sync::Arc;
 
 /// Most texels of all pictures together: a row of texels for each line of the largest texture that
 /// WebGPU guarantees.
@@ -132,7 +134,7 @@ pub fn textures(
     scene: &Scene,
     origin: DVec3,
     pictures: &[[u32; 3]],
-) -> Result<Vec<PackedTexture>, PackError> {
+) -> Result<Arc<[PackedTexture]>, PackError> {
     let (count, limit) = (scene.textures.len(), NO_TEXTURE as usize);
     if count > limit {
         let what = "textures";
@@ -198,11 +200,15 @@ fn period(pattern: &Pattern) -> Option<f64> {
     }
 }
 
-/// Half floats, and for each picture its first texel, width and height.
-type Texels = (Vec<[u16; 4]>, Vec<[u32; 3]>);
+/// A picture's texels as half floats.
+pub type PackedPicture = (Arc<Picture>, Arc<[[u16; 4]]>);
 
-/// All pictures' texels one after the other, and where each picture's are.
-pub fn texels(scene: &Scene) -> Result<Texels, PackError> {
+/// All pictures' texels, and for each picture its first texel, width and height. Those that were packed
+/// `before` are kept.
+pub fn texels(
+    scene: &Scene,
+    before: &[PackedPicture],
+) -> Result<(Vec<PackedPicture>, Vec<[u32; 3]>), PackError> {
     let count = scene.pictures.iter().map(|p| p.texels.len()).sum();
     if count > MAX_TEXELS {
         return Err(PackError::TooMany {
@@ -211,19 +217,27 @@ pub fn texels(scene: &Scene) -> Result<Texels, PackError> {
             limit: MAX_TEXELS,
         });
     }
-    let mut texels = Vec::with_capacity(count);
+    let half = |c: f32| f16::from_f32(c.min(f16::MAX.to_f32())).to_bits();
+    let pack = |texel: &Vec3| {
+        [
+            half(texel.x),
+            half(texel.y),
+            half(texel.z),
+            f16::ONE.to_bits(),
+        ]
+    };
+    let mut first = 0;
+    let mut pictures = Vec::with_capacity(scene.pictures.len());
     let mut places = Vec::with_capacity(scene.pictures.len());
     for picture in &scene.pictures {
-        places.push([texels.len() as u32, picture.width, picture.height]);
-        texels.extend(picture.texels.iter().map(|texel| {
-            let half = |c: f32| f16::from_f32(c.min(f16::MAX.to_f32())).to_bits();
-            [
-                half(texel.x),
-                half(texel.y),
-                half(texel.z),
-                f16::ONE.to_bits(),
-            ]
-        }));
+        let known = before.iter().find(|(known, _)| Arc::ptr_eq(known, picture));
+        let texels = match known {
+            Some((_, texels)) => texels.clone(),
+            None => picture.texels.iter().map(pack).collect(),
+        };
+        places.push([first, picture.width, picture.height]);
+        first += texels.len() as u32;
+        pictures.push((picture.clone(), texels));
     }
-    Ok((texels, places))
+    Ok((pictures, places))
 }

@@ -1,6 +1,6 @@
 //! Which transparent bodies the camera is inside of.
 
-use super::{PackError, light, material};
+use super::{PackError, light, material, mesh::CachedMesh};
 use crate::{
     layout::NONE,
     scene::{Form, Frame, Geometry, Mesh, Scene},
@@ -32,14 +32,14 @@ enum Surface {
 
 /// The triangles of a mesh, in its own space.
 #[derive(Debug)]
-struct Shell {
+pub struct Shell {
     corners: Vec<[Vec3; 3]>,
     min: Vec3,
     max: Vec3,
 }
 
 /// The bodies of a scene that are transparent at some time.
-pub fn bodies(scene: &Scene) -> Vec<Body> {
+pub fn bodies(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> Vec<Body> {
     let may_be_clear = material::clear(scene);
     let shapes = (scene.shapes.iter())
         .filter(|shape| may_be_clear[shape.material] && is_closed(&shape.geometry))
@@ -48,14 +48,15 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
             material: shape.material as u32,
             surface: Surface::Shape(shape.geometry),
         });
-    let shells: Vec<_> = (scene.meshes.iter())
-        .map(|mesh| {
+    let shells: Vec<_> = (meshes.iter())
+        .map(|cached| {
+            let mesh = &cached.mesh;
             // A mesh of several materials is several bodies, which nothing tells apart.
             let material = *mesh.materials.first()?;
             let is_body = may_be_clear[material as usize]
                 && mesh.materials.iter().all(|&other| other == material);
-            let shell = if is_body { Shell::of(mesh) } else { None };
-            Some((Arc::new(shell?), material))
+            let shell = if is_body { cached.shell() } else { None };
+            Some((shell?, material))
         })
         .collect();
     let meshes = scene.instances.iter().filter_map(|instance| {
@@ -71,16 +72,16 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
 
 /// Whether a body that is transparent at some time may touch or overlap another body. One mesh may hold
 /// several: mostly they differ in material, but parts that do not hang together are bodies as well.
-pub fn may_touch(scene: &Scene) -> bool {
+pub fn may_touch(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> bool {
     let lamps = light::visible(scene).count();
     let bodies = scene.shapes.len() + scene.instances.len() + lamps;
-    let is_divided = || scene.meshes.iter().any(|mesh| part_count(mesh) > 1);
+    let is_divided = || meshes.iter().any(|mesh| mesh.part_count() > 1);
     material::clear(scene).contains(&true)
         && (bodies > 1 || scene.materials.len() > 1 || is_divided())
 }
 
 /// Sets of triangles that hang together by the positions of their vertices.
-fn part_count(mesh: &Mesh) -> usize {
+pub fn part_count(mesh: &Mesh) -> usize {
     let mut first_at = HashMap::new();
     // A forest over the vertices: each leads to an earlier one of its part, or to itself.
     let mut leads_to: Vec<usize> = (mesh.positions.iter().enumerate())
@@ -180,7 +181,7 @@ impl Body {
 
 impl Shell {
     /// Of a mesh with triangles.
-    fn of(mesh: &Mesh) -> Option<Self> {
+    pub fn of(mesh: &Mesh) -> Option<Self> {
         let corner = |&i: &u32| mesh.positions[i as usize];
         let corners: Vec<[Vec3; 3]> = (mesh.triangles.iter())
             .map(|t| [corner(&t[0]), corner(&t[1]), corner(&t[2])])

@@ -3,8 +3,8 @@
 //! Compressed Wide BVHs, 2017).
 
 use crate::{
-    bvh::{Child, WideNode},
-    layout::{PackedNode, leaf_reference},
+    bvh::{Aabb, Child, WideNode},
+    layout::{LEAF, LEAF_FIRST_MASK, PackedNode, SHAPE, leaf_reference},
 };
 use glam::Vec3;
 
@@ -17,49 +17,126 @@ pub const GROUP_COUNT: usize = 2;
 /// rounds off when the ray starts inside the node.
 const SLACK: f64 = 1.0 / (1 << 20) as f64;
 
-/// Packs one node, whose children get the references that the function gives. Every quantised box
-/// contains its exact one.
-pub fn quantize(node: &WideNode, reference: impl Fn(&Child) -> u32) -> PackedNode {
-    let (lo, hi) = node.children.iter().fold(
+/// Where a tree's nodes, triangles, shapes and vertices begin in the arrays of the scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    pub node: u32,
+    pub triangle: u32,
+    pub shape: u32,
+    pub vertex: u32,
+}
+
+impl Place {
+    /// The child reference to a child of a tree at this place.
+    pub fn reference(&self, child: &Child) -> u32 {
+        match *child {
+            Child::Node(index) => self.node + index,
+            Child::Leaf {
+                group,
+                first,
+                count,
+            } => {
+                let is_shape = group == SHAPES;
+                let offset = if is_shape { self.shape } else { self.triangle };
+                leaf_reference(offset + first, count, is_shape)
+            }
+        }
+    }
+
+    /// The reference in a tree at this place that `reference` is in a tree at `from`.
+    pub fn moved(&self, reference: u32, from: &Self) -> u32 {
+        if reference == 0 {
+            return 0;
+        }
+        if reference & LEAF == 0 {
+            return reference - from.node + self.node;
+        }
+        let (own, other) = match reference & SHAPE {
+            0 => (self.triangle, from.triangle),
+            _ => (self.shape, from.shape),
+        };
+        let first = reference & LEAF_FIRST_MASK;
+        (reference & !LEAF_FIRST_MASK) | (first - other + own)
+    }
+}
+
+/// The up to four children of a node: their boxes and the references to them.
+#[derive(Clone, Copy, Debug)]
+pub struct Children {
+    list: [(Aabb, u32); 4],
+    count: usize,
+}
+
+impl Children {
+    pub fn new(children: impl Iterator<Item = (Aabb, u32)>) -> Self {
+        let mut all = Self {
+            list: [(Aabb::EMPTY, 0); 4],
+            count: 0,
+        };
+        for child in children {
+            all.list[all.count] = child;
+            all.count += 1;
+        }
+        all
+    }
+
+    /// Those of a node of a tree at `place`.
+    pub fn of(node: &WideNode, place: &Place) -> Self {
+        let children = node.children.iter();
+        Self::new(children.map(|(aabb, child)| (*aabb, place.reference(child))))
+    }
+
+    pub fn map_references(&mut self, map: impl Fn(u32) -> u32) {
+        let own = self.list[..self.count].iter_mut();
+        own.for_each(|(_, reference)| *reference = map(*reference));
+    }
+
+    pub fn as_slice(&self) -> &[(Aabb, u32)] {
+        &self.list[..self.count]
+    }
+
+    /// The box round all of them.
+    pub fn bounds(&self) -> Aabb {
+        let boxes = self.as_slice().iter();
+        boxes.fold(Aabb::EMPTY, |all, (aabb, _)| all.union(*aabb))
+    }
+}
+
+/// Packs one node. Every quantised box contains its exact one.
+pub fn quantize(children: &[(Aabb, u32)]) -> PackedNode {
+    let (lo, hi) = children.iter().fold(
         (Vec3::INFINITY, Vec3::NEG_INFINITY),
         |(lo, hi), (aabb, _)| (lo.min(aabb.min), hi.max(aabb.max)),
     );
     let mut words = [0; 16];
-    if node.children.is_empty() {
+    if children.is_empty() {
         return words;
     }
     for axis in 0..3 {
-        let (base, scale, planes) = quantize_axis(node, axis, lo[axis], hi[axis]);
+        let (base, scale, planes) = quantize_axis(children, axis, lo[axis], hi[axis]);
         words[axis] = base.to_bits();
         words[3 + axis] = scale.to_bits();
         words[6 + 2 * axis] = u32::from_le_bytes(planes.map(|[min, _]| min));
         words[7 + 2 * axis] = u32::from_le_bytes(planes.map(|[_, max]| max));
     }
-    for (i, (_, child)) in node.children.iter().enumerate() {
-        words[12 + i] = reference(child);
+    for (i, (_, reference)) in children.iter().enumerate() {
+        words[12 + i] = *reference;
     }
     words
 }
 
-/// The reference to a leaf whose group's primitives begin at `offset`.
-pub fn leaf(leaf: &Child, offset: u32) -> u32 {
-    match *leaf {
-        Child::Leaf {
-            group,
-            first,
-            count,
-        } => leaf_reference(offset + first, count, group == SHAPES),
-        Child::Node(index) => index,
-    }
-}
-
 /// Corner, step and for each child the numbers of its lower and upper plane.
-fn quantize_axis(node: &WideNode, axis: usize, lo: f32, hi: f32) -> (f32, f32, [[u8; 2]; 4]) {
+fn quantize_axis(
+    children: &[(Aabb, u32)],
+    axis: usize,
+    lo: f32,
+    hi: f32,
+) -> (f32, f32, [[u8; 2]; 4]) {
     let slack = f64::from(hi - lo) * SLACK;
     let base = ((f64::from(lo) - slack) as f32).next_down();
     let scale = (((f64::from(hi) + slack - f64::from(base)) / 255.0) as f32).next_up();
     let mut planes = [[0; 2]; 4];
-    for (i, (aabb, _)) in node.children.iter().enumerate() {
+    for (i, (aabb, _)) in children.iter().enumerate() {
         let steps = |plane: f64| (plane - f64::from(base)) / f64::from(scale);
         // Both lie in 0..=255 by the choice of base and scale.
         planes[i] = [

@@ -1,6 +1,6 @@
 //! The way back: from a primitive on the GPU to what it is in the host model.
 
-use super::{PackedScene, PackedView, light, placed::Plan};
+use super::{PackedScene, PackedView, instance::Plan, light, trees::Trees};
 use crate::{
     layout::{NO_INSTANCE, SHAPE},
     scene::{ObjectRef, Scene},
@@ -9,10 +9,10 @@ use crate::{
 /// What primitives, instances and materials of a packed scene are in the scene that it was made from.
 #[derive(Clone, Debug)]
 pub struct Origins {
-    /// First vertices of the meshes that are laid out, in ascending order, and their instances.
-    laid_out: Vec<(u32, usize)>,
-    /// For each thing that is placed.
-    placed: Vec<ObjectRef>,
+    /// First vertices of the meshes that are baked, in ascending order, and their instances.
+    baked: Vec<(u32, usize)>,
+    /// For each thing that is instanced.
+    instanced: Vec<ObjectRef>,
     shape_count: usize,
     /// Lights whose surfaces follow the shapes.
     lamps: Vec<usize>,
@@ -23,32 +23,26 @@ pub struct Origins {
 }
 
 impl Origins {
-    pub fn new(scene: &Scene, plan: &Plan) -> Self {
-        let mut first_vertex = 0;
-        let mut laid_out = Vec::with_capacity(plan.still_instances.len());
-        for &index in &plan.still_instances {
-            laid_out.push((first_vertex, index));
+    pub fn new(scene: &Scene, plan: &Plan, trees: &Trees) -> Self {
+        let own_trees = plan.baked.iter().zip(&trees.baked);
+        let mut baked: Vec<_> = own_trees
+            .map(|(baked, tree)| (tree.blas.place.vertex, baked.index))
+            .collect();
+        let mut first_vertex = trees.joint.blas.place.vertex;
+        for &(index, _) in &plan.joint {
+            baked.push((first_vertex, index));
             let mesh = &scene.meshes[scene.instances[index].mesh];
             first_vertex += mesh.positions.len() as u32;
         }
         Self {
-            laid_out,
-            placed: plan.placed_objects().collect(),
+            baked,
+            instanced: plan.instanced_objects().collect(),
             shape_count: scene.shapes.len(),
             lamps: light::visible(scene).collect(),
             material_names: material_names(scene),
             instance_names: names(scene, scene.instances.len(), ObjectRef::Instance),
             shape_names: names(scene, scene.shapes.len(), ObjectRef::Shape),
             light_names: names(scene, scene.lights.len(), ObjectRef::Light),
-        }
-    }
-
-    /// Those of a scene that has the same surfaces.
-    pub fn renamed(&self, scene: &Scene) -> Self {
-        Self {
-            material_names: material_names(scene),
-            light_names: names(scene, scene.lights.len(), ObjectRef::Light),
-            ..self.clone()
         }
     }
 }
@@ -81,11 +75,11 @@ impl PackedScene {
         }
         let vertex = self.triangles.get(primitive as usize)?.i0;
         if instance != NO_INSTANCE {
-            let placed = view.placed_index(instance)?;
-            return origins.placed.get(placed).copied();
+            let index = view.instanced_index(instance)?;
+            return origins.instanced.get(index).copied();
         }
-        let count = (origins.laid_out).partition_point(|(first_vertex, _)| *first_vertex <= vertex);
-        let (_, index) = origins.laid_out.get(count.checked_sub(1)?)?;
+        let count = (origins.baked).partition_point(|(first_vertex, _)| *first_vertex <= vertex);
+        let (_, index) = origins.baked.get(count.checked_sub(1)?)?;
         Some(ObjectRef::Instance(*index))
     }
 

@@ -1,18 +1,19 @@
 //! What is in the bind groups of `bindings.wesl`, on the host.
 
-use super::layouts::{Layouts, ROW_FORMAT, TEXEL_FORMAT, group};
+use super::{
+    arrays::{ARRAY_COUNT, Array, IMAGE_WIDTH, ROW_BYTES, Rows, arrays},
+    layouts::{Layouts, group},
+    settings::Fetch,
+    stats::Uploads,
+};
 use crate::{
     gpu::{Gpu, GpuError, Ledger, Needs},
-    layout::{IMAGE_WIDTH_LOG2, PackedFrame, PackedLight, PackedNode, PackedSlice, PackedTone},
+    layout::{PackedFrame, PackedSlice, PackedTone},
     pack::{PackedScene, PackedView},
-    render::settings::Fetch,
 };
 use bytemuck::{bytes_of, cast_slice};
-use std::borrow::Cow;
+use std::sync::Arc;
 use wgpu::{Buffer, BufferUsages};
-
-const ROW_BYTES: u64 = 16;
-const IMAGE_WIDTH: u32 = 1 << IMAGE_WIDTH_LOG2;
 
 /// What shaders write and the host reads.
 const READABLE: BufferUsages = BufferUsages::STORAGE
@@ -36,15 +37,16 @@ impl Buffers {
         gpu: &Gpu,
         layouts: &Layouts,
         fetch: Fetch,
-        scene: &PackedScene,
-        view: &PackedView,
+        (scene, view): (&Arc<PackedScene>, &PackedView),
         film_rows: usize,
+        uploads: &mut Uploads,
     ) -> Result<Self, GpuError> {
-        let buffers = SceneBuffers::new(gpu, fetch, scene, view)?;
+        let buffers = SceneBuffers::new(gpu, fetch, scene, view, uploads)?;
         let scene_group = buffers.group(gpu, layouts);
         let slice = gpu.allocate("slice", size_of::<PackedSlice>() as u64, READABLE)?;
         let (film, staging) = film(gpu, film_rows)?;
         let frame_group = frame_group(gpu, layouts, view, &slice)?;
+        uploads.frames += frame_bytes(view);
         let film_group = group(gpu, &layouts.film, &[film.as_entire_binding()]);
         Ok(Self {
             scene_group,
@@ -74,36 +76,21 @@ impl Buffers {
         Ok(true)
     }
 
-    /// Puts another scene in place of the one that was, whose buffers are destroyed first.
-    pub fn set_scene(
+    /// Puts another frame in place, or another scene with it: of both only what is not there yet.
+    /// Arrays that are too small grow beyond what is needed, by `spare` bytes at most.
+    pub fn set(
         &mut self,
         gpu: &Gpu,
         layouts: &Layouts,
-        fetch: Fetch,
-        scene: &PackedScene,
-        view: &PackedView,
+        (scene, view): (&Arc<PackedScene>, &PackedView),
+        spare: u64,
+        uploads: &mut Uploads,
     ) -> Result<(), GpuError> {
-        self.scene.destroy();
-        self.scene = SceneBuffers::new(gpu, fetch, scene, view)?;
-        self.scene_group = self.scene.group(gpu, layouts);
-        self.frame_group = frame_group(gpu, layouts, view, &self.slice)?;
-        Ok(())
-    }
-
-    /// Puts another frame in place: of the scene only what it places, and materials that change.
-    pub fn set_view(
-        &mut self,
-        gpu: &Gpu,
-        layouts: &Layouts,
-        scene: &PackedScene,
-        view: &PackedView,
-    ) -> Result<(), GpuError> {
-        if !self.scene.has_room_for(view) {
-            self.scene.make_room(gpu, scene, view)?;
+        if self.scene.set(gpu, scene, view, spare, uploads)? {
             self.scene_group = self.scene.group(gpu, layouts);
         }
-        self.scene.write_view(gpu, scene, view)?;
         self.frame_group = frame_group(gpu, layouts, view, &self.slice)?;
+        uploads.frames += frame_bytes(view);
         Ok(())
     }
 }
@@ -111,119 +98,72 @@ impl Buffers {
 /// What kernels read of a scene, and of what a view places in it.
 struct SceneBuffers {
     fetch: Fetch,
-    nodes: Rows,
-    /// Bytes that fit behind the scene's nodes.
-    view_room: u64,
-    triangles: Rows,
-    vertices: Rows,
-    materials: Rows,
-    shapes: Buffer,
-    texels: wgpu::TextureView,
+    /// In the order of [`arrays`], and of the bindings.
+    buffers: Vec<Rows>,
+    /// What is in them; `None` before they are written, and after that failed.
+    on_device: Option<(Arc<PackedScene>, PackedView)>,
 }
 
 impl SceneBuffers {
     fn new(
         gpu: &Gpu,
         fetch: Fetch,
-        scene: &PackedScene,
+        scene: &Arc<PackedScene>,
         view: &PackedView,
+        uploads: &mut Uploads,
     ) -> Result<Self, GpuError> {
-        let rows = |what, first: &[u8], second: &[u8]| {
-            let rows = Rows::allocate(gpu, fetch, what, (first.len() + second.len()) as u64)?;
-            rows.write(gpu, 0, &both(first, second))?;
-            Ok::<_, GpuError>(rows)
-        };
-        let (nodes, view_room) = nodes(gpu, fetch, scene, view)?;
-        let vertices = cast_slice(&scene.vertices);
-        let materials = cast_slice(&scene.materials);
-        let texels = cast_slice(&scene.texels);
-        let buffers = Self {
+        let mut buffers = Self {
             fetch,
-            nodes,
-            view_room,
-            triangles: rows("triangles", cast_slice(&scene.triangles), &[])?,
-            vertices: rows("vertices", vertices, cast_slice(&scene.uvs))?,
-            materials: rows("materials", materials, cast_slice(&scene.textures))?,
-            shapes: gpu.upload("shapes", cast_slice(&scene.shapes))?,
-            texels: gpu.upload_image("texels", texels, IMAGE_WIDTH, TEXEL_FORMAT)?,
+            buffers: Vec::new(),
+            on_device: None,
         };
-        buffers.write_view(gpu, scene, view)?;
+        buffers.set(gpu, scene, view, 0, uploads)?;
         Ok(buffers)
     }
 
-    fn destroy(&self) {
-        for rows in [
-            &self.nodes,
-            &self.triangles,
-            &self.vertices,
-            &self.materials,
-        ] {
-            rows.destroy();
+    /// Writes what differs from what is there. Returns whether some buffer is another now: those that were
+    /// too small are destroyed first, as the ledger counts them once.
+    fn set(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Arc<PackedScene>,
+        view: &PackedView,
+        spare: u64,
+        uploads: &mut Uploads,
+    ) -> Result<bool, GpuError> {
+        let before = self.on_device.take();
+        let old = before.as_ref().map(|(scene, view)| arrays(scene, view));
+        let mut is_other = false;
+        for (index, array) in arrays(scene, view).iter().enumerate() {
+            let rows = self.buffers.get(index);
+            let fits = |rows: &Rows| old.is_some() && array.least_bytes() <= rows.bytes();
+            let mut known = old.as_ref().map_or(&[][..], |old| &old[index].pieces);
+            if !rows.is_some_and(fits) {
+                let bytes = match rows.filter(|_| old.is_some()) {
+                    Some(rows) => rows.grown(gpu, array.bytes, spare / ARRAY_COUNT as u64),
+                    None => array.bytes,
+                };
+                if let Some(rows) = rows {
+                    rows.destroy();
+                }
+                let rows = Rows::allocate(gpu, self.fetch, array, bytes)?;
+                match self.buffers.get_mut(index) {
+                    Some(place) => *place = rows,
+                    None => self.buffers.push(rows),
+                }
+                known = &[];
+                is_other = true;
+            }
+            array.write(gpu, &self.buffers[index], known, uploads)?;
         }
-        self.shapes.destroy();
-        self.texels.texture().destroy();
+        self.on_device = Some((scene.clone(), view.clone()));
+        Ok(is_other)
     }
 
     fn group(&self, gpu: &Gpu, layouts: &Layouts) -> wgpu::BindGroup {
-        let rows = [
-            &self.nodes,
-            &self.triangles,
-            &self.vertices,
-            &self.materials,
-        ];
-        let mut resources: Vec<_> = rows.into_iter().map(Rows::resource).collect();
-        resources.push(self.shapes.as_entire_binding());
-        resources.push(wgpu::BindingResource::TextureView(&self.texels));
+        let resources: Vec<_> = self.buffers.iter().map(Rows::resource).collect();
         group(gpu, &layouts.scene, &resources)
     }
-
-    /// Puts the nodes where there is room for the view. Those that were are destroyed first, as the
-    /// ledger counts them once.
-    fn make_room(
-        &mut self,
-        gpu: &Gpu,
-        scene: &PackedScene,
-        view: &PackedView,
-    ) -> Result<(), GpuError> {
-        self.nodes.destroy();
-        (self.nodes, self.view_room) = nodes(gpu, self.fetch, scene, view)?;
-        Ok(())
-    }
-
-    fn has_room_for(&self, view: &PackedView) -> bool {
-        view_bytes(view) <= self.view_room
-    }
-
-    fn write_view(
-        &self,
-        gpu: &Gpu,
-        scene: &PackedScene,
-        view: &PackedView,
-    ) -> Result<(), GpuError> {
-        if view_bytes(view) > 0 {
-            let offset = u64::from(scene.first_view_node()) * size_of::<PackedNode>() as u64;
-            self.nodes.write(gpu, offset, &view.node_parts().concat())?;
-        }
-        if !view.materials.is_empty() {
-            let (materials, textures) = (cast_slice(&view.materials), cast_slice(&scene.textures));
-            self.materials.write(gpu, 0, &both(materials, textures))?;
-        }
-        Ok(())
-    }
-}
-
-/// The scene's nodes, with room behind them for views that place a little more than this one, and how
-/// many bytes that is.
-fn nodes(
-    gpu: &Gpu,
-    fetch: Fetch,
-    scene: &PackedScene,
-    view: &PackedView,
-) -> Result<(Rows, u64), GpuError> {
-    let view_room = room_for(view);
-    let nodes = Rows::allocate(gpu, fetch, "nodes", node_bytes(scene, view_room))?;
-    nodes.write(gpu, 0, cast_slice(&scene.nodes))?;
-    Ok((nodes, view_room))
 }
 
 /// A film with this many rows, and what it is read back through, with the accounts of a slice.
@@ -252,90 +192,9 @@ fn frame_group(
     Ok(group(gpu, &layouts.frame, &resources))
 }
 
-/// Two slices one after the other.
-fn both<'a>(first: &'a [u8], second: &[u8]) -> Cow<'a, [u8]> {
-    match second.is_empty() {
-        true => Cow::Borrowed(first),
-        false => Cow::Owned([first, second].concat()),
-    }
-}
-
-/// What a view adds to the scene's nodes.
-fn view_bytes(view: &PackedView) -> u64 {
-    view.node_parts().iter().map(|part| part.len() as u64).sum()
-}
-
-/// The room that is made for a view, in bytes: views differ in how much they place.
-fn room_for(view: &PackedView) -> u64 {
-    view_bytes(view) * 5 / 4
-}
-
-/// The scene's nodes, and behind them room for a view.
-fn node_bytes(scene: &PackedScene, view_room: u64) -> u64 {
-    match view_room {
-        0 => size_of_val(&scene.nodes[..]) as u64,
-        _ => u64::from(scene.first_view_node()) * size_of::<PackedNode>() as u64 + view_room,
-    }
-}
-
-/// How many bytes of each there are.
-fn row_bytes(scene: &PackedScene, view: &PackedView) -> [(&'static str, u64); 4] {
-    [
-        ("nodes", node_bytes(scene, room_for(view))),
-        ("triangles", size_of_val(&scene.triangles[..]) as u64),
-        (
-            "vertices",
-            (size_of_val(&scene.vertices[..]) + size_of_val(&scene.uvs[..])) as u64,
-        ),
-        (
-            "materials",
-            (size_of_val(&scene.materials[..]) + size_of_val(&scene.textures[..])) as u64,
-        ),
-    ]
-}
-
-/// One of them on the GPU.
-enum Rows {
-    Image(wgpu::TextureView),
-    Buffer(Buffer),
-}
-
-impl Rows {
-    fn allocate(gpu: &Gpu, fetch: Fetch, what: &'static str, bytes: u64) -> Result<Self, GpuError> {
-        let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
-        Ok(match fetch {
-            Fetch::Image => {
-                Self::Image(gpu.allocate_image(what, bytes, IMAGE_WIDTH, ROW_FORMAT)?)
-            }
-            // WebGPU wants a binding to hold at least one element.
-            _ => Self::Buffer(gpu.allocate(what, bytes.max(ROW_BYTES), usage)?),
-        })
-    }
-
-    /// Writes from `offset` on, which is the beginning of a row of an image.
-    fn write(&self, gpu: &Gpu, offset: u64, bytes: &[u8]) -> Result<(), GpuError> {
-        match self {
-            Self::Image(view) => {
-                let row = offset / (ROW_BYTES * u64::from(IMAGE_WIDTH));
-                gpu.write_image(view, row as u32, bytes)
-            }
-            Self::Buffer(buffer) => gpu.write(buffer, offset, bytes),
-        }
-    }
-
-    fn destroy(&self) {
-        match self {
-            Self::Image(view) => view.texture().destroy(),
-            Self::Buffer(buffer) => buffer.destroy(),
-        }
-    }
-
-    fn resource(&self) -> wgpu::BindingResource<'_> {
-        match self {
-            Self::Image(view) => wgpu::BindingResource::TextureView(view),
-            Self::Buffer(buffer) => buffer.as_entire_binding(),
-        }
-    }
+/// Bytes of a frame and its lights.
+fn frame_bytes(view: &PackedView) -> u64 {
+    (size_of::<PackedFrame>() + size_of_val(&view.lights[..])) as u64
 }
 
 /// The fetch to use: as asked, or images on software adapters, where they are twice as fast.
@@ -351,7 +210,7 @@ pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene, view: &Packed
 
 /// What the device must be able to do for this scene and this film.
 pub fn needs(scene: &PackedScene, view: &PackedView, fetch: Fetch, film_rows: usize) -> Needs {
-    let shapes = size_of_val(&scene.shapes[..]) as u64;
+    let shapes = scene.shapes.byte_len();
     let film = film_rows as u64 * ROW_BYTES;
     let rows = largest_row_bytes(scene, view);
     if fetch != Fetch::Image {
@@ -369,8 +228,8 @@ pub fn needs(scene: &PackedScene, view: &PackedView, fetch: Fetch, film_rows: us
 }
 
 fn largest_row_bytes(scene: &PackedScene, view: &PackedView) -> u64 {
-    let sizes = row_bytes(scene, view).map(|(_, bytes)| bytes);
-    sizes.into_iter().max().unwrap_or(0)
+    let rows = arrays(scene, view).into_iter().filter(Array::is_row_image);
+    rows.map(|array| array.bytes).max().unwrap_or(0)
 }
 
 /// All that a render will allocate, on the GPU and for the picture on the host.
@@ -381,14 +240,11 @@ pub fn ledger(
     picture_pixels: u64,
 ) -> Ledger {
     let mut ledger = Ledger::default();
-    for (what, bytes) in row_bytes(scene, view) {
-        ledger.plan(what, bytes);
+    for array in arrays(scene, view) {
+        ledger.plan(array.what, array.bytes);
     }
-    ledger.plan("texels", size_of_val(&scene.texels[..]) as u64);
-    ledger.plan("shapes", size_of_val(&scene.shapes[..]) as u64);
-    let lights = view.lights.len() * size_of::<PackedLight>();
-    let frame = size_of::<PackedFrame>() + size_of::<PackedTone>() + lights;
-    ledger.plan("frame", frame as u64);
+    let tone = size_of::<PackedTone>() as u64;
+    ledger.plan("frame", frame_bytes(view) + tone);
     ledger.plan("film and its copies", 4 * film_rows as u64 * ROW_BYTES);
     ledger.plan("picture", picture_pixels * 2 * ROW_BYTES);
     ledger

@@ -20,13 +20,14 @@ use crate::{
     pack::{PackedScene, PackedView},
 };
 use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_collect_to_vec, pod_read_unaligned};
+use std::sync::Arc;
 
 const ROW_BYTES: u64 = 16;
 
 /// What is to be rendered.
 #[derive(Clone, Copy)]
 pub struct Task<'a> {
-    pub scene: &'a PackedScene,
+    pub scene: &'a Arc<PackedScene>,
     pub view: &'a PackedView,
     pub settings: &'a Settings,
     /// Rows of the film of the largest window.
@@ -57,7 +58,9 @@ impl Device {
     pub fn new(gpu: Gpu, fetch: Fetch, task: Task, stats: &mut Stats) -> Result<Self, GpuError> {
         let start = Instant::now();
         let layouts = Layouts::new(&gpu, fetch);
-        let buffers = Buffers::new(&gpu, &layouts, fetch, task.scene, task.view, task.film_rows)?;
+        let shown = (task.scene, task.view);
+        let uploads = &mut stats.uploads;
+        let buffers = Buffers::new(&gpu, &layouts, fetch, shown, task.film_rows, uploads)?;
         stats.upload_seconds += start.elapsed().as_secs_f64();
         let pipeline = compile(&gpu, fetch, &layouts, &buffers, task, stats)?;
         Ok(Self {
@@ -74,24 +77,16 @@ impl Device {
         })
     }
 
-    /// Puts another frame in place, or another scene with it, and makes room for its film.
-    pub fn set(
-        &mut self,
-        task: Task,
-        is_other_scene: bool,
-        stats: &mut Stats,
-    ) -> Result<(), GpuError> {
+    /// Puts another frame in place, or another scene with it, and makes room for its film. `spare` bytes
+    /// may be allocated beyond what is needed.
+    pub fn set(&mut self, task: Task, spare: u64, stats: &mut Stats) -> Result<(), GpuError> {
         let start = Instant::now();
         let (gpu, layouts) = (&self.gpu, &self.layouts);
-        let Task { scene, view, .. } = task;
         if self.buffers.make_room(gpu, layouts, task.film_rows)? {
             self.developer = None;
         }
-        if is_other_scene {
-            (self.buffers).set_scene(gpu, layouts, self.fetch, scene, view)?;
-        } else {
-            self.buffers.set_view(gpu, layouts, scene, view)?;
-        }
+        let shown = (task.scene, task.view);
+        (self.buffers).set(gpu, layouts, shown, spare, &mut stats.uploads)?;
         stats.upload_seconds += start.elapsed().as_secs_f64();
         self.loaded_window = None;
         let wanted = Variant::of(task);

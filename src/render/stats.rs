@@ -13,6 +13,8 @@ pub struct Stats {
     pub compile_seconds: f64,
     /// Copying the scene to the device, again after a loss.
     pub upload_seconds: f64,
+    /// What was copied to it.
+    pub uploads: Uploads,
     /// Tracing, from submission to the copy of the film, whatever came of it.
     pub trace_seconds: f64,
     /// Developing, each time it was asked for.
@@ -35,6 +37,19 @@ pub struct Stats {
     pub samples: u64,
     /// Kept with [`super::Settings::count_rays`].
     pub rays: Option<Rays>,
+}
+
+/// Bytes copied to the device so far. What is there already is not copied again.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Uploads {
+    /// Trees, triangles, shapes and vertices of scenes.
+    pub geometry: u64,
+    /// Materials, textures and texels.
+    pub surfaces: u64,
+    /// Trees over instances, the instances and their keys.
+    pub tlas: u64,
+    /// Frames with their lights, and keys of moving cameras.
+    pub frames: u64,
 }
 
 /// Rays by kind. Shadow rays count one for each light, or sample of a light with extent, that the

@@ -703,8 +703,8 @@ fn hits_name_the_same_things_whether_copies_are_laid_out_or_placed() {
     let pixels: Vec<_> = (0..48)
         .flat_map(|y| (0..64).map(move |x| ([x, y], 0..1)))
         .collect();
-    let objects = |most_laid_out| {
-        let packed = Arc::new(pack::scene_with(&scene, most_laid_out).expect("packed"));
+    let objects = |most_baked| {
+        let packed = Arc::new(pack::scene_with(&scene, most_baked).expect("packed"));
         let view = packed.frame(&scene.frame(0.0)).expect("a view");
         let mut renderer =
             Renderer::new(open_gpu(), packed.clone(), &view, sized(64, 48)).expect("a renderer");

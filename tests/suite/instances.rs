@@ -32,8 +32,8 @@ pub fn shot(packed: &Arc<PackedScene>, frames: &[Frame], settings: &Settings) ->
     (image, renderer.stats().clone())
 }
 
-pub fn packed(scene: &Scene, most_laid_out: usize) -> Arc<PackedScene> {
-    Arc::new(pack::scene_with(scene, most_laid_out).expect("a scene that can be packed"))
+pub fn packed(scene: &Scene, most_baked: usize) -> Arc<PackedScene> {
+    Arc::new(pack::scene_with(scene, most_baked).expect("a scene that can be packed"))
 }
 
 /// Copies of a ball and a torus, moved, turned, stretched, and mirrored by turns, over a floor.

@@ -31,7 +31,7 @@ mod optics;
 mod orthographic;
 mod output;
 mod pack;
-mod pack_surfaces;
+mod pack_again;
 mod pack_view;
 mod pictures;
 mod readme;

@@ -336,7 +336,7 @@ fn what_is_hidden_is_neither_packed_nor_lost_in_a_file() {
     assert_eq!(scene.nodes.len(), 2, "one node hides them all");
     let packed = glimray::pack::scene(&scene).expect("packed");
     assert_eq!((all.plane_count, packed.plane_count), (1, 0));
-    assert_eq!(all.still_shape_count - packed.still_shape_count, 1);
+    assert_eq!(all.baked_shape_count - packed.baked_shape_count, 1);
     assert_eq!(scene.frame(0.0).lights[0].color, Vec3::ZERO);
 
     let export = glimray::export::native(&scene, "s", &|_, _| false).expect("an export");

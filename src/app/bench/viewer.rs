@@ -1,6 +1,7 @@
 //! How soon there is something to see in the window, without the window: its render thread, ordered
 //! about as a hand would.
 
+use super::workloads;
 use crate::app::cli::BenchArgs;
 use crate::app::demo;
 use crate::app::exit::AppError;
@@ -8,7 +9,9 @@ use crate::app::view::navigation::Rig;
 use crate::app::view::order::Order;
 use crate::app::view::render_thread::{Fault, Orders, Place, RenderThread};
 use crate::gpu::{Gpu, GpuError};
-use crate::render::{Settings, Tone};
+use crate::pack;
+use crate::render::{Renderer, Settings, Tone};
+use crate::scene::Scene;
 use serde::Serialize;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
@@ -42,6 +45,14 @@ pub struct Row {
     coarse_height: u32,
     /// The longest that anything had to wait for the adapter.
     longest_submission_seconds: f64,
+    /// Host work from the end of a camera's movement to the first submission of the picture in full.
+    rest_seconds: f64,
+    /// The same in a scene of 1,000 objects with 1,000,000 triangles.
+    thousand_rest_seconds: f64,
+    /// From an order that moves one of those objects to the coarse picture.
+    thousand_move_seconds: f64,
+    /// The longest of all.
+    longest_thousand_move_seconds: f64,
 }
 
 pub fn measure(arguments: &BenchArgs) -> Result<Row, AppError> {
@@ -51,7 +62,7 @@ pub fn measure(arguments: &BenchArgs) -> Result<Row, AppError> {
     let mut longest_submission: f64 = 0.0;
     for _ in 0..arguments.repeats {
         let started = Instant::now();
-        let mut stage = Stage::new(arguments)?;
+        let mut stage = Stage::new(arguments, demo::scene()?)?;
         stage.wait(|stage| stage.coarse_size().is_some())?;
         first.push(started.elapsed().as_secs_f64());
         for _ in 0..MOVES {
@@ -62,6 +73,7 @@ pub fn measure(arguments: &BenchArgs) -> Result<Row, AppError> {
         longest_submission = longest_submission.max(stage.longest_submission());
     }
     let (coarse_width, coarse_height) = last.unwrap_or_default();
+    let moves = moves_of_one(arguments)?;
     Ok(Row {
         name: NAME,
         width: SIZE.0,
@@ -72,10 +84,61 @@ pub fn measure(arguments: &BenchArgs) -> Result<Row, AppError> {
         coarse_width,
         coarse_height,
         longest_submission_seconds: longest_submission,
+        rest_seconds: rest_seconds(arguments, &demo::scene()?)?,
+        thousand_rest_seconds: rest_seconds(arguments, &workloads::thousand())?,
+        longest_thousand_move_seconds: moves.iter().copied().fold(0.0, f64::max),
+        thousand_move_seconds: super::median(moves),
     })
 }
 
-/// The demo on a render thread.
+/// Seconds from an order that moves one of a thousand objects to the coarse picture, for each movement.
+fn moves_of_one(arguments: &BenchArgs) -> Result<Vec<f64>, AppError> {
+    let mut stage = Stage::new(arguments, workloads::thousand())?;
+    stage.wait(|stage| stage.coarse_size().is_some())?;
+    let mut seconds = Vec::new();
+    for step in 0..MOVES {
+        stage.rest()?;
+        seconds.push(stage.order_coarse(|order| {
+            let mut scene = Scene::clone(&order.scene);
+            scene.instances[500 + step as usize].placement.translation.y += 0.01;
+            order.scene = Arc::new(scene);
+        })?);
+    }
+    Ok(seconds)
+}
+
+/// The median of the host's work that lies before a picture in full from another camera.
+fn rest_seconds(arguments: &BenchArgs, scene: &Scene) -> Result<f64, AppError> {
+    let gpu = Gpu::with_all_limits(&arguments.device.choice())?;
+    let settings = settings(arguments, scene);
+    let packed = Arc::new(pack::scene(scene)?);
+    let mut rig = Rig::new(&scene.frame(0.0).camera, scene.bounds());
+    let mut frames = scene.shot(0.0, 0.0);
+    let mut view = packed.shot(&frames)?;
+    let mut renderer = Renderer::new(gpu, packed.clone(), &view, settings.clone())?;
+    let mut seconds = Vec::new();
+    for _ in 0..MOVES {
+        rig.orbit_by(ANGLE, 0.0);
+        rig.advance(10.0);
+        let started = Instant::now();
+        frames[0].camera = rig.camera();
+        view = packed.shot_from(Some(&view), &frames)?;
+        renderer.restart(packed.clone(), &view, settings.clone())?;
+        seconds.push(started.elapsed().as_secs_f64());
+        renderer.step()?;
+    }
+    Ok(super::median(seconds))
+}
+
+fn settings(arguments: &BenchArgs, scene: &Scene) -> Settings {
+    Settings {
+        size: SIZE,
+        memory_limit_bytes: arguments.device.memory_limit_bytes(),
+        ..Settings::from(&scene.output)
+    }
+}
+
+/// A scene on a render thread.
 struct Stage {
     thread: RenderThread<()>,
     news: Receiver<()>,
@@ -84,8 +147,7 @@ struct Stage {
 }
 
 impl Stage {
-    fn new(arguments: &BenchArgs) -> Result<Self, AppError> {
-        let scene = demo::scene()?;
+    fn new(arguments: &BenchArgs, scene: Scene) -> Result<Self, AppError> {
         let gpu = Gpu::with_all_limits(&arguments.device.choice())?;
         let (wake, news) = channel();
         let wake = move || {
@@ -97,11 +159,7 @@ impl Stage {
         let rig = Rig::new(&scene.frame(0.0).camera, scene.bounds());
         let mut orders = Orders::default();
         orders.pictures[Place::Main as usize] = Some(Order {
-            settings: Settings {
-                size: SIZE,
-                memory_limit_bytes: arguments.device.memory_limit_bytes(),
-                ..Settings::from(&scene.output)
-            },
+            settings: settings(arguments, &scene),
             scene: Arc::new(scene),
             restarts: 0,
             camera: None,
@@ -131,9 +189,15 @@ impl Stage {
         self.rig.orbit_by(ANGLE, 0.0);
         // To where it glides.
         self.rig.advance(10.0);
+        let camera = self.rig.camera();
+        self.order_coarse(|order| order.camera = Some(camera))
+    }
+
+    /// Changes what is wanted, and returns the seconds until that is to be seen, if coarse.
+    fn order_coarse(&mut self, change: impl FnOnce(&mut Order)) -> Result<f64, AppError> {
         self.orders.coarse = true;
         if let Some(order) = &mut self.orders.pictures[Place::Main as usize] {
-            order.camera = Some(self.rig.camera());
+            change(order);
         }
         let started = Instant::now();
         self.thread.order(self.orders.clone());
@@ -172,7 +236,8 @@ impl Stage {
 pub fn text(row: &Row) -> String {
     format!(
         "{:<20} {:>5}×{:<5} first picture {:.3} s, movement to picture {:.0} ms (longest {:.0} ms) at \
-         {}×{}, longest submission {:.0} ms\n",
+         {}×{}, longest submission {:.0} ms, at rest to submission {:.1} ms; 1,000 objects: {:.1} ms, one \
+         moved to picture {:.0} ms (longest {:.0} ms)\n",
         row.name,
         row.width,
         row.height,
@@ -182,5 +247,9 @@ pub fn text(row: &Row) -> String {
         row.coarse_width,
         row.coarse_height,
         row.longest_submission_seconds * 1e3,
+        row.rest_seconds * 1e3,
+        row.thousand_rest_seconds * 1e3,
+        row.thousand_move_seconds * 1e3,
+        row.longest_thousand_move_seconds * 1e3,
     )
 }

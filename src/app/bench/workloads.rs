@@ -21,7 +21,7 @@ pub struct Workload {
     /// When the shutter opens and closes, in seconds.
     pub shot: (f64, f64),
     /// See [`pack::scene_with`].
-    pub most_laid_out: usize,
+    pub most_baked: usize,
 }
 
 impl Workload {
@@ -31,7 +31,7 @@ impl Workload {
             scene,
             size,
             shot: (0.0, 0.0),
-            most_laid_out: pack::MOST_LAID_OUT,
+            most_baked: pack::MOST_BAKED,
         }
     }
 }
@@ -71,11 +71,11 @@ pub fn all() -> Result<Vec<Workload>, AppError> {
             )
         },
         Workload {
-            most_laid_out: usize::MAX,
+            most_baked: usize::MAX,
             ..Workload::new("crowd-laid-out", crowd(), (640, 480))
         },
         Workload {
-            most_laid_out: 0,
+            most_baked: 0,
             ..Workload::new("crowd-instanced", crowd(), (640, 480))
         },
     ])
@@ -107,28 +107,59 @@ fn course_text(triangle_count: u32, light_count: u32) -> String {
     text
 }
 
-/// Hills of `quads` × `quads` quads over the unit square of the ground, seen from a corner.
-fn height_field(quads: u32, lights: Vec<Light>) -> Scene {
-    let side = quads + 1;
+/// Hills of `columns` × `rows` quads over the unit square of the ground. `shift` makes others of them.
+fn hills(columns: u32, rows: u32, shift: f32) -> Mesh {
+    let side = columns + 1;
     let height = |x: f32, z: f32| {
+        let x = x + shift;
         0.06 * (TAU * 2.0 * x).sin() * (TAU * 3.0 * z).cos() + 0.01 * (TAU * 17.0 * (x + z)).sin()
     };
-    let at = |i: u32| i as f32 / quads as f32 - 0.5;
-    let vertices = (0..side * side).map(|i| (at(i % side), at(i / side)));
+    let at = |i: u32, count: u32| i as f32 / count as f32 - 0.5;
+    let vertices = (0..side * (rows + 1)).map(|i| (at(i % side, columns), at(i / side, rows)));
     let mut mesh = Mesh {
         positions: vertices
             .map(|(x, z)| Vec3::new(x, height(x, z), z))
             .collect(),
-        materials: vec![0; (side * side) as usize],
-        triangles: (0..quads * quads)
-            .map(|i| i / quads * side + i % quads)
+        materials: vec![0; (side * (rows + 1)) as usize],
+        triangles: (0..columns * rows)
+            .map(|i| i / columns * side + i % columns)
             .flat_map(|i| [[i, i + side, i + 1], [i + 1, i + side, i + side + 1]])
             .collect(),
         ..Mesh::default()
     };
     mesh.repair();
+    mesh
+}
+
+/// A thousand hills of a thousand triangles, no two of which are the same, in the sun.
+#[cfg(feature = "viewer")]
+pub fn thousand() -> Scene {
+    let mut scene = height_field(1, vec![sun()]);
+    scene.meshes = (0..1000)
+        .map(|i| hills(25, 20, i as f32 / 1000.0).into())
+        .collect();
+    scene.instances = (0..1000)
+        .map(|i| {
+            let place = DVec3::new(f64::from(i % 40) - 19.5, 0.0, f64::from(i / 40) - 12.0);
+            Instance {
+                mesh: i as usize,
+                placement: DAffine3::from_scale_rotation_translation(
+                    DVec3::splat(0.03),
+                    DQuat::from_rotation_y(f64::from(i)),
+                    place * 0.03,
+                ),
+                node: None,
+            }
+        })
+        .collect();
+    scene.pin_render_origin();
+    scene
+}
+
+/// Hills of `quads` × `quads` quads, seen from a corner.
+fn height_field(quads: u32, lights: Vec<Light>) -> Scene {
     Scene {
-        meshes: vec![mesh.into()],
+        meshes: vec![hills(quads, quads, 0.0).into()],
         instances: vec![Instance {
             mesh: 0,
             placement: DAffine3::IDENTITY,

@@ -10,9 +10,9 @@ pub use pace::{Pace, patience};
 use super::order::Order;
 use super::render_thread::{CanvasError, Place, Studio};
 use crate::gpu::Gpu;
-use crate::pack::{self, PackedScene};
+use crate::pack::{self, PackedScene, PackedView};
 use crate::render::{Antialias, Renderer, Screen, Settings, Stats};
-use crate::scene::{Frame, Scene};
+use crate::scene::Frame;
 use noise::Noise;
 use packing::view;
 use std::sync::Arc;
@@ -42,6 +42,8 @@ pub struct Shown {
     pub progress: Progress,
     /// What the renderer has cost since the window was opened.
     pub stats: Stats,
+    /// Trees that were built or refitted since then.
+    pub trees_built: usize,
     /// What it renders on.
     pub adapter: Arc<str>,
 }
@@ -77,9 +79,10 @@ pub struct Canvas {
     stays_coarse: bool,
     is_coarse: bool,
     packed: Option<Arc<PackedScene>>,
-    /// What it was packed from.
-    packed_from: Option<Arc<Scene>>,
     frames: Vec<Frame>,
+    view: Option<PackedView>,
+    /// Trees that were built or refitted since the window was opened.
+    trees_built: usize,
     renderer: Option<Renderer>,
     screen: Option<Screen>,
     coarse: Option<Screen>,
@@ -115,8 +118,9 @@ impl Canvas {
             stays_coarse: false,
             is_coarse: false,
             packed: None,
-            packed_from: None,
             frames: Vec::new(),
+            view: None,
+            trees_built: 0,
             renderer: None,
             screen: None,
             coarse: None,
@@ -215,17 +219,12 @@ impl Canvas {
     }
 
     fn pack(&mut self, order: &Order) -> Result<(), CanvasError> {
-        let scene = &order.scene;
-        let kept = match (&self.packed, &self.packed_from) {
-            (Some(packed), Some(was)) => packed.with_surfaces(was, scene)?,
-            _ => None,
+        let packed = match &self.packed {
+            Some(packed) => pack::scene_from(packed, &order.scene)?,
+            None => pack::scene(&order.scene)?,
         };
-        let packed = match kept {
-            Some(packed) => packed,
-            None => pack::scene(scene)?,
-        };
+        self.trees_built += packed.work.total();
         self.packed = Some(Arc::new(packed));
-        self.packed_from = Some(scene.clone());
         // The scene's own, with its own camera and background: see `view`.
         self.frames = order.scene.shot(order.shot.0, order.shot.1);
         Ok(())
@@ -236,7 +235,9 @@ impl Canvas {
         let (Some(order), Some(packed)) = (&self.order, &self.packed) else {
             return Ok(());
         };
-        let view = view(packed, &self.frames, order)?;
+        let view = view(packed, self.view.as_ref(), &self.frames, order)?;
+        let has_tlas = (self.view.as_ref()).is_some_and(|before| before.shares_tlas(&view));
+        self.trees_built += usize::from(packed.features.instances && !has_tlas);
         let settings = match coarse {
             true => pace::coarse(&self.gpu, &mut self.pace, &order.settings),
             false => pace::fine(&self.gpu, &order.settings),
@@ -249,6 +250,7 @@ impl Canvas {
                 self.renderer = Some(Renderer::new(gpu, packed, &view, settings)?);
             }
         }
+        self.view = Some(view);
         self.is_coarse = coarse;
         self.is_shown = false;
         self.last_look = None;
@@ -387,6 +389,7 @@ impl Canvas {
                 is_done: self.is_done(),
             },
             stats: stats.clone(),
+            trees_built: self.trees_built,
             adapter: self.adapter.clone(),
         })
     }

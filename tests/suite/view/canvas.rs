@@ -13,7 +13,8 @@ use glimray::app::view::order::Order;
 use glimray::app::view::render_thread::{Fault, Orders, Place, RenderThread};
 use glimray::gpu::Gpu;
 use glimray::image::Image;
-use glimray::render::{Antialias, Settings, Tone};
+use glimray::import;
+use glimray::render::{Antialias, Settings, Tone, Uploads};
 use glimray::scene::{Background, Camera, Scene, ToneCurve};
 use std::sync::Arc;
 use std::sync::mpsc::channel;
@@ -428,6 +429,73 @@ fn the_coarse_picture_is_what_is_wanted_too_after_a_way_back() {
             "{what}: {near} from home, {far} before the way back"
         );
     }
+}
+
+#[test]
+fn a_camera_that_moves_and_comes_to_rest_builds_no_tree_and_uploads_only_frames() {
+    // One that stands still, and one in which a node moves.
+    let moving = import::load("assets/scenes/orbits.toml".as_ref()).expect("a scene");
+    for mut scene in [scenes::everything(), moving] {
+        scene.pin_render_origin();
+        let home = scene.frame(0.0).camera;
+        let mut easel = Easel::new(&scene, stratified(2));
+        easel.settle();
+        let before = easel.shown();
+        assert!(before.trees_built > 0 && before.stats.uploads.geometry > 0);
+        let mut frames = before.stats.uploads.frames;
+        for step in 1..4 {
+            easel.orders.coarse = true;
+            easel.want(|order| {
+                let mut camera = home.clone();
+                camera.look_from.x += f64::from(step);
+                order.camera = Some(camera);
+            });
+            easel.settle();
+            easel.orders.coarse = false;
+            easel.want(|_| {});
+            easel.settle();
+            let now = easel.shown();
+            assert!(now.progress.is_done);
+            assert_eq!(now.trees_built, before.trees_built, "trees");
+            let uploads = now.stats.uploads;
+            assert!(uploads.frames > frames, "no frame");
+            frames = uploads.frames;
+            let others = Uploads {
+                frames: before.stats.uploads.frames,
+                ..uploads
+            };
+            assert_eq!(others, before.stats.uploads);
+        }
+    }
+}
+
+#[test]
+fn an_edit_of_the_scene_builds_the_trees_of_what_it_changes() {
+    let mut scene = scenes::everything();
+    scene.pin_render_origin();
+    let mut easel = Easel::new(&scene, stratified(2));
+    easel.settle();
+    let before = easel.shown();
+    let edited = |edit: fn(&mut Scene)| {
+        let mut scene = scene.clone();
+        edit(&mut scene);
+        Arc::new(scene)
+    };
+    let recoloured = edited(|scene| scene.materials[0].diffuse = Vec3::new(0.9, 0.1, 0.4));
+    easel.want(|order| order.scene = recoloured.clone());
+    easel.settle();
+    let now = easel.shown();
+    assert_eq!(now.trees_built, before.trees_built);
+    let (was, is) = (before.stats.uploads, now.stats.uploads);
+    assert_eq!((is.geometry, is.tlas), (was.geometry, was.tlas));
+    assert!(is.surfaces > was.surfaces);
+    assert!(easel.image() == render(&recoloured, &stratified(2)).0);
+
+    let moved = edited(|scene| scene.instances[0].placement.translation.y += 0.5);
+    easel.want(|order| order.scene = moved.clone());
+    easel.settle();
+    assert_eq!(easel.shown().trees_built, before.trees_built + 1);
+    assert!(easel.image() == render(&moved, &stratified(2)).0);
 }
 
 #[test]

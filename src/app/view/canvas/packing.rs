@@ -4,14 +4,15 @@ use super::super::order::Order;
 use crate::pack::{self, PackedScene, PackedView};
 use crate::scene::Frame;
 
-/// The frames with the order's camera and background.
+/// The frames with the order's camera and background. `previous` is the view before it.
 pub fn view(
     packed: &PackedScene,
+    previous: Option<&PackedView>,
     frames: &[Frame],
     order: &Order,
 ) -> Result<PackedView, pack::PackError> {
     if order.camera.is_none() && order.background.is_none() {
-        return packed.shot(frames);
+        return packed.shot_from(previous, frames);
     }
     let mut frames = frames.to_vec();
     for frame in &mut frames {
@@ -22,5 +23,5 @@ pub fn view(
             frame.background = background.clone();
         }
     }
-    packed.shot(&frames)
+    packed.shot_from(previous, &frames)
 }

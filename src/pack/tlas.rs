@@ -1,11 +1,11 @@
-//! The tree over what is placed, made anew for each shot: instances, their keys while the shutter is
-//! open, and nodes whose boxes follow the movement.
+//! The tree over the instances (TLAS), built for each shot in which something is elsewhere: instances,
+//! their keys while the shutter is open, and nodes whose boxes follow the movement.
 
 use super::{
-    PackError, PackedScene,
+    PackError, PackedScene, PackedView,
     geometry::in_range,
-    nodes,
-    placed::{Placed, PlacedTree},
+    instance::{Instance, InstancedBlas},
+    nodes::{self, Children},
     placement::{Placement, aligned},
 };
 use crate::{
@@ -13,17 +13,43 @@ use crate::{
     layout::{INSTANCE, MOVING, PackedInstance, PackedKey, PackedNode, STACK_SIZE},
     scene::Frame,
 };
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec3};
+use std::sync::Arc;
 
-/// What is placed, as the GPU wants it.
+/// What a scene says about the tree over its instances, whatever the frame.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Placements {
+pub struct TlasSource {
+    pub origin: DVec3,
+    /// Index that the first node will have.
+    pub first_node: u32,
+    /// Boxes of what is baked, with child references.
+    pub parts: Vec<(Aabb, u32)>,
+    pub blas: Vec<InstancedBlas>,
+    pub instances: Vec<Instance>,
+    /// The most entries on the stack in any of the trees below.
+    pub stack_need: usize,
+}
+
+/// The tree over the instances, as the GPU wants it.
+#[derive(Debug, Default)]
+pub struct Tlas {
     /// Each followed by the same node at the end of the shot if anything moves.
     pub nodes: Vec<PackedNode>,
     pub instances: Vec<PackedInstance>,
     pub keys: Vec<PackedKey>,
     /// Whether an instance moves while the shutter is open.
     pub moves: bool,
+    /// What it was built from: of each instance the transforms into the world over the shot, one where
+    /// it does not move; `None` where it is hidden.
+    source: Arc<TlasSource>,
+    worlds: Vec<Option<Vec<DAffine3>>>,
+}
+
+/// By what the GPU sees.
+impl PartialEq for Tlas {
+    fn eq(&self, other: &Self) -> bool {
+        self.nodes == other.nodes && self.instances == other.instances && self.keys == other.keys
+    }
 }
 
 /// Boxes at the beginning and at the end of a shot. What moves is at any time in the box that lies in
@@ -35,112 +61,129 @@ struct Swept {
 }
 
 impl PackedScene {
-    /// Places the trees as the frames of a shot say. `first_node` is the index that the first node will
-    /// have.
-    pub(super) fn placements(
+    /// The tree over the instances where the frames of a shot have them: that of `previous` if it would
+    /// be the same.
+    pub(super) fn tlas(
         &self,
         frames: &[Frame],
-        first_node: u32,
-    ) -> Result<Placements, PackError> {
-        let mut view = Placements::default();
-        // Boxes, and the child references to what is in them: first parts of the tree of what stands
-        // still, then instances.
+        previous: Option<&PackedView>,
+    ) -> Result<Arc<Tlas>, PackError> {
+        let source = &self.tlas_source;
+        let worlds: Vec<_> = (source.instances.iter())
+            .map(|instance| instance.worlds(frames))
+            .collect();
+        if let Some(before) = previous.map(|previous| &previous.tlas)
+            && Arc::ptr_eq(&before.source, source)
+            && before.worlds == worlds
+        {
+            return Ok(before.clone());
+        }
+        Ok(Arc::new(Tlas::build(source, worlds)?))
+    }
+}
+
+impl Instance {
+    fn worlds(&self, frames: &[Frame]) -> Option<Vec<DAffine3>> {
+        if !self.source.is_visible(&frames[0]) {
+            return None;
+        }
+        let world_from_tree = |frame| self.source.world_from_tree(frame);
+        let worlds = frames.iter().map(world_from_tree);
+        let mut worlds = worlds.collect::<Option<Vec<_>>>()?;
+        if worlds.iter().all(|world| *world == worlds[0]) {
+            worlds.truncate(1);
+        }
+        Some(worlds)
+    }
+}
+
+impl Tlas {
+    fn build(
+        source: &Arc<TlasSource>,
+        worlds: Vec<Option<Vec<DAffine3>>>,
+    ) -> Result<Self, PackError> {
+        let mut tlas = Self {
+            source: source.clone(),
+            ..Self::default()
+        };
+        // Boxes, and the child references to what is in them: first parts of what is baked, then
+        // instances.
         let (mut boxes, mut references) = (Vec::new(), Vec::new());
-        for &(aabb, reference) in &self.still_parts {
-            boxes.push(still(aabb));
+        for &(aabb, reference) in &source.parts {
+            boxes.push(at_rest(aabb));
             references.push(reference);
         }
-        for (id, placed) in self.placed.iter().enumerate() {
-            if let Some(swept) = self.place(placed, id as u32, frames, &mut view)? {
-                boxes.push(swept);
-                references.push(INSTANCE | (view.instances.len() - 1) as u32);
+        for (id, worlds) in worlds.iter().enumerate() {
+            if let Some(worlds) = worlds {
+                boxes.push(tlas.add(id, worlds)?);
+                references.push(INSTANCE | (tlas.instances.len() - 1) as u32);
             }
         }
-        view.moves = view.instances.iter().any(|instance| instance.key_count > 1);
-        // One entry leads back from a tree that is placed, and the last store of a step lies one beyond.
+        tlas.worlds = worlds;
+        tlas.moves = tlas.instances.iter().any(|instance| instance.key_count > 1);
+        // One entry leads back from an instance's tree, and the last store of a step lies one beyond.
         let limit = STACK_SIZE as usize - 2;
         let limits = bvh::Limits {
             leaf_size: 1,
-            stack_size: limit.saturating_sub(self.stack_need),
+            stack_size: limit.saturating_sub(source.stack_need),
         };
         let unions: Vec<_> = (boxes.iter())
             .map(|swept| swept.open.union(swept.close))
             .collect();
         // A leaf has one box, so that it does not matter what kind the others are of.
         let bvh = bvh::build(&unions, &vec![0; unions.len()], 1, limits);
-        let need = bvh.stack_need + self.stack_need;
+        let need = bvh.stack_need + source.stack_need;
         if need > limit {
             return Err(PackError::TooDeep { need, limit });
         }
-        view.nodes = pack_nodes(&bvh, &boxes, &references, first_node, view.moves);
-        Ok(view)
+        tlas.nodes = pack_nodes(&bvh, &boxes, &references, source.first_node, tlas.moves);
+        Ok(tlas)
     }
 
-    /// Adds one instance, and its keys if it moves; `None` where it is hidden.
-    fn place(
-        &self,
-        placed: &Placed,
-        id: u32,
-        frames: &[Frame],
-        view: &mut Placements,
-    ) -> Result<Option<Swept>, PackError> {
-        if !placed.carrier.is_visible(&frames[0]) {
-            return Ok(None);
-        }
-        let world_from_tree = |frame| placed.carrier.world_from_tree(frame);
-        let Some(mut worlds) = frames
-            .iter()
-            .map(world_from_tree)
-            .collect::<Option<Vec<_>>>()
-        else {
-            return Ok(None);
-        };
-        let to_render = DAffine3::from_translation(-self.origin);
-        let tree = &self.placed_trees[placed.tree];
-        let moves = worlds.iter().any(|world| *world != worlds[0]);
-        if !moves {
-            worlds.truncate(1);
-        }
-        for &world in &worlds {
-            let (min, max) = tree.bounds(to_render * world);
+    /// Adds the instance with this number, and its keys if it moves.
+    fn add(&mut self, id: usize, worlds: &[DAffine3]) -> Result<Swept, PackError> {
+        let Instance { blas, source } = &self.source.instances[id];
+        let to_render = DAffine3::from_translation(-self.source.origin);
+        let blas = &self.source.blas[*blas];
+        for &world in worlds {
+            let (min, max) = blas.bounds(to_render * world);
             in_range(min.abs().max(max.abs()).max_element())?;
         }
         let first = to_render * worlds[0];
-        let to_pattern = placed.carrier.pattern_from_tree(worlds[0]);
-        let pattern = pattern_rows(to_render * to_pattern);
+        let pattern = pattern_rows(to_render * source.pattern_from_tree(worlds[0]));
         let linear = rows(first.matrix3);
         let inverse = rows(first.matrix3.inverse());
         let mut instance = PackedInstance {
             translation: first.translation.as_vec3().into(),
-            root: tree.tree.root,
+            root: blas.root,
             inverse_x: inverse[0],
-            first: tree.tree.first,
+            first: blas.first,
             inverse_y: inverse[1],
-            count: tree.tree.count,
+            count: blas.count,
             inverse_z: inverse[2],
             key_count: 1,
             linear_x: linear[0],
-            first_key: view.keys.len() as u32,
+            first_key: self.keys.len() as u32,
             linear_y: linear[1],
-            id: id + 1,
+            id: id as u32 + 1,
             linear_z: linear[2],
             pattern_x: pattern[0],
             pattern_y: pattern[1],
             pattern_z: pattern[2],
             ..Default::default()
         };
-        let swept = if !moves {
-            let (min, max) = tree.bounds(first);
-            still(rounded_outwards(min, max))
+        let swept = if worlds.len() == 1 {
+            let (min, max) = blas.bounds(first);
+            at_rest(rounded_outwards(min, max))
         } else {
             let keys = (worlds.iter()).map(|&world| Placement::of(to_render * world));
             let keys = aligned(keys.collect());
             instance.key_count = keys.len() as u32;
-            view.keys.extend(keys.iter().map(Placement::packed));
-            sweep(tree, &keys)
+            self.keys.extend(keys.iter().map(Placement::packed));
+            sweep(blas, &keys)
         };
-        view.instances.push(instance);
-        Ok(Some(swept))
+        self.instances.push(instance);
+        Ok(swept)
     }
 }
 
@@ -155,7 +198,7 @@ fn pattern_rows(transform: DAffine3) -> [[f32; 4]; 3] {
     })
 }
 
-fn still(aabb: Aabb) -> Swept {
+fn at_rest(aabb: Aabb) -> Swept {
     Swept {
         open: aabb,
         close: aabb,
@@ -174,9 +217,9 @@ fn rounded_outwards(min: DVec3, max: DVec3) -> Aabb {
 
 /// Boxes between which a tree stays. They hold it at all keys and at steps in between, and half as much
 /// more as it strays from one step to the next from where the boxes beside it would have it.
-fn sweep(tree: &PlacedTree, keys: &[Placement]) -> Swept {
+fn sweep(blas: &InstancedBlas, keys: &[Placement]) -> Swept {
     let last = (keys.len() - 1) as f64;
-    let mut boxes = vec![(0.0, tree.bounds(keys[0].transform()))];
+    let mut boxes = vec![(0.0, blas.bounds(keys[0].transform()))];
     let mut stray = DVec3::ZERO;
     for (i, pair) in keys.windows(2).enumerate() {
         let start = boxes.len() - 1;
@@ -189,7 +232,7 @@ fn sweep(tree: &PlacedTree, keys: &[Placement]) -> Swept {
             };
             boxes.push((
                 (i as f64 + share) / last,
-                tree.bounds(placement.transform()),
+                blas.bounds(placement.transform()),
             ));
         }
         for three in boxes[start..].windows(3) {
@@ -240,34 +283,33 @@ fn pack_nodes(
         Child::Node(index) => first_node + index,
         Child::Leaf { first, .. } => references[place(first)],
     };
+    let children = |node: &bvh::WideNode| {
+        let children = node.children.iter();
+        Children::new(children.map(|(aabb, child)| (*aabb, reference(child))))
+    };
     if !moves {
-        let pack = |node| nodes::quantize(node, reference);
+        let pack = |node| nodes::quantize(children(node).as_slice());
         return bvh.nodes.iter().map(pack).collect();
     }
     // Children come after their parents, so one pass backwards knows the boxes of all nodes.
-    let nothing = Aabb {
-        min: Vec3::INFINITY,
-        max: Vec3::NEG_INFINITY,
-    };
-    let mut bounds = vec![still(nothing); bvh.nodes.len()];
+    let mut bounds = vec![at_rest(Aabb::EMPTY); bvh.nodes.len()];
     let mut packed = vec![PackedNode::default(); 2 * bvh.nodes.len()];
     for (i, node) in bvh.nodes.iter().enumerate().rev() {
-        let swept_of = |child: &Child| match *child {
+        let swept = |child: &Child| match *child {
             Child::Node(index) => bounds[index as usize],
             Child::Leaf { first, .. } => boxes[place(first)],
         };
-        let (mut open, mut close) = (node.clone(), node.clone());
-        let mut own = still(nothing);
-        for (k, (_, child)) in node.children.iter().enumerate() {
-            let swept = swept_of(child);
-            open.children[k].0 = swept.open;
-            close.children[k].0 = swept.close;
-            own.open = own.open.union(swept.open);
-            own.close = own.close.union(swept.close);
-        }
-        bounds[i] = own;
-        packed[2 * i] = nodes::quantize(&open, reference);
-        packed[2 * i + 1] = nodes::quantize(&close, reference);
+        let at = |end: fn(&Swept) -> Aabb| {
+            let children = node.children.iter();
+            Children::new(children.map(|(_, child)| (end(&swept(child)), reference(child))))
+        };
+        let (open, close) = (at(|swept| swept.open), at(|swept| swept.close));
+        packed[2 * i] = nodes::quantize(open.as_slice());
+        packed[2 * i + 1] = nodes::quantize(close.as_slice());
+        bounds[i] = Swept {
+            open: open.bounds(),
+            close: close.bounds(),
+        };
     }
     packed
 }

@@ -1,0 +1,313 @@
+//! Bottom-level trees (BLAS): the topology over a mesh is built once in object space, and refitted to
+//! where the mesh is baked.
+
+use super::{
+    geometry::{self, Flat},
+    nodes::{self, Children, Place},
+};
+use crate::{
+    bvh::{self, Aabb},
+    layout::{
+        LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, PackedNode, PackedShape,
+        PackedTriangle, PackedVertex,
+    },
+    scene::Mesh,
+};
+use std::{collections::BinaryHeap, sync::Arc};
+
+/// Most primitives in a leaf.
+const LEAF_SIZE: u32 = 4;
+
+/// Bound on the traversal stack of trees that have another above them, for which it leaves room.
+pub const STACK_BELOW: usize = 60;
+
+/// Most parts into which one tree is opened.
+pub const MOST_PARTS: usize = 64;
+
+/// Which triangles of a mesh are in which leaf; boxes come with the place.
+#[derive(Debug)]
+pub struct Topology {
+    /// Child references of each node, as in a tree at place 0. Children come after their parents.
+    children: Vec<[u32; 4]>,
+    /// Triangles of the mesh in leaf order.
+    order: Vec<u32>,
+    stack_need: usize,
+}
+
+impl Topology {
+    pub fn build(mesh: &Mesh) -> Self {
+        let corner = |i: u32| mesh.positions[i as usize];
+        let boxes: Vec<_> = (mesh.triangles.iter())
+            .map(|&[a, b, c]| Aabb::of([corner(a), corner(b), corner(c)]))
+            .collect();
+        let bvh = bvh::build(&boxes, &vec![nodes::TRIANGLES; boxes.len()], 1, limits());
+        let place = Place::default();
+        let references = |node: &bvh::WideNode| {
+            let mut references = [0; 4];
+            for (slot, (_, child)) in references.iter_mut().zip(&node.children) {
+                *slot = place.reference(child);
+            }
+            references
+        };
+        Self {
+            children: bvh.nodes.iter().map(references).collect(),
+            order: bvh.order.into_iter().next().unwrap_or_default(),
+            stack_need: bvh.stack_need,
+        }
+    }
+}
+
+fn limits() -> bvh::Limits {
+    bvh::Limits {
+        leaf_size: LEAF_SIZE,
+        stack_size: STACK_BELOW,
+    }
+}
+
+/// A tree as it lies in the arrays of a scene.
+#[derive(Clone, Debug)]
+pub struct Blas {
+    pub place: Place,
+    pub nodes: Arc<[PackedNode]>,
+    /// In leaf order.
+    pub triangles: Arc<[PackedTriangle]>,
+    /// In leaf order.
+    pub shapes: Arc<[PackedShape]>,
+    /// In the order of the meshes.
+    pub vertices: Arc<[PackedVertex]>,
+    /// The most entries that a walk through it has on the stack.
+    pub stack_need: usize,
+    /// The children of the nodes near the root, with exact boxes, by the nodes' indices in the tree.
+    top: Vec<(u32, Children)>,
+}
+
+impl Blas {
+    /// The tree of one mesh, whose geometry is in `flat`, with its boxes refitted.
+    pub fn refitted(topology: &Topology, flat: Flat, place: Place) -> Self {
+        let triangles: Arc<[_]> = (topology.order.iter())
+            .map(|&i| flat.triangles[i as usize])
+            .collect();
+        let boxes: Vec<_> = triangles.iter().map(geometry::triangle_box).collect();
+        let mut bounds = vec![Aabb::EMPTY; topology.children.len()];
+        let mut packed = vec![PackedNode::default(); topology.children.len()];
+        let zero = Place::default();
+        let children_of = |bounds: &[Aabb], index: usize| {
+            let references = topology.children[index].iter().filter(|r| **r != 0);
+            Children::new(references.map(|&reference| {
+                let aabb = match reference & LEAF {
+                    0 => bounds[reference as usize],
+                    _ => boxes[leaf_range(reference)]
+                        .iter()
+                        .fold(Aabb::EMPTY, |all, one| all.union(*one)),
+                };
+                (aabb, place.moved(reference, &zero))
+            }))
+        };
+        for index in (0..packed.len()).rev() {
+            let children = children_of(&bounds, index);
+            bounds[index] = children.bounds();
+            packed[index] = nodes::quantize(children.as_slice());
+        }
+        Self {
+            place,
+            nodes: packed.into(),
+            triangles,
+            shapes: Arc::default(),
+            vertices: flat.vertices.into(),
+            stack_need: topology.stack_need,
+            top: top_of(&place, |index| children_of(&bounds, index)),
+        }
+    }
+
+    /// A tree over several meshes and shapes.
+    pub fn joint(flat: Flat, stack_size: usize, place: Place) -> Self {
+        let boxes: Vec<_> = (flat.triangles.iter().map(geometry::triangle_box))
+            .chain(flat.bounded.iter().map(|(_, bounds)| *bounds))
+            .collect();
+        let count = flat.triangles.len();
+        let mut groups = vec![nodes::TRIANGLES; count];
+        groups.resize(boxes.len(), nodes::SHAPES);
+        let limits = bvh::Limits {
+            stack_size,
+            ..limits()
+        };
+        let bvh = bvh::build(&boxes, &groups, nodes::GROUP_COUNT, limits);
+        let order = |group: u8| bvh.order[group as usize].iter().map(|&i| i as usize);
+        let children_of = |index: usize| Children::of(&bvh.nodes[index], &place);
+        Self {
+            place,
+            nodes: (0..bvh.nodes.len())
+                .map(|index| nodes::quantize(children_of(index).as_slice()))
+                .collect(),
+            triangles: order(nodes::TRIANGLES).map(|i| flat.triangles[i]).collect(),
+            shapes: (order(nodes::SHAPES))
+                .map(|i| flat.bounded[i - count].0)
+                .collect(),
+            vertices: flat.vertices.into(),
+            stack_need: bvh.stack_need,
+            top: top_of(&place, children_of),
+        }
+    }
+
+    /// The same tree at another place.
+    pub fn moved_to(self: &Arc<Self>, place: Place) -> Arc<Self> {
+        let from = self.place;
+        if from == place {
+            return self.clone();
+        }
+        let reference = |reference: u32| place.moved(reference, &from);
+        let mut moved = Self::clone(self);
+        moved.place = place;
+        if (from.node, from.triangle, from.shape) != (place.node, place.triangle, place.shape) {
+            let node = |node: &PackedNode| {
+                let mut node = *node;
+                node[12..].iter_mut().for_each(|r| *r = reference(*r));
+                node
+            };
+            moved.nodes = self.nodes.iter().map(node).collect();
+            for (_, children) in &mut moved.top {
+                children.map_references(reference);
+            }
+        }
+        if from.vertex != place.vertex {
+            let vertex = |index: u32| index - from.vertex + place.vertex;
+            let triangle = |triangle: &PackedTriangle| PackedTriangle {
+                i0: vertex(triangle.i0),
+                i1: vertex(triangle.i1),
+                i2: vertex(triangle.i2),
+                ..*triangle
+            };
+            moved.triangles = self.triangles.iter().map(triangle).collect();
+        }
+        Arc::new(moved)
+    }
+
+    /// The place behind it.
+    pub fn end(&self) -> Place {
+        Place {
+            node: self.place.node + self.nodes.len() as u32,
+            triangle: self.place.triangle + self.triangles.len() as u32,
+            shape: self.place.shape + self.shapes.len() as u32,
+            vertex: self.place.vertex + self.vertices.len() as u32,
+        }
+    }
+
+    /// Whether there is nothing in it.
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty() && self.shapes.is_empty()
+    }
+
+    /// Child reference to its root.
+    pub fn root(&self) -> u32 {
+        match self.top[0].1.as_slice() {
+            [(_, only)] => *only,
+            _ => self.place.node,
+        }
+    }
+
+    /// The box round all of it.
+    pub fn bounds(&self) -> Aabb {
+        self.top[0].1.bounds()
+    }
+
+    /// Boxes that hold it together; none where it is empty.
+    pub fn boxes(&self) -> Vec<Aabb> {
+        match self.is_empty() {
+            true => Vec::new(),
+            false => (opened([self], MOST_PARTS).into_iter().map(|(aabb, _)| aabb)).collect(),
+        }
+    }
+
+    /// The children of a node near the root.
+    fn children(&self, reference: u32) -> Option<&Children> {
+        let index = reference.wrapping_sub(self.place.node);
+        let known = self.top.iter().find(|(known, _)| *known == index);
+        known.map(|(_, children)| children)
+    }
+}
+
+/// Places of the primitives of a leaf in a tree at place 0.
+fn leaf_range(reference: u32) -> std::ops::Range<usize> {
+    let first = (reference & LEAF_FIRST_MASK) as usize;
+    first..first + ((reference & LEAF_COUNT_MASK) >> LEAF_COUNT_SHIFT) as usize + 1
+}
+
+/// The children of the root, and of the nodes that are opened until there are [`MOST_PARTS`].
+fn top_of(place: &Place, children_of: impl Fn(usize) -> Children) -> Vec<(u32, Children)> {
+    let root = children_of(0);
+    let mut top = vec![(0, root)];
+    let mut parts = Parts::new(MOST_PARTS);
+    root.as_slice().iter().for_each(|part| parts.add(0, *part));
+    parts.open_all(|_, reference| {
+        let index = reference - place.node;
+        let children = children_of(index as usize);
+        top.push((index, children));
+        Some(children)
+    });
+    top
+}
+
+/// The boxes near the roots of several trees, with references to what is in them: of all that are nodes
+/// the largest is opened, until there are `limit`.
+pub fn opened<'a>(trees: impl IntoIterator<Item = &'a Blas>, limit: usize) -> Vec<(Aabb, u32)> {
+    let trees: Vec<_> = trees.into_iter().collect();
+    let mut parts = Parts::new(limit);
+    for (index, tree) in trees.iter().enumerate() {
+        parts.add(index, (tree.bounds(), tree.root()));
+    }
+    parts.open_all(|tree, reference| trees[tree].children(reference).copied());
+    parts.into_list()
+}
+
+/// Parts of trees, which nodes among them are opened to.
+struct Parts {
+    /// The tree that it is of, its box and the reference to it; `None` where it was opened.
+    list: Vec<Option<(usize, Aabb, u32)>>,
+    /// Areas of nodes, as ordered bits, and their places in the list.
+    nodes: BinaryHeap<(u32, usize)>,
+    count: usize,
+    limit: usize,
+}
+
+impl Parts {
+    fn new(limit: usize) -> Self {
+        Self {
+            list: Vec::new(),
+            nodes: BinaryHeap::new(),
+            count: 0,
+            limit,
+        }
+    }
+
+    fn add(&mut self, tree: usize, (aabb, reference): (Aabb, u32)) {
+        if reference & LEAF == 0 {
+            (self.nodes).push((aabb.half_area().to_bits(), self.list.len()));
+        }
+        self.list.push(Some((tree, aabb, reference)));
+        self.count += 1;
+    }
+
+    /// Opens the largest node again and again. Nodes that `children` does not know stay as they are.
+    fn open_all(&mut self, mut children: impl FnMut(usize, u32) -> Option<Children>) {
+        while let Some((_, index)) = self.nodes.pop() {
+            let Some((tree, _, reference)) = self.list[index] else {
+                continue;
+            };
+            let Some(children) = children(tree, reference) else {
+                continue;
+            };
+            let children = children.as_slice();
+            if self.count + children.len() > self.limit {
+                break;
+            }
+            self.list[index] = None;
+            self.count -= 1;
+            children.iter().for_each(|child| self.add(tree, *child));
+        }
+    }
+
+    fn into_list(self) -> Vec<(Aabb, u32)> {
+        let kept = self.list.into_iter().flatten();
+        kept.map(|(_, aabb, reference)| (aabb, reference)).collect()
+    }
+}

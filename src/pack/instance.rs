@@ -1,0 +1,241 @@
+//! What of a scene is baked into the world, and what instances of trees of their own: meshes that stand
+//! in several places, and all that moves.
+
+use super::{PackError, light};
+use crate::{
+    bvh::Aabb,
+    layout::NO_INSTANCE,
+    scene::{Frame, Geometry, LightProperty, ObjectRef, Scene, Target},
+};
+use glam::{DAffine3, DVec3};
+
+/// Copies of a static mesh are baked into the world if they have at most this many triangles together:
+/// rays need no way into the space of an instance then.
+pub const MOST_BAKED: usize = 1 << 14;
+
+/// Static meshes of at most this many triangles share a tree with others ...
+const MOST_IN_SMALL: usize = 1 << 11;
+/// ... as long as all of them have at most this many, which bounds the time to build it again.
+const MOST_JOINT: usize = 1 << 14;
+
+/// A tree of its own in the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instance {
+    /// Index among the trees that are instanced.
+    pub blas: usize,
+    pub source: TransformSource,
+}
+
+/// What says where an instance is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TransformSource {
+    /// A transform into the world.
+    World(DAffine3),
+    /// A node that moves, and a transform into its space.
+    Node(usize, DAffine3),
+    /// A light that rays can see.
+    Lamp(usize),
+}
+
+/// A tree that is instanced, as the tree over the instances sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InstancedBlas {
+    /// Child reference to its root.
+    pub root: u32,
+    /// Its first primitive, with [`crate::layout::SHAPE`] for a shape.
+    pub first: u32,
+    /// Number of primitives.
+    pub count: u32,
+    /// Boxes that hold it together, in its own space.
+    pub boxes: Vec<Aabb>,
+    /// Set for shapes, whose bounds are exact in any place.
+    pub shape: Option<Geometry>,
+}
+
+/// A static mesh with a tree of its own that is in the world.
+#[derive(Debug)]
+pub struct Baked {
+    /// Index of the instance in the scene.
+    pub index: usize,
+    pub world_from_object: DAffine3,
+    pub is_visible: bool,
+}
+
+/// What of a scene is baked, and what is instanced.
+#[derive(Debug, Default)]
+pub struct Plan {
+    pub baked: Vec<Baked>,
+    /// Indices of the instances that are baked into the joint tree, and where they are.
+    pub joint: Vec<(usize, DAffine3)>,
+    /// Shapes in the joint tree, and planes.
+    pub joint_shapes: Vec<usize>,
+    /// Lights whose surfaces are in the joint tree.
+    pub joint_lamps: Vec<usize>,
+    /// Meshes with trees in a space of their own.
+    pub instanced_meshes: Vec<usize>,
+    /// Indices of instances in the scene, the places of their meshes among those, and what moves them.
+    pub instances: Vec<(usize, usize, TransformSource)>,
+    /// Indices of shapes that move, and their nodes.
+    pub shapes: Vec<(usize, usize)>,
+    /// Lights whose surfaces move.
+    pub lamps: Vec<usize>,
+}
+
+impl Plan {
+    /// Bakes what is static, but for meshes of which there are many large copies. What is hidden counts
+    /// in what shares a tree, so that showing it changes no other tree.
+    ///
+    /// # Errors
+    /// There are too many instances.
+    pub fn new(scene: &Scene, rest: &Frame, most_baked: usize) -> Result<Self, PackError> {
+        let moving = scene.moving_nodes();
+        let moving_node = |node: Option<usize>| node.filter(|&node| moving[node]);
+        let is_there = |node: Option<usize>| node.is_none_or(|node| rest.nodes[node].visible);
+        let mut copies = vec![0_usize; scene.meshes.len()];
+        for instance in &scene.instances {
+            copies[instance.mesh] += 1;
+        }
+        let mut plan = Self::default();
+        let mut place_of_mesh = vec![None; scene.meshes.len()];
+        let mut room = MOST_JOINT;
+        for (index, instance) in scene.instances.iter().enumerate() {
+            let triangles = scene.meshes[instance.mesh].triangles.len();
+            let is_visible = is_there(instance.node);
+            let is_shared =
+                copies[instance.mesh] > 1 && copies[instance.mesh] * triangles > most_baked;
+            let world_from_object = world_from(rest, instance.node) * instance.placement;
+            let source = match moving_node(instance.node) {
+                Some(node) => Some(TransformSource::Node(node, instance.placement)),
+                None => is_shared.then_some(TransformSource::World(world_from_object)),
+            };
+            match source {
+                Some(TransformSource::World(_)) if !is_visible => {}
+                Some(source) => {
+                    let meshes = &mut plan.instanced_meshes;
+                    let place = *place_of_mesh[instance.mesh].get_or_insert_with(|| {
+                        meshes.push(instance.mesh);
+                        meshes.len() - 1
+                    });
+                    plan.instances.push((index, place, source));
+                }
+                None if triangles <= MOST_IN_SMALL.min(room) => {
+                    room -= triangles;
+                    if is_visible {
+                        plan.joint.push((index, world_from_object));
+                    }
+                }
+                None => plan.baked.push(Baked {
+                    index,
+                    world_from_object,
+                    is_visible,
+                }),
+            }
+        }
+        for (index, shape) in scene.shapes.iter().enumerate() {
+            if let Some(node) = moving_node(shape.node) {
+                plan.shapes.push((index, node));
+            } else if is_there(shape.node) {
+                plan.joint_shapes.push(index);
+            }
+        }
+        for index in light::visible(scene) {
+            let node = scene.lights[index].node;
+            if moving_node(node).is_some() || has_moving_surface(scene, index) {
+                plan.lamps.push(index);
+            } else if is_there(node) {
+                plan.joint_lamps.push(index);
+            }
+        }
+        let (count, limit) = (plan.instance_count(), NO_INSTANCE as usize);
+        match count > limit {
+            false => Ok(plan),
+            true => Err(PackError::TooMany {
+                what: "instances",
+                count,
+                limit,
+            }),
+        }
+    }
+
+    /// Number of instances.
+    pub fn instance_count(&self) -> usize {
+        self.instances.len() + self.shapes.len() + self.lamps.len()
+    }
+
+    /// What is instanced: meshes, then shapes, then lamps.
+    pub fn instanced_objects(&self) -> impl Iterator<Item = ObjectRef> + '_ {
+        let instances = (self.instances.iter()).map(|(index, ..)| ObjectRef::Instance(*index));
+        let shapes = (self.shapes.iter()).map(|(index, _)| ObjectRef::Shape(*index));
+        let lamps = (self.lamps.iter()).map(|index| ObjectRef::Light(*index));
+        instances.chain(shapes).chain(lamps)
+    }
+}
+
+/// From the space of a node to the world's.
+pub fn world_from(frame: &Frame, node: Option<usize>) -> DAffine3 {
+    node.map_or(DAffine3::IDENTITY, |node| frame.nodes[node].world_from_node)
+}
+
+/// Whether a track changes where a light is or whether it is there.
+fn has_moving_surface(scene: &Scene, light: usize) -> bool {
+    use LightProperty::{Direction, On, Position};
+    let targets = scene.tracks.iter().flat_map(|track| &track.targets);
+    targets.copied().any(|target| {
+        [Direction, On, Position]
+            .into_iter()
+            .any(|property| target == Target::Light(light, property))
+    })
+}
+
+impl TransformSource {
+    /// From the tree's space to the world's, or `None` where it is hidden.
+    pub fn world_from_tree(&self, frame: &Frame) -> Option<DAffine3> {
+        match *self {
+            Self::World(placement) => Some(placement),
+            Self::Node(node, placement) => Some(frame.nodes[node].world_from_node * placement),
+            Self::Lamp(index) => light::world_from_unit(&frame.lights[index].kind),
+        }
+    }
+
+    /// Whether it is there at all.
+    pub fn is_visible(&self, frame: &Frame) -> bool {
+        match *self {
+            Self::World(_) => true,
+            Self::Node(node, _) => frame.nodes[node].visible,
+            Self::Lamp(index) => frame.lights[index].visible,
+        }
+    }
+
+    /// From the tree's space to where patterns in space are looked up: they stand still for what
+    /// carries the tree.
+    pub fn pattern_from_tree(&self, world_from_tree: DAffine3) -> DAffine3 {
+        match *self {
+            Self::Node(_, placement) => placement,
+            Self::World(_) | Self::Lamp(_) => world_from_tree,
+        }
+    }
+}
+
+impl InstancedBlas {
+    /// The box round it in the space that the transform leads to.
+    pub fn bounds(&self, transform: DAffine3) -> (DVec3, DVec3) {
+        if let Some(geometry) = &self.shape {
+            return geometry.placed(transform).bounds().unwrap_or_default();
+        }
+        let boxes = self.boxes.iter().map(|aabb| box_of(*aabb, transform));
+        boxes
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+            .unwrap_or((transform.translation, transform.translation))
+    }
+}
+
+/// The box round a transformed box.
+fn box_of(aabb: Aabb, transform: DAffine3) -> (DVec3, DVec3) {
+    let (min, max) = (aabb.min.as_dvec3(), aabb.max.as_dvec3());
+    let center = transform.transform_point3((min + max) * 0.5);
+    let half = (max - min) * 0.5;
+    let matrix = transform.matrix3;
+    let reach =
+        matrix.x_axis.abs() * half.x + matrix.y_axis.abs() * half.y + matrix.z_axis.abs() * half.z;
+    (center - reach, center + reach)
+}

@@ -1,0 +1,79 @@
+//! What is made of a mesh once, whatever places it: kept as long as the mesh is the same object.
+
+use super::{blas::Topology, media, media::Shell};
+use crate::scene::{Mesh, Scene};
+use std::{
+    collections::HashMap,
+    sync::{Arc, OnceLock},
+};
+
+/// A mesh with what was made of it so far.
+#[derive(Debug)]
+pub struct CachedMesh {
+    pub mesh: Arc<Mesh>,
+    /// Whether the corners of some triangle differ in material.
+    pub mixes_materials: bool,
+    topology: OnceLock<Topology>,
+    uvs: OnceLock<Arc<[[f32; 4]]>>,
+    shell: OnceLock<Option<Arc<Shell>>>,
+    part_count: OnceLock<usize>,
+}
+
+impl CachedMesh {
+    fn new(mesh: &Arc<Mesh>) -> Self {
+        let material = |i: u32| mesh.materials[i as usize];
+        let mixes =
+            |t: &[u32; 3]| material(t[0]) != material(t[1]) || material(t[0]) != material(t[2]);
+        Self {
+            mesh: mesh.clone(),
+            mixes_materials: mesh.triangles.iter().any(mixes),
+            topology: OnceLock::new(),
+            uvs: OnceLock::new(),
+            shell: OnceLock::new(),
+            part_count: OnceLock::new(),
+        }
+    }
+
+    /// The topology of its tree, which counts in `built` where it had to be built.
+    pub fn topology(&self, built: &mut usize) -> &Topology {
+        self.topology.get_or_init(|| {
+            *built += 1;
+            Topology::build(&self.mesh)
+        })
+    }
+
+    /// (u, v, 0, 0) of each vertex, zeros where it has none.
+    pub fn uvs(&self) -> Arc<[[f32; 4]]> {
+        let uvs = || {
+            let mut uvs: Vec<_> = (self.mesh.uvs.iter())
+                .map(|uv| [uv.x, uv.y, 0.0, 0.0])
+                .collect();
+            uvs.resize(self.mesh.positions.len(), [0.0; 4]);
+            uvs.into()
+        };
+        self.uvs.get_or_init(uvs).clone()
+    }
+
+    /// Its surface, to find out what is inside; `None` without triangles.
+    pub fn shell(&self) -> Option<Arc<Shell>> {
+        let shell = || Shell::of(&self.mesh).map(Arc::new);
+        self.shell.get_or_init(shell).clone()
+    }
+
+    /// Sets of triangles that hang together.
+    pub fn part_count(&self) -> usize {
+        *(self.part_count).get_or_init(|| media::part_count(&self.mesh))
+    }
+}
+
+/// One for each mesh of a scene; those that were there `before` are kept.
+pub fn cached(before: &[Arc<CachedMesh>], scene: &Scene) -> Vec<Arc<CachedMesh>> {
+    let known: HashMap<_, _> = (before.iter())
+        .map(|cached| (Arc::as_ptr(&cached.mesh), cached))
+        .collect();
+    let cached = |mesh: &Arc<Mesh>| match known.get(&Arc::as_ptr(mesh)) {
+        Some(&cached) => cached.clone(),
+        None => Arc::new(CachedMesh::new(mesh)),
+    };
+    scene.meshes.iter().map(cached).collect()
+}

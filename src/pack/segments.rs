@@ -1,0 +1,100 @@
+//! Arrays made of shared runs: a scene that differs from another in one object shares the runs of all
+//! others with it.
+
+use bytemuck::Pod;
+use std::{fmt, ops::Index, sync::Arc};
+
+/// Runs that lie one after the other in an array. A clone shares them.
+#[derive(Clone)]
+pub struct Segments<T> {
+    runs: Vec<Arc<[T]>>,
+    /// Index of the first element of each run.
+    starts: Vec<usize>,
+    len: usize,
+}
+
+impl<T> Segments<T> {
+    /// Adds a run at the end. Empty ones are left out.
+    pub(super) fn push(&mut self, run: Arc<[T]>) {
+        if run.is_empty() {
+            return;
+        }
+        self.starts.push(self.len);
+        self.len += run.len();
+        self.runs.push(run);
+    }
+
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there is no element.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// All elements in order.
+    pub fn iter(&self) -> impl Iterator<Item = &T> {
+        self.runs.iter().flat_map(|run| run.iter())
+    }
+
+    /// The element at `index`; `None` beyond the end.
+    pub fn get(&self, index: usize) -> Option<&T> {
+        let run = self.starts.partition_point(|start| *start <= index);
+        let run = run.checked_sub(1)?;
+        self.runs[run].get(index - self.starts[run])
+    }
+
+    /// Size of all elements in bytes.
+    pub fn byte_len(&self) -> u64 {
+        (self.len * size_of::<T>()) as u64
+    }
+}
+
+impl<T: Pod> Segments<T> {
+    /// The bytes of each run.
+    pub fn bytes(&self) -> impl Iterator<Item = &[u8]> {
+        self.runs.iter().map(|run| bytemuck::cast_slice(run))
+    }
+}
+
+impl<T> Default for Segments<T> {
+    fn default() -> Self {
+        Self {
+            runs: Vec::new(),
+            starts: Vec::new(),
+            len: 0,
+        }
+    }
+}
+
+impl<T> FromIterator<Arc<[T]>> for Segments<T> {
+    fn from_iter<I: IntoIterator<Item = Arc<[T]>>>(runs: I) -> Self {
+        let mut segments = Self::default();
+        runs.into_iter().for_each(|run| segments.push(run));
+        segments
+    }
+}
+
+impl<T> Index<usize> for Segments<T> {
+    type Output = T;
+
+    fn index(&self, index: usize) -> &T {
+        let run = self.starts.partition_point(|start| *start <= index) - 1;
+        &self.runs[run][index - self.starts[run]]
+    }
+}
+
+/// By elements, however they are cut into runs.
+impl<T: PartialEq> PartialEq for Segments<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.len == other.len && self.iter().eq(other.iter())
+    }
+}
+
+impl<T: fmt::Debug> fmt::Debug for Segments<T> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}

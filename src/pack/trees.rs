@@ -1,0 +1,410 @@
+//! All trees of a scene: those of its meshes, the joint one of what is small, and the one above what
+//! is baked. Those that serve a scene that differs a little are kept.
+
+use super::{
+    PackError,
+    blas::{Blas, MOST_PARTS, STACK_BELOW, opened},
+    geometry::Flat,
+    instance::{InstancedBlas, Plan},
+    light,
+    mesh::CachedMesh,
+    nodes::{self, Children, Place},
+    segments::Segments,
+};
+use crate::{
+    bvh::{self, Aabb, Child},
+    layout::{PackedNode, PackedShape, PackedTriangle, PackedVertex, STACK_SIZE},
+    scene::{Frame, Geometry, Scene},
+};
+use glam::{DAffine3, DVec3};
+use std::{collections::HashMap, sync::Arc};
+
+/// The most entries on the stack of a walk through what is baked: the last store of a traversal step
+/// lies one beyond the entries that count.
+const STACK_ENTRIES: usize = STACK_SIZE as usize - 1;
+
+/// What had to be built to pack a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TreeWork {
+    /// Topologies of meshes.
+    pub topologies: usize,
+    /// Trees of one mesh each that were laid out in the world or in their own space.
+    pub refits: usize,
+    /// 1 if the tree of all shapes and small meshes was built.
+    pub joint: usize,
+    /// 1 if the tree above baked trees was built.
+    pub top: usize,
+}
+
+impl TreeWork {
+    /// All trees that were built or refitted.
+    pub fn total(&self) -> usize {
+        self.refits + self.joint + self.top
+    }
+}
+
+/// The tree of a mesh.
+#[derive(Clone, Debug)]
+pub struct MeshTree {
+    pub mesh: Arc<CachedMesh>,
+    /// Where it is baked; `None` in a space of its own.
+    world_from_object: Option<DAffine3>,
+    pub blas: Arc<Blas>,
+}
+
+impl MeshTree {
+    /// What the tree over its instances sees.
+    pub fn instanced(&self) -> InstancedBlas {
+        InstancedBlas {
+            root: self.blas.root(),
+            first: self.blas.place.triangle,
+            count: self.blas.triangles.len() as u32,
+            boxes: self.blas.boxes(),
+            shape: None,
+        }
+    }
+}
+
+/// Trees in the order in which they lie in the arrays, so that what changes most lies last.
+#[derive(Clone, Debug)]
+pub struct Trees {
+    pub instanced: Vec<MeshTree>,
+    pub baked: Vec<MeshTree>,
+    pub joint: Arc<Joint>,
+    pub top: Arc<Top>,
+    pub work: TreeWork,
+    origin: DVec3,
+}
+
+/// What shares a tree: static shapes and small static meshes; and planes, which are in none.
+#[derive(Debug)]
+pub struct Joint {
+    input: JointInput,
+    pub blas: Arc<Blas>,
+    pub planes: Arc<[PackedShape]>,
+}
+
+#[derive(Debug)]
+struct JointInput {
+    meshes: Vec<(Arc<CachedMesh>, DAffine3)>,
+    /// With their materials and ids.
+    shapes: Vec<(Geometry, usize, usize)>,
+    stack_size: usize,
+    origin: DVec3,
+}
+
+impl PartialEq for JointInput {
+    fn eq(&self, other: &Self) -> bool {
+        let is_same = |((a, placed_a), (b, placed_b)): (&(_, _), &(_, _))| {
+            Arc::ptr_eq(a, b) && placed_a == placed_b
+        };
+        self.meshes.len() == other.meshes.len()
+            && self.meshes.iter().zip(&other.meshes).all(is_same)
+            && self.shapes == other.shapes
+            && self.stack_size == other.stack_size
+            && self.origin == other.origin
+    }
+}
+
+/// The tree above baked trees, where nothing is instanced.
+#[derive(Debug)]
+pub struct Top {
+    /// Boxes of what is baked, and child references.
+    pub parts: Vec<(Aabb, u32)>,
+    /// Node 0 of the scene.
+    pub root: Arc<[PackedNode]>,
+    /// Those below it, behind all other nodes.
+    pub nodes: Arc<[PackedNode]>,
+    first_node: u32,
+}
+
+impl Trees {
+    /// The trees of a scene that `meshes` are of. `previous` are those of another one.
+    pub fn build(
+        previous: Option<&Self>,
+        scene: &Scene,
+        (rest, origin): (&Frame, DVec3),
+        plan: &Plan,
+        meshes: &[Arc<CachedMesh>],
+    ) -> Result<Self, PackError> {
+        let previous = previous.filter(|previous| previous.origin == origin);
+        let mut work = TreeWork::default();
+        let known = Known::new(previous);
+        // Node 0 is the root of what is baked.
+        let mut place = Place {
+            node: 1,
+            ..Place::default()
+        };
+        let mut tree = |index: usize, world_from_object: Option<DAffine3>| {
+            let mesh = &meshes[index];
+            let tree = MeshTree {
+                mesh: mesh.clone(),
+                world_from_object,
+                blas: match known.find(mesh, world_from_object, place) {
+                    Some(blas) => blas.moved_to(place),
+                    None => {
+                        let (transform, origin) = match world_from_object {
+                            Some(transform) => (transform, origin),
+                            None => (DAffine3::IDENTITY, DVec3::ZERO),
+                        };
+                        let flat = Flat::of_mesh(&mesh.mesh, transform, origin, place.vertex)?;
+                        work.refits += 1;
+                        let topology = mesh.topology(&mut work.topologies);
+                        Arc::new(Blas::refitted(topology, flat, place))
+                    }
+                },
+            };
+            place = tree.blas.end();
+            Ok(tree)
+        };
+        let instanced = (plan.instanced_meshes.iter())
+            .map(|&mesh| tree(mesh, None))
+            .collect::<Result<Vec<_>, PackError>>()?;
+        let baked = (plan.baked.iter())
+            .map(|baked| {
+                let mesh = scene.instances[baked.index].mesh;
+                tree(mesh, Some(baked.world_from_object))
+            })
+            .collect::<Result<Vec<_>, PackError>>()?;
+
+        let has_instances = plan.instance_count() > 0;
+        let is_alone = baked.is_empty() && !has_instances;
+        let stack_size = if is_alone { STACK_ENTRIES } else { STACK_BELOW };
+        let input = JointInput::new(scene, (rest, origin), plan, meshes, stack_size);
+        let before = previous.map(|previous| &previous.joint);
+        let joint = match before.filter(|before| before.input == input) {
+            Some(before) if before.blas.place == place => before.clone(),
+            Some(before) => Arc::new(Joint {
+                input,
+                blas: before.blas.moved_to(place),
+                planes: before.planes.clone(),
+            }),
+            None => {
+                work.joint = 1;
+                Arc::new(Joint::build(input, place)?)
+            }
+        };
+
+        let shown = (baked.iter().zip(&plan.baked)).filter(|(_, baked)| baked.is_visible);
+        let shown: Vec<&Blas> = (shown.map(|(tree, _)| &*tree.blas))
+            .chain([&*joint.blas])
+            .filter(|blas| !blas.is_empty())
+            .collect();
+        let first_node = joint.blas.end().node;
+        let before = previous.map(|previous| &previous.top);
+        let top = Top::over(&shown, has_instances, first_node, before, &mut work)?;
+        Ok(Self {
+            instanced,
+            baked,
+            joint,
+            top,
+            work,
+            origin,
+        })
+    }
+
+    /// All nodes.
+    pub fn nodes(&self) -> Segments<PackedNode> {
+        let trees = self.own().map(|tree| &tree.blas).chain([&self.joint.blas]);
+        ([&self.top.root].into_iter())
+            .chain(trees.map(|blas| &blas.nodes))
+            .chain([&self.top.nodes])
+            .cloned()
+            .collect()
+    }
+
+    /// All triangles; zeros stand in for what is hidden.
+    pub fn triangles(&self, plan: &Plan) -> Segments<PackedTriangle> {
+        let instanced = self
+            .instanced
+            .iter()
+            .map(|tree| tree.blas.triangles.clone());
+        let baked = (self.baked.iter().zip(&plan.baked)).map(|(tree, baked)| {
+            let triangles = &tree.blas.triangles;
+            match baked.is_visible {
+                true => triangles.clone(),
+                false => vec![PackedTriangle::default(); triangles.len()].into(),
+            }
+        });
+        (instanced.chain(baked))
+            .chain([self.joint.blas.triangles.clone()])
+            .collect()
+    }
+
+    /// All vertices.
+    pub fn vertices(&self) -> Segments<PackedVertex> {
+        let trees = self.own().map(|tree| &tree.blas).chain([&self.joint.blas]);
+        trees.map(|blas| blas.vertices.clone()).collect()
+    }
+
+    /// The meshes in the order of their vertices.
+    pub fn meshes(&self) -> impl Iterator<Item = &CachedMesh> {
+        let joint = self.joint.input.meshes.iter().map(|(mesh, _)| &**mesh);
+        self.own().map(|tree| &*tree.mesh).chain(joint)
+    }
+
+    /// Trees of one mesh.
+    fn own(&self) -> impl Iterator<Item = &MeshTree> {
+        self.instanced.iter().chain(&self.baked)
+    }
+
+    /// The most entries on the stack in any of those that others may be above.
+    pub fn stack_need(&self) -> usize {
+        (self.own())
+            .map(|tree| tree.blas.stack_need)
+            .fold(self.joint.blas.stack_need, usize::max)
+    }
+}
+
+/// Trees that are there already, by mesh and place in the world.
+struct Known<'a>(HashMap<Key, Vec<&'a Arc<Blas>>>);
+
+/// The mesh's address and the bits of its transform.
+type Key = (usize, Option<[u64; 12]>);
+
+impl<'a> Known<'a> {
+    fn new(trees: Option<&'a Trees>) -> Self {
+        let mut known: HashMap<_, Vec<_>> = HashMap::new();
+        for tree in trees.into_iter().flat_map(Trees::own) {
+            let key = key(&tree.mesh, tree.world_from_object);
+            known.entry(key).or_default().push(&tree.blas);
+        }
+        Self(known)
+    }
+
+    /// Of several the one at this place.
+    fn find(
+        &self,
+        mesh: &Arc<CachedMesh>,
+        world_from_object: Option<DAffine3>,
+        place: Place,
+    ) -> Option<&'a Arc<Blas>> {
+        let all = self.0.get(&key(mesh, world_from_object))?;
+        let here = all.iter().find(|blas| blas.place == place);
+        here.or(all.first()).copied()
+    }
+}
+
+fn key(mesh: &Arc<CachedMesh>, world_from_object: Option<DAffine3>) -> Key {
+    let bits = |transform: DAffine3| transform.to_cols_array().map(f64::to_bits);
+    (Arc::as_ptr(mesh) as usize, world_from_object.map(bits))
+}
+
+impl JointInput {
+    fn new(
+        scene: &Scene,
+        (rest, origin): (&Frame, DVec3),
+        plan: &Plan,
+        meshes: &[Arc<CachedMesh>],
+        stack_size: usize,
+    ) -> Self {
+        let mesh = |&(index, place): &(usize, DAffine3)| {
+            (meshes[scene.instances[index].mesh].clone(), place)
+        };
+        let shapes = plan.joint_shapes.iter().map(|&id| {
+            let shape = &scene.shapes[id];
+            let geometry = match shape.node {
+                None => shape.geometry,
+                Some(node) => shape.geometry.placed(rest.nodes[node].world_from_node),
+            };
+            (geometry, shape.material, id)
+        });
+        let lamps = plan.joint_lamps.iter().filter_map(|&index| {
+            let (material, id) = light::material_and_id(scene, index);
+            let surface = light::surface(&rest.lights[index].kind)?;
+            Some((surface, material, id))
+        });
+        Self {
+            meshes: plan.joint.iter().map(mesh).collect(),
+            shapes: shapes.chain(lamps).collect(),
+            stack_size,
+            origin,
+        }
+    }
+}
+
+impl Joint {
+    fn build(input: JointInput, place: Place) -> Result<Self, PackError> {
+        let mut flat = Flat::default();
+        for (mesh, world_from_object) in &input.meshes {
+            flat.add_mesh(&mesh.mesh, *world_from_object, input.origin, place.vertex)?;
+        }
+        for (geometry, material, id) in &input.shapes {
+            flat.add_shape(geometry, *material, *id, Some(input.origin))?;
+        }
+        Ok(Self {
+            planes: std::mem::take(&mut flat.planes).into(),
+            blas: Arc::new(Blas::joint(flat, input.stack_size, place)),
+            input,
+        })
+    }
+}
+
+impl Top {
+    /// Above `trees`, of which none is empty; where something is instanced the boxes are enough.
+    fn over(
+        trees: &[&Blas],
+        has_instances: bool,
+        first_node: u32,
+        before: Option<&Arc<Self>>,
+        work: &mut TreeWork,
+    ) -> Result<Arc<Self>, PackError> {
+        let alone = |parts, root: PackedNode| {
+            Ok(Arc::new(Self {
+                parts,
+                root: [root].into(),
+                nodes: Arc::default(),
+                first_node,
+            }))
+        };
+        let limit = MOST_PARTS + 2 * trees.len().saturating_sub(1);
+        match trees {
+            _ if has_instances => {
+                return alone(opened(trees.iter().copied(), limit), PackedNode::default());
+            }
+            [] => return alone(Vec::new(), PackedNode::default()),
+            [tree] => return alone(Vec::new(), tree.nodes[0]),
+            _ => {}
+        }
+        let parts = opened(trees.iter().copied(), limit);
+        if let Some(before) = before
+            && (before.first_node, &before.parts) == (first_node, &parts)
+            && !before.nodes.is_empty()
+        {
+            return Ok(before.clone());
+        }
+        work.top = 1;
+        let boxes: Vec<_> = parts.iter().map(|(aabb, _)| *aabb).collect();
+        let below = (trees.iter().map(|tree| tree.stack_need)).fold(0, usize::max);
+        let limits = bvh::Limits {
+            leaf_size: 1,
+            stack_size: STACK_ENTRIES - below,
+        };
+        let bvh = bvh::build(&boxes, &vec![0; boxes.len()], 1, limits);
+        let need = bvh.stack_need + below;
+        if need > STACK_ENTRIES {
+            let limit = STACK_ENTRIES;
+            return Err(PackError::TooDeep { need, limit });
+        }
+        let reference = |child: &Child| match *child {
+            Child::Node(index) => first_node + index - 1,
+            Child::Leaf { first, .. } => parts[bvh.order[0][first as usize] as usize].1,
+        };
+        let pack = |node: &bvh::WideNode| {
+            let children = node.children.iter();
+            let children = children.map(|(aabb, child)| (*aabb, reference(child)));
+            nodes::quantize(Children::new(children).as_slice())
+        };
+        let (root, others) = (&bvh.nodes[..1], &bvh.nodes[1..]);
+        let (root, nodes) = (
+            root.iter().map(pack).collect(),
+            others.iter().map(pack).collect(),
+        );
+        Ok(Arc::new(Self {
+            root,
+            nodes,
+            parts,
+            first_node,
+        }))
+    }
+}

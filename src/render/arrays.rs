@@ -1,0 +1,256 @@
+//! The arrays of group 0 of `bindings.wesl`: what is in them, and what of it must be written.
+
+use super::{
+    layouts::{ROW_FORMAT, TEXEL_FORMAT},
+    settings::Fetch,
+    stats::Uploads,
+};
+use crate::{
+    gpu::{Gpu, GpuError},
+    layout::{IMAGE_WIDTH_LOG2, PackedNode},
+    pack::{PackedScene, PackedView, Segments},
+};
+use bytemuck::{Pod, cast_slice};
+use wgpu::{Buffer, BufferUsages, TextureFormat};
+
+pub const ROW_BYTES: u64 = 16;
+pub const IMAGE_WIDTH: u32 = 1 << IMAGE_WIDTH_LOG2;
+pub const ARRAY_COUNT: usize = 6;
+
+/// Most bytes that are gathered for one write.
+const MOST_GATHERED: usize = 16 << 20;
+
+/// What belongs into one buffer or image.
+pub struct Array<'a> {
+    pub what: &'static str,
+    kind: Kind,
+    /// In ascending order, with gaps at most where a view begins.
+    pub pieces: Vec<Piece<'a>>,
+    /// With room for views that place a little more than this one.
+    pub bytes: u64,
+}
+
+/// Bytes at an offset.
+#[derive(Clone, Copy)]
+pub struct Piece<'a> {
+    offset: u64,
+    bytes: &'a [u8],
+    counts_as: Upload,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// Rows of 16 bytes, in an image or a buffer.
+    Rows,
+    /// Always in a buffer.
+    Buffer,
+    /// Always an image of half floats.
+    Texels,
+}
+
+/// A member of [`Uploads`].
+type Upload = fn(&mut Uploads) -> &mut u64;
+
+/// All of them, in the order of their bindings.
+pub fn arrays<'a>(scene: &'a PackedScene, view: &'a PackedView) -> [Array<'a>; ARRAY_COUNT] {
+    let geometry: Upload = |uploads| &mut uploads.geometry;
+    let surfaces: Upload = |uploads| &mut uploads.surfaces;
+    let mut nodes = Array::of("nodes", Kind::Rows, &scene.nodes, geometry);
+    nodes.add_view(scene, view);
+    let triangles = Array::of("triangles", Kind::Rows, &scene.triangles, geometry);
+    let mut vertices = Array::of("vertices", Kind::Rows, &scene.vertices, geometry);
+    scene
+        .uvs
+        .bytes()
+        .for_each(|run| vertices.push(run, geometry));
+    let mut materials = Array::new("materials", Kind::Rows);
+    materials.push(
+        match view.materials.is_empty() {
+            true => cast_slice(&scene.materials),
+            false => cast_slice(&view.materials),
+        },
+        surfaces,
+    );
+    materials.push(cast_slice(&scene.textures), surfaces);
+    let shapes = Array::of("shapes", Kind::Buffer, &scene.shapes, geometry);
+    let texels = Array::of("texels", Kind::Texels, &scene.texels, surfaces);
+    [nodes, triangles, vertices, materials, shapes, texels]
+}
+
+impl<'a> Array<'a> {
+    fn new(what: &'static str, kind: Kind) -> Self {
+        Self {
+            what,
+            kind,
+            pieces: Vec::new(),
+            bytes: 0,
+        }
+    }
+
+    fn of<T: Pod>(
+        what: &'static str,
+        kind: Kind,
+        segments: &'a Segments<T>,
+        counts_as: Upload,
+    ) -> Self {
+        let mut array = Self::new(what, kind);
+        segments.bytes().for_each(|run| array.push(run, counts_as));
+        array
+    }
+
+    fn push(&mut self, bytes: &'a [u8], counts_as: Upload) {
+        if !bytes.is_empty() {
+            self.pieces.push(Piece {
+                offset: self.bytes,
+                bytes,
+                counts_as,
+            });
+            self.bytes += bytes.len() as u64;
+        }
+    }
+
+    /// What a view adds to the nodes, with room for a little more.
+    fn add_view(&mut self, scene: &PackedScene, view: &'a PackedView) {
+        let [nodes, instances, keys, cameras] = view.node_parts();
+        let scene_bytes = self.bytes;
+        let first = u64::from(scene.first_view_node()) * size_of::<PackedNode>() as u64;
+        self.bytes = first;
+        for part in [nodes, instances, keys] {
+            self.push(part, |uploads| &mut uploads.tlas);
+        }
+        self.push(cameras, |uploads| &mut uploads.frames);
+        self.bytes = match self.bytes - first {
+            0 => scene_bytes,
+            view_bytes => first + view_bytes * 5 / 4,
+        };
+    }
+
+    /// Whether it may be in an image of rows.
+    pub fn is_row_image(&self) -> bool {
+        self.kind == Kind::Rows
+    }
+
+    /// Bytes without room for more.
+    pub fn least_bytes(&self) -> u64 {
+        let last = self.pieces.last();
+        last.map_or(0, |last| last.offset + last.bytes.len() as u64)
+    }
+
+    /// Writes what is not in the array yet, which has these `known` pieces.
+    pub fn write(
+        &self,
+        gpu: &Gpu,
+        rows: &Rows,
+        known: &[Piece],
+        uploads: &mut Uploads,
+    ) -> Result<(), GpuError> {
+        let is_there = |piece: &Piece| {
+            let index = known.binary_search_by_key(&piece.offset, |known| known.offset);
+            index.is_ok_and(|index| {
+                let known = known[index].bytes;
+                std::ptr::eq(known, piece.bytes) || known == piece.bytes
+            })
+        };
+        // Neighbours go together.
+        let (mut start, mut gathered) = (0, Vec::new());
+        for piece in self.pieces.iter().filter(|piece| !is_there(piece)) {
+            *(piece.counts_as)(uploads) += piece.bytes.len() as u64;
+            let is_next = start + gathered.len() as u64 == piece.offset;
+            if !is_next || gathered.len() + piece.bytes.len() > MOST_GATHERED {
+                rows.write(gpu, start, &gathered)?;
+                gathered.clear();
+            }
+            if piece.bytes.len() > MOST_GATHERED {
+                rows.write(gpu, piece.offset, piece.bytes)?;
+                start = piece.offset + piece.bytes.len() as u64;
+                continue;
+            }
+            if gathered.is_empty() {
+                start = piece.offset;
+            }
+            gathered.extend_from_slice(piece.bytes);
+        }
+        rows.write(gpu, start, &gathered)
+    }
+}
+
+/// One of them on the GPU.
+pub enum Rows {
+    Image(wgpu::TextureView),
+    Buffer(Buffer),
+}
+
+impl Rows {
+    pub fn allocate(gpu: &Gpu, fetch: Fetch, array: &Array, bytes: u64) -> Result<Self, GpuError> {
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+        let image = |format| {
+            let image = gpu.allocate_image(array.what, bytes, IMAGE_WIDTH, format)?;
+            Ok(Self::Image(image))
+        };
+        match array.kind {
+            Kind::Rows if fetch == Fetch::Image => image(ROW_FORMAT),
+            Kind::Texels => image(TEXEL_FORMAT),
+            // WebGPU wants a binding to hold at least one element; 256 bytes hold any of ours.
+            Kind::Rows | Kind::Buffer => {
+                let buffer = gpu.allocate(array.what, bytes.max(256), usage)?;
+                Ok(Self::Buffer(buffer))
+            }
+        }
+    }
+
+    /// Bytes that have room in it.
+    pub fn bytes(&self) -> u64 {
+        match self {
+            Self::Image(view) => {
+                let texture = view.texture();
+                u64::from(texture.height()) * u64::from(IMAGE_WIDTH) * texel_bytes(texture.format())
+            }
+            Self::Buffer(buffer) => buffer.size(),
+        }
+    }
+
+    /// The size of another one of this kind in place of this, with a quarter more room if that takes no
+    /// more than `spare` and the device allows for it.
+    pub fn grown(&self, gpu: &Gpu, bytes: u64, spare: u64) -> u64 {
+        let limits = gpu.device.limits();
+        let wanted = bytes + (bytes / 4).min(spare);
+        let most = match self {
+            Self::Image(view) => {
+                let row = u64::from(IMAGE_WIDTH) * texel_bytes(view.texture().format());
+                u64::from(limits.max_texture_dimension_2d) * row
+            }
+            Self::Buffer(_) => (limits.max_storage_buffer_binding_size).min(limits.max_buffer_size),
+        };
+        wanted.min(most).max(bytes)
+    }
+
+    /// Writes from `offset` on, which is the beginning of a row or texel.
+    fn write(&self, gpu: &Gpu, offset: u64, bytes: &[u8]) -> Result<(), GpuError> {
+        match self {
+            _ if bytes.is_empty() => Ok(()),
+            Self::Image(view) => {
+                let texel = texel_bytes(view.texture().format());
+                gpu.write_image(view, offset / texel, bytes)
+            }
+            Self::Buffer(buffer) => gpu.write(buffer, offset, bytes),
+        }
+    }
+
+    pub fn destroy(&self) {
+        match self {
+            Self::Image(view) => view.texture().destroy(),
+            Self::Buffer(buffer) => buffer.destroy(),
+        }
+    }
+
+    pub fn resource(&self) -> wgpu::BindingResource<'_> {
+        match self {
+            Self::Image(view) => wgpu::BindingResource::TextureView(view),
+            Self::Buffer(buffer) => buffer.as_entire_binding(),
+        }
+    }
+}
+
+fn texel_bytes(format: TextureFormat) -> u64 {
+    u64::from(format.block_copy_size(None).unwrap_or(16))
+}
