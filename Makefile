@@ -21,7 +21,7 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 	command -v apt-get >/dev/null || { echo "There is no apt-get: install them by hand." >&2; exit 1; }; \
 	as_root=; [ "$$(id -u)" -eq 0 ] || as_root=sudo; \
 	$$as_root apt-get update && \
-	$$as_root env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends "$$@"' install
+	$$as_root env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-remove --no-install-recommends "$$@"' install
 
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
@@ -110,12 +110,14 @@ headless:
 # the sources of std for it that Debian packages; that builds std, and more the first time.
 WASM := check $(FLAGS) --lib --no-default-features --target wasm32-unknown-unknown
 DEBIAN_RUSTC := /usr/bin/rustc
+RUST_MINOR = $(shell sed -n 's/^rust-version = "1\.\(.*\)"/\1/p' Cargo.toml)
 wasm:
 	@if rustup target add wasm32-unknown-unknown >/dev/null 2>&1; then \
 		$(CARGO) $(WASM); exit; \
 	fi; \
 	has_debian_rustc() { \
-		[ -f "$$($(DEBIAN_RUSTC) --print sysroot 2>/dev/null)/lib/rustlib/src/rust/library/Cargo.toml" ]; \
+		[ -f "$$($(DEBIAN_RUSTC) --print sysroot 2>/dev/null)/lib/rustlib/src/rust/library/Cargo.toml" ] && \
+			$(DEBIAN_RUSTC) --version | awk '{ split($$2, v, "."); exit v[2] < $(RUST_MINOR) }'; \
 	}; \
 	if ! has_debian_rustc && command -v apt-get >/dev/null; then $(install) rustc-web rust-web-src; fi; \
 	if has_debian_rustc; then \

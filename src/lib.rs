@@ -64,14 +64,28 @@
 //! * **Limits are told**: what had to be left out of a picture is counted ([`render::Stats`]), what
 //!   had to be left out of a scene is named ([`scene::Scene::skipped`]).
 //! * **Errors**: one enum for each module that can fail, with what a user needs to know. Only
-//!   [`app`] prints or exits. There is no panic on a bad file, a missing GPU or a full disk.
+//!   [`app`] prints, exits or names flags. There is no panic on a bad file, a missing GPU or a full disk.
+//!
+//! # Features
+//!
+//! All are on by default. Without any the library is the renderer: it opens no window, needs no C or C++
+//! compiler, knows no command line, and compiles for `wasm32-unknown-unknown`, where [`output`] and the
+//! functions of [`import`] that read folders are left out.
+//!
+//! | feature | adds |
+//! |---|---|
+//! | `cli` | [`app`], the program |
+//! | `viewer` | the window of `glimray view`; brings `cli` |
+//! | `video` | MP4 and GIF |
+//! | `gl` | OpenGL, where there is no Vulkan, Metal or DirectX 12 |
+//! | `parallel` | trees are built by all cores |
 //!
 //! # Map
 //!
 //! | module | does | uses |
 //! |---|---|---|
 //! | [`scene`] | the host model, with every question settled | |
-//! | [`import`] | file → `Scene`, one file for each format | `scene` |
+//! | [`import`] | file → `Scene`, one file for each format; files come from an [`import::Resolver`] | `scene` |
 //! | [`bvh`] | boxes → tree of four-way nodes | |
 //! | [`layout`] | the structs and tags that shaders also see | |
 //! | [`pack`] | `Scene` → arrays for the GPU; no device needed | `scene`, `bvh`, `layout` |

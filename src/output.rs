@@ -16,7 +16,8 @@ pub mod video;
 pub use error::OutputError;
 pub(crate) use error::reason;
 pub use format::Format;
-pub(crate) use litter::{Litter, clear_away};
+pub(crate) use litter::Litter;
+pub use litter::clear_away;
 
 use crate::image::Image;
 use std::io::Write;
@@ -113,12 +114,12 @@ pub fn check_file(path: impl AsRef<Path>, clobber: bool) -> Result<(), OutputErr
     atomic::check(path.as_ref(), clobber, true)
 }
 
-/// Like [`check_file`], for a name that the program made up: a file of that name may be replaced, and
+/// Like [`check_file`], for a name that a program made up: a file of that name may be replaced, and
 /// the name must not be a symbolic link, unless it is one to a pipe or a device.
 ///
 /// # Errors
 /// Those of [`write_own`] that can be known beforehand.
-pub(crate) fn check_own(path: impl AsRef<Path>) -> Result<(), OutputError> {
+pub fn check_own(path: impl AsRef<Path>) -> Result<(), OutputError> {
     atomic::check(path.as_ref(), true, false)
 }
 
@@ -126,7 +127,7 @@ pub(crate) fn check_own(path: impl AsRef<Path>) -> Result<(), OutputError> {
 ///
 /// # Errors
 /// [`OutputError::Link`].
-pub(crate) fn check_no_link(path: impl AsRef<Path>) -> Result<(), OutputError> {
+pub fn check_no_link(path: impl AsRef<Path>) -> Result<(), OutputError> {
     atomic::check_no_link(path.as_ref())
 }
 
@@ -143,7 +144,7 @@ pub fn write(path: impl AsRef<Path>, bytes: &[u8], clobber: bool) -> Result<(), 
 ///
 /// # Errors
 /// As [`write()`], and [`OutputError::Link`].
-pub(crate) fn write_own(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputError> {
+pub fn write_own(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputError> {
     atomic::write(path.as_ref(), bytes, true, false)
 }
 

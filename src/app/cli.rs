@@ -4,16 +4,18 @@ mod flags;
 mod motion;
 mod values;
 
+#[cfg(feature = "viewer")]
+pub use flags::TapeFlags;
 pub use flags::{
     CameraFlags, DeviceFlags, LogFlags, OutputFlags, PictureFlags, ProgressMode, SceneFlags,
-    SizeFlags, TapeFlags,
+    SizeFlags,
 };
 pub use motion::{
     MomentFlags, MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags,
 };
 #[cfg(feature = "viewer")]
-pub use values::Words;
-pub use values::{ANTIALIAS, FILTERS, INTEGRATORS, MAX_FRAME, TONES, TRANSFERS, TRIANGLE_TESTS};
+pub use values::{ANTIALIAS, FILTERS, TRIANGLE_TESTS, Words};
+pub use values::{INTEGRATORS, MAX_FRAME, TONES, TRANSFERS};
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;

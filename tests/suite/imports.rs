@@ -210,6 +210,33 @@ fn only_the_program_knows_flags_exit_codes_and_the_terminal() {
     assert_eq!(found("x - -y; f(\"-- a\") // --no-bvh"), None);
 }
 
+/// A browser has no files, no threads and another clock.
+#[test]
+fn only_a_few_files_of_the_library_need_more_than_a_browser_has() {
+    const WORDS: &[&str] = &[
+        "std::fs",
+        "fs::{",
+        "std::thread",
+        "std::time::Instant",
+        "std::time::SystemTime",
+        "tempfile",
+    ];
+    // Of these a browser has the clock, and the one file that asks first.
+    const PARTS: &[&str] = &["app", "main", "output", "clock"];
+    const FILES: &[&str] = &["src/import/folder.rs", "src/gpu/shader.rs"];
+    let mut verdict = Verdict::on("src for browsers");
+    for (path, text) in files("src", "rs") {
+        let is_allowed = PARTS.contains(&&*part_of(&path));
+        if is_allowed || FILES.iter().any(|file| path == Path::new(file)) {
+            continue;
+        }
+        let code = code(&text);
+        let word = WORDS.iter().find(|word| code.contains(**word));
+        verdict.that(path.display(), word.is_none(), || format!("has {word:?}"));
+    }
+    verdict.close();
+}
+
 /// Kernels are entry points, and nothing imports one; not even another kernel.
 #[test]
 fn kernels_do_not_import_each_other() {

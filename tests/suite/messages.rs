@@ -240,7 +240,10 @@ fn a_terminal_gets_lines_that_end_between_words() {
 fn messages_of_the_program_name_its_flags() {
     let place = Place::new();
     place.write("out.toml", "[[objects]]\nmesh = { file = '../m.obj' }\n");
-    place.write("good.toml", "[[objects]]\nsphere = { radius = 1 }\n");
+    place.write(
+        "good.toml",
+        "[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n",
+    );
     let mut verdict = Verdict::on("messages");
     for (line, message) in [
         (
