@@ -9,10 +9,10 @@ GLIMRAY := $(or $(CARGO_TARGET_DIR),target)/release/glimray
 export NODEVICE_SELECT := 1
 
 # A test that lacks one of these fails instead of being skipped (tests/suite/support/skip.rs): what
-# `make test` installs with apt-get, and FFmpeg where it is installed; it would double what is downloaded.
+# `make test` builds, or installs with apt-get, and FFmpeg where it is installed; it would double what is downloaded.
 comma := ,
 ifneq ($(shell command -v apt-get),)
-GLIMRAY_REQUIRE ?= gl,xvfb$(if $(shell command -v ffmpeg >/dev/null && command -v ffprobe),$(comma)ffmpeg)
+GLIMRAY_REQUIRE ?= examples,gl,xvfb$(if $(shell command -v ffmpeg >/dev/null && command -v ffprobe),$(comma)ffmpeg)
 export GLIMRAY_REQUIRE
 endif
 
@@ -26,7 +26,7 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench gallery build compiler display driver opengl lint headless
+.PHONY: help demo test bench gallery build compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png'
@@ -40,7 +40,7 @@ demo: build driver
 	$(GLIMRAY) demo -o glimray.png
 
 # Tests are built first, the program with them: `driver` needs it.
-test: lint headless
+test: lint features headless wasm
 	$(CARGO) test $(FLAGS) --no-run
 	@$(MAKE) --no-print-directory driver opengl display
 	$(CARGO) test $(FLAGS)
@@ -89,8 +89,38 @@ lint: compiler
 	$(CARGO) clippy $(FLAGS) --all-targets -- --deny warnings
 	RUSTDOCFLAGS=--deny=warnings $(CARGO) doc $(FLAGS) --no-deps
 
-# Without default features nothing of a window system may be there.
+# The library alone, and with each feature by itself: what they share is built once.
+features: compiler
+	@for feature in '' cli gl parallel video viewer; do \
+		echo "without default features, with: $${feature:-none}"; \
+		$(CARGO) clippy --quiet $(FLAGS) --lib --bins --no-default-features --features "$$feature" \
+			-- --deny warnings || exit; \
+	done
+
+# Without default features there is nothing of a window system, of the program, or of C and C++.
 headless:
 	@if $(CARGO) tree --locked --no-default-features --edges normal --prefix none | \
 		grep -E '^(winit|softbuffer|smithay|wayland|x11|xcb|xkb|sdl|glfw|gtk|egui|minifb)'; \
 	then echo 'The crates above need a window system.' >&2; exit 1; fi
+	@if $(CARGO) tree --locked --no-default-features --edges normal,build --prefix none | \
+		grep -E '^(clap|miette|indicatif|console|signal-hook|terminal_size|nv-flip|openh264|rayon|cc) '; \
+	then echo 'The crates above have no place in the library alone.' >&2; exit 1; fi
+
+# The library alone in a browser. Rust's own target if it is there or can be had, else the compiler and
+# the sources of std for it that Debian packages; that builds std, and more the first time.
+WASM := check $(FLAGS) --lib --no-default-features --target wasm32-unknown-unknown
+DEBIAN_RUSTC := /usr/bin/rustc
+wasm:
+	@if rustup target add wasm32-unknown-unknown >/dev/null 2>&1; then \
+		$(CARGO) $(WASM); exit; \
+	fi; \
+	has_debian_rustc() { \
+		[ -f "$$($(DEBIAN_RUSTC) --print sysroot 2>/dev/null)/lib/rustlib/src/rust/library/Cargo.toml" ]; \
+	}; \
+	if ! has_debian_rustc && command -v apt-get >/dev/null; then $(install) rustc-web rust-web-src; fi; \
+	if has_debian_rustc; then \
+		RUSTC_BOOTSTRAP=1 RUSTC=$(DEBIAN_RUSTC) $(CARGO) $(WASM) -Z build-std=std,panic_abort \
+			--target-dir $(or $(CARGO_TARGET_DIR),target)/wasm; exit; \
+	fi; \
+	echo 'skipped: there is no compiler for wasm32-unknown-unknown (wasm)' >&2; \
+	case ",$$GLIMRAY_REQUIRE," in *,wasm,*) exit 1;; esac

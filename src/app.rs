@@ -1,6 +1,7 @@
 //! The command line: one file per command, and what they share. Nothing below this module prints,
 //! exits or reads arguments.
 
+mod advice;
 mod animate;
 mod bench;
 mod cli;
@@ -29,6 +30,7 @@ mod render;
 mod report;
 pub mod scene_file;
 mod schema;
+mod snippet;
 mod turntable;
 #[cfg(feature = "viewer")]
 pub mod view;

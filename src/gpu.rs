@@ -42,6 +42,8 @@ pub struct Gpu {
     pub(crate) adapter: wgpu::Adapter,
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
+    /// Whether it was opened here. Another's device is not replaced when it is lost.
+    is_own: bool,
     lost: Arc<AtomicBool>,
     /// The first error that no scope caught.
     stray_error: Arc<Mutex<Option<String>>>,
@@ -121,10 +123,39 @@ impl Gpu {
             adapter,
             device,
             queue,
+            is_own: true,
             lost,
             stray_error,
             pipelines: Arc::default(),
         })
+    }
+
+    /// A device that a program has already, with what it came from. It stays the program's: its limits
+    /// decide what can be rendered, its callbacks are not touched, and when it is lost the program opens
+    /// another one ([`GpuError::Lost`]). At least WebGPU's default limits are needed.
+    pub fn from_wgpu(
+        instance: wgpu::Instance,
+        adapter: wgpu::Adapter,
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+    ) -> Self {
+        Self {
+            choice: AdapterChoice::default(),
+            report: adapter::report(0, &adapter),
+            instance,
+            adapter,
+            device,
+            queue,
+            is_own: false,
+            lost: Arc::default(),
+            stray_error: Arc::default(),
+            pipelines: Arc::default(),
+        }
+    }
+
+    /// Whether it was opened here, and not given by [`Gpu::from_wgpu`].
+    pub fn is_own(&self) -> bool {
+        self.is_own
     }
 
     /// This device if it serves `needs`, else one on the same adapter with higher limits.
@@ -136,9 +167,14 @@ impl Gpu {
         Self::open(&self.choice, needs)
     }
 
-    /// Whether a device on this adapter could have limits that serve `needs`.
+    /// Whether a device on this adapter could have limits that serve `needs`; another's device has those
+    /// that it has.
     pub(crate) fn check_limits(&self, needs: Needs) -> Result<(), GpuError> {
-        limits_for(needs, &self.adapter.limits()).map(drop)
+        let most = match self.is_own {
+            true => self.adapter.limits(),
+            false => self.device.limits(),
+        };
+        limits_for(needs, &most).map(drop)
     }
 
     /// Whether this device's limits allow for `needs`.
@@ -195,11 +231,16 @@ impl Gpu {
     /// Submits and waits until the work is done. A device that is lost, or does not answer within
     /// half a minute, is [`GpuError::Lost`].
     pub(crate) fn submit(&self, commands: wgpu::CommandBuffer) -> Result<(), GpuError> {
+        let index = self.enqueue(commands)?;
+        self.wait(index)
+    }
+
+    /// Submits without waiting.
+    fn enqueue(&self, commands: wgpu::CommandBuffer) -> Result<wgpu::SubmissionIndex, GpuError> {
         if fault::strikes(fault::Site::Device) {
             self.lose();
         }
-        let index = guard::quiet(|| self.queue.submit([commands])).map_err(|_| GpuError::Lost)?;
-        self.wait(index)
+        guard::quiet(|| self.queue.submit([commands])).map_err(|()| GpuError::Lost)
     }
 
     fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {

@@ -1,4 +1,4 @@
-//! Scene files into [`Scene`]s: [`load`] chooses the importer by the file's ending.
+//! Scene files into [`Scene`]s: [`load`] and [`load_from`] choose the importer by the file's ending.
 //!
 //! | ending | format | module |
 //! |---|---|---|
@@ -10,6 +10,8 @@
 //! `ply.rs` reads Stanford's PLY files, of which native scenes place triangles and points.
 //! Pictures that scenes and models name are read by `picture.rs`.
 //!
+//! Importers get files from a [`Resolver`]: a [`Folder`] on disk, [`Memory`], or another program's.
+//!
 //! Files are hostile until read: nothing here panics, follows a path out of the scene's folder, or
 //! takes more memory than eight times the file's size (and 64 MiB; see `budget.rs`). Colours that no
 //! arithmetic could bear are lowered (`range.rs`). What cannot be rendered but does no harm is left
@@ -19,6 +21,8 @@
 mod budget;
 mod course;
 mod error;
+#[cfg(not(target_arch = "wasm32"))]
+mod folder;
 mod native;
 mod nff;
 mod notes;
@@ -29,15 +33,19 @@ mod picture;
 mod ply;
 mod polygon;
 mod range;
+mod resolver;
 mod source;
 mod stage;
 mod suggest;
 
-pub use error::{Fault, ImportError, Position};
+pub use error::{Excerpt, Fault, ImportError, Position};
+#[cfg(not(target_arch = "wasm32"))]
+pub use folder::Folder;
+pub use resolver::{FileError, Memory, Resolver};
 
 use crate::scene::{Picture, Scene};
 use error::fault;
-use paths::{Files, Seen};
+use paths::Files;
 use source::Source;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -45,7 +53,7 @@ use std::sync::Arc;
 /// What a caller may add to a scene file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Folders outside the scene's own in which it may name files.
+    /// Folders outside the scene's own in which it may name files, for [`load_with`].
     pub allow_dirs: Vec<PathBuf>,
     /// `KEY=VALUE` pairs that replace or add one value of a native scene each, such as
     /// `camera.fov_y_deg=30`, `objects.0.sphere.radius=2` or `output.tone=aces`. Values are TOML; a
@@ -62,10 +70,80 @@ pub const PICTURE_ENDINGS: &[&str] = &["hdr", "exr", "png", "jpg", "jpeg"];
 /// The largest geometry file (`.scene`, `.nff`, `.obj`) that is read, in bytes.
 const MAX_GEOMETRY_BYTES: u64 = 2 << 30;
 
+/// The formats of scenes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Format {
+    Native,
+    Course,
+    Nff,
+    Obj,
+}
+
+impl Format {
+    /// What the ending of the file's name says.
+    fn of(path: &Path) -> Result<Self, ImportError> {
+        let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+        match ending.to_str() {
+            Some("toml") => Ok(Self::Native),
+            Some("scene") => Ok(Self::Course),
+            Some("nff") => Ok(Self::Nff),
+            Some("obj") => Ok(Self::Obj),
+            _ => Err(unknown_format(path)),
+        }
+    }
+
+    /// The longest file that is read, in bytes.
+    fn limit(self) -> u64 {
+        match self {
+            Self::Native => native::MAX_BYTES,
+            _ => MAX_GEOMETRY_BYTES,
+        }
+    }
+
+    /// Why the file of a scene was not read.
+    fn unreadable(self, path: &Path, error: &FileError) -> ImportError {
+        match paths::unreadable(path, error, self.limit()) {
+            // A limit of the format, not of the memory.
+            ImportError::TooBig(fault) if self == Self::Native => ImportError::Malformed(fault),
+            error => error,
+        }
+    }
+
+    /// The scene that is written in `bytes`, those of the file at `path`.
+    fn scene(
+        self,
+        path: &Path,
+        bytes: Vec<u8>,
+        options: &Options,
+        files: &Files,
+    ) -> Result<Scene, ImportError> {
+        if self != Self::Native && !options.overrides.is_empty() {
+            let why = "only native scenes (.toml) have keys to set";
+            let fault = fault("override refused", path, why, "Leave out the overrides");
+            return Err(ImportError::Malformed(fault));
+        }
+        let what = match self {
+            Self::Obj => "bad model",
+            _ => "bad scene",
+        };
+        let source = Source::new(what, path, bytes)?;
+        let mut scene = match self {
+            Self::Native => native::read(&source, options, files),
+            Self::Course => course::read(&source),
+            Self::Nff => nff::read(&source),
+            Self::Obj => obj::read_scene(&source, files),
+        }?;
+        range::limit(&mut scene);
+        scene.pin_render_origin();
+        Ok(scene)
+    }
+}
+
 /// The scene in the file at `path`, with default [`Options`].
 ///
 /// # Errors
 /// See [`load_with`].
+#[cfg(not(target_arch = "wasm32"))]
 pub fn load(path: &Path) -> Result<Scene, ImportError> {
     load_with(path, &Options::default())
 }
@@ -75,52 +153,71 @@ pub fn load(path: &Path) -> Result<Scene, ImportError> {
 /// # Errors
 /// The file or one it names is missing, unreadable, too big, malformed or outside the scene's
 /// folder; the ending is unknown; an override does not fit, or the format takes none.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn load_with(path: &Path, options: &Options) -> Result<Scene, ImportError> {
-    load_seen(path, options, &Seen::default())
+    load_seen(path, options, &mut Vec::new())
 }
 
 /// The scene in the file at `path`, and every file that it comes from or asked for: the file itself,
 /// meshes, material libraries, pictures; those too that are missing. Whoever watches them for changes
 /// knows when to load it again, whether it could be loaded or not.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn load_watched(path: &Path, options: &Options) -> (Result<Scene, ImportError>, Vec<PathBuf>) {
-    let seen = Seen::default();
-    seen.note(path);
-    (load_seen(path, options, &seen), seen.paths())
+    let mut seen = vec![path.to_owned()];
+    let scene = load_seen(path, options, &mut seen);
+    (scene, seen)
 }
 
-fn load_seen(path: &Path, options: &Options, seen: &Seen) -> Result<Scene, ImportError> {
-    let mut scene = load_as_written(path, options, seen)?;
-    range::limit(&mut scene);
-    scene.pin_render_origin();
-    Ok(scene)
+#[cfg(not(target_arch = "wasm32"))]
+fn load_seen(
+    path: &Path,
+    options: &Options,
+    seen: &mut Vec<PathBuf>,
+) -> Result<Scene, ImportError> {
+    let format = Format::of(path)?;
+    let bytes = folder::read(path, format.limit());
+    let bytes = bytes.map_err(|error| format.unreadable(path, &error))?;
+    let folder = Folder::of(path)?.allowing(&options.allow_dirs)?;
+    let scene = format.scene(path, bytes, options, &Files::of(&folder));
+    for file in folder.seen() {
+        if !seen.contains(&file) {
+            seen.push(file);
+        }
+    }
+    scene
 }
 
-/// The scene in the file at `path`, whatever its colours are.
-fn load_as_written(path: &Path, options: &Options, seen: &Seen) -> Result<Scene, ImportError> {
-    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-    let is_native = match ending.to_str() {
-        Some("toml") => true,
-        Some("scene" | "nff" | "obj") => false,
-        _ => return Err(unknown_format(path)),
-    };
-    if is_native {
-        let files = Files::beside(path, &options.allow_dirs, seen)?;
-        return native::read(&native::open(path)?, options, &files);
-    }
-    if !options.overrides.is_empty() {
-        let why = "only native scenes (.toml) have keys to set";
-        let fault = fault("override refused", path, why, "Leave out --set");
-        return Err(ImportError::Malformed(fault));
-    }
-    let bytes = paths::read(path, MAX_GEOMETRY_BYTES)?;
-    if ending == "scene" {
-        return course::read(&Source::new("bad scene", path, bytes)?);
-    }
-    if ending == "nff" {
-        return nff::read(&Source::new("bad scene", path, bytes)?);
-    }
-    let files = Files::beside(path, &options.allow_dirs, seen)?;
-    obj::read_scene(&Source::new("bad model", path, bytes)?, &files)
+/// The scene in the file called `name` of `resolver`, which also has the files that it names. Of
+/// `options` only the overrides count: which folders are open is up to the resolver.
+///
+/// # Errors
+/// As [`load_with`].
+///
+/// ```
+/// use glimray::import::{self, Memory, Options};
+/// let files = Memory::from_iter([
+///     ("scene.toml", "[[objects]]\nmesh = { file = 'models/a.obj' }".as_bytes()),
+///     ("models/a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3"),
+/// ]);
+/// let scene = import::load_from(&files, "scene.toml", &Options::default())?;
+/// assert_eq!(scene.triangle_count(), 1);
+/// # Ok::<(), import::ImportError>(())
+/// ```
+pub fn load_from(
+    resolver: &dyn Resolver,
+    name: &str,
+    options: &Options,
+) -> Result<Scene, ImportError> {
+    let format = Format::of(Path::new(name))?;
+    let path = Files::of(resolver).resolve(name).map_err(|refusal| {
+        refusal.into_error("scene", |why, todo| {
+            ImportError::Malformed(fault("bad scene", Path::new(name), &why, todo))
+        })
+    })?;
+    let bytes = resolver.read(&path, format.limit());
+    let bytes = bytes.map_err(|error| format.unreadable(&path, &error))?;
+    let files = Files::of(resolver).named_in(&path);
+    format.scene(&path, bytes, options, &files)
 }
 
 /// The scene in `text`, which can name no files. `name` stands for the file's path in errors; if it
@@ -145,12 +242,30 @@ pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportE
 ///
 /// # Errors
 /// The file is missing, unreadable, too big, or no picture that is known.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn picture(path: &Path) -> Result<Arc<Picture>, ImportError> {
     let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    let files = Files::beside(&whole, &[], &Seen::default())?;
+    let folder = Folder::of(&whole)?;
     let name = whole.file_name().unwrap_or_default().to_string_lossy();
+    named_picture(&folder, &name, path)
+}
+
+/// The picture in the file called `name` of `resolver`, as linear colours.
+///
+/// # Errors
+/// As [`picture()`].
+pub fn picture_from(resolver: &dyn Resolver, name: &str) -> Result<Arc<Picture>, ImportError> {
+    named_picture(resolver, name, Path::new(name))
+}
+
+/// The picture called `name`, at `path` in errors.
+fn named_picture(
+    resolver: &dyn Resolver,
+    name: &str,
+    path: &Path,
+) -> Result<Arc<Picture>, ImportError> {
     let mut pictures = picture::Pictures::default();
-    match pictures.read(&files, &name) {
+    match pictures.read(&Files::of(resolver), name) {
         Ok(index) => Ok(pictures.pictures.swap_remove(index)),
         Err(refused) => Err(refused.into_error(|why, todo| {
             ImportError::Malformed(fault("picture refused", path, &why, todo))

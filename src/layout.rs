@@ -158,13 +158,13 @@ packed! {
         flags: u32,
         /// Multiplies [`PackedFrame::ambient`].
         ambient: [f32; 3],
-        /// Share of the light that is not transmitted, in 0..=1.
+        /// Fraction of the light that is not transmitted, in 0..=1.
         opacity: f32,
-        /// Share that is mirrored, before Fresnel's split.
+        /// Fraction that is mirrored, before Fresnel's equations.
         reflect: [f32; 3],
         /// Index of refraction of what is inside, above 0.
         ior: f32,
-        /// Share that is transmitted, before Fresnel's split.
+        /// Fraction that is transmitted, before Fresnel's equations.
         transmit: [f32; 3],
         /// Where media overlap, the higher one counts.
         priority: i32,
@@ -344,7 +344,7 @@ packed! {
         seed: u32,
         /// Bounces after the first hit.
         max_depth: u32,
-        /// Rays whose share in the pixel is smaller than this are not sent.
+        /// Rays of a throughput below this are not sent.
         min_throughput: f32,
         /// Factor on [`PackedLight::sample_count`].
         light_samples: f32,
@@ -381,18 +381,14 @@ packed! {
         curve: u32,
         /// [`TRANSFER_SRGB`] or [`TRANSFER_LINEAR`].
         transfer: u32,
-        /// Rows of the film for each pixel: 1, or 4 where the background's part is apart.
-        film_rows: u32,
-        /// Linear radiance of another background than the scene's, straight down.
-        background: [f32; 3],
-        /// Whether there is one, 0 or 1.
-        has_background: u32,
-        /// The same, straight up.
-        background_top: [f32; 3],
         /// What the film holds: [`VIEW_DEPTH`] and [`VIEW_HEAT`] are quantities, all else is colours.
         view: u32,
-        /// The least and the greatest value of a quantity; 1 if it is to be shown over that range; 0.
-        range: [f32; 4],
+        /// The least and the greatest value of a quantity.
+        range: [f32; 2],
+        /// Whether it is to be shown over that range, 0 or 1.
+        has_range: u32,
+        /// Rows of the film for each pixel.
+        film_rows: u32,
     }
     /// A sample of which every ray is to be recorded, and what came of it.
     PackedProbe {
@@ -439,11 +435,11 @@ packed! {
         ng: [f32; 3],
         /// Index of a [`PackedMaterial`], or [`NONE`].
         material: u32,
-        /// Share in the sample where it starts.
+        /// Throughput where it starts.
         throughput: [f32; 3],
         /// Number of the ray that sent it, or [`NONE`].
         parent: u32,
-        /// Share in the sample where it ends.
+        /// Throughput where it ends.
         arriving: [f32; 3],
         /// [`RAY_OUTSIDE`] and so on.
         flags: u32,
@@ -459,11 +455,11 @@ packed! {
         emission: [f32; 3],
         /// Material of the medium behind the surface, or [`NONE`].
         medium_behind: u32,
-        /// Share that is mirrored.
+        /// Fraction that is mirrored.
         reflect: [f32; 3],
         /// Fresnel's.
         reflectance: f32,
-        /// Share that is refracted; of a shadow ray: that came through.
+        /// Fraction that is refracted; of a shadow ray: that came through.
         transmit: [f32; 3],
         /// Index of refraction in front of the surface.
         ior: f32,

@@ -89,13 +89,16 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+#[cfg(feature = "cli")]
 pub mod app;
 pub mod bvh;
+mod clock;
 pub mod export;
 pub mod gpu;
 pub mod image;
 pub mod import;
 pub mod layout;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod output;
 pub mod pack;
 pub mod render;

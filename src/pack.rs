@@ -22,6 +22,7 @@ pub use instance::MOST_BAKED;
 pub use segments::Segments;
 pub use trees::TreeWork;
 
+use crate::clock::Instant;
 use crate::{
     layout::{
         IMAGE_WIDTH_LOG2, LEAF_FIRST_MASK, NODE_ROWS, PackedMaterial, PackedNode, PackedShape,
@@ -36,7 +37,7 @@ use instance::{Instance, InstancedBlas, Plan, TransformSource};
 use material::PackedPicture;
 use mesh::CachedMesh;
 use object::Origins;
-use std::{sync::Arc, time::Instant};
+use std::sync::Arc;
 use surfaces::Changing;
 use tlas::TlasSource;
 use trees::Trees;

@@ -11,6 +11,7 @@ mod effort;
 mod error;
 mod explain;
 mod film;
+mod layers;
 mod layouts;
 mod levels;
 mod settings;
@@ -29,6 +30,7 @@ pub use settings::{Fetch, Integrator, MIN_THROUGHPUT, Settings, Slicing, Triangl
 pub use show::Screen;
 pub use stats::{Rays, Stats, Uploads};
 
+use crate::clock::Instant;
 use crate::{
     gpu::{AdapterReport, Gpu, GpuError},
     pack::{PackedScene, PackedView},
@@ -36,7 +38,7 @@ use crate::{
 use device::{Device, Task};
 use film::{CHUNK, Film};
 use slice::{Planner, Slice};
-use std::{ops::Range, sync::Arc, time::Instant};
+use std::{ops::Range, sync::Arc};
 
 /// Renders one frame after another of one scene.
 pub struct Renderer {

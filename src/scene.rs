@@ -127,17 +127,6 @@ pub enum Background {
     },
 }
 
-impl Background {
-    /// Its linear radiance straight down and straight up; `None` for a picture.
-    pub fn ends(&self) -> Option<[Vec3; 2]> {
-        match *self {
-            Self::Color(color) => Some([color; 2]),
-            Self::Gradient { bottom, top } => Some([bottom, top]),
-            Self::Picture { .. } => None,
-        }
-    }
-}
-
 impl Default for Background {
     fn default() -> Self {
         Self::Color(Vec3::ZERO)

@@ -54,7 +54,6 @@ fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<
     let timeline = Timeline::new(&scene, &arguments.range, clock)?;
     let job = Job {
         scene,
-        background: arguments.camera.background,
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,
@@ -118,7 +117,8 @@ impl<'a> Sequence<'a> {
         let lock = files.map(|files| Lock::take(files.pattern.folder()));
         let lock = lock.transpose()?;
         let mut journal = files.map(|files| Journal::open(&files.pattern));
-        let plan = Plan::new(self, &studio, journal.as_ref(), &interrupt)?;
+        let origin = |number| Ok(studio.origin(&studio.view(number)?));
+        let plan = Plan::new(self, origin, journal.as_ref(), &interrupt)?;
         plan.spare(self, &draft.inputs)?;
         let sink = match (&self.target.video, &video) {
             (Some(Video::Stream), Some(options)) => {

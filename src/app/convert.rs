@@ -3,12 +3,12 @@
 use super::cli::ConvertArgs;
 use super::exit::AppError;
 use super::interrupt::Interrupt;
-use super::{console, render, scene_file};
+use super::{console, scene_file};
 use std::path::PathBuf;
 
 pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
     Interrupt::install()?;
-    let (scene, inputs) = render::load(&arguments.scene, &arguments.reading);
+    let (scene, inputs) = scene_file::load(&arguments.scene, &arguments.reading);
     let scene = scene?;
     let stem = arguments.scene.file_stem().unwrap_or("scene".as_ref());
     // What comes before the last dot is the name, whatever dots are in it.

@@ -39,7 +39,6 @@ fn render(
     let SizeFlags { size, samples } = arguments.size;
     let job = Job {
         scene,
-        background: None,
         picture: &PictureFlags {
             size: SizeFlags { size, samples },
             ..PictureFlags::default()

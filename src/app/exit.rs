@@ -1,13 +1,11 @@
 //! How the program ends: one error for everything that can go wrong, its exit code, and its words.
 
-use super::console;
-use super::memory;
+use super::{advice, console, memory, snippet};
 use crate::gpu::{self, GpuError};
 use crate::import::ImportError;
 use crate::output::{self, OutputError};
 use crate::pack::PackError;
 use crate::render::RenderError;
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 
@@ -18,7 +16,7 @@ pub enum AppError {
     #[error("{0}")]
     Usage(String),
     /// The scene file was refused.
-    #[error(transparent)]
+    #[error("{}", advice::import(.0))]
     Import(#[from] ImportError),
     /// Some other input was refused.
     #[error("{0}")]
@@ -27,10 +25,10 @@ pub enum AppError {
     #[error(transparent)]
     Pack(#[from] PackError),
     /// No adapter could be used.
-    #[error(transparent)]
+    #[error("{}", advice::gpu(.0))]
     Gpu(#[from] GpuError),
     /// Rendering failed.
-    #[error(transparent)]
+    #[error("{}", advice::render(.0))]
     Render(#[from] RenderError),
     /// The adapter computes wrong results.
     #[error("{0}")]
@@ -88,10 +86,22 @@ impl AppError {
             Self::SelfTest(_) | Self::NoDisplay(_) => 5,
             Self::Pack(_) | Self::TooBig(_) => 7,
             Self::Different(_) => 8,
-            Self::Gpu(error) => error.exit_code(),
-            Self::Render(error) => error.exit_code(),
+            Self::Gpu(error) | Self::Render(RenderError::Gpu(error)) => gpu_exit_code(error),
+            Self::Render(RenderError::PathTooLong(_) | RenderError::TooManyShadowRays { .. }) => 7,
             Self::Interrupted { exit_code } => *exit_code,
         }
+    }
+}
+
+fn gpu_exit_code(error: &GpuError) -> u8 {
+    match error {
+        GpuError::NoAdapter { .. }
+        | GpuError::NoBackend { .. }
+        | GpuError::NoSuchAdapter { .. }
+        | GpuError::NoDevice { .. } => 5,
+        GpuError::Lost | GpuError::KeptFailing { .. } => 6,
+        GpuError::Limit { .. } | GpuError::Budget { .. } | GpuError::OutOfMemory { .. } => 7,
+        GpuError::Internal { .. } => 1,
     }
 }
 
@@ -109,7 +119,7 @@ pub fn failure(error: &AppError) -> ExitCode {
     if let AppError::Import(error) = error
         && !console::speaks_json()
         && io::stderr().is_terminal()
-        && let Some(snippet) = snippet(error)
+        && let Some(snippet) = snippet::of(error.fault())
     {
         console::block(&snippet, |c| c == '\u{1b}');
     }
@@ -170,40 +180,4 @@ pub fn install_panic_hook() {
         console::error(message, exit_code);
         std::process::exit(exit_code.into());
     }));
-}
-
-/// Longer lines than this many bytes are not shown: a terminal is no place for a megabyte.
-const MAX_LINE: usize = 300;
-
-/// The lines of the scene file that `error` points at, drawn for a terminal.
-fn snippet(error: &ImportError) -> Option<String> {
-    let source = error.source_code()?;
-    for label in error.labels()? {
-        let line = source.read_span(label.inner(), 0, 0).ok()?;
-        if line.data().len() > MAX_LINE {
-            return None;
-        }
-    }
-    let mut drawing = String::new();
-    GraphicalReportHandler::new_themed(GraphicalTheme::default())
-        .with_context_lines(0)
-        .render_report(&mut drawing, &Excerpt(error))
-        .ok()?;
-    // The first line is the message, which has been printed.
-    drawing.split_once('\n').map(|(_, rest)| rest.to_owned())
-}
-
-/// The source and labels of a diagnostic without its message.
-#[derive(Debug, thiserror::Error)]
-#[error("-")]
-struct Excerpt<'a>(&'a ImportError);
-
-impl Diagnostic for Excerpt<'_> {
-    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
-        self.0.source_code()
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = miette::LabeledSpan> + '_>> {
-        self.0.labels()
-    }
 }

@@ -12,7 +12,7 @@ use super::interrupt::Interrupt;
 use super::job;
 use super::memory;
 use super::overrides;
-use super::render;
+use super::scene_file;
 use crate::gpu::Gpu;
 use crate::output;
 use crate::render::{Integrator, RayTree, Renderer, Settings};
@@ -21,7 +21,7 @@ use std::ops::Range;
 
 pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     Interrupt::install()?;
-    let (scene, inputs) = render::load(&arguments.scene, &arguments.reading);
+    let (scene, inputs) = scene_file::load(&arguments.scene, &arguments.reading);
     let mut scene = scene?;
     overrides::apply(&mut scene, &arguments.camera)?;
     let settings = job::settings(&scene.output, &arguments.picture, &arguments.device, false);

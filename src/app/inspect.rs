@@ -7,8 +7,8 @@ use super::cli::{InspectArgs, TONES, TRANSFERS};
 use super::console;
 use super::exit::AppError;
 use super::job::UNLIT;
-use super::render;
 use super::report::SceneReport;
+use super::scene_file;
 use crate::scene::{Attenuation, Background, Camera, Light, LightKind, Material, Scene};
 use glam::{DVec3, Vec3};
 use serde_json::{Value, json};
@@ -18,7 +18,7 @@ use std::fmt::{self, Write};
 const MAX_LISTED: usize = 20;
 
 pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
-    let scene = render::load(&arguments.scene, &arguments.reading).0?;
+    let scene = scene_file::load(&arguments.scene, &arguments.reading).0?;
     let path = arguments.scene.display().to_string();
     if arguments.json {
         return console::print_json(&to_json(&path, &scene)?);

@@ -15,7 +15,6 @@ use crate::gpu::{AdapterReport, Gpu};
 use crate::output;
 use crate::render::{Integrator, Levels, Settings, Stats, Tone};
 use crate::scene::{OutputDefaults, Scene, ToneCurve, Transfer};
-use glam::Vec3;
 use std::path::Path;
 use std::time::Instant;
 
@@ -27,8 +26,6 @@ pub const UNLIT: &str = "the scene has no light, so its surfaces are black. Add 
 pub struct Job<'a> {
     /// With flags that win over it applied.
     pub scene: Scene,
-    /// That of the command line, which is the scene's by now too.
-    pub background: Option<Vec3>,
     pub picture: &'a PictureFlags,
     pub device: &'a DeviceFlags,
     pub log: &'a LogFlags,
@@ -65,24 +62,18 @@ impl Job<'_> {
     }
 
     pub fn settings(&self) -> Settings {
-        Settings {
-            background_apart: self.background.is_some(),
-            ..settings(
-                &self.scene.output,
-                self.picture,
-                self.device,
-                self.log.count_rays,
-            )
-        }
+        settings(
+            &self.scene.output,
+            self.picture,
+            self.device,
+            self.log.count_rays,
+        )
     }
 
     /// How a picture is developed, for a format that holds linear light or one that does not.
     pub fn tone(&self, settings: &Settings, linear_format: bool) -> Tone {
         let output = &self.scene.output;
-        Tone {
-            background: self.background.map(|color| [color; 2]),
-            ..tone(output, self.picture, settings.integrator, linear_format)
-        }
+        tone(output, self.picture, settings.integrator, linear_format)
     }
 
     /// What is to be rendered, for the report.
@@ -297,7 +288,6 @@ pub fn tone(
         exposure_ev: flags.exposure.unwrap_or(default.0),
         curve: flags.tone.unwrap_or(default.1),
         transfer: flags.transfer.unwrap_or(default.2),
-        background: None,
         levels: Levels::Raw,
     };
     match (integrator, flags.exposure) {

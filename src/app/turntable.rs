@@ -60,7 +60,6 @@ fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Resul
     let timeline = Timeline::new(&scene, &range, Clock::new(&scene.output, &flags))?;
     let job = Job {
         scene,
-        background: turn.background,
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,

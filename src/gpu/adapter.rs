@@ -201,7 +201,8 @@ fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Ada
     (instance, found.into_iter().filter(has_compute).collect())
 }
 
-fn report(index: usize, adapter: &wgpu::Adapter) -> AdapterReport {
+/// What there is to say about an adapter that is at this place among all.
+pub(super) fn report(index: usize, adapter: &wgpu::Adapter) -> AdapterReport {
     let info = adapter.get_info();
     let limits = adapter.limits();
     AdapterReport {

@@ -13,9 +13,7 @@ pub enum GpuError {
         tried: String,
     },
     /// The backend that was asked for is not to be had here, whatever is installed.
-    #[error(
-        "no usable GPU (--backend {backend}): {why}. Leave out --backend, or choose another one."
-    )]
+    #[error("no usable GPU ({backend}): {why}. Choose another backend.")]
     NoBackend {
         /// The backend.
         backend: &'static str,
@@ -24,7 +22,7 @@ pub enum GpuError {
     },
     /// There are adapters, but not the one that was asked for.
     #[error(
-        "no such adapter (--adapter {wanted}): there are {present}. Name one of them, or part of its name."
+        "no such adapter ({wanted}): there are {present}. Name one of them, or part of its name."
     )]
     NoSuchAdapter {
         /// What was asked for: [`super::AdapterChoice::adapter`].
@@ -33,7 +31,7 @@ pub enum GpuError {
         present: String,
     },
     /// The driver refuses to open the adapter.
-    #[error("the adapter cannot be opened ({adapter}): {why}. Try another with --adapter.")]
+    #[error("the adapter cannot be opened ({adapter}): {why}.")]
     NoDevice {
         /// The adapter's name.
         adapter: String,
@@ -44,17 +42,13 @@ pub enum GpuError {
     #[error("the GPU was lost (driver reset or time-out): its work is gone. Try again.")]
     Lost,
     /// Devices were lost, or stopped work half-way, too often for one picture.
-    #[error(
-        "the GPU failed {count} times (driver resets): it cannot finish this picture. Try another adapter with --adapter, or update the driver."
-    )]
+    #[error("the GPU failed {count} times (driver resets): it cannot finish this picture.")]
     KeptFailing {
         /// How often.
         count: u32,
     },
     /// The scene or picture needs more than a limit of the adapter.
-    #[error(
-        "too big for this adapter ({name}): {need} needed, {limit} allowed. Use a smaller scene or picture, or an adapter with higher limits (see `glimray doctor`)."
-    )]
+    #[error("too big for this adapter ({name}): {need} needed, {limit} allowed.")]
     Limit {
         /// The limit, with its unit.
         name: &'static str,
@@ -64,9 +58,7 @@ pub enum GpuError {
         limit: u64,
     },
     /// All allocations together would exceed [`crate::render::Settings::memory_limit_bytes`].
-    #[error(
-        "too big for the memory limit ({what}): {need} bytes needed in all, {limit} allowed. Use a smaller scene or picture, or raise --memory-limit if memory allows."
-    )]
+    #[error("too big for the memory limit ({what}): {need} bytes needed in all, {limit} allowed.")]
     Budget {
         /// The largest allocation and its size.
         what: String,
@@ -84,7 +76,7 @@ pub enum GpuError {
         what: String,
     },
     /// The driver reports misuse of its interface, refuses a shader or leaves work undone.
-    #[error("internal fault (GPU): {what}. Please report it with the output of `glimray doctor`.")]
+    #[error("internal fault (GPU): {what}.")]
     Internal {
         /// What happened, in the driver's words if it had any.
         what: String,
@@ -101,18 +93,4 @@ impl GpuError {
     } else {
         "Install a Vulkan driver, or Mesa's software one."
     };
-
-    /// The process's exit code for this error: 5 no usable adapter, 6 kept failing, 7 too big,
-    /// 1 our own fault.
-    pub fn exit_code(&self) -> u8 {
-        match self {
-            Self::NoAdapter { .. }
-            | Self::NoBackend { .. }
-            | Self::NoSuchAdapter { .. }
-            | Self::NoDevice { .. } => 5,
-            Self::Lost | Self::KeptFailing { .. } => 6,
-            Self::Limit { .. } | Self::Budget { .. } | Self::OutOfMemory { .. } => 7,
-            Self::Internal { .. } => 1,
-        }
-    }
 }

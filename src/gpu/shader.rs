@@ -57,8 +57,8 @@ impl Kernel {
     }
 
     /// The module of the variant that reads geometry from images or from buffers, specialised by these
-    /// overrides: values by the ids that `bindings.wesl` gives them. The error is naga's, with the lines
-    /// of the linked source.
+    /// overrides of `bindings.wesl`, by name. The error names an override that there is not, or is naga's with
+    /// the lines of the linked source.
     pub fn specialized(
         &self,
         from_images: bool,
@@ -142,8 +142,12 @@ impl Gpu {
     }
 }
 
-/// An error about a kernel, with the file that its linked text was written to.
+/// An error about a kernel, with the file that its linked text was written to. There are no files in a
+/// browser.
 fn dumped(name: &str, source: &str, what: &str) -> String {
+    if cfg!(target_arch = "wasm32") {
+        return what.to_owned();
+    }
     let dump = std::env::temp_dir().join(format!("glimray-{name}.wgsl"));
     match std::fs::write(&dump, source) {
         Ok(()) => format!("{what} (linked shader: {})", dump.display()),

@@ -8,9 +8,23 @@ use naga::{
 };
 use std::collections::HashMap;
 
-/// The module of a linked kernel with these values for its overrides, by their ids; an override that
-/// is not named keeps its default. The error is naga's, with the lines of the source.
+/// Where overrides are declared, `override NAME: TYPE = DEFAULT;`. Linked kernels lack those that they do not
+/// use.
+const BINDINGS: &str = include_str!("../../shaders/bindings.wesl");
+
+/// What the linker puts before the names of `bindings.wesl`.
+const PREFIX: &str = "package_bindings_";
+
+/// The module of a linked kernel with these values for its overrides, by their names; an override that
+/// is not named keeps its default.
+///
+/// # Errors
+/// No override has one of the names, or naga refuses the source; its message shows the lines.
 pub fn specialize(source: &str, overrides: &[(&str, f64)]) -> Result<Module, String> {
+    let is_declared = |name: &str| BINDINGS.contains(&format!("\noverride {name}: "));
+    if let Some((name, _)) = overrides.iter().find(|(name, _)| !is_declared(name)) {
+        return Err(format!("no override is called {name}"));
+    }
     let source = with_constants(source, overrides);
     let mut module =
         naga::front::wgsl::parse_str(&source).map_err(|error| error.emit_to_string(&source))?;
@@ -28,53 +42,44 @@ pub fn specialize(source: &str, overrides: &[(&str, f64)]) -> Result<Module, Str
     Ok(module)
 }
 
-/// The source with each `@id(N) override NAME: TYPE = DEFAULT;` as a `const` instead. The front end folds
+/// The source with each `override NAME: TYPE = DEFAULT;` as a `const` instead. The front end folds
 /// constants, and what is calculated from them.
 fn with_constants(source: &str, overrides: &[(&str, f64)]) -> String {
-    let mut parts = source.split("@id(");
-    let mut text = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let Some((declared, rest)) = Override::parse(part) else {
-            text = text + "@id(" + part;
-            continue;
+    let line = |line: &str| {
+        let Some(Override { name, ty, default }) = Override::parse(line) else {
+            return line.to_owned() + "\n";
         };
-        let Override {
-            id,
-            name,
-            ty,
-            default,
-        } = declared;
-        let chosen = overrides.iter().find(|(known, _)| *known == id);
+        let plain = plain_name(name);
+        let chosen = overrides.iter().find(|(known, _)| *known == plain);
         let value = chosen.map_or_else(|| default.into(), |&(_, value)| literal(ty, value));
-        text += &format!("const {name}: {ty} = {value};{rest}");
-    }
-    text
+        format!("const {name}: {ty} = {value};\n")
+    };
+    source.lines().map(line).collect()
 }
 
+/// A declaration as the linker prints it, on a line of its own.
 struct Override<'a> {
-    id: &'a str,
     name: &'a str,
     ty: &'a str,
     default: &'a str,
 }
 
 impl<'a> Override<'a> {
-    /// What stands behind `@id(`, as the linker prints it, and what follows the declaration.
-    fn parse(text: &'a str) -> Option<(Self, &'a str)> {
-        let (id, rest) = text.split_once(')')?;
-        let (declaration, rest) = rest
-            .trim_start()
-            .strip_prefix("override ")?
-            .split_once(';')?;
+    fn parse(line: &'a str) -> Option<Self> {
+        let declaration = line.strip_prefix("override ")?.strip_suffix(';')?;
         let (name, value) = declaration.split_once(": ")?;
         let (ty, default) = value.split_once(" = ")?;
-        let declared = Self {
-            id,
-            name,
-            ty,
-            default,
-        };
-        Some((declared, rest))
+        Some(Self { name, ty, default })
+    }
+}
+
+/// The name in `bindings.wesl` of one that the linker has mangled: it puts `_N` before names that contain
+/// N underscores.
+fn plain_name(mangled: &str) -> &str {
+    let name = mangled.strip_prefix(PREFIX).unwrap_or(mangled);
+    match name.strip_prefix('_') {
+        Some(rest) => rest.trim_start_matches(|c: char| c.is_ascii_digit()),
+        None => name,
     }
 }
 

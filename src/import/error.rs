@@ -1,7 +1,7 @@
 //! What can go wrong on the way from a file to a scene, and how it reads.
 
-use miette::{LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 use std::fmt;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Why a scene was refused. The kinds differ in what a program may want to do about them; the text
@@ -25,20 +25,22 @@ pub enum ImportError {
     TooBig(Box<Fault>),
 }
 
-/// One error, in the parts that a report is made of.
-#[derive(Debug)]
+/// One error, in the parts that a report is made of. A program may put its own words into them before
+/// it shows the fault.
+#[derive(Clone, Debug)]
 pub struct Fault {
     /// What failed: "bad scene".
     pub what: String,
-    /// The file at fault.
+    /// The file at fault; empty where an override is ([`super::Options::overrides`]).
     pub path: PathBuf,
-    /// Absent when the whole file is at fault.
+    /// In the file, or in the text of the override. Absent when the whole file is at fault.
     pub position: Option<Position>,
     /// Why, as a clause without a full stop.
     pub why: String,
     /// What the user can do, as a sentence without a full stop.
     pub todo: String,
-    excerpt: Option<Excerpt>,
+    /// The line at fault. Absent where `position` is.
+    pub excerpt: Option<Excerpt>,
 }
 
 /// A place in a text file, counted from 1; columns count characters.
@@ -50,14 +52,14 @@ pub struct Position {
     pub column: usize,
 }
 
-/// A short window of the line at fault.
-#[derive(Debug)]
-pub(super) struct Excerpt {
-    pub name: String,
+/// The line at fault, as far as it is near to the fault: without control characters, `…` in place of
+/// what is cut off.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Excerpt {
+    /// The text.
     pub text: String,
     /// Bytes of `text` to point at.
-    pub span: std::ops::Range<usize>,
-    pub position: Position,
+    pub span: Range<usize>,
 }
 
 /// A fault of a whole file.
@@ -88,9 +90,7 @@ impl ImportError {
             | Self::TooBig(fault) => fault,
         }
     }
-}
 
-impl ImportError {
     pub(super) fn into_fault(self) -> Box<Fault> {
         match self {
             Self::Unreadable(fault)
@@ -103,16 +103,29 @@ impl ImportError {
 }
 
 impl Fault {
-    pub(super) fn at(mut self: Box<Self>, excerpt: Excerpt) -> Box<Self> {
-        self.position = Some(excerpt.position);
+    pub(super) fn at(mut self: Box<Self>, position: Position, excerpt: Excerpt) -> Box<Self> {
+        self.position = Some(position);
         self.excerpt = Some(excerpt);
         self
+    }
+
+    /// Whether an override is at fault, not a file.
+    pub fn is_in_override(&self) -> bool {
+        self.path.as_os_str().is_empty()
+    }
+
+    /// The file at fault, or "override", as text that keeps to one line.
+    pub fn place(&self) -> String {
+        match self.is_in_override() {
+            true => "override".to_owned(),
+            false => one_line(&self.path),
+        }
     }
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} ({}", self.what, one_line(&self.path))?;
+        write!(f, "{} ({}", self.what, self.place())?;
         if let Some(Position { line, column }) = self.position {
             write!(f, ":{line}:{column}")?;
         }
@@ -122,39 +135,7 @@ impl fmt::Display for Fault {
 }
 
 /// A path as text that keeps to one line, whatever characters are in it.
-pub(super) fn one_line(path: &Path) -> String {
+fn one_line(path: &Path) -> String {
     let visible = |c: char| if c.is_control() { '\u{fffd}' } else { c };
     path.to_string_lossy().chars().map(visible).collect()
-}
-
-impl miette::Diagnostic for ImportError {
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.fault().excerpt.as_ref().map(|e| e as &dyn SourceCode)
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let excerpt = self.fault().excerpt.as_ref()?;
-        let label =
-            LabeledSpan::new_primary_with_span(Some("here".to_owned()), excerpt.span.clone());
-        Some(Box::new(std::iter::once(label)))
-    }
-}
-
-impl SourceCode for Excerpt {
-    /// Always the whole window, which is one line.
-    fn read_span<'a>(
-        &'a self,
-        _: &SourceSpan,
-        _: usize,
-        _: usize,
-    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
-        Ok(Box::new(MietteSpanContents::new_named(
-            self.name.clone(),
-            self.text.as_bytes(),
-            (0, self.text.len()).into(),
-            self.position.line - 1,
-            self.position.column - 1,
-            1,
-        )))
-    }
 }

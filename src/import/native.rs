@@ -16,20 +16,19 @@ mod objects;
 mod repeat;
 mod set;
 mod shapes;
-mod surfaces;
 mod textures;
+mod transforms;
 mod values;
 
 use super::Options;
 use super::error::{ImportError, fault};
-use super::paths::{self, Files};
+use super::paths::Files;
 use super::source::Source;
 use super::suggest;
 use crate::scene::Scene;
 use serde::Deserialize;
 use set::Override;
 use std::ops::Range;
-use std::path::Path;
 use toml::de::DeTable;
 
 /// The longest native scene that is read. Geometry of any size belongs into mesh files.
@@ -42,16 +41,6 @@ const MAX_MARKS: usize = 500_000;
 /// How deep values may nest in TOML arrays and inline tables, and how many dots a key may have.
 /// No scene needs more than a handful.
 const MAX_DEPTH: usize = 32;
-
-/// The text of the scene at `path`.
-pub(super) fn open(path: &Path) -> Result<Source, ImportError> {
-    let bytes = paths::read(path, MAX_BYTES).map_err(|error| match error {
-        // A limit of the format, not of the memory.
-        ImportError::TooBig(fault) => ImportError::Malformed(fault),
-        error => error,
-    })?;
-    Source::new("bad scene", path, bytes)
-}
 
 /// The scene in `source`, changed by the overrides of `options`.
 pub(super) fn read(

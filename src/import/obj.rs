@@ -16,7 +16,7 @@ mod weld;
 use super::budget::{self, Budget};
 use super::error::ImportError;
 use super::notes::{self, Notes};
-use super::paths::{self, Files};
+use super::paths::Files;
 use super::picture::Pictures;
 use super::polygon::{self, Cutter, Defect};
 use super::source::{Source, Token, quote};
@@ -104,7 +104,7 @@ pub(super) fn read_model(
     pictures: &mut Pictures,
     replaced: Option<bool>,
 ) -> Result<Model, ImportError> {
-    let bytes = paths::read(path, super::MAX_GEOMETRY_BYTES)?;
+    let bytes = files.read(path, super::MAX_GEOMETRY_BYTES)?;
     let source = Source::new("bad model", path, bytes)?;
     read(&source, &files.named_in(path), pictures, replaced)
 }
@@ -160,7 +160,7 @@ fn read(
 
 struct Reader<'s> {
     source: &'s Source,
-    files: &'s Files,
+    files: &'s Files<'s>,
     pictures: &'s mut Pictures,
     replaced: Option<bool>,
     positions: Vec<DVec3>,

@@ -1,43 +1,17 @@
-//! Confined file access: what a scene names must lie in its folder, be a plain file, and fit.
+//! The files that a scene may name, and the words for those that it may not.
 
 use super::error::{Fault, ImportError, fault};
+use super::resolver::{FileError, Resolver};
 use super::source::quote;
-use std::cell::RefCell;
-use std::fs::{self, File};
-use std::io::{self, Read};
-use std::path::{Component, Path, PathBuf};
-use std::rc::Rc;
-
-/// How many files are kept in mind; nobody watches more.
-const MAX_SEEN: usize = 4096;
-
-/// Every file that was looked for, each once, up to [`MAX_SEEN`].
-#[derive(Clone, Default)]
-pub(super) struct Seen(Rc<RefCell<Vec<PathBuf>>>);
-
-impl Seen {
-    /// Notes a file.
-    pub fn note(&self, path: &Path) {
-        let mut paths = self.0.borrow_mut();
-        if paths.len() < MAX_SEEN && !paths.iter().any(|known| known == path) {
-            paths.push(path.to_owned());
-        }
-    }
-
-    /// All that were noted, in their order.
-    pub fn paths(&self) -> Vec<PathBuf> {
-        self.0.borrow().clone()
-    }
-}
+use std::io;
+use std::path::{Path, PathBuf};
 
 /// The files that a scene, or a file of it, may name.
-pub(super) struct Files {
-    /// The scene's folder, resolved; `None` when it may name no files at all.
-    folder: Option<PathBuf>,
+pub(super) struct Files<'r> {
+    /// `None` when it may name no files at all.
+    resolver: Option<&'r dyn Resolver>,
     /// What names are relative to: the folder of the file that they stand in.
     base: PathBuf,
-    allowed: Vec<PathBuf>,
-    seen: Seen,
 }
 
 /// Why a named file may not be read.
@@ -61,7 +35,7 @@ impl Refusal {
             Self::Outside(why) => (
                 ImportError::OutsideFolder,
                 why,
-                "Use --allow-dir DIR to permit",
+                "Name a file in it, or permit the other folder",
             ),
             Self::Missing(why) => (
                 ImportError::Unreadable,
@@ -80,138 +54,95 @@ impl Refusal {
     }
 }
 
-impl Files {
-    /// Those in the folder of the scene at `path` and in `allow_dirs`.
-    ///
-    /// # Errors
-    /// One of the folders does not exist.
-    pub fn beside(path: &Path, allow_dirs: &[PathBuf], seen: &Seen) -> Result<Self, ImportError> {
-        let resolve = |what: &str, dir: &Path| {
-            dir.canonicalize().map_err(|error| {
-                let todo = "Check that the folder exists";
-                ImportError::Unreadable(fault(what, dir, &reason(&error), todo))
-            })
-        };
-        let folder = resolve("cannot find the scene folder", parent(path))?;
-        let allowed = allow_dirs
-            .iter()
-            .map(|dir| resolve("cannot use --allow-dir", dir));
-        Ok(Self {
-            base: folder.clone(),
-            folder: Some(folder),
-            allowed: allowed.collect::<Result<_, _>>()?,
-            seen: seen.clone(),
-        })
+impl<'r> Files<'r> {
+    /// Those that files in the root of `resolver` may name.
+    pub fn of(resolver: &'r dyn Resolver) -> Self {
+        Self {
+            resolver: Some(resolver),
+            base: PathBuf::new(),
+        }
     }
 
     /// None.
     pub fn none() -> Self {
         Self {
-            folder: None,
+            resolver: None,
             base: PathBuf::new(),
-            allowed: Vec::new(),
-            seen: Seen::default(),
         }
     }
 
     /// Those that the file at `path`, itself named by the scene, may name.
     pub fn named_in(&self, path: &Path) -> Self {
         Self {
-            folder: self.folder.clone(),
-            base: parent(path).to_owned(),
-            allowed: self.allowed.clone(),
-            seen: self.seen.clone(),
+            resolver: self.resolver,
+            base: path.parent().unwrap_or(Path::new("")).to_owned(),
         }
     }
 
     /// The plain file that is called `name`. Both kinds of slashes part folders.
     pub fn resolve(&self, name: &str) -> Result<PathBuf, Refusal> {
         let quoted = quote(name.as_bytes());
-        let Some(folder) = &self.folder else {
+        let Some(resolver) = self.resolver else {
             return Err(Refusal::Unfit(format!(
                 "{quoted}: a built-in scene has no folder"
             )));
         };
-        let outside = || Refusal::Outside(format!("{quoted} points outside the scene folder"));
         if name.trim().is_empty() || name.contains('\0') || name.len() > 4096 {
             return Err(Refusal::Unfit(format!("{quoted} is not a file name")));
         }
-        if is_url_or_drive(name) {
-            return Err(outside());
-        }
-        // Decided by name alone, so that nothing outside is even looked at.
-        let path = PathBuf::from(name.replace('\\', "/"));
-        let goes_down = |c| matches!(c, Component::Normal(_) | Component::CurDir);
-        let wanted = normalized(&self.base.join(&path));
-        if !(path.components().all(goes_down) || self.is_allowed(&wanted)) {
-            return Err(outside());
-        }
-        let real = wanted.canonicalize().map_err(|error| {
-            self.seen.note(&wanted);
-            match error.kind() {
-                io::ErrorKind::NotFound => Refusal::Missing(format!("{quoted} does not exist")),
-                _ => Refusal::Unfit(format!("{quoted}: {}", reason(&error))),
+        let found = match is_url_or_drive(name) {
+            true => Err(FileError::Outside),
+            false => resolver.resolve(&self.base, Path::new(&name.replace('\\', "/"))),
+        };
+        found.map_err(|error| match error {
+            FileError::Missing => Refusal::Missing(format!("{quoted} does not exist")),
+            FileError::Outside => {
+                Refusal::Outside(format!("{quoted} points outside the scene folder"))
             }
-        })?;
-        // Decided again once links are resolved.
-        if !(real.starts_with(folder) || self.is_allowed(&real)) {
-            return Err(outside());
-        }
-        self.seen.note(&real);
-        if !real.is_file() {
-            return Err(Refusal::Unfit(format!("{quoted} is not a plain file")));
-        }
-        Ok(real)
+            FileError::IsFolder | FileError::NotPlain => {
+                Refusal::Unfit(format!("{quoted} is not a plain file"))
+            }
+            FileError::Failed(error) => Refusal::Unfit(format!("{quoted}: {}", reason(&error))),
+            error => Refusal::Unfit(format!("{quoted}: {error}")),
+        })
     }
 
-    fn is_allowed(&self, path: &Path) -> bool {
-        self.allowed.iter().any(|dir| path.starts_with(dir))
+    /// The bytes of the file at `path`, which was resolved.
+    ///
+    /// # Errors
+    /// It cannot be read, or is longer than `limit` bytes or than the memory.
+    pub fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>, ImportError> {
+        let read = match self.resolver {
+            Some(resolver) => resolver.read(path, limit),
+            None => Err(FileError::Missing),
+        };
+        read.map_err(|error| unreadable(path, &error, limit))
     }
 }
 
-/// The bytes of the plain file at `path`.
-///
-/// # Errors
-/// It is no plain file, cannot be read, or is longer than `limit` bytes or than the memory.
-pub(super) fn read(path: &Path, limit: u64) -> Result<Vec<u8>, ImportError> {
+/// Why the file at `path`, of which at most `limit` bytes are read, could not be read.
+pub(super) fn unreadable(path: &Path, error: &FileError, limit: u64) -> ImportError {
     let unreadable = |why: &str, todo: &str| {
         ImportError::Unreadable(fault("cannot read the file", path, why, todo))
     };
-    let failed = |error: io::Error| {
-        let todo = "Check the path and its permissions";
-        unreadable(&reason(&error), todo)
-    };
-    // Asked before opening: opening a pipe would wait for a writer.
-    let metadata = fs::metadata(path).map_err(failed)?;
-    if !metadata.is_file() {
-        let what = if metadata.is_dir() {
-            "it is a folder"
-        } else {
-            "it is not a plain file"
-        };
-        return Err(unreadable(what, "Name a scene file"));
-    }
-    let too_big = |length: u64| {
-        let why = format!("{length} bytes, but at most {limit} are read");
-        let todo = "Split the scene, or keep geometry in OBJ files";
-        ImportError::TooBig(fault("file too big", path, &why, todo))
-    };
-    if metadata.len() > limit {
-        return Err(too_big(metadata.len()));
-    }
-    let mut bytes = Vec::new();
-    let capacity = usize::try_from(metadata.len()).unwrap_or(usize::MAX);
-    bytes.try_reserve_exact(capacity).map_err(|_| {
-        let why = format!("{capacity} bytes do not fit into the memory");
-        let todo = "Use a smaller file, or raise the memory limit (`ulimit -v`) if there is one";
-        ImportError::TooBig(fault("file too big", path, &why, todo))
-    })?;
-    // The length may be a lie, as in /proc.
-    let mut file = File::open(path).map_err(failed)?.take(limit + 1);
-    file.read_to_end(&mut bytes).map_err(failed)?;
-    match bytes.len() as u64 > limit {
-        true => Err(too_big(bytes.len() as u64)),
-        false => Ok(bytes),
+    let too_big =
+        |why: &str, todo: &str| ImportError::TooBig(fault("file too big", path, why, todo));
+    const CHECK: &str = "Check the path and its permissions";
+    match error {
+        FileError::Missing => unreadable("no such file or folder", CHECK),
+        FileError::Failed(error) => unreadable(&reason(error), CHECK),
+        FileError::IsFolder | FileError::NotPlain => {
+            unreadable(&error.to_string(), "Name a scene file")
+        }
+        FileError::Outside => unreadable(&error.to_string(), "Name a file in the scene folder"),
+        FileError::TooLong { length } => too_big(
+            &format!("{length} bytes, but at most {limit} are read"),
+            "Split the scene, or keep geometry in OBJ files",
+        ),
+        FileError::NoMemory { .. } => too_big(
+            &error.to_string(),
+            "Use a smaller file, or raise the memory limit (`ulimit -v`) if there is one",
+        ),
     }
 }
 
@@ -222,29 +153,7 @@ fn is_url_or_drive(name: &str) -> bool {
     })
 }
 
-fn parent(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    }
-}
-
-/// `path` with its `.` and `..` carried out by name alone.
-fn normalized(path: &Path) -> PathBuf {
-    let mut result = PathBuf::new();
-    for component in path.components() {
-        match component {
-            Component::CurDir => {}
-            Component::ParentDir => {
-                result.pop();
-            }
-            other => result.push(other),
-        }
-    }
-    result
-}
-
-fn reason(error: &io::Error) -> String {
+pub(super) fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "no such file or folder".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),

@@ -6,7 +6,7 @@
 mod complete;
 
 use super::error::{Fault, ImportError};
-use super::paths::{self, Files, Refusal};
+use super::paths::{Files, Refusal};
 use super::source::quote;
 use crate::scene::Picture;
 pub(super) use crate::scene::linear_from_srgb;
@@ -79,7 +79,7 @@ impl Pictures {
             return Ok(index);
         }
         let taken = self.pictures.iter().map(|p| p.texels.len() as u64).sum();
-        let picture = decode(&path, name, taken)?;
+        let picture = decode(files, &path, name, taken)?;
         self.pictures.push(Arc::new(picture));
         self.indices.insert(path, self.pictures.len() - 1);
         Ok(self.pictures.len() - 1)
@@ -87,14 +87,14 @@ impl Pictures {
 }
 
 /// The picture in the file at `path`, where `taken` texels are already in use.
-fn decode(path: &Path, name: &str, taken: u64) -> Result<Picture, Refused> {
+fn decode(files: &Files, path: &Path, name: &str, taken: u64) -> Result<Picture, Refused> {
     let quoted = quote(name.as_bytes());
     let too_big = |why: String| Refused::Unfit {
         kind: ImportError::TooBig,
         why: format!("{quoted} {why}"),
         todo: "Use a smaller picture".to_owned(),
     };
-    let bytes = paths::read(path, MAX_BYTES).map_err(|error| {
+    let bytes = files.read(path, MAX_BYTES).map_err(|error| {
         let is_too_big = error.is_too_big();
         let fault = error.into_fault();
         match is_too_big {

@@ -7,7 +7,6 @@
 use super::budget::{self, Budget};
 use super::error::{ImportError, fault};
 use super::number::in_range;
-use super::paths;
 use super::source::quote;
 use crate::scene::Mesh;
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
@@ -19,34 +18,34 @@ const MAX_HEADER: usize = 64 << 10;
 /// The properties of a vertex that place a copy: where its axes go.
 const AXES: [&str; 9] = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
 
-/// The triangles in the file at `path`, whose materials are numbers below `material_count`, still to
+/// The triangles in `bytes`, those of the file at `path`, whose materials are numbers below `material_count`, still to
 /// be repaired; and where their origin is.
-pub(super) fn mesh(path: &Path, material_count: usize) -> Result<(Mesh, DVec3), ImportError> {
-    let bytes = paths::read(path, super::MAX_GEOMETRY_BYTES)?;
-    let mut reader = Reader::new(path, &bytes)?;
+pub(super) fn mesh(
+    path: &Path,
+    bytes: &[u8],
+    material_count: usize,
+) -> Result<(Mesh, DVec3), ImportError> {
+    let mut reader = Reader::new(path, bytes)?;
     let mut mesh = Mesh::default();
-    let mut offset = DVec3::ZERO;
-    let mut has_vertices = false;
+    let mut offset = None;
     for element in reader.elements()? {
         match element.name.as_str() {
             "vertex" => {
-                has_vertices = true;
-                offset = vertices(&mut reader, &element, &mut mesh, material_count)?;
+                offset = Some(vertices(&mut reader, &element, &mut mesh, material_count)?);
             }
             "face" => faces(&mut reader, &element, &mut mesh)?,
             _ => reader.pass_over(&element)?,
         }
     }
-    match has_vertices {
-        true => Ok((mesh, offset)),
-        false => Err(reader.refuse("it has no vertices", "Save the mesh again")),
+    match offset {
+        Some(offset) => Ok((mesh, offset)),
+        None => Err(reader.refuse("it has no vertices", "Save the mesh again")),
     }
 }
 
-/// What the vertices in the file at `path` place copies by.
-pub(super) fn places(path: &Path) -> Result<Vec<DAffine3>, ImportError> {
-    let bytes = paths::read(path, super::MAX_GEOMETRY_BYTES)?;
-    let mut reader = Reader::new(path, &bytes)?;
+/// What the vertices in `bytes`, those of the file at `path`, place copies by.
+pub(super) fn places(path: &Path, bytes: &[u8]) -> Result<Vec<DAffine3>, ImportError> {
+    let mut reader = Reader::new(path, bytes)?;
     for element in reader.elements()? {
         if element.name != "vertex" {
             reader.pass_over(&element)?;

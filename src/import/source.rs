@@ -1,16 +1,17 @@
 //! A text file in memory that can say where in it something is wrong.
 
-use super::error::{Excerpt, ImportError, Position, fault, one_line};
+use super::error::{Excerpt, ImportError, Position, fault};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Bytes of the line that an error shows on either side of the fault.
 const EXCERPT_REACH: usize = 60;
 
-/// The text of one file, without its byte order mark.
+/// The text of one file, or of an override, without its byte order mark.
 pub(super) struct Source {
     /// What an error in it is called, such as "bad scene".
     what: &'static str,
+    /// Empty for an override.
     pub path: PathBuf,
     pub bytes: Vec<u8>,
 }
@@ -76,11 +77,11 @@ impl Source {
     /// `todo` a sentence without one.
     pub fn malformed(&self, span: Range<usize>, why: String, todo: &str) -> ImportError {
         let fault = fault(self.what, &self.path, &why, todo);
-        ImportError::Malformed(fault.at(self.excerpt(span)))
+        ImportError::Malformed(fault.at(self.position(span.start), self.excerpt(span)))
     }
 
     /// The window round `span`, which may end, but not begin, beyond the text.
-    pub fn excerpt(&self, span: Range<usize>) -> Excerpt {
+    fn excerpt(&self, span: Range<usize>) -> Excerpt {
         let at = span.start.min(self.bytes.len());
         let line = self.line_around(at);
         let from = line.start.max(at.saturating_sub(EXCERPT_REACH));
@@ -94,15 +95,14 @@ impl Source {
         let marked = visible(&self.bytes[at..span.end.clamp(at, to)]);
         let after = visible(&self.bytes[at.max(span.end.clamp(at, to))..to]);
         Excerpt {
-            name: one_line(&self.path),
             span: before.len()..before.len() + marked.len(),
             text: format!("{before}{marked}{after}{}", cut(to < line.end)),
-            position: self.position(at),
         }
     }
 
-    /// The line and column of the byte `at`.
+    /// The line and column of the byte `at`, or of the end if that is before it.
     pub fn position(&self, at: usize) -> Position {
+        let at = at.min(self.bytes.len());
         let start = self.line_around(at).start;
         let is_newline = |b: &&u8| **b == b'\n';
         let begins_character = |b: &&u8| **b & 0xc0 != 0x80;

@@ -16,7 +16,7 @@ use crate::{
     scene::{Attenuation, Background, Camera, Frame, Light, LightKind},
 };
 use bytemuck::{bytes_of, cast_slice};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use std::{slice, sync::Arc};
 
 /// A [`Frame`] as the GPU wants it.
@@ -238,14 +238,6 @@ impl PackedView {
         };
         view.frame.camera = widen(&self.frame.camera);
         view.cameras = self.cameras.iter().map(widen).collect();
-        view
-    }
-
-    /// The view before another background: its linear radiance straight down and straight up.
-    pub fn before(&self, [below, above]: [Vec3; 2]) -> Self {
-        let mut view = self.clone();
-        view.background = BACKGROUND_GRADIENT;
-        (view.frame.background, view.frame.background_top) = (below.into(), above.into());
         view
     }
 }

@@ -179,7 +179,7 @@ fn film(gpu: &Gpu, rows: usize) -> Result<(Buffer, Buffer), GpuError> {
 }
 
 /// The view's frame and lights, with the accounts of a slice.
-pub fn frame_group(
+fn frame_group(
     gpu: &Gpu,
     layouts: &Layouts,
     view: &PackedView,

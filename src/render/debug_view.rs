@@ -17,6 +17,6 @@ pub fn overrides(task: Task) -> Overrides {
         Integrator::Normals | Integrator::Whitted | Integrator::Samples => VIEW_NORMALS,
     };
     let mut overrides = whitted::tracing(task);
-    overrides.push(("10", f64::from(view)));
+    overrides.push(("VIEW", f64::from(view)));
     overrides
 }

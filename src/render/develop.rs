@@ -4,6 +4,7 @@ use super::{
     Integrator, Levels, RenderError, Renderer, Settings, film::Window, layouts::group, levels,
     slice::Slice,
 };
+use crate::clock::Instant;
 use crate::{
     gpu::{GpuError, Kernel, Source},
     image::Image,
@@ -13,8 +14,6 @@ use crate::{
     scene::{ToneCurve, Transfer},
 };
 use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec};
-use glam::Vec3;
-use std::time::Instant;
 use wgpu::BufferUsages;
 
 /// How linear radiance becomes a picture.
@@ -26,9 +25,6 @@ pub struct Tone {
     pub curve: ToneCurve,
     /// Applied last.
     pub transfer: Transfer,
-    /// Linear radiance of another background than the scene's, straight down and straight up. It has an
-    /// effect where the film keeps the background apart: [`Settings::keeps_background_apart`].
-    pub background: Option<[Vec3; 2]>,
     /// The range of a view that shows a quantity, such as distances.
     pub levels: Levels,
 }
@@ -39,14 +35,17 @@ impl Tone {
         exposure_ev: 0.0,
         curve: ToneCurve::None,
         transfer: Transfer::Linear,
-        background: None,
         levels: Levels::Raw,
     };
 
-    /// Over this range, where there is one.
-    pub(super) fn packed(&self, settings: &Settings, range: Option<[f32; 2]>) -> PackedTone {
+    /// Over this range, where there is one, for a film with so many rows a pixel.
+    pub(super) fn packed(
+        &self,
+        settings: &Settings,
+        range: Option<[f32; 2]>,
+        film_rows: usize,
+    ) -> PackedTone {
         let [least, most] = range.unwrap_or_default();
-        let [below, above] = self.background.unwrap_or_default();
         PackedTone {
             exposure_scale: self.exposure_ev.exp2(),
             curve: match self.curve {
@@ -59,12 +58,10 @@ impl Tone {
                 Transfer::Srgb => TRANSFER_SRGB,
                 Transfer::Linear => TRANSFER_LINEAR,
             },
-            film_rows: settings.rows_of_rectangles() as u32,
-            background: below.to_array(),
-            has_background: self.background.is_some().into(),
-            background_top: above.to_array(),
             view: settings.integrator.developed_view(),
-            range: [least, most, f32::from(range.is_some()), 0.0],
+            range: [least, most],
+            has_range: range.is_some().into(),
+            film_rows: film_rows as u32,
         }
     }
 }
@@ -98,7 +95,7 @@ impl Renderer {
             }
             return Ok(image);
         }
-        let tone = tone.packed(&self.settings, range);
+        let tone = tone.packed(&self.settings, range, 1);
         for (window, means) in self.film.developable(&self.settings) {
             let pixels =
                 self.surviving_losses(|renderer| renderer.develop_window(&window, &means, &tone))?;

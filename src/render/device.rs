@@ -13,13 +13,14 @@ use super::{
     slice::Slice,
     whitted::{self, Overrides},
 };
+use crate::clock::Instant;
 use crate::{
     gpu::{AdapterChoice, Gpu, GpuError, Kernel, Source},
     layout::PackedSlice,
     pack::{PackedScene, PackedView},
 };
 use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_collect_to_vec, pod_read_unaligned};
-use std::{sync::Arc, time::Instant};
+use std::sync::Arc;
 
 const ROW_BYTES: u64 = 16;
 

@@ -65,18 +65,6 @@ impl LongPath {
             Self::Depth { bounces }
         }
     }
-
-    /// What to do about it, as a sentence.
-    pub(super) fn remedy(self) -> &'static str {
-        match self {
-            Self::BruteForce { .. } => "Leave out --no-bvh.",
-            Self::ShadowRays { .. } => {
-                "Use fewer lights, or fewer samples of area lights (--light-samples 0.1) and more --samples."
-            }
-            Self::Depth { .. } => "Lower --max-depth, or raise --min-throughput.",
-            Self::Crowded => "Remove duplicates of objects and triangles.",
-        }
-    }
 }
 
 impl fmt::Display for LongPath {

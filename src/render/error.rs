@@ -11,14 +11,12 @@ pub enum RenderError {
     Gpu(#[from] GpuError),
     /// The driver ended a shader's loops early, even with one sample in an invocation.
     #[error(
-        "too much work in one sample ({0}): this driver ends a shader's loops after 65,535 rounds, and the picture would be wrong. {remedy}",
-        remedy = .0.remedy()
+        "too much work in one sample ({0}): this driver ends a shader's loops after 65,535 rounds, and the picture would be wrong."
     )]
     PathTooLong(LongPath),
     /// One sample would keep a GPU busy for longer than drivers allow.
     #[error(
-        "too many shadow rays ({lights} lights): every point takes {rays}, at most {limit} are possible before a driver may reset the GPU. {remedy}",
-        remedy = LongPath::ShadowRays { lights: *lights, rays: *rays }.remedy()
+        "too many shadow rays ({lights} lights): every point takes {rays}, at most {limit} are possible before a driver may reset the GPU."
     )]
     TooManyShadowRays {
         /// Of the scene.
@@ -28,14 +26,4 @@ pub enum RenderError {
         /// The most possible.
         limit: u64,
     },
-}
-
-impl RenderError {
-    /// The process's exit code for this error.
-    pub fn exit_code(&self) -> u8 {
-        match self {
-            Self::Gpu(error) => error.exit_code(),
-            Self::PathTooLong(_) | Self::TooManyShadowRays { .. } => 7,
-        }
-    }
 }

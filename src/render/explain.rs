@@ -8,7 +8,7 @@ mod tree;
 pub use tree::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
 
 use super::{
-    Integrator, RenderError, Renderer, Settings, bindings,
+    Integrator, RenderError, Renderer, Settings,
     device::{self, Task},
     layouts::group,
     whitted::{self, Overrides},
@@ -16,10 +16,8 @@ use super::{
 use crate::{
     gpu::{GpuError, Kernel, Source},
     layout::{NONE, PROBE_ROWS, PackedProbe, PackedRay, PackedSlice, RAY_ROWS},
-    pack::PackedView,
 };
 use bytemuck::{Pod, bytes_of, cast_slice, pod_read_unaligned};
-use glam::Vec3;
 use std::ops::Range;
 use tree::Reader;
 use wgpu::BufferUsages;
@@ -34,8 +32,8 @@ const MOST_PROBES: usize = 1024;
 const MOST_RECORDS: u32 = (32 << 20) / (16 * RAY_ROWS);
 /// Lanes of a workgroup, each of which takes a sample.
 const LANES: usize = 64;
-/// The overrides `COUNT_RAYS`, `ADAPTIVE` and `BACKGROUND_APART`: there is no film here.
-const WITHOUT: [&str; 3] = ["7", "23", "30"];
+/// The overrides that stay as they are: there is no film here, and nothing is counted.
+const WITHOUT: [&str; 4] = ["COUNT_RAYS", "ADAPTIVE", "FILM_ROWS", "SQUARES_ROW"];
 
 /// What explaining keeps on the GPU once it has been used.
 pub struct Explainer {
@@ -67,25 +65,8 @@ impl Renderer {
         pixel: [u32; 2],
         samples: Range<u32>,
     ) -> Result<RayTree, RenderError> {
-        self.explain_before(None, pixel, samples)
-    }
-
-    /// The same before another background than the scene's: see [`super::Tone::background`].
-    ///
-    /// # Errors
-    /// As [`Self::explain`].
-    pub fn explain_before(
-        &mut self,
-        background: Option<[Vec3; 2]>,
-        pixel: [u32; 2],
-        samples: Range<u32>,
-    ) -> Result<RayTree, RenderError> {
-        let view = match background {
-            Some(ends) => self.view.before(ends),
-            None => self.view.clone(),
-        };
         let wanted = samples.map(|sample| (pixel, sample)).collect();
-        Ok(RayTree::new(pixel, self.explain_samples(&view, wanted)?))
+        Ok(RayTree::new(pixel, self.explain_samples(wanted)?))
     }
 
     /// The same for several pixels, which takes fewer submissions than one after the other.
@@ -100,8 +81,7 @@ impl Renderer {
             let of = |sample| (*pixel, sample);
             samples.clone().map(of)
         });
-        let view = self.view.clone();
-        let mut traced = self.explain_samples(&view, places.collect())?.into_iter();
+        let mut traced = self.explain_samples(places.collect())?.into_iter();
         let tree = |(pixel, samples): &([u32; 2], Range<u32>)| {
             RayTree::new(*pixel, traced.by_ref().take(samples.len()).collect())
         };
@@ -121,7 +101,6 @@ impl Renderer {
 
     fn explain_samples(
         &mut self,
-        view: &PackedView,
         wanted: Vec<([u32; 2], u32)>,
     ) -> Result<Vec<SampleTree>, RenderError> {
         let mut trees = Vec::with_capacity(wanted.len());
@@ -136,7 +115,7 @@ impl Renderer {
                 })
                 .collect();
             // Once to count the rays, so that there is just enough room for them.
-            let counted = self.record(view, &probes, 0)?.probes;
+            let counted = self.record(&probes, 0)?.probes;
             for (probe, counted) in probes.iter_mut().zip(&counted) {
                 let place = Some([probe.pixel_x, probe.pixel_y]);
                 if pixel != place {
@@ -149,8 +128,8 @@ impl Renderer {
             while !rest.is_empty() {
                 let (now, later) = rest.split_at_mut(fitting(rest));
                 let record_count = place(now);
-                let records = self.record(view, now, record_count)?;
-                let reader = Reader::new(&self.scene, view);
+                let records = self.record(now, record_count)?;
+                let reader = Reader::new(&self.scene, &self.view);
                 let mut rays = &records.rays[..];
                 for probe in &records.probes {
                     let (own, others) = rays.split_at(probe.ray_limit as usize);
@@ -166,13 +145,12 @@ impl Renderer {
     /// Traces the probes, each in a lane of its own, with room for so many rays behind them.
     fn record(
         &mut self,
-        view: &PackedView,
         probes: &[PackedProbe],
         record_count: u32,
     ) -> Result<Records, RenderError> {
         let records = self.surviving_losses(|renderer| {
-            renderer.prepare(view)?;
-            renderer.dispatch_probes(view, probes, record_count)
+            renderer.prepare()?;
+            renderer.dispatch_probes(probes, record_count)
         })?;
         match records.accounts.cut_off_paths {
             0 => Ok(records),
@@ -181,19 +159,19 @@ impl Renderer {
     }
 
     /// Compiles the kernel unless it is there already.
-    fn prepare(&mut self, view: &PackedView) -> Result<(), GpuError> {
+    fn prepare(&mut self) -> Result<(), GpuError> {
         let settings = Settings {
             integrator: Integrator::Whitted,
             ..self.settings.clone()
         };
         let task = Task {
             scene: &self.scene,
-            view,
+            view: &self.view,
             settings: &settings,
             film_rows: self.film.largest_window(),
         };
         let mut overrides = whitted::overrides(task);
-        overrides.retain(|(id, _)| !WITHOUT.contains(id));
+        overrides.retain(|(name, _)| !WITHOUT.contains(name));
         let device = &mut self.device;
         let known = device.explainer.as_ref();
         if known.is_none_or(|explainer| explainer.overrides != overrides) {
@@ -209,7 +187,6 @@ impl Renderer {
 
     fn dispatch_probes(
         &self,
-        view: &PackedView,
         probes: &[PackedProbe],
         record_count: u32,
     ) -> Result<Records, GpuError> {
@@ -236,8 +213,6 @@ impl Renderer {
         let mapped = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
         let records = gpu.allocate("records", bytes, storage)?;
         let staging = gpu.allocate("staging", slice_bytes + bytes, mapped)?;
-        let slice = &device.buffers.slice;
-        let frame_group = bindings::frame_group(gpu, &device.layouts, view, slice)?;
         let own_group = group(gpu, &device.layouts.film, &[records.as_entire_binding()]);
         gpu.write(&records, 0, cast_slice(&padded))?;
         gpu.write(&device.buffers.slice, 0, bytes_of(&self.packed(groups)))?;
@@ -247,7 +222,7 @@ impl Renderer {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(&explainer.pipeline);
             pass.set_bind_group(0, &device.buffers.scene_group, &[]);
-            pass.set_bind_group(1, &frame_group, &[]);
+            pass.set_bind_group(1, &device.buffers.frame_group, &[]);
             pass.set_bind_group(2, &own_group, &[]);
             pass.dispatch_workgroups(groups, 1, 1);
         }

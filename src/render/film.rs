@@ -7,7 +7,7 @@
 //! Without adaptive sampling there is one round: all samples, window by window. With it
 //! (adaptive.rs) there are several, and a window is a list of the pixels that go on.
 
-use super::{adaptive::Adaptive, settings::Settings};
+use super::{adaptive::Adaptive, layers, settings::Settings};
 use std::ops::Range;
 
 /// Most samples that are summed in f32.
@@ -32,8 +32,7 @@ pub struct Window {
     /// Rows of the film for each pixel.
     rows_per_pixel: usize,
     /// Rows of the film in the current chunk: for each pixel its radiance sum and in the fourth
-    /// component its weights; in a list another of its square sum, place, and 1; where the background is
-    /// kept apart three more, of sums as the first.
+    /// component its weights, then those of the other layers.
     pub sums: Vec<[f32; 4]>,
     /// The same of all finished chunks; empty before the first is.
     totals: Vec<[f64; 4]>,
@@ -282,7 +281,11 @@ impl Film {
 
 /// A region of the picture cut into rectangles of at most the longest side of a window.
 fn rectangles(settings: &Settings, [x, y, width, height]: [u32; 4]) -> Vec<Window> {
-    let rows = settings.rows_of_rectangles();
+    // Of adaptive sampling only the mean is laid out in rectangles, to be developed.
+    let rows = match settings.is_adaptive() {
+        true => 1,
+        false => layers::rows(layers::of_sampling(settings)),
+    };
     // A window of as many bytes, whatever a pixel takes.
     let side = settings.slicing.window_side / (rows as u32).isqrt();
     let cuts = |start: u32, length: u32| {

@@ -30,9 +30,6 @@ pub struct Settings {
     pub light_samples: f32,
     /// What a camera ray brings back.
     pub integrator: Integrator,
-    /// Whether another background may stand in for the scene's when the picture is developed, where that is
-    /// possible: [`Settings::keeps_background_apart`]. It takes four times the film.
-    pub background_apart: bool,
     /// How rays meet triangles.
     pub triangle_test: TriangleTest,
     /// Tests every primitive for every ray instead of walking the tree. For checking it.
@@ -66,7 +63,6 @@ impl Default for Settings {
             filter_radius: Filter::Box.default_radius(),
             light_samples: 1.0,
             integrator: Integrator::Whitted,
-            background_apart: false,
             triangle_test: TriangleTest::Watertight,
             brute_force: false,
             seed: 0,
@@ -111,18 +107,6 @@ impl Settings {
     /// Whether lights count: the integrator traces more than what is first hit.
     pub(super) fn is_lit(&self) -> bool {
         matches!(self.integrator, Integrator::Whitted | Integrator::Samples)
-    }
-
-    /// Whether the film keeps what a background adds apart from the rest, so that [`super::Tone::background`]
-    /// can stand in for the scene's. Adaptive sampling cannot: it goes by the picture as it is seen.
-    pub fn keeps_background_apart(&self) -> bool {
-        let is_traced = self.integrator == Integrator::Whitted;
-        self.background_apart && is_traced && !self.is_adaptive()
-    }
-
-    /// Rows of the film for each pixel of a rectangle.
-    pub(super) fn rows_of_rectangles(&self) -> usize {
-        if self.keeps_background_apart() { 4 } else { 1 }
     }
 
     /// The rectangle to render: x, y, width, height.

@@ -74,7 +74,7 @@ impl Renderer {
     pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
         let range = self.range_of(tone)?;
         if self.shows_directly() {
-            let tone = tone.packed(&self.settings, range);
+            let tone = tone.packed(&self.settings, range, self.film.windows[0].rows_per_pixel());
             self.surviving_losses(|renderer| renderer.project(&tone, screen))?;
             return Ok(range);
         }

@@ -2,6 +2,7 @@
 
 use super::{
     device::Task,
+    layers,
     settings::{Integrator, TriangleTest},
 };
 use crate::{
@@ -12,16 +13,15 @@ use crate::{
     scene::{Antialias, Filter},
 };
 
-/// Values for the `override`s of `bindings.wesl`, by their ids.
+/// Values for the `override`s of `bindings.wesl`, by their names.
 pub type Overrides = Vec<(&'static str, f64)>;
 
 /// Features that the scene, the frame and the settings need; all others are compiled out.
 pub fn overrides(task: Task) -> Overrides {
     let mut overrides = tracing(task);
-    overrides.push(("9", flag(task.view.has_lights)));
-    overrides.push(("20", f64::from(task.view.background)));
-    overrides.push(("16", flag(task.view.has_area_lights)));
-    overrides.push(("30", flag(task.settings.keeps_background_apart())));
+    overrides.push(("HAS_LIGHTS", flag(task.view.has_lights)));
+    overrides.push(("BACKGROUND", f64::from(task.view.background)));
+    overrides.push(("HAS_AREA_LIGHTS", flag(task.view.has_area_lights)));
     overrides
 }
 
@@ -46,37 +46,53 @@ pub fn tracing(task: Task) -> Overrides {
         Filter::Mitchell => FILTER_MITCHELL,
     };
     let features = scene.features;
+    let layers = layers::of_sampling(settings);
+    let squares_row = layers::row_of(layers, &layers::SQUARES).unwrap_or_default();
     let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
     vec![
-        ("0", f64::from(triangle_test)),
-        ("1", flag(!scene.triangles.is_empty())),
-        ("2", flag(scene.bounded_shape_count() > 0)),
-        ("3", flag(scene.plane_count > 0)),
-        ("4", flag(scene.features.mixed_materials)),
-        ("5", flag(settings.brute_force)),
-        ("6", flag(settings.antialias != Antialias::None)),
-        ("7", flag(settings.count_rays)),
-        ("8", flag(settings.integrator == Integrator::Heat)),
-        ("11", f64::from(features.shape_kinds)),
-        ("12", flag(features.reflection && settings.max_depth > 0)),
-        ("13", flag(features.refraction && settings.max_depth > 0)),
-        ("14", flag(features.contact && settings.max_depth > 0)),
-        ("15", flag(features.filtered_shadows)),
-        ("17", flag(cameras.any(|camera| camera.lens_radius > 0.0))),
-        ("18", f64::from(filter)),
-        ("19", f64::from(settings.filter_radius)),
+        ("TRIANGLE_TEST", f64::from(triangle_test)),
+        ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
+        ("HAS_SHAPES", flag(scene.bounded_shape_count() > 0)),
+        ("HAS_PLANES", flag(scene.plane_count > 0)),
+        ("MIXED_MATERIALS", flag(scene.features.mixed_materials)),
+        ("BRUTE_FORCE", flag(settings.brute_force)),
+        ("STRATIFIED", flag(settings.antialias != Antialias::None)),
+        ("COUNT_RAYS", flag(settings.count_rays)),
+        ("COUNT_STEPS", flag(settings.integrator == Integrator::Heat)),
+        ("SHAPE_KINDS", f64::from(features.shape_kinds)),
         (
-            "21",
+            "HAS_REFLECTION",
+            flag(features.reflection && settings.max_depth > 0),
+        ),
+        (
+            "HAS_REFRACTION",
+            flag(features.refraction && settings.max_depth > 0),
+        ),
+        (
+            "HAS_CONTACT",
+            flag(features.contact && settings.max_depth > 0),
+        ),
+        ("FILTERED_SHADOWS", flag(features.filtered_shadows)),
+        (
+            "HAS_LENS",
+            flag(cameras.any(|camera| camera.lens_radius > 0.0)),
+        ),
+        ("FILTER", f64::from(filter)),
+        ("FILTER_RADIUS", f64::from(settings.filter_radius)),
+        (
+            "HAS_TEXTURES",
             flag(features.textures || settings.integrator == Integrator::Uv),
         ),
-        ("22", flag(features.emission)),
-        ("23", flag(settings.is_adaptive())),
-        ("24", flag(features.instances)),
-        ("25", flag(view.has_moving_instances())),
-        ("26", flag(!view.cameras.is_empty())),
-        ("27", flag(view.frame.light_key_count > 1)),
-        ("28", flag(view.orthographic)),
-        ("29", flag(!scene.uvs.is_empty())),
+        ("HAS_EMISSION", flag(features.emission)),
+        ("ADAPTIVE", flag(settings.is_adaptive())),
+        ("HAS_INSTANCES", flag(features.instances)),
+        ("HAS_MOTION", flag(view.has_moving_instances())),
+        ("CAMERA_MOTION", flag(!view.cameras.is_empty())),
+        ("LIGHT_MOTION", flag(view.frame.light_key_count > 1)),
+        ("ORTHOGRAPHIC", flag(view.orthographic)),
+        ("HAS_UVS", flag(!scene.uvs.is_empty())),
+        ("FILM_ROWS", layers::rows(layers) as f64),
+        ("SQUARES_ROW", squares_row as f64),
     ]
 }
 

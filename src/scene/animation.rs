@@ -141,7 +141,7 @@ pub enum Easing {
     /// At constant speed.
     #[default]
     None,
-    /// CSS's `cubic-bezier(x1, y1, x2, y2)`: the share of the way by the share of the time; x1 and
+    /// CSS's `cubic-bezier(x1, y1, x2, y2)`: the fraction of the way by the fraction of the time; x1 and
     /// x2 in [0, 1].
     Bezier([f64; 4]),
 }

@@ -91,11 +91,11 @@ impl Curve {
         let after = self.times.partition_point(|key| *key <= time);
         let index = after.clamp(1, count - 1) - 1;
         let (start, end) = (self.times[index], self.times[index + 1]);
-        let share = share(start, end, time);
-        if share <= 0.0 {
+        let fraction = fraction(start, end, time);
+        if fraction <= 0.0 {
             return key(index);
         }
-        if share >= 1.0 {
+        if fraction >= 1.0 {
             return key(index + 1);
         }
 
@@ -103,15 +103,15 @@ impl Curve {
         let length = end - start;
         match self.interpolation {
             Interpolation::Step => from,
-            Interpolation::Linear => from.mix(to, self.easing.way(share)),
+            Interpolation::Linear => from.mix(to, self.easing.way(fraction)),
             Interpolation::CatmullRom => {
                 let to = to.near(from);
                 let [leave, reach] = self.parabolic_tangents(values, index, [from, to]);
-                cubic(from, leave * length, reach * length, to, share)
+                cubic(from, leave * length, reach * length, to, fraction)
             }
             Interpolation::Hermite => {
                 let (leave, reach) = (values[3 * index + 2], values[3 * index + 3]);
-                cubic(from, leave * length, reach * length, to, share)
+                cubic(from, leave * length, reach * length, to, fraction)
             }
         }
     }
@@ -126,8 +126,8 @@ impl Curve {
         // The tangent at `end` of the parabola through it, its neighbour in this piece and the one
         // beyond, `gap` away, to which the slope is `other`.
         let tangent = |gap: f64, other: V| {
-            let share = length / (length + gap);
-            other * share + slope * (1.0 - share)
+            let blend = length / (length + gap);
+            other * blend + slope * (1.0 - blend)
         };
         let before = match index {
             0 if goes_on => Some(last - 1),
@@ -155,8 +155,8 @@ impl Curve {
     }
 }
 
-/// The share of the time from `start` to `end` that has passed at `time`.
-fn share(start: f64, end: f64, time: f64) -> f64 {
+/// The fraction of the time from `start` to `end` that has passed at `time`.
+fn fraction(start: f64, end: f64, time: f64) -> f64 {
     let length = end - start;
     if length.is_finite() {
         (time - start) / length
@@ -166,20 +166,20 @@ fn share(start: f64, end: f64, time: f64) -> f64 {
 }
 
 /// Hermite's cubic by its ends and its tangents there, per length of the way.
-fn cubic<V: Blend>(from: V, leave: V, reach: V, to: V, share: f64) -> V {
-    let s = share;
+fn cubic<V: Blend>(from: V, leave: V, reach: V, to: V, fraction: f64) -> V {
+    let s = fraction;
     let rest = 1.0 - s;
     let bend = leave * (s * rest * rest) - reach * (s * s * rest);
     let value = from + (to - from) * (s * s * (3.0 - 2.0 * s)) + bend;
     // Tangents may be too large for numbers to tell.
-    value.settled().unwrap_or_else(|| from.mix(to, share))
+    value.settled().unwrap_or_else(|| from.mix(to, fraction))
 }
 
 impl Easing {
-    /// The share of the way that is done after `share` of the time, which is in [0, 1].
-    pub fn way(self, share: f64) -> f64 {
+    /// The fraction of the way that is done after `fraction` of the time, which is in [0, 1].
+    pub fn way(self, fraction: f64) -> f64 {
         let Self::Bezier([x1, y1, x2, y2]) = self else {
-            return share;
+            return fraction;
         };
         let (x1, x2) = (x1.clamp(0.0, 1.0), x2.clamp(0.0, 1.0));
         let at = |a: f64, b: f64, s: f64| {
@@ -187,9 +187,9 @@ impl Easing {
             3.0 * rest * rest * s * a + 3.0 * rest * s * s * b + s * s * s
         };
         // x never falls. Newton's steps, and halving where they leave what is known to hold it.
-        let (mut low, mut high, mut s) = (0.0, 1.0, share);
+        let (mut low, mut high, mut s) = (0.0, 1.0, fraction);
         for _ in 0..100 {
-            let error = at(x1, x2, s) - share;
+            let error = at(x1, x2, s) - fraction;
             if error == 0.0 {
                 break;
             }
@@ -215,8 +215,8 @@ impl Easing {
 trait Blend:
     Copy + PartialEq + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
 {
-    /// Linearly, or at constant speed along an arc; `share` may leave [0, 1].
-    fn mix(self, to: Self, share: f64) -> Self;
+    /// Linearly, or at constant speed along an arc; `fraction` may leave [0, 1].
+    fn mix(self, to: Self, fraction: f64) -> Self;
 
     /// Itself; of two that mean the same, the one nearer to `other`.
     fn near(self, _other: Self) -> Self {
@@ -233,11 +233,11 @@ trait Blend:
 }
 
 impl Blend for f64 {
-    fn mix(self, to: Self, share: f64) -> Self {
-        let value = self + (to - self) * share;
+    fn mix(self, to: Self, fraction: f64) -> Self {
+        let value = self + (to - self) * fraction;
         value.settled().unwrap_or_else(|| {
             // Ends too far apart for their difference.
-            (self * (1.0 - share) + to * share).clamp(f64::MIN, f64::MAX)
+            (self * (1.0 - fraction) + to * fraction).clamp(f64::MIN, f64::MAX)
         })
     }
 
@@ -247,8 +247,8 @@ impl Blend for f64 {
 }
 
 impl Blend for DVec3 {
-    fn mix(self, to: Self, share: f64) -> Self {
-        let mix = |i: usize| self[i].mix(to[i], share);
+    fn mix(self, to: Self, fraction: f64) -> Self {
+        let mix = |i: usize| self[i].mix(to[i], fraction);
         Self::new(mix(0), mix(1), mix(2))
     }
 
@@ -260,13 +260,13 @@ impl Blend for DVec3 {
 impl Blend for DQuat {
     /// Shoemake's slerp (1985) on the shorter arc, its angle by Kahan's formula, which is exact for
     /// small ones too.
-    fn mix(self, to: Self, share: f64) -> Self {
+    fn mix(self, to: Self, fraction: f64) -> Self {
         let to = to.near(self);
         let angle = 2.0 * (to - self).length().atan2((to + self).length());
         let mixed = if angle < 1e-9 {
-            self + (to - self) * share
+            self + (to - self) * fraction
         } else {
-            (self * ((1.0 - share) * angle).sin() + to * (share * angle).sin())
+            (self * ((1.0 - fraction) * angle).sin() + to * (fraction * angle).sin())
                 * angle.sin().recip()
         };
         mixed.settled().unwrap_or(self)

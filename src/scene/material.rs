@@ -21,7 +21,7 @@ pub struct Material {
     pub two_sided: bool,
     /// Radiance of the surface itself, 0 or more; from the back only if `two_sided`.
     pub emission: Vec3,
-    /// Share of the light that is mirrored, 0 or more; with `fresnel` that share at grazing angles.
+    /// Fraction of the light that is mirrored, 0 or more; with `fresnel` that at grazing angles.
     pub reflect: Vec3,
     /// Share of the light that is let through, 0 or more; with `fresnel` before reflection.
     pub transmit: Vec3,

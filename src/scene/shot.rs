@@ -21,7 +21,7 @@ const MAX_TURN: f64 = 0.1;
 /// Radians by which the camera may turn from one frame to the next.
 const MAX_CAMERA_TURN: f64 = 0.02;
 
-/// How far off a chord may be, as a share of the distance that it is seen from.
+/// How far off a chord may be, as a fraction of the distance that it is seen from.
 const TOLERANCE: f64 = 1e-3;
 
 /// How many keys in a shot are looked at one by one; more get all frames that there can be.
@@ -224,11 +224,11 @@ impl<'a> Motion<'a> {
                 let last = stops.partition_point(|key| *key < end);
                 &stops[first.min(last)..last]
             };
-            let quarters = [0.25, 0.5, 0.75].map(|share| start + (end - start) * share);
+            let quarters = [0.25, 0.5, 0.75].map(|fraction| start + (end - start) * fraction);
             for &time in quarters.iter().chain(keys) {
-                let share = (time - start) / (end - start);
+                let fraction = (time - start) / (end - start);
                 for (probe, (from, to)) in self.probes(time).iter().zip(from.iter().zip(&to)) {
-                    let chord = from.value + (to.value - from.value) * share;
+                    let chord = from.value + (to.value - from.value) * fraction;
                     let rounding = 1e-12 * probe.value.length();
                     // False too for what is no number, which no chord tells.
                     let is_near = chord.distance(probe.value) <= probe.tolerance + rounding;
@@ -298,7 +298,7 @@ impl Probe {
         Self::new(value, sagitta * value.length())
     }
 
-    /// Which may be off by a share of itself.
+    /// Which may be off by a fraction of itself.
     fn size(value: DVec3) -> Self {
         Self::new(value, TOLERANCE * value.length())
     }

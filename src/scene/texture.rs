@@ -48,7 +48,7 @@ pub enum Pattern {
         b: Vec3,
     },
     /// Clouds: from `a` to `b` by gradient noise n of unit wavelength (Perlin 2002), each octave
-    /// half as large and half as strong. The share of `b` is (1 + Σ n(2ᵏ p) / 2ᵏ) / 2, clamped.
+    /// half as large and half as strong. The weight of `b` is (1 + Σ n(2ᵏ p) / 2ᵏ) / 2, clamped.
     Noise {
         /// One colour, 0 or more.
         a: Vec3,

@@ -1,11 +1,11 @@
-//! Films that keep the background apart, so that another one can be put in when they are developed.
+//! Backgrounds that a frame brings along, in place of the scene's.
 
-use crate::reference::compare::{assert_none, check_alike, check_same_bits, render, sized, start};
+use crate::reference::compare::{assert_none, check_same_bits, render, sized, start};
 use crate::reference::scenes;
 use glam::Vec3;
-use glimray::image::Image;
 use glimray::import;
-use glimray::render::{Antialias, Renderer, Settings, Slicing, Tone};
+use glimray::pack;
+use glimray::render::{Antialias, Settings, Tone};
 use glimray::scene::{Background, Scene};
 use std::path::Path;
 
@@ -15,114 +15,59 @@ const GRADIENT: Background = Background::Gradient {
     top: Vec3::new(0.2, 0.4, 1.5),
 };
 
-fn apart(settings: &Settings) -> Settings {
-    Settings {
-        background_apart: true,
-        ..settings.clone()
-    }
-}
-
-fn traced(scene: &Scene, settings: &Settings) -> Renderer {
-    let mut renderer = start(scene, settings).expect("a renderer");
-    while !renderer.is_done() {
-        renderer.step().expect("a step");
-    }
-    renderer
-}
-
-fn before(renderer: &mut Renderer, background: &Background) -> Image {
-    let tone = Tone {
-        background: background.ends(),
-        ..Tone::LINEAR
-    };
-    renderer.develop(&tone).expect("a picture")
-}
-
-/// A film that was traced before one background gives the pictures of others, which are traced here; and
-/// its own without a bit of difference.
-fn check(name: &str, scene: &Scene, settings: &Settings) -> Vec<Result<(), String>> {
-    let mut renderer = traced(scene, &apart(settings));
-    let samples = renderer.stats().samples;
-    let mut outcomes = Vec::new();
-    for (what, background) in [("colour", COLOR), ("gradient", GRADIENT)] {
-        let developed = before(&mut renderer, &background);
-        let other = Scene {
-            background,
-            ..scene.clone()
-        };
-        let (expected, _) = render(&other, settings);
-        let name = format!("{name}, {what}");
-        outcomes.push(check_alike(&name, &expected, &developed, 0.01, 0.0));
-    }
-    let own = renderer.develop(&Tone::LINEAR).expect("a picture");
-    outcomes.push(check_same_bits(name, &render(scene, settings).0, &own));
-    assert_eq!(renderer.stats().samples, samples, "{name} was traced again");
-    outcomes
-}
-
-#[test]
-fn another_background_gives_the_picture_that_is_traced_before_it() {
+/// A renderer that restarts with a frame before another background, with the scene that it has, gives the
+/// bits of a scene that was packed with that background; and those of its own again.
+fn check(name: &str, scene: &Scene) -> Vec<Result<(), String>> {
     let settings = Settings {
         samples: 3,
         antialias: Antialias::Stratified,
         ..sized(48, 36)
     };
-    let mut outcomes = check("everything", &scenes::everything(), &settings);
-    let picture = crate::textures::under_a_picture();
-    outcomes.extend(check("under a picture", &picture, &settings));
+    let mut renderer = start(scene, &settings).expect("a renderer");
+    let packed = pack::scene(scene).expect("a packed scene");
+    let own = scene.background.clone();
+    let mut outcomes = Vec::new();
+    for (what, background) in [("colour", COLOR), ("gradient", GRADIENT), ("own", own)] {
+        let mut frames = scene.shot(0.0, 0.0);
+        for frame in &mut frames {
+            frame.background = background.clone();
+        }
+        let view = packed.shot(&frames).expect("a view");
+        renderer.set_frame(&view).expect("another frame");
+        while !renderer.is_done() {
+            renderer.step().expect("a step");
+        }
+        let image = renderer.develop(&Tone::LINEAR).expect("a picture");
+        let other = Scene {
+            background,
+            ..scene.clone()
+        };
+        let name = format!("{name}, {what}");
+        outcomes.push(check_same_bits(&name, &render(&other, &settings).0, &image));
+    }
+    outcomes
+}
+
+#[test]
+fn another_background_of_a_frame_gives_the_picture_of_a_scene_that_has_it() {
+    let mut outcomes = check("everything", &scenes::everything());
+    outcomes.extend(check(
+        "under a picture",
+        &crate::textures::under_a_picture(),
+    ));
     let glass = Path::new("assets/scenes/glass_and_mirrors.toml");
-    let glass = import::load(glass).expect("a scene");
-    outcomes.extend(check("glass", &glass, &settings));
+    outcomes.extend(check("glass", &import::load(glass).expect("a scene")));
     assert_none(outcomes);
 }
 
 #[test]
-fn so_it_does_over_many_windows_and_more_samples_than_one_sum_takes() {
-    let settings = Settings {
-        samples: 300,
-        antialias: Antialias::Stratified,
-        filter: glimray::scene::Filter::Mitchell,
-        filter_radius: 2.0,
-        slicing: Slicing {
-            window_side: 16,
-            ..Slicing::default()
-        },
-        ..sized(20, 12)
-    };
-    assert_none(check("many", &scenes::everything(), &settings));
-}
-
-#[test]
 fn where_nothing_is_hit_there_is_the_background_alone() {
-    let mut renderer = traced(&scenes::empty(), &apart(&sized(16, 12)));
-    let Background::Color(color) = COLOR else {
-        unreachable!()
+    let scene = Scene {
+        background: COLOR,
+        ..scenes::empty()
     };
-    let image = before(&mut renderer, &COLOR);
-    // A little rounding: it is the sum of what is seen of its colours below and above.
-    let is_near = |pixel: &[f32; 4]| (Vec3::from_slice(pixel) - color).abs().max_element() < 1e-6;
-    let off = image.pixels.iter().find(|pixel| !is_near(pixel));
+    let (image, _) = render(&scene, &sized(16, 12));
+    let expected = [0.7, 0.2, 0.05, 1.0];
+    let off = image.pixels.iter().find(|pixel| **pixel != expected);
     assert_eq!(off, None);
-}
-
-#[test]
-fn adaptive_sampling_and_debug_views_keep_nothing_apart() {
-    let all = apart(&sized(8, 8));
-    assert!(all.keeps_background_apart());
-    let adaptive = Settings {
-        antialias: Antialias::Adaptive,
-        samples: 16,
-        ..all.clone()
-    };
-    let normals = Settings {
-        integrator: glimray::render::Integrator::Normals,
-        ..all
-    };
-    let scene = scenes::everything();
-    for settings in [adaptive, normals] {
-        assert!(!settings.keeps_background_apart());
-        let mut renderer = traced(&scene, &settings);
-        let own = renderer.develop(&Tone::LINEAR).expect("a picture");
-        assert!(own == before(&mut renderer, &COLOR));
-    }
 }

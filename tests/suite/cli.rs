@@ -937,8 +937,8 @@ fn a_pixel_is_explained_as_a_tree_as_json_and_as_lines() {
     sample 0: 2 ray(s), weight 1
     └ primary hits shape 0 after 2, material 0
       │ at (0, 0, -2), normal (0, 0, 1), from outside
-      │ share 1 1 1, adds 0.1 0.1 0.1 (ambient 0.1 0.1 0.1)
-      └ shadow to light 0, 4.123 away: free, share 1 1 1, adds 0.5097 0.07311 0.07311
+      │ throughput 1 1 1, adds 0.1 0.1 0.1 (ambient 0.1 0.1 0.1)
+      └ shadow to light 0, 4.123 away: free, throughput 1 1 1, adds 0.5097 0.07311 0.07311
       sum 0.6097 0.1731 0.1731, colour 0.6097 0.1731 0.1731
     sum    0.6097 0.1731 0.1731, the weighted mean of 1 sample(s)
     pixel  0.6097 0.1731 0.1731 (linear)

@@ -17,6 +17,7 @@ mod obj;
 mod optics;
 mod pictures;
 mod range;
+mod resolver;
 mod shapes;
 mod textures;
 

@@ -1,6 +1,8 @@
 //! Who may import whom, and how long a file may grow. What this table does not allow is a design
 //! question, not a formality.
 
+mod circles;
+
 use crate::support::verdict::Verdict;
 use std::{
     collections::BTreeSet,
@@ -11,14 +13,18 @@ use std::{
 /// What each module of `src/` may use of the others; "*" is everything.
 const MODULES: &[(&str, &[&str])] = &[
     ("scene", &[]),
+    ("clock", &[]),
     ("image", &[]),
     ("layout", &[]),
     ("gpu", &[]),
     ("bvh", &[]),
     ("import", &["scene"]),
     ("export", &["scene"]),
-    ("pack", &["scene", "bvh", "layout"]),
-    ("render", &["scene", "pack", "layout", "gpu", "image"]),
+    ("pack", &["clock", "scene", "bvh", "layout"]),
+    (
+        "render",
+        &["clock", "scene", "pack", "layout", "gpu", "image"],
+    ),
     ("output", &["image"]),
     ("app", &["*"]),
     ("main", &["*"]),
@@ -152,6 +158,56 @@ fn modules_use_only_what_they_may() {
 #[test]
 fn shaders_import_only_what_they_may() {
     check_directions("shaders", "wesl", "package", TIERS);
+}
+
+/// What belongs to the program: crates, and words of its command line and its end.
+const OF_THE_PROGRAM: &[&str] = &[
+    "clap::",
+    "clap_complete::",
+    "indicatif::",
+    "miette::",
+    "nv_flip::",
+    "signal_hook::",
+    "terminal_size::",
+    "exit_code",
+    "ExitCode",
+    "process::exit",
+    "print!(",
+    "println!(",
+];
+
+/// The first `--word` in the code, which can only be in a string.
+fn flag(code: &str) -> Option<&str> {
+    let is_of_flag = |c: char| c == '-' || c.is_ascii_alphanumeric();
+    code.match_indices("--").find_map(|(at, _)| {
+        let rest = &code[at..];
+        let is_flag = rest[2..].starts_with(|c: char| c.is_ascii_lowercase());
+        is_flag.then(|| rest.split(|c| !is_of_flag(c)).next().unwrap_or(rest))
+    })
+}
+
+/// Other programs use the library too, and have other flags or none.
+#[test]
+fn only_the_program_knows_flags_exit_codes_and_the_terminal() {
+    let mut verdict = Verdict::on("src without the program");
+    let of_program = |path: &Path| ["app", "main"].contains(&&*part_of(path));
+    for (path, text) in files("src", "rs") {
+        if of_program(&path) {
+            continue;
+        }
+        let code = code(&text);
+        let word = OF_THE_PROGRAM.iter().find(|word| code.contains(**word));
+        verdict.that(path.display(), word.is_none(), || format!("has {word:?}"));
+        let flag = flag(&code);
+        verdict.that(path.display(), flag.is_none(), || format!("names {flag:?}"));
+    }
+    verdict.close();
+    let found = |text: &str| flag(&code(text)).map(str::to_owned);
+    assert_eq!(
+        found("f(\"Use --no-bvh, or\")").as_deref(),
+        Some("--no-bvh")
+    );
+    assert_eq!(found("x - -y; f(\"-- a\") // --no-bvh"), None);
 }
 
 /// Kernels are entry points, and nothing imports one; not even another kernel.

@@ -9,6 +9,7 @@ use crate::{
 };
 use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::{
+    app::exit::AppError,
     image::Image,
     pack::{self, PackedScene, PackedView},
     render::{Fetch, RenderError, Renderer, Settings, Stats, Tone},
@@ -359,8 +360,8 @@ fn a_later_frame_is_held_against_the_memory_limit_as_the_first_one_is() {
     };
     let mut renderer = Renderer::new(open_gpu(), packed, &still, settings).expect("a renderer");
     let refused = renderer.set_frame(&moving).expect_err("one byte too many");
-    assert_eq!(refused.exit_code(), 7, "{refused}");
     assert!(refused.to_string().contains("nodes"), "{refused}");
+    assert_eq!(AppError::from(refused).exit_code(), 7);
 }
 
 #[test]
@@ -390,7 +391,7 @@ fn a_frame_that_outgrows_the_limits_of_the_device_gets_another_device_or_is_too_
     // Beyond what WebGPU guarantees for one binding, which some adapters do not exceed.
     match picture(Fetch::Buffer, &[&still, &moving, &still, &moving]) {
         Ok(image) => same(&expected, &image),
-        Err(error) => assert_eq!(error.exit_code(), 7, "{error}"),
+        Err(error) => assert_eq!(AppError::from(error).exit_code(), 7),
     }
 }
 

@@ -77,15 +77,15 @@ fn random_overrides(seed: u64) -> Vec<(String, f64)> {
     let bindings = fs::read_to_string("shaders/bindings.wesl").expect("shaders/bindings.wesl");
     let declared = bindings
         .lines()
-        .filter_map(|line| line.strip_prefix("@id(")?.split_once(") override "));
+        .filter_map(|line| line.strip_prefix("override ")?.split_once(':'));
     declared
-        .map(|(id, rest)| {
-            let value = if rest.contains(": bool") {
+        .map(|(name, rest)| {
+            let value = if rest.starts_with(" bool") {
                 (next() % 2) as f64
             } else {
                 (next() % 4) as f64
             };
-            (id.to_owned(), value)
+            (name.to_owned(), value)
         })
         .collect()
 }
@@ -119,7 +119,7 @@ fn specialised_kernels_are_valid_and_branch_on_no_constant() {
     for kernel in Kernel::ALL {
         for seed in 0..12 {
             let overrides = random_overrides(seed);
-            let overrides: Vec<_> = overrides.iter().map(|(id, v)| (&**id, *v)).collect();
+            let overrides: Vec<_> = overrides.iter().map(|(name, v)| (&**name, *v)).collect();
             let module = kernel
                 .specialized(seed % 2 == 0, &overrides)
                 .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
@@ -149,18 +149,27 @@ fn a_feature_that_is_off_leaves_no_function_behind() {
             .join(" ")
     };
     let mut verdict = Verdict::on("functions");
-    // By the ids of `bindings.wesl`, with what only this feature needs.
-    for (feature, id, name) in [
-        ("HAS_TEXTURES", "21", "package_lib_noise"),
-        ("HAS_INSTANCES", "24", "load_instance"),
-        ("HAS_AREA_LIGHTS", "16", "area_incident"),
-        ("HAS_LENS", "17", "lens_ray"),
-        ("HAS_CONTACT", "14", "is_near"),
+    // With what only this feature needs.
+    for (feature, name) in [
+        ("HAS_TEXTURES", "package_lib_noise"),
+        ("HAS_INSTANCES", "load_instance"),
+        ("HAS_AREA_LIGHTS", "area_incident"),
+        ("HAS_LENS", "lens_ray"),
+        ("HAS_CONTACT", "is_near"),
     ] {
         let all = functions(&[]);
         verdict.that(feature, all.contains(name), || format!("not in {all}"));
-        let without = functions(&[(id, 0.0)]);
+        let without = functions(&[(feature, 0.0)]);
         verdict.that(feature, !without.contains(name), || without.clone());
     }
     verdict.close();
+}
+
+#[test]
+fn an_override_that_is_not_declared_is_refused() {
+    let refused = Kernel::WHITTED.specialized(true, &[("HAS_LIGHTS", 1.0), ("HAS_LIGHT", 1.0)]);
+    assert_eq!(
+        refused.map(|_| ()),
+        Err("no override is called HAS_LIGHT".to_owned())
+    );
 }

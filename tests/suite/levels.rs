@@ -178,7 +178,8 @@ fn tone(view: u32, range: Option<[f32; 2]>, exposure_scale: f32) -> PackedTone {
     let [least, most] = range.unwrap_or_default();
     PackedTone {
         view,
-        range: [least, most, f32::from(range.is_some()), 0.0],
+        range: [least, most],
+        has_range: range.is_some().into(),
         exposure_scale,
         transfer: glimray::layout::TRANSFER_LINEAR,
         ..PackedTone::default()

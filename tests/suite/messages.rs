@@ -3,7 +3,9 @@
 
 use crate::animate::place::Place;
 use crate::support::verdict::Verdict;
+use glimray::app::exit::AppError;
 use glimray::gpu::GpuError;
+use insta::assert_snapshot;
 use serde_json::Value;
 use std::process::{Command, Stdio};
 
@@ -189,6 +191,35 @@ fn labels_are_coloured_on_a_terminal_only() {
 
 #[cfg(target_os = "linux")]
 #[test]
+fn a_terminal_gets_the_line_at_fault_with_a_mark() {
+    let place = Place::new();
+    place.write(
+        "bad.toml",
+        "ambient = [0, 0, 0]\nbackground = [0, oops, 0]\n",
+    );
+    let line = "NO_COLOR=1 $G inspect bad.toml";
+    let Some(text) = on_a_terminal(&place, 200, line) else {
+        return;
+    };
+    let (message, drawing) = text.split_once('\n').expect("lines");
+    assert!(
+        message.starts_with("error: bad scene (bad.toml:2:18): "),
+        "{text}"
+    );
+    assert_snapshot!(drawing, @r"
+  ╭─[bad.toml:2:18]
+2 │ background = [0, oops, 0]
+  ·                  ──┬─
+  ·                    ╰── here
+  ╰────
+");
+    // A program that reads along gets the message alone.
+    let run = place.run("inspect bad.toml").expect(3);
+    assert_eq!(run.stderr.trim_end(), message);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
 fn a_terminal_gets_lines_that_end_between_words() {
     let place = Place::new();
     let line = "$G inspect gone.scene --allow-dir a_folder_that_is_not_there_and_has_a_long_name";
@@ -206,6 +237,38 @@ fn a_terminal_gets_lines_that_end_between_words() {
 }
 
 #[test]
+fn messages_of_the_program_name_its_flags() {
+    let place = Place::new();
+    place.write("out.toml", "[[objects]]\nmesh = { file = '../m.obj' }\n");
+    place.write("good.toml", "[[objects]]\nsphere = { radius = 1 }\n");
+    let mut verdict = Verdict::on("messages");
+    for (line, message) in [
+        (
+            "inspect out.toml",
+            "mesh file refused (out.toml:2:17): `../m.obj` points outside the scene folder. Use \
+             --allow-dir DIR to permit.",
+        ),
+        (
+            "inspect good.toml --set camera=3",
+            "override refused (--set:1:8): invalid type: integer `3`, expected struct CameraTable. See \
+             `glimray schema` for what is allowed.",
+        ),
+        (
+            "render a.scene --size 8x8 --adapter nothing_like_it",
+            "no such adapter (--adapter nothing_like_it): there are",
+        ),
+        (
+            "render a.scene --size 2048x2048 --memory-limit 1",
+            "Use a smaller scene or picture, or raise --memory-limit if memory allows.",
+        ),
+    ] {
+        let run = place.run(line);
+        verdict.that(line, run.stderr.contains(message), || run.stderr.clone());
+    }
+    verdict.close();
+}
+
+#[test]
 fn a_limit_of_the_adapter_is_not_blamed_on_the_memory_limit() {
     let limit = GpuError::Limit {
         name: "bytes in one storage buffer binding",
@@ -220,7 +283,8 @@ fn a_limit_of_the_adapter_is_not_blamed_on_the_memory_limit() {
         need: 5,
         limit: 4,
     };
-    let says_so = |error: &GpuError| error.to_string().contains("--memory-limit");
+    let [limit, refused, budget] = [limit, refused, budget].map(AppError::from);
+    let says_so = |error: &AppError| error.to_string().contains("--memory-limit");
     assert!(!says_so(&limit) && !says_so(&refused) && says_so(&budget));
     assert!(limit.to_string().contains("an adapter with higher limits"));
 }

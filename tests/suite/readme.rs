@@ -48,6 +48,9 @@ fn the_map_of_the_readme_has_every_shader() {
     for folder in ["lib", "scene", "kernels"] {
         for entry in std::fs::read_dir(Path::new("shaders").join(folder)).expect("a folder") {
             let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|ending| ending != "wesl") {
+                continue;
+            }
             let stem = path.file_stem().expect("a name").to_string_lossy();
             let name = match path.is_dir() {
                 true => format!("{stem}/"),

@@ -68,9 +68,9 @@ fn a_moment_lies_between_the_right_two_keys() {
         let at = f64::from(*time) * f64::from(count - 1);
         let name = format!("{time} of {count} keys");
         verdict.that(&name, moment.key + 2 <= *count, || format!("{moment:?}"));
-        let share = f64::from(moment.share);
-        let is_there = (f64::from(moment.key) + share - at).abs() <= 2.0 * ulp(at.max(1.0));
-        verdict.that(&name, is_there && (0.0..=1.0).contains(&share), || {
+        let fraction = f64::from(moment.fraction);
+        let is_there = (f64::from(moment.key) + fraction - at).abs() <= 2.0 * ulp(at.max(1.0));
+        verdict.that(&name, is_there && (0.0..=1.0).contains(&fraction), || {
             format!("{moment:?}, not {at}")
         });
     }
@@ -131,7 +131,7 @@ fn what_lies_between_two_keys_is_their_mean_and_has_its_inverse() {
             random.in_cube() * 10.0 * size,
             random.in_cube() * 10.0 * size,
         );
-        let share = [0.0, 0.5, 1.0, random.between(0.0, 1.0)][i % 4] as f32;
+        let fraction = [0.0, 0.5, 1.0, random.between(0.0, 1.0)][i % 4] as f32;
         inputs.push((
             key(a, turn, along(axes, first)),
             key(
@@ -139,17 +139,17 @@ fn what_lies_between_two_keys_is_their_mean_and_has_its_inverse() {
                 small(&mut random) * turn,
                 along(small(&mut random) * axes, second),
             ),
-            share,
+            fraction,
         ));
     }
     let spaces: Vec<Space> = gpu().map(SPACE, &inputs);
     let mut verdict = Verdict::on("space_between");
-    for (i, ((a, b, share), space)) in inputs.iter().zip(&spaces).enumerate() {
-        let share = f64::from(*share);
-        let translation = vector(a.translation).lerp(vector(b.translation), share);
+    for (i, ((a, b, fraction), space)) in inputs.iter().zip(&spaces).enumerate() {
+        let fraction = f64::from(*fraction);
+        let translation = vector(a.translation).lerp(vector(b.translation), fraction);
         let quat = |key: &PackedKey| DQuat::from_array(key.rotation.map(f64::from));
-        let rotation = (quat(a) * (1.0 - share) + quat(b) * share).normalize();
-        let stretched = stretch(a) * (1.0 - share) + stretch(b) * share;
+        let rotation = (quat(a) * (1.0 - fraction) + quat(b) * fraction).normalize();
+        let stretched = stretch(a) * (1.0 - fraction) + stretch(b) * fraction;
         let linear = DMat3::from_quat(rotation) * stretched;
         let inverse = linear.inverse();
         let condition = norm(linear) * norm(inverse);
@@ -185,11 +185,11 @@ fn what_turns_keeps_its_size_and_shape_at_every_moment() {
         // Up to a radian, far more than hosts leave between two keys.
         let next = DQuat::from_axis_angle(random.direction(), random.between(0.0, 1.0)) * turn;
         let ball = DMat3::from_diagonal(DVec3::splat(size));
-        for share in [0.0, 0.1, 0.25, 0.5, 0.9, 1.0_f32] {
+        for fraction in [0.0, 0.1, 0.25, 0.5, 0.9, 1.0_f32] {
             inputs.push((
                 key(DVec3::ZERO, turn, ball),
                 key(DVec3::ZERO, next, ball),
-                share,
+                fraction,
             ));
             sizes.push(f64::from(size as f32));
         }
@@ -223,19 +223,19 @@ fn all_of_a_camera_is_between_its_keys() {
         *bytemuck::from_bytes::<PackedCamera>(bytemuck::cast_slice(&words))
     };
     let inputs: Vec<_> = [0.0, 0.25, 0.7, 1.0_f32]
-        .map(|share| (camera(5), camera(5), share))
+        .map(|fraction| (camera(5), camera(5), fraction))
         .into();
     let cameras: Vec<PackedCamera> = gpu().map("lib::motion::camera_between", &inputs);
     let mut verdict = Verdict::on("camera_between");
-    for ((a, b, share), got) in inputs.iter().zip(&cameras) {
+    for ((a, b, fraction), got) in inputs.iter().zip(&cameras) {
         verdict.near("blades", &got.blade_count, &5, Tolerance::Exact);
         let words =
             |camera: &PackedCamera| -> Vec<f32> { bytemuck::cast_slice(&[*camera]).to_vec() };
         let (a, b, got) = (words(a), words(b), words(got));
         for i in 0..15 {
-            let expected = f64::from(a[i]) * f64::from(1.0 - share) + f64::from(b[i] * share);
+            let expected = f64::from(a[i]) * f64::from(1.0 - fraction) + f64::from(b[i] * fraction);
             verdict.near(
-                format!("word {i} at {share}"),
+                format!("word {i} at {fraction}"),
                 &got[i],
                 &expected,
                 Tolerance::Ulps(4.0),
@@ -259,7 +259,7 @@ fn all_of_a_light_is_between_its_keys_and_its_direction_has_unit_length() {
         }
     };
     let mut inputs = Vec::new();
-    for share in [0.0, 0.3, 0.5, 1.0_f32] {
+    for fraction in [0.0, 0.3, 0.5, 1.0_f32] {
         for (kind, attenuation) in [
             (LIGHT_SPOT, ATTENUATION_NONE),
             (LIGHT_DISC, ATTENUATION_INVERSE_SQUARE),
@@ -267,14 +267,14 @@ fn all_of_a_light_is_between_its_keys_and_its_direction_has_unit_length() {
             inputs.push((
                 light(kind, attenuation, DVec3::X),
                 light(kind, attenuation, DVec3::NEG_Z),
-                share,
+                fraction,
             ));
         }
     }
     let lights: Vec<PackedLight> = gpu().map("lib::motion::light_between", &inputs);
     let mut verdict = Verdict::on("light_between");
-    for ((a, b, share), got) in inputs.iter().zip(&lights) {
-        let s = f64::from(*share);
+    for ((a, b, fraction), got) in inputs.iter().zip(&lights) {
+        let s = f64::from(*fraction);
         let fixed = [got.kind, got.attenuation, got.sample_count];
         verdict.near(
             "tags",
@@ -360,13 +360,17 @@ fn nodes_between_two_lie_in_proportion() {
             let size = 10f64.powf(places.between(-3.0, 3.0));
             let from = places.in_cube() * size * 1000.0;
             let way = places.in_cube() * size * [0.0, 0.1, 10.0][i % 3];
-            let share = [0.0, 1.0, places.between(0.0, 1.0)][i / 3 % 3];
-            (node(from, size), node(from + way, size * 1.7), share as f32)
+            let fraction = [0.0, 1.0, places.between(0.0, 1.0)][i / 3 % 3];
+            (
+                node(from, size),
+                node(from + way, size * 1.7),
+                fraction as f32,
+            )
         })
         .collect();
     let nodes: Vec<Node> = gpu().map("lib::intersect::node::node_between", &inputs);
     let mut verdict = Verdict::on("node_between");
-    for (i, ((a, b, share), got)) in inputs.iter().zip(&nodes).enumerate() {
+    for (i, ((a, b, fraction), got)) in inputs.iter().zip(&nodes).enumerate() {
         verdict.near(
             format!("children {i}"),
             &got.children,
@@ -393,7 +397,7 @@ fn nodes_between_two_lie_in_proportion() {
             for side in 0..2 {
                 for child in 0..4 {
                     let [from, to] = [a, b].map(|node| plane(node, axis, side, child));
-                    let expected = from + (to - from) * f64::from(*share);
+                    let expected = from + (to - from) * f64::from(*fraction);
                     let off = plane(got, axis, side, child) - expected;
                     verdict.that(format!("node {i}, axis {axis}"), off.abs() <= most, || {
                         format!("{off} off {expected}, {most} allowed")

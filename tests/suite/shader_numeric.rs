@@ -110,3 +110,14 @@ fn infinities_and_nans_are_found_by_their_bits() {
         .collect();
     gpu().check("lib::numeric::is_finite", Tolerance::Exact, &rows);
 }
+
+#[test]
+fn the_largest_component_counts_with_its_sign() {
+    #[rustfmt::skip]
+    gpu().check("lib::numeric::max_component", Tolerance::Absolute(0.0), &[
+        ("the first", [3f32, 1.0, 2.0], 3.0),
+        ("the second", [-3.0, 1.0, 0.5], 1.0),
+        ("the last", [-3.0, -2.0, -0.25], -0.25),
+        ("all the same", [7.0; 3], 7.0),
+    ]);
+}

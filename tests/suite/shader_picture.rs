@@ -8,7 +8,7 @@ use crate::support::{
 };
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
-/// What it shows, arguments, and the neighbours with the second one's share.
+/// What it shows, arguments, and the neighbours with the second one's weight.
 type Row<I> = (&'static str, I, (u32, u32, f32));
 
 #[test]
@@ -31,9 +31,9 @@ fn the_colour_of_a_texel_is_in_its_middle() {
     let inputs: Vec<_> = rows.iter().map(|row| row.1).collect();
     let found: Vec<Neighbours> = gpu().map("lib::picture::repeated", &inputs);
     let mut verdict = Verdict::on("repeated");
-    for ((name, _, (first, second, share)), got) in rows.iter().zip(found) {
+    for ((name, _, (first, second, weight)), got) in rows.iter().zip(found) {
         let holds =
-            (got.first, got.second) == (*first, *second) && (got.share - share).abs() < 1e-6;
+            (got.first, got.second) == (*first, *second) && (got.weight - weight).abs() < 1e-6;
         verdict.that(name, holds, || format!("{got:?}"));
     }
     verdict.close();
@@ -66,7 +66,7 @@ fn neighbours_are_in_the_picture_wherever_they_are_looked_for() {
     let mut verdict = Verdict::on("repeated");
     for ((at, count, nearest), got) in inputs.iter().zip(found) {
         let follows = (got.first + 1) % count == got.second;
-        let holds = got.first < *count && follows && (0.0..=1.0).contains(&got.share);
+        let holds = got.first < *count && follows && (0.0..=1.0).contains(&got.weight);
         verdict.that(format!("{at} of {count}, {nearest}"), holds, || {
             format!("{got:?}")
         });
@@ -75,7 +75,7 @@ fn neighbours_are_in_the_picture_wherever_they_are_looked_for() {
         let (own, place) = match nearest {
             // The middle of the texel, from which no place in it is further than half of it.
             true => (f64::from(got.first) + 0.5, place),
-            false => (f64::from(got.first) + f64::from(got.share), place - 0.5),
+            false => (f64::from(got.first) + f64::from(got.weight), place - 0.5),
         };
         let off = (own - place).rem_euclid(f64::from(*count));
         let off = off.min(f64::from(*count) - off);
@@ -101,8 +101,8 @@ fn rows_end_at_the_poles() {
     let inputs: Vec<_> = rows.iter().map(|row| row.1).collect();
     let found: Vec<Neighbours> = gpu().map("lib::picture::ended", &inputs);
     let mut verdict = Verdict::on("ended");
-    for ((name, _, (first, second, share)), got) in rows.iter().zip(found) {
-        let holds = (got.first, got.second, got.share) == (*first, *second, *share);
+    for ((name, _, (first, second, weight)), got) in rows.iter().zip(found) {
+        let holds = (got.first, got.second, got.weight) == (*first, *second, *weight);
         verdict.that(name, holds, || format!("{got:?}"));
     }
     verdict.close();

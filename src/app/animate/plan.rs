@@ -5,8 +5,7 @@ use super::super::inputs::Inputs;
 use super::super::interrupt::Interrupt;
 use super::super::report::Redone;
 use super::Sequence;
-use super::journal::{Journal, State};
-use super::studio::Studio;
+use super::journal::{Journal, Origin, State};
 use crate::output;
 
 /// Longer lists of frames are cut in messages.
@@ -16,14 +15,15 @@ const MAX_LISTED: usize = 6;
 pub struct Plan(Vec<(u32, State)>);
 
 impl Plan {
-    /// Looks at every frame; says what is there and what is to be done again.
+    /// Looks at every frame; says what is there and what is to be done again. `origin` is what a frame
+    /// would be made of.
     ///
     /// # Errors
     /// A file may not be replaced, frames are missing that may not be rendered, or a signal asked
     /// for the end.
     pub fn new(
         sequence: &Sequence,
-        studio: &Studio,
+        origin: impl Fn(u32) -> Result<Origin, AppError>,
         journal: Option<&Journal>,
         interrupt: &Interrupt,
     ) -> Result<Self, AppError> {
@@ -31,9 +31,9 @@ impl Plan {
         let states = numbers.map(|number| {
             interrupt.check()?;
             let state = match (&sequence.target.frames, journal) {
-                (Some(files), Some(journal)) => journal.state(&files.pattern, number, || {
-                    Ok(studio.origin(&studio.view(number)?))
-                })?,
+                (Some(files), Some(journal)) => {
+                    journal.state(&files.pattern, number, || origin(number))?
+                }
                 _ => State::Absent,
             };
             Ok((number, state))

@@ -94,10 +94,13 @@ fn write_ray(
         (Some(shadow), hit) => write_shadow(out, shadow, hit.as_ref(), ray)?,
         (None, Some(hit)) => write_hit(out, &detail, hit, ray)?,
         (None, None) => {
-            let [direction, share] = [vector(ray.direction), color(ray.throughput)];
+            let [direction, throughput] = [vector(ray.direction), color(ray.throughput)];
             let added = color(ray.contribution);
             writeln!(out, " towards {direction} meets nothing")?;
-            writeln!(out, "{detail}share {share}, adds {added} (background)")?;
+            writeln!(
+                out,
+                "{detail}throughput {throughput}, adds {added} (background)"
+            )?;
         }
     }
     for (place, &child) in ray.children.iter().enumerate() {
@@ -129,7 +132,7 @@ fn write_shadow(
         }
         _ if shadow.blocked => writeln!(out, ": blocked"),
         _ => {
-            let share = color(ray.throughput);
+            let throughput = color(ray.throughput);
             let added = color(ray.contribution);
             match shadow.crossings {
                 0 => write!(out, ": free")?,
@@ -138,7 +141,7 @@ fn write_shadow(
                     write!(out, ": {through} comes through {count} surface(s)")?;
                 }
             }
-            writeln!(out, ", share {share}, adds {added}")
+            writeln!(out, ", throughput {throughput}, adds {added}")
         }
     }
 }
@@ -157,7 +160,7 @@ fn write_hit(out: &mut String, detail: &str, hit: &RayHit, ray: &TracedRay) -> f
     if let Some(split) = &hit.split {
         write_split(out, detail, split)?;
     }
-    write!(out, "{detail}share {}", color(ray.throughput))?;
+    write!(out, "{detail}throughput {}", color(ray.throughput))?;
     if ray.arriving != ray.throughput {
         write!(out, ", {} arrives", color(ray.arriving))?;
     }
@@ -232,7 +235,7 @@ pub fn vector(v: [f64; 3]) -> String {
     format!("({})", v.map(short).join(", "))
 }
 
-/// Linear radiance or a share of it: red, green, blue, four digits of each.
+/// Linear radiance or a throughput: red, green, blue, four digits of each.
 pub fn color(c: [f32; 3]) -> String {
     c.map(short).join(" ")
 }

@@ -5,7 +5,7 @@ use super::{Adapter, ImageReport, Report, SceneReport, Seconds, host_peak_bytes}
 use crate::app::cli::{LogFlags, SceneFlags};
 use crate::app::exit::AppError;
 use crate::app::inputs::Inputs;
-use crate::app::render;
+use crate::app::scene_file;
 use crate::scene::Scene;
 use serde_json::{Value, json};
 use std::fs;
@@ -62,10 +62,10 @@ impl<'a> Draft<'a> {
     /// Reads the scene.
     ///
     /// # Errors
-    /// Those of [`render::load`].
+    /// Those of [`scene_file::load`].
     pub fn load(&mut self, path: &Path, flags: &SceneFlags) -> Result<Scene, AppError> {
         let loading = Instant::now();
-        let (scene, inputs) = render::load(path, flags);
+        let (scene, inputs) = scene_file::load(path, flags);
         self.inputs = inputs;
         let scene = scene?;
         self.seconds.load = loading.elapsed().as_secs_f64();

@@ -11,6 +11,7 @@ pub mod watch;
 use super::bindings::Action;
 use super::loader::Trouble;
 use super::session::Session;
+use crate::app::advice;
 use crate::app::cli::CameraFlags;
 use crate::app::inputs::Inputs;
 use crate::import::{self, ImportError};
@@ -291,7 +292,7 @@ fn take_environment(session: &mut Session) {
             let why = format!("internal fault (reading {path}). Please report it.");
             session.notices.warn(why);
         }
-        Ok(Err(error)) => session.notices.warn(error.to_string()),
+        Ok(Err(error)) => session.notices.warn(advice::import(&error)),
         Ok(Ok(picture)) => {
             session.look.background = None;
             session.edit("Change the background", |scene| {

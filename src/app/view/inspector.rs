@@ -16,6 +16,7 @@ use super::render_thread::{Place, Studio};
 use super::session::Session;
 use super::tools::Tool;
 use super::viewport::Viewport;
+use crate::app::advice;
 use crate::render::{Integrator, RayTree, TracedRay};
 use eframe::egui;
 use outside::Outside;
@@ -219,10 +220,9 @@ fn rays(studio: &mut Studio, pixel: [u32; 2]) -> Result<Inspected, String> {
             "no rays for pixel {x},{y}: it is not in the picture, or has no sample yet."
         ));
     }
-    let background = studio.order.tone.background;
-    let tree = (studio.renderer).explain_before(background, pixel, 0..count);
+    let tree = studio.renderer.explain(pixel, 0..count);
     let is_final = !studio.settings().is_adaptive() || studio.renderer.is_done();
-    let tree = tree.map_err(|error| error.to_string())?;
+    let tree = tree.map_err(|error| advice::render(&error))?;
     Ok(Inspected::new(tree, studio.order.clone(), is_final))
 }
 

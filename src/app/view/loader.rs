@@ -1,8 +1,8 @@
 //! Reading scenes while the window goes on.
 
-use crate::import::{self, ImportError};
+use crate::app::advice;
+use crate::import::{self, Fault, ImportError};
 use crate::scene::Scene;
-use miette::Diagnostic;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -58,23 +58,18 @@ impl From<String> for Trouble {
 impl From<&ImportError> for Trouble {
     fn from(error: &ImportError) -> Self {
         Self {
-            message: error.to_string(),
-            line: source_line(error),
+            message: advice::import(error),
+            line: source_line(error.fault()),
         }
     }
 }
 
-fn source_line(error: &ImportError) -> Option<SourceLine> {
-    let position = error.fault().position?;
-    let label = error.labels()?.next()?;
-    let contents = (error.source_code()?).read_span(label.inner(), 0, 0).ok()?;
-    let text = str::from_utf8(contents.data()).ok()?;
-    let text = text.trim_end_matches(['\r', '\n']);
-    let at = |byte: usize| text.floor_char_boundary(byte);
+fn source_line(fault: &Fault) -> Option<SourceLine> {
+    let (position, excerpt) = (fault.position?, fault.excerpt.as_ref()?);
     Some(SourceLine {
         number: position.line,
-        span: at(label.offset())..at(label.offset() + label.len()),
-        text: text.to_owned(),
+        span: excerpt.span.clone(),
+        text: excerpt.text.clone(),
     })
 }
 

@@ -25,10 +25,7 @@ pub struct Order {
 
 impl PartialEq for Order {
     fn eq(&self, other: &Self) -> bool {
-        self.shows_same(other)
-            && self.background == other.background
-            && self.settings == other.settings
-            && self.tone == other.tone
+        self.shows_same(other) && self.settings == other.settings && self.tone == other.tone
     }
 }
 
@@ -38,14 +35,7 @@ impl Order {
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.restarts == other.restarts
             && self.camera == other.camera
-            && self.baked_background() == other.baked_background()
+            && self.background == other.background
             && self.shot == other.shot
-    }
-
-    /// The background that rays see in place of the scene's. Where the film keeps it apart it is put in when
-    /// the picture is developed.
-    pub fn baked_background(&self) -> Option<&Background> {
-        let is_baked = !self.settings.keeps_background_apart();
-        self.background.as_ref().filter(|_| is_baked)
     }
 }

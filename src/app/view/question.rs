@@ -6,6 +6,7 @@ use super::objects::Id;
 use super::render_thread::Studio;
 use super::session::Session;
 use super::tools::Purpose;
+use crate::app::advice;
 use crate::scene::ObjectRef;
 use glam::DVec3;
 
@@ -43,7 +44,7 @@ pub fn pick(studio: &mut Studio, pixel: [u32; 2], purpose: Purpose) -> Answer {
                 hit: hit.map(|hit| (DVec3::from(hit.position), hit.object)),
             }
         }
-        Err(error) => Answer::Failed(error.to_string()),
+        Err(error) => Answer::Failed(advice::render(&error)),
     }
 }
 

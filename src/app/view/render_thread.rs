@@ -6,6 +6,7 @@
 
 use super::canvas::{Canvas, Shown};
 use super::order::Order;
+use crate::app::advice;
 use crate::gpu::{Gpu, GpuError};
 use crate::image::Image;
 use crate::render::{RenderError, Renderer, Settings, Tone};
@@ -357,7 +358,7 @@ pub enum CanvasError {
     #[error(transparent)]
     Pack(#[from] crate::pack::PackError),
     /// It cannot be rendered.
-    #[error(transparent)]
+    #[error("{}", advice::render(.0))]
     Render(#[from] RenderError),
 }
 

@@ -26,10 +26,9 @@ use super::replay::Tape;
 use super::sheets::Sheets;
 use super::tools::{Drag, Tool};
 use super::viewport::Viewport;
-use crate::gpu::AdapterReport;
 use crate::import;
-use crate::render::{Integrator, Settings, Tone};
-use crate::scene::{Background, Camera, Scene};
+use crate::render::{Integrator, Settings};
+use crate::scene::{Camera, Scene};
 use eframe::egui;
 use glam::DVec3;
 use room::Room;
@@ -43,11 +42,6 @@ const SETTLE: f64 = 0.12;
 /// The shortest time between two frames that something moves in, and between two looks at what others do.
 const FRAME: Duration = Duration::from_millis(8);
 const LOOK: Duration = Duration::from_millis(50);
-
-/// What a pixel takes in a film that keeps the background apart, and the most that such a film takes, in
-/// bytes: that of 3840×2160 pixels.
-const OPEN_PIXEL: u64 = 64;
-const MAX_OPEN_FILM: u64 = 544 << 20;
 
 /// Everything about the window but what is on the GPU.
 pub struct Session {
@@ -103,8 +97,6 @@ pub struct Session {
     /// How often the picture was started over.
     restarts: u32,
     room: Room,
-    /// The largest film that the device holds, in bytes.
-    max_film: u64,
     /// When something moved last, in egui's time; and what egui's time is.
     last_motion: f64,
     now: f64,
@@ -193,7 +185,6 @@ impl Session {
             left: None,
             restarts: 0,
             room: Room::default(),
-            max_film: 0,
             last_motion: f64::NEG_INFINITY,
             now: 0.0,
             is_device_lost: false,
@@ -328,38 +319,9 @@ impl Session {
             camera: (!rig.is_home()).then(|| rig.camera()),
             background: self.look.background.clone(),
             shot: self.playback.shot(),
-            settings: self.opened(self.look.settings_in(self.room.taken, integrator)),
-            tone: self.tone_of(integrator),
+            settings: self.look.settings_in(self.room.taken, integrator),
+            tone: self.look.tone_of(integrator),
         })
-    }
-
-    /// Settings of a picture before which the background can be changed without tracing it again, where there
-    /// is room for such a film; its edges are whole tiles.
-    pub fn opened(&self, settings: Settings) -> Settings {
-        let [.., width, height] = settings.region();
-        let film = u64::from(width + 7) * u64::from(height + 7) * OPEN_PIXEL;
-        let most = MAX_OPEN_FILM.min(self.flags.memory_limit_bytes / 8);
-        Settings {
-            background_apart: film <= most.min(self.max_film),
-            ..settings
-        }
-    }
-
-    /// What the device can do that draws from now on.
-    pub fn set_device(&mut self, adapter: &AdapterReport) {
-        self.max_film = adapter.max_binding_bytes;
-    }
-
-    /// How a picture of this integrator is developed. A background of the command line is put in here too,
-    /// which is how the command line does it: else pictures would differ in the last bits.
-    pub fn tone_of(&self, integrator: Integrator) -> Tone {
-        let flag = self.flags.camera.background.map(Background::Color);
-        let said = flag.filter(|flag| self.scene().is_some_and(|scene| scene.background == *flag));
-        let background = self.look.background.as_ref().or(said.as_ref());
-        Tone {
-            background: background.and_then(Background::ends),
-            ..self.look.tone_of(integrator)
-        }
     }
 
     /// The size of the picture, in pixels.

@@ -61,7 +61,6 @@ impl Viewer {
         context.egui_ctx.set_fonts(fonts());
         let state = context.wgpu_render_state.clone();
         let ctx = context.egui_ctx.clone();
-        session.borrow_mut().set_device(gpu.adapter());
         let wanted = Wanted {
             orders: Orders::default(),
             patience: patience(&gpu),

@@ -3,10 +3,10 @@
 mod curve;
 
 use super::Texts;
-use super::build::named_material;
 use super::cameras::{MAX_RADIUS, MAX_RATIO};
 use super::file::{AnimationTable, PropertyName, SceneFile};
 use super::lights::NamedLight;
+use super::materials;
 use super::nodes::Nodes;
 use crate::import::error::ImportError;
 use crate::import::notes::Notes;
@@ -297,7 +297,7 @@ impl<'a> Reader<'a> {
         name: &Spanned<String>,
     ) -> Result<Vec<Target>, ImportError> {
         let text = name.get_ref().as_str();
-        let index = named_material(self.found.materials, text, name.span(), self.texts)?;
+        let index = materials::named(self.found.materials, text, name.span(), self.texts)?;
         let property = self.property(table, "material", OF_MATERIALS)?;
         let mut targets = vec![Target::Material(index, property)];
         // What a material without an own ambient colour shows is its diffuse one, always.

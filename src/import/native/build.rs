@@ -1,21 +1,24 @@
 //! From the tables of a native scene to a [`Scene`]: names are looked up, objects placed, files
 //! read, and everything checked that takes more than one value to see.
 
+mod surfaces;
+
 use super::file::{MaterialRef, OutputTable, SceneFile, in_order};
 use super::nodes::{Nodes, Place};
 use super::objects::{Object, Objects};
-use super::surfaces::{MeshKey, MeshPlace, PlacedMesh, Triangles};
 use super::textures::Textures;
+use super::transforms::{chain, is_invertible};
 use super::{Texts, animation, cameras, lights, materials};
 use crate::import::error::ImportError;
 use crate::import::notes::Notes;
 use crate::import::number::in_range;
 use crate::import::paths::Files;
-use crate::import::{stage, suggest};
+use crate::import::stage;
 use crate::scene::{Material, OutputDefaults, Scene, Shutter};
-use glam::{DAffine3, DMat3, DVec3};
+use glam::DAffine3;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
+use surfaces::{MeshKey, MeshPlace, PlacedMesh, Triangles};
 use toml::Spanned;
 
 /// The scene that `file` describes.
@@ -60,9 +63,9 @@ pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Sce
     Ok(scene)
 }
 
-pub(super) struct Builder<'a> {
+struct Builder<'a> {
     pub texts: &'a Texts<'a>,
-    pub files: &'a Files,
+    pub files: &'a Files<'a>,
     objects: &'a Objects<'a>,
     pub nodes: Nodes<'a>,
     /// Still without its textures, pictures, background and nodes.
@@ -90,7 +93,7 @@ impl<'a> Builder<'a> {
         file: &'a SceneFile,
         objects: &'a Objects<'a>,
         texts: &'a Texts<'a>,
-        files: &'a Files,
+        files: &'a Files<'a>,
     ) -> Result<Self, ImportError> {
         let mut textures = Textures::new(file, texts, files)?;
         let in_file = in_order(&file.materials);
@@ -228,24 +231,8 @@ impl<'a> Builder<'a> {
 
     /// The material of this name.
     pub fn named(&self, name: &str, span: Range<usize>) -> Result<usize, ImportError> {
-        named_material(&self.names, name, span, self.texts)
+        materials::named(&self.names, name, span, self.texts)
     }
-}
-
-/// The index of the material of this name.
-pub(super) fn named_material(
-    names: &HashMap<String, usize>,
-    name: &str,
-    span: Range<usize>,
-    texts: &Texts,
-) -> Result<usize, ImportError> {
-    names.get(name).copied().ok_or_else(|| {
-        let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
-        known.sort_unstable();
-        let why = suggest::unknown("material", name, known);
-        let todo = "Add it under [materials], or name one that is there";
-        texts.malformed(span, why, todo)
-    })
 }
 
 fn output(table: &OutputTable) -> OutputDefaults {
@@ -267,42 +254,4 @@ fn output(table: &OutputTable) -> OutputDefaults {
         duration: table.duration.map(|duration| duration.0),
         shutter: Shutter { open, close },
     }
-}
-
-/// What `outer` makes of what `inner` makes, with all digits, signs of zeros too, where one of them
-/// changes nothing.
-pub(super) fn chain(outer: DAffine3, inner: DAffine3) -> DAffine3 {
-    let bits = |affine: DAffine3| affine.to_cols_array().map(f64::to_bits);
-    if bits(outer) == bits(DAffine3::IDENTITY) {
-        inner
-    } else if inner == DAffine3::IDENTITY {
-        outer
-    } else if outer == DAffine3::IDENTITY {
-        inner
-    } else {
-        outer * inner
-    }
-}
-
-/// What normals are multiplied by where points are by `transform`: the inverse transpose, up to a
-/// positive factor, without the loss of a division by a small determinant.
-pub(super) fn normal_matrix(transform: DAffine3) -> DMat3 {
-    let [x, y, z] = [
-        transform.matrix3.x_axis,
-        transform.matrix3.y_axis,
-        transform.matrix3.z_axis,
-    ];
-    let sign = x.cross(y).dot(z).signum();
-    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
-}
-
-/// Whether an inverse of `matrix` means anything: its axes are in range and far from one plane.
-pub(super) fn is_invertible(matrix: DMat3) -> bool {
-    let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
-    let is_good = |axis: &DVec3| {
-        let length = axis.length();
-        length >= f64::from(f32::MIN_POSITIVE) && in_range(axis.abs().max_element())
-    };
-    let [x, y, z] = axes.map(DVec3::normalize_or_zero);
-    axes.iter().all(is_good) && x.cross(y).dot(z).abs() > 1e-12
 }

@@ -1,10 +1,14 @@
 //! The materials of a native scene.
 
+use super::Texts;
 use super::file::{MaterialTable, OpticsTable, RefractTable};
 use super::textures::Textures;
 use crate::import::error::ImportError;
+use crate::import::suggest;
 use crate::scene::{self, Fresnel, Material};
 use glam::Vec3;
+use std::collections::HashMap;
+use std::ops::Range;
 use toml::Spanned;
 
 /// The material that `table` describes.
@@ -120,4 +124,20 @@ fn check(
         return Ok(());
     };
     Err(textures.refuse(refract.span(), why, todo))
+}
+
+/// The index of the material of this name.
+pub(super) fn named(
+    names: &HashMap<String, usize>,
+    name: &str,
+    span: Range<usize>,
+    texts: &Texts,
+) -> Result<usize, ImportError> {
+    names.get(name).copied().ok_or_else(|| {
+        let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
+        known.sort_unstable();
+        let why = suggest::unknown("material", name, known);
+        let todo = "Add it under [materials], or name one that is there";
+        texts.malformed(span, why, todo)
+    })
 }

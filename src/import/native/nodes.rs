@@ -2,9 +2,9 @@
 //! looked at, or carries something.
 
 use super::Texts;
-use super::build::{chain, is_invertible};
 use super::file::{NodeTable, SceneFile, TransformTable};
 use super::objects::{Object, Objects};
+use super::transforms::{chain, check, is_invertible};
 use crate::import::error::ImportError;
 use crate::import::source::quote;
 use crate::import::suggest;
@@ -218,13 +218,4 @@ impl<'a> Nodes<'a> {
     pub fn world_from(&self, node: Option<usize>) -> DAffine3 {
         node.map_or(DAffine3::IDENTITY, |node| self.world_from_node[node])
     }
-}
-
-/// Refuses a transform that says the same twice.
-pub(super) fn check(transform: &Spanned<TransformTable>, texts: &Texts) -> Result<(), ImportError> {
-    if !transform.get_ref().is_double() {
-        return Ok(());
-    }
-    let why = "`matrix` takes the place of all others, and `rotation` that of `rotate_deg`";
-    Err(texts.malformed(transform.span(), why.to_owned(), "Leave out the others"))
 }

@@ -4,9 +4,9 @@
 
 use super::Texts;
 use super::file::{LookAt, ObjectTable, PropertyName, SceneFile};
-use super::nodes;
 use super::repeat::Repeat;
 use super::shapes;
+use super::transforms;
 use crate::import::error::ImportError;
 use crate::import::paths::Files;
 use crate::import::source::quote;
@@ -353,7 +353,7 @@ fn check(object: &Spanned<ObjectTable>, texts: &Texts) -> Result<(), ImportError
         return Err(texts.malformed(object.span(), why, todo));
     }
     if let Some(transform) = &table.transform {
-        nodes::check(transform, texts)?;
+        transforms::check(transform, texts)?;
     }
     if let (Some(material), Some(_)) = (&table.material, &table.group) {
         let why = "a group has no material".to_owned();

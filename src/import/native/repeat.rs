@@ -4,7 +4,7 @@ use super::Texts;
 use super::file::{GridTable, PointsTable, RepeatTable, RingTable, ScatterTable};
 use crate::import::error::ImportError;
 use crate::import::paths::Files;
-use crate::import::ply;
+use crate::import::{MAX_GEOMETRY_BYTES, ply};
 use crate::scene::Transform;
 use glam::{DAffine3, DQuat, DVec3};
 use std::f64::consts::TAU;
@@ -91,7 +91,8 @@ fn points<'a>(
             texts.malformed(points.file.span(), why, todo)
         })
     })?;
-    ply::places(&path).map(Repeat::Points)
+    let bytes = files.read(&path, MAX_GEOMETRY_BYTES)?;
+    ply::places(&path, &bytes).map(Repeat::Points)
 }
 
 /// x runs fastest, then y.

@@ -1,4 +1,4 @@
-//! `--set KEY=VALUE`: one value of a native scene replaced before it is checked.
+//! Overrides: `KEY=VALUE` replaces one value of a native scene before it is checked.
 
 use crate::import::error::ImportError;
 use crate::import::source::{Source, quote};
@@ -34,11 +34,8 @@ impl Override {
     }
 
     fn parse(text: &str, start: usize) -> Result<Self, ImportError> {
-        let source = Source::new(
-            "override refused",
-            Path::new("--set"),
-            text.as_bytes().to_vec(),
-        )?;
+        let bytes = text.as_bytes().to_vec();
+        let source = Source::new("override refused", Path::new(""), bytes)?;
         let todo = "Write KEY=VALUE, such as camera.fov_y_deg=30";
         let Some((key, value)) = text.split_once('=') else {
             let why = format!("{} has no `=`", quote(text.as_bytes()));

@@ -1,11 +1,11 @@
 //! The analytic surfaces of a native scene.
 
 use super::Texts;
-use super::build::{chain, normal_matrix};
 use super::file::{
     BoxTable, ConeTable, CylinderTable, DiscTable, EllipsoidTable, ObjectTable, PlaneTable,
     RectangleTable, SphereTable, TorusTable,
 };
+use super::transforms::{chain, normal_matrix};
 use crate::import::error::ImportError;
 use crate::scene::{Form, Geometry};
 use glam::{DAffine3, DMat3, DVec3};

@@ -21,7 +21,7 @@ const LARGEST_TEXEL: f32 = 65504.0;
 /// All textures of a scene while it is read.
 pub(super) struct Textures<'a> {
     texts: &'a Texts<'a>,
-    files: &'a Files,
+    files: &'a Files<'a>,
     names: BTreeMap<String, usize>,
     pub textures: Vec<Texture>,
     pub pictures: Pictures,
@@ -32,7 +32,7 @@ impl<'a> Textures<'a> {
     pub fn new(
         file: &SceneFile,
         texts: &'a Texts<'a>,
-        files: &'a Files,
+        files: &'a Files<'a>,
     ) -> Result<Self, ImportError> {
         let mut textures = Self {
             texts,

@@ -4,7 +4,7 @@ use super::lines::Line;
 use super::{Reader, mtl};
 use crate::import::error::ImportError;
 use crate::import::notes::Notes;
-use crate::import::paths::{self, Refusal};
+use crate::import::paths::Refusal;
 use crate::import::source::{Source, Token, quote};
 use crate::scene::{Material, Pattern, Space, Texture};
 use glam::DAffine3;
@@ -54,7 +54,7 @@ impl<'s> Reader<'s> {
         if self.libraries.iter().any(|known| known.path == path) {
             return Ok(true);
         }
-        let bytes = paths::read(&path, MAX_MTL_BYTES)?;
+        let bytes = self.files.read(&path, MAX_MTL_BYTES)?;
         // Exporters do write empty libraries.
         if !bytes.is_empty() {
             let source = Source::new("bad material file", &path, bytes)?;

@@ -46,17 +46,17 @@ fn names_that_lead_out_are_refused() {
     };
     let lines: Vec<_> = names.iter().map(message).collect();
     assert_snapshot!(lines.join("\n"), @r"
-mesh file refused (a.toml:2:17): `../m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
-mesh file refused (a.toml:2:17): `a/../../m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
-mesh file refused (a.toml:2:17): `..\m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
-mesh file refused (a.toml:2:17): `/etc/passwd` points outside the scene folder. Use --allow-dir DIR to permit.
-mesh file refused (a.toml:2:17): `/proc/self/mem` points outside the scene folder. Use --allow-dir DIR to permit.
-mesh file refused (a.toml:2:17): `/dev/zero` points outside the scene folder. Use --allow-dir DIR to permit.
-mesh file refused (a.toml:2:17): `C:\m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
-mesh file refused (a.toml:2:17): `c:m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
-mesh file refused (a.toml:2:17): `\\host\share\m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
-mesh file refused (a.toml:2:17): `file:///etc/passwd` points outside the scene folder. Use --allow-dir DIR to permit.
-mesh file refused (a.toml:2:17): `http://example.org/m.obj` points outside the scene folder. Use --allow-dir DIR to permit.
+mesh file refused (a.toml:2:17): `../m.obj` points outside the scene folder. Name a file in it, or permit the other folder.
+mesh file refused (a.toml:2:17): `a/../../m.obj` points outside the scene folder. Name a file in it, or permit the other folder.
+mesh file refused (a.toml:2:17): `..\m.obj` points outside the scene folder. Name a file in it, or permit the other folder.
+mesh file refused (a.toml:2:17): `/etc/passwd` points outside the scene folder. Name a file in it, or permit the other folder.
+mesh file refused (a.toml:2:17): `/proc/self/mem` points outside the scene folder. Name a file in it, or permit the other folder.
+mesh file refused (a.toml:2:17): `/dev/zero` points outside the scene folder. Name a file in it, or permit the other folder.
+mesh file refused (a.toml:2:17): `C:\m.obj` points outside the scene folder. Name a file in it, or permit the other folder.
+mesh file refused (a.toml:2:17): `c:m.obj` points outside the scene folder. Name a file in it, or permit the other folder.
+mesh file refused (a.toml:2:17): `\\host\share\m.obj` points outside the scene folder. Name a file in it, or permit the other folder.
+mesh file refused (a.toml:2:17): `file:///etc/passwd` points outside the scene folder. Name a file in it, or permit the other folder.
+mesh file refused (a.toml:2:17): `http://example.org/m.obj` points outside the scene folder. Name a file in it, or permit the other folder.
 mesh file refused (a.toml:2:17): `%2e%2e/m.obj` does not exist. Check the name and the folder.
 mesh file refused (a.toml:2:17): `%FF.obj` does not exist. Check the name and the folder.
 mesh file refused (a.toml:2:17): `a\0b.obj` is not a file name. Name a plain file in the scene folder.
@@ -83,10 +83,10 @@ fn material_files_are_confined_too() {
     ];
     let texts = names.map(|name| format!("mtllib {name}\n"));
     assert_snapshot!(messages("a.obj", &texts), @r"
-material file refused (a.obj:1:8): `../a.mtl` points outside the scene folder. Use --allow-dir DIR to permit.
-material file refused (a.obj:1:8): `/etc/passwd` points outside the scene folder. Use --allow-dir DIR to permit.
-material file refused (a.obj:1:8): `C:\a.mtl` points outside the scene folder. Use --allow-dir DIR to permit.
-material file refused (a.obj:1:8): `http://example.org/a.mtl` points outside the scene folder. Use --allow-dir DIR to permit.
+material file refused (a.obj:1:8): `../a.mtl` points outside the scene folder. Name a file in it, or permit the other folder.
+material file refused (a.obj:1:8): `/etc/passwd` points outside the scene folder. Name a file in it, or permit the other folder.
+material file refused (a.obj:1:8): `C:\a.mtl` points outside the scene folder. Name a file in it, or permit the other folder.
+material file refused (a.obj:1:8): `http://example.org/a.mtl` points outside the scene folder. Name a file in it, or permit the other folder.
 material file refused (a.obj:1:8): `.` is not a plain file. Name a plain file in the scene folder.
 ");
 }
@@ -98,7 +98,9 @@ fn allowed_folders_are_open() {
     let absolute = naming(&dir.join("m.obj").display().to_string());
     let scene = folder(&[("a.toml", absolute.as_bytes())]);
     let refused = message_in(&scene, "a.toml", &Options::default());
-    assert!(refused.ends_with("points outside the scene folder. Use --allow-dir DIR to permit."));
+    assert!(refused.ends_with(
+        "points outside the scene folder. Name a file in it, or permit the other folder."
+    ));
     let options = Options {
         allow_dirs: vec![dir],
         ..Options::default()
@@ -110,7 +112,7 @@ fn allowed_folders_are_open() {
         allow_dirs: vec!["no/such/folder".into()],
         ..Options::default()
     };
-    assert_snapshot!(message_in(&scene, "a.toml", &options), @"cannot use --allow-dir (no/such/folder): no such file or folder. Check that the folder exists.");
+    assert_snapshot!(message_in(&scene, "a.toml", &options), @"cannot use the permitted folder (no/such/folder): no such file or folder. Check that the folder exists.");
 }
 
 #[cfg(unix)]
@@ -131,7 +133,7 @@ fn links_out_and_pipes_are_refused() {
         .status();
     assert!(made.expect("mkfifo runs").success());
     let message = |name| message_in(&scene, name, &Options::default());
-    assert_snapshot!(message("a.toml"), @"mesh file refused (a.toml:2:17): `link.obj` points outside the scene folder. Use --allow-dir DIR to permit.");
+    assert_snapshot!(message("a.toml"), @"mesh file refused (a.toml:2:17): `link.obj` points outside the scene folder. Name a file in it, or permit the other folder.");
     assert_snapshot!(message("b.toml"), @"mesh file refused (b.toml:2:17): `pipe.obj` is not a plain file. Name a plain file in the scene folder.");
     assert_snapshot!(message("c.toml"), @"no error");
     assert_snapshot!(message("pipe.obj"), @"cannot read the file (pipe.obj): it is not a plain file. Name a scene file.");

@@ -327,23 +327,23 @@ fn every_wrong_override_has_its_message() {
     };
     let lines: Vec<_> = overrides.iter().map(message).collect();
     assert_snapshot!(lines.join("\n"), @r#"
-override refused (--set): the file is empty. Check that it was written completely.
-override refused (--set:1:1): `camera` has no `=`. Write KEY=VALUE, such as camera.fov_y_deg=30.
-override refused (--set:1:1): `` is not a key. Write KEY=VALUE, such as camera.fov_y_deg=30.
-override refused (--set:1:1): `camera..x` is not a key. Write KEY=VALUE, such as camera.fov_y_deg=30.
-override refused (--set:1:18): `` is not a TOML value. Write it as in a scene file, strings in quotes.
-override refused (--set:1:18): invalid type: string "wide", expected a number. See `glimray schema` for what is allowed.
-override refused (--set:1:18): `[` is not a TOML value. Write it as in a scene file, strings in quotes.
-override refused (--set:1:18): `1\nambient=[1,1,1]` is not a TOML value. Write it as in a scene file, strings in quotes.
-override refused (--set:1:20): invalid type: map, expected a number. See `glimray schema` for what is allowed.
-override refused (--set:1:1): unknown key `fov`. Known here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `default`, `lens`.
-override refused (--set:1:9): invalid type: integer `3`, expected a sequence. See `glimray schema` for what is allowed.
-override refused (--set:1:1): `objects` is a list. See the scene for its keys.
-override refused (--set:1:1): there is no `objects.1`: the list has 1, counted from 0. See the scene for its keys.
-override refused (--set:1:1): there is no `objects.first`: the list has 1, counted from 0. See the scene for its keys.
-override refused (--set:1:25): -3 is not greater than 0. See `glimray schema` for what is allowed.
-override refused (--set:1:20): unknown material `gold`. Add it under [materials], or name one that is there.
-override refused (--set:1:16): `look_at` is the same point as `look_from`. Move one of them.
+override refused (override): the file is empty. Check that it was written completely.
+override refused (override:1:1): `camera` has no `=`. Write KEY=VALUE, such as camera.fov_y_deg=30.
+override refused (override:1:1): `` is not a key. Write KEY=VALUE, such as camera.fov_y_deg=30.
+override refused (override:1:1): `camera..x` is not a key. Write KEY=VALUE, such as camera.fov_y_deg=30.
+override refused (override:1:18): `` is not a TOML value. Write it as in a scene file, strings in quotes.
+override refused (override:1:18): invalid type: string "wide", expected a number. See `glimray schema` for what is allowed.
+override refused (override:1:18): `[` is not a TOML value. Write it as in a scene file, strings in quotes.
+override refused (override:1:18): `1\nambient=[1,1,1]` is not a TOML value. Write it as in a scene file, strings in quotes.
+override refused (override:1:20): invalid type: map, expected a number. See `glimray schema` for what is allowed.
+override refused (override:1:1): unknown key `fov`. Known here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `default`, `lens`.
+override refused (override:1:9): invalid type: integer `3`, expected a sequence. See `glimray schema` for what is allowed.
+override refused (override:1:1): `objects` is a list. See the scene for its keys.
+override refused (override:1:1): there is no `objects.1`: the list has 1, counted from 0. See the scene for its keys.
+override refused (override:1:1): there is no `objects.first`: the list has 1, counted from 0. See the scene for its keys.
+override refused (override:1:25): -3 is not greater than 0. See `glimray schema` for what is allowed.
+override refused (override:1:20): unknown material `gold`. Add it under [materials], or name one that is there.
+override refused (override:1:16): `look_at` is the same point as `look_from`. Move one of them.
 "#);
 
     let folder = folder(&[("a.scene", b"0 amb: 0 0 0")]);
@@ -351,7 +351,7 @@ override refused (--set:1:16): `look_at` is the same point as `look_from`. Move 
         overrides: vec!["a=1".to_owned()],
         ..Options::default()
     };
-    assert_snapshot!(message_in(&folder, "a.scene", &options), @"override refused (a.scene): only native scenes (.toml) have keys to set. Leave out --set.");
+    assert_snapshot!(message_in(&folder, "a.scene", &options), @"override refused (a.scene): only native scenes (.toml) have keys to set. Leave out the overrides.");
 }
 
 #[test]

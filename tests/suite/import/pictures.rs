@@ -223,10 +223,10 @@ picture refused (a.toml:2:26): `cut.exr` is broken: Format error decoding OpenEx
 picture refused (a.toml:2:26): `a.gif` is a picture of a kind that is not read. Save it as PNG, JPEG, HDR or EXR.
 picture refused (a.toml:2:26): `gone.png` does not exist. Check the name and the folder.
 picture refused (a.toml:2:26): `sub` is not a plain file. Name a plain file in the scene folder.
-picture refused (a.toml:2:26): `../a.png` points outside the scene folder. Use --allow-dir DIR to permit.
-picture refused (a.toml:2:26): `/etc/passwd` points outside the scene folder. Use --allow-dir DIR to permit.
+picture refused (a.toml:2:26): `../a.png` points outside the scene folder. Name a file in it, or permit the other folder.
+picture refused (a.toml:2:26): `/etc/passwd` points outside the scene folder. Name a file in it, or permit the other folder.
 picture refused (a.toml:2:26): `` is not a file name. Name a plain file in the scene folder.
-picture refused (a.toml:2:26): `http://a.org/a.png` points outside the scene folder. Use --allow-dir DIR to permit.
+picture refused (a.toml:2:26): `http://a.org/a.png` points outside the scene folder. Name a file in it, or permit the other folder.
 ");
 }
 

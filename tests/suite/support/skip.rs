@@ -7,6 +7,8 @@ use std::io::Write;
 /// What a test may need, and how `GLIMRAY_REQUIRE` names it: `GLIMRAY_REQUIRE=gl,xvfb`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
+    /// Built examples, which `cargo test` without `--test` makes.
+    Examples,
     /// FFmpeg's programs, `ffmpeg` and `ffprobe`.
     Ffmpeg,
     /// An adapter of wgpu's OpenGL backend.
@@ -21,12 +23,15 @@ pub enum Need {
     Special,
     /// The scenes of the Standard Procedural Database.
     Spd,
+    /// A compiler for WebAssembly. No test needs it: `make wasm` does.
+    Wasm,
     /// An X server without a screen, and xdotool to move its mouse.
     Xvfb,
 }
 
 impl Need {
-    const ALL: [Self; 8] = [
+    const ALL: [Self; 10] = [
+        Self::Examples,
         Self::Ffmpeg,
         Self::Gl,
         Self::LoopLimit,
@@ -34,11 +39,13 @@ impl Need {
         Self::Mounts,
         Self::Special,
         Self::Spd,
+        Self::Wasm,
         Self::Xvfb,
     ];
 
     fn name(self) -> &'static str {
         match self {
+            Self::Examples => "examples",
             Self::Ffmpeg => "ffmpeg",
             Self::Gl => "gl",
             Self::LoopLimit => "loop-limit",
@@ -46,6 +53,7 @@ impl Need {
             Self::Mounts => "mounts",
             Self::Special => "special",
             Self::Spd => "spd",
+            Self::Wasm => "wasm",
             Self::Xvfb => "xvfb",
         }
     }

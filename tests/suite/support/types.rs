@@ -62,7 +62,7 @@ pub struct Phong {
 pub struct Neighbours {
     pub first: u32,
     pub second: u32,
-    pub share: f32,
+    pub weight: f32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,7 +76,7 @@ pub struct Incident {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {
     pub key: u32,
-    pub share: f32,
+    pub fraction: f32,
 }
 
 /// See `lib/motion.wesl`. Matrices are lists of columns; only ever a result.
@@ -96,7 +96,7 @@ pub struct FormPoint {
 }
 
 shader_struct!(FormPoint = "package::lib::form::FormPoint" { p: [f32; 3], n: [f32; 3], uv: [f32; 2], });
-shader_struct!(Moment = "package::lib::motion::Moment" { key: u32, share: f32, });
+shader_struct!(Moment = "package::lib::motion::Moment" { key: u32, fraction: f32, });
 shader_struct!(Space = "package::lib::motion::Space" {
     translation: [f32; 3],
     linear: [[f32; 3]; 3],
@@ -145,7 +145,7 @@ shader_struct!(Incident = "package::types::Incident" {
 shader_struct!(Neighbours = "package::lib::picture::Neighbours" {
     first: u32,
     second: u32,
-    share: f32,
+    weight: f32,
 });
 shader_struct!(PackedCamera = "package::types::PackedCamera" {
     origin: [f32; 3],
@@ -191,10 +191,8 @@ shader_struct!(PackedTone = "package::types::PackedTone" {
     exposure_scale: f32,
     curve: u32,
     transfer: u32,
-    film_rows: u32,
-    background: [f32; 3],
-    has_background: u32,
-    background_top: [f32; 3],
     view: u32,
-    range: [f32; 4],
+    range: [f32; 2],
+    has_range: u32,
+    film_rows: u32,
 });

@@ -11,8 +11,7 @@ pub fn view(
     frames: &[Frame],
     order: &Order,
 ) -> Result<PackedView, pack::PackError> {
-    let background = order.baked_background();
-    if order.camera.is_none() && background.is_none() {
+    if order.camera.is_none() && order.background.is_none() {
         return packed.shot_from(previous, frames);
     }
     let mut frames = frames.to_vec();
@@ -20,7 +19,7 @@ pub fn view(
         if let Some(camera) = &order.camera {
             frame.camera = camera.clone();
         }
-        if let Some(background) = background {
+        if let Some(background) = &order.background {
             frame.background = background.clone();
         }
     }

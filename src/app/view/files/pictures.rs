@@ -5,6 +5,7 @@ use super::super::render_thread::{Place, Studio};
 use super::super::session::Session;
 use super::dialogs::{PICTURES, Reply, Request};
 use super::{NO_DIALOG, screenshot, short};
+use crate::app::advice;
 use crate::app::inputs::Inputs;
 use crate::app::job;
 use crate::image::Image;
@@ -240,10 +241,7 @@ fn ask(session: &mut Session, target: Target, waits: Option<u32>) {
     let Some(scene) = session.scene() else {
         return;
     };
-    let linear = Tone {
-        background: session.tone_of(integrator).background,
-        ..job::tone(&scene.output, &session.flags.picture, integrator, true)
-    };
+    let linear = job::tone(&scene.output, &session.flags.picture, integrator, true);
     session.files.pending.asked += 1;
     session.ask(move |studio| take(studio, target, waits, linear));
 }
@@ -269,7 +267,7 @@ fn take(studio: &mut Studio, target: Target, waits: Option<u32>, linear: Tone) -
             taken.samples = samples;
             taken.image = Ok(Some(image));
         }
-        Err(error) => taken.image = Err(error.to_string()),
+        Err(error) => taken.image = Err(advice::render(&error)),
     }
     Answer::Picture(Box::new(taken))
 }

@@ -8,6 +8,7 @@ use super::super::render_thread::Studio;
 use super::super::session::Session;
 use super::outside;
 use super::rows::{Filter, RayId};
+use crate::app::advice;
 use glam::{DVec3, dvec2};
 use std::collections::HashMap;
 
@@ -112,7 +113,7 @@ fn parts(
     let pixels: Vec<_> = places.iter().map(|(.., pixel, _)| (*pixel, 0..1)).collect();
     let trees = renderer
         .explain_pixels(&pixels)
-        .map_err(|error| error.to_string())?;
+        .map_err(|error| advice::render(&error))?;
     let mut parts: Parts = (lines.iter())
         .map(|(id, _)| (*id, vec![false; PARTS]))
         .collect();

@@ -77,7 +77,7 @@ pub fn order(session: &Session) -> Option<Order> {
         camera: Some(rig.camera()),
         background: session.look.background.clone(),
         shot: (session.playback.time, session.playback.time),
-        settings: session.opened(Settings {
+        settings: Settings {
             size,
             crop: None,
             samples: SAMPLES,
@@ -85,8 +85,8 @@ pub fn order(session: &Session) -> Option<Order> {
             integrator,
             max_depth: settings.max_depth.min(2),
             ..settings.clone()
-        }),
-        tone: session.tone_of(integrator),
+        },
+        tone: session.look.tone_of(integrator),
     })
 }
 

@@ -1,15 +1,16 @@
 //! The surfaces of a native scene, each in the space of its node: analytic ones, single triangles and
 //! the meshes of files.
 
-use super::build::{Builder, chain, normal_matrix};
-use super::file::{MeshOrName, MeshTable, ObjectTable, TriangleTable};
-use super::nodes::Place;
-use super::shapes;
-use super::values::Vector;
+use super::Builder;
 use crate::import::error::ImportError;
+use crate::import::native::file::{MeshOrName, MeshTable, ObjectTable, TriangleTable};
+use crate::import::native::nodes::Place;
+use crate::import::native::shapes;
+use crate::import::native::transforms::{chain, normal_matrix};
+use crate::import::native::values::Vector;
 use crate::import::notes::{self, Notes};
 use crate::import::source::quote;
-use crate::import::{obj, ply, suggest};
+use crate::import::{MAX_GEOMETRY_BYTES, obj, ply, suggest};
 use crate::scene::{self, Geometry, Instance, Mesh, Repairs, Shape, Space};
 use glam::{DAffine3, DVec3, Vec2};
 use std::collections::HashMap;
@@ -252,7 +253,8 @@ impl Builder<'_> {
         name: &str,
         materials: &[usize],
     ) -> Result<PlacedMesh, ImportError> {
-        let (mut mesh, offset) = ply::mesh(path, materials.len())?;
+        let bytes = self.files.read(path, MAX_GEOMETRY_BYTES)?;
+        let (mut mesh, offset) = ply::mesh(path, &bytes, materials.len())?;
         for material in &mut mesh.materials {
             *material = materials[*material as usize] as u32;
         }

@@ -1,0 +1,70 @@
+//! The library's errors in the program's words: which flag or command changes what went wrong. The
+//! library knows neither.
+
+use crate::gpu::GpuError;
+use crate::import::ImportError;
+use crate::render::{LongPath, RenderError};
+use std::path::PathBuf;
+
+/// The message of an error of the device, with what to do about it.
+pub fn gpu(error: &GpuError) -> String {
+    match error {
+        GpuError::NoBackend { backend, why } => format!(
+            "no usable GPU (--backend {backend}): {why}. Leave out --backend, or choose another one."
+        ),
+        GpuError::NoSuchAdapter { wanted, present } => format!(
+            "no such adapter (--adapter {wanted}): there are {present}. Name one of them, or part of \
+             its name."
+        ),
+        GpuError::NoDevice { .. } => format!("{error} Try another with --adapter."),
+        GpuError::KeptFailing { .. } => {
+            format!("{error} Try another adapter with --adapter, or update the driver.")
+        }
+        GpuError::Limit { .. } => format!(
+            "{error} Use a smaller scene or picture, or an adapter with higher limits (see `glimray \
+             doctor`)."
+        ),
+        GpuError::Budget { .. } => format!(
+            "{error} Use a smaller scene or picture, or raise --memory-limit if memory allows."
+        ),
+        GpuError::Internal { .. } => {
+            format!("{error} Please report it with the output of `glimray doctor`.")
+        }
+        GpuError::NoAdapter { .. } | GpuError::Lost | GpuError::OutOfMemory { .. } => {
+            error.to_string()
+        }
+    }
+}
+
+/// The message of an error of a rendering, with what to do about it.
+pub fn render(error: &RenderError) -> String {
+    let cause = match error {
+        RenderError::Gpu(error) => return gpu(error),
+        RenderError::PathTooLong(cause) => *cause,
+        RenderError::TooManyShadowRays { lights, rays, .. } => LongPath::ShadowRays {
+            lights: *lights,
+            rays: *rays,
+        },
+    };
+    let remedy = match cause {
+        LongPath::BruteForce { .. } => "Leave out --no-bvh.",
+        LongPath::ShadowRays { .. } => {
+            "Use fewer lights, or fewer samples of area lights (--light-samples 0.1) and more --samples."
+        }
+        LongPath::Depth { .. } => "Lower --max-depth, or raise --min-throughput.",
+        LongPath::Crowded => "Remove duplicates of objects and triangles.",
+    };
+    format!("{error} {remedy}")
+}
+
+/// The message of an error of a file, with what to do about it.
+pub fn import(error: &ImportError) -> String {
+    let mut fault = error.fault().clone();
+    if fault.is_in_override() {
+        fault.path = PathBuf::from("--set");
+    }
+    if matches!(error, ImportError::OutsideFolder(_)) {
+        fault.todo = "Use --allow-dir DIR to permit".into();
+    }
+    fault.to_string()
+}

@@ -1,0 +1,55 @@
+//! Arithmetic of transforms, and what all tables that hold one are checked for.
+
+use super::Texts;
+use super::file::TransformTable;
+use crate::import::error::ImportError;
+use crate::import::number::in_range;
+use glam::{DAffine3, DMat3, DVec3};
+use toml::Spanned;
+
+/// Refuses a transform that says the same twice.
+pub(super) fn check(transform: &Spanned<TransformTable>, texts: &Texts) -> Result<(), ImportError> {
+    if !transform.get_ref().is_double() {
+        return Ok(());
+    }
+    let why = "`matrix` takes the place of all others, and `rotation` that of `rotate_deg`";
+    Err(texts.malformed(transform.span(), why.to_owned(), "Leave out the others"))
+}
+
+/// What `outer` makes of what `inner` makes, with all digits, signs of zeros too, where one of them
+/// changes nothing.
+pub(super) fn chain(outer: DAffine3, inner: DAffine3) -> DAffine3 {
+    let bits = |affine: DAffine3| affine.to_cols_array().map(f64::to_bits);
+    if bits(outer) == bits(DAffine3::IDENTITY) {
+        inner
+    } else if inner == DAffine3::IDENTITY {
+        outer
+    } else if outer == DAffine3::IDENTITY {
+        inner
+    } else {
+        outer * inner
+    }
+}
+
+/// What normals are multiplied by where points are by `transform`: the inverse transpose, up to a
+/// positive factor, without the loss of a division by a small determinant.
+pub(super) fn normal_matrix(transform: DAffine3) -> DMat3 {
+    let [x, y, z] = [
+        transform.matrix3.x_axis,
+        transform.matrix3.y_axis,
+        transform.matrix3.z_axis,
+    ];
+    let sign = x.cross(y).dot(z).signum();
+    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
+}
+
+/// Whether an inverse of `matrix` means anything: its axes are in range and far from one plane.
+pub(super) fn is_invertible(matrix: DMat3) -> bool {
+    let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+    let is_good = |axis: &DVec3| {
+        let length = axis.length();
+        length >= f64::from(f32::MIN_POSITIVE) && in_range(axis.abs().max_element())
+    };
+    let [x, y, z] = axes.map(DVec3::normalize_or_zero);
+    axes.iter().all(is_good) && x.cross(y).dot(z).abs() > 1e-12
+}
