@@ -40,7 +40,7 @@ fn render(
         device: &arguments.device,
         log: &arguments.log,
     };
-    picture::run(&job, destination, shot, draft)
+    picture::run(&job, destination, shot, &arguments.part, draft)
 }
 
 /// Reads a scene; `--strict` refuses one of which anything had to be skipped. What the scene names is

@@ -63,7 +63,7 @@ pub enum GpuError {
         /// The most that the adapter can give.
         limit: u64,
     },
-    /// All allocations together would exceed [`crate::render::Settings::memory_limit_bytes`].
+    /// All allocations together would exceed [`crate::render::RenderSettings::memory_limit_bytes`].
     #[error(
         "too big for the memory limit ({what}): {need} bytes needed in all, {limit} allowed. Use a smaller scene or picture, or raise --memory-limit if memory allows."
     )]

@@ -5,7 +5,7 @@ use crate::{
     gpu::{Gpu, GpuError, Ledger, Needs},
     layout::{IMAGE_WIDTH_LOG2, PackedFrame, PackedLight, PackedNode, PackedSlice, PackedTone},
     pack::{PackedScene, PackedView},
-    render::settings::Fetch,
+    render::policy::Fetch,
 };
 use bytemuck::{bytes_of, cast_slice};
 use std::borrow::Cow;

@@ -4,6 +4,7 @@ use crate::support::verdict::{Tolerance, Verdict};
 use glimray::{
     gpu::Kernel,
     layout::{self, PACKED_STRUCTS},
+    render::OVERRIDES,
 };
 use naga::{AddressSpace, ArraySize, ImageClass, Module, StorageAccess, StorageFormat, TypeInner};
 use std::{collections::BTreeSet, fs};
@@ -330,42 +331,6 @@ fn no_kernel_needs_more_storage_buffers_than_webgpu_guarantees() {
     }
     verdict.close();
 }
-
-/// The overrides in the order of their numbers, by which the host names them.
-const OVERRIDES: &[&str] = &[
-    "TRIANGLE_TEST",
-    "HAS_TRIANGLES",
-    "HAS_SHAPES",
-    "HAS_PLANES",
-    "MIXED_MATERIALS",
-    "BRUTE_FORCE",
-    "STRATIFIED",
-    "COUNT_RAYS",
-    "COUNT_STEPS",
-    "HAS_LIGHTS",
-    "VIEW",
-    "SHAPE_KINDS",
-    "HAS_REFLECTION",
-    "HAS_REFRACTION",
-    "HAS_CONTACT",
-    "FILTERED_SHADOWS",
-    "HAS_AREA_LIGHTS",
-    "HAS_LENS",
-    "FILTER",
-    "FILTER_RADIUS",
-    "BACKGROUND",
-    "HAS_TEXTURES",
-    "HAS_EMISSION",
-    "ADAPTIVE",
-    "HAS_INSTANCES",
-    "HAS_MOTION",
-    "CAMERA_MOTION",
-    "LIGHT_MOTION",
-    "ORTHOGRAPHIC",
-    "HAS_UVS",
-    "FILM_ROWS",
-    "SQUARES_ROW",
-];
 
 #[test]
 fn overrides_have_the_numbers_that_the_host_uses() {

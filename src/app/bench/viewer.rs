@@ -4,11 +4,12 @@
 use crate::app::cli::BenchArgs;
 use crate::app::demo;
 use crate::app::exit::AppError;
+use crate::app::job;
 use crate::app::view::navigation::Rig;
 use crate::app::view::order::Order;
 use crate::app::view::render_thread::{Fault, Orders, Place, RenderThread};
 use crate::gpu::{Gpu, GpuError};
-use crate::render::{Settings, Tone};
+use crate::render::{RenderSettings, Tone};
 use serde::Serialize;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
@@ -97,11 +98,11 @@ impl Stage {
         let rig = Rig::new(&scene.frame(0.0).camera, scene.bounds());
         let mut orders = Orders::default();
         orders.pictures[Place::Main as usize] = Some(Order {
-            settings: Settings {
+            settings: RenderSettings {
                 size: SIZE,
-                memory_limit_bytes: arguments.device.memory_limit_bytes(),
-                ..Settings::from(&scene.output)
+                ..RenderSettings::from(&scene.output)
             },
+            policy: job::policy(&arguments.device, false),
             scene: Arc::new(scene),
             restarts: 0,
             camera: None,

@@ -8,7 +8,7 @@ use super::canvas::{Canvas, Shown};
 use super::order::Order;
 use crate::gpu::{Gpu, GpuError};
 use crate::image::Image;
-use crate::render::{RenderError, Renderer, Settings, Tone};
+use crate::render::{RenderError, RenderSettings, Renderer, Tone};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -69,7 +69,7 @@ impl Studio<'_> {
     }
 
     /// The settings of the picture in full.
-    pub fn settings(&self) -> &Settings {
+    pub fn settings(&self) -> &RenderSettings {
         &self.order.settings
     }
 }

@@ -1,0 +1,142 @@
+//! What of the scene, the frame and the settings is compiled into a kernel: the overrides of `bindings.wesl`.
+
+use super::{device::Task, layers, settings::TriangleTest};
+use crate::{
+    layout::{
+        FILTER_BLACKMAN_HARRIS, FILTER_BOX, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_TENT,
+        TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT,
+    },
+    scene::{Antialias, Filter},
+};
+
+/// Values for the `override`s of `bindings.wesl`, by their names.
+pub type Overrides = Vec<(&'static str, f64)>;
+
+/// All of them, in the order of their ids.
+pub const OVERRIDES: [&str; 32] = [
+    "TRIANGLE_TEST",
+    "HAS_TRIANGLES",
+    "HAS_SHAPES",
+    "HAS_PLANES",
+    "MIXED_MATERIALS",
+    "BRUTE_FORCE",
+    "STRATIFIED",
+    "COUNT_RAYS",
+    "COUNT_STEPS",
+    "HAS_LIGHTS",
+    "VIEW",
+    "SHAPE_KINDS",
+    "HAS_REFLECTION",
+    "HAS_REFRACTION",
+    "HAS_CONTACT",
+    "FILTERED_SHADOWS",
+    "HAS_AREA_LIGHTS",
+    "HAS_LENS",
+    "FILTER",
+    "FILTER_RADIUS",
+    "BACKGROUND",
+    "HAS_TEXTURES",
+    "HAS_EMISSION",
+    "ADAPTIVE",
+    "HAS_INSTANCES",
+    "HAS_MOTION",
+    "CAMERA_MOTION",
+    "LIGHT_MOTION",
+    "ORTHOGRAPHIC",
+    "HAS_UVS",
+    "FILM_ROWS",
+    "SQUARES_ROW",
+];
+
+/// The same by their ids, as pipelines want them.
+pub fn by_id(overrides: &Overrides) -> Vec<(String, f64)> {
+    let id = |name: &str| OVERRIDES.iter().position(|known| *known == name);
+    let of = |&(name, value): &(&str, f64)| Some((id(name)?.to_string(), value));
+    overrides.iter().filter_map(of).collect()
+}
+
+/// Features that the scene, the frame and the settings need; all others are compiled out.
+pub fn of(task: Task) -> Overrides {
+    let Task {
+        scene,
+        view,
+        settings,
+        policy,
+        ..
+    } = task;
+    let integrator = settings.integrator.entry();
+    let triangle_test = match settings.triangle_test {
+        TriangleTest::Plane => TRIANGLE_TEST_PLANE,
+        TriangleTest::MollerTrumbore => TRIANGLE_TEST_MOLLER_TRUMBORE,
+        TriangleTest::Watertight => TRIANGLE_TEST_WATERTIGHT,
+    };
+    let filter = match settings.filter {
+        Filter::Box => FILTER_BOX,
+        Filter::Tent => FILTER_TENT,
+        Filter::Gaussian => FILTER_GAUSSIAN,
+        Filter::BlackmanHarris => FILTER_BLACKMAN_HARRIS,
+        Filter::Mitchell => FILTER_MITCHELL,
+    };
+    let features = scene.features;
+    let layers = layers::of_sampling(settings);
+    let squares_row = layers::row_of(layers, &layers::SQUARES).unwrap_or_default();
+    let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
+    let mut overrides = vec![
+        ("TRIANGLE_TEST", f64::from(triangle_test)),
+        ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
+        ("HAS_SHAPES", flag(scene.bounded_shape_count() > 0)),
+        ("HAS_PLANES", flag(scene.plane_count > 0)),
+        ("MIXED_MATERIALS", flag(scene.features.mixed_materials)),
+        ("BRUTE_FORCE", flag(settings.brute_force)),
+        ("STRATIFIED", flag(settings.antialias != Antialias::None)),
+        ("COUNT_RAYS", flag(policy.count_rays)),
+        ("COUNT_STEPS", flag(integrator.counts_steps)),
+        ("SHAPE_KINDS", f64::from(features.shape_kinds)),
+        (
+            "HAS_REFLECTION",
+            flag(features.reflection && settings.max_depth > 0),
+        ),
+        (
+            "HAS_REFRACTION",
+            flag(features.refraction && settings.max_depth > 0),
+        ),
+        (
+            "HAS_CONTACT",
+            flag(features.contact && settings.max_depth > 0),
+        ),
+        ("FILTERED_SHADOWS", flag(features.filtered_shadows)),
+        (
+            "HAS_LENS",
+            flag(cameras.any(|camera| camera.lens_radius > 0.0)),
+        ),
+        ("FILTER", f64::from(filter)),
+        ("FILTER_RADIUS", f64::from(settings.filter_radius)),
+        (
+            "HAS_TEXTURES",
+            flag(features.textures || integrator.needs_uvs),
+        ),
+        ("HAS_EMISSION", flag(features.emission)),
+        ("ADAPTIVE", flag(settings.is_adaptive())),
+        ("HAS_INSTANCES", flag(features.instances)),
+        ("HAS_MOTION", flag(view.has_moving_instances())),
+        ("CAMERA_MOTION", flag(!view.cameras.is_empty())),
+        ("LIGHT_MOTION", flag(view.frame.light_key_count > 1)),
+        ("ORTHOGRAPHIC", flag(view.orthographic)),
+        ("HAS_UVS", flag(!scene.uvs.is_empty())),
+        ("FILM_ROWS", layers::rows(layers) as f64),
+        ("SQUARES_ROW", squares_row as f64),
+    ];
+    match integrator.is_lit {
+        true => overrides.extend([
+            ("HAS_LIGHTS", flag(view.has_lights)),
+            ("HAS_AREA_LIGHTS", flag(view.has_area_lights)),
+            ("BACKGROUND", f64::from(view.background)),
+        ]),
+        false => overrides.push(("VIEW", f64::from(integrator.view))),
+    }
+    overrides
+}
+
+fn flag(on: bool) -> f64 {
+    f64::from(u8::from(on))
+}
