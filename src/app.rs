@@ -22,6 +22,7 @@ mod interrupt;
 mod job;
 pub mod legend;
 mod memory;
+mod merge;
 pub mod mesa;
 mod overrides;
 mod picture;
@@ -86,6 +87,7 @@ fn dispatch(command: Command, started: Instant) -> Result<(), AppError> {
         Command::Turntable(arguments) => turntable::run(&arguments, started),
         #[cfg(feature = "viewer")]
         Command::View(arguments) => view::run(*arguments),
+        Command::Merge(arguments) => merge::run(&arguments),
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

@@ -13,7 +13,7 @@
 //!
 //! ```
 //! use glimray::gpu::{AdapterChoice, Gpu};
-//! use glimray::render::{Renderer, Settings, Tone};
+//! use glimray::render::{ExecutionPolicy, RenderSettings, Renderer, Tone};
 //! use glimray::{import, output, pack};
 //! use std::{path::Path, sync::Arc};
 //!
@@ -21,8 +21,8 @@
 //! let packed = Arc::new(pack::scene(&scene)?);
 //! let view = packed.frame(&scene.frame(0.0))?;
 //! let gpu = Gpu::new(&AdapterChoice::default())?;
-//! let settings = Settings::from(&scene.output);
-//! let mut renderer = Renderer::new(gpu, packed, &view, settings)?;
+//! let settings = RenderSettings::from(&scene.output);
+//! let mut renderer = Renderer::new(gpu, packed, &view, settings, ExecutionPolicy::default())?;
 //! while !renderer.is_done() {
 //!     renderer.step()?;
 //! }

@@ -4,31 +4,42 @@
 mod adaptive;
 mod arrays;
 mod bindings;
-mod debug_view;
 mod develop;
 mod device;
 mod effort;
 mod error;
 mod explain;
 mod film;
+mod fingerprint;
+mod integrator;
 mod layers;
 mod layouts;
 mod levels;
+mod losses;
+mod overrides;
+mod policy;
 mod settings;
 mod show;
 mod slice;
 mod stats;
-mod whitted;
+mod sums;
+mod windows;
 
 pub use crate::scene::{Antialias, Filter};
 pub use develop::Tone;
 pub use effort::LongPath;
 pub use error::RenderError;
 pub use explain::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
+pub use film::{Film, FilmError, FilmHeader, Missing};
+pub use fingerprint::Fingerprint;
+pub use integrator::{Integrator, IntegratorEntry, Shows, TABLE as INTEGRATORS};
+pub use layers::{Layer, LayerKind};
 pub use levels::{Levels, Quantity};
-pub use settings::{Fetch, Integrator, MIN_THROUGHPUT, Settings, Slicing, TriangleTest};
+pub use policy::{ExecutionPolicy, Fetch, Slicing};
+pub use settings::{MIN_THROUGHPUT, RenderSettings, TriangleTest};
 pub use show::Screen;
 pub use stats::{Rays, Stats, Uploads};
+pub use sums::SAMPLE_BLOCK;
 
 use crate::clock::Instant;
 use crate::{
@@ -36,17 +47,19 @@ use crate::{
     pack::{PackedScene, PackedView},
 };
 use device::{Device, Task};
-use film::{CHUNK, Film};
+use losses::or_replacement;
 use slice::{Planner, Slice};
 use std::{ops::Range, sync::Arc};
+use windows::Windows;
 
 /// Renders one frame after another of one scene.
 pub struct Renderer {
     scene: Arc<PackedScene>,
-    settings: Settings,
+    settings: RenderSettings,
+    policy: ExecutionPolicy,
     view: PackedView,
     device: Device,
-    film: Film,
+    windows: Windows,
     planner: Planner,
     cursor: Cursor,
     stats: Stats,
@@ -63,6 +76,18 @@ struct Cursor {
     sweep_samples: u32,
 }
 
+impl Cursor {
+    fn at_start(windows: &Windows) -> Self {
+        Self {
+            sample: windows
+                .list
+                .first()
+                .map_or(0, |window| window.samples.start),
+            ..Self::default()
+        }
+    }
+}
+
 impl Renderer {
     /// Checks the limits of memory and of work, uploads the scene and compiles the kernels. The settings' sizes and
     /// counts must be in the ranges they document.
@@ -70,41 +95,45 @@ impl Renderer {
         gpu: Gpu,
         scene: Arc<PackedScene>,
         view: &PackedView,
-        settings: Settings,
+        settings: RenderSettings,
+        policy: ExecutionPolicy,
     ) -> Result<Self, RenderError> {
         effort::check(view, &settings)?;
         let view = view.with_aspect(settings.size.0, settings.size.1);
-        let film = Film::new(&settings);
+        let windows = Windows::new(&settings, policy.slicing.window_side);
         let mut stats = Stats {
-            gpu_bytes: planned_bytes(&scene, &view, &settings, &film)?,
-            rays: settings.count_rays.then(Rays::default),
+            gpu_bytes: planned_bytes(&scene, &view, settings.region(), &policy, &windows)?,
+            rays: policy.count_rays.then(Rays::default),
             ..Default::default()
         };
         let task = Task {
             scene: &scene,
             view: &view,
             settings: &settings,
-            film_rows: film.largest_window(),
+            policy: &policy,
+            film_rows: windows.largest(),
         };
-        let fetch = bindings::choose_fetch(settings.fetch, &gpu, &scene, &view);
+        let fetch = bindings::choose_fetch(policy.fetch, &gpu, &scene, &view);
         let gpu = gpu.serving(bindings::needs(&scene, &view, fetch, task.film_rows))?;
         let choice = gpu.choice().clone();
         let device = Device::new(gpu, fetch, task, &mut stats);
         let device = match device {
             // Others draw with this device, and cannot with another.
-            Err(GpuError::Lost) if !settings.slicing.host_copy => return Err(GpuError::Lost.into()),
+            Err(GpuError::Lost) if !policy.host_copy => return Err(GpuError::Lost.into()),
             device => or_replacement(device, &mut stats, 0, |stats| {
                 device::reopen(&choice, fetch, task, stats)
             })?,
         };
+        let cursor = Cursor::at_start(&windows);
         Ok(Self {
-            planner: Planner::new(settings.slicing, effort::shadow_rays(&view, &settings)),
+            planner: Planner::new(policy.slicing, effort::shadow_rays(&view, &settings)),
             scene,
             settings,
+            policy,
             view,
             device,
-            film,
-            cursor: Cursor::default(),
+            windows,
+            cursor,
             stats,
             earlier_losses: 0,
         })
@@ -115,7 +144,7 @@ impl Renderer {
     /// # Errors
     /// The device failed, or the frame places more than the memory limit or the adapter allows.
     pub fn set_frame(&mut self, view: &PackedView) -> Result<(), RenderError> {
-        self.restart(self.scene.clone(), view, self.settings.clone())
+        self.restart(self.scene.clone(), view, self.settings.clone(), self.policy)
     }
 
     /// Starts over with another scene, frame or other settings. Kernels that are compiled, and what
@@ -127,27 +156,27 @@ impl Renderer {
         &mut self,
         scene: Arc<PackedScene>,
         view: &PackedView,
-        settings: Settings,
+        settings: RenderSettings,
+        policy: ExecutionPolicy,
     ) -> Result<(), RenderError> {
         effort::check(view, &settings)?;
         let view = view.with_aspect(settings.size.0, settings.size.1);
-        let film = Film::new(&settings);
-        let bytes = planned_bytes(&scene, &view, &settings, &film)?;
+        let windows = Windows::new(&settings, policy.slicing.window_side);
+        let bytes = planned_bytes(&scene, &view, settings.region(), &policy, &windows)?;
         self.stats.gpu_bytes = self.stats.gpu_bytes.max(bytes);
         self.earlier_losses = self.stats.device_losses;
-        if settings.count_rays {
+        if policy.count_rays {
             self.stats.rays.get_or_insert_default();
         }
-        let planner = Planner::new(settings.slicing, effort::shadow_rays(&view, &settings));
-        if settings.slicing != self.settings.slicing || planner.is_for_more_work_than(&self.planner)
-        {
+        let planner = Planner::new(policy.slicing, effort::shadow_rays(&view, &settings));
+        if policy.slicing != self.policy.slicing || planner.is_for_more_work_than(&self.planner) {
             self.planner = planner;
         }
         let is_other_scene = !Arc::ptr_eq(&scene, &self.scene);
-        (self.scene, self.view, self.settings) = (scene, view, settings);
-        self.film = film;
-        self.cursor = Cursor::default();
-        let spare = self.settings.memory_limit_bytes.saturating_sub(bytes);
+        (self.scene, self.view, self.settings, self.policy) = (scene, view, settings, policy);
+        self.cursor = Cursor::at_start(&windows);
+        self.windows = windows;
+        let spare = self.policy.memory_limit_bytes.saturating_sub(bytes);
         self.prepare_device(is_other_scene, spare)
     }
 
@@ -167,14 +196,14 @@ impl Renderer {
             sample
         };
         let is_done = self.is_done();
-        if !self.film.is_one_rectangle() || samples <= begun {
+        if !self.windows.is_one_rectangle() || samples <= begun {
             return false;
         }
-        let window = &mut self.film.windows[0];
+        let window = &mut self.windows.list[0];
         if is_done {
             // As between any two sweeps, see `advance`; the sums are on the host.
-            if sample.is_multiple_of(CHUNK) {
-                window.close_chunk();
+            if sample.is_multiple_of(SAMPLE_BLOCK) {
+                window.close_block();
                 self.device.loaded_window = None;
             }
             (self.cursor.window, self.cursor.tile) = (0, 0);
@@ -188,13 +217,13 @@ impl Renderer {
     fn prepare_device(&mut self, is_other_scene: bool, spare: u64) -> Result<(), RenderError> {
         let (gpu, scene, view) = (&self.device.gpu, &self.scene, &self.view);
         let fetch = match is_other_scene {
-            true => bindings::choose_fetch(self.settings.fetch, gpu, scene, view),
+            true => bindings::choose_fetch(self.policy.fetch, gpu, scene, view),
             false => self.device.fetch,
         };
-        let needs = bindings::needs(scene, view, fetch, self.film.largest_window());
+        let needs = bindings::needs(scene, view, fetch, self.windows.largest());
         if !gpu.serves(needs) {
             gpu.check_limits(needs)?;
-            let fetch = bindings::choose_fetch(self.settings.fetch, gpu, scene, view);
+            let fetch = bindings::choose_fetch(self.policy.fetch, gpu, scene, view);
             return self.replace_device(fetch);
         }
         self.surviving_losses(|renderer| {
@@ -202,7 +231,8 @@ impl Renderer {
                 scene: &renderer.scene,
                 view: &renderer.view,
                 settings: &renderer.settings,
-                film_rows: renderer.film.largest_window(),
+                policy: &renderer.policy,
+                film_rows: renderer.windows.largest(),
             };
             let (device, stats) = (&mut renderer.device, &mut renderer.stats);
             if fetch != device.fetch {
@@ -215,20 +245,20 @@ impl Renderer {
 
     /// Whether every pixel has its samples.
     pub fn is_done(&self) -> bool {
-        self.cursor.window >= self.film.windows.len()
+        self.cursor.window >= self.windows.list.len()
     }
 
     /// Share of the work that is done, in 0..=1.
     pub fn progress(&self) -> f64 {
-        let Some(window) = self.film.windows.get(self.cursor.window) else {
+        let Some(window) = self.windows.list.get(self.cursor.window) else {
             return 1.0;
         };
         let sweep = f64::from(self.cursor.sweep_samples) * f64::from(self.cursor.tile)
             / f64::from(window.tile_count());
         let Range { start, end } = window.samples;
         let within = (f64::from(self.cursor.sample - start) + sweep) / f64::from(end - start);
-        let share = (self.cursor.window as f64 + within) / self.film.windows.len() as f64;
-        self.film.progress(share)
+        let share = (self.cursor.window as f64 + within) / self.windows.list.len() as f64;
+        self.windows.progress(share)
     }
 
     /// What the render has cost so far.
@@ -243,7 +273,7 @@ impl Renderer {
 
     /// Adds samples for about [`Slicing::target_seconds`]. Does nothing when the render is done.
     pub fn step(&mut self) -> Result<(), RenderError> {
-        let Some(window) = self.film.windows.get_mut(self.cursor.window) else {
+        let Some(window) = self.windows.list.get_mut(self.cursor.window) else {
             return Ok(());
         };
         if window.sums.is_empty() {
@@ -252,8 +282,8 @@ impl Renderer {
         let tile_count = window.tile_count();
         if self.cursor.tile == 0 {
             let left = window.samples.end - self.cursor.sample;
-            let in_chunk = CHUNK - self.cursor.sample % CHUNK;
-            self.cursor.sweep_samples = self.planner.sweep_samples(tile_count, left.min(in_chunk));
+            let in_block = SAMPLE_BLOCK - self.cursor.sample % SAMPLE_BLOCK;
+            self.cursor.sweep_samples = self.planner.sweep_samples(tile_count, left.min(in_block));
         }
         let Cursor {
             tile,
@@ -277,9 +307,10 @@ impl Renderer {
             let start = Instant::now();
             let tally = self.surviving_losses(|renderer| {
                 let index = renderer.cursor.window;
-                let window = &mut renderer.film.windows[index];
+                let window = &mut renderer.windows.list[index];
                 let device = &mut renderer.device;
-                device.trace(&part, (index, window), &renderer.settings)
+                let host_copy = renderer.policy.host_copy;
+                device.trace(&part, (index, window), &renderer.settings, host_copy)
             })?;
             let seconds = start.elapsed().as_secs_f64();
             self.stats.submitted(seconds);
@@ -289,10 +320,10 @@ impl Renderer {
                 continue;
             }
             self.device.loaded_window = None;
-            if !self.settings.slicing.host_copy {
-                self.settings.slicing.host_copy = true;
-                self.film = Film::new(&self.settings);
-                self.cursor = Cursor::default();
+            if !self.policy.host_copy {
+                self.policy.host_copy = true;
+                self.windows = Windows::new(&self.settings, self.policy.slicing.window_side);
+                self.cursor = Cursor::at_start(&self.windows);
                 return Ok(false);
             }
             if !part.is_signed_off(&tally) {
@@ -318,32 +349,32 @@ impl Renderer {
     }
 
     fn advance(&mut self, slice: &Slice) -> Result<(), RenderError> {
-        let window = &self.film.windows[self.cursor.window];
+        let window = &self.windows.list[self.cursor.window];
         self.cursor.tile = slice.end_tile;
         if self.cursor.tile < window.tile_count() {
             return Ok(());
         }
-        if slice.end_sample == window.samples.end || slice.end_sample.is_multiple_of(CHUNK) {
+        if slice.end_sample == window.samples.end || slice.end_sample.is_multiple_of(SAMPLE_BLOCK) {
             self.fetch_film()?;
         }
-        let window = &mut self.film.windows[self.cursor.window];
+        let window = &mut self.windows.list[self.cursor.window];
         let taken = slice.end_sample - slice.first_sample;
         self.stats.samples += u64::from(taken) * window.sampled_pixels();
         self.cursor.tile = 0;
         self.cursor.sample = slice.end_sample;
         if self.cursor.sample < window.samples.end {
-            if self.cursor.sample.is_multiple_of(CHUNK) {
-                window.close_chunk();
+            if self.cursor.sample.is_multiple_of(SAMPLE_BLOCK) {
+                window.close_block();
                 self.device.loaded_window = None;
             }
             return Ok(());
         }
         self.cursor.window += 1;
-        if self.is_done() && self.film.next_round() {
+        if self.is_done() && self.windows.next_round() {
             self.device.loaded_window = None;
             self.cursor.window = 0;
         }
-        if let Some(next) = self.film.windows.get(self.cursor.window) {
+        if let Some(next) = self.windows.list.get(self.cursor.window) {
             self.cursor.sample = next.samples.start;
         }
         Ok(())
@@ -352,73 +383,30 @@ impl Renderer {
     /// Brings the sums to the host that are only on the device.
     fn fetch_film(&mut self) -> Result<(), RenderError> {
         let index = self.cursor.window;
-        let is_there = self.settings.slicing.host_copy || self.device.loaded_window != Some(index);
-        match self.film.windows.get_mut(index) {
+        let is_there = self.policy.host_copy || self.device.loaded_window != Some(index);
+        match self.windows.list.get_mut(index) {
             Some(window) if !is_there => Ok(self.device.fetch_film(window)?),
             _ => Ok(()),
         }
     }
-
-    /// Repeats `attempt` on a fresh device when the old one is lost. The film on the host holds all
-    /// finished slices, so nothing else is done twice; where it does not, the loss is the caller's.
-    fn surviving_losses<T>(
-        &mut self,
-        mut attempt: impl FnMut(&mut Self) -> Result<T, GpuError>,
-    ) -> Result<T, RenderError> {
-        loop {
-            match attempt(self) {
-                Err(GpuError::Lost) if self.settings.slicing.host_copy => {
-                    self.stats.count_loss(self.earlier_losses)?;
-                    self.replace_device(self.device.fetch)?;
-                }
-                other => return Ok(other?),
-            }
-        }
-    }
-
-    /// Goes on with a device whose limits serve the view.
-    fn replace_device(&mut self, fetch: Fetch) -> Result<(), RenderError> {
-        let choice = self.device.gpu.choice().clone();
-        let task = Task {
-            scene: &self.scene,
-            view: &self.view,
-            settings: &self.settings,
-            film_rows: self.film.largest_window(),
-        };
-        let reopen = |stats: &mut Stats| device::reopen(&choice, fetch, task, stats);
-        let device = reopen(&mut self.stats);
-        self.device = or_replacement(device, &mut self.stats, self.earlier_losses, reopen)?;
-        Ok(())
-    }
-}
-
-/// The device, or another one if it was lost while it was made; that may be lost in turn.
-fn or_replacement(
-    mut device: Result<Device, GpuError>,
-    stats: &mut Stats,
-    earlier_losses: u32,
-    mut reopen: impl FnMut(&mut Stats) -> Result<Device, GpuError>,
-) -> Result<Device, RenderError> {
-    while let Err(GpuError::Lost) = device {
-        stats.count_loss(earlier_losses)?;
-        device = reopen(stats);
-    }
-    Ok(device?)
 }
 
 /// What a frame will take, in bytes.
 ///
 /// # Errors
-/// It is more than the settings allow.
+/// It is more than the policy allows.
 fn planned_bytes(
     scene: &PackedScene,
     view: &PackedView,
-    settings: &Settings,
-    film: &Film,
+    [.., width, height]: [u32; 4],
+    policy: &ExecutionPolicy,
+    windows: &Windows,
 ) -> Result<u64, GpuError> {
-    let [.., width, height] = settings.region();
     let pixels = u64::from(width) * u64::from(height);
-    let ledger = bindings::ledger(scene, view, film.largest_window(), pixels);
-    ledger.check(settings.memory_limit_bytes)?;
+    let mut ledger = bindings::ledger(scene, view, windows.largest(), pixels);
+    if windows.has_totals() {
+        ledger.plan("totals of the film", pixels * size_of::<[i128; 4]>() as u64);
+    }
+    ledger.check(policy.memory_limit_bytes)?;
     Ok(ledger.total())
 }

@@ -40,6 +40,7 @@ pub fn gpu(error: &GpuError) -> String {
 pub fn render(error: &RenderError) -> String {
     let cause = match error {
         RenderError::Gpu(error) => return gpu(error),
+        RenderError::Film(error) => return error.to_string(),
         RenderError::PathTooLong(cause) => *cause,
         RenderError::TooManyShadowRays { lights, rays, .. } => LongPath::ShadowRays {
             lights: *lights,

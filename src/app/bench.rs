@@ -10,9 +10,10 @@ use super::console;
 use super::device;
 use super::exit::AppError;
 use super::interrupt::Interrupt;
+use super::job;
 use crate::gpu::{AdapterReport, Gpu};
 use crate::pack;
-use crate::render::{Rays, Renderer, Settings, Tone};
+use crate::render::{Rays, RenderSettings, Renderer, Tone};
 use serde::Serialize;
 use std::sync::Arc;
 use std::time::Instant;
@@ -131,16 +132,15 @@ fn render(
     let started = Instant::now();
     let gpu = Gpu::new(&arguments.device.choice())?;
     let Workload { scene, shot, .. } = workload;
-    let settings = Settings {
+    let settings = RenderSettings {
         size: workload.size,
-        count_rays,
-        memory_limit_bytes: arguments.device.memory_limit_bytes(),
-        ..Settings::from(&scene.output)
+        ..RenderSettings::from(&scene.output)
     };
+    let policy = job::policy(&arguments.device, count_rays);
     let packed = Arc::new(pack::scene_with(scene, workload.most_baked)?);
     let bvh = packed.build_seconds;
     let view = packed.shot(&scene.shot(shot.0, shot.1))?;
-    let mut renderer = Renderer::new(gpu, packed, &view, settings)?;
+    let mut renderer = Renderer::new(gpu, packed, &view, settings, policy)?;
     while !renderer.is_done() {
         renderer.step()?;
     }

@@ -7,8 +7,8 @@ mod values;
 #[cfg(feature = "viewer")]
 pub use flags::TapeFlags;
 pub use flags::{
-    CameraFlags, DeviceFlags, LogFlags, OutputFlags, PictureFlags, ProgressMode, SceneFlags,
-    SizeFlags,
+    CameraFlags, DevelopFlags, DeviceFlags, LogFlags, OutputFlags, PartFlags, PictureFlags,
+    ProgressMode, SceneFlags, SizeFlags,
 };
 pub use motion::{
     MomentFlags, MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags,
@@ -31,7 +31,7 @@ use std::path::PathBuf;
     after_help = "Example: glimray demo -o glimray.png\n\n\
         Exit codes: 0 done, 1 internal fault, 2 bad command line, 3 scene or input refused, \
         4 output cannot be written, 5 no usable GPU adapter, 6 the GPU kept failing, \
-        7 too big for the memory or the adapter, 8 compare: different, 130 Ctrl-C, 143 SIGTERM."
+        7 too big for the memory or the adapter, 8 compare: different, merge: parts missing, 130 Ctrl-C, 143 SIGTERM."
 )]
 pub struct Cli {
     #[command(subcommand)]
@@ -88,6 +88,15 @@ pub enum Command {
     #[command(after_help = "Example: glimray convert model.obj -o model.toml\n\n\
             It prints the names of all files. Files beside the scene are never replaced.")]
     Convert(ConvertArgs),
+    /// Put films of parts of a picture together: into one film, or into the picture. Parts are regions
+    /// (--crop) or ranges of samples (--sample-offset, --sample-count), in any order.
+    #[command(after_help = "Examples:\n  \
+            glimray render scene.toml --samples 128 --sample-count 64 -o a.film\n  \
+            glimray render scene.toml --samples 128 --sample-offset 64 -o b.film\n  \
+            glimray merge a.film b.film -o picture.png\n\n\
+            The picture is the one that one run renders, to the last bit. What is missing of it is listed, \
+            with exit code 8, and nothing is written then.")]
+    Merge(MergeArgs),
     /// Say what is in a scene: counts, bounds, cameras, lights, materials, what was skipped.
     #[command(after_help = "Example: glimray inspect scene.toml --json")]
     Inspect(InspectArgs),
@@ -143,6 +152,8 @@ pub struct RenderArgs {
     pub scene: PathBuf,
     #[command(flatten)]
     pub output: OutputFlags,
+    #[command(flatten)]
+    pub part: PartFlags,
     #[command(flatten)]
     pub picture: PictureFlags,
     #[command(flatten)]
@@ -232,6 +243,19 @@ pub struct ConvertArgs {
     pub no_clobber: bool,
     #[command(flatten)]
     pub reading: SceneFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct MergeArgs {
+    /// Films of parts of one picture, written by `render` or `merge`
+    #[arg(required = true, value_name = "PART")]
+    pub parts: Vec<PathBuf>,
+    #[command(flatten)]
+    pub output: OutputFlags,
+    #[command(flatten)]
+    pub develop: DevelopFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
 }
 
 #[derive(Debug, Args)]

@@ -1,6 +1,6 @@
 //! `glimray demo`: the showcase scene, which is part of the program, → a picture.
 
-use super::cli::{DemoArgs, PictureFlags, SizeFlags};
+use super::cli::{DemoArgs, PartFlags, PictureFlags, SizeFlags};
 use super::destination::Destination;
 use super::exit::AppError;
 use super::job::{self, Job};
@@ -46,7 +46,8 @@ fn render(
         device: &arguments.device,
         log: &arguments.log,
     };
-    picture::run(&job, destination, (0.0, 0.0), draft)
+    let part = PartFlags::default();
+    picture::run(&job, destination, (0.0, 0.0), &part, draft)
 }
 
 /// The showcase scene, read anew.

@@ -4,6 +4,7 @@ use super::cli::OutputFlags;
 use super::exit::AppError;
 use crate::image::Image;
 use crate::output::{self, Format, SaveOptions};
+use crate::render::Film;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
@@ -37,6 +38,12 @@ impl Destination {
         self.path == Path::new("-")
     }
 
+    /// Whether the sums themselves are kept, to be merged and developed later.
+    pub fn is_film(&self) -> bool {
+        let ending = self.path.extension().unwrap_or_default();
+        self.options.format.is_none() && ending.eq_ignore_ascii_case("film")
+    }
+
     /// Whether the file holds linear light rather than display values.
     pub fn is_linear(&self) -> bool {
         let format = self.options.format;
@@ -47,10 +54,20 @@ impl Destination {
 
     /// Refuses, before any rendering, what would fail after it.
     pub fn check(&self, width: u32, height: u32) -> Result<(), AppError> {
+        if self.is_film() {
+            return Ok(output::check_file(&self.path, self.options.clobber)?);
+        }
         if !self.is_stdout() {
             return Ok(output::check(&self.path, &self.options, width, height)?);
         }
         check_stdout("a picture")
+    }
+
+    pub fn save_film(&self, film: &Film) -> Result<(), AppError> {
+        let mut bytes = Vec::new();
+        let written = film.write(&mut bytes);
+        written.map_err(|error| AppError::Internal(format!("film: {error}")))?;
+        Ok(output::write(&self.path, &bytes, self.options.clobber)?)
     }
 
     pub fn save(&self, image: &Image) -> Result<(), AppError> {

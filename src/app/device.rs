@@ -3,7 +3,7 @@
 use super::exit::AppError;
 use crate::gpu::{AdapterReport, Backend, Gpu};
 use crate::pack;
-use crate::render::{Renderer, Settings};
+use crate::render::{ExecutionPolicy, RenderSettings, Renderer};
 use crate::scene::Scene;
 use std::sync::Arc;
 
@@ -13,12 +13,14 @@ pub fn renderer(
     gpu: Gpu,
     scene: &Scene,
     shot: (f64, f64),
-    settings: Settings,
+    settings: RenderSettings,
+    policy: ExecutionPolicy,
 ) -> Result<(Renderer, f64), AppError> {
     let packed = Arc::new(pack::scene(scene)?);
     let build_seconds = packed.build_seconds;
     let view = packed.shot(&scene.shot(shot.0, shot.1))?;
-    Ok((Renderer::new(gpu, packed, &view, settings)?, build_seconds))
+    let renderer = Renderer::new(gpu, packed, &view, settings, policy)?;
+    Ok((renderer, build_seconds))
 }
 
 /// The adapter for a status line: `NAME [BACKEND, KIND]`.

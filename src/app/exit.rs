@@ -5,8 +5,9 @@ use crate::gpu::{self, GpuError};
 use crate::import::ImportError;
 use crate::output::{self, OutputError};
 use crate::pack::PackError;
-use crate::render::RenderError;
+use crate::render::{FilmError, RenderError};
 use std::io::{self, IsTerminal};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// What ended a command. The text is `WHAT (WHERE): WHY. WHAT TO DO.`
@@ -21,6 +22,17 @@ pub enum AppError {
     /// Some other input was refused.
     #[error("{0}")]
     Refused(String),
+    /// A film was refused, or does not go with others.
+    #[error("cannot use the film ({}): {error}", path.display())]
+    Film {
+        /// Its file.
+        path: PathBuf,
+        /// Why.
+        error: FilmError,
+    },
+    /// `merge` found parts of the picture missing.
+    #[error("{0}")]
+    Missing(String),
     /// The scene cannot be laid out for a GPU.
     #[error(transparent)]
     Pack(#[from] PackError),
@@ -77,7 +89,7 @@ impl AppError {
             Self::Internal(_) => 1,
             Self::Usage(_) => 2,
             Self::Import(error) if error.is_too_big() => 7,
-            Self::Import(_) | Self::Refused(_) => 3,
+            Self::Import(_) | Self::Refused(_) | Self::Film { .. } => 3,
             Self::Output(error) if error.is_usage() => 2,
             Self::Output(error) if error.is_refused_input() => 3,
             Self::Output(error) if error.is_internal() => 1,
@@ -85,9 +97,10 @@ impl AppError {
             Self::Stopped { error, .. } => error.exit_code(),
             Self::SelfTest(_) | Self::NoDisplay(_) => 5,
             Self::Pack(_) | Self::TooBig(_) => 7,
-            Self::Different(_) => 8,
+            Self::Different(_) | Self::Missing(_) => 8,
             Self::Gpu(error) | Self::Render(RenderError::Gpu(error)) => gpu_exit_code(error),
             Self::Render(RenderError::PathTooLong(_) | RenderError::TooManyShadowRays { .. }) => 7,
+            Self::Render(RenderError::Film(_)) => 3,
             Self::Interrupted { exit_code } => *exit_code,
         }
     }

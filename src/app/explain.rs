@@ -15,7 +15,7 @@ use super::overrides;
 use super::scene_file;
 use crate::gpu::Gpu;
 use crate::output;
-use crate::render::{Integrator, RayTree, Renderer, Settings};
+use crate::render::{Integrator, RayTree, RenderSettings, Renderer};
 use serde_json::json;
 use std::ops::Range;
 
@@ -24,7 +24,7 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     let (scene, inputs) = scene_file::load(&arguments.scene, &arguments.reading);
     let mut scene = scene?;
     overrides::apply(&mut scene, &arguments.camera)?;
-    let settings = job::settings(&scene.output, &arguments.picture, &arguments.device, false);
+    let settings = job::picture_settings(&scene.output, &arguments.picture);
     check(arguments.pixel, &settings)?;
     if let Some(path) = &arguments.obj {
         inputs.spare(path, "rays", "--obj")?;
@@ -40,7 +40,8 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
         settings.size,
     )?;
     let gpu = Gpu::new(&arguments.device.choice())?;
-    let (mut renderer, _) = device::renderer(gpu, &scene, shot, settings.clone())?;
+    let policy = job::policy(&arguments.device, false);
+    let (mut renderer, _) = device::renderer(gpu, &scene, shot, settings.clone(), policy)?;
     let samples = samples(arguments, &settings, &mut renderer)?;
     let tree = renderer.explain(arguments.pixel, samples)?;
     if let Some(path) = &arguments.obj {
@@ -55,7 +56,7 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
 }
 
 /// Refuses a pixel that is not in the picture, and pictures whose pixels have no tree.
-fn check(pixel: [u32; 2], settings: &Settings) -> Result<(), AppError> {
+fn check(pixel: [u32; 2], settings: &RenderSettings) -> Result<(), AppError> {
     if settings.integrator != Integrator::Whitted {
         let word = INTEGRATORS.word(&settings.integrator);
         return Err(AppError::Usage(format!(
@@ -84,7 +85,7 @@ fn check(pixel: [u32; 2], settings: &Settings) -> Result<(), AppError> {
 /// rendered for that.
 fn samples(
     arguments: &ExplainArgs,
-    settings: &Settings,
+    settings: &RenderSettings,
     renderer: &mut Renderer,
 ) -> Result<Range<u32>, AppError> {
     while settings.is_adaptive() && !renderer.is_done() {

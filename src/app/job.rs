@@ -1,7 +1,7 @@
 //! What `render`, `demo` and `animate` share: a scene, what the command line says about it, and the
 //! words and figures at the end.
 
-use super::cli::{DeviceFlags, INTEGRATORS, LogFlags, PictureFlags};
+use super::cli::{DevelopFlags, DeviceFlags, INTEGRATORS, LogFlags, PictureFlags};
 use super::console::{self, Console};
 use super::destination;
 use super::device;
@@ -13,7 +13,9 @@ use super::report::{
 };
 use crate::gpu::{AdapterReport, Gpu};
 use crate::output;
-use crate::render::{Integrator, Levels, Settings, Stats, Tone};
+use crate::render::{
+    ExecutionPolicy, Integrator, Levels, Quantity, RenderSettings, Shows, Stats, Tone,
+};
 use crate::scene::{OutputDefaults, Scene, ToneCurve, Transfer};
 use std::path::Path;
 use std::time::Instant;
@@ -61,23 +63,27 @@ impl Job<'_> {
         }
     }
 
-    pub fn settings(&self) -> Settings {
-        settings(
-            &self.scene.output,
-            self.picture,
-            self.device,
-            self.log.count_rays,
-        )
+    pub fn settings(&self) -> RenderSettings {
+        picture_settings(&self.scene.output, self.picture)
+    }
+
+    pub fn policy(&self) -> ExecutionPolicy {
+        policy(self.device, self.log.count_rays)
     }
 
     /// How a picture is developed, for a format that holds linear light or one that does not.
-    pub fn tone(&self, settings: &Settings, linear_format: bool) -> Tone {
+    pub fn tone(&self, settings: &RenderSettings, linear_format: bool) -> Tone {
         let output = &self.scene.output;
-        tone(output, self.picture, settings.integrator, linear_format)
+        tone(
+            output,
+            &self.picture.develop,
+            settings.integrator,
+            linear_format,
+        )
     }
 
     /// What is to be rendered, for the report.
-    pub fn image(&self, path: &Path, settings: &Settings, size: (u32, u32)) -> ImageReport {
+    pub fn image(&self, path: &Path, settings: &RenderSettings, size: (u32, u32)) -> ImageReport {
         ImageReport {
             path: path.display().to_string(),
             width: size.0,
@@ -101,7 +107,7 @@ impl Job<'_> {
     }
 
     /// Says what is about to be rendered, and on what.
-    pub fn announce(&self, what: &str, settings: &Settings, adapter: &AdapterReport) {
+    pub fn announce(&self, what: &str, settings: &RenderSettings, adapter: &AdapterReport) {
         let (width, height) = settings.size;
         let adapter = device::describe(adapter);
         let console = self.console();
@@ -149,7 +155,7 @@ impl Job<'_> {
     /// Reports what came of it, if a report is asked for.
     pub fn report(
         &self,
-        settings: &Settings,
+        settings: &RenderSettings,
         outcome: Outcome,
         draft: &Draft,
     ) -> Result<(), AppError> {
@@ -213,22 +219,17 @@ impl Seconds {
     }
 }
 
-/// What the flags make of what the scene says.
-pub fn settings(
-    scene: &OutputDefaults,
-    picture: &PictureFlags,
-    device: &DeviceFlags,
-    count_rays: bool,
-) -> Settings {
-    Settings {
+/// How pictures are made, which does not show in them.
+pub fn policy(device: &DeviceFlags, count_rays: bool) -> ExecutionPolicy {
+    ExecutionPolicy {
         count_rays,
         memory_limit_bytes: device.memory_limit_bytes(),
-        ..picture_settings(scene, picture)
+        ..ExecutionPolicy::default()
     }
 }
 
 /// What a picture depends on: flags win over the scene.
-pub fn picture_settings(scene: &OutputDefaults, picture: &PictureFlags) -> Settings {
+pub fn picture_settings(scene: &OutputDefaults, picture: &PictureFlags) -> RenderSettings {
     let output = OutputDefaults {
         samples: picture.size.samples.unwrap_or(scene.samples),
         antialias: picture.antialias.or(scene.antialias),
@@ -237,8 +238,8 @@ pub fn picture_settings(scene: &OutputDefaults, picture: &PictureFlags) -> Setti
     let filter = picture.filter.unwrap_or(scene.filter);
     // A radius of the scene goes with the filter of the scene.
     let scene_radius = scene.filter_radius.filter(|_| filter == scene.filter);
-    let defaults = Settings::from(&output);
-    Settings {
+    let defaults = RenderSettings::from(&output);
+    RenderSettings {
         size: picture.size.size.unwrap_or(scene.size),
         crop: picture.crop,
         noise: picture.noise.unwrap_or(defaults.noise),
@@ -256,7 +257,7 @@ pub fn picture_settings(scene: &OutputDefaults, picture: &PictureFlags) -> Setti
 }
 
 /// Width and height of what is written: the crop's where there is one.
-pub fn picture_size(settings: &Settings) -> Result<(u32, u32), AppError> {
+pub fn picture_size(settings: &RenderSettings) -> Result<(u32, u32), AppError> {
     let (width, height) = settings.size;
     match settings.crop {
         None => Ok((width, height)),
@@ -275,11 +276,12 @@ const FULL_HEAT: f32 = 128.0;
 /// quantities are shown over the range found in them, and other debug views are stored as they are.
 pub fn tone(
     scene: &OutputDefaults,
-    flags: &PictureFlags,
+    flags: &DevelopFlags,
     integrator: Integrator,
     linear_format: bool,
 ) -> Tone {
-    let default = if linear_format || integrator != Integrator::Whitted {
+    let shows = integrator.entry().shows;
+    let default = if linear_format || shows != Shows::Radiance {
         (0.0, ToneCurve::None, Transfer::Linear)
     } else {
         (scene.exposure_ev, scene.tone, scene.transfer)
@@ -290,19 +292,19 @@ pub fn tone(
         transfer: flags.transfer.unwrap_or(default.2),
         levels: Levels::Raw,
     };
-    match (integrator, flags.exposure) {
-        _ if linear_format || integrator.quantity().is_none() => tone,
-        (_, None) => Tone {
+    match (shows, flags.exposure) {
+        _ if linear_format => tone,
+        (Shows::Quantity(_), None) => Tone {
             levels: Levels::Found,
             ..tone
         },
         // The exposure scales the steps, not their colours.
-        (Integrator::Heat, Some(exposure_ev)) => Tone {
+        (Shows::Quantity(Quantity::Work), Some(exposure_ev)) => Tone {
             exposure_ev: 0.0,
             levels: Levels::Fixed([0.0, FULL_HEAT * (-exposure_ev).exp2()]),
             ..tone
         },
-        (_, Some(_)) => tone,
+        _ => tone,
     }
 }
 

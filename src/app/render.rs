@@ -36,5 +36,5 @@ fn render(
         device: &arguments.device,
         log: &arguments.log,
     };
-    picture::run(&job, destination, shot, draft)
+    picture::run(&job, destination, shot, &arguments.part, draft)
 }

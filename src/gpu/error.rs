@@ -57,7 +57,7 @@ pub enum GpuError {
         /// The most that the adapter can give.
         limit: u64,
     },
-    /// All allocations together would exceed [`crate::render::Settings::memory_limit_bytes`].
+    /// All allocations together would exceed [`crate::render::ExecutionPolicy::memory_limit_bytes`].
     #[error("too big for the memory limit ({what}): {need} bytes needed in all, {limit} allowed.")]
     Budget {
         /// The largest allocation and its size.

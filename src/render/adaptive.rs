@@ -1,6 +1,10 @@
 //! Adaptive sampling: which pixels go on after a round.
 
-use super::{film::Window, settings::Settings};
+use super::{
+    layers::{self, Layer, SQUARES},
+    settings::RenderSettings,
+    windows::Window,
+};
 use std::{collections::BTreeMap, ops::Range};
 
 /// Samples of the first round; later rounds double them.
@@ -30,6 +34,7 @@ pub struct Adaptive {
     rounds: u32,
     /// Most pixels of a window.
     window_pixels: usize,
+    layers: &'static [&'static Layer],
     pixels: Vec<Account>,
     /// The samples of the pixels that have most of them, in this round.
     front: Range<u32>,
@@ -46,14 +51,14 @@ struct Account {
 }
 
 impl Adaptive {
-    pub fn new(settings: &Settings) -> Self {
+    pub fn new(settings: &RenderSettings, window_side: u32) -> Self {
         let crop = settings.region();
         // With so few samples there are no rounds.
         let has_rounds = settings.samples > FIRST_SAMPLES;
         let margin = if has_rounds { NEIGHBOUR_ROUNDS } else { 0 };
         let region = widened(crop, margin, settings.size);
         let [.., width, height] = region;
-        let side = settings.slicing.window_side as usize;
+        let side = window_side as usize;
         Self {
             region,
             crop,
@@ -61,6 +66,7 @@ impl Adaptive {
             noise: f64::from(settings.noise),
             samples: settings.samples,
             window_pixels: side * side,
+            layers: layers::of_sampling(settings),
             front: 0..FIRST_SAMPLES.min(settings.samples),
             pixels: vec![Account::default(); width as usize * height as usize],
         }
@@ -69,6 +75,11 @@ impl Adaptive {
     /// What is to be sampled: the crop and its margin.
     pub fn region(&self) -> [u32; 4] {
         self.region
+    }
+
+    /// What is asked for.
+    pub fn crop(&self) -> [u32; 4] {
+        self.crop
     }
 
     /// Windows over all the pixels.
@@ -107,24 +118,25 @@ impl Adaptive {
     fn windows(&self, pixels: Vec<[u32; 2]>, samples: Range<u32>) -> Vec<Window> {
         let lists = pixels.chunks(self.window_pixels);
         lists
-            .map(|list| Window::list(list.to_vec(), samples.clone()))
+            .map(|list| Window::list(list.to_vec(), samples.clone(), self.layers))
             .collect()
     }
 
     /// Adds what a round has gathered.
     pub fn take(&mut self, windows: Vec<Window>) {
+        let squares = layers::row_of(self.layers, &SQUARES).unwrap_or_default();
         for window in windows {
             let taken = window.samples.end - window.samples.start;
-            let places = window.places().to_vec();
             let rows = window.totals();
-            for (place, rows) in places.into_iter().zip(rows.chunks_exact(2)) {
-                let index = self.index(place);
+            let pixels = rows.chunks_exact(window.rows_per_pixel());
+            for (place, rows) in window.places().iter().zip(pixels) {
+                let index = self.index(*place);
                 let account = &mut self.pixels[index];
                 for (sum, row) in account.sum.iter_mut().zip(rows[0]) {
                     *sum += row;
                 }
                 account.weight += rows[0][3];
-                account.squares += rows[1][0];
+                account.squares += rows[squares][0];
                 account.count += taken;
             }
         }
@@ -136,6 +148,20 @@ impl Adaptive {
         let share = account.share();
         let [r, g, b] = account.sum.map(|c| (c * share) as f32);
         [r, g, b, 1.0]
+    }
+
+    /// For each pixel of the crop its mean, and a row that begins with its samples.
+    pub fn means_and_counts(&self) -> Vec<[f32; 4]> {
+        let [x, y, width, height] = self.crop;
+        let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
+        pixels
+            .flat_map(|pixel| {
+                [
+                    self.mean(pixel),
+                    [self.samples_at(pixel) as f32, 0.0, 0.0, 0.0],
+                ]
+            })
+            .collect()
     }
 
     pub fn samples_at(&self, pixel: [u32; 2]) -> u32 {

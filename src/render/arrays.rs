@@ -2,7 +2,7 @@
 
 use super::{
     layouts::{ROW_FORMAT, TEXEL_FORMAT},
-    settings::Fetch,
+    policy::Fetch,
     stats::Uploads,
 };
 use crate::{

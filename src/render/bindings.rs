@@ -3,7 +3,7 @@
 use super::{
     arrays::{ARRAY_COUNT, Array, IMAGE_WIDTH, ROW_BYTES, Rows, arrays},
     layouts::{Layouts, group},
-    settings::Fetch,
+    policy::Fetch,
     stats::Uploads,
 };
 use crate::{

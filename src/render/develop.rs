@@ -1,12 +1,17 @@
 //! From sums to a picture: `kernels/develop.wesl`.
 
 use super::{
-    Integrator, Levels, RenderError, Renderer, Settings, film::Window, layouts::group, levels,
+    Fingerprint, Integrator, Levels, Quantity, RenderError, RenderSettings, Renderer,
+    bindings::Buffers,
+    fingerprint::Encoder,
+    layouts::{Layouts, group},
+    levels,
     slice::Slice,
+    windows::Window,
 };
 use crate::clock::Instant;
 use crate::{
-    gpu::{GpuError, Kernel, Source},
+    gpu::{Gpu, GpuError, Kernel, Source},
     image::Image,
     layout::{
         PackedTone, TONE_ACES, TONE_AGX, TONE_NONE, TONE_REINHARD, TRANSFER_LINEAR, TRANSFER_SRGB,
@@ -38,10 +43,79 @@ impl Tone {
         levels: Levels::Raw,
     };
 
+    /// A name for all of it: see [`RenderSettings::fingerprint`].
+    pub fn fingerprint(&self) -> Fingerprint {
+        let mut encoder = Encoder::new("tone", 1);
+        for number in self.numbers() {
+            encoder.number(number);
+        }
+        encoder.finish()
+    }
+
+    /// All of it in numbers that stay the same in other builds.
+    pub(super) fn numbers(&self) -> [u32; 6] {
+        let Self {
+            exposure_ev,
+            curve,
+            transfer,
+            levels,
+        } = *self;
+        let curve = match curve {
+            ToneCurve::None => 0,
+            ToneCurve::Aces => 1,
+            ToneCurve::Agx => 2,
+            ToneCurve::Reinhard => 3,
+        };
+        let transfer = match transfer {
+            Transfer::Srgb => 0,
+            Transfer::Linear => 1,
+        };
+        let (kind, [least, most]) = match levels {
+            Levels::Raw => (0, [0.0; 2]),
+            Levels::Found => (1, [0.0; 2]),
+            Levels::Fixed(range) => (2, range),
+        };
+        let exposure = exposure_ev.to_bits();
+        [
+            exposure,
+            curve,
+            transfer,
+            kind,
+            least.to_bits(),
+            most.to_bits(),
+        ]
+    }
+
+    /// The tone with these numbers.
+    pub(super) fn from_numbers(numbers: [u32; 6]) -> Option<Self> {
+        let [exposure, curve, transfer, kind, least, most] = numbers;
+        Some(Self {
+            exposure_ev: f32::from_bits(exposure),
+            curve: match curve {
+                0 => ToneCurve::None,
+                1 => ToneCurve::Aces,
+                2 => ToneCurve::Agx,
+                3 => ToneCurve::Reinhard,
+                _ => return None,
+            },
+            transfer: match transfer {
+                0 => Transfer::Srgb,
+                1 => Transfer::Linear,
+                _ => return None,
+            },
+            levels: match kind {
+                0 => Levels::Raw,
+                1 => Levels::Found,
+                2 => Levels::Fixed([least, most].map(f32::from_bits)),
+                _ => return None,
+            },
+        })
+    }
+
     /// Over this range, where there is one, for a film with so many rows a pixel.
     pub(super) fn packed(
         &self,
-        settings: &Settings,
+        integrator: Integrator,
         range: Option<[f32; 2]>,
         film_rows: usize,
     ) -> PackedTone {
@@ -58,7 +132,7 @@ impl Tone {
                 Transfer::Srgb => TRANSFER_SRGB,
                 Transfer::Linear => TRANSFER_LINEAR,
             },
-            view: settings.integrator.developed_view(),
+            view: integrator.entry().view,
             range: [least, most],
             has_range: range.is_some().into(),
             film_rows: film_rows as u32,
@@ -74,6 +148,32 @@ pub struct Developer {
     group: wgpu::BindGroup,
 }
 
+/// What a film is developed with, and where.
+#[derive(Clone, Copy)]
+pub struct Bench<'a> {
+    pub gpu: &'a Gpu,
+    pub layouts: &'a Layouts,
+    pub frame_group: &'a wgpu::BindGroup,
+    pub film_group: &'a wgpu::BindGroup,
+    pub slice: &'a wgpu::Buffer,
+    pub film: &'a wgpu::Buffer,
+    pub staging: &'a wgpu::Buffer,
+}
+
+impl<'a> Bench<'a> {
+    fn new(gpu: &'a Gpu, layouts: &'a Layouts, buffers: &'a Buffers) -> Self {
+        Self {
+            gpu,
+            layouts,
+            frame_group: &buffers.frame_group,
+            film_group: &buffers.film_group,
+            slice: &buffers.slice,
+            film: &buffers.film,
+            staging: &buffers.staging,
+        }
+    }
+}
+
 impl Renderer {
     /// The picture of what has been gathered so far, also before the render is done. Changing the
     /// tone costs no new rays.
@@ -81,29 +181,22 @@ impl Renderer {
         let start = Instant::now();
         self.fetch_film()?;
         let range = self.range_of(tone)?;
-        let [x, y, width, height] = self.settings.region();
-        let mut image = Image::new(width, height);
-        if self.settings.integrator == Integrator::Samples {
-            for (index, pixel) in image.pixels.iter_mut().enumerate() {
-                let place = [x + index as u32 % width, y + index as u32 / width];
-                let count = self.film.samples_at(place) as f32;
-                let level = match range {
-                    Some(range) => levels::place(count, range),
-                    None => count / self.settings.samples as f32,
-                };
-                *pixel = [level, level, level, 1.0];
-            }
-            return Ok(image);
+        let region = self.settings.region();
+        if self.settings.integrator.quantity() == Some(Quantity::Samples) {
+            return Ok(counted(
+                region,
+                &self.counts(),
+                self.settings.samples,
+                range,
+            ));
         }
-        let tone = tone.packed(&self.settings, range, 1);
-        for (window, means) in self.film.developable(&self.settings) {
+        let [x, y, width, height] = region;
+        let mut image = Image::new(width, height);
+        for (window, rows) in self.windows.developable(self.policy.slicing.window_side) {
+            let tone = tone.packed(self.settings.integrator, range, window.rows_per_pixel());
             let pixels =
-                self.surviving_losses(|renderer| renderer.develop_window(&window, &means, &tone))?;
-            for (row, line) in pixels.chunks_exact(window.width as usize).enumerate() {
-                let start = (window.y - y) as usize + row;
-                let start = start * width as usize + (window.x - x) as usize;
-                image.pixels[start..start + line.len()].copy_from_slice(line);
-            }
+                self.surviving_losses(|renderer| renderer.develop_window(&window, &rows, &tone))?;
+            put(&mut image, &pixels, &window, [x, y]);
         }
         self.stats.develop_seconds += start.elapsed().as_secs_f64();
         Ok(image)
@@ -113,56 +206,26 @@ impl Renderer {
     fn develop_window(
         &mut self,
         window: &Window,
-        means: &[[f32; 4]],
+        rows: &[[f32; 4]],
         tone: &PackedTone,
     ) -> Result<Vec<[f32; 4]>, GpuError> {
-        if self.device.developer.is_none() {
-            self.device.developer = Some(self.new_developer()?);
-        }
-        let device = &self.device;
-        let Some(developer) = &device.developer else {
-            return Err(GpuError::Internal {
-                what: "no develop pipeline".into(),
-            });
+        let device = &mut self.device;
+        let bench = Bench::new(&device.gpu, &device.layouts, &device.buffers);
+        let developer = match &mut device.developer {
+            Some(developer) => developer,
+            empty => empty.insert(Developer::new(bench, self.windows.largest())?),
         };
-        let slice = Slice {
-            first_tile: 0,
-            end_tile: window.tile_count(),
-            first_sample: 0,
-            end_sample: 0,
-        };
-        let packed = slice.packed(window, &self.settings);
-        let gpu = &device.gpu;
-        gpu.write(&device.buffers.slice, 0, bytes_of(&packed))?;
-        gpu.write(&device.buffers.film, 0, cast_slice(means))?;
-        gpu.write(&developer.tone, 0, bytes_of(tone))?;
-
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(&developer.pipeline);
-            pass.set_bind_group(1, &device.buffers.frame_group, &[]);
-            pass.set_bind_group(2, &device.buffers.film_group, &[]);
-            pass.set_bind_group(3, &developer.group, &[]);
-            let (columns, rows) = slice.grid();
-            pass.dispatch_workgroups(columns, rows, 1);
-        }
-        let bytes = u64::from(window.width) * u64::from(window.height) * 16;
-        let source = Source {
-            buffer: &developer.developed,
-            offset: 0,
-            bytes,
-        };
-        let staging = &device.buffers.staging;
-        let pixels = gpu.submit_and_read(encoder, &[source], staging, pod_collect_to_vec)?;
+        let pixels = developer.develop(bench, window, rows, &self.settings, tone)?;
         // The film on the GPU is this window's now.
-        self.device.loaded_window = None;
+        device.loaded_window = None;
         Ok(pixels)
     }
+}
 
-    fn new_developer(&self) -> Result<Developer, GpuError> {
-        let gpu = &self.device.gpu;
-        let layouts = &self.device.layouts;
+impl Developer {
+    /// For windows of at most so many pixels.
+    pub fn new(bench: Bench, most_pixels: usize) -> Result<Self, GpuError> {
+        let Bench { gpu, layouts, .. } = bench;
         let layout = gpu
             .device
             .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -177,16 +240,81 @@ impl Renderer {
             });
         let pipeline = gpu.pipeline(&Kernel::DEVELOP, false, &layout, &[])?;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
-        let bytes = self.film.largest_window() as u64 * 16;
-        let developed = gpu.allocate("developed", bytes, usage)?;
+        let developed = gpu.allocate("developed", most_pixels as u64 * 16, usage)?;
         let tone = gpu.upload("tone", bytes_of(&PackedTone::default()))?;
         let resources = [tone.as_entire_binding(), developed.as_entire_binding()];
         let group = group(gpu, &layouts.develop, &resources);
-        Ok(Developer {
+        Ok(Self {
             pipeline,
             developed,
             tone,
             group,
         })
     }
+
+    /// One window's pixels, row by row, from the rows of its film.
+    pub fn develop(
+        &self,
+        bench: Bench,
+        window: &Window,
+        rows: &[[f32; 4]],
+        settings: &RenderSettings,
+        tone: &PackedTone,
+    ) -> Result<Vec<[f32; 4]>, GpuError> {
+        let gpu = bench.gpu;
+        let slice = Slice {
+            first_tile: 0,
+            end_tile: window.tile_count(),
+            first_sample: 0,
+            end_sample: 0,
+        };
+        let packed = slice.packed(window, settings);
+        gpu.write(bench.slice, 0, bytes_of(&packed))?;
+        gpu.write(bench.film, 0, cast_slice(rows))?;
+        gpu.write(&self.tone, 0, bytes_of(tone))?;
+
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(1, bench.frame_group, &[]);
+            pass.set_bind_group(2, bench.film_group, &[]);
+            pass.set_bind_group(3, &self.group, &[]);
+            let (columns, rows) = slice.grid();
+            pass.dispatch_workgroups(columns, rows, 1);
+        }
+        let source = Source {
+            buffer: &self.developed,
+            offset: 0,
+            bytes: u64::from(window.width) * u64::from(window.height) * 16,
+        };
+        gpu.submit_and_read(encoder, &[source], bench.staging, pod_collect_to_vec)
+    }
+}
+
+/// Puts a window's pixels where they belong in a picture that begins at `origin`.
+pub fn put(image: &mut Image, pixels: &[[f32; 4]], window: &Window, [x, y]: [u32; 2]) {
+    for (row, line) in pixels.chunks_exact(window.width as usize).enumerate() {
+        let start = (window.y - y) as usize + row;
+        let start = start * image.width as usize + (window.x - x) as usize;
+        image.pixels[start..start + line.len()].copy_from_slice(line);
+    }
+}
+
+/// A picture of numbers of samples, as grey levels over a range or as shares of the most possible.
+pub fn counted(
+    [.., width, height]: [u32; 4],
+    counts: &[f32],
+    most: u32,
+    range: Option<[f32; 2]>,
+) -> Image {
+    let mut image = Image::new(width, height);
+    for (pixel, count) in image.pixels.iter_mut().zip(counts) {
+        let level = match range {
+            Some(range) => levels::place(*count, range),
+            None => count / most as f32,
+        };
+        *pixel = [level, level, level, 1.0];
+    }
+    image
 }

@@ -3,15 +3,15 @@
 use super::{
     Stats,
     bindings::{self, Buffers},
-    debug_view,
     develop::Developer,
     explain::Explainer,
-    film::{TILE_PIXELS, Window},
     layouts::Layouts,
-    settings::{Fetch, Integrator, Settings},
+    overrides::{self, Overrides},
+    policy::{ExecutionPolicy, Fetch},
+    settings::RenderSettings,
     show::Projector,
     slice::Slice,
-    whitted::{self, Overrides},
+    windows::{TILE_PIXELS, Window},
 };
 use crate::clock::Instant;
 use crate::{
@@ -29,7 +29,8 @@ const ROW_BYTES: u64 = 16;
 pub struct Task<'a> {
     pub scene: &'a Arc<PackedScene>,
     pub view: &'a PackedView,
-    pub settings: &'a Settings,
+    pub settings: &'a RenderSettings,
+    pub policy: &'a ExecutionPolicy,
     /// Rows of the film of the largest window.
     pub film_rows: usize,
 }
@@ -121,13 +122,14 @@ impl Device {
     }
 
     /// Runs one slice of the window with this index and returns its accounts. With
-    /// [`super::Slicing::host_copy`] the sums of its tiles come to the host's film if it was done in
+    /// [`ExecutionPolicy::host_copy`] the sums of its tiles come to the host's film if it was done in
     /// full.
     pub fn trace(
         &mut self,
         slice: &Slice,
         (index, window): (usize, &mut Window),
-        settings: &Settings,
+        settings: &RenderSettings,
+        host_copy: bool,
     ) -> Result<PackedSlice, GpuError> {
         let Self { gpu, buffers, .. } = self;
         if self.loaded_window != Some(index) {
@@ -154,12 +156,11 @@ impl Device {
             bytes: u64::from(slice.end_tile - slice.first_tile) * tile_bytes,
         };
         let first_row = slice.first_tile as usize * tile_rows;
-        let copies = settings.slicing.host_copy;
-        let sources = &[accounts, tiles][..1 + usize::from(copies)];
+        let sources = &[accounts, tiles][..1 + usize::from(host_copy)];
         gpu.submit_and_read(encoder, sources, &buffers.staging, |bytes| {
             let (tally, sums) = bytes.split_at(size_of::<PackedSlice>());
             let tally = pod_read_unaligned(tally);
-            if copies && slice.is_complete(&tally) {
+            if host_copy && slice.is_complete(&tally) {
                 let target = cast_slice_mut(&mut window.sums[first_row..]);
                 target[..sums.len()].copy_from_slice(sums);
             }
@@ -188,19 +189,10 @@ struct Variant {
 
 impl Variant {
     fn of(task: Task) -> Self {
-        let (kernel, overrides) = kernel(task);
         Self {
-            kernel: kernel.name,
-            overrides,
+            kernel: task.settings.integrator.entry().kernel.name,
+            overrides: overrides::of(task),
         }
-    }
-}
-
-/// The integrator's kernel, and what the scene, the frame and the settings ask of it.
-fn kernel(task: Task) -> (Kernel, Overrides) {
-    match task.settings.integrator {
-        Integrator::Whitted | Integrator::Samples => (Kernel::WHITTED, whitted::overrides(task)),
-        _ => (Kernel::DEBUG_VIEW, debug_view::overrides(task)),
     }
 }
 
@@ -215,8 +207,8 @@ fn compile(
     stats: &mut Stats,
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let start = Instant::now();
-    let (kernel, overrides) = kernel(task);
-    let pipeline = pipeline(gpu, fetch, layouts, kernel, &overrides)?;
+    let kernel = task.settings.integrator.entry().kernel;
+    let pipeline = pipeline(gpu, fetch, layouts, kernel, &overrides::of(task))?;
     let idle = PackedSlice {
         tile_count: 1,
         tile_columns: 1,

@@ -1,7 +1,7 @@
 //! How much work one sample of a pixel may be, as far as it is known before: a submission cannot do less
 //! than one sample of one tile, and drivers reset a GPU that takes too long over one.
 
-use super::{RenderError, Settings};
+use super::{FilmError, RenderError, RenderSettings};
 use crate::{
     layout::LIGHT_RECTANGLE,
     pack::{PackedScene, PackedView},
@@ -43,7 +43,7 @@ pub enum LongPath {
 
 impl LongPath {
     /// What it most likely is.
-    pub fn of(scene: &PackedScene, view: &PackedView, settings: &Settings) -> Self {
+    pub fn of(scene: &PackedScene, view: &PackedView, settings: &RenderSettings) -> Self {
         let primitives = (scene.triangles.len() + scene.shapes.len()) as u64;
         let shadow = shadow_rays(view, settings);
         let bounces = bounces(scene, settings);
@@ -86,8 +86,8 @@ impl fmt::Display for LongPath {
 }
 
 /// Shadow rays from one point that a camera ray meets: one for each light, or for each of its samples.
-pub fn shadow_rays(view: &PackedView, settings: &Settings) -> u64 {
-    if !view.has_lights || !settings.is_lit() {
+pub fn shadow_rays(view: &PackedView, settings: &RenderSettings) -> u64 {
+    if !view.has_lights || !settings.integrator.entry().is_lit {
         return 0;
     }
     // As in `scene/direct.wesl`.
@@ -101,8 +101,12 @@ pub fn shadow_rays(view: &PackedView, settings: &Settings) -> u64 {
         .fold(0, u64::saturating_add)
 }
 
-/// Refuses lights that take too many shadow rays from one point.
-pub fn check(view: &PackedView, settings: &Settings) -> Result<(), RenderError> {
+/// Refuses lights that take too many shadow rays from one point, and ranges of samples that cannot be told
+/// before the first ones are there.
+pub fn check(view: &PackedView, settings: &RenderSettings) -> Result<(), RenderError> {
+    if settings.is_adaptive() && settings.sample_range.is_some() {
+        return Err(FilmError::Adaptive.into());
+    }
     let rays = shadow_rays(view, settings);
     if rays > MOST_SHADOW_RAYS {
         return Err(RenderError::TooManyShadowRays {
@@ -115,9 +119,9 @@ pub fn check(view: &PackedView, settings: &Settings) -> Result<(), RenderError> 
 }
 
 /// The most bounces that lead to a ray.
-fn bounces(scene: &PackedScene, settings: &Settings) -> u32 {
+fn bounces(scene: &PackedScene, settings: &RenderSettings) -> u32 {
     let sends_on = scene.features.reflection || scene.features.refraction;
-    match sends_on && settings.is_lit() {
+    match sends_on && settings.integrator.entry().is_lit {
         true => settings.max_depth,
         false => 0,
     }

@@ -1,6 +1,6 @@
 //! Why a picture cannot be rendered.
 
-use super::effort::LongPath;
+use super::{FilmError, effort::LongPath};
 use crate::gpu::GpuError;
 
 /// Why a picture cannot be rendered.
@@ -9,6 +9,9 @@ pub enum RenderError {
     /// The device or its driver failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// There is no such film.
+    #[error(transparent)]
+    Film(#[from] FilmError),
     /// The driver ended a shader's loops early, even with one sample in an invocation.
     #[error(
         "too much work in one sample ({0}): this driver ends a shader's loops after 65,535 rounds, and the picture would be wrong."

@@ -8,10 +8,10 @@ mod tree;
 pub use tree::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
 
 use super::{
-    Integrator, RenderError, Renderer, Settings,
+    Integrator, RenderError, RenderSettings, Renderer,
     device::{self, Task},
     layouts::group,
-    whitted::{self, Overrides},
+    overrides::{self, Overrides},
 };
 use crate::{
     gpu::{GpuError, Kernel, Source},
@@ -32,7 +32,7 @@ const MOST_PROBES: usize = 1024;
 const MOST_RECORDS: u32 = (32 << 20) / (16 * RAY_ROWS);
 /// Lanes of a workgroup, each of which takes a sample.
 const LANES: usize = 64;
-/// The overrides that stay as they are: there is no film here, and nothing is counted.
+/// There is no film here, and nothing is counted.
 const WITHOUT: [&str; 4] = ["COUNT_RAYS", "ADAPTIVE", "FILM_ROWS", "SQUARES_ROW"];
 
 /// What explaining keeps on the GPU once it has been used.
@@ -89,12 +89,12 @@ impl Renderer {
     }
 
     /// The samples that a pixel of the picture is to get; with adaptive sampling those of the rounds that
-    /// are done. 0 outside of [`Settings::region`].
+    /// are done. 0 outside of [`RenderSettings::region`].
     pub fn samples_at(&self, pixel: [u32; 2]) -> u32 {
         let [x, y, width, height] = self.settings.region();
         let within = |at: u32, start: u32, length: u32| (start..start + length).contains(&at);
         match within(pixel[0], x, width) && within(pixel[1], y, height) {
-            true => self.film.samples_at(pixel),
+            true => self.windows.samples_at(pixel),
             false => 0,
         }
     }
@@ -160,7 +160,7 @@ impl Renderer {
 
     /// Compiles the kernel unless it is there already.
     fn prepare(&mut self) -> Result<(), GpuError> {
-        let settings = Settings {
+        let settings = RenderSettings {
             integrator: Integrator::Whitted,
             ..self.settings.clone()
         };
@@ -168,9 +168,10 @@ impl Renderer {
             scene: &self.scene,
             view: &self.view,
             settings: &settings,
-            film_rows: self.film.largest_window(),
+            policy: &self.policy,
+            film_rows: self.windows.largest(),
         };
-        let mut overrides = whitted::overrides(task);
+        let mut overrides = overrides::of(task);
         overrides.retain(|(name, _)| !WITHOUT.contains(name));
         let device = &mut self.device;
         let known = device.explainer.as_ref();

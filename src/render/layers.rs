@@ -1,10 +1,10 @@
-//! The layers of films: what is kept of the samples of a pixel besides their radiance.
+//! The layers of films: what is kept of the samples of a pixel.
 //!
-//! Another layer is another constant here, a line in [`of_sampling`],
-//! and in `shaders/scene/film.wesl` a member of `Sample` and `Sum` with the row that it is
-//! loaded from and stored in. Memory, windows, exact totals, files and merging follow from the table.
+//! Another layer is another constant here and its place in [`of_sampling`] and [`of_pictures`]; and in
+//! `shaders/scene/film.wesl` a member of `Sample` and of `Sum`, with the row that it is loaded from and stored
+//! in. Memory, windows, exact totals, files and merging follow from the table.
 
-use super::settings::Settings;
+use super::settings::RenderSettings;
 
 /// One layer of a film.
 #[derive(Debug, PartialEq, Eq)]
@@ -13,7 +13,7 @@ pub struct Layer {
     pub name: &'static str,
     /// Rows of four numbers for each pixel, at least 1.
     pub rows: usize,
-    /// What its rows are.
+    /// How it comes about, and what becomes of it.
     pub kind: LayerKind,
 }
 
@@ -26,6 +26,8 @@ pub enum LayerKind {
     /// The sum of the squares of luminance, which says when a pixel is good enough; then the pixel's place,
     /// and 1. It is not developed.
     Squares,
+    /// How many samples there are, which is known without the GPU; then zeros. It is developed as a grey level.
+    Count,
 }
 
 /// Linear radiance, or what else an integrator brings back.
@@ -42,12 +44,36 @@ pub const SQUARES: Layer = Layer {
     kind: LayerKind::Squares,
 };
 
+/// Where the samples of adaptive sampling went.
+pub const COUNT: Layer = Layer {
+    name: "count",
+    rows: 1,
+    kind: LayerKind::Count,
+};
+
 /// The layers on the GPU while samples are added, in the order of their rows.
-pub fn of_sampling(settings: &Settings) -> &'static [&'static Layer] {
+pub fn of_sampling(settings: &RenderSettings) -> &'static [&'static Layer] {
     match settings.is_adaptive() {
         true => &[&RADIANCE, &SQUARES],
         false => &[&RADIANCE],
     }
+}
+
+/// The layers of the film that comes of it.
+pub fn of_pictures(settings: &RenderSettings) -> &'static [&'static Layer] {
+    match settings.is_adaptive() {
+        true => &[&RADIANCE, &COUNT],
+        false => &[&RADIANCE],
+    }
+}
+
+/// Every list of layers that a film can have.
+const LISTS: &[&[&Layer]] = &[&[&RADIANCE], &[&RADIANCE, &COUNT]];
+
+/// The list of layers with these names.
+pub fn named(names: &[String]) -> Option<&'static [&'static Layer]> {
+    let is_wanted = |list: &&&[&Layer]| list.iter().map(|layer| layer.name).eq(names);
+    LISTS.iter().find(is_wanted).copied()
 }
 
 /// Rows of all layers together.

@@ -1,6 +1,6 @@
 //! Layouts of the bind groups of `bindings.wesl`, and the groups made after them.
 
-use super::settings::Fetch;
+use super::policy::Fetch;
 use crate::gpu::Gpu;
 use wgpu::{BindGroupLayout, BindingType, BufferBindingType, TextureFormat};
 

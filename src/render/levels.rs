@@ -1,7 +1,6 @@
 //! Views of quantities (distances, samples, work) and the range over which they are shown.
 
-use super::{Integrator, RenderError, Renderer, Tone};
-use crate::layout::{VIEW_DEPTH, VIEW_HEAT, VIEW_NORMALS};
+use super::{RenderError, Renderer, Tone};
 
 /// Share of a pixel's samples that must hit something, as in `lib/quantity.wesl`.
 const LEAST_COVERAGE: f32 = 0.01;
@@ -28,27 +27,6 @@ pub enum Quantity {
     Samples,
     /// Steps of the tree walk for a ray: black, blue, green, yellow, red, white.
     Work,
-}
-
-impl Integrator {
-    /// What the view measures; `None` for those that show colours.
-    pub fn quantity(self) -> Option<Quantity> {
-        match self {
-            Self::Depth => Some(Quantity::Distance),
-            Self::Samples => Some(Quantity::Samples),
-            Self::Heat => Some(Quantity::Work),
-            Self::Whitted | Self::Normals | Self::Ids | Self::Uv => None,
-        }
-    }
-
-    /// What the film holds, as the shader that develops it has to know.
-    pub(super) fn developed_view(self) -> u32 {
-        match self {
-            Self::Depth => VIEW_DEPTH,
-            Self::Heat => VIEW_HEAT,
-            _ => VIEW_NORMALS,
-        }
-    }
 }
 
 impl Quantity {
@@ -91,29 +69,23 @@ impl Renderer {
             return Ok(None);
         };
         if quantity == Quantity::Samples {
-            let [x, y, width, height] = self.settings.region();
-            let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
-            let counts = pixels.map(|pixel| self.film.samples_at(pixel) as f32);
-            return Ok(extent(counts.collect(), quantity.outliers()));
+            return Ok(extent(self.counts(), quantity));
         }
         self.fetch_film()?;
-        let value = |[value, hits, _, weight]: [f32; 4]| {
-            // Padding and what has no sample yet weigh nothing.
-            let is_sampled = weight.abs() > 0.5;
-            let hits = hits / weight;
-            match quantity {
-                Quantity::Distance => {
-                    (is_sampled && hits >= LEAST_COVERAGE).then(|| value / weight / hits)
-                }
-                _ => is_sampled.then(|| value / weight),
-            }
-        };
-        let windows = self.film.developable(&self.settings);
-        let rows = windows.into_iter().flat_map(|(_, rows)| rows);
-        Ok(extent(
-            rows.filter_map(value).collect(),
-            quantity.outliers(),
-        ))
+        let windows = self.windows.developable(self.policy.slicing.window_side);
+        let rows = windows
+            .iter()
+            .flat_map(|(window, rows)| rows.iter().step_by(window.rows_per_pixel()));
+        Ok(extent(values(quantity, rows), quantity))
+    }
+
+    /// The samples of each pixel, row by row.
+    pub(super) fn counts(&self) -> Vec<f32> {
+        let [x, y, width, height] = self.settings.region();
+        let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
+        pixels
+            .map(|pixel| self.windows.samples_at(pixel) as f32)
+            .collect()
     }
 
     /// The range that a tone asks for.
@@ -126,10 +98,26 @@ impl Renderer {
     }
 }
 
-/// The least and the greatest value once this share of them is left out at either end.
-fn extent(mut values: Vec<f32>, share: f64) -> Option<[f32; 2]> {
+/// The values of pixels that have any, from the rows of their sums.
+pub(super) fn values<'a>(quantity: Quantity, rows: impl Iterator<Item = &'a [f32; 4]>) -> Vec<f32> {
+    let value = |[value, hits, _, weight]: &[f32; 4]| {
+        // Padding and what has no sample yet weigh nothing.
+        let is_sampled = weight.abs() > 0.5;
+        let hits = hits / weight;
+        match quantity {
+            Quantity::Distance => {
+                (is_sampled && hits >= LEAST_COVERAGE).then(|| value / weight / hits)
+            }
+            Quantity::Samples | Quantity::Work => is_sampled.then(|| value / weight),
+        }
+    };
+    rows.filter_map(value).collect()
+}
+
+/// The least and the greatest value, less [`Quantity::outliers`].
+pub(super) fn extent(mut values: Vec<f32>, quantity: Quantity) -> Option<[f32; 2]> {
     let last = values.len().checked_sub(1)?;
-    let skipped = (values.len() as f64 * share) as usize;
+    let skipped = (values.len() as f64 * quantity.outliers()) as usize;
     let mut nth = |index| *values.select_nth_unstable_by(index, f32::total_cmp).1;
     Some([nth(skipped), nth(last - skipped)])
 }

@@ -1,9 +1,8 @@
-//! What is to be rendered and how, apart from the scene.
+//! What is to be rendered, apart from the scene.
 
-use crate::{
-    gpu::MEMORY_LIMIT_BYTES,
-    scene::{Antialias, Filter, OutputDefaults},
-};
+use super::{Fingerprint, Integrator, fingerprint::Encoder};
+use crate::scene::{Antialias, Filter, OutputDefaults};
+use std::ops::Range;
 
 /// The share in a sample below which rays are not sent, unless told otherwise: half of what shows
 /// in 8 bits.
@@ -11,13 +10,16 @@ pub const MIN_THROUGHPUT: f32 = 1.0 / 512.0;
 
 /// Settings of one picture. Together with scene, frame and seed they determine every pixel.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct RenderSettings {
     /// Width and height of the whole picture in pixels, at least 1.
     pub size: (u32, u32),
     /// Part of the picture to render: x0, y0, x1, y1 in pixels, the last two exclusive.
     pub crop: Option<[u32; 4]>,
     /// Samples per pixel, at least 1.
     pub samples: u32,
+    /// Which of them to render, all without it: within 0 to `samples`, not empty, and not with adaptive
+    /// sampling. For a film both ends are multiples of [`super::SAMPLE_BLOCK`], or the last is `samples`.
+    pub sample_range: Option<Range<u32>>,
     /// Where in a pixel its samples lie.
     pub antialias: Antialias,
     /// The noise at which adaptive sampling stops; see [`Antialias::Adaptive`]. Above 0.
@@ -41,22 +43,15 @@ pub struct Settings {
     /// Mirrored and refracted rays are sent whose share in a sample, the mean of the channels, is at
     /// least this, 0 to 1.
     pub min_throughput: f32,
-    /// Whether [`super::Stats::rays`] is kept.
-    pub count_rays: bool,
-    /// Most memory that scene and picture may take, in bytes.
-    pub memory_limit_bytes: u64,
-    /// Through what the shader reads the scene.
-    pub fetch: Fetch,
-    /// How work is cut into submissions.
-    pub slicing: Slicing,
 }
 
-impl Default for Settings {
+impl Default for RenderSettings {
     fn default() -> Self {
         Self {
             size: (640, 480),
             crop: None,
             samples: 1,
+            sample_range: None,
             antialias: Antialias::None,
             noise: 0.01,
             filter: Filter::Box,
@@ -68,15 +63,11 @@ impl Default for Settings {
             seed: 0,
             max_depth: 5,
             min_throughput: MIN_THROUGHPUT,
-            count_rays: false,
-            memory_limit_bytes: MEMORY_LIMIT_BYTES,
-            fetch: Fetch::Auto,
-            slicing: Slicing::default(),
         }
     }
 }
 
-impl From<&OutputDefaults> for Settings {
+impl From<&OutputDefaults> for RenderSettings {
     /// What the scene says, and everything else by default.
     fn from(output: &OutputDefaults) -> Self {
         let antialias = if output.samples > 1 {
@@ -98,15 +89,10 @@ impl From<&OutputDefaults> for Settings {
     }
 }
 
-impl Settings {
+impl RenderSettings {
     /// Whether pixels stop when they are good enough.
     pub fn is_adaptive(&self) -> bool {
-        self.antialias == Antialias::Adaptive && self.is_lit()
-    }
-
-    /// Whether lights count: the integrator traces more than what is first hit.
-    pub(super) fn is_lit(&self) -> bool {
-        matches!(self.integrator, Integrator::Whitted | Integrator::Samples)
+        self.antialias == Antialias::Adaptive && self.integrator.entry().is_lit
     }
 
     /// The rectangle to render: x, y, width, height.
@@ -114,27 +100,74 @@ impl Settings {
         let [x0, y0, x1, y1] = self.crop.unwrap_or([0, 0, self.size.0, self.size.1]);
         [x0, y0, x1 - x0, y1 - y0]
     }
-}
 
-/// What a camera ray brings back.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Integrator {
-    /// Phong's illumination with shadow rays, and recursive reflection and refraction.
-    #[default]
-    Whitted,
-    /// Shading normals, components from -1..1 to 0..1; black where nothing is hit.
-    Normals,
-    /// Distance along the ray in scene units; 0 where nothing is hit.
-    Depth,
-    /// A colour for each primitive.
-    Ids,
-    /// Texture coordinates: u in red and v in green, from 0 to 1 and again, over a pattern of 8 by 8 fields;
-    /// black where nothing is hit and on meshes that have none.
-    Uv,
-    /// Steps of the tree walk.
-    Heat,
-    /// The samples that adaptive sampling spent; raw, as a share of those allowed.
-    Samples,
+    /// The samples to render.
+    pub fn samples_to_render(&self) -> Range<u32> {
+        self.sample_range.clone().unwrap_or(0..self.samples)
+    }
+
+    /// The settings of the whole picture of which these render a part.
+    pub fn of_whole(&self) -> Self {
+        Self {
+            crop: None,
+            sample_range: None,
+            ..self.clone()
+        }
+    }
+
+    /// A name for all of it, which stays the same in other builds and versions unless what is encoded changes.
+    pub fn fingerprint(&self) -> Fingerprint {
+        let Self {
+            size,
+            crop,
+            samples,
+            sample_range,
+            antialias,
+            noise,
+            filter,
+            filter_radius,
+            light_samples,
+            integrator,
+            triangle_test,
+            brute_force,
+            seed,
+            max_depth,
+            min_throughput,
+        } = self;
+        let range = sample_range.as_ref();
+        let mut encoder = Encoder::new("render settings", 1);
+        encoder.number(size.0);
+        encoder.number(size.1);
+        encoder.option(*crop);
+        encoder.number(*samples);
+        encoder.option(range.map(|range| [range.start, range.end]));
+        encoder.number(match antialias {
+            Antialias::None => 0,
+            Antialias::Stratified => 1,
+            Antialias::Adaptive => 2,
+        });
+        encoder.float(*noise);
+        encoder.number(match filter {
+            Filter::Box => 0,
+            Filter::Tent => 1,
+            Filter::Gaussian => 2,
+            Filter::BlackmanHarris => 3,
+            Filter::Mitchell => 4,
+        });
+        encoder.float(*filter_radius);
+        encoder.float(*light_samples);
+        encoder.bytes(integrator.entry().name.as_bytes());
+        encoder.number(match triangle_test {
+            TriangleTest::Plane => 0,
+            TriangleTest::MollerTrumbore => 1,
+            TriangleTest::Watertight => 2,
+        });
+        encoder.number((*brute_force).into());
+        encoder.number(*seed);
+        encoder.number(*max_depth);
+        encoder.float(*min_throughput);
+        encoder.finish()
+    }
 }
 
 /// How a ray is tested against a triangle.
@@ -147,45 +180,4 @@ pub enum TriangleTest {
     /// Woop, Benthin and Wald 2013: no ray slips between neighbours.
     #[default]
     Watertight,
-}
-
-/// Through what the shader reads nodes and triangles; the picture is the same.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Fetch {
-    /// Images on software adapters, buffers elsewhere where they are large enough.
-    #[default]
-    Auto,
-    /// Storage images: the faster way on software adapters.
-    Image,
-    /// Storage buffers: the faster way on most GPUs, where one binding can hold the scene.
-    Buffer,
-}
-
-/// How work is cut into submissions; the picture is the same.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slicing {
-    /// Time that one submission should take, in seconds.
-    pub target_seconds: f64,
-    /// Most tiles of 8x8 pixels in a submission, at least 1.
-    pub max_tiles: u32,
-    /// Most samples per pixel in a submission, at least 1.
-    pub max_samples: u32,
-    /// Longest side of a window, the part of the picture that is on the GPU at a time, in pixels;
-    /// 8 to 2048.
-    pub window_side: u32,
-    /// Whether the film comes to the host after each submission, so that a lost device costs no more
-    /// than one. Without, it comes when it is asked for, and a loss is an error.
-    pub host_copy: bool,
-}
-
-impl Default for Slicing {
-    fn default() -> Self {
-        Self {
-            target_seconds: 0.1,
-            max_tiles: u32::MAX,
-            max_samples: 16,
-            window_side: 2048,
-            host_copy: true,
-        }
-    }
 }

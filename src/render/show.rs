@@ -1,7 +1,7 @@
 //! From sums to a picture on the screen, without leaving the GPU: `kernels/show.wesl`.
 
 use super::{
-    Integrator, Levels, RenderError, Renderer, Tone,
+    Levels, Quantity, RenderError, Renderer, Tone,
     layouts::{SCREEN_FORMAT, group_at},
     slice::Slice,
 };
@@ -56,7 +56,7 @@ impl Renderer {
     /// Samples that every pixel has got, for a picture that [`Self::shows_directly`]; else the share
     /// of all that has been done.
     pub fn samples_done(&self) -> u32 {
-        match self.film.is_one_rectangle() && !self.is_done() {
+        match self.windows.is_one_rectangle() && !self.is_done() {
             true => self.cursor.sample,
             false => (self.progress() * f64::from(self.settings.samples)) as u32,
         }
@@ -65,7 +65,8 @@ impl Renderer {
     /// Whether [`Self::show`] leaves the film where it is. Else the host has a part in it: films of
     /// several windows, more samples than one sum takes, adaptive sampling.
     pub fn shows_directly(&self) -> bool {
-        self.settings.integrator != Integrator::Samples && self.film.is_one_sum()
+        self.settings.integrator.quantity() != Some(Quantity::Samples)
+            && self.windows.is_one_block()
     }
 
     /// Puts what has been gathered so far on a screen of the picture's size: for every pixel that has a
@@ -74,7 +75,11 @@ impl Renderer {
     pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
         let range = self.range_of(tone)?;
         if self.shows_directly() {
-            let tone = tone.packed(&self.settings, range, self.film.windows[0].rows_per_pixel());
+            let tone = tone.packed(
+                self.settings.integrator,
+                range,
+                self.windows.list[0].rows_per_pixel(),
+            );
             self.surviving_losses(|renderer| renderer.project(&tone, screen))?;
             return Ok(range);
         }
@@ -102,7 +107,7 @@ impl Renderer {
                 what: "no show pipeline".into(),
             });
         };
-        let window = &self.film.windows[0];
+        let window = &self.windows.list[0];
         if device.loaded_window != Some(0) {
             gpu.write(&buffers.film, 0, cast_slice(&window.developable()))?;
             device.loaded_window = Some(0);

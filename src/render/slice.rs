@@ -1,10 +1,7 @@
 //! Cuts the work on a window into submissions that take about the target time each: watchdogs kill
 //! long ones, and nothing can be shown, stopped or saved within one.
 
-use super::{
-    film::Window,
-    settings::{Settings, Slicing},
-};
+use super::{policy::Slicing, settings::RenderSettings, windows::Window};
 use crate::layout::PackedSlice;
 
 /// Tiles of the first submission; one that turns out heavier than planned stays short.
@@ -74,7 +71,7 @@ impl Slice {
     }
 
     /// The slice as the shader reads it.
-    pub fn packed(&self, window: &Window, settings: &Settings) -> PackedSlice {
+    pub fn packed(&self, window: &Window, settings: &RenderSettings) -> PackedSlice {
         PackedSlice {
             picture_width: settings.size.0,
             picture_height: settings.size.1,

@@ -29,13 +29,13 @@ pub struct Stats {
     /// transparent bodies, one inside the other, than it remembers. What was cut off is missing in the
     /// picture, and behind bodies that were forgotten it is wrong.
     pub cut_off_trees: u64,
-    /// Planned memory in bytes, of the frame that takes most; see [`super::Settings::memory_limit_bytes`].
+    /// Planned memory in bytes, of the frame that takes most; see [`super::ExecutionPolicy::memory_limit_bytes`].
     pub gpu_bytes: u64,
     /// How often the device was lost and replaced.
     pub device_losses: u32,
     /// Camera rays whose sum is in the film.
     pub samples: u64,
-    /// Kept with [`super::Settings::count_rays`].
+    /// Kept with [`super::ExecutionPolicy::count_rays`].
     pub rays: Option<Rays>,
 }
 

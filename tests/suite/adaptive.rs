@@ -1,11 +1,11 @@
 //! Adaptive sampling: as good as spending the same everywhere, for less.
 
-use crate::reference::compare::{assert_none, check_same_bits, render, start};
+use crate::reference::compare::{assert_none, check_same_bits, render, sliced, start};
 use crate::reference::scenes;
 use crate::render::cut;
 use glam::{Vec3, dvec3};
 use glimray::image::Image;
-use glimray::render::{Antialias, Filter, Integrator, Settings, Slicing, Stats, Tone};
+use glimray::render::{Antialias, Filter, Integrator, RenderSettings, Slicing, Stats, Tone};
 use glimray::scene::{
     Background, Camera, Geometry, Lens, Light, LightKind, Material, Scene, Shape,
 };
@@ -46,13 +46,13 @@ fn detail_in_a_fifth() -> Scene {
     scene
 }
 
-fn settings(antialias: Antialias, samples: u32, noise: f32) -> Settings {
-    Settings {
+fn settings(antialias: Antialias, samples: u32, noise: f32) -> RenderSettings {
+    RenderSettings {
         size: (96, 96),
         antialias,
         samples,
         noise,
-        ..Settings::default()
+        ..RenderSettings::default()
     }
 }
 
@@ -67,7 +67,7 @@ fn rmse(a: &Image, b: &Image) -> f64 {
 #[test]
 fn where_a_fifth_has_detail_half_of_the_rays_give_the_same_error() {
     let scene = detail_in_a_fifth();
-    let of = |settings: &Settings| -> (Image, Stats) { render(&scene, settings) };
+    let of = |settings: &RenderSettings| -> (Image, Stats) { render(&scene, settings) };
     let truth = of(&settings(Antialias::Stratified, 4096, 0.01)).0;
     let (even, even_stats) = of(&settings(Antialias::Stratified, 32, 0.01));
     let (adaptive, stats) = of(&settings(Antialias::Adaptive, 128, 0.025));
@@ -109,7 +109,7 @@ fn less_noise_takes_more_samples_and_none_takes_all_or_few() {
 #[test]
 fn the_map_of_samples_shows_where_they_went() {
     let scene = detail_in_a_fifth();
-    let settings = Settings {
+    let settings = RenderSettings {
         integrator: Integrator::Samples,
         ..settings(Antialias::Adaptive, 64, 0.01)
     };
@@ -133,15 +133,13 @@ fn the_cut_of_the_work_does_not_show_in_adaptive_pictures() {
     let expected = render(&scene, &whole).0;
     assert_none([(1, 3, 2048), (50, 16, 16), (7, 1, 40)].map(
         |(max_tiles, max_samples, window_side)| {
-            let cut = Settings {
-                slicing: Slicing {
-                    max_tiles,
-                    max_samples,
-                    window_side,
-                    ..Slicing::default()
-                },
-                ..whole.clone()
+            let slicing = Slicing {
+                max_tiles,
+                max_samples,
+                window_side,
+                ..Slicing::default()
             };
+            let cut = sliced(&whole, slicing);
             check_same_bits(
                 &format!("{max_tiles} tiles"),
                 &expected,
@@ -212,12 +210,12 @@ fn an_adaptive_crop_is_the_same_pixels_of_the_whole_picture() {
     ];
     let rows = scenes.into_iter().flat_map(|(name, scene, samples)| {
         [Integrator::Whitted, Integrator::Samples].map(|integrator| {
-            let whole = Settings {
+            let whole = RenderSettings {
                 integrator,
                 ..settings(Antialias::Adaptive, samples, 0.01)
             };
             let expected = render(&scene, &whole).0;
-            let of = |crop| Settings {
+            let of = |crop| RenderSettings {
                 crop: Some(crop),
                 ..whole.clone()
             };
@@ -233,7 +231,7 @@ fn an_adaptive_crop_is_the_same_pixels_of_the_whole_picture() {
 
 #[test]
 fn negative_lobes_make_no_pixel_glow() {
-    let mitchell = Settings {
+    let mitchell = RenderSettings {
         filter: Filter::Mitchell,
         filter_radius: 2.0,
         ..settings(Antialias::Adaptive, 8, 0.01)

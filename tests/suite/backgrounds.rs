@@ -5,7 +5,7 @@ use crate::reference::scenes;
 use glam::Vec3;
 use glimray::import;
 use glimray::pack;
-use glimray::render::{Antialias, Settings, Tone};
+use glimray::render::{Antialias, RenderSettings, Tone};
 use glimray::scene::{Background, Scene};
 use std::path::Path;
 
@@ -18,7 +18,7 @@ const GRADIENT: Background = Background::Gradient {
 /// A renderer that restarts with a frame before another background, with the scene that it has, gives the
 /// bits of a scene that was packed with that background; and those of its own again.
 fn check(name: &str, scene: &Scene) -> Vec<Result<(), String>> {
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 3,
         antialias: Antialias::Stratified,
         ..sized(48, 36)

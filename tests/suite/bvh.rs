@@ -8,7 +8,7 @@ use glimray::layout::{
     LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, SHAPE, STACK_SIZE,
 };
 use glimray::pack::{self, PackedScene};
-use glimray::render::{Integrator, Settings, TriangleTest};
+use glimray::render::{Integrator, RenderSettings, TriangleTest};
 use glimray::scene::{Mesh, Scene};
 
 const LIMITS: Limits = Limits {
@@ -425,14 +425,14 @@ fn medley(seed: u64) -> Scene {
 fn check_tree_against_brute_force(
     name: &str,
     scene: &Scene,
-    settings: &Settings,
+    settings: &RenderSettings,
 ) -> Result<(), String> {
     let mut problems = Vec::new();
     for integrator in [Integrator::Depth, Integrator::Ids] {
         let of = |brute_force| {
             render(
                 scene,
-                &Settings {
+                &RenderSettings {
                     integrator,
                     brute_force,
                     ..settings.clone()
@@ -451,10 +451,10 @@ fn check_tree_against_brute_force(
 }
 
 /// An odd number of pixels, so that the middle ones look straight along an axis.
-fn odd_sized() -> Settings {
-    Settings {
+fn odd_sized() -> RenderSettings {
+    RenderSettings {
         size: (129, 129),
-        ..Settings::default()
+        ..RenderSettings::default()
     }
 }
 
@@ -485,7 +485,7 @@ fn every_triangle_test_finds_the_same_with_and_without_the_tree() {
     ];
     assert_none(rows.into_iter().flat_map(|(name, scene)| {
         [TriangleTest::Plane, TriangleTest::MollerTrumbore].map(|triangle_test| {
-            let settings = Settings {
+            let settings = RenderSettings {
                 triangle_test,
                 ..odd_sized()
             };
@@ -501,7 +501,7 @@ fn shadows_are_the_same_with_and_without_the_tree() {
     let of = |brute_force| {
         render(
             &scene,
-            &Settings {
+            &RenderSettings {
                 brute_force,
                 ..odd_sized()
             },
@@ -519,14 +519,14 @@ fn a_chain_of_spheres_deeper_than_the_stack_renders_right() {
         let aside = 0.3 * dvec3(turn.cos(), turn.sin(), 0.0);
         scene.add_sphere(far * (aside - DVec3::Z), far / 20.0, 0);
     }
-    let settings = Settings {
+    let settings = RenderSettings {
         size: (64, 64),
-        ..Settings::default()
+        ..RenderSettings::default()
     };
     assert_none([check_tree_against_brute_force("chain", &scene, &settings)]);
     let hit = render(
         &scene,
-        &Settings {
+        &RenderSettings {
             integrator: Integrator::Depth,
             ..settings
         },

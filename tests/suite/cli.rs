@@ -161,6 +161,7 @@ fn help_explains_every_promised_flag_with_an_example() {
             "render",
             [
                 output,
+                "--sample-offset --sample-count",
                 size,
                 picture,
                 "--frame --time",
@@ -180,6 +181,10 @@ fn help_explains_every_promised_flag_with_an_example() {
             [output, turn, size, motion, reading, device, log].join(" "),
         ),
         ("convert", ["--output --no-clobber", reading].join(" ")),
+        (
+            "merge",
+            [output, "--exposure --tone --transfer", device].join(" "),
+        ),
         ("inspect", ["--json", reading].join(" ")),
         (
             "explain",
@@ -1038,4 +1043,78 @@ fn a_lost_device_does_not_change_what_is_explained() {
             .expect("it runs"),
     );
     run.expect(6);
+}
+
+#[test]
+fn films_of_parts_merge_to_the_picture_of_one_run() {
+    let place = Workplace::new();
+    let render = "render a.scene --size 40x30 --samples 150 --quiet";
+    let read = |name: &str| fs::read(place.path(name)).expect("a file");
+    place.run(&format!("{render} -o one.png")).expect(0);
+    place.run(&format!("{render} -o one.film")).expect(0);
+    for part in [
+        "--sample-count 64 -o a.film",
+        "--sample-offset 64 --crop 0,0,40,11 -o b.film",
+        "--sample-offset 64 --crop 0,11,40,30 -o c.film",
+    ] {
+        place.run(&format!("{render} {part}")).expect(0);
+    }
+    place
+        .run("merge c.film a.film b.film -o all.film")
+        .expect(0);
+    place.run("merge all.film -o all.png").expect(0);
+    assert!(read("all.film") == read("one.film"));
+    assert!(read("all.png") == read("one.png"));
+
+    let run = place.run("merge a.film c.film -o less.png").expect(8);
+    let lacking = "missing are samples 64 to 149 of 40×11 pixels at 0,0";
+    assert!(run.stderr.contains(lacking), "{}", run.stderr);
+    assert!(!place.path("less.png").exists());
+    let run = place.run("merge a.film all.film -o more.film").expect(3);
+    assert!(run.stderr.contains("overlap"), "{}", run.stderr);
+    place
+        .run(&format!("{render} --seed 1 --crop 0,0,40,11 -o d.film"))
+        .expect(0);
+    let run = place.run("merge a.film d.film -o other.film").expect(3);
+    assert!(
+        run.stderr.contains("differ in the settings"),
+        "{}",
+        run.stderr
+    );
+    place.run("merge a.film -o ./a.film").expect(4);
+}
+
+#[test]
+fn files_that_are_no_films_and_parts_that_cannot_be_are_refused() {
+    let place = Workplace::new();
+    let render = "render a.scene --size 16x12 --samples 150 --quiet";
+    place.run(&format!("{render} -o a.film")).expect(0);
+    let bytes = fs::read(place.path("a.film")).expect("a film");
+    fs::write(place.path("short.film"), &bytes[..bytes.len() / 2]).expect("written");
+    let mut damaged = bytes.clone();
+    damaged[bytes.len() / 2] ^= 1;
+    fs::write(place.path("damaged.film"), damaged).expect("written");
+    for (name, why) in [
+        ("short.film", "cut short"),
+        ("damaged.film", "damaged"),
+        ("a.scene", "not a film"),
+        ("gone.film", "gone.film"),
+    ] {
+        let run = place.run(&format!("merge {name} -o out.png")).expect(3);
+        assert!(run.stderr.contains(why), "{}", run.stderr);
+    }
+    for (flags, why) in [
+        ("--sample-offset 64 -o part.png", "only a film"),
+        ("--sample-offset 10 -o part.film", "multiples of 64"),
+        ("--sample-count 10 -o part.film", "multiples of 64"),
+        ("--sample-offset 192 -o part.film", "0 to 149"),
+        (
+            "--antialias adaptive --sample-count 64 -o part.film",
+            "adaptive",
+        ),
+    ] {
+        let run = place.run(&format!("{render} {flags}")).expect(2);
+        assert!(run.stderr.contains(why), "{}", run.stderr);
+    }
+    assert_eq!(place.made(), ["a.film", "damaged.film", "short.film"]);
 }

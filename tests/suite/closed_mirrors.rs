@@ -1,10 +1,10 @@
 //! Closed bodies that mirror everything, seen from inside: no ray ever gets out.
 
-use crate::reference::compare::{render, sized};
+use crate::reference::compare::{counting, render, sized};
 use crate::reference::scenes::{self, Build};
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
-use glimray::render::Settings;
+use glimray::render::RenderSettings;
 use glimray::scene::{Form, Geometry, Material, Mesh, Scene, Shape};
 
 /// Sharp edges in all directions.
@@ -90,12 +90,11 @@ fn no_mirrored_ray_gets_out_of_a_closed_body() {
         ("box", with_form(Form::Box)),
         ("cone", with_form(cone)),
     ] {
-        let settings = Settings {
+        let settings = RenderSettings {
             max_depth: 200,
-            count_rays: true,
             ..sized(128, 96)
         };
-        let (_, stats) = render(&scene, &settings);
+        let (_, stats) = render(&scene, &counting(&settings));
         let rays = stats.rays.expect("counts");
         let seen = format!("{rays:?}");
         let is_complete = rays.primary_hits == 128 * 96 && rays.reflection == 200 * rays.primary;

@@ -11,7 +11,7 @@ use crate::{
 use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::{
     image::Image,
-    render::Settings,
+    render::RenderSettings,
     scene::{
         Background, Camera, Form, Fresnel, Geometry, Instance, Material, Node, NodeProperty, Scene,
         Shape, Target, Values,
@@ -60,7 +60,7 @@ fn inside() -> Scene {
 }
 
 fn picture(scene: &Scene) -> Image {
-    let settings = Settings {
+    let settings = RenderSettings {
         max_depth: 8,
         ..sized(96, 72)
     };

@@ -5,7 +5,7 @@ use crate::support::devices::Devices;
 use crate::support::skip::{Need, skip};
 use glimray::gpu::{AdapterChoice, Backend, Gpu};
 use glimray::import;
-use glimray::render::{Antialias, Renderer, Settings, Tone};
+use glimray::render::{Antialias, ExecutionPolicy, RenderSettings, Renderer, Tone};
 use glimray::scene::{Scene, Shadows};
 use glimray::{image::Image, pack};
 use std::{path::Path, sync::Arc};
@@ -17,12 +17,19 @@ const GL: AdapterChoice = AdapterChoice {
 };
 
 /// The scene through OpenGL, in linear radiance.
-fn through_gl(scene: &Scene, settings: &Settings) -> Image {
+fn through_gl(scene: &Scene, settings: &RenderSettings) -> Image {
     static DEVICES: Devices = Devices::new(|| Gpu::new(&GL));
     let gpu = DEVICES.lease();
     let packed = Arc::new(pack::scene(scene).expect("a packed scene"));
     let view = packed.frame(&scene.frame(0.0)).expect("a packed frame");
-    let mut renderer = Renderer::new(gpu, packed, &view, settings.clone()).expect("a renderer");
+    let mut renderer = Renderer::new(
+        gpu,
+        packed,
+        &view,
+        settings.clone(),
+        ExecutionPolicy::default(),
+    )
+    .expect("a renderer");
     while !renderer.is_done() {
         renderer.step().expect("a step");
     }
@@ -44,11 +51,11 @@ fn every_scene_looks_the_same_through_opengl() {
         .collect();
     scenes.sort();
     assert!(!scenes.is_empty());
-    let settings = Settings {
+    let settings = RenderSettings {
         size: (240, 160),
         samples: 4,
         antialias: Antialias::Stratified,
-        ..Settings::default()
+        ..RenderSettings::default()
     };
     assert_none(scenes.iter().map(|path| {
         let scene = import::load(path).expect("a scene");

@@ -1,13 +1,16 @@
 //! The ray tree of a pixel: it adds up to the pixel, and it is the tree that an independent tracer sends.
 
-use crate::reference::compare::{assert_none, check_same_bits, open_gpu, sized};
+use crate::reference::compare::{
+    Wanted, assert_none, check_same_bits, sized, sliced, start_packed,
+};
 use crate::reference::rays::{Node, trees};
 use crate::reference::scenes::{self, Build, Random};
 use glam::{DVec3, Vec3, dvec3, vec3};
 use glimray::import;
 use glimray::pack;
 use glimray::render::{
-    Antialias, Filter, RayKind, RayTree, Renderer, SampleTree, Settings, Tone, TracedRay,
+    Antialias, Filter, RayKind, RayTree, RenderSettings, Renderer, SampleTree, Slicing, Tone,
+    TracedRay,
 };
 use glimray::scene::{Attenuation, Geometry, Light, LightKind, ObjectRef, Scene, Shadows};
 use std::path::PathBuf;
@@ -46,12 +49,12 @@ fn project_scenes() -> Vec<(String, Scene)> {
 }
 
 /// A renderer of the scene's first frame, with its shutter open as long as it says.
-fn renderer(scene: &Scene, settings: &Settings) -> Renderer {
+fn renderer(scene: &Scene, settings: &impl Wanted) -> Renderer {
     let packed = Arc::new(pack::scene(scene).expect("packed"));
     let (shutter, fps) = (scene.output.shutter, scene.output.fps);
     let frames = scene.shot(shutter.open / fps, shutter.close / fps);
     let view = packed.shot(&frames).expect("a view");
-    Renderer::new(open_gpu(), packed, &view, settings.clone()).expect("a renderer")
+    start_packed(packed, &view, settings)
 }
 
 fn finish(renderer: &mut Renderer) {
@@ -148,7 +151,7 @@ fn check_shape(sample: &SampleTree) -> Result<(), String> {
 fn check_scene(
     name: &str,
     scene: &Scene,
-    settings: &Settings,
+    settings: &RenderSettings,
     pixels: usize,
 ) -> Result<(), String> {
     let mut renderer = renderer(scene, settings);
@@ -172,12 +175,12 @@ fn check_scene(
     Ok(())
 }
 
-fn settings_of(scene: &Scene) -> Settings {
-    Settings {
+fn settings_of(scene: &Scene) -> RenderSettings {
+    RenderSettings {
         size: (96, 72),
         samples: 2,
         antialias: Antialias::Stratified,
-        ..Settings::from(&scene.output)
+        ..RenderSettings::from(&scene.output)
     }
 }
 
@@ -195,23 +198,23 @@ fn contributions_add_up_to_the_pixels_of_every_scene() {
 fn filters_with_negative_weights_and_pixels_that_stop_early_add_up_too() {
     let mut scene = scenes::mirrors_and_glass();
     scene.output.max_depth = 4;
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 16,
         noise: 0.05,
         max_depth: 4,
         ..sized(64, 48)
     };
-    let mitchell = Settings {
+    let mitchell = RenderSettings {
         antialias: Antialias::Stratified,
         filter: Filter::Mitchell,
         filter_radius: 2.0,
         ..settings.clone()
     };
-    let adaptive = Settings {
+    let adaptive = RenderSettings {
         antialias: Antialias::Adaptive,
         ..settings.clone()
     };
-    let centre = Settings {
+    let centre = RenderSettings {
         antialias: Antialias::None,
         ..settings
     };
@@ -232,7 +235,7 @@ fn filters_with_negative_weights_and_pixels_that_stop_early_add_up_too() {
 #[test]
 fn a_pixel_has_the_samples_that_adaptive_sampling_gave_it() {
     let scene = scenes::mirrors_and_glass();
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 64,
         antialias: Antialias::Adaptive,
         noise: 0.02,
@@ -258,14 +261,18 @@ fn explaining_between_steps_leaves_the_picture_as_it_would_be() {
     let mut scene = scenes::mirrors_and_glass();
     scene.output.max_depth = 4;
     for antialias in [Antialias::Stratified, Antialias::Adaptive] {
-        let mut settings = Settings {
+        let settings = RenderSettings {
             samples: 8,
             antialias,
             max_depth: 4,
             ..sized(64, 48)
         };
         // Many steps.
-        settings.slicing.max_tiles = 8;
+        let slicing = Slicing {
+            max_tiles: 8,
+            ..Slicing::default()
+        };
+        let settings = sliced(&settings, slicing);
         let mut undisturbed = renderer(&scene, &settings);
         finish(&mut undisturbed);
         let expected = undisturbed.develop(&Tone::LINEAR).expect("a picture");
@@ -411,14 +418,13 @@ fn the_tree_is_that_of_an_independent_tracer_in_every_scene() {
             .chain(project_scenes())
             .map(|(name, scene)| {
                 let scene = plain(&scene);
-                let settings = Settings {
+                let settings = RenderSettings {
                     max_depth: scene.output.max_depth,
                     ..sized(160, 120)
                 };
                 let packed = Arc::new(pack::scene(&scene).expect("packed"));
                 let view = packed.frame(&scene.frame(0.0)).expect("a view");
-                let mut renderer =
-                    Renderer::new(open_gpu(), packed, &view, settings.clone()).expect("a renderer");
+                let mut renderer = start_packed(packed, &view, &settings);
                 let pixels = random_pixels(settings.size, 200, 3);
                 let started = std::time::Instant::now();
                 let expected = trees(&scene, 0.0, settings.size, &pixels);
@@ -490,7 +496,7 @@ fn glass_ball() -> Scene {
 #[test]
 fn a_ball_of_glass_head_on_has_the_tree_of_fresnel_and_beer() {
     let scene = glass_ball();
-    let settings = Settings {
+    let settings = RenderSettings {
         max_depth: 2,
         ..sized(1, 1)
     };
@@ -650,7 +656,7 @@ fn a_tree_of_too_many_rays_says_so_and_keeps_the_value() {
         samples: 8000,
         ..Light::default()
     });
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 40,
         antialias: Antialias::Stratified,
         ..sized(4, 4)
@@ -706,8 +712,7 @@ fn hits_name_the_same_things_whether_copies_are_laid_out_or_placed() {
     let objects = |most_baked| {
         let packed = Arc::new(pack::scene_with(&scene, most_baked).expect("packed"));
         let view = packed.frame(&scene.frame(0.0)).expect("a view");
-        let mut renderer =
-            Renderer::new(open_gpu(), packed.clone(), &view, sized(64, 48)).expect("a renderer");
+        let mut renderer = start_packed(packed.clone(), &view, &sized(64, 48));
         let trees = renderer.explain_pixels(&pixels).expect("trees");
         let hit = |tree: &RayTree| {
             let hit = tree.samples[0].rays[0].hit.clone();

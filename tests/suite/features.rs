@@ -4,7 +4,7 @@ use crate::{
     instances::{packed, shot},
     motion_blur::track,
     reference::{
-        compare::{assert_none, check_alike, open_gpu, render, sized},
+        compare::{assert_none, check_alike, counting, render, sized, start_packed},
         scenes::{self, Build},
     },
     support::random::Random,
@@ -13,7 +13,7 @@ use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::{
     image::Image,
     pack,
-    render::{Antialias, Filter, Renderer, Settings, Tone},
+    render::{Antialias, Filter, RenderSettings, Tone},
     scene::{
         Attenuation, Background, Camera, Form, Fresnel, Geometry, Instance, Lens, Light, LightKind,
         Material, Mesh, Mixing, Node, NodeProperty, Pattern, Picture, Scene, Shadows, Shape, Space,
@@ -90,11 +90,10 @@ fn total_reflection_needs_no_mirror_elsewhere_in_the_scene() {
     add_box(&mut scene, DVec3::NEG_ONE, DVec3::ONE);
     let (image, stats) = render(
         &scene,
-        &Settings {
-            count_rays: true,
+        &counting(&RenderSettings {
             max_depth: 9,
             ..sized(48, 48)
-        },
+        }),
     );
     assert!(stats.rays.expect("counts").reflection > 100);
     assert_all(&image, 0.5);
@@ -195,7 +194,7 @@ fn overlapping_parts_of_a_mesh_are_one_body() {
         [dvec3(-0.8, -1.1, -0.5), dvec3(1.2, 0.9, 1.0)],
     ];
     scene.add_mesh(boxes(&parts), DAffine3::IDENTITY);
-    let settings = Settings {
+    let settings = RenderSettings {
         max_depth: 9,
         ..sized(8, 8)
     };
@@ -417,7 +416,7 @@ fn add_moving(scene: &mut Scene, way: DVec3, visible: bool) {
 }
 
 /// The picture of a kernel with everything in it that has no say where the scene lacks it.
-fn with_everything_compiled_in(scene: &Scene, settings: &Settings) -> Image {
+fn with_everything_compiled_in(scene: &Scene, settings: &RenderSettings) -> Image {
     let mut full = scene.clone();
     if full.tracks.is_empty() && full.cameras[0].lens.is_none() {
         // Too small to see. Where something moves, moments are drawn in another way under a lens.
@@ -447,8 +446,7 @@ fn with_everything_compiled_in(scene: &Scene, settings: &Settings) -> Image {
         .shot(&full.shot(0.0, 1.0))
         .expect("frames that can be packed");
     (view.has_lights, view.has_area_lights) = (true, true);
-    let mut renderer =
-        Renderer::new(open_gpu(), Arc::new(packed), &view, settings.clone()).expect("a renderer");
+    let mut renderer = start_packed(Arc::new(packed), &view, settings);
     while !renderer.is_done() {
         renderer.step().expect("a step");
     }
@@ -491,7 +489,7 @@ fn what_is_compiled_out_of_a_kernel_is_not_missing_in_the_picture() {
     let rows = (0..2 * MATERIALS).map(|seed| {
         let mut random = Random::new(seed as u64);
         let scene = random_scene(&mut random, (seed < MATERIALS).then_some(seed));
-        let settings = Settings {
+        let settings = RenderSettings {
             samples: 2,
             antialias: Antialias::Stratified,
             filter: [Filter::Box, Filter::Tent, Filter::Gaussian][random.below(3)],

@@ -1,16 +1,14 @@
 //! Small pictures, one for each thing that can be asked for, as they were when somebody last looked
 //! at them and found them right. A failure says how to look and how to bless what is there now.
 
-use crate::reference::compare::{assert_none, check_alike, open_gpu, sized};
+use crate::reference::compare::{assert_none, check_alike, sized, start_packed};
 use crate::reference::scenes::{self, Build};
 use crate::textures;
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::image::Image;
 use glimray::output;
 use glimray::pack;
-use glimray::render::{
-    Antialias, Filter, Integrator, Levels, Renderer, Settings, Tone, TriangleTest,
-};
+use glimray::render::{Antialias, Filter, Integrator, Levels, RenderSettings, Tone, TriangleTest};
 use glimray::scene::{
     Attenuation, Lens, Light, LightKind, Material, Scene, Shadows, ToneCurve, Transfer,
 };
@@ -28,7 +26,7 @@ const UPDATE: &str = "UPDATE_GOLDEN=1 cargo test --release --test suite golden";
 struct Golden {
     name: &'static str,
     scene: Scene,
-    settings: Settings,
+    settings: RenderSettings,
     tone: Tone,
 }
 
@@ -46,7 +44,7 @@ fn golden(name: &'static str, scene: Scene) -> Golden {
 }
 
 impl Golden {
-    fn set(mut self, change: impl FnOnce(&mut Settings)) -> Self {
+    fn set(mut self, change: impl FnOnce(&mut RenderSettings)) -> Self {
         change(&mut self.settings);
         self
     }
@@ -83,8 +81,7 @@ impl Golden {
     fn render(&self) -> Image {
         let packed = Arc::new(pack::scene(&self.scene).expect("packed"));
         let view = packed.frame(&self.scene.frame(0.0)).expect("a frame");
-        let mut renderer = Renderer::new(open_gpu(), packed, &view, self.settings.clone())
-            .unwrap_or_else(|error| panic!("{}: {error}", self.name));
+        let mut renderer = start_packed(packed, &view, &self.settings);
         while !renderer.is_done() {
             renderer.step().expect("a step");
         }
@@ -201,7 +198,7 @@ fn blurred() -> Scene {
     scene
 }
 
-fn sixteen(settings: &mut Settings) {
+fn sixteen(settings: &mut RenderSettings) {
     settings.samples = 16;
     settings.antialias = Antialias::Stratified;
 }

@@ -2,7 +2,10 @@
 
 use crate::{
     reference::{
-        compare::{assert_none, check_alike, check_same_bits, differing, open_gpu, sized},
+        compare::{
+            Wanted, assert_none, check_alike, check_same_bits, counting, differing, fetched,
+            open_gpu, sized,
+        },
         scenes::{self, Build},
     },
     support::random::Random,
@@ -12,7 +15,7 @@ use glimray::{
     app::exit::AppError,
     image::Image,
     pack::{self, PackedScene, PackedView},
-    render::{Fetch, RenderError, Renderer, Settings, Stats, Tone},
+    render::{ExecutionPolicy, Fetch, RenderError, RenderSettings, Renderer, Stats, Tone},
     scene::{
         Beyond, Curve, Easing, Frame, Instance, Interpolation, Light, LightKind, Material, Mesh,
         Node, NodeProperty, Pattern, Scene, Space, Target, Texture, Textures, Track, Values,
@@ -21,10 +24,11 @@ use glimray::{
 use std::{fmt::Write, fs, process::Command, sync::Arc};
 
 /// A picture of packed frames of a scene, linear, and what it cost.
-pub fn shot(packed: &Arc<PackedScene>, frames: &[Frame], settings: &Settings) -> (Image, Stats) {
+pub fn shot(packed: &Arc<PackedScene>, frames: &[Frame], wanted: &impl Wanted) -> (Image, Stats) {
     let view = packed.shot(frames).expect("frames that can be packed");
+    let (settings, policy) = wanted.parts();
     let mut renderer =
-        Renderer::new(open_gpu(), packed.clone(), &view, settings.clone()).expect("a renderer");
+        Renderer::new(open_gpu(), packed.clone(), &view, settings, policy).expect("a renderer");
     while !renderer.is_done() {
         renderer.step().expect("a step");
     }
@@ -110,10 +114,7 @@ fn instances_give_the_picture_of_copies_laid_out() {
         ("glass", crowd([glass(), mirror(colors[1])])),
         ("patterns", checkered(crowd(colors.map(scenes::shiny)))),
     ];
-    let settings = Settings {
-        count_rays: true,
-        ..sized(160, 120)
-    };
+    let settings = counting(&sized(160, 120));
     assert_none(scenes.map(|(name, scene)| {
         let frame = [scene.frame(0.0)];
         let laid_out = packed(&scene, usize::MAX);
@@ -128,9 +129,9 @@ fn instances_give_the_picture_of_copies_laid_out() {
             // Beyond the driver's limit on the rounds of loops.
             return Ok(());
         }
-        let brute_force = Settings {
+        let brute_force = RenderSettings {
             brute_force: true,
-            ..settings.clone()
+            ..settings.0.clone()
         };
         let (exhaustive, _) = shot(&instanced, &frame, &brute_force);
         check_same_bits(&format!("{name}, every primitive"), &exhaustive, &actual)
@@ -250,10 +251,7 @@ fn a_lamp_throws_no_shadow_of_itself_on_instances() {
             visible: true,
             ..Light::default()
         });
-        let settings = Settings {
-            count_rays: true,
-            ..sized(160, 120)
-        };
+        let settings = counting(&sized(160, 120));
         let (_, stats) = shot(&packed(&scene, 0), &[scene.frame(0.0)], &settings);
         let rays = stats.rays.expect("rays are counted");
         assert!(rays.shadow > 400, "{kind:?}: {rays:?}");
@@ -343,9 +341,9 @@ fn a_later_frame_is_held_against_the_memory_limit_as_the_first_one_is() {
     let packed = packed(&scene, 0);
     let still = packed.shot(&scene.shot(0.0, 0.1)).expect("a frame");
     let moving = packed.shot(&scene.shot(0.0, 1.0)).expect("a frame");
-    let settings = sized(16, 16);
-    let mut renderer =
-        Renderer::new(open_gpu(), packed.clone(), &still, settings.clone()).expect("a renderer");
+    let (settings, policy) = sized(16, 16).parts();
+    let mut renderer = Renderer::new(open_gpu(), packed.clone(), &still, settings.clone(), policy)
+        .expect("a renderer");
     let first = renderer.stats().gpu_bytes;
     renderer.set_frame(&moving).expect("within the usual limit");
     let most = renderer.stats().gpu_bytes;
@@ -354,11 +352,12 @@ fn a_later_frame_is_held_against_the_memory_limit_as_the_first_one_is() {
     renderer.set_frame(&still).expect("it was there before");
     assert_eq!(renderer.stats().gpu_bytes, most);
 
-    let settings = Settings {
+    let policy = ExecutionPolicy {
         memory_limit_bytes: most - 1,
-        ..settings
+        ..policy
     };
-    let mut renderer = Renderer::new(open_gpu(), packed, &still, settings).expect("a renderer");
+    let mut renderer =
+        Renderer::new(open_gpu(), packed, &still, settings, policy).expect("a renderer");
     let refused = renderer.set_frame(&moving).expect_err("one byte too many");
     assert!(refused.to_string().contains("nodes"), "{refused}");
     assert_eq!(AppError::from(refused).exit_code(), 7);
@@ -371,11 +370,8 @@ fn a_frame_that_outgrows_the_limits_of_the_device_gets_another_device_or_is_too_
     let still = packed.shot(&scene.shot(0.0, 0.1)).expect("a frame");
     let moving = packed.shot(&scene.shot(0.0, 1.0)).expect("a frame");
     let picture = |fetch, views: &[&PackedView]| {
-        let settings = Settings {
-            fetch,
-            ..sized(16, 12)
-        };
-        let mut renderer = Renderer::new(open_gpu(), packed.clone(), views[0], settings)?;
+        let (settings, policy) = fetched(&sized(16, 12), fetch);
+        let mut renderer = Renderer::new(open_gpu(), packed.clone(), views[0], settings, policy)?;
         for view in &views[1..] {
             renderer.set_frame(view)?;
         }

@@ -1,12 +1,12 @@
 //! The thin lens in whole renders: what is out of focus becomes the picture of the opening, in the
 //! size that the lens formula gives.
 
-use crate::reference::compare::{assert_none, check_same_bits, open_gpu, render, sized};
+use crate::reference::compare::{assert_none, check_same_bits, render, sized, start_packed};
 use crate::reference::scenes::Build;
 use glam::{DVec3, Vec3, dvec3};
 use glimray::image::Image;
 use glimray::pack;
-use glimray::render::{Antialias, Renderer, Settings, Tone};
+use glimray::render::{Antialias, RenderSettings, Tone};
 use glimray::scene::{Background, Camera, Lens, Light, LightKind, Material, Scene};
 use std::sync::Arc;
 
@@ -45,7 +45,7 @@ fn ball(depth: f64, share: f64, lens: Option<Lens>) -> Scene {
 }
 
 fn picture(scene: &Scene) -> Image {
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 256,
         antialias: Antialias::Stratified,
         ..sized(SIDE, SIDE)
@@ -164,15 +164,14 @@ fn a_frame_may_bring_a_lens_and_a_light_with_extent() {
         samples: 2,
         ..Light::default()
     });
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 4,
         antialias: Antialias::Stratified,
         ..sized(SIDE, SIDE)
     };
     let packed = Arc::new(pack::scene(&first).expect("packed"));
     let view = |scene: &Scene| packed.frame(&scene.frame(0.0)).expect("a frame");
-    let mut renderer = Renderer::new(open_gpu(), packed.clone(), &view(&first), settings.clone())
-        .expect("a renderer");
+    let mut renderer = start_packed(packed.clone(), &view(&first), &settings);
     renderer.set_frame(&view(&second)).expect("a frame");
     while !renderer.is_done() {
         renderer.step().expect("a step");

@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3, dvec3};
 use glimray::app::legend;
 use glimray::image::Image;
 use glimray::layout::{PackedTone, VIEW_DEPTH, VIEW_HEAT, VIEW_NORMALS};
-use glimray::render::{Antialias, Integrator, Levels, Quantity, Renderer, Settings, Tone};
+use glimray::render::{Antialias, Integrator, Levels, Quantity, RenderSettings, Renderer, Tone};
 use glimray::scene::{Background, Camera, Geometry, Material, Scene, Shape};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -36,7 +36,7 @@ fn ball() -> Scene {
     }
 }
 
-fn traced(scene: &Scene, settings: &Settings) -> Renderer {
+fn traced(scene: &Scene, settings: &RenderSettings) -> Renderer {
     let mut renderer = start(scene, settings).expect("a renderer");
     while !renderer.is_done() {
         renderer.step().expect("a step");
@@ -64,7 +64,7 @@ fn found() -> Tone {
 
 #[test]
 fn a_pixel_half_on_a_ball_has_the_distance_of_the_ball() {
-    let settings = Settings {
+    let settings = RenderSettings {
         integrator: Integrator::Depth,
         samples: 16,
         antialias: Antialias::Stratified,
@@ -86,7 +86,7 @@ fn a_pixel_half_on_a_ball_has_the_distance_of_the_ball() {
 
 #[test]
 fn distances_are_shown_by_their_logarithm_over_the_range_found() {
-    let settings = Settings {
+    let settings = RenderSettings {
         integrator: Integrator::Depth,
         ..sized(48, 48)
     };
@@ -124,7 +124,7 @@ fn distances_are_shown_by_their_logarithm_over_the_range_found() {
 
 #[test]
 fn samples_are_shown_from_the_fewest_to_the_most() {
-    let settings = Settings {
+    let settings = RenderSettings {
         integrator: Integrator::Samples,
         antialias: Antialias::Adaptive,
         samples: 16,
@@ -150,7 +150,7 @@ fn samples_are_shown_from_the_fewest_to_the_most() {
 
 #[test]
 fn a_view_of_colours_has_no_range_and_stays_as_it_is() {
-    let settings = Settings {
+    let settings = RenderSettings {
         integrator: Integrator::Normals,
         ..sized(16, 16)
     };
@@ -164,7 +164,7 @@ fn a_view_of_colours_has_no_range_and_stays_as_it_is() {
 fn a_picture_without_hits_has_no_range_of_distances_and_is_black() {
     let mut scene = ball();
     scene.shapes.clear();
-    let settings = Settings {
+    let settings = RenderSettings {
         integrator: Integrator::Depth,
         ..sized(16, 16)
     };

@@ -11,7 +11,7 @@ use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3};
 use glimray::{
     image::Image,
     pack,
-    render::{Antialias, Settings},
+    render::{Antialias, RenderSettings},
     scene::{
         Background, Beyond, Camera, CameraProperty, Curve, Easing, Form, Geometry, Interpolation,
         Light, LightKind, LightProperty, Material, Node, NodeProperty, Scene, Shape, Target, Track,
@@ -76,8 +76,8 @@ pub fn carried(geometry: Geometry) -> Scene {
     scene
 }
 
-pub fn blurred(samples: u32) -> Settings {
-    Settings {
+pub fn blurred(samples: u32) -> RenderSettings {
+    RenderSettings {
         samples,
         antialias: Antialias::Stratified,
         ..sized(SIDE, SIDE)
@@ -85,7 +85,7 @@ pub fn blurred(samples: u32) -> Settings {
 }
 
 /// The picture of everything that happens from time 0 to 1.
-pub fn exposed(scene: &Scene, settings: &Settings) -> Image {
+pub fn exposed(scene: &Scene, settings: &RenderSettings) -> Image {
     let packed = Arc::new(pack::scene(scene).expect("a scene that can be packed"));
     shot(&packed, &scene.shot(0.0, 1.0), settings).0
 }
@@ -268,7 +268,7 @@ fn a_light_that_moves_leaves_the_mean_of_its_places() {
 #[test]
 fn a_scene_in_which_nothing_moves_is_the_same_bit_for_bit_with_an_open_shutter() {
     let mut scene = scenes::everything();
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 4,
         antialias: Antialias::Stratified,
         ..sized(48, 36)
@@ -343,12 +343,12 @@ fn boxes_that_follow_the_movement_lose_nothing() {
     scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.7);
     let packed = Arc::new(pack::scene(&scene).expect("a scene that can be packed"));
     let frames = scene.shot(0.0, 1.0);
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 8,
         antialias: Antialias::Stratified,
         ..sized(96, 72)
     };
-    let brute_force = Settings {
+    let brute_force = RenderSettings {
         brute_force: true,
         ..settings.clone()
     };
@@ -370,7 +370,7 @@ fn a_box_that_makes_half_a_turn_at_once_is_met_on_all_its_way() {
     let packed = Arc::new(pack::scene(&scene).expect("a scene that can be packed"));
     let frames = [scene.frame(0.0), scene.frame(1.0)];
     let settings = blurred(16);
-    let brute_force = Settings {
+    let brute_force = RenderSettings {
         brute_force: true,
         ..settings.clone()
     };

@@ -4,7 +4,7 @@ use crate::{
     instances::{packed, shot},
     motion_blur::{DISTANCE, HALF, SIDE, blurred, carried, exposed, mean, place, stage, track},
     reference::{
-        compare::{differing, open_gpu, render, sized},
+        compare::{differing, render, sized, start_packed},
         scenes::{self, Build},
     },
 };
@@ -12,7 +12,7 @@ use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::{
     image::Image,
     pack,
-    render::{Integrator, Renderer, Settings, Tone},
+    render::{Integrator, RenderSettings, Tone},
     scene::{
         Attenuation, Background, Beyond, Curve, Easing, Form, Fresnel, Geometry, Instance,
         Interpolation, Light, LightKind, LightProperty, Material, MaterialProperty, Node,
@@ -22,16 +22,14 @@ use glimray::{
 use std::{f64::consts::PI, sync::Arc};
 
 /// The pictures at some times, by one packed scene.
-fn moments<const N: usize>(scene: &Scene, settings: &Settings, times: [f64; N]) -> [Image; N] {
+fn moments<const N: usize>(
+    scene: &Scene,
+    settings: &RenderSettings,
+    times: [f64; N],
+) -> [Image; N] {
     let packed = Arc::new(pack::scene(scene).expect("a scene that can be packed"));
     let view = |time| packed.frame(&scene.frame(time)).expect("a frame");
-    let mut renderer = Renderer::new(
-        open_gpu(),
-        packed.clone(),
-        &view(times[0]),
-        settings.clone(),
-    )
-    .expect("a renderer");
+    let mut renderer = start_packed(packed.clone(), &view(times[0]), settings);
     times.map(|time| {
         renderer.set_frame(&view(time)).expect("a frame");
         while !renderer.is_done() {
@@ -709,7 +707,7 @@ fn depths_and_normals_are_those_of_the_moment() {
     let turn = vec![DVec3::ZERO, dvec3(0.0, 0.8, 0.0)];
     scene.tracks.push(moves(NodeProperty::Angles, turn));
     let middle = |image: &Image| image.pixels[(17 / 2 * 17 + 17 / 2) as usize];
-    let settings = |integrator| Settings {
+    let settings = |integrator| RenderSettings {
         integrator,
         ..sized(17, 17)
     };

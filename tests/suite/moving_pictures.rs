@@ -5,7 +5,10 @@ use crate::{
     instances::{crowd, glass, mirror, packed, shot},
     motion_blur::track,
     reference::{
-        compare::{assert_none, check_alike, check_same_bits, open_gpu, sized},
+        compare::{
+            assert_none, check_alike, check_same_bits, counting, fetched, sized, sliced,
+            start_packed,
+        },
         scenes::{self, Build},
         trace_at,
     },
@@ -15,7 +18,7 @@ use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::{
     image::Image,
     pack::{self, PackedScene},
-    render::{Antialias, Fetch, Integrator, Renderer, Settings, Tone},
+    render::{Antialias, Fetch, Integrator, RenderSettings, Tone},
     scene::{
         Attenuation, Background, Camera, CameraProperty, Form, Fresnel, Geometry, Instance, Lens,
         Light, LightKind, LightProperty, Material, Node, NodeProperty, Pattern, Scene, Shape,
@@ -317,7 +320,7 @@ fn moments_of_moving_scenes_match_an_independent_tracer() {
         ("a carried camera", ride(), 128, 1),
     ];
     assert_none(rows.into_iter().flat_map(|(name, scene, width, samples)| {
-        let settings = Settings {
+        let settings = RenderSettings {
             samples,
             max_depth: scene.output.max_depth,
             ..sized(width, width * 3 / 4)
@@ -333,8 +336,8 @@ fn moments_of_moving_scenes_match_an_independent_tracer() {
     }));
 }
 
-fn stratified(samples: u32, (width, height): (u32, u32)) -> Settings {
-    Settings {
+fn stratified(samples: u32, (width, height): (u32, u32)) -> RenderSettings {
+    RenderSettings {
         samples,
         antialias: Antialias::Stratified,
         ..sized(width, height)
@@ -346,14 +349,13 @@ fn mean_of_moments(
     scene: &Scene,
     packed: &Arc<PackedScene>,
     count: u32,
-    settings: &Settings,
+    settings: &RenderSettings,
 ) -> Image {
     let view = |i: u32| {
         let time = (f64::from(i) + 0.5) / f64::from(count);
         packed.frame(&scene.frame(time)).expect("a frame")
     };
-    let mut renderer =
-        Renderer::new(open_gpu(), packed.clone(), &view(0), settings.clone()).expect("a renderer");
+    let mut renderer = start_packed(packed.clone(), &view(0), settings);
     let (width, height) = settings.size;
     let mut sum = Image::new(width, height);
     for i in 0..count {
@@ -416,7 +418,7 @@ fn an_open_shutter_gives_the_mean_of_its_moments() {
         let frames = scene.shot(0.0, 1.0);
         let (blurred, stats) = shot(&packed, &frames, &stratified(256, size));
         assert_eq!(stats.nonfinite_samples, 0, "{name}");
-        let other = Settings {
+        let other = RenderSettings {
             seed: 5,
             ..stratified(8, size)
         };
@@ -462,12 +464,9 @@ fn busy() -> (Arc<PackedScene>, Vec<glimray::scene::Frame>) {
 #[test]
 fn the_cut_of_the_work_does_not_show_in_blurred_pictures() {
     let (packed, frames) = busy();
-    let base = Settings {
-        count_rays: true,
-        ..stratified(6, (37, 27))
-    };
-    let (expected, stats) = shot(&packed, &frames, &base);
-    let other = Settings {
+    let base = stratified(6, (37, 27));
+    let (expected, stats) = shot(&packed, &frames, &counting(&base));
+    let other = RenderSettings {
         seed: 1,
         ..base.clone()
     };
@@ -477,11 +476,7 @@ fn the_cut_of_the_work_does_not_show_in_blurred_pictures() {
     );
     // Every other one: each means a shader to be compiled.
     assert_none(slicings().into_iter().step_by(2).map(|(name, slicing)| {
-        let settings = Settings {
-            slicing,
-            ..base.clone()
-        };
-        let (actual, cut) = shot(&packed, &frames, &settings);
+        let (actual, cut) = shot(&packed, &frames, &sliced(&base, slicing));
         assert_eq!(cut.rays, stats.rays, "{name}");
         check_same_bits(name, &expected, &actual)
     }));
@@ -491,14 +486,11 @@ fn the_cut_of_the_work_does_not_show_in_blurred_pictures() {
 fn two_runs_images_buffers_and_crops_give_the_same_blur() {
     let (packed, frames) = busy();
     let base = stratified(4, (48, 36));
-    let with = |fetch| Settings {
-        fetch,
-        ..base.clone()
-    };
+    let with = |fetch| fetched(&base, fetch);
     let (expected, _) = shot(&packed, &frames, &with(Fetch::Image));
     let (again, _) = shot(&packed, &frames, &with(Fetch::Image));
     let (buffers, _) = shot(&packed, &frames, &with(Fetch::Buffer));
-    let crop = Settings {
+    let crop = RenderSettings {
         crop: Some([11, 5, 40, 30]),
         ..base.clone()
     };
@@ -544,7 +536,7 @@ fn adaptive_sampling_spends_more_on_blur_and_comes_near_the_converged_picture() 
     let frames = scene.shot(0.0, 1.0);
     let size = (64, 48);
     let (converged, _) = shot(&packed, &frames, &stratified(512, size));
-    let adaptive = Settings {
+    let adaptive = RenderSettings {
         antialias: Antialias::Adaptive,
         noise: 0.01,
         ..stratified(256, size)
@@ -553,7 +545,7 @@ fn adaptive_sampling_spends_more_on_blur_and_comes_near_the_converged_picture() 
     let (bias, rmse) = difference(&picture, &converged);
     assert!(bias.abs() < 0.01 && rmse < 0.02, "bias {bias}, RMSE {rmse}");
     assert_eq!(stats.nonfinite_samples, 0);
-    let spent = Settings {
+    let spent = RenderSettings {
         integrator: Integrator::Samples,
         ..adaptive
     };
@@ -576,11 +568,10 @@ fn trees_of_rays_are_counted_alike_through_instances() {
         ("mirrors", crowd(colors.map(mirror))),
         ("glass", crowd([glass(), mirror(colors[1])])),
     ] {
-        let settings = Settings {
-            count_rays: true,
+        let settings = counting(&RenderSettings {
             max_depth: 4,
             ..sized(200, 150)
-        };
+        });
         let frame = [scene.frame(0.0)];
         let [laid_out, instanced] = [usize::MAX, 0].map(|most| {
             let (_, stats) = shot(&packed(&scene, most), &frame, &settings);
@@ -615,7 +606,7 @@ fn normals_and_depths_are_the_same_through_instances() {
     let scene = crowd(colors.map(scenes::shiny));
     let frame = [scene.frame(0.0)];
     for integrator in [Integrator::Normals, Integrator::Depth] {
-        let settings = Settings {
+        let settings = RenderSettings {
             integrator,
             ..sized(96, 72)
         };
@@ -669,7 +660,7 @@ fn a_wheel_of_glass_does_not_show_in_a_furnace() {
         });
     }
     let packed = Arc::new(pack::scene(&scene).expect("packed"));
-    let settings = Settings {
+    let settings = RenderSettings {
         max_depth: 8,
         ..stratified(16, (48, 36))
     };

@@ -1,13 +1,13 @@
 //! Recursive reflection and refraction in whole pictures, against closed forms.
 
-use crate::reference::compare::{assert_none, check_same_bits, render, sized};
+use crate::reference::compare::{assert_none, check_same_bits, counting, render, sized, sliced};
 use crate::reference::scenes;
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3};
 use glimray::image::Image;
 use glimray::layout::NONE;
 use glimray::pack::PackError;
-use glimray::render::{Fetch, Rays, Settings, Slicing};
+use glimray::render::{ExecutionPolicy, Fetch, Rays, RenderSettings, Slicing};
 use glimray::scene::{
     Background, Beyond, Camera, Curve, Easing, Form, Fresnel, Geometry, Instance, Interpolation,
     Light, LightKind, Material, MaterialProperty, Mixing, Node, NodeProperty, Scene, Shadows,
@@ -93,11 +93,10 @@ fn shining(emission: f32) -> Material {
     }
 }
 
-fn to_depth(max_depth: u32) -> Settings {
-    Settings {
+fn to_depth(max_depth: u32) -> RenderSettings {
+    RenderSettings {
         max_depth,
         min_throughput: 1e-7,
-        count_rays: true,
         ..sized(16, 16)
     }
 }
@@ -110,8 +109,11 @@ fn middle(image: &Image) -> f64 {
     )
 }
 
-fn rays(scene: &Scene, settings: &Settings) -> Rays {
-    render(scene, settings).1.rays.expect("counted rays")
+fn rays(scene: &Scene, settings: &RenderSettings) -> Rays {
+    render(scene, &counting(settings))
+        .1
+        .rays
+        .expect("counted rays")
 }
 
 #[test]
@@ -231,7 +233,7 @@ fn a_mirror_corridor_shows_one_image_more_with_every_bounce() {
     );
     let mut verdict = Verdict::on("images");
     for depth in 0..=6 {
-        let settings = Settings {
+        let settings = RenderSettings {
             size: (1024, 1024),
             crop: Some([0, 511, 1024, 512]),
             ..to_depth(depth)
@@ -281,7 +283,7 @@ fn rays_below_the_least_share_are_not_sent() {
     );
     add(&mut scene, plane(dvec3(0.0, 0.0, 2.0), DVec3::NEG_Z), half);
     for (min_throughput, bounces) in [(1.0 / 512.0, 9), (0.25, 2), (0.6, 0)] {
-        let settings = Settings {
+        let settings = RenderSettings {
             min_throughput,
             ..to_depth(50)
         };
@@ -335,27 +337,25 @@ fn counts_do_not_depend_on_how_the_work_is_cut() {
         plane(dvec3(0.0, -1.0, 0.0), DVec3::Y),
         Material::default(),
     );
-    let whole = Settings {
+    let whole = RenderSettings {
         samples: 4,
         antialias: glimray::render::Antialias::Stratified,
         ..to_depth(5)
     };
-    let (image, stats) = render(&scene, &whole);
+    let (image, stats) = render(&scene, &counting(&whole));
     for (max_tiles, max_samples, window_side, fetch) in [
         (1, 1, 8, Fetch::Buffer),
         (3, 2, 2048, Fetch::Image),
         (2, 4, 16, Fetch::Auto),
     ] {
-        let cut = Settings {
-            slicing: Slicing {
-                max_tiles,
-                max_samples,
-                window_side,
-                ..Slicing::default()
-            },
-            fetch,
-            ..whole.clone()
+        let slicing = Slicing {
+            max_tiles,
+            max_samples,
+            window_side,
+            ..Slicing::default()
         };
+        let (settings, policy) = sliced(&whole, slicing);
+        let cut = (settings, ExecutionPolicy { fetch, ..policy });
         let (other, other_stats) = render(&scene, &cut);
         assert_eq!(other_stats.rays, stats.rays);
         assert_none([check_same_bits("cut", &image, &other)]);
@@ -366,7 +366,7 @@ fn counts_do_not_depend_on_how_the_work_is_cut() {
 
 /// A row of pixels across two bodies and what surrounds them.
 fn across(scene: &Scene) -> Vec<f64> {
-    let settings = Settings {
+    let settings = RenderSettings {
         size: (129, 129),
         crop: Some([0, 64, 129, 65]),
         ..to_depth(20)
@@ -435,7 +435,7 @@ fn light_passes_from_one_body_into_another_that_touches_it() {
     );
     scene.cameras[0].fov_y = 1e-3;
     // Only what is never mirrored: the tree is as deep as there are boundaries.
-    let settings = Settings {
+    let settings = RenderSettings {
         min_throughput: 0.5,
         ..to_depth(3)
     };
@@ -532,7 +532,7 @@ fn a_bubble_in_glass_is_entered_from_glass() {
     add(&mut scene, sphere(DVec3::ZERO, 2.0), glass(1.5));
     add(&mut scene, sphere(DVec3::ZERO, 1.0), glass(1.0));
     scene.cameras[0].fov_y = 1e-4;
-    let settings = Settings {
+    let settings = RenderSettings {
         min_throughput: 0.5,
         ..to_depth(9)
     };
@@ -551,7 +551,7 @@ fn a_pane_on_a_table_shows_the_table() {
         cuboid(dvec3(-9.0, 0.0, -9.0), dvec3(9.0, 0.2, 9.0)),
         glass(1.5),
     );
-    let settings = Settings {
+    let settings = RenderSettings {
         min_throughput: 0.5,
         ..to_depth(4)
     };
@@ -582,7 +582,7 @@ fn a_ball_of_glass_bends_light_as_a_lens_does() {
         };
         add(&mut scene, sphere(DVec3::ZERO, radius), glass(n as f32));
         scene.cameras[0] = camera(dvec3(0.0, 0.0, s), DVec3::ZERO, 0.02);
-        let settings = Settings {
+        let settings = RenderSettings {
             size: (16, 16),
             min_throughput: 0.5,
             ..to_depth(4)
@@ -869,7 +869,7 @@ fn a_ball_of_haines_adds_phongs_light_its_mirror_and_what_comes_through() {
     let scene = nff_ball("1 0.5 0.25 0.5 0.25 12 0.5 1.5");
     let image = render(
         &scene,
-        &Settings {
+        &RenderSettings {
             size: (64, 64),
             ..to_depth(depth)
         },
@@ -904,7 +904,7 @@ fn a_clear_ball_of_haines_turns_every_ray_by_twice_the_angle_that_snell_bends_it
     };
     let image = render(
         &scene,
-        &Settings {
+        &RenderSettings {
             size: (64, 64),
             ..to_depth(2)
         },
@@ -929,11 +929,11 @@ fn inside_a_ball_of_haines_only_rays_within_the_critical_angle_go_on() {
     let eye = dvec3(0.9, 0.0, 0.0);
     scene.cameras[0] = camera(eye, eye + DVec3::NEG_Z, 1.0);
     scene.background = Background::Color(Vec3::ONE);
-    let settings = Settings {
+    let settings = RenderSettings {
         size: (64, 64),
         ..to_depth(5)
     };
-    let (image, stats) = render(&scene, &settings);
+    let (image, stats) = render(&scene, &counting(&settings));
     let (mut lit, mut dark) = (0, 0);
     for (i, pixel) in image.pixels.iter().enumerate() {
         let at = |i: usize| ((2 * i + 1) as f64 / 64.0 - 1.0) * 0.5_f64.tan();

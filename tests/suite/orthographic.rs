@@ -10,7 +10,7 @@ use glimray::image::Image;
 use glimray::import;
 use glimray::layout::PackedCamera;
 use glimray::pack;
-use glimray::render::{Antialias, Integrator, Settings};
+use glimray::render::{Antialias, Integrator, RenderSettings};
 use glimray::scene::{
     Background, Beyond, Camera, CameraProperty, Curve, Easing, Interpolation, Lens, Material, Node,
     Scene, Target, Track, Values,
@@ -48,7 +48,7 @@ fn ball(camera: Camera) -> Scene {
 }
 
 fn depths(camera: Camera, (width, height): (u32, u32)) -> Image {
-    let settings = Settings {
+    let settings = RenderSettings {
         integrator: Integrator::Depth,
         ..sized(width, height)
     };
@@ -140,7 +140,7 @@ fn pictures_match_an_independent_tracer() {
     assert_none(rows.map(|(name, mut scene, height)| {
         scene.cameras[0].orthographic_height = Some(height);
         let size = (64, 48);
-        let settings = Settings {
+        let settings = RenderSettings {
             max_depth: scene.output.max_depth,
             ..sized(size.0, size.1)
         };
@@ -250,7 +250,7 @@ fn blur_has_the_size_of_the_opening_seen_from_the_focus() {
         });
         scene.shapes.clear();
         scene.add_sphere(DVec3::ZERO, 0.3, 0);
-        let settings = Settings {
+        let settings = RenderSettings {
             samples: 256,
             antialias: Antialias::Stratified,
             ..sized(SIDE, SIDE)
@@ -324,13 +324,12 @@ fn a_zoom_while_the_shutter_is_open_shows_the_mean() {
     }];
     let packed = std::sync::Arc::new(pack::scene(&scene).expect("a scene"));
     let view = packed.shot(&scene.shot(0.0, 1.0)).expect("a shot");
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 256,
         antialias: Antialias::Stratified,
         ..sized(64, 64)
     };
-    let gpu = crate::reference::compare::open_gpu();
-    let mut renderer = glimray::render::Renderer::new(gpu, packed, &view, settings).expect("it");
+    let mut renderer = crate::reference::compare::start_packed(packed, &view, &settings);
     while !renderer.is_done() {
         renderer.step().expect("a step");
     }

@@ -8,7 +8,7 @@ use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::image::Image;
 use glimray::pack::{self, PackedScene, PackedView, TreeWork};
-use glimray::render::{Fetch, Renderer, Settings, Tone, Uploads};
+use glimray::render::{ExecutionPolicy, Fetch, Renderer, Tone, Uploads};
 use glimray::scene::{
     Background, Beyond, Curve, Easing, Instance, Interpolation, Light, LightKind, Node,
     NodeProperty, Pattern, Scene, Shadows, Space, Target, Texture, Track, Values,
@@ -295,14 +295,16 @@ fn only_what_differs_is_uploaded_and_the_picture_is_that_of_a_new_renderer() {
         (Fetch::Buffer, gallery()),
         (Fetch::Image, moving_gallery()),
     ] {
-        let settings = Settings {
+        let settings = sized(48, 36);
+        let policy = ExecutionPolicy {
             fetch,
-            ..sized(48, 36)
+            ..ExecutionPolicy::default()
         };
         let packed = Arc::new(packed(&was));
         let view = packed.frame(&was.frame(0.3)).expect("a view");
         let new = |packed: &Arc<PackedScene>, view: &PackedView| {
-            Renderer::new(open_gpu(), packed.clone(), view, settings.clone()).expect("a renderer")
+            Renderer::new(open_gpu(), packed.clone(), view, settings.clone(), policy)
+                .expect("a renderer")
         };
         let mut renderer = new(&packed, &view);
         for (edit_name, work, edit) in EDITS {
@@ -314,7 +316,7 @@ fn only_what_differs_is_uploaded_and_the_picture_is_that_of_a_new_renderer() {
             let next = again.shot_from(Some(&view), &[frame]).expect("a view");
             let before = renderer.stats().uploads;
             renderer
-                .restart(again.clone(), &next, settings.clone())
+                .restart(again.clone(), &next, settings.clone(), policy)
                 .expect("restarted");
             let uploads = since(before, renderer.stats().uploads);
             verdict.that(&name, uploads.frames > 0, || "no frame");
@@ -341,7 +343,7 @@ fn only_what_differs_is_uploaded_and_the_picture_is_that_of_a_new_renderer() {
             let is_same = picture(&mut renderer) == picture(&mut new(&again, &next));
             verdict.that(&name, is_same, || "another picture");
             renderer
-                .restart(packed.clone(), &view, settings.clone())
+                .restart(packed.clone(), &view, settings.clone(), policy)
                 .expect("restarted");
         }
         let is_same = picture(&mut renderer) == picture(&mut new(&packed, &view));

@@ -1,10 +1,12 @@
 //! Whole pictures against the independent tracer in `reference`.
 
-use crate::reference::compare::{assert_none, check_alike, check_same_bits, render, sized};
+use crate::reference::compare::{
+    assert_none, check_alike, check_same_bits, counting, fetched, render, sized,
+};
 use crate::reference::{scenes, trace};
 use glimray::image::Image;
 use glimray::import;
-use glimray::render::{Antialias, Fetch, Settings, TriangleTest};
+use glimray::render::{Antialias, Fetch, RenderSettings, TriangleTest};
 use glimray::scene::Scene;
 use std::path::PathBuf;
 
@@ -19,8 +21,12 @@ fn project_scene(name: &str) -> Scene {
     import::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn against_the_reference(name: &str, scene: &Scene, settings: &Settings) -> Result<(), String> {
-    let settings = Settings {
+fn against_the_reference(
+    name: &str,
+    scene: &Scene,
+    settings: &RenderSettings,
+) -> Result<(), String> {
+    let settings = RenderSettings {
         max_depth: scene.output.max_depth,
         ..settings.clone()
     };
@@ -72,13 +78,12 @@ fn mirrors_and_glass_match_a_tracer_that_calls_itself() {
     course.output.max_depth = 3;
     let rows = [("glass", scenes::mirrors_and_glass()), ("course", course)];
     assert_none(rows.map(|(name, scene)| {
-        let settings = Settings {
+        let settings = RenderSettings {
             max_depth: scene.output.max_depth,
-            count_rays: true,
             ..sized(256, 192)
         };
         let expected = trace(&scene, settings.size);
-        let (image, stats) = render(&scene, &settings);
+        let (image, stats) = render(&scene, &counting(&settings));
         let counted = stats.rays.expect("counts");
         let near = |a: u64, b: u64| a.abs_diff(b) as f64 <= 0.002 * b as f64;
         let counts = [
@@ -110,7 +115,7 @@ fn every_form_alone_is_what_it_is_among_others() {
 #[test]
 fn the_tree_finds_the_forms_that_brute_force_finds() {
     let scene = scenes::solids();
-    let brute = Settings {
+    let brute = RenderSettings {
         brute_force: true,
         ..sized(256, 192)
     };
@@ -128,7 +133,7 @@ fn all_triangle_tests_give_the_reference_picture() {
         TriangleTest::Watertight,
     ];
     assert_none(tests.map(|triangle_test| {
-        let settings = Settings {
+        let settings = RenderSettings {
             triangle_test,
             ..sized(256, 192)
         };
@@ -146,16 +151,7 @@ fn all_triangle_tests_give_the_reference_picture() {
 #[test]
 fn images_and_buffers_fetch_the_same_bits() {
     let scene = scenes::everything();
-    let of = |fetch| {
-        render(
-            &scene,
-            &Settings {
-                fetch,
-                ..sized(160, 120)
-            },
-        )
-        .0
-    };
+    let of = |fetch| render(&scene, &fetched(&sized(160, 120), fetch)).0;
     assert_none([check_same_bits(
         "fetch",
         &of(Fetch::Image),
@@ -167,7 +163,7 @@ fn images_and_buffers_fetch_the_same_bits() {
 fn the_seed_moves_stratified_samples_and_no_others() {
     let scene = scenes::spheres();
     let picture = |antialias, seed| -> Image {
-        let settings = Settings {
+        let settings = RenderSettings {
             antialias,
             seed,
             samples: 4,
@@ -196,7 +192,7 @@ fn the_seed_moves_stratified_samples_and_no_others() {
 fn many_stratified_samples_average_the_pixel() {
     // The mean of a picture 8 times as fine over 8x8 pixels is a good estimate of the same integral.
     let scene = scenes::spheres();
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 256,
         antialias: Antialias::Stratified,
         ..sized(40, 30)

@@ -2,7 +2,8 @@
 //! is cut; rays are counted right; sizes and scenes at the edge of what is possible.
 
 use crate::reference::compare::{
-    assert_none, check_alike, check_same_bits, open_gpu, render, sized, start, try_render,
+    assert_none, check_alike, check_same_bits, counting, open_gpu, render, sized, sliced, start,
+    start_packed, try_render,
 };
 use crate::reference::scenes::{self, Build, Random};
 use crate::reference::trace;
@@ -13,14 +14,19 @@ use glimray::gpu::{AdapterChoice, Gpu, GpuError};
 use glimray::image::Image;
 use glimray::pack;
 use glimray::render::{
-    Antialias, Integrator, LongPath, RenderError, Renderer, Settings, Slicing, Stats, Tone,
+    Antialias, ExecutionPolicy, Integrator, LongPath, RenderError, RenderSettings, Renderer,
+    Slicing, Stats, Tone,
 };
 use glimray::scene::{
     Attenuation, Camera, Light, LightKind, Material, Mesh, Scene, ToneCurve, Transfer,
 };
 use std::sync::Arc;
 
-fn against_the_reference(name: &str, scene: &Scene, settings: &Settings) -> Result<(), String> {
+fn against_the_reference(
+    name: &str,
+    scene: &Scene,
+    settings: &RenderSettings,
+) -> Result<(), String> {
     let expected = trace(scene, settings.size).image;
     check_alike(name, &expected, &render(scene, settings).0, 2.0, 0.001)
 }
@@ -98,30 +104,23 @@ pub fn slicings() -> Vec<(&'static str, Slicing)> {
 #[test]
 fn the_cut_of_the_work_does_not_show() {
     let scene = scenes::everything();
-    let base = Settings {
+    let base = RenderSettings {
         samples: 8,
         antialias: Antialias::Stratified,
-        count_rays: true,
         ..sized(77, 51)
     };
-    let (expected, stats) = render(&scene, &base);
+    let (expected, stats) = render(&scene, &counting(&base));
     assert_none(slicings().into_iter().map(|(name, slicing)| {
-        let (actual, cut) = render(
-            &scene,
-            &Settings {
-                slicing,
-                ..base.clone()
-            },
-        );
+        let (actual, cut) = render(&scene, &sliced(&base, slicing));
         assert_eq!(cut.rays, stats.rays, "{name}");
         check_same_bits(name, &expected, &actual)
     }));
 }
 
 #[test]
-fn the_cut_does_not_show_where_samples_fill_more_than_a_chunk() {
+fn the_cut_does_not_show_where_samples_fill_more_than_a_block() {
     let scene = scenes::spheres();
-    let base = Settings {
+    let base = RenderSettings {
         samples: 600,
         antialias: Antialias::Stratified,
         ..sized(19, 13)
@@ -131,20 +130,14 @@ fn the_cut_does_not_show_where_samples_fill_more_than_a_chunk() {
         .into_iter()
         .filter(|(name, _)| *name != "one tile at a time");
     assert_none(rows.map(|(name, slicing)| {
-        let (actual, _) = render(
-            &scene,
-            &Settings {
-                slicing,
-                ..base.clone()
-            },
-        );
+        let (actual, _) = render(&scene, &sliced(&base, slicing));
         check_same_bits(name, &expected, &actual)
     }));
 }
 
 #[test]
 fn two_runs_give_the_same_bits() {
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 4,
         antialias: Antialias::Stratified,
         ..sized(96, 64)
@@ -156,7 +149,7 @@ fn two_runs_give_the_same_bits() {
 #[test]
 fn a_crop_is_the_same_pixels_of_the_whole_picture() {
     let scene = scenes::everything();
-    let whole = Settings {
+    let whole = RenderSettings {
         samples: 2,
         antialias: Antialias::Stratified,
         ..sized(70, 50)
@@ -171,7 +164,7 @@ fn a_crop_is_the_same_pixels_of_the_whole_picture() {
     assert_none(crops.map(|crop| {
         let (actual, _) = render(
             &scene,
-            &Settings {
+            &RenderSettings {
                 crop: Some(crop),
                 ..whole.clone()
             },
@@ -193,17 +186,18 @@ pub fn cut(image: &Image, [x0, y0, x1, y1]: [u32; 4]) -> Image {
 #[test]
 fn looking_at_an_unfinished_picture_does_not_change_the_finished_one() {
     let scene = scenes::spheres();
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 300,
         antialias: Antialias::Stratified,
-        slicing: Slicing {
-            max_tiles: 5,
-            max_samples: 40,
-            window_side: 16,
-            ..Slicing::default()
-        },
         ..sized(24, 24)
     };
+    let slicing = Slicing {
+        max_tiles: 5,
+        max_samples: 40,
+        window_side: 16,
+        ..Slicing::default()
+    };
+    let settings = sliced(&settings, slicing);
     let (expected, _) = render(&scene, &settings);
     let mut renderer = start(&scene, &settings).expect("a renderer");
     let mut looks = 0;
@@ -221,17 +215,17 @@ fn looking_at_an_unfinished_picture_does_not_change_the_finished_one() {
 
 #[test]
 fn progress_grows_from_0_to_1() {
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 3,
-        slicing: Slicing {
-            max_tiles: 3,
-            max_samples: 2,
-            window_side: 32,
-            ..Slicing::default()
-        },
         ..sized(50, 40)
     };
-    let mut renderer = start(&scenes::spheres(), &settings).expect("a renderer");
+    let slicing = Slicing {
+        max_tiles: 3,
+        max_samples: 2,
+        window_side: 32,
+        ..Slicing::default()
+    };
+    let mut renderer = start(&scenes::spheres(), &sliced(&settings, slicing)).expect("a renderer");
     let mut before = renderer.progress();
     assert_eq!(before, 0.0);
     while !renderer.is_done() {
@@ -257,8 +251,8 @@ fn another_frame_starts_the_picture_over() {
 
     let packed = Arc::new(pack::scene(&first).expect("packed"));
     let view = |scene: &Scene| packed.frame(&scene.frame(0.0)).expect("a frame");
-    let new = |scene| Renderer::new(open_gpu(), packed.clone(), &view(scene), settings.clone());
-    let mut renderer = new(&first).expect("a renderer");
+    let new = |scene| start_packed(packed.clone(), &view(scene), &settings);
+    let mut renderer = new(&first);
     let mut picture = |scene: Option<&Scene>| {
         if let Some(scene) = scene {
             renderer.set_frame(&view(scene)).expect("a frame");
@@ -269,7 +263,7 @@ fn another_frame_starts_the_picture_over() {
     };
     let (one, two, again) = (picture(None), picture(Some(&second)), picture(Some(&first)));
 
-    let mut fresh = new(&second).expect("a renderer");
+    let mut fresh = new(&second);
     finish(&mut fresh);
     let expected = fresh.develop(&Tone::LINEAR).expect("a picture");
     assert_none([
@@ -282,13 +276,11 @@ fn another_frame_starts_the_picture_over() {
 #[test]
 fn rays_are_counted_as_the_reference_counts_them() {
     let rows = [("spheres", scenes::spheres()), ("meshes", scenes::meshes())];
-    let settings = Settings {
-        count_rays: true,
-        ..sized(160, 120)
-    };
+    let (settings, policy) = counting(&sized(160, 120));
     for (name, scene) in rows {
         let expected = trace(&scene, settings.size).rays;
-        let rays = render(&scene, &settings).1.rays.expect("counts");
+        let wanted = (settings.clone(), policy);
+        let rays = render(&scene, &wanted).1.rays.expect("counts");
         assert_eq!(rays.primary, 160 * 120, "{name}");
         let pairs = [
             ("primary hits", expected.primary_hits, rays.primary_hits),
@@ -312,12 +304,11 @@ fn rays_are_counted_as_the_reference_counts_them() {
 
 #[test]
 fn rays_of_many_samples_all_count() {
-    let settings = Settings {
-        count_rays: true,
+    let settings = RenderSettings {
         samples: 20,
         ..sized(33, 21)
     };
-    let rays = render(&scenes::spheres(), &settings)
+    let rays = render(&scenes::spheres(), &counting(&settings))
         .1
         .rays
         .expect("counts");
@@ -343,10 +334,7 @@ fn every_size_renders_right() {
 fn a_scene_without_light_is_ambient_and_one_without_objects_background() {
     let mut dark = scenes::spheres();
     dark.lights.clear();
-    let settings = Settings {
-        count_rays: true,
-        ..sized(40, 30)
-    };
+    let settings = counting(&sized(40, 30));
     let (image, stats) = render(&dark, &settings);
     assert_eq!(
         stats.rays.map(|rays| rays.shadow),
@@ -375,7 +363,7 @@ fn a_scene_without_light_is_ambient_and_one_without_objects_background() {
     for integrator in [Integrator::Normals, Integrator::Depth, Integrator::Ids] {
         let (image, _) = render(
             &scenes::empty(),
-            &Settings {
+            &RenderSettings {
                 integrator,
                 ..sized(9, 9)
             },
@@ -417,7 +405,7 @@ fn under_lamps(count: usize) -> Scene {
 
 #[test]
 fn a_thousand_lights_all_shine() {
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 3,
         ..sized(64, 48)
     };
@@ -432,7 +420,7 @@ fn a_thousand_lights_all_shine() {
 fn right_or_refused(
     name: &str,
     scene: &Scene,
-    settings: &Settings,
+    settings: &RenderSettings,
     expected: &Image,
 ) -> Result<(), String> {
     match try_render(scene, settings) {
@@ -498,7 +486,7 @@ fn under_area_lamps(count: usize, samples: u32) -> Scene {
 #[test]
 fn more_shadow_rays_from_a_point_than_a_submission_should_take_are_refused_before_any_is_sent() {
     let scene = under_area_lamps(300, 65_536);
-    let with = |light_samples| Settings {
+    let with = |light_samples| RenderSettings {
         light_samples,
         ..sized(8, 8)
     };
@@ -520,7 +508,7 @@ fn more_shadow_rays_from_a_point_than_a_submission_should_take_are_refused_befor
     // One light at the limit of the formats, few samples, and pictures that no light is in.
     assert!(start(&under_area_lamps(1, 65_536), &with(1.0)).is_ok());
     assert!(start(&scene, &with(1e-3)).is_ok());
-    let normals = Settings {
+    let normals = RenderSettings {
         integrator: Integrator::Normals,
         ..with(1.0)
     };
@@ -529,7 +517,11 @@ fn more_shadow_rays_from_a_point_than_a_submission_should_take_are_refused_befor
     let mut renderer = start(&scene, &with(1e-3)).expect("a renderer");
     let packed = Arc::new(pack::scene(&scene).expect("packed"));
     let view = packed.frame(&scene.frame(0.0)).expect("a frame");
-    assert!(renderer.restart(packed, &view, with(1.0)).is_err());
+    assert!(
+        renderer
+            .restart(packed, &view, with(1.0), ExecutionPolicy::default())
+            .is_err()
+    );
 }
 
 #[test]
@@ -546,11 +538,11 @@ fn the_first_submission_is_one_tile_where_points_take_thousands_of_shadow_rays()
 fn the_message_of_the_loop_limit_names_what_is_too_much() {
     let mut mirrors = scenes::spheres();
     mirrors.materials[0].reflect = Vec3::splat(0.99);
-    let deep = Settings {
+    let deep = RenderSettings {
         max_depth: 1000,
         ..sized(8, 8)
     };
-    let brute = Settings {
+    let brute = RenderSettings {
         brute_force: true,
         ..sized(8, 8)
     };
@@ -646,9 +638,11 @@ fn a_device_that_is_shared_is_never_replaced() {
     let renderer = |host_copy| {
         let gpu = Gpu::new(&AdapterChoice::default()).expect("a device");
         gpu.lose();
-        let mut settings = sized(16, 12);
-        settings.slicing.host_copy = host_copy;
-        Renderer::new(gpu, packed.clone(), &view, settings)
+        let policy = ExecutionPolicy {
+            host_copy,
+            ..ExecutionPolicy::default()
+        };
+        Renderer::new(gpu, packed.clone(), &view, sized(16, 12), policy)
     };
     let shared = renderer(false).map(drop);
     assert!(
@@ -662,7 +656,7 @@ fn a_device_that_is_shared_is_never_replaced() {
 #[test]
 fn brute_force_over_more_triangles_than_the_drivers_loop_limit_is_refused() {
     let scene = layers(70_000);
-    let settings = Settings {
+    let settings = RenderSettings {
         brute_force: true,
         ..sized(8, 8)
     };
@@ -683,7 +677,7 @@ fn brute_force_over_more_triangles_than_the_drivers_loop_limit_is_refused() {
 fn brute_force_below_the_loop_limit_is_right() {
     let rows = [30_000, 59_000, 64_000].map(|count| (count, layers(count)));
     let depth = |scene: &Scene, brute_force| {
-        let settings = Settings {
+        let settings = RenderSettings {
             brute_force,
             integrator: Integrator::Depth,
             ..sized(8, 8)
@@ -700,12 +694,17 @@ fn brute_force_below_the_loop_limit_is_right() {
     }));
 }
 
+fn limited(settings: RenderSettings, memory_limit_bytes: u64) -> (RenderSettings, ExecutionPolicy) {
+    let policy = ExecutionPolicy {
+        memory_limit_bytes,
+        ..ExecutionPolicy::default()
+    };
+    (settings, policy)
+}
+
 #[test]
 fn more_memory_than_allowed_is_refused_with_the_numbers() {
-    let settings = Settings {
-        memory_limit_bytes: 1_000_000,
-        ..sized(4096, 4096)
-    };
+    let settings = limited(sized(4096, 4096), 1_000_000);
     let error = try_render(&scenes::spheres(), &settings)
         .map(|_| ())
         .expect_err("a refusal");
@@ -725,16 +724,9 @@ fn more_memory_than_allowed_is_refused_with_the_numbers() {
 #[test]
 fn a_picture_within_the_memory_limit_renders_and_reports_what_it_takes() {
     let (_, stats) = render(&scenes::spheres(), &sized(32, 32));
-    let settings = Settings {
-        memory_limit_bytes: stats.gpu_bytes,
-        ..sized(32, 32)
-    };
-    assert!(try_render(&scenes::spheres(), &settings).is_ok());
-    let settings = Settings {
-        memory_limit_bytes: stats.gpu_bytes - 1,
-        ..sized(32, 32)
-    };
-    assert!(try_render(&scenes::spheres(), &settings).is_err());
+    let within = |limit| try_render(&scenes::spheres(), &limited(sized(32, 32), limit));
+    assert!(within(stats.gpu_bytes).is_ok());
+    assert!(within(stats.gpu_bytes - 1).is_err());
 }
 
 /// A wall in the right half of the picture under two lights of this strength.
@@ -772,7 +764,7 @@ fn is_finite(image: &Image) -> bool {
 
 #[test]
 fn samples_that_are_not_finite_are_dropped_and_counted() {
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 3,
         ..sized(32, 16)
     };
@@ -806,7 +798,7 @@ fn samples_that_are_not_finite_are_dropped_and_counted() {
 #[test]
 fn sums_of_samples_near_the_end_of_the_range_stay_finite() {
     // Each sample is finite, three of them are not.
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 3,
         ..sized(32, 16)
     };

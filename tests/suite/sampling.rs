@@ -1,10 +1,10 @@
 //! Samples in whole renders: how fast they get quiet, and that filters neither add light nor take it.
 
-use crate::reference::compare::{assert_none, check_same_bits, render, sized};
+use crate::reference::compare::{assert_none, check_same_bits, render, sized, sliced};
 use crate::reference::scenes::{self, Build};
 use glam::{DAffine3, DVec3, Vec3, dvec3, vec3};
 use glimray::image::Image;
-use glimray::render::{Antialias, Filter, Settings};
+use glimray::render::{Antialias, Filter, RenderSettings};
 use glimray::scene::{
     Attenuation, Background, Camera, Lens, Light, LightKind, Material, Mesh, Scene,
 };
@@ -17,8 +17,8 @@ const FILTERS: [Filter; 5] = [
     Filter::Mitchell,
 ];
 
-fn stratified(side: u32, samples: u32) -> Settings {
-    Settings {
+fn stratified(side: u32, samples: u32) -> RenderSettings {
+    RenderSettings {
         samples,
         antialias: Antialias::Stratified,
         ..sized(side, side)
@@ -103,7 +103,7 @@ fn sixteen_samples_are_twice_as_quiet_as_independent_ones() {
         let picture = |samples, seed| {
             render(
                 &scene,
-                &Settings {
+                &RenderSettings {
                     seed,
                     ..stratified(SIDE, samples)
                 },
@@ -182,17 +182,17 @@ fn filters_neither_add_light_nor_take_it_at_tiles_or_edges() {
     let scene = gradient();
     let exact = mean(&render(&scene, &sized(20, 20)).0);
     assert_none(FILTERS.map(|filter| {
-        let settings = Settings {
+        let settings = RenderSettings {
             filter,
             filter_radius: filter.default_radius(),
-            // Windows and tiles are cut where they must not show.
-            slicing: glimray::render::Slicing {
-                window_side: 13,
-                ..Default::default()
-            },
             ..stratified(20, 256)
         };
-        let got = mean(&render(&scene, &settings).0);
+        // Windows and tiles are cut where they must not show.
+        let slicing = glimray::render::Slicing {
+            window_side: 13,
+            ..Default::default()
+        };
+        let got = mean(&render(&scene, &sliced(&settings, slicing)).0);
         if (got - exact).abs().max_element() < 1e-4 {
             return Ok(());
         }
@@ -223,7 +223,7 @@ fn filters_spread_a_thin_line_by_their_own_width() {
     scene.add_mesh(right, DAffine3::IDENTITY);
     assert_none(FILTERS.map(|filter| {
         let radius = filter.default_radius();
-        let settings = Settings {
+        let settings = RenderSettings {
             filter,
             filter_radius: radius,
             ..stratified(16, 256)
@@ -261,7 +261,7 @@ fn filters_and_light_samples_change_nothing_where_they_have_nothing_to_do() {
     let base = sized(24, 18);
     let (expected, _) = render(&scene, &base);
     assert_none(FILTERS.map(|filter| {
-        let settings = Settings {
+        let settings = RenderSettings {
             filter,
             filter_radius: 3.0,
             light_samples: 7.0,
@@ -279,7 +279,7 @@ fn filters_and_light_samples_change_nothing_where_they_have_nothing_to_do() {
 fn few_samples_of_a_filter_with_negative_lobes_make_no_light_and_nothing_undefined() {
     let scene = scenes::spheres();
     for samples in [1, 2, 3, 4, 16] {
-        let settings = Settings {
+        let settings = RenderSettings {
             filter: Filter::Mitchell,
             filter_radius: 2.0,
             ..stratified(32, samples)

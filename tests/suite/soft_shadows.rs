@@ -1,11 +1,11 @@
 //! Area lights in whole renders: the light they give has closed forms, and so has the edge of their
 //! shadows.
 
-use crate::reference::compare::{assert_none, check_alike, render, sized};
+use crate::reference::compare::{assert_none, check_alike, counting, render, sized};
 use crate::reference::scenes::{self, Build};
 use crate::reference::trace;
 use glam::{DAffine3, DVec3, Vec3, dvec3};
-use glimray::render::Settings;
+use glimray::render::RenderSettings;
 use glimray::scene::{Attenuation, Background, Camera, Light, LightKind, Material, Scene};
 use std::f64::consts::PI;
 
@@ -53,7 +53,7 @@ fn square(center: DVec3) -> LightKind {
 fn floor_under(lights: Vec<Light>) -> f64 {
     let mut scene = floor();
     scene.lights = lights;
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 256,
         ..sized(1, 1)
     };
@@ -311,14 +311,14 @@ fn each_light_sample_that_faces_the_surface_is_one_shadow_ray() {
         lamp(5, square(DVec3::NEG_Y)),
     ];
     let shadow_rays = |light_samples| {
-        let settings = Settings {
+        let settings = RenderSettings {
             light_samples,
-            count_rays: true,
             samples: 3,
             ..sized(4, 2)
         };
         let pixels = 4 * 2 * 3;
-        render(&scene, &settings).1.rays.expect("counts").shadow / pixels
+        let (_, stats) = render(&scene, &counting(&settings));
+        stats.rays.expect("counts").shadow / pixels
     };
     assert_eq!(shadow_rays(1.0), 1 + 7);
     assert_eq!(shadow_rays(2.0), 1 + 14);
@@ -358,7 +358,7 @@ fn the_penumbra_of_a_sphere_light_is_as_wide_as_geometry_says() {
         fov_y: 2.0 * (seen / f64::from(WIDTH) / 2.0 / eye_height).atan(),
         ..Camera::default()
     };
-    let settings = Settings {
+    let settings = RenderSettings {
         samples: 16,
         ..sized(WIDTH, 1)
     };
@@ -427,7 +427,7 @@ fn soft_shadows_of_every_kind_of_light_match_an_independent_tracer() {
     assert_none(kinds.map(|(name, kind)| {
         let mut scene = scenes::spheres();
         scene.lights = vec![lamp(kind, Vec3::new(9.0, 8.0, 7.0))];
-        let settings = Settings {
+        let settings = RenderSettings {
             samples: 8,
             ..sized(64, 48)
         };

@@ -1,18 +1,11 @@
 //! Rays and pictures of scenes of the Standard Procedural Database.
 
-use crate::reference::compare::{check_alike, differing, render, sized};
+use crate::reference::compare::{check_alike, counting, differing, render, sized};
 use crate::reference::count::{self, Inwards};
 use crate::reference::spd;
 use crate::support::verdict::Verdict;
-use glimray::render::Settings;
+use glimray::render::RenderSettings;
 use glimray::scene::Scene;
-
-fn counted(width: u32, height: u32) -> Settings {
-    Settings {
-        count_rays: true,
-        ..sized(width, height)
-    }
-}
 
 /// Rays through the corners of the pixels of a picture of 512×512 are those through the centres of
 /// one of 513×513 whose edges lie half a pixel farther out. SPD's own count: all of them hit.
@@ -23,11 +16,11 @@ fn every_ray_through_a_corner_of_a_pixel_of_balls_hits() {
     };
     let camera = &mut scene.cameras[0];
     camera.fov_y = 2.0 * ((camera.fov_y / 2.0).tan() * 513.0 / 512.0).atan();
-    let settings = Settings {
+    let settings = RenderSettings {
         max_depth: 0,
-        ..counted(513, 513)
+        ..sized(513, 513)
     };
-    let (_, stats) = render(&scene, &settings);
+    let (_, stats) = render(&scene, &counting(&settings));
     let rays = stats.rays.expect("counts");
     assert_eq!((rays.primary, rays.primary_hits), (263_169, 263_169));
 }
@@ -56,7 +49,7 @@ fn rays_and_pictures_are_those_of_a_tracer_in_f64() {
         let (mut scene, _) = spd::load(&name).expect("a file that was just listed");
         let depth = scene.output.max_depth;
         let trace = |scene: &Scene| count::trace(scene, (256, 256), depth, Inwards::Turned);
-        let (image, stats) = render(&scene, &counted(256, 256));
+        let (image, stats) = render(&scene, &counting(&sized(256, 256)));
         assert_eq!(stats.cut_off_trees, 0, "{name}");
         let (picture, expected) = trace(&scene);
         let got = stats.rays.expect("counts");
@@ -114,7 +107,7 @@ fn balls_and_teapot_take_as_many_rays_as_in_pov_ray() {
         ("balls.nff", balls, 966_462, 294_219, 186_818),
         ("teapot.nff", teapot, 408_253, 42_792, 228_365),
     ] {
-        let (_, stats) = render(&scene, &counted(512, 512));
+        let (_, stats) = render(&scene, &counting(&sized(512, 512)));
         let rays = stats.rays.expect("counts");
         for (kind, got, expected) in [
             ("shadow", rays.shadow, shadow),

@@ -1,13 +1,15 @@
 //! Textures and backgrounds in whole pictures, against the f64 evaluation in `reference::textures`.
 
-use crate::reference::compare::{assert_none, check_alike, check_same_bits, render, sized, start};
+use crate::reference::compare::{
+    assert_none, check_alike, check_same_bits, fetched, render, sized, start,
+};
 use crate::reference::scenes::{self, Build};
 use crate::reference::{textures, trace};
 use crate::support::random::Random;
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DQuat, DVec2, DVec3, Vec2, Vec3, dvec3, vec3};
 use glimray::image::Image;
-use glimray::render::{Fetch, Settings, Tone};
+use glimray::render::{Fetch, Tone};
 use glimray::scene::{
     Background, Camera, Material, Pattern, Picture, Scene, Space, Texture, Textures,
 };
@@ -140,13 +142,7 @@ fn pictures_of_textured_scenes_match_an_independent_tracer() {
 #[test]
 fn images_and_buffers_fetch_the_same_textures() {
     let scene = textured_scene();
-    let of = |fetch| {
-        let settings = Settings {
-            fetch,
-            ..sized(96, 72)
-        };
-        render(&scene, &settings).0
-    };
+    let of = |fetch| render(&scene, &fetched(&sized(96, 72), fetch)).0;
     assert_none([check_same_bits(
         "textures",
         &of(Fetch::Image),

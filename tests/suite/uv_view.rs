@@ -6,7 +6,7 @@ use crate::support::harness::gpu;
 use crate::support::verdict::Tolerance;
 use glam::{DAffine3, DVec3, Vec2, dvec3};
 use glimray::image::Image;
-use glimray::render::{Integrator, Settings};
+use glimray::render::{Integrator, RenderSettings};
 use glimray::scene::{Camera, Scene};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -41,7 +41,7 @@ fn scene() -> Scene {
 }
 
 fn uv(scene: &Scene) -> Image {
-    let settings = Settings {
+    let settings = RenderSettings {
         integrator: Integrator::Uv,
         ..sized(SIDE, SIDE)
     };

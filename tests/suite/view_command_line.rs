@@ -8,7 +8,7 @@ use glimray::app::view::navigation::Rig;
 use glimray::import;
 use glimray::output;
 use glimray::pack;
-use glimray::render::{Antialias, Integrator, Levels, Settings, Tone, TriangleTest};
+use glimray::render::{Antialias, Integrator, Levels, RenderSettings, Tone, TriangleTest};
 use glimray::scene::{
     Background, Beyond, Camera, CameraProperty, Curve, Easing, Filter, Interpolation, Lens, Node,
     OutputDefaults, Scene, Shutter, Target, ToneCurve, Track, Transfer, Values,
@@ -24,7 +24,7 @@ struct Screen {
     scene: Scene,
     camera: Camera,
     background: Background,
-    settings: Settings,
+    settings: RenderSettings,
     tone: Tone,
     time: f64,
     fps: f64,
@@ -41,7 +41,7 @@ impl Screen {
             options: import::Options::default(),
             camera: scene.frame(0.0).camera,
             background: scene.background.clone(),
-            settings: Settings::from(output),
+            settings: RenderSettings::from(output),
             tone: Tone {
                 exposure_ev: output.exposure_ev,
                 curve: output.tone,

@@ -1,6 +1,5 @@
 //! Short names for long bytes: two things with the same fingerprint are the same.
 
-use crate::pack::{PackedScene, PackedView};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -14,34 +13,6 @@ pub fn of_text(text: &str) -> Fingerprint {
     let mut hash = Xxh3::new();
     hash.update(text.as_bytes());
     digits(&hash)
-}
-
-/// Of everything in a scene that stands still.
-pub fn of_scene(scene: &PackedScene) -> Fingerprint {
-    let PackedScene {
-        features,
-        plane_count,
-        pictures,
-        ..
-    } = scene;
-    of_parts(
-        scene.parts(),
-        &format!("{features:?} {plane_count} {pictures:?}"),
-    )
-}
-
-/// Of everything that is special to a frame.
-pub fn of_view(view: &PackedView) -> Fingerprint {
-    let PackedView {
-        background,
-        has_lights,
-        has_area_lights,
-        ..
-    } = view;
-    of_parts(
-        view.parts(),
-        &format!("{background} {has_lights} {has_area_lights}"),
-    )
 }
 
 /// The length in bytes and the fingerprint of a file.
@@ -67,16 +38,6 @@ pub fn of_file(path: &Path) -> io::Result<(u64, Fingerprint)> {
             Err(error) => return Err(error),
         }
     }
-}
-
-/// Lengths go in too, so that bytes cannot move from one part to the next unnoticed.
-fn of_parts(parts: Vec<&[u8]>, text: &str) -> Fingerprint {
-    let mut hash = Xxh3::new();
-    for part in parts.into_iter().chain([text.as_bytes()]) {
-        hash.update(&(part.len() as u64).to_le_bytes());
-        hash.update(part);
-    }
-    digits(&hash)
 }
 
 fn digits(hash: &Xxh3) -> Fingerprint {

@@ -15,7 +15,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// Of the file's form; another one's is not read.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Larger files are no journals.
 const MAX_BYTES: u64 = 1 << 30;

@@ -13,7 +13,7 @@ use crate::image::Image;
 use crate::output::video::{self, Picture8, VideoOptions, Y4mWriter};
 use crate::output::{self, Format, OutputError};
 use crate::pack::{self, PackedScene, PackedView};
-use crate::render::{Fetch, Renderer, Settings, Slicing, Stats, Tone};
+use crate::render::{self, RenderSettings, Renderer, Stats, Tone};
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ use std::time::Instant;
 /// All that frames are made with.
 pub struct Studio<'a> {
     sequence: &'a Sequence<'a>,
-    settings: Settings,
+    settings: RenderSettings,
     tone: Tone,
     scene: Arc<PackedScene>,
     adapter: Option<AdapterReport>,
@@ -39,14 +39,14 @@ impl<'a> Studio<'a> {
     /// Packs the scene. Without `gpu` there will be nothing to render.
     pub fn new(
         sequence: &'a Sequence<'a>,
-        settings: Settings,
+        settings: RenderSettings,
         gpu: Option<Gpu>,
     ) -> Result<Self, AppError> {
         let scene = Arc::new(pack::scene(&sequence.job.scene)?);
         let tone = (sequence.job).tone(&settings, sequence.target.is_linear());
         Ok(Self {
             fingerprints: (
-                fingerprint::of_scene(&scene),
+                render::Fingerprint::of_scene(&scene).to_string(),
                 of_settings(&settings, &tone, sequence.target.frames.as_ref()),
             ),
             adapter: gpu.as_ref().map(|gpu| gpu.adapter().clone()),
@@ -60,7 +60,7 @@ impl<'a> Studio<'a> {
         })
     }
 
-    pub fn settings(&self) -> &Settings {
+    pub fn settings(&self) -> &RenderSettings {
         &self.settings
     }
 
@@ -87,7 +87,7 @@ impl<'a> Studio<'a> {
         let (scene, settings) = self.fingerprints.clone();
         Origin {
             scene,
-            view: fingerprint::of_view(view),
+            view: render::Fingerprint::of_view(view).to_string(),
             settings,
             renderer: self.adapter.as_ref().map(|adapter| {
                 let AdapterReport {
@@ -173,7 +173,9 @@ impl<'a> Studio<'a> {
             }
             (empty, Some(gpu)) => {
                 let settings = self.settings.clone();
-                empty.insert(Renderer::new(gpu, self.scene.clone(), view, settings)?)
+                let policy = self.sequence.job.policy();
+                let scene = self.scene.clone();
+                empty.insert(Renderer::new(gpu, scene, view, settings, policy)?)
             }
             (None, None) => return Err(AppError::Internal("there is no adapter".into())),
         };
@@ -260,20 +262,15 @@ fn no_more(path: &Path, source: io::Error) -> OutputError {
 }
 
 /// Of everything but scene and view that can show in a frame's file.
-fn of_settings(settings: &Settings, tone: &Tone, files: Option<&Files>) -> Fingerprint {
-    let plain = Settings::default();
-    let settings = Settings {
-        count_rays: plain.count_rays,
-        memory_limit_bytes: plain.memory_limit_bytes,
-        fetch: Fetch::Auto,
-        slicing: Slicing::default(),
-        ..settings.clone()
+fn of_settings(settings: &RenderSettings, tone: &Tone, files: Option<&Files>) -> Fingerprint {
+    let format = match files {
+        // Only what is lossy has a quality.
+        Some(files) if files.format == Format::Jpeg => format!("JPEG {}", files.options.quality),
+        Some(files) => files.format.to_string(),
+        None => String::new(),
     };
-    let format = files.map(|files| files.format);
-    // Only what is lossy has a quality.
-    let quality =
-        (files.filter(|files| files.format == Format::Jpeg)).map(|files| files.options.quality);
-    fingerprint::of_text(&format!("{settings:?} {tone:?} {format:?} {quality:?}"))
+    let (settings, tone) = (settings.fingerprint(), tone.fingerprint());
+    fingerprint::of_text(&format!("{settings} {tone} {format}"))
 }
 
 /// An error that ended the work at frame `number`, with how to go on: `kept` frames are in files, or

@@ -5,12 +5,13 @@ use super::workloads;
 use crate::app::cli::BenchArgs;
 use crate::app::demo;
 use crate::app::exit::AppError;
+use crate::app::job;
 use crate::app::view::navigation::Rig;
 use crate::app::view::order::Order;
 use crate::app::view::render_thread::{Fault, Orders, Place, RenderThread};
 use crate::gpu::{Gpu, GpuError};
 use crate::pack;
-use crate::render::{Renderer, Settings, Tone};
+use crate::render::{RenderSettings, Renderer, Tone};
 use crate::scene::Scene;
 use serde::Serialize;
 use std::sync::Arc;
@@ -110,12 +111,13 @@ fn moves_of_one(arguments: &BenchArgs) -> Result<Vec<f64>, AppError> {
 /// The median of the host's work that lies before a picture in full from another camera.
 fn rest_seconds(arguments: &BenchArgs, scene: &Scene) -> Result<f64, AppError> {
     let gpu = Gpu::with_all_limits(&arguments.device.choice())?;
-    let settings = settings(arguments, scene);
+    let settings = settings(scene);
     let packed = Arc::new(pack::scene(scene)?);
     let mut rig = Rig::new(&scene.frame(0.0).camera, scene.bounds());
     let mut frames = scene.shot(0.0, 0.0);
     let mut view = packed.shot(&frames)?;
-    let mut renderer = Renderer::new(gpu, packed.clone(), &view, settings.clone())?;
+    let policy = job::policy(&arguments.device, false);
+    let mut renderer = Renderer::new(gpu, packed.clone(), &view, settings.clone(), policy)?;
     let mut seconds = Vec::new();
     for _ in 0..MOVES {
         rig.orbit_by(ANGLE, 0.0);
@@ -123,18 +125,17 @@ fn rest_seconds(arguments: &BenchArgs, scene: &Scene) -> Result<f64, AppError> {
         let started = Instant::now();
         frames[0].camera = rig.camera();
         view = packed.shot_from(Some(&view), &frames)?;
-        renderer.restart(packed.clone(), &view, settings.clone())?;
+        renderer.restart(packed.clone(), &view, settings.clone(), policy)?;
         seconds.push(started.elapsed().as_secs_f64());
         renderer.step()?;
     }
     Ok(super::median(seconds))
 }
 
-fn settings(arguments: &BenchArgs, scene: &Scene) -> Settings {
-    Settings {
+fn settings(scene: &Scene) -> RenderSettings {
+    RenderSettings {
         size: SIZE,
-        memory_limit_bytes: arguments.device.memory_limit_bytes(),
-        ..Settings::from(&scene.output)
+        ..RenderSettings::from(&scene.output)
     }
 }
 
@@ -159,7 +160,8 @@ impl Stage {
         let rig = Rig::new(&scene.frame(0.0).camera, scene.bounds());
         let mut orders = Orders::default();
         orders.pictures[Place::Main as usize] = Some(Order {
-            settings: settings(arguments, &scene),
+            settings: settings(&scene),
+            policy: job::policy(&arguments.device, false),
             scene: Arc::new(scene),
             restarts: 0,
             camera: None,

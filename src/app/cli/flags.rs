@@ -17,8 +17,8 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 pub struct OutputFlags {
-    /// Write the picture here; the ending chooses the format (.png .jpg .jpeg .exr .hdr), `-` is
-    /// the standard output [default: the scene's name with .png, in the current folder; for the
+    /// Write the picture here; the ending chooses the format (.png .jpg .jpeg .exr .hdr, or
+    /// .film for what is developed later), `-` is the standard output [default: the scene's name with .png, in the current folder; for the
     /// demo glimray.png]
     #[arg(short = 'o', long = "output", value_name = "OUT")]
     pub path: Option<PathBuf>,
@@ -31,6 +31,18 @@ pub struct OutputFlags {
     /// Refuse to replace a file that exists
     #[arg(long)]
     pub no_clobber: bool,
+}
+
+/// Which samples of the picture are rendered.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Output")]
+pub struct PartFlags {
+    /// Render the samples from this one on, a multiple of 64, into a film (.film) [default: 0]
+    #[arg(long, value_name = "A", allow_hyphen_values = true)]
+    pub sample_offset: Option<u32>,
+    /// Render so many samples of each pixel, a multiple of 64, into a film [default: all that are left]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
+    pub sample_count: Option<u32>,
 }
 
 /// How large and how fine the picture is.
@@ -86,15 +98,8 @@ pub struct PictureFlags {
     /// Try every primitive for every ray instead of searching a tree: the same picture, slowly
     #[arg(long)]
     pub no_bvh: bool,
-    /// Brightens the picture by 2^EV, -64 to 64 [default: the scene's, else 0; for .exr and .hdr 0]
-    #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = values::exposure)]
-    pub exposure: Option<f32>,
-    /// Tone curve [default: the scene's, else none; for .exr and .hdr and debug views none]
-    #[arg(long, value_parser = TONES.parser())]
-    pub tone: Option<ToneCurve>,
-    /// Transfer function [default: the scene's, else srgb; for .exr and .hdr and debug views linear]
-    #[arg(long, value_parser = TRANSFERS.parser())]
-    pub transfer: Option<Transfer>,
+    #[command(flatten)]
+    pub develop: DevelopFlags,
     /// Random seed: the same scene, settings and seed give the same picture
     #[arg(
         long,
@@ -106,6 +111,21 @@ pub struct PictureFlags {
     /// Render only the columns X0 to X1-1 and rows Y0 to Y1-1, in pixels from the top-left
     #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = values::crop)]
     pub crop: Option<[u32; 4]>,
+}
+
+/// How the picture is developed.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Picture")]
+pub struct DevelopFlags {
+    /// Brightens the picture by 2^EV, -64 to 64 [default: the scene's, else 0; for .exr and .hdr 0]
+    #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = values::exposure)]
+    pub exposure: Option<f32>,
+    /// Tone curve [default: the scene's, else none; for .exr and .hdr and debug views none]
+    #[arg(long, value_parser = TONES.parser())]
+    pub tone: Option<ToneCurve>,
+    /// Transfer function [default: the scene's, else srgb; for .exr and .hdr and debug views linear]
+    #[arg(long, value_parser = TRANSFERS.parser())]
+    pub transfer: Option<Transfer>,
 }
 
 /// What the picture is taken of.

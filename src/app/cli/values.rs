@@ -4,7 +4,7 @@ use super::{ProgressMode, Range, SequenceFormat};
 use crate::gpu::Backend;
 use crate::output::Format;
 use crate::output::video::VideoFormat;
-use crate::render::{Antialias, Integrator, TriangleTest};
+use crate::render::{self, Antialias, Integrator, TriangleTest};
 use crate::scene::{Filter, Shutter, ToneCurve, Transfer};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec3, Vec3};
@@ -99,31 +99,18 @@ pub static FILTERS: Words<Filter> = Words(&[
     ),
 ]);
 
-pub static INTEGRATORS: Words<Integrator> = Words(&[
-    (
-        "whitted",
-        "Phong shading, shadows, mirrors and glass",
-        Integrator::Whitted,
-    ),
-    ("normals", "shading normals as colours", Integrator::Normals),
-    (
-        "depth",
-        "distances, from white for the nearest to dark grey for the farthest",
-        Integrator::Depth,
-    ),
-    ("ids", "one colour for each primitive", Integrator::Ids),
-    ("uv", "texture coordinates as red and green", Integrator::Uv),
-    (
-        "heat",
-        "steps of each ray through the tree, from black over blue to white",
-        Integrator::Heat,
-    ),
-    (
-        "samples",
-        "the samples that --antialias adaptive spent, from black to white",
-        Integrator::Samples,
-    ),
-]);
+pub static INTEGRATORS: Words<Integrator> = Words(&INTEGRATOR_WORDS);
+
+const INTEGRATOR_WORDS: [(&str, &str, Integrator); render::INTEGRATORS.len()] = {
+    let mut words = [("", "", Integrator::Whitted); render::INTEGRATORS.len()];
+    let mut index = 0;
+    while index < words.len() {
+        let entry = &render::INTEGRATORS[index];
+        words[index] = (entry.name, entry.help, entry.integrator);
+        index += 1;
+    }
+    words
+};
 
 pub static TRIANGLE_TESTS: Words<TriangleTest> = Words(&[
     (

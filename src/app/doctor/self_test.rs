@@ -4,7 +4,7 @@
 use crate::app::device;
 use crate::app::exit::AppError;
 use crate::gpu::Gpu;
-use crate::render::{Settings, Tone};
+use crate::render::{ExecutionPolicy, RenderSettings, Tone};
 use crate::scene::{Camera, Geometry, Light, LightKind, Material, Scene, Shape};
 use glam::{DVec3, Vec3};
 
@@ -39,12 +39,15 @@ impl Outcome {
 
 /// Renders the test scene on `gpu`.
 pub fn run(gpu: Gpu, memory_limit_bytes: u64) -> Result<Outcome, AppError> {
-    let settings = Settings {
+    let settings = RenderSettings {
         size: (SIDE, SIDE),
-        memory_limit_bytes,
-        ..Settings::default()
+        ..RenderSettings::default()
     };
-    let (mut renderer, _) = device::renderer(gpu, &scene(), (0.0, 0.0), settings)?;
+    let policy = ExecutionPolicy {
+        memory_limit_bytes,
+        ..ExecutionPolicy::default()
+    };
+    let (mut renderer, _) = device::renderer(gpu, &scene(), (0.0, 0.0), settings, policy)?;
     while !renderer.is_done() {
         renderer.step()?;
     }

@@ -11,7 +11,7 @@ use super::order::Order;
 use super::render_thread::{CanvasError, Place, Studio};
 use crate::gpu::Gpu;
 use crate::pack::{self, PackedScene, PackedView};
-use crate::render::{Antialias, Renderer, Screen, Settings, Stats};
+use crate::render::{Antialias, RenderSettings, Renderer, Screen, Stats};
 use crate::scene::Frame;
 use noise::Noise;
 use packing::view;
@@ -159,7 +159,8 @@ impl Canvas {
         let before = self.order.as_ref();
         let is_other_scene = before.is_none_or(|b| !Arc::ptr_eq(&b.scene, &order.scene));
         let shows_same = before.is_some_and(|b| b.shows_same(order));
-        let has_settings = before.is_some_and(|b| b.settings == order.settings);
+        let has_settings =
+            before.is_some_and(|b| b.settings == order.settings && b.policy == order.policy);
         self.stays_coarse = coarse;
         if before.is_some_and(|before| before.tone != order.tone) {
             self.is_shown = false;
@@ -168,10 +169,11 @@ impl Canvas {
         let is_other_shot = before.is_none_or(|before| before.shot != order.shot);
         let differs_in_samples = before.is_some_and(|b| {
             let samples = order.settings.samples;
-            Settings {
+            RenderSettings {
                 samples,
                 ..b.settings.clone()
             } == order.settings
+                && b.policy == order.policy
         });
         if let Some(before) = self.order.replace(order.clone()) {
             self.keep_whole(&before.settings, &order.settings);
@@ -203,7 +205,7 @@ impl Canvas {
     }
 
     /// Keeps the picture while only a part of it is rendered. Screens of another part are of no use.
-    fn keep_whole(&mut self, before: &Settings, now: &Settings) {
+    fn keep_whole(&mut self, before: &RenderSettings, now: &RenderSettings) {
         if before.crop == now.crop
             || before.size != now.size && now.crop.is_some() == before.crop.is_some()
         {
@@ -240,14 +242,15 @@ impl Canvas {
         self.trees_built += usize::from(packed.features.instances && !has_tlas);
         let settings = match coarse {
             true => pace::coarse(&self.gpu, &mut self.pace, &order.settings),
-            false => pace::fine(&self.gpu, &order.settings),
+            false => order.settings.clone(),
         };
+        let policy = pace::policy(&self.gpu, order.policy);
         let packed = packed.clone();
         match &mut self.renderer {
-            Some(renderer) => renderer.restart(packed, &view, settings)?,
+            Some(renderer) => renderer.restart(packed, &view, settings, policy)?,
             None => {
                 let gpu = self.gpu.clone();
-                self.renderer = Some(Renderer::new(gpu, packed, &view, settings)?);
+                self.renderer = Some(Renderer::new(gpu, packed, &view, settings, policy)?);
             }
         }
         self.view = Some(view);

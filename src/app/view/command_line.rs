@@ -8,7 +8,7 @@ mod flags;
 use crate::app::cli::{CameraFlags, Cli, Command, MotionFlags, PictureFlags};
 use crate::app::clock::Clock;
 use crate::app::{job, overrides};
-use crate::render::{Settings, Tone};
+use crate::render::{RenderSettings, Tone};
 use crate::scene::{Background, Camera, Scene, Shutter, Target};
 use clap::Parser;
 use std::borrow::Cow;
@@ -28,7 +28,7 @@ pub struct Shown<'a> {
     /// What rays see that hit nothing.
     pub background: &'a Background,
     /// How it is traced.
-    pub settings: &'a Settings,
+    pub settings: &'a RenderSettings,
     /// How it is developed.
     pub tone: Tone,
     /// In seconds.
@@ -60,7 +60,7 @@ pub struct Pasted {
     /// What rays see that hit nothing.
     pub background: Background,
     /// How it is traced.
-    pub settings: Settings,
+    pub settings: RenderSettings,
     /// How a PNG is developed.
     pub tone: Tone,
     /// In seconds.
@@ -193,7 +193,7 @@ fn apply(
         path: (path != Path::new(NO_FILE)).then(|| path.to_owned()),
         camera: scene.frame(time).camera,
         background: scene.background.clone(),
-        tone: job::tone(&scene.output, picture, settings.integrator, false),
+        tone: job::tone(&scene.output, &picture.develop, settings.integrator, false),
         settings,
         time,
         fps: clock.fps,

@@ -284,7 +284,7 @@ pub fn is_stale(session: &Session) -> bool {
     match (inspected, now) {
         (Some(inspected), Some(now)) => {
             // Debug views show the same surfaces.
-            let settings = |order: &Order| crate::render::Settings {
+            let settings = |order: &Order| crate::render::RenderSettings {
                 integrator: Integrator::Whitted,
                 ..order.settings.clone()
             };

@@ -3,7 +3,7 @@
 use super::playback::Playback;
 use super::region::Grip;
 use super::session::Session;
-use crate::render::{Antialias, Integrator, Levels, Settings, Tone};
+use crate::render::{Antialias, Integrator, Levels, RenderSettings, Shows, Tone};
 use crate::scene::{Background, OutputDefaults};
 
 /// Most samples of a pixel.
@@ -13,7 +13,7 @@ pub const MAX_SAMPLES: u32 = 65_536;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
     /// Of the picture; its size and region only where [`Look::fits`] says so.
-    pub settings: Settings,
+    pub settings: RenderSettings,
     /// How the traced picture is developed; debug views stay as they are.
     pub tone: Tone,
     /// In place of the scene's.
@@ -29,7 +29,7 @@ pub struct Look {
     /// The edge or corner of the region that the mouse holds.
     pub grip: Option<Grip>,
     /// What the scene and the command line say, to go back to.
-    pub scene_settings: Settings,
+    pub scene_settings: RenderSettings,
     /// The same of developing.
     pub scene_tone: Tone,
 }
@@ -54,7 +54,7 @@ pub enum Sharing {
 
 impl Look {
     /// What the scene and the command line say.
-    pub fn new(settings: Settings, tone: Tone, fits: bool) -> Self {
+    pub fn new(settings: RenderSettings, tone: Tone, fits: bool) -> Self {
         Self {
             scene_settings: settings.clone(),
             settings,
@@ -106,7 +106,7 @@ impl Look {
     /// What a scene would say to look like this; what scenes do not say, such as the integrator, is not in it.
     pub fn output(&self, before: &OutputDefaults, playback: &Playback) -> OutputDefaults {
         let settings = &self.settings;
-        let usual = Settings::from(&OutputDefaults {
+        let usual = RenderSettings::from(&OutputDefaults {
             samples: settings.samples,
             ..OutputDefaults::default()
         });
@@ -135,9 +135,9 @@ impl Look {
 
     /// How a picture of this integrator is developed.
     pub fn tone_of(&self, integrator: Integrator) -> Tone {
-        match integrator {
-            Integrator::Whitted => self.tone,
-            _ => Tone {
+        match integrator.entry().shows {
+            Shows::Radiance => self.tone,
+            Shows::Colors | Shows::Quantity(_) => Tone {
                 levels: Levels::Found,
                 ..Tone::LINEAR
             },
@@ -145,7 +145,7 @@ impl Look {
     }
 
     /// The settings of a picture for which there is room of so many pixels.
-    pub fn settings_in(&self, space: (u32, u32), integrator: Integrator) -> Settings {
+    pub fn settings_in(&self, space: (u32, u32), integrator: Integrator) -> RenderSettings {
         let size = match self.fits {
             true => (space.0.max(1), space.1.max(1)),
             false => self.settings.size,
@@ -154,7 +154,7 @@ impl Look {
             Some(region) => Some(pixels(region, size)),
             None => self.settings.crop.filter(|_| !self.fits),
         };
-        Settings {
+        RenderSettings {
             size,
             crop,
             integrator,

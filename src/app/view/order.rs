@@ -1,6 +1,6 @@
 //! What a picture in the window follows from.
 
-use crate::render::{Settings, Tone};
+use crate::render::{ExecutionPolicy, RenderSettings, Tone};
 use crate::scene::{Background, Camera, Scene};
 use std::sync::Arc;
 
@@ -18,14 +18,19 @@ pub struct Order {
     /// When the shutter opens and closes, in seconds.
     pub shot: (f64, f64),
     /// Of the picture in full.
-    pub settings: Settings,
+    pub settings: RenderSettings,
+    /// How it is made; the window sees to its slices.
+    pub policy: ExecutionPolicy,
     /// How it is developed.
     pub tone: Tone,
 }
 
 impl PartialEq for Order {
     fn eq(&self, other: &Self) -> bool {
-        self.shows_same(other) && self.settings == other.settings && self.tone == other.tone
+        self.shows_same(other)
+            && self.settings == other.settings
+            && self.policy == other.policy
+            && self.tone == other.tone
     }
 }
 

@@ -9,7 +9,7 @@ use super::order::Order;
 use crate::app::advice;
 use crate::gpu::{Gpu, GpuError};
 use crate::image::Image;
-use crate::render::{RenderError, Renderer, Settings, Tone};
+use crate::render::{RenderError, RenderSettings, Renderer, Tone};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -70,7 +70,7 @@ impl Studio<'_> {
     }
 
     /// The settings of the picture in full.
-    pub fn settings(&self) -> &Settings {
+    pub fn settings(&self) -> &RenderSettings {
         &self.order.settings
     }
 }

@@ -27,7 +27,7 @@ use super::sheets::Sheets;
 use super::tools::{Drag, Tool};
 use super::viewport::Viewport;
 use crate::import;
-use crate::render::{Integrator, Settings};
+use crate::render::{ExecutionPolicy, Integrator, RenderSettings};
 use crate::scene::{Camera, Scene};
 use eframe::egui;
 use glam::DVec3;
@@ -117,7 +117,7 @@ pub struct Flags {
     /// About reading the scene.
     pub options: import::Options,
     /// Most memory that a picture may take, in bytes.
-    pub memory_limit_bytes: u64,
+    pub policy: ExecutionPolicy,
 }
 
 impl Flags {
@@ -151,8 +151,8 @@ impl Session {
             preferences,
             store,
             look: Look::new(
-                Settings::default(),
-                job::tone(&demo.output, &picture, Integrator::Whitted, false),
+                RenderSettings::default(),
+                job::tone(&demo.output, &picture.develop, Integrator::Whitted, false),
                 picture.size.size.is_none(),
             ),
             playback: Playback::new(Clock::new(&demo.output, &motion), 0.0),
@@ -178,7 +178,7 @@ impl Session {
                 moment,
                 motion,
                 options: reading.import_options(),
-                memory_limit_bytes: device.memory_limit_bytes(),
+                policy: job::policy(&device, false),
             },
             questions: Vec::new(),
             loader: None,
@@ -320,6 +320,7 @@ impl Session {
             background: self.look.background.clone(),
             shot: self.playback.shot(),
             settings: self.look.settings_in(self.room.taken, integrator),
+            policy: self.flags.policy,
             tone: self.look.tone_of(integrator),
         })
     }

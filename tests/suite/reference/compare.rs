@@ -3,8 +3,10 @@
 use crate::support::devices::Devices;
 use glimray::gpu::{AdapterChoice, Gpu};
 use glimray::image::Image;
-use glimray::pack;
-use glimray::render::{RenderError, Renderer, Settings, Stats, Tone};
+use glimray::pack::{self, PackedScene, PackedView};
+use glimray::render::{
+    ExecutionPolicy, Fetch, RenderError, RenderSettings, Renderer, Slicing, Stats, Tone,
+};
 use glimray::scene::Scene;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,18 +17,68 @@ pub fn open_gpu() -> Gpu {
     DEVICES.lease()
 }
 
+/// What a test asks for: settings, with a policy where that is not the usual one.
+pub trait Wanted {
+    fn parts(&self) -> (RenderSettings, ExecutionPolicy);
+}
+
+impl Wanted for RenderSettings {
+    fn parts(&self) -> (RenderSettings, ExecutionPolicy) {
+        (self.clone(), ExecutionPolicy::default())
+    }
+}
+
+impl Wanted for (RenderSettings, ExecutionPolicy) {
+    fn parts(&self) -> (RenderSettings, ExecutionPolicy) {
+        self.clone()
+    }
+}
+
+/// The settings with rays counted.
+pub fn counting(settings: &RenderSettings) -> (RenderSettings, ExecutionPolicy) {
+    let policy = ExecutionPolicy {
+        count_rays: true,
+        ..ExecutionPolicy::default()
+    };
+    (settings.clone(), policy)
+}
+
+/// The settings with the work cut so, and rays counted.
+pub fn sliced(settings: &RenderSettings, slicing: Slicing) -> (RenderSettings, ExecutionPolicy) {
+    let (settings, policy) = counting(settings);
+    (settings, ExecutionPolicy { slicing, ..policy })
+}
+
+/// The settings with the scene read through this.
+pub fn fetched(settings: &RenderSettings, fetch: Fetch) -> (RenderSettings, ExecutionPolicy) {
+    let policy = ExecutionPolicy {
+        fetch,
+        ..ExecutionPolicy::default()
+    };
+    (settings.clone(), policy)
+}
+
 /// A renderer at its first step.
-pub fn start(scene: &Scene, settings: &Settings) -> Result<Renderer, RenderError> {
+pub fn start(scene: &Scene, wanted: &impl Wanted) -> Result<Renderer, RenderError> {
     let packed = Arc::new(pack::scene(scene).expect("a scene that can be packed"));
     let view = packed
         .frame(&scene.frame(0.0))
         .expect("a frame that can be packed");
-    Renderer::new(open_gpu(), packed, &view, settings.clone())
+    let (settings, policy) = wanted.parts();
+    Renderer::new(open_gpu(), packed, &view, settings, policy)
+}
+
+/// The same of a scene that is packed already.
+#[track_caller]
+pub fn start_packed(packed: Arc<PackedScene>, view: &PackedView, wanted: &impl Wanted) -> Renderer {
+    let (settings, policy) = wanted.parts();
+    Renderer::new(open_gpu(), packed, view, settings, policy)
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Renders to the end; the picture is linear radiance.
-pub fn try_render(scene: &Scene, settings: &Settings) -> Result<(Image, Stats), RenderError> {
-    let mut renderer = start(scene, settings)?;
+pub fn try_render(scene: &Scene, wanted: &impl Wanted) -> Result<(Image, Stats), RenderError> {
+    let mut renderer = start(scene, wanted)?;
     while !renderer.is_done() {
         renderer.step()?;
     }
@@ -36,15 +88,15 @@ pub fn try_render(scene: &Scene, settings: &Settings) -> Result<(Image, Stats), 
 
 /// As [`try_render`], where nothing may go wrong.
 #[track_caller]
-pub fn render(scene: &Scene, settings: &Settings) -> (Image, Stats) {
-    try_render(scene, settings).unwrap_or_else(|error| panic!("{error}"))
+pub fn render(scene: &Scene, wanted: &impl Wanted) -> (Image, Stats) {
+    try_render(scene, wanted).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Settings for a picture of this size, everything else by default.
-pub fn sized(width: u32, height: u32) -> Settings {
-    Settings {
+pub fn sized(width: u32, height: u32) -> RenderSettings {
+    RenderSettings {
         size: (width, height),
-        ..Settings::default()
+        ..RenderSettings::default()
     }
 }
 

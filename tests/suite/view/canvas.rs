@@ -14,7 +14,7 @@ use glimray::app::view::render_thread::{Fault, Orders, Place, RenderThread};
 use glimray::gpu::Gpu;
 use glimray::image::Image;
 use glimray::import;
-use glimray::render::{Antialias, Settings, Tone, Uploads};
+use glimray::render::{Antialias, ExecutionPolicy, RenderSettings, Tone, Uploads};
 use glimray::scene::{Background, Camera, Scene, ToneCurve};
 use std::sync::Arc;
 use std::sync::mpsc::channel;
@@ -28,7 +28,7 @@ struct Easel {
 }
 
 impl Easel {
-    fn new(scene: &Scene, settings: Settings) -> Self {
+    fn new(scene: &Scene, settings: RenderSettings) -> Self {
         let gpu = open_gpu();
         let thread = RenderThread::new(gpu.clone(), || {}).expect("a thread");
         let mut orders = Orders::default();
@@ -39,6 +39,7 @@ impl Easel {
             background: None,
             shot: (0.0, 0.0),
             settings,
+            policy: ExecutionPolicy::default(),
             tone: Tone::LINEAR,
         });
         let easel = Self {
@@ -93,8 +94,8 @@ impl Easel {
     }
 }
 
-fn stratified(samples: u32) -> Settings {
-    Settings {
+fn stratified(samples: u32) -> RenderSettings {
+    RenderSettings {
         samples,
         antialias: Antialias::Stratified,
         ..sized(61, 43)
@@ -124,7 +125,7 @@ fn developing_otherwise_takes_no_new_samples() {
 
 #[test]
 fn another_background_gives_the_picture_of_a_scene_that_has_it() {
-    let adaptive = Settings {
+    let adaptive = RenderSettings {
         samples: 16,
         antialias: Antialias::Adaptive,
         ..stratified(16)
@@ -221,7 +222,7 @@ fn a_refused_order_passes_for_nothing_else_and_the_last_picture_stays() {
     let done = easel.shown().stats.samples;
     easel.want(|order| {
         order.settings.size = (16384, 16384);
-        order.settings.memory_limit_bytes = 1 << 20;
+        order.policy.memory_limit_bytes = 1 << 20;
     });
     let is_refused = |easel: &Easel| matches!(easel.thread.fault(), Some(Fault::Refused(_)));
     let wait = |easel: &Easel| {
@@ -237,6 +238,7 @@ fn a_refused_order_passes_for_nothing_else_and_the_last_picture_stays() {
     assert_eq!(easel.shown().size, (61, 43));
     easel.want(|order| {
         order.settings = stratified(2);
+        order.policy = ExecutionPolicy::default();
         order.tone.exposure_ev = 0.0;
     });
     let start = Instant::now();
@@ -285,7 +287,7 @@ fn fewer_samples_and_adaptive_ones_are_those_of_the_command_line_too() {
         easel.image() == render(&scene, &stratified(2)).0,
         "8 and then 2 samples"
     );
-    let adaptive = |samples| Settings {
+    let adaptive = |samples| RenderSettings {
         antialias: Antialias::Adaptive,
         ..stratified(samples)
     };
@@ -305,7 +307,7 @@ fn another_size_starts_over_and_the_last_picture_stays_meanwhile() {
     let scene = scenes::everything();
     let mut easel = Easel::new(&scene, stratified(4));
     easel.settle();
-    let other = Settings {
+    let other = RenderSettings {
         size: (90, 30),
         ..stratified(4)
     };

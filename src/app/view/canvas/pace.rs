@@ -1,7 +1,7 @@
 //! How coarse a picture must be to come in time, and how work is cut so that the window goes on.
 
 use crate::gpu::Gpu;
-use crate::render::{Antialias, Settings, Slicing};
+use crate::render::{Antialias, ExecutionPolicy, RenderSettings, Slicing};
 use std::time::Duration;
 
 /// Time that a submission should take while the window goes on: on software the cores that draw the
@@ -91,22 +91,22 @@ pub fn between_looks(gpu: &Gpu) -> Duration {
     if gpu.is_cpu() { LOOK_ON_CPU } else { LOOK }
 }
 
-/// Settings for slices that let the window go on.
-pub fn fine(gpu: &Gpu, settings: &Settings) -> Settings {
+/// Slices that let the window go on.
+pub fn policy(gpu: &Gpu, policy: ExecutionPolicy) -> ExecutionPolicy {
     let slice = if gpu.is_cpu() { SLICE_ON_CPU } else { SLICE };
-    Settings {
+    ExecutionPolicy {
         slicing: Slicing {
             target_seconds: slice.as_secs_f64(),
             window_side: MAX_SIDE,
-            host_copy: false,
-            ..settings.slicing
+            ..policy.slicing
         },
-        ..settings.clone()
+        host_copy: false,
+        ..policy
     }
 }
 
 /// A smaller picture of one sample, as large as the time allows.
-pub fn coarse(gpu: &Gpu, pace: &mut Pace, settings: &Settings) -> Settings {
+pub fn coarse(gpu: &Gpu, pace: &mut Pace, settings: &RenderSettings) -> RenderSettings {
     let time = if gpu.is_cpu() { COARSE_ON_CPU } else { COARSE };
     let [.., width, height] = settings.region();
     let pixels = u64::from(width) * u64::from(height);
@@ -116,12 +116,12 @@ pub fn coarse(gpu: &Gpu, pace: &mut Pace, settings: &Settings) -> Settings {
         Antialias::Adaptive => Antialias::Stratified,
         other => other,
     };
-    Settings {
+    RenderSettings {
         size: (smaller(settings.size.0), smaller(settings.size.1)),
         crop: (settings.crop)
             .map(|[x0, y0, x1, y1]| [x0 / divisor, y0 / divisor, smaller(x1), smaller(y1)]),
         samples: 1,
         antialias,
-        ..fine(gpu, settings)
+        ..settings.clone()
     }
 }

@@ -241,7 +241,12 @@ fn ask(session: &mut Session, target: Target, waits: Option<u32>) {
     let Some(scene) = session.scene() else {
         return;
     };
-    let linear = job::tone(&scene.output, &session.flags.picture, integrator, true);
+    let linear = job::tone(
+        &scene.output,
+        &session.flags.picture.develop,
+        integrator,
+        true,
+    );
     session.files.pending.asked += 1;
     session.ask(move |studio| take(studio, target, waits, linear));
 }

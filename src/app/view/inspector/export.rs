@@ -6,7 +6,7 @@ use super::super::files::dialogs::{Kind, Reply, Request};
 use super::super::session::Session;
 use super::Inspected;
 use crate::output;
-use crate::render::{Integrator, Settings};
+use crate::render::{Integrator, RenderSettings};
 use eframe::egui;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, TryRecvError};
@@ -121,7 +121,7 @@ pub fn command(session: &Session, sample: Option<u32>) -> Result<CommandLine, St
             "cannot copy a command: the demo has no file. Open a scene, or save this one.".into(),
         );
     };
-    let settings = Settings {
+    let settings = RenderSettings {
         integrator: Integrator::Whitted,
         ..inspected.order.settings.clone()
     };

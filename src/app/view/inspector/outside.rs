@@ -7,7 +7,7 @@ use super::super::viewport::Viewport;
 use super::Inspected;
 use super::hidden::{self, PARTS};
 use super::rows::{Filter, RayId};
-use crate::render::{Antialias, Integrator, RayKind, Settings, TracedRay};
+use crate::render::{Antialias, Integrator, RayKind, RenderSettings, TracedRay};
 use crate::scene::Camera;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
@@ -77,7 +77,7 @@ pub fn order(session: &Session) -> Option<Order> {
         camera: Some(rig.camera()),
         background: session.look.background.clone(),
         shot: (session.playback.time, session.playback.time),
-        settings: Settings {
+        settings: RenderSettings {
             size,
             crop: None,
             samples: SAMPLES,
@@ -86,6 +86,7 @@ pub fn order(session: &Session) -> Option<Order> {
             max_depth: settings.max_depth.min(2),
             ..settings.clone()
         },
+        policy: session.flags.policy,
         tone: session.look.tone_of(integrator),
     })
 }

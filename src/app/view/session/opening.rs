@@ -10,7 +10,7 @@ use super::super::look::Look;
 use super::super::navigation::Rig;
 use super::super::playback::Playback;
 use super::Session;
-use crate::render::{Integrator, Settings};
+use crate::render::{Integrator, RenderSettings};
 use crate::scene::{OutputDefaults, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -61,8 +61,8 @@ impl Session {
         overrides::apply(&mut scene, &self.flags.camera)?;
         let settings = self.settings_of(&scene.output);
         let picture = &self.flags.picture;
-        let mut tone = job::tone(&scene.output, picture, Integrator::Whitted, false);
-        if let (None, Some(curve)) = (picture.tone, self.preferences.tone) {
+        let mut tone = job::tone(&scene.output, &picture.develop, Integrator::Whitted, false);
+        if let (None, Some(curve)) = (picture.develop.tone, self.preferences.tone) {
             tone.curve = curve;
         }
         self.look = Look::new(settings, tone, picture.size.size.is_none());
@@ -87,10 +87,10 @@ impl Session {
     fn crop(&mut self) {
         let size = self.look.settings.size;
         let crop = self.flags.picture.crop;
-        let settings = Settings {
+        let settings = RenderSettings {
             crop,
             size,
-            ..Settings::default()
+            ..RenderSettings::default()
         };
         if let Err(error) = job::picture_size(&settings) {
             self.notices.warn(error.to_string());
@@ -103,12 +103,11 @@ impl Session {
 
     /// How a picture of a scene is made before anything is changed: flags win over preferences, and
     /// these over the scene.
-    fn settings_of(&self, output: &OutputDefaults) -> Settings {
+    fn settings_of(&self, output: &OutputDefaults) -> RenderSettings {
         let picture = &self.flags.picture;
         let mut output = output.clone();
         output.samples = self.preferences.samples.unwrap_or(output.samples);
-        Settings {
-            memory_limit_bytes: self.flags.memory_limit_bytes,
+        RenderSettings {
             // That is a region here.
             crop: None,
             ..job::picture_settings(&output, picture)
@@ -177,7 +176,7 @@ impl Session {
         self.rig = Some(rig);
         let own = std::mem::replace(&mut self.look, look);
         let integrator = self.look.settings.integrator;
-        let seen = |settings| Settings {
+        let seen = |settings| RenderSettings {
             integrator,
             ..settings
         };

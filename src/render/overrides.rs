@@ -1,10 +1,6 @@
-//! The overrides of `kernels/whitted.wesl`.
+//! What of the scene, the frame and the settings is compiled into a kernel: the overrides of `bindings.wesl`.
 
-use super::{
-    device::Task,
-    layers,
-    settings::{Integrator, TriangleTest},
-};
+use super::{device::Task, layers, settings::TriangleTest};
 use crate::{
     layout::{
         FILTER_BLACKMAN_HARRIS, FILTER_BOX, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_TENT,
@@ -17,22 +13,15 @@ use crate::{
 pub type Overrides = Vec<(&'static str, f64)>;
 
 /// Features that the scene, the frame and the settings need; all others are compiled out.
-pub fn overrides(task: Task) -> Overrides {
-    let mut overrides = tracing(task);
-    overrides.push(("HAS_LIGHTS", flag(task.view.has_lights)));
-    overrides.push(("BACKGROUND", f64::from(task.view.background)));
-    overrides.push(("HAS_AREA_LIGHTS", flag(task.view.has_area_lights)));
-    overrides
-}
-
-/// Those of every kernel that sends rays.
-pub fn tracing(task: Task) -> Overrides {
+pub fn of(task: Task) -> Overrides {
     let Task {
         scene,
         view,
         settings,
+        policy,
         ..
     } = task;
+    let integrator = settings.integrator.entry();
     let triangle_test = match settings.triangle_test {
         TriangleTest::Plane => TRIANGLE_TEST_PLANE,
         TriangleTest::MollerTrumbore => TRIANGLE_TEST_MOLLER_TRUMBORE,
@@ -49,7 +38,7 @@ pub fn tracing(task: Task) -> Overrides {
     let layers = layers::of_sampling(settings);
     let squares_row = layers::row_of(layers, &layers::SQUARES).unwrap_or_default();
     let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
-    vec![
+    let mut overrides = vec![
         ("TRIANGLE_TEST", f64::from(triangle_test)),
         ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
         ("HAS_SHAPES", flag(scene.bounded_shape_count() > 0)),
@@ -57,8 +46,8 @@ pub fn tracing(task: Task) -> Overrides {
         ("MIXED_MATERIALS", flag(scene.features.mixed_materials)),
         ("BRUTE_FORCE", flag(settings.brute_force)),
         ("STRATIFIED", flag(settings.antialias != Antialias::None)),
-        ("COUNT_RAYS", flag(settings.count_rays)),
-        ("COUNT_STEPS", flag(settings.integrator == Integrator::Heat)),
+        ("COUNT_RAYS", flag(policy.count_rays)),
+        ("COUNT_STEPS", flag(integrator.counts_steps)),
         ("SHAPE_KINDS", f64::from(features.shape_kinds)),
         (
             "HAS_REFLECTION",
@@ -81,7 +70,7 @@ pub fn tracing(task: Task) -> Overrides {
         ("FILTER_RADIUS", f64::from(settings.filter_radius)),
         (
             "HAS_TEXTURES",
-            flag(features.textures || settings.integrator == Integrator::Uv),
+            flag(features.textures || integrator.needs_uvs),
         ),
         ("HAS_EMISSION", flag(features.emission)),
         ("ADAPTIVE", flag(settings.is_adaptive())),
@@ -93,7 +82,16 @@ pub fn tracing(task: Task) -> Overrides {
         ("HAS_UVS", flag(!scene.uvs.is_empty())),
         ("FILM_ROWS", layers::rows(layers) as f64),
         ("SQUARES_ROW", squares_row as f64),
-    ]
+    ];
+    match integrator.is_lit {
+        true => overrides.extend([
+            ("HAS_LIGHTS", flag(view.has_lights)),
+            ("HAS_AREA_LIGHTS", flag(view.has_area_lights)),
+            ("BACKGROUND", f64::from(view.background)),
+        ]),
+        false => overrides.push(("VIEW", f64::from(integrator.view))),
+    }
+    overrides
 }
 
 fn flag(on: bool) -> f64 {

@@ -1,0 +1,27 @@
+//! The film of a renderer.
+
+use super::{Film, FilmHeader};
+use crate::render::{Fingerprint, RenderError, Renderer, Tone, layers};
+
+impl Renderer {
+    /// The film of all samples so far that are in finished blocks ([`crate::render::SAMPLE_BLOCK`]); of all of
+    /// them once the render is done.
+    ///
+    /// # Errors
+    /// The settings' range of samples is not made of blocks, or the picture is adaptive and not done.
+    pub fn film(&self) -> Result<Film, RenderError> {
+        let header = FilmHeader {
+            scene: Fingerprint::of_scene(&self.scene),
+            view: Fingerprint::of_view(&self.view),
+            settings: self.settings.of_whole().fingerprint(),
+            integrator: self.settings.integrator,
+            size: self.settings.size,
+            samples: self.settings.samples,
+            layers: layers::of_pictures(&self.settings),
+            tone: Tone::LINEAR,
+            adapters: [self.adapter().name.clone()].into(),
+        };
+        let (done, sample) = (self.cursor.window, self.cursor.sample);
+        Ok(self.windows.film(header, done, sample)?)
+    }
+}
