@@ -13,6 +13,7 @@ mod nodes;
 mod object;
 mod placement;
 mod segments;
+mod shell;
 mod surfaces;
 mod tlas;
 mod trees;

@@ -36,7 +36,11 @@ pub struct Topology {
 
 impl Topology {
     pub fn build(mesh: &Mesh) -> Self {
-        let corner = |i: u32| mesh.positions[i as usize];
+        // Powers of two change no tree, but keep areas in range.
+        let largest =
+            (mesh.positions.iter()).fold(0.0, |most: f32, p| most.max(p.abs().max_element()));
+        let scale = (-largest.log2().floor()).clamp(-126.0, 126.0).exp2();
+        let corner = |i: u32| mesh.positions[i as usize] * scale;
         let boxes: Vec<_> = (mesh.triangles.iter())
             .map(|&[a, b, c]| Aabb::of([corner(a), corner(b), corner(c)]))
             .collect();

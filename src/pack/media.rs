@@ -1,15 +1,12 @@
 //! Which transparent bodies the camera is inside of.
 
-use super::{PackError, light, material, mesh::CachedMesh};
+use super::{PackError, light, material, mesh::CachedMesh, shell::Shell};
 use crate::{
     layout::NONE,
-    scene::{Form, Frame, Geometry, Mesh, Scene},
+    scene::{Form, Frame, Geometry, Scene},
 };
 use glam::{DAffine3, DVec3, Vec3};
-use std::{
-    collections::{HashMap, HashSet},
-    sync::Arc,
-};
+use std::sync::Arc;
 
 /// Most media that a ray remembers.
 pub const MEDIA_SIZE: usize = 4;
@@ -28,14 +25,6 @@ enum Surface {
     Shape(Geometry),
     /// All instances of a mesh share it; the transform leads to their own space.
     Mesh(Arc<Shell>, DAffine3),
-}
-
-/// The triangles of a mesh, in its own space.
-#[derive(Debug)]
-pub struct Shell {
-    corners: Vec<[Vec3; 3]>,
-    min: Vec3,
-    max: Vec3,
 }
 
 /// The bodies of a scene that are transparent at some time.
@@ -78,34 +67,6 @@ pub fn may_touch(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> bool {
     let is_divided = || meshes.iter().any(|mesh| mesh.part_count() > 1);
     material::clear(scene).contains(&true)
         && (bodies > 1 || scene.materials.len() > 1 || is_divided())
-}
-
-/// Sets of triangles that hang together by the positions of their vertices.
-pub fn part_count(mesh: &Mesh) -> usize {
-    let mut first_at = HashMap::new();
-    // A forest over the vertices: each leads to an earlier one of its part, or to itself.
-    let mut leads_to: Vec<usize> = (mesh.positions.iter().enumerate())
-        .map(|(i, p)| *first_at.entry(p.to_array().map(f32::to_bits)).or_insert(i))
-        .collect();
-    let root = |leads_to: &mut [usize], mut i: usize| {
-        while leads_to[i] != i {
-            leads_to[i] = leads_to[leads_to[i]];
-            i = leads_to[i];
-        }
-        i
-    };
-    for triangle in &mesh.triangles {
-        let [a, b, c] = triangle.map(|i| root(&mut leads_to, i as usize));
-        let first = a.min(b).min(c);
-        for i in [a, b, c] {
-            leads_to[i] = first;
-        }
-    }
-    // Vertices that no triangle uses are no part.
-    let roots: HashSet<usize> = (mesh.triangles.iter())
-        .map(|triangle| root(&mut leads_to, triangle[0] as usize))
-        .collect();
-    roots.len()
 }
 
 /// The materials of the bodies round a point in the world that are transparent in this frame, the
@@ -176,55 +137,6 @@ impl Body {
             Surface::Mesh(shell, placement) => Some(shell.bounds(world_from_body * *placement)),
         };
         bounds.map_or(f64::INFINITY, |(min, max)| (max - min).element_product())
-    }
-}
-
-impl Shell {
-    /// Of a mesh with triangles.
-    pub fn of(mesh: &Mesh) -> Option<Self> {
-        let corner = |&i: &u32| mesh.positions[i as usize];
-        let corners: Vec<[Vec3; 3]> = (mesh.triangles.iter())
-            .map(|t| [corner(&t[0]), corner(&t[1]), corner(&t[2])])
-            .collect();
-        let points = corners.iter().flatten().copied();
-        Some(Self {
-            min: points.clone().reduce(Vec3::min)?,
-            max: points.reduce(Vec3::max)?,
-            corners,
-        })
-    }
-
-    /// The box round it where it is placed.
-    fn bounds(&self, placement: DAffine3) -> (DVec3, DVec3) {
-        let corners = self.corners.iter().flatten();
-        let placed = corners.map(|corner| placement.transform_point3(corner.as_dvec3()));
-        placed.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| {
-            (min.min(p), max.max(p))
-        })
-    }
-
-    /// Whether a ray from the point crosses it an odd number of times. Its direction is no axis and
-    /// no diagonal, so that it hardly meets an edge.
-    fn contains(&self, point: DVec3) -> bool {
-        let (min, max) = (self.min.as_dvec3(), self.max.as_dvec3());
-        if point.cmplt(min).any() || point.cmpgt(max).any() {
-            return false;
-        }
-        let direction = DVec3::new(0.541_196, 0.723_607, 0.428_571);
-        let crosses = |corners: &[Vec3; 3]| {
-            let [a, b, c] = corners.map(Vec3::as_dvec3);
-            let (edge1, edge2, from) = (b - a, c - a, point - a);
-            let p = direction.cross(edge2);
-            let determinant = edge1.dot(p);
-            let q = from.cross(edge1);
-            let (u, v) = (from.dot(p) / determinant, direction.dot(q) / determinant);
-            determinant != 0.0
-                && u >= 0.0
-                && v >= 0.0
-                && u + v <= 1.0
-                && edge2.dot(q) / determinant > 0.0
-        };
-        self.corners.iter().filter(|c| crosses(c)).count() % 2 == 1
     }
 }
 

@@ -1,6 +1,9 @@
 //! What is made of a mesh once, whatever places it: kept as long as the mesh is the same object.
 
-use super::{blas::Topology, media, media::Shell};
+use super::{
+    blas::Topology,
+    shell::{self, Shell},
+};
 use crate::scene::{Mesh, Scene};
 use std::{
     collections::HashMap,
@@ -62,7 +65,7 @@ impl CachedMesh {
 
     /// Sets of triangles that hang together.
     pub fn part_count(&self) -> usize {
-        *(self.part_count).get_or_init(|| media::part_count(&self.mesh))
+        *(self.part_count).get_or_init(|| shell::part_count(&self.mesh))
     }
 }
 

@@ -336,7 +336,7 @@ fn only_what_differs_is_uploaded_and_the_picture_is_that_of_a_new_renderer() {
                         + 16 * mesh.positions.len()
                         + 32 * mesh.triangles.len()
                 };
-                let most = own(5).max(own(6)) + 64 * 64;
+                let most = own(5).max(own(6)) + 64 * 1024;
                 let is_own = (1..most as u64).contains(&uploads.geometry);
                 verdict.that(&name, is_own, || format!("{uploads:?}"));
             }

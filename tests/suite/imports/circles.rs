@@ -16,7 +16,6 @@ const KNOTTED: &[&str] = &[
     "app/view",
     "app/view/files",
     "app/view/inspector",
-    "pack",
     "render",
 ];
 
