@@ -1,7 +1,7 @@
 //! A scene file → a picture, without a window: `cargo run --release --example headless -- SCENE OUT.png`
 
 use glimray::gpu::{AdapterChoice, Gpu};
-use glimray::render::{Renderer, Settings, Tone};
+use glimray::render::{ExecutionPolicy, RenderSettings, Renderer, Tone};
 use glimray::{import, output, pack};
 use std::{error::Error, path::Path, sync::Arc};
 
@@ -14,16 +14,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let packed = Arc::new(pack::scene(&scene)?);
     let view = packed.frame(&scene.frame(0.0))?;
     let gpu = Gpu::new(&AdapterChoice::default())?;
-    let mut renderer = Renderer::new(gpu, packed, &view, Settings::from(&scene.output))?;
+    let settings = RenderSettings::from(&scene.output);
+    let mut renderer = Renderer::new(gpu, packed, &view, settings, ExecutionPolicy::default())?;
     while !renderer.is_done() {
         renderer.step()?;
     }
-    let tone = Tone {
-        exposure_ev: scene.output.exposure_ev,
-        curve: scene.output.tone,
-        transfer: scene.output.transfer,
-        ..Tone::LINEAR
-    };
+    let tone = Tone::from(&scene.output);
     output::save(&to, &renderer.develop(&tone)?)?;
     Ok(())
 }

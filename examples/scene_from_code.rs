@@ -4,7 +4,7 @@
 
 use glam::{DAffine3, DVec3, Vec3, dvec3, vec3};
 use glimray::gpu::{AdapterChoice, Gpu};
-use glimray::render::{Renderer, Settings, Tone};
+use glimray::render::{ExecutionPolicy, RenderSettings, Renderer, Tone};
 use glimray::scene::{
     Background, Camera, Fresnel, Geometry, Instance, Light, LightKind, Material, Mesh, Scene,
     Shape, Transfer,
@@ -101,13 +101,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = scene();
     let packed = Arc::new(pack::scene(&scene)?);
     let view = packed.frame(&scene.frame(0.0))?;
-    let settings = Settings {
+    let settings = RenderSettings {
         size: (320, 200),
         samples: 16,
-        ..Settings::default()
+        ..RenderSettings::default()
     };
     let gpu = Gpu::new(&AdapterChoice::default())?;
-    let mut renderer = Renderer::new(gpu, packed, &view, settings)?;
+    let mut renderer = Renderer::new(gpu, packed, &view, settings, ExecutionPolicy::default())?;
     while !renderer.is_done() {
         renderer.step()?;
     }

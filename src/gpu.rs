@@ -17,7 +17,7 @@ pub use adapter::{AdapterChoice, AdapterReport, Backend, adapters};
 pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
 pub use error::GpuError;
 pub use guard::{is_guarded, surviving_loss};
-pub(crate) use readback::Source;
+pub(crate) use readback::{Reading, Source};
 pub use shader::Kernel;
 
 use std::{
@@ -170,11 +170,24 @@ impl Gpu {
     /// Whether a device on this adapter could have limits that serve `needs`; another's device has those
     /// that it has.
     pub(crate) fn check_limits(&self, needs: Needs) -> Result<(), GpuError> {
-        let most = match self.is_own {
-            true => self.adapter.limits(),
-            false => self.device.limits(),
-        };
-        limits_for(needs, &most).map(drop)
+        if self.is_own {
+            return limits_for(needs, &self.adapter.limits()).map(drop);
+        }
+        let has = self.device.limits();
+        let buffer = has.max_buffer_size.min(has.max_storage_buffer_binding_size);
+        let side = u64::from(has.max_texture_dimension_2d);
+        let needed = [
+            ("bytes in one storage buffer", needs.binding_bytes, buffer),
+            (
+                "texels along a texture's side",
+                needs.texture_side.into(),
+                side,
+            ),
+        ];
+        match needed.into_iter().find(|(_, need, limit)| need > limit) {
+            Some((name, need, limit)) => Err(GpuError::Limit { name, need, limit }),
+            None => Ok(()),
+        }
     }
 
     /// Whether this device's limits allow for `needs`.
@@ -236,7 +249,10 @@ impl Gpu {
     }
 
     /// Submits without waiting.
-    fn enqueue(&self, commands: wgpu::CommandBuffer) -> Result<wgpu::SubmissionIndex, GpuError> {
+    pub(crate) fn enqueue(
+        &self,
+        commands: wgpu::CommandBuffer,
+    ) -> Result<wgpu::SubmissionIndex, GpuError> {
         if fault::strikes(fault::Site::Device) {
             self.lose();
         }

@@ -24,6 +24,7 @@ mod slice;
 mod stats;
 mod sums;
 mod windows;
+mod work;
 
 pub use crate::scene::{Antialias, Filter};
 pub use develop::Tone;
@@ -40,17 +41,18 @@ pub use settings::{MIN_THROUGHPUT, RenderSettings, TriangleTest};
 pub use show::Screen;
 pub use stats::{Rays, Stats, Uploads};
 pub use sums::SAMPLE_BLOCK;
+pub use work::Status;
 
-use crate::clock::Instant;
 use crate::{
     gpu::{AdapterReport, Gpu, GpuError},
     pack::{PackedScene, PackedView},
 };
 use device::{Device, Task};
 use losses::or_replacement;
-use slice::{Planner, Slice};
+use slice::Planner;
 use std::{ops::Range, sync::Arc};
 use windows::Windows;
+use work::Work;
 
 /// Renders one frame after another of one scene.
 pub struct Renderer {
@@ -62,6 +64,8 @@ pub struct Renderer {
     windows: Windows,
     planner: Planner,
     cursor: Cursor,
+    /// The slice that is under way.
+    work: Option<Work>,
     stats: Stats,
     /// Losses before the picture that is under way.
     earlier_losses: u32,
@@ -115,11 +119,13 @@ impl Renderer {
         };
         let fetch = bindings::choose_fetch(policy.fetch, &gpu, &scene, &view);
         let gpu = gpu.serving(bindings::needs(&scene, &view, fetch, task.film_rows))?;
-        let choice = gpu.choice().clone();
+        let (choice, is_own) = (gpu.choice().clone(), gpu.is_own());
         let device = Device::new(gpu, fetch, task, &mut stats);
         let device = match device {
             // Others draw with this device, and cannot with another.
-            Err(GpuError::Lost) if !policy.host_copy => return Err(GpuError::Lost.into()),
+            Err(GpuError::Lost) if !policy.host_copy || !is_own => {
+                return Err(GpuError::Lost.into());
+            }
             device => or_replacement(device, &mut stats, 0, |stats| {
                 device::reopen(&choice, fetch, task, stats)
             })?,
@@ -134,6 +140,7 @@ impl Renderer {
             device,
             windows,
             cursor,
+            work: None,
             stats,
             earlier_losses: 0,
         })
@@ -160,6 +167,7 @@ impl Renderer {
         policy: ExecutionPolicy,
     ) -> Result<(), RenderError> {
         effort::check(view, &settings)?;
+        self.work = None;
         let view = view.with_aspect(settings.size.0, settings.size.1);
         let windows = Windows::new(&settings, policy.slicing.window_side);
         let bytes = planned_bytes(&scene, &view, settings.region(), &policy, &windows)?;
@@ -269,125 +277,6 @@ impl Renderer {
     /// The adapter in use.
     pub fn adapter(&self) -> &AdapterReport {
         self.device.gpu.adapter()
-    }
-
-    /// Adds samples for about [`Slicing::target_seconds`]. Does nothing when the render is done.
-    pub fn step(&mut self) -> Result<(), RenderError> {
-        let Some(window) = self.windows.list.get_mut(self.cursor.window) else {
-            return Ok(());
-        };
-        if window.sums.is_empty() {
-            window.begin();
-        }
-        let tile_count = window.tile_count();
-        if self.cursor.tile == 0 {
-            let left = window.samples.end - self.cursor.sample;
-            let in_block = SAMPLE_BLOCK - self.cursor.sample % SAMPLE_BLOCK;
-            self.cursor.sweep_samples = self.planner.sweep_samples(tile_count, left.min(in_block));
-        }
-        let Cursor {
-            tile,
-            sample,
-            sweep_samples,
-            ..
-        } = self.cursor;
-        let slice = self.planner.next(tile_count, tile, sample, sweep_samples);
-        if self.run(slice)? {
-            self.advance(&slice)?;
-        }
-        Ok(())
-    }
-
-    /// Runs a slice, in parts if it must be: a driver may stop a dispatch, or end the loops of a
-    /// path, without a word. What it did then is thrown away; where the host has no copy of what was
-    /// there before, the picture starts over, with copies. Returns whether the slice is done.
-    fn run(&mut self, slice: Slice) -> Result<bool, RenderError> {
-        let mut parts = vec![slice];
-        while let Some(part) = parts.pop() {
-            let start = Instant::now();
-            let tally = self.surviving_losses(|renderer| {
-                let index = renderer.cursor.window;
-                let window = &mut renderer.windows.list[index];
-                let device = &mut renderer.device;
-                let host_copy = renderer.policy.host_copy;
-                device.trace(&part, (index, window), &renderer.settings, host_copy)
-            })?;
-            let seconds = start.elapsed().as_secs_f64();
-            self.stats.submitted(seconds);
-            if part.is_complete(&tally) {
-                self.planner.finished(&part, seconds);
-                self.stats.add(&tally);
-                continue;
-            }
-            self.device.loaded_window = None;
-            if !self.policy.host_copy {
-                self.policy.host_copy = true;
-                self.windows = Windows::new(&self.settings, self.policy.slicing.window_side);
-                self.cursor = Cursor::at_start(&self.windows);
-                return Ok(false);
-            }
-            if !part.is_signed_off(&tally) {
-                self.planner.cut_short();
-                self.stats.count_loss(self.earlier_losses)?;
-                match part.tile_halves() {
-                    Some((first, last)) => parts.extend([last, first]),
-                    None => parts.push(part),
-                }
-            } else if let Some((earlier, later)) = part.sample_halves() {
-                self.planner.shorten_paths();
-                parts.extend([later, earlier]);
-            } else {
-                return Err(self.path_too_long());
-            }
-        }
-        Ok(true)
-    }
-
-    /// The error of a sample that the driver's loops are too short for.
-    fn path_too_long(&self) -> RenderError {
-        RenderError::PathTooLong(LongPath::of(&self.scene, &self.view, &self.settings))
-    }
-
-    fn advance(&mut self, slice: &Slice) -> Result<(), RenderError> {
-        let window = &self.windows.list[self.cursor.window];
-        self.cursor.tile = slice.end_tile;
-        if self.cursor.tile < window.tile_count() {
-            return Ok(());
-        }
-        if slice.end_sample == window.samples.end || slice.end_sample.is_multiple_of(SAMPLE_BLOCK) {
-            self.fetch_film()?;
-        }
-        let window = &mut self.windows.list[self.cursor.window];
-        let taken = slice.end_sample - slice.first_sample;
-        self.stats.samples += u64::from(taken) * window.sampled_pixels();
-        self.cursor.tile = 0;
-        self.cursor.sample = slice.end_sample;
-        if self.cursor.sample < window.samples.end {
-            if self.cursor.sample.is_multiple_of(SAMPLE_BLOCK) {
-                window.close_block();
-                self.device.loaded_window = None;
-            }
-            return Ok(());
-        }
-        self.cursor.window += 1;
-        if self.is_done() && self.windows.next_round() {
-            self.device.loaded_window = None;
-            self.cursor.window = 0;
-        }
-        if let Some(next) = self.windows.list.get(self.cursor.window) {
-            self.cursor.sample = next.samples.start;
-        }
-        Ok(())
-    }
-
-    /// Brings the sums to the host that are only on the device.
-    fn fetch_film(&mut self) -> Result<(), RenderError> {
-        let index = self.cursor.window;
-        let is_there = self.policy.host_copy || self.device.loaded_window != Some(index);
-        match self.windows.list.get_mut(index) {
-            Some(window) if !is_there => Ok(self.device.fetch_film(window)?),
-            _ => Ok(()),
-        }
     }
 }
 

@@ -16,7 +16,7 @@ use crate::{
     layout::{
         PackedTone, TONE_ACES, TONE_AGX, TONE_NONE, TONE_REINHARD, TRANSFER_LINEAR, TRANSFER_SRGB,
     },
-    scene::{ToneCurve, Transfer},
+    scene::{OutputDefaults, ToneCurve, Transfer},
 };
 use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec};
 use wgpu::BufferUsages;
@@ -32,6 +32,18 @@ pub struct Tone {
     pub transfer: Transfer,
     /// The range of a view that shows a quantity, such as distances.
     pub levels: Levels,
+}
+
+impl From<&OutputDefaults> for Tone {
+    /// What the scene says, for pictures of radiance.
+    fn from(output: &OutputDefaults) -> Self {
+        Self {
+            exposure_ev: output.exposure_ev,
+            curve: output.tone,
+            transfer: output.transfer,
+            ..Self::LINEAR
+        }
+    }
 }
 
 impl Tone {

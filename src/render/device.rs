@@ -15,12 +15,12 @@ use super::{
 };
 use crate::clock::Instant;
 use crate::{
-    gpu::{AdapterChoice, Gpu, GpuError, Kernel, Source},
+    gpu::{AdapterChoice, Gpu, GpuError, Kernel, Reading, Source},
     layout::PackedSlice,
     pack::{PackedScene, PackedView},
 };
 use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_collect_to_vec, pod_read_unaligned};
-use std::sync::Arc;
+use std::{ops::Range, sync::Arc};
 
 const ROW_BYTES: u64 = 16;
 
@@ -121,16 +121,15 @@ impl Device {
             })
     }
 
-    /// Runs one slice of the window with this index and returns its accounts. With
-    /// [`ExecutionPolicy::host_copy`] the sums of its tiles come to the host's film if it was done in
-    /// full.
-    pub fn trace(
+    /// Submits one slice of the window with this index, without waiting for it. [`Device::finish`] takes up
+    /// what comes of it.
+    pub fn launch(
         &mut self,
         slice: &Slice,
-        (index, window): (usize, &mut Window),
+        (index, window): (usize, &Window),
         settings: &RenderSettings,
-        host_copy: bool,
-    ) -> Result<PackedSlice, GpuError> {
+        back: Back,
+    ) -> Result<Reading, GpuError> {
         let Self { gpu, buffers, .. } = self;
         if self.loaded_window != Some(index) {
             gpu.write(&buffers.film, 0, cast_slice(&window.sums))?;
@@ -143,29 +142,64 @@ impl Device {
         let grid = (gpu.dispatched(columns), rows);
         let (_, pipeline) = &self.pipelines[self.current];
         dispatch(&mut encoder, pipeline, buffers, grid);
-        let tile_rows = TILE_PIXELS * window.rows_per_pixel();
-        let tile_bytes = tile_rows as u64 * ROW_BYTES;
         let accounts = Source {
             buffer: &buffers.slice,
             offset: 0,
             bytes: size_of::<PackedSlice>() as u64,
         };
-        let tiles = Source {
+        let rows = back.rows(slice, window);
+        let sums = Source {
             buffer: &buffers.film,
-            offset: u64::from(slice.first_tile) * tile_bytes,
-            bytes: u64::from(slice.end_tile - slice.first_tile) * tile_bytes,
+            offset: rows.start as u64 * ROW_BYTES,
+            bytes: rows.len() as u64 * ROW_BYTES,
         };
-        let first_row = slice.first_tile as usize * tile_rows;
-        let sources = &[accounts, tiles][..1 + usize::from(host_copy)];
-        gpu.submit_and_read(encoder, sources, &buffers.staging, |bytes| {
+        let sources = &[accounts, sums][..1 + usize::from(!rows.is_empty())];
+        gpu.submit_reading(encoder, sources, &buffers.staging)
+    }
+
+    /// The accounts of a slice that was launched, for which this waits. What came back of the film goes to
+    /// the window if the slice was done in full.
+    pub fn finish(
+        &self,
+        reading: Reading,
+        slice: &Slice,
+        window: &mut Window,
+        back: Back,
+    ) -> Result<PackedSlice, GpuError> {
+        let rows = back.rows(slice, window);
+        self.gpu.read(reading, |bytes| {
             let (tally, sums) = bytes.split_at(size_of::<PackedSlice>());
             let tally = pod_read_unaligned(tally);
-            if host_copy && slice.is_complete(&tally) {
-                let target = cast_slice_mut(&mut window.sums[first_row..]);
-                target[..sums.len()].copy_from_slice(sums);
+            if slice.is_complete(&tally) {
+                cast_slice_mut(&mut window.sums[rows]).copy_from_slice(sums);
             }
             tally
         })
+    }
+}
+
+/// What of the film comes to the host with a slice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Back {
+    /// Nothing.
+    Nothing,
+    /// Its tiles.
+    Tiles,
+    /// The window.
+    Window,
+}
+
+impl Back {
+    /// The rows of the window's film.
+    fn rows(self, slice: &Slice, window: &Window) -> Range<usize> {
+        let tile_rows = TILE_PIXELS * window.rows_per_pixel();
+        match self {
+            Self::Nothing => 0..0,
+            Self::Tiles => {
+                slice.first_tile as usize * tile_rows..slice.end_tile as usize * tile_rows
+            }
+            Self::Window => 0..window.row_count(),
+        }
     }
 }
 

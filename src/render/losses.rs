@@ -7,21 +7,29 @@ use super::{
 use crate::gpu::GpuError;
 
 impl Renderer {
-    /// Repeats `attempt` on a fresh device when the old one is lost. The film on the host holds all
-    /// finished slices, so nothing else is done twice; where it does not, the loss is the caller's.
+    /// Repeats `attempt` on a fresh device when the old one is lost; see [`Self::survives_losses`].
     pub(super) fn surviving_losses<T>(
         &mut self,
         mut attempt: impl FnMut(&mut Self) -> Result<T, GpuError>,
     ) -> Result<T, RenderError> {
         loop {
             match attempt(self) {
-                Err(GpuError::Lost) if self.policy.host_copy => {
-                    self.stats.count_loss(self.earlier_losses)?;
-                    self.replace_device(self.device.fetch)?;
-                }
+                Err(GpuError::Lost) if self.survives_losses() => self.recover()?,
                 other => return Ok(other?),
             }
         }
+    }
+
+    /// Whether the film on the host holds all finished slices, and the device is ours to replace. Else its
+    /// loss is the caller's.
+    pub(super) fn survives_losses(&self) -> bool {
+        self.policy.host_copy && self.device.gpu.is_own()
+    }
+
+    /// Goes on with another device after a loss.
+    pub(super) fn recover(&mut self) -> Result<(), RenderError> {
+        self.stats.count_loss(self.earlier_losses)?;
+        self.replace_device(self.device.fetch)
     }
 
     /// Goes on with a device whose limits serve the view.

@@ -71,7 +71,7 @@ impl Renderer {
 
     /// Puts what has been gathered so far on a screen of the picture's size: for every pixel that has a
     /// sample what [`Self::develop`] gives, rounded to 8 bits. Returns the range of a quantity over which it
-    /// is shown.
+    /// is shown. Where it [`Self::shows_directly`] and no range is to be found, it waits for nothing.
     pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
         let range = self.range_of(tone)?;
         if self.shows_directly() {
@@ -136,7 +136,7 @@ impl Renderer {
             let (columns, rows) = slice.grid();
             pass.dispatch_workgroups(columns, rows, 1);
         }
-        gpu.submit(encoder.finish())
+        gpu.enqueue(encoder.finish()).map(drop)
     }
 
     fn new_projector(&self) -> Result<Projector, GpuError> {

@@ -8,6 +8,7 @@ mod cli;
 mod closed_mirrors;
 mod contact;
 mod drivers;
+mod embed;
 mod endings;
 mod examples;
 mod explain;

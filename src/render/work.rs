@@ -1,0 +1,285 @@
+//! Work for the GPU, slice by slice: planned, submitted, and taken up when it is done.
+
+use super::{
+    Cursor, RenderError, Renderer,
+    device::Back,
+    effort::LongPath,
+    slice::Slice,
+    sums::SAMPLE_BLOCK,
+    windows::{Window, Windows},
+};
+use crate::{
+    clock::Instant,
+    gpu::{GpuError, Reading},
+    layout::PackedSlice,
+};
+
+/// How it stands with the work that [`Renderer::submit`] handed to the GPU.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// The GPU is at it.
+    Working,
+    /// It is taken up, or there was none: the GPU can have more.
+    Ready,
+    /// Every pixel has its samples.
+    Done,
+}
+
+/// A slice that is under way, in parts if it must be.
+pub struct Work {
+    slice: Slice,
+    /// Those that are still to be submitted, the last one first.
+    parts: Vec<Slice>,
+    running: Option<Running>,
+}
+
+/// What the GPU is at.
+struct Running {
+    part: Slice,
+    back: Back,
+    reading: Reading,
+    started: Instant,
+}
+
+impl Renderer {
+    /// Adds samples for about [`super::Slicing::target_seconds`], and waits for them. Does nothing when the
+    /// render is done.
+    ///
+    /// # Errors
+    /// The device failed or cannot render the scene.
+    pub fn step(&mut self) -> Result<(), RenderError> {
+        self.submit()?;
+        while self.work.is_some() {
+            self.wait()?;
+            if self.work.is_some() {
+                self.submit()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Hands the GPU its next work, unless it has some or the render is done. Does not wait for it:
+    /// [`Self::poll`] takes up what comes of it.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn submit(&mut self) -> Result<(), RenderError> {
+        if self.is_done() || self.is_running() {
+            return Ok(());
+        }
+        let mut work = match self.work.take() {
+            Some(work) => work,
+            None => self.planned(),
+        };
+        if let Some(part) = work.parts.pop() {
+            work.running = Some(self.launched(part)?);
+        }
+        self.work = Some(work);
+        Ok(())
+    }
+
+    /// Takes up what the GPU has finished, without waiting for it. A device that is lost is replaced first,
+    /// which takes a moment, where it is the renderer's own.
+    ///
+    /// # Errors
+    /// The device failed or cannot render the scene.
+    pub fn poll(&mut self) -> Result<Status, RenderError> {
+        if let Some(running) = self.work.as_ref().and_then(|work| work.running.as_ref()) {
+            match self.device.gpu.is_readable(&running.reading) {
+                Ok(false) => return Ok(Status::Working),
+                Ok(true) => self.wait()?,
+                Err(error) => self.lost(error)?,
+            }
+        }
+        match self.is_done() {
+            true => Ok(Status::Done),
+            false => Ok(Status::Ready),
+        }
+    }
+
+    fn is_running(&self) -> bool {
+        (self.work.as_ref()).is_some_and(|work| work.running.is_some())
+    }
+
+    /// The next slice.
+    fn planned(&mut self) -> Work {
+        let window = &mut self.windows.list[self.cursor.window];
+        if window.sums.is_empty() {
+            window.begin();
+        }
+        let tile_count = window.tile_count();
+        if self.cursor.tile == 0 {
+            let left = window.samples.end - self.cursor.sample;
+            let in_block = SAMPLE_BLOCK - self.cursor.sample % SAMPLE_BLOCK;
+            self.cursor.sweep_samples = self.planner.sweep_samples(tile_count, left.min(in_block));
+        }
+        let Cursor {
+            tile,
+            sample,
+            sweep_samples,
+            ..
+        } = self.cursor;
+        let slice = self.planner.next(tile_count, tile, sample, sweep_samples);
+        Work {
+            slice,
+            parts: vec![slice],
+            running: None,
+        }
+    }
+
+    fn launched(&mut self, part: Slice) -> Result<Running, RenderError> {
+        let index = self.cursor.window;
+        let back = match self.policy.host_copy {
+            true => Back::Tiles,
+            false if ends_block(&part, &self.windows.list[index]) => Back::Window,
+            false => Back::Nothing,
+        };
+        let started = Instant::now();
+        let reading = self.surviving_losses(|renderer| {
+            let window = &renderer.windows.list[index];
+            (renderer.device).launch(&part, (index, window), &renderer.settings, back)
+        })?;
+        Ok(Running {
+            part,
+            back,
+            reading,
+            started,
+        })
+    }
+
+    /// Waits for what the GPU is at, if it is at something, and takes it up.
+    fn wait(&mut self) -> Result<(), RenderError> {
+        let Some(running) = self.work.as_mut().and_then(|work| work.running.take()) else {
+            return Ok(());
+        };
+        let Running {
+            part,
+            back,
+            reading,
+            started,
+        } = running;
+        let window = &mut self.windows.list[self.cursor.window];
+        match self.device.finish(reading, &part, window, back) {
+            Ok(tally) => self.take_up(part, &tally, started.elapsed().as_secs_f64()),
+            Err(error) => {
+                self.submit_again(part);
+                self.lost(error)
+            }
+        }
+    }
+
+    /// Answers an error of what the GPU was at: it is done again if a loss is all that it was.
+    fn lost(&mut self, error: GpuError) -> Result<(), RenderError> {
+        if let Some(running) = self.work.as_mut().and_then(|work| work.running.take()) {
+            self.submit_again(running.part);
+        }
+        match error {
+            GpuError::Lost if self.survives_losses() => self.recover(),
+            error => Err(error.into()),
+        }
+    }
+
+    fn submit_again(&mut self, part: Slice) {
+        if let Some(work) = &mut self.work {
+            work.parts.push(part);
+        }
+    }
+
+    /// Takes up a part that was done: a driver may stop a dispatch, or end the loops of a path, without a
+    /// word. What it did then is thrown away, and smaller parts follow; where the host has no copy of what
+    /// was there before, the picture starts over, with copies.
+    fn take_up(
+        &mut self,
+        part: Slice,
+        tally: &PackedSlice,
+        seconds: f64,
+    ) -> Result<(), RenderError> {
+        self.stats.submitted(seconds);
+        if part.is_complete(tally) {
+            self.planner.finished(&part, seconds);
+            self.stats.add(tally);
+            if let Some(work) = self.work.take_if(|work| work.parts.is_empty()) {
+                self.advance(&work.slice);
+            }
+            return Ok(());
+        }
+        self.device.loaded_window = None;
+        if !self.policy.host_copy {
+            self.policy.host_copy = true;
+            self.windows = Windows::new(&self.settings, self.policy.slicing.window_side);
+            self.cursor = Cursor::at_start(&self.windows);
+            self.work = None;
+            return Ok(());
+        }
+        let work = self.work.take();
+        let smaller = if !part.is_signed_off(tally) {
+            self.planner.cut_short();
+            self.stats.count_loss(self.earlier_losses)?;
+            match part.tile_halves() {
+                Some((first, last)) => vec![last, first],
+                None => vec![part],
+            }
+        } else if let Some((earlier, later)) = part.sample_halves() {
+            self.planner.shorten_paths();
+            vec![later, earlier]
+        } else {
+            return Err(self.path_too_long());
+        };
+        self.work = work.map(|mut work| {
+            work.parts.extend(smaller);
+            work
+        });
+        Ok(())
+    }
+
+    /// The error of a sample that the driver's loops are too short for.
+    pub(super) fn path_too_long(&self) -> RenderError {
+        RenderError::PathTooLong(LongPath::of(&self.scene, &self.view, &self.settings))
+    }
+
+    /// Goes on behind a slice that was done.
+    fn advance(&mut self, slice: &Slice) {
+        let window = &mut self.windows.list[self.cursor.window];
+        self.cursor.tile = slice.end_tile;
+        if self.cursor.tile < window.tile_count() {
+            return;
+        }
+        let taken = slice.end_sample - slice.first_sample;
+        self.stats.samples += u64::from(taken) * window.sampled_pixels();
+        self.cursor.tile = 0;
+        self.cursor.sample = slice.end_sample;
+        if self.cursor.sample < window.samples.end {
+            if self.cursor.sample.is_multiple_of(SAMPLE_BLOCK) {
+                window.close_block();
+                self.device.loaded_window = None;
+            }
+            return;
+        }
+        self.cursor.window += 1;
+        if self.is_done() && self.windows.next_round() {
+            self.device.loaded_window = None;
+            self.cursor.window = 0;
+        }
+        if let Some(next) = self.windows.list.get(self.cursor.window) {
+            self.cursor.sample = next.samples.start;
+        }
+    }
+
+    /// Brings the sums to the host that are only on the device, once the GPU is done with what it is at.
+    pub(super) fn fetch_film(&mut self) -> Result<(), RenderError> {
+        self.wait()?;
+        let index = self.cursor.window;
+        let is_there = self.policy.host_copy || self.device.loaded_window != Some(index);
+        match self.windows.list.get_mut(index) {
+            Some(window) if !is_there => Ok(self.device.fetch_film(window)?),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Whether the sums of the window are closed, or complete, behind a slice.
+fn ends_block(slice: &Slice, window: &Window) -> bool {
+    let ends_samples =
+        slice.end_sample == window.samples.end || slice.end_sample.is_multiple_of(SAMPLE_BLOCK);
+    slice.end_tile == window.tile_count() && ends_samples
+}

@@ -1,0 +1,182 @@
+//! The renderer in another program: it waits only when told to, and the device stays the program's.
+
+use crate::reference::compare::{check_same_bits, sized};
+use crate::reference::scenes;
+use eframe::wgpu;
+use glimray::gpu::{AdapterChoice, Gpu, GpuError};
+use glimray::image::Image;
+use glimray::pack::{self, PackedScene, PackedView};
+use glimray::render::{
+    Antialias, ExecutionPolicy, RenderError, RenderSettings, Renderer, Slicing, Status, Tone,
+};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+fn everything() -> (Arc<PackedScene>, PackedView) {
+    let scene = scenes::everything();
+    let packed = Arc::new(pack::scene(&scene).expect("packed"));
+    let view = packed.frame(&scene.frame(0.0)).expect("a view");
+    (packed, view)
+}
+
+fn settings() -> RenderSettings {
+    RenderSettings {
+        samples: 6,
+        antialias: Antialias::Stratified,
+        ..sized(48, 36)
+    }
+}
+
+/// In many small submissions.
+fn policy(host_copy: bool) -> ExecutionPolicy {
+    let slicing = Slicing {
+        max_tiles: 7,
+        max_samples: 2,
+        ..Slicing::default()
+    };
+    ExecutionPolicy {
+        host_copy,
+        slicing,
+        ..ExecutionPolicy::default()
+    }
+}
+
+fn renderer(gpu: Gpu, policy: ExecutionPolicy) -> Renderer {
+    let (packed, view) = everything();
+    Renderer::new(gpu, packed, &view, settings(), policy).expect("a renderer")
+}
+
+/// The picture of a renderer that is waited for at each step.
+fn waited_for() -> Image {
+    let gpu = Gpu::new(&AdapterChoice::default()).expect("a device");
+    let mut renderer = renderer(gpu, policy(true));
+    while !renderer.is_done() {
+        renderer.step().expect("a step");
+    }
+    renderer.develop(&Tone::LINEAR).expect("a picture")
+}
+
+/// Runs to the end without waiting. Returns how often the GPU was at work.
+fn poll_to_the_end(renderer: &mut Renderer) -> usize {
+    let mut working = 0;
+    loop {
+        match renderer.poll().expect("a status") {
+            Status::Done => return working,
+            Status::Ready => renderer.submit().expect("submitted"),
+            Status::Working => {
+                working += 1;
+                std::thread::sleep(Duration::from_micros(200));
+            }
+        }
+    }
+}
+
+#[test]
+fn polling_gives_the_picture_that_waiting_gives() {
+    let expected = waited_for();
+    for host_copy in [true, false] {
+        let gpu = Gpu::new(&AdapterChoice::default()).expect("a device");
+        let mut renderer = renderer(gpu, policy(host_copy));
+        let working = poll_to_the_end(&mut renderer);
+        assert!(working > 0, "every submission was done at once");
+        assert_eq!(renderer.poll().expect("a status"), Status::Done);
+        let picture = renderer.develop(&Tone::LINEAR).expect("a picture");
+        let name = format!("host copy {host_copy}");
+        check_same_bits(&name, &expected, &picture).expect("the same picture");
+    }
+}
+
+#[test]
+fn a_picture_can_be_had_and_begun_again_while_the_gpu_works() {
+    let expected = waited_for();
+    let gpu = Gpu::new(&AdapterChoice::default()).expect("a device");
+    for host_copy in [true, false] {
+        let mut renderer = renderer(gpu.clone(), policy(host_copy));
+        let screen = renderer.new_screen().expect("a screen");
+        for _ in 0..3 {
+            renderer.submit().expect("submitted");
+            // A second time hands over nothing more.
+            renderer.submit().expect("submitted");
+            renderer.show(&Tone::LINEAR, &screen).expect("shown");
+            renderer.develop(&Tone::LINEAR).expect("a picture so far");
+        }
+        renderer.submit().expect("submitted");
+        let (packed, view) = everything();
+        let restarted = renderer.restart(packed, &view, settings(), policy(host_copy));
+        restarted.expect("begun again");
+        poll_to_the_end(&mut renderer);
+        let picture = renderer.develop(&Tone::LINEAR).expect("a picture");
+        let name = format!("host copy {host_copy}");
+        check_same_bits(&name, &expected, &picture).expect("the same picture");
+    }
+}
+
+/// A device that glimray did not open, with no more than these limits.
+fn device(limits: wgpu::Limits) -> (wgpu::Instance, wgpu::Adapter, wgpu::Device, wgpu::Queue) {
+    let own = Gpu::new(&AdapterChoice::default()).expect("an adapter");
+    let (instance, adapter, ..) = own.handles();
+    let descriptor = wgpu::DeviceDescriptor {
+        required_limits: limits,
+        ..Default::default()
+    };
+    let (device, queue) =
+        pollster::block_on(adapter.request_device(&descriptor)).expect("a device");
+    (instance, adapter, device, queue)
+}
+
+#[test]
+fn a_device_of_another_program_keeps_its_callbacks_and_is_not_replaced() {
+    let (instance, adapter, device, queue) = device(wgpu::Limits::default());
+    let errors = Arc::new(AtomicUsize::new(0));
+    let count = errors.clone();
+    device.on_uncaptured_error(Arc::new(move |_| {
+        count.fetch_add(1, Ordering::Relaxed);
+    }));
+    let gpu = Gpu::from_wgpu(instance, adapter, device.clone(), queue);
+    let mut renderer = renderer(gpu, policy(true));
+    poll_to_the_end(&mut renderer);
+    let picture = renderer.develop(&Tone::LINEAR).expect("a picture");
+    check_same_bits("another's device", &waited_for(), &picture).expect("the same picture");
+    assert_eq!(errors.load(Ordering::Relaxed), 0);
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: 16,
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::MAP_WRITE,
+        mapped_at_creation: false,
+    });
+    assert_eq!(
+        errors.load(Ordering::Relaxed),
+        1,
+        "errors of the program's own"
+    );
+
+    device.destroy();
+    let (packed, view) = everything();
+    let lost =
+        (renderer.restart(packed, &view, settings(), policy(true))).and_then(|()| renderer.step());
+    assert!(
+        matches!(lost, Err(RenderError::Gpu(GpuError::Lost))),
+        "{lost:?}"
+    );
+    assert_eq!(renderer.stats().device_losses, 0);
+}
+
+#[test]
+fn a_device_of_another_program_is_not_exchanged_for_one_with_higher_limits() {
+    let (instance, adapter, device, queue) = device(wgpu::Limits {
+        max_storage_buffer_binding_size: 64 << 10,
+        ..wgpu::Limits::default()
+    });
+    let gpu = Gpu::from_wgpu(instance, adapter, device, queue);
+    let (packed, view) = everything();
+    // 16 bytes a pixel.
+    let large = sized(128, 128);
+    let refused = Renderer::new(gpu, packed, &view, large, ExecutionPolicy::default());
+    match refused.map(drop) {
+        Err(RenderError::Gpu(GpuError::Limit { need, limit, .. })) => {
+            assert_eq!((need, limit), (16 * 128 * 128, 64 << 10));
+        }
+        other => panic!("{other:?}"),
+    }
+}
