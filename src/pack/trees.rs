@@ -23,10 +23,6 @@ use std::{collections::HashMap, sync::Arc};
 /// lies one beyond the entries that count.
 const STACK_ENTRIES: usize = STACK_SIZE as usize - 1;
 
-/// Most parts into which several trees are opened, unless there are too many trees for it: the tree
-/// above them is built again at each edit.
-const MOST_PARTS_IN_ALL: usize = 1 << 12;
-
 /// What had to be built to pack a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TreeWork {
@@ -361,8 +357,7 @@ impl Top {
                 first_node,
             }))
         };
-        let count = trees.len();
-        let limit = (MOST_PARTS * count).min(MOST_PARTS_IN_ALL).max(2 * count);
+        let limit = MOST_PARTS + 2 * trees.len().saturating_sub(1);
         match trees {
             _ if has_instances => {
                 return alone(opened(trees.iter().copied(), limit), PackedNode::default());
