@@ -36,6 +36,11 @@ impl SampleSet {
         self.0.is_empty()
     }
 
+    /// Samples in it.
+    pub fn len(&self) -> u32 {
+        self.0.iter().map(|range| range.end - range.start).sum()
+    }
+
     /// Blocks of samples in it.
     pub fn block_count(&self) -> u32 {
         let blocks = |range: &Range<u32>| (range.end - range.start).div_ceil(SAMPLE_BLOCK);

@@ -2,7 +2,7 @@
 
 use super::Film;
 use crate::{
-    gpu::Gpu,
+    gpu::{Gpu, Ledger, MEMORY_LIMIT_BYTES},
     image::Image,
     layout::{PackedFrame, PackedLight, PackedSlice},
     render::{
@@ -17,19 +17,29 @@ use crate::{
 use bytemuck::bytes_of;
 use wgpu::BufferUsages;
 
+/// Bytes of a pixel of the picture, of its film, and of both on the way to the GPU and back.
+const PIXEL_BYTES: u64 = 64;
+
 impl Film {
     /// The picture of the rectangle round all its pixels, the same as that of the renderer which they are
     /// from. Pixels without samples are black.
     ///
     /// # Errors
-    /// The device failed.
+    /// The device failed, or the picture is larger than [`MEMORY_LIMIT_BYTES`] allow.
     pub fn develop(&self, gpu: &Gpu, tone: &Tone) -> Result<Image, RenderError> {
         let region = self.region();
+        let [x, y, width, height] = region;
+        let pixels = u64::from(width).saturating_mul(height.into());
+        let mut ledger = Ledger::default();
+        ledger.plan("picture and film", pixels.saturating_mul(PIXEL_BYTES));
+        ledger.check(MEMORY_LIMIT_BYTES)?;
         let range = self.range_of(tone);
         if self.header.integrator.quantity() == Some(Quantity::Samples) {
-            return Ok(counted(region, &self.counts(), self.header.samples, range));
+            let counts: Vec<_> = (self.layer(LayerKind::Count).iter())
+                .map(|row| row[0])
+                .collect();
+            return Ok(counted(region, &counts, self.header.samples, range));
         }
-        let [x, y, width, height] = region;
         let mut image = Image::new(width, height);
         let windows = rectangles(region, Slicing::default().window_side, 0..0, 1);
         let Some(most) = windows.iter().map(Window::pixel_count).max() else {
@@ -77,8 +87,18 @@ impl Film {
     pub fn range(&self) -> Option<[f32; 2]> {
         let quantity = self.header.integrator.quantity()?;
         let values = match quantity {
-            Quantity::Samples => self.counts(),
-            _ => levels::values(quantity, self.layer(LayerKind::Weighted).iter()),
+            Quantity::Samples => {
+                let patches = self.patches(LayerKind::Count);
+                patches
+                    .flat_map(|(_, rows)| rows)
+                    .map(|row| row[0])
+                    .collect()
+            }
+            Quantity::Distance | Quantity::Work => {
+                let patches = self.patches(LayerKind::Weighted);
+                let rows: Vec<_> = patches.flat_map(|(_, rows)| rows).collect();
+                levels::values(quantity, rows.iter())
+            }
         };
         levels::extent(values, quantity)
     }
@@ -91,40 +111,38 @@ impl Film {
         }
     }
 
-    /// The samples of each pixel of [`Film::region`], row by row.
-    fn counts(&self) -> Vec<f32> {
-        match self.header.is_adaptive() {
-            true => self
-                .layer(LayerKind::Count)
-                .iter()
-                .map(|row| row[0])
-                .collect(),
-            false => {
-                let [.., width, height] = self.region();
-                vec![self.header.samples as f32; width as usize * height as usize]
-            }
-        }
-    }
-
-    /// The first rows of a layer to be developed, of each pixel of [`Film::region`] row by row.
+    /// What is to be developed of a layer, for each pixel of [`Film::region`] row by row; zeros without samples.
     fn layer(&self, kind: LayerKind) -> Vec<[f32; 4]> {
         let [left, top, full, height] = self.region();
-        let mut found = vec![[0.0; 4]; full as usize * height as usize];
-        let layers = self.header.layers;
-        let Some(layer) = layers.iter().find(|layer| layer.kind == kind) else {
-            return found;
-        };
-        let (rows, first) = (
-            self.rows(),
-            layers::row_of(layers, layer).unwrap_or_default(),
-        );
-        for (([x, y, width, _], _), sums) in self.coverage.patches().zip(&self.sums) {
-            let (width, full) = (width as usize, full as usize);
+        let full = full as usize;
+        let mut found = vec![[0.0; 4]; full * height as usize];
+        for ([x, y, width, _], rows) in self.patches(kind) {
             let start = (y - top) as usize * full + (x - left) as usize;
-            for (index, pixel) in sums.developable().chunks_exact(rows).enumerate() {
-                found[start + index / width * full + index % width] = pixel[first];
+            for (index, line) in rows.chunks_exact(width as usize).enumerate() {
+                let start = start + index * full;
+                found[start..start + line.len()].copy_from_slice(line);
             }
         }
         found
+    }
+
+    /// The same of the pixels that have samples, rectangle by rectangle (x, y, width, height).
+    fn patches(&self, kind: LayerKind) -> impl Iterator<Item = ([u32; 4], Vec<[f32; 4]>)> {
+        let layers = self.header.layers;
+        let layer = layers.iter().find(|layer| layer.kind == kind);
+        let first = layer.and_then(|layer| layers::row_of(layers, layer));
+        let patches = self.coverage.patches().zip(&self.sums);
+        patches.map(move |((region, samples), sums)| {
+            let pixels = sums.developable();
+            let pixels = pixels.chunks_exact(self.rows());
+            let rows = match first {
+                Some(first) => pixels.map(|pixel| pixel[first]).collect(),
+                // All pixels have as many samples where no layer counts them.
+                None => pixels
+                    .map(|_| [samples.len() as f32, 0.0, 0.0, 0.0])
+                    .collect(),
+            };
+            (region, rows)
+        })
     }
 }
