@@ -14,6 +14,7 @@ mod demo;
 mod destination;
 mod device;
 mod doctor;
+pub mod error;
 pub mod exit;
 mod explain;
 mod inputs;
@@ -38,7 +39,7 @@ pub mod view;
 
 use clap::Parser;
 use cli::{Cli, Command};
-use exit::AppError;
+use error::AppError;
 use std::ffi::OsString;
 use std::process::ExitCode;
 use std::time::Instant;

@@ -18,7 +18,8 @@ pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
 pub use error::GpuError;
 pub use guard::{is_guarded, surviving_loss};
 pub(crate) use readback::{Reading, Source};
-pub use shader::Kernel;
+pub(crate) use shader::Compiled;
+pub use shader::{Kernel, Overrides};
 
 use std::{
     sync::{

@@ -17,12 +17,15 @@ mod layouts;
 mod levels;
 mod losses;
 mod overrides;
+mod pipelines;
 mod policy;
 mod settings;
 mod show;
 mod slice;
 mod stats;
 mod sums;
+mod task;
+mod window;
 mod windows;
 mod work;
 
@@ -47,10 +50,11 @@ use crate::{
     gpu::{AdapterReport, Gpu, GpuError},
     pack::{PackedScene, PackedView},
 };
-use device::{Device, Task};
+use device::Device;
 use losses::or_replacement;
 use slice::Planner;
 use std::{ops::Range, sync::Arc};
+use task::Task;
 use windows::Windows;
 use work::Work;
 

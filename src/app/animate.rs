@@ -18,7 +18,7 @@ pub use timeline::Timeline;
 
 use super::cli::{AnimateArgs, SequenceFlags};
 use super::clock::Clock;
-use super::exit::AppError;
+use super::error::AppError;
 use super::interrupt::Interrupt;
 use super::job::{self, Job, Outcome};
 use super::overrides;

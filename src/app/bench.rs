@@ -8,7 +8,7 @@ mod workloads;
 use super::cli::BenchArgs;
 use super::console;
 use super::device;
-use super::exit::AppError;
+use super::error::AppError;
 use super::interrupt::Interrupt;
 use super::job;
 use crate::gpu::{AdapterReport, Gpu};

@@ -5,7 +5,7 @@ mod read;
 
 use super::cli::CompareArgs;
 use super::console;
-use super::exit::AppError;
+use super::error::AppError;
 use super::inputs::Inputs;
 use super::interrupt::Interrupt;
 use crate::image::Image;

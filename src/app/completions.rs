@@ -2,7 +2,7 @@
 
 use super::cli::{Cli, CompletionsArgs};
 use super::console;
-use super::exit::AppError;
+use super::error::AppError;
 use clap::CommandFactory;
 
 pub fn run(arguments: &CompletionsArgs) -> Result<(), AppError> {

@@ -4,7 +4,7 @@
 //! With `--progress json` a program reads the standard error: then each line is a JSON object.
 
 use super::cli::LogFlags;
-use super::exit::AppError;
+use super::error::AppError;
 use serde_json::{Value, json};
 use std::fmt::Display;
 use std::io::{ErrorKind, IsTerminal, Write, stderr};

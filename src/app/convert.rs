@@ -1,7 +1,7 @@
 //! `glimray convert SCENE`: a scene in any format → a native one.
 
 use super::cli::ConvertArgs;
-use super::exit::AppError;
+use super::error::AppError;
 use super::interrupt::Interrupt;
 use super::{console, scene_file};
 use std::path::PathBuf;

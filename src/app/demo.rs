@@ -2,7 +2,7 @@
 
 use super::cli::{DemoArgs, PartFlags, PictureFlags, SizeFlags};
 use super::destination::Destination;
-use super::exit::AppError;
+use super::error::AppError;
 use super::job::{self, Job};
 use super::picture;
 use super::report::Draft;

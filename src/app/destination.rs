@@ -1,7 +1,7 @@
 //! Where a picture goes: a file, a pipe, or the standard output.
 
 use super::cli::OutputFlags;
-use super::exit::AppError;
+use super::error::AppError;
 use crate::image::Image;
 use crate::output::{self, Format, SaveOptions};
 use crate::render::Film;

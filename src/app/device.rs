@@ -1,6 +1,6 @@
 //! Adapters: handing one a scene, and adapters in words.
 
-use super::exit::AppError;
+use super::error::AppError;
 use crate::gpu::{AdapterReport, Backend, Gpu};
 use crate::pack;
 use crate::render::{ExecutionPolicy, RenderSettings, Renderer};

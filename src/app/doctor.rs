@@ -5,7 +5,7 @@ mod self_test;
 use super::cli::DoctorArgs;
 use super::console;
 use super::device;
-use super::exit::AppError;
+use super::error::AppError;
 use crate::gpu::{self, AdapterChoice, AdapterReport, Gpu};
 use self_test::Outcome;
 use serde_json::{Value, json};

@@ -7,7 +7,7 @@ use super::cli::{ExplainArgs, INTEGRATORS};
 use super::clock::Clock;
 use super::console;
 use super::device;
-use super::exit::AppError;
+use super::error::AppError;
 use super::interrupt::Interrupt;
 use super::job;
 use super::memory;

@@ -1,6 +1,6 @@
 //! The files that a run reads. It never writes any of them, whatever name it is given for them.
 
-use super::exit::AppError;
+use super::error::AppError;
 use std::path::{Path, PathBuf};
 
 /// Files that were read, or looked for and not found.

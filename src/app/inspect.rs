@@ -5,7 +5,7 @@ mod textures;
 
 use super::cli::{InspectArgs, TONES, TRANSFERS};
 use super::console;
-use super::exit::AppError;
+use super::error::AppError;
 use super::job::UNLIT;
 use super::report::SceneReport;
 use super::scene_file;

@@ -6,7 +6,7 @@
 //! the second signal, the thread ends the program. No part of a file is left either way.
 
 use super::console;
-use super::exit::AppError;
+use super::error::AppError;
 use crate::output;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::{flag, low_level};

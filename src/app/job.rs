@@ -5,7 +5,7 @@ use super::cli::{DevelopFlags, DeviceFlags, INTEGRATORS, LogFlags, PictureFlags}
 use super::console::{self, Console};
 use super::destination;
 use super::device;
-use super::exit::AppError;
+use super::error::AppError;
 use super::inputs;
 use super::memory;
 use super::report::{

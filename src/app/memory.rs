@@ -5,7 +5,7 @@
 //! Where there is no such limit, nothing is known beforehand: the system ends a process that takes too
 //! much, and that cannot be told from here.
 
-use super::exit::AppError;
+use super::error::AppError;
 use crate::scene::Scene;
 use std::fs;
 use std::path::Path;

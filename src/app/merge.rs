@@ -2,7 +2,7 @@
 
 use super::cli::MergeArgs;
 use super::destination::Destination;
-use super::exit::AppError;
+use super::error::AppError;
 use super::inputs::Inputs;
 use super::interrupt::Interrupt;
 use super::job;

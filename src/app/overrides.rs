@@ -1,7 +1,7 @@
 //! Flags win over the scene file: what they change in a scene.
 
 use super::cli::CameraFlags;
-use super::exit::AppError;
+use super::error::AppError;
 use crate::scene::{Background, Camera, CameraProperty, Scene, Target};
 
 /// Chooses and changes the scene's camera and background as the flags say.

@@ -3,7 +3,7 @@
 use super::cli::PartFlags;
 use super::destination::Destination;
 use super::device;
-use super::exit::AppError;
+use super::error::AppError;
 use super::interrupt::Interrupt;
 use super::job::{self, Job, Outcome};
 use super::legend;

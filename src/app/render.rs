@@ -3,7 +3,7 @@
 use super::cli::RenderArgs;
 use super::clock::Clock;
 use super::destination::Destination;
-use super::exit::AppError;
+use super::error::AppError;
 use super::job::{self, Job};
 use super::overrides;
 use super::picture;

@@ -5,7 +5,7 @@ mod draft;
 pub use draft::Draft;
 
 use super::console;
-use super::exit::AppError;
+use super::error::AppError;
 use crate::gpu::AdapterReport;
 use crate::output;
 use crate::render::{Rays, Stats};

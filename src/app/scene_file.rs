@@ -1,7 +1,7 @@
 //! Scene files on the disk: reading one with what it names, and saving one with those beside it.
 
 use super::cli::SceneFlags;
-use super::exit::AppError;
+use super::error::AppError;
 use super::inputs::Inputs;
 use super::memory;
 use crate::export;

@@ -1,7 +1,7 @@
 //! `glimray schema`: the JSON Schema of the native scene format.
 
 use super::console;
-use super::exit::AppError;
+use super::error::AppError;
 use crate::import;
 
 pub fn run() -> Result<(), AppError> {

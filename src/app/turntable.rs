@@ -3,7 +3,7 @@
 use super::animate::{Sequence, Target, Timeline};
 use super::cli::{MotionFlags, Range, RangeFlags, TurnFlags, TurntableArgs};
 use super::clock::Clock;
-use super::exit::AppError;
+use super::error::AppError;
 use super::job::Job;
 use super::report::Draft;
 use crate::scene::{self, Background, Scene, Turntable};

@@ -34,7 +34,7 @@ pub mod viewport;
 pub mod window;
 
 use super::cli::{Cli, Command, ViewArgs};
-use super::exit::AppError;
+use super::error::AppError;
 use clap::Parser;
 
 /// Opens the window and returns when it is closed.

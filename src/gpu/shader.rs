@@ -15,7 +15,16 @@ pub(super) struct Pipelines(VecDeque<(Ingredients, wgpu::ComputePipeline)>);
 struct Ingredients {
     kernel: &'static str,
     from_images: bool,
-    overrides: Vec<(String, f64)>,
+    overrides: Overrides,
+}
+
+/// Values for overrides of `bindings.wesl`, by their names.
+pub type Overrides = Vec<(&'static str, f64)>;
+
+/// A pipeline, and whether it had to be compiled.
+pub(crate) struct Compiled {
+    pub pipeline: wgpu::ComputePipeline,
+    pub is_new: bool,
 }
 
 /// A compute kernel: WGSL linked by `build.rs`, and its entry point.
@@ -81,27 +90,28 @@ impl Gpu {
         kernel: &Kernel,
         from_images: bool,
         layout: &wgpu::PipelineLayout,
-        overrides: &[(&str, f64)],
-    ) -> Result<wgpu::ComputePipeline, GpuError> {
-        let named = |(id, value): &(&str, f64)| (id.to_string(), *value);
+        overrides: Overrides,
+    ) -> Result<Compiled, GpuError> {
         let wanted = Ingredients {
             kernel: kernel.name,
             from_images,
-            overrides: overrides.iter().map(named).collect(),
+            overrides,
         };
         let known = |Pipelines(kept): &Pipelines| {
             let found = kept.iter().find(|(of, _)| *of == wanted);
             found.map(|(_, pipeline)| pipeline.clone())
         };
-        if let Some(known) = self.pipelines.lock().ok().and_then(|kept| known(&kept)) {
-            return Ok(known);
+        if let Some(pipeline) = self.pipelines.lock().ok().and_then(|kept| known(&kept)) {
+            let is_new = false;
+            return Ok(Compiled { pipeline, is_new });
         }
-        let pipeline = self.compile(kernel, from_images, layout, overrides)?;
+        let pipeline = self.compile(kernel, from_images, layout, &wanted.overrides)?;
         if let Ok(mut kept) = self.pipelines.lock() {
             kept.0.truncate(MOST_PIPELINES - 1);
             kept.0.push_front((wanted, pipeline.clone()));
         }
-        Ok(pipeline)
+        let is_new = true;
+        Ok(Compiled { pipeline, is_new })
     }
 
     fn compile(

@@ -3,7 +3,7 @@
 use super::{
     layers::{self, Layer, SQUARES},
     settings::RenderSettings,
-    windows::Window,
+    window::Window,
 };
 use std::{collections::BTreeMap, ops::Range};
 

@@ -7,11 +7,11 @@ use super::{
     layouts::{Layouts, group},
     levels,
     slice::Slice,
-    windows::Window,
+    window::Window,
 };
 use crate::clock::Instant;
 use crate::{
-    gpu::{Gpu, GpuError, Kernel, Source},
+    gpu::{Compiled, Gpu, GpuError, Kernel, Source},
     image::Image,
     layout::{
         PackedTone, TONE_ACES, TONE_AGX, TONE_NONE, TONE_REINHARD, TRANSFER_LINEAR, TRANSFER_SRGB,
@@ -250,7 +250,8 @@ impl Developer {
                 ],
                 immediate_size: 0,
             });
-        let pipeline = gpu.pipeline(&Kernel::DEVELOP, false, &layout, &[])?;
+        let Compiled { pipeline, .. } =
+            gpu.pipeline(&Kernel::DEVELOP, false, &layout, Vec::new())?;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
         let developed = gpu.allocate("developed", most_pixels as u64 * 16, usage)?;
         let tone = gpu.upload("tone", bytes_of(&PackedTone::default()))?;

@@ -4,36 +4,24 @@ use super::{
     Stats,
     bindings::{self, Buffers},
     develop::Developer,
-    explain::Explainer,
     layouts::Layouts,
-    overrides::{self, Overrides},
-    policy::{ExecutionPolicy, Fetch},
+    overrides, pipelines,
+    policy::Fetch,
     settings::RenderSettings,
     show::Projector,
     slice::Slice,
-    windows::{TILE_PIXELS, Window},
+    task::Task,
+    window::{TILE_PIXELS, Window},
 };
 use crate::clock::Instant;
 use crate::{
-    gpu::{AdapterChoice, Gpu, GpuError, Kernel, Reading, Source},
+    gpu::{AdapterChoice, Compiled, Gpu, GpuError, Reading, Source},
     layout::PackedSlice,
-    pack::{PackedScene, PackedView},
 };
 use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_collect_to_vec, pod_read_unaligned};
-use std::{ops::Range, sync::Arc};
+use std::ops::Range;
 
 const ROW_BYTES: u64 = 16;
-
-/// What is to be rendered.
-#[derive(Clone, Copy)]
-pub struct Task<'a> {
-    pub scene: &'a Arc<PackedScene>,
-    pub view: &'a PackedView,
-    pub settings: &'a RenderSettings,
-    pub policy: &'a ExecutionPolicy,
-    /// Rows of the film of the largest window.
-    pub film_rows: usize,
-}
 
 /// Everything that lives on the GPU, and dies with it.
 pub struct Device {
@@ -42,14 +30,10 @@ pub struct Device {
     pub fetch: Fetch,
     pub layouts: Layouts,
     pub buffers: Buffers,
-    /// What was compiled so far, with what it was made with. Views of one scene differ in what moves
-    /// and shines.
-    pipelines: Vec<(Variant, wgpu::ComputePipeline)>,
-    /// Index of the one that the view needs.
-    current: usize,
+    /// What the view needs: views of one scene differ in what moves and shines.
+    pipeline: wgpu::ComputePipeline,
     pub developer: Option<Developer>,
     pub projector: Option<Projector>,
-    pub explainer: Option<Explainer>,
     /// The window whose sums are in the film buffer.
     pub loaded_window: Option<usize>,
 }
@@ -69,11 +53,9 @@ impl Device {
             fetch,
             layouts,
             buffers,
-            pipelines: vec![(Variant::of(task), pipeline)],
-            current: 0,
+            pipeline,
             developer: None,
             projector: None,
-            explainer: None,
             loaded_window: None,
         })
     }
@@ -90,16 +72,7 @@ impl Device {
         (self.buffers).set(gpu, layouts, shown, spare, &mut stats.uploads)?;
         stats.upload_seconds += start.elapsed().as_secs_f64();
         self.loaded_window = None;
-        let wanted = Variant::of(task);
-        let known = self.pipelines.iter().position(|(of, _)| *of == wanted);
-        self.current = match known {
-            Some(index) => index,
-            None => {
-                let pipeline = compile(gpu, self.fetch, layouts, &self.buffers, task, stats)?;
-                self.pipelines.push((wanted, pipeline));
-                self.pipelines.len() - 1
-            }
-        };
+        self.pipeline = compile(gpu, self.fetch, layouts, &self.buffers, task, stats)?;
         Ok(())
     }
 
@@ -140,8 +113,7 @@ impl Device {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let (columns, rows) = slice.grid();
         let grid = (gpu.dispatched(columns), rows);
-        let (_, pipeline) = &self.pipelines[self.current];
-        dispatch(&mut encoder, pipeline, buffers, grid);
+        dispatch(&mut encoder, &self.pipeline, buffers, grid);
         let accounts = Source {
             buffer: &buffers.slice,
             offset: 0,
@@ -214,24 +186,8 @@ pub fn reopen(
     Device::new(Gpu::open(choice, needs)?, fetch, task, stats)
 }
 
-/// What a pipeline is made of.
-#[derive(PartialEq)]
-struct Variant {
-    kernel: &'static str,
-    overrides: Overrides,
-}
-
-impl Variant {
-    fn of(task: Task) -> Self {
-        Self {
-            kernel: task.settings.integrator.entry().kernel.name,
-            overrides: overrides::of(task),
-        }
-    }
-}
-
-/// Makes the pipeline of the integrator and runs it once on nothing, which is when some drivers
-/// really compile.
+/// The integrator's pipeline. One that is new runs once on nothing, which is when some drivers really
+/// compile.
 fn compile(
     gpu: &Gpu,
     fetch: Fetch,
@@ -242,38 +198,22 @@ fn compile(
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let start = Instant::now();
     let kernel = task.settings.integrator.entry().kernel;
-    let pipeline = pipeline(gpu, fetch, layouts, kernel, &overrides::of(task))?;
-    let idle = PackedSlice {
-        tile_count: 1,
-        tile_columns: 1,
-        grid_width: 1,
-        ..Default::default()
-    };
-    gpu.write(&buffers.slice, 0, bytes_of(&idle))?;
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    dispatch(&mut encoder, &pipeline, buffers, (1, 1));
-    gpu.submit(encoder.finish())?;
-    stats.compile_seconds += start.elapsed().as_secs_f64();
+    let Compiled { pipeline, is_new } =
+        pipelines::tracing(gpu, fetch, layouts, kernel, overrides::of(task))?;
+    if is_new {
+        let idle = PackedSlice {
+            tile_count: 1,
+            tile_columns: 1,
+            grid_width: 1,
+            ..Default::default()
+        };
+        gpu.write(&buffers.slice, 0, bytes_of(&idle))?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        dispatch(&mut encoder, &pipeline, buffers, (1, 1));
+        gpu.submit(encoder.finish())?;
+        stats.compile_seconds += start.elapsed().as_secs_f64();
+    }
     Ok(pipeline)
-}
-
-/// A kernel that traces, for groups 0 to 2, specialised by these overrides.
-pub fn pipeline(
-    gpu: &Gpu,
-    fetch: Fetch,
-    layouts: &Layouts,
-    kernel: Kernel,
-    overrides: &Overrides,
-) -> Result<wgpu::ComputePipeline, GpuError> {
-    let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
-    let layout = gpu
-        .device
-        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(kernel.name),
-            bind_group_layouts: &groups,
-            immediate_size: 0,
-        });
-    gpu.pipeline(&kernel, fetch == Fetch::Image, &layout, overrides)
 }
 
 fn dispatch(

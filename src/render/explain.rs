@@ -8,10 +8,8 @@ mod tree;
 pub use tree::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
 
 use super::{
-    Integrator, RenderError, RenderSettings, Renderer,
-    device::{self, Task},
-    layouts::group,
-    overrides::{self, Overrides},
+    Integrator, RenderError, RenderSettings, Renderer, device::Device, layouts::group, overrides,
+    pipelines, task::Task,
 };
 use crate::{
     gpu::{GpuError, Kernel, Source},
@@ -34,12 +32,6 @@ const MOST_RECORDS: u32 = (32 << 20) / (16 * RAY_ROWS);
 const LANES: usize = 64;
 /// There is no film here, and nothing is counted.
 const WITHOUT: [&str; 4] = ["COUNT_RAYS", "ADAPTIVE", "FILM_ROWS", "SQUARES_ROW"];
-
-/// What explaining keeps on the GPU once it has been used.
-pub struct Explainer {
-    overrides: Overrides,
-    pipeline: wgpu::ComputePipeline,
-}
 
 /// What came of a submission.
 struct Records {
@@ -148,18 +140,16 @@ impl Renderer {
         probes: &[PackedProbe],
         record_count: u32,
     ) -> Result<Records, RenderError> {
-        let records = self.surviving_losses(|renderer| {
-            renderer.prepare()?;
-            renderer.dispatch_probes(probes, record_count)
-        })?;
+        let records =
+            self.surviving_losses(|renderer| renderer.dispatch_probes(probes, record_count))?;
         match records.accounts.cut_off_paths {
             0 => Ok(records),
             _ => Err(self.path_too_long()),
         }
     }
 
-    /// Compiles the kernel unless it is there already.
-    fn prepare(&mut self) -> Result<(), GpuError> {
+    /// The kernel that records.
+    fn recorder(&self) -> Result<wgpu::ComputePipeline, GpuError> {
         let settings = RenderSettings {
             integrator: Integrator::Whitted,
             ..self.settings.clone()
@@ -173,17 +163,14 @@ impl Renderer {
         };
         let mut overrides = overrides::of(task);
         overrides.retain(|(name, _)| !WITHOUT.contains(name));
-        let device = &mut self.device;
-        let known = device.explainer.as_ref();
-        if known.is_none_or(|explainer| explainer.overrides != overrides) {
-            let (gpu, fetch, layouts) = (&device.gpu, device.fetch, &device.layouts);
-            let pipeline = device::pipeline(gpu, fetch, layouts, Kernel::EXPLAIN, &overrides)?;
-            device.explainer = Some(Explainer {
-                overrides,
-                pipeline,
-            });
-        }
-        Ok(())
+        let Device {
+            gpu,
+            fetch,
+            layouts,
+            ..
+        } = &self.device;
+        let compiled = pipelines::tracing(gpu, *fetch, layouts, Kernel::EXPLAIN, overrides)?;
+        Ok(compiled.pipeline)
     }
 
     fn dispatch_probes(
@@ -193,11 +180,7 @@ impl Renderer {
     ) -> Result<Records, GpuError> {
         let device = &self.device;
         let gpu = &device.gpu;
-        let Some(explainer) = &device.explainer else {
-            return Err(GpuError::Internal {
-                what: "no explain pipeline".into(),
-            });
-        };
+        let pipeline = self.recorder()?;
         let mut padded = probes.to_vec();
         padded.resize(
             probes.len().next_multiple_of(LANES),
@@ -221,7 +204,7 @@ impl Renderer {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(&explainer.pipeline);
+            pass.set_pipeline(&pipeline);
             pass.set_bind_group(0, &device.buffers.scene_group, &[]);
             pass.set_bind_group(1, &device.buffers.frame_group, &[]);
             pass.set_bind_group(2, &own_group, &[]);

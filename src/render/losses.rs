@@ -2,7 +2,8 @@
 
 use super::{
     Fetch, RenderError, Renderer, Stats,
-    device::{self, Device, Task},
+    device::{self, Device},
+    task::Task,
 };
 use crate::gpu::GpuError;
 

@@ -1,16 +1,14 @@
 //! What of the scene, the frame and the settings is compiled into a kernel: the overrides of `bindings.wesl`.
 
-use super::{device::Task, layers, settings::TriangleTest};
+use super::{layers, settings::TriangleTest, task::Task};
 use crate::{
+    gpu::Overrides,
     layout::{
         FILTER_BLACKMAN_HARRIS, FILTER_BOX, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_TENT,
         TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT,
     },
     scene::{Antialias, Filter},
 };
-
-/// Values for the `override`s of `bindings.wesl`, by their names.
-pub type Overrides = Vec<(&'static str, f64)>;
 
 /// Features that the scene, the frame and the settings need; all others are compiled out.
 pub fn of(task: Task) -> Overrides {

@@ -153,7 +153,9 @@ impl Renderer {
             immediate_size: 0,
         });
         Ok(Projector {
-            pipeline: gpu.pipeline(&Kernel::SHOW, false, &layout, &[])?,
+            pipeline: gpu
+                .pipeline(&Kernel::SHOW, false, &layout, Vec::new())?
+                .pipeline,
             tone: gpu.upload("tone", bytes_of(&PackedTone::default()))?,
         })
     }

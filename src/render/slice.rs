@@ -1,7 +1,7 @@
 //! Cuts the work on a window into submissions that take about the target time each: watchdogs kill
 //! long ones, and nothing can be shown, stopped or saved within one.
 
-use super::{policy::Slicing, settings::RenderSettings, windows::Window};
+use super::{policy::Slicing, settings::RenderSettings, window::Window};
 use crate::layout::PackedSlice;
 
 /// Tiles of the first submission; one that turns out heavier than planned stays short.

@@ -1,12 +1,8 @@
 //! Work for the GPU, slice by slice: planned, submitted, and taken up when it is done.
 
 use super::{
-    Cursor, RenderError, Renderer,
-    device::Back,
-    effort::LongPath,
-    slice::Slice,
-    sums::SAMPLE_BLOCK,
-    windows::{Window, Windows},
+    Cursor, RenderError, Renderer, device::Back, effort::LongPath, slice::Slice,
+    sums::SAMPLE_BLOCK, window::Window, windows::Windows,
 };
 use crate::{
     clock::Instant,

@@ -139,7 +139,7 @@ fn a_device_of_another_program_keeps_its_callbacks_and_is_not_replaced() {
     let picture = renderer.develop(&Tone::LINEAR).expect("a picture");
     check_same_bits("another's device", &waited_for(), &picture).expect("the same picture");
     assert_eq!(errors.load(Ordering::Relaxed), 0);
-    device.create_buffer(&wgpu::BufferDescriptor {
+    let invalid = device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
         size: 16,
         usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::MAP_WRITE,

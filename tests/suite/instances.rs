@@ -12,7 +12,7 @@ use crate::{
 };
 use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::{
-    app::exit::AppError,
+    app::error::AppError,
     image::Image,
     pack::{self, PackedScene, PackedView},
     render::{ExecutionPolicy, Fetch, RenderError, RenderSettings, Renderer, Stats, Tone},

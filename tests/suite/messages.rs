@@ -3,7 +3,7 @@
 
 use crate::animate::place::Place;
 use crate::support::verdict::Verdict;
-use glimray::app::exit::AppError;
+use glimray::app::error::AppError;
 use glimray::gpu::GpuError;
 use insta::assert_snapshot;
 use serde_json::Value;

@@ -9,7 +9,7 @@ use crate::reference::scenes::{self, Build, Random};
 use crate::reference::trace;
 use crate::support::skip::{Need, skip};
 use glam::{DAffine3, DVec3, Vec3, dvec3, vec3};
-use glimray::app::exit::AppError;
+use glimray::app::error::AppError;
 use glimray::gpu::{AdapterChoice, Gpu, GpuError};
 use glimray::image::Image;
 use glimray::pack;

@@ -4,7 +4,7 @@
 //! in order, so that the same frames give the same journal however they came about.
 
 use super::super::console;
-use super::super::exit::AppError;
+use super::super::error::AppError;
 use super::fingerprint::{self, Fingerprint};
 use super::pattern::Pattern;
 use crate::output::{self, OutputError};

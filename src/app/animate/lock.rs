@@ -2,7 +2,7 @@
 //! ends, so that a killed run is in nobody's way.
 
 use super::super::console;
-use super::super::exit::AppError;
+use super::super::error::AppError;
 use crate::output::{self, Litter, OutputError};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};

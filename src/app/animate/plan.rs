@@ -1,6 +1,6 @@
 //! What is to be done: which frames are there, and why others are not good enough.
 
-use super::super::exit::AppError;
+use super::super::error::AppError;
 use super::super::inputs::Inputs;
 use super::super::interrupt::Interrupt;
 use super::super::report::Redone;

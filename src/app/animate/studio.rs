@@ -1,6 +1,6 @@
 //! Renders frames: one renderer for all of them, so that only what moves is uploaded for each.
 
-use super::super::exit::AppError;
+use super::super::error::AppError;
 use super::super::interrupt::Interrupt;
 use super::super::progress::FrameProgress;
 use super::fingerprint::{self, Fingerprint};

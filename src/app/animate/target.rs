@@ -1,7 +1,7 @@
 //! Where moving pictures go: frames in files, a video made of them, or a stream.
 
 use super::super::cli::{LogFlags, SequenceFlags, SequenceFormat};
-use super::super::exit::AppError;
+use super::super::error::AppError;
 use super::super::inputs::Inputs;
 use super::super::{destination, job};
 use super::lock;

@@ -2,7 +2,7 @@
 
 use super::super::cli::{Range, RangeFlags};
 use super::super::clock::{self, Clock};
-use super::super::exit::AppError;
+use super::super::error::AppError;
 use crate::scene::Scene;
 
 /// The frames of a run.

@@ -4,11 +4,12 @@
 use super::workloads;
 use crate::app::cli::BenchArgs;
 use crate::app::demo;
-use crate::app::exit::AppError;
+use crate::app::error::AppError;
 use crate::app::job;
+use crate::app::view::canvas::Place;
 use crate::app::view::navigation::Rig;
 use crate::app::view::order::Order;
-use crate::app::view::render_thread::{Fault, Orders, Place, RenderThread};
+use crate::app::view::render_thread::{Fault, Orders, RenderThread};
 use crate::gpu::{Gpu, GpuError};
 use crate::pack;
 use crate::render::{RenderSettings, Renderer, Tone};

@@ -1,7 +1,7 @@
 //! What is measured: scenes made here, the same every time.
 
 use crate::app::demo;
-use crate::app::exit::AppError;
+use crate::app::error::AppError;
 use crate::import;
 use crate::pack;
 use crate::scene::{

@@ -1,6 +1,6 @@
 //! Picture file → pixels, under limits: a stranger's file must not take all memory.
 
-use crate::app::exit::AppError;
+use crate::app::error::AppError;
 use crate::image::Image;
 use crate::output;
 use ::image::{DynamicImage, ImageError, ImageReader, Limits};

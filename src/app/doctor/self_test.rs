@@ -2,7 +2,7 @@
 //! the middle compared with Phong's formula worked out here in f64.
 
 use crate::app::device;
-use crate::app::exit::AppError;
+use crate::app::error::AppError;
 use crate::gpu::Gpu;
 use crate::render::{ExecutionPolicy, RenderSettings, Tone};
 use crate::scene::{Camera, Geometry, Light, LightKind, Material, Scene, Shape};

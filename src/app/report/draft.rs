@@ -3,7 +3,7 @@
 
 use super::{Adapter, ImageReport, Report, SceneReport, Seconds, host_peak_bytes};
 use crate::app::cli::{LogFlags, SceneFlags};
-use crate::app::exit::AppError;
+use crate::app::error::AppError;
 use crate::app::inputs::Inputs;
 use crate::app::scene_file;
 use crate::scene::Scene;

@@ -4,11 +4,12 @@
 mod noise;
 mod pace;
 mod packing;
+mod studio;
 
 pub use pace::{Pace, patience};
+pub use studio::{CanvasError, Place, Studio};
 
 use super::order::Order;
-use super::render_thread::{CanvasError, Place, Studio};
 use crate::gpu::Gpu;
 use crate::pack::{self, PackedScene, PackedView};
 use crate::render::{Antialias, RenderSettings, Renderer, Screen, Stats};

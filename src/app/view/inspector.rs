@@ -7,12 +7,12 @@ pub mod rows;
 pub mod words;
 
 use super::bindings::Action;
+use super::canvas::{Place, Studio};
 use super::layout::{Layout, Panel};
 use super::objects::Id;
 use super::order::Order;
 use super::outline;
 use super::question::Answer;
-use super::render_thread::{Place, Studio};
 use super::session::Session;
 use super::tools::Tool;
 use super::viewport::Viewport;

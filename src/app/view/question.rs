@@ -1,9 +1,9 @@
 //! What the window asks of the renderer, and what comes back.
 
+use super::canvas::Studio;
 use super::files::pictures::{self, Taken};
 use super::inspector::{self, Inspected, hidden};
 use super::objects::Id;
-use super::render_thread::Studio;
 use super::session::Session;
 use super::tools::Purpose;
 use crate::app::advice;

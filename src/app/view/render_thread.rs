@@ -4,31 +4,13 @@
 //! Nothing here waits for the window, and the window waits for nothing here: orders replace one another,
 //! and the window takes what was published last.
 
-use super::canvas::{Canvas, Shown};
+use super::canvas::{Canvas, CanvasError, Place, Shown, Studio};
 use super::order::Order;
-use crate::app::advice;
 use crate::gpu::{Gpu, GpuError};
-use crate::image::Image;
-use crate::render::{RenderError, RenderSettings, Renderer, Tone};
+use crate::render::RenderError;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
-
-/// Where a picture is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
-    /// The picture itself.
-    Main,
-    /// What it is compared with.
-    Beside,
-    /// The scene from outside, behind drawn rays.
-    Outside,
-}
-
-impl Place {
-    /// All of them; those that are rendered first come first.
-    pub const ALL: [Self; 3] = [Self::Outside, Self::Beside, Self::Main];
-}
 
 /// What the window wants at the moment.
 #[derive(Clone, Default)]
@@ -51,29 +33,6 @@ impl Orders {
 
 /// A question that needs a renderer, and the answer to it.
 pub type Question<A> = Box<dyn FnOnce(&mut Studio) -> A + Send>;
-
-/// What a question gets to see.
-pub struct Studio<'a> {
-    /// The renderer of the main picture, which is at rest between two steps.
-    pub renderer: &'a mut Renderer,
-    /// What it was last asked for.
-    pub order: &'a Order,
-    /// The same of the picture from outside, where there is one in full.
-    pub outside: Option<(&'a mut Renderer, &'a Order)>,
-}
-
-impl Studio<'_> {
-    /// The picture so far and the samples in it.
-    pub fn image(&mut self, tone: &Tone) -> Result<(Image, u32), RenderError> {
-        let samples = self.renderer.samples_done();
-        Ok((self.renderer.develop(tone)?, samples))
-    }
-
-    /// The settings of the picture in full.
-    pub fn settings(&self) -> &RenderSettings {
-        &self.order.settings
-    }
-}
 
 /// What went wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -349,17 +308,6 @@ impl Painter {
         }
         (Ok(is_busy), unanswered, answers)
     }
-}
-
-/// Why an order cannot be followed.
-#[derive(Debug, thiserror::Error)]
-pub enum CanvasError {
-    /// The scene cannot be laid out.
-    #[error(transparent)]
-    Pack(#[from] crate::pack::PackError),
-    /// It cannot be rendered.
-    #[error("{}", advice::render(.0))]
-    Render(#[from] RenderError),
 }
 
 impl From<CanvasError> for Fault {

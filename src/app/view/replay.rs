@@ -2,7 +2,7 @@
 //! of egui, with its time.
 
 use crate::app::cli::TapeFlags;
-use crate::app::exit::AppError;
+use crate::app::error::AppError;
 use crate::app::inputs::Inputs;
 use crate::output::reason;
 use eframe::egui::{self, DroppedFile, Event, RawInput};

@@ -1,5 +1,6 @@
 //! The window's contents: hands what happens to the [`Session`], orders pictures, shows them.
 
+use super::canvas::Place;
 use super::canvas::patience;
 use super::commands;
 use super::editing;
@@ -8,7 +9,7 @@ use super::layout::Layout;
 use super::panels;
 use super::presses::Presses;
 use super::question::Answer;
-use super::render_thread::{Fault, Orders, Place, RenderThread};
+use super::render_thread::{Fault, Orders, RenderThread};
 use super::session::Session;
 use super::sheets;
 use super::textures::Textures;

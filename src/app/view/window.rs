@@ -2,7 +2,7 @@
 
 mod events;
 
-use super::super::exit::AppError;
+use super::super::error::AppError;
 use super::super::{console, scene_file};
 use super::preferences::Preferences;
 use super::session::Session;

@@ -11,7 +11,7 @@ use crate::{
         layers::{self, LayerKind},
         layouts::{Layouts, group},
         levels,
-        windows::{Window, rectangles},
+        window::{Window, rectangles},
     },
 };
 use bytemuck::bytes_of;

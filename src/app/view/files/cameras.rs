@@ -1,8 +1,8 @@
 //! Cameras: kept, gone to, copied as a command line and taken out of one.
 
+use super::super::canvas::Place;
 use super::super::command_line::{self, Shown};
 use super::super::preferences::SavedCamera;
-use super::super::render_thread::Place;
 use super::super::session::Session;
 use super::short;
 use crate::scene::Camera;

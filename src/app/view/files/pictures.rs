@@ -1,7 +1,7 @@
 //! The picture on screen → a file, as `glimray render` would write it.
 
+use super::super::canvas::{Place, Studio};
 use super::super::question::Answer;
-use super::super::render_thread::{Place, Studio};
 use super::super::session::Session;
 use super::dialogs::{PICTURES, Reply, Request};
 use super::{NO_DIALOG, screenshot, short};

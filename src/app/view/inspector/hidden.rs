@@ -1,10 +1,10 @@
 //! Which parts of the lines in space are behind something, as the second camera sees them: rays of its
 //! own renderer tell how far away the nearest surface is.
 
+use super::super::canvas::Studio;
 use super::super::navigation::project;
 use super::super::order::Order;
 use super::super::question::Answer;
-use super::super::render_thread::Studio;
 use super::super::session::Session;
 use super::outside;
 use super::rows::{Filter, RayId};

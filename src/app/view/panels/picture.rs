@@ -4,11 +4,11 @@ mod compare;
 mod legend;
 
 use super::super::bindings::Action;
+use super::super::canvas::Place;
 use super::super::canvas::Shown;
 use super::super::editing;
 use super::super::inspector;
 use super::super::region;
-use super::super::render_thread::Place;
 use super::super::tools;
 use super::super::viewer::Desk;
 use super::super::viewport::Viewport;

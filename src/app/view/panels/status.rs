@@ -1,6 +1,6 @@
 //! The bar at the bottom: how far the picture is.
 
-use super::super::render_thread::Place;
+use super::super::canvas::Place;
 use super::super::viewer::Desk;
 use super::render::{remaining, seconds};
 use eframe::egui;

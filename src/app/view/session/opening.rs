@@ -1,7 +1,7 @@
 //! Reading a scene and putting it on screen, for the first time or anew.
 
 use super::super::super::clock::Clock;
-use super::super::super::exit::AppError;
+use super::super::super::error::AppError;
 use super::super::super::{job, overrides};
 use super::super::document::Document;
 use super::super::files::{self, Intent};

@@ -1,7 +1,7 @@
 //! What must be answered before something happens: a name, or what becomes of unsaved changes.
 
+use super::super::canvas::Place;
 use super::super::files::{self, Intent, pictures};
-use super::super::render_thread::Place;
 use super::super::session::Session;
 use super::super::viewer::Desk;
 use crate::output::Format;

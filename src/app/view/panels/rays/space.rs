@@ -1,9 +1,9 @@
 //! The scene from outside, with the rays of a pixel in it.
 
 use super::super::super::bindings::Action;
+use super::super::super::canvas::Place;
 use super::super::super::inspector::hidden;
 use super::super::super::inspector::outside::{self, End, Line};
-use super::super::super::render_thread::Place;
 use super::super::super::session::Session;
 use super::super::super::tools::{self, Drag};
 use super::super::super::viewer::Desk;

@@ -1,8 +1,8 @@
 //! How far the picture is, and what it took.
 
 use super::super::super::bindings::Action;
+use super::super::super::canvas::Place;
 use super::super::super::canvas::{Progress, Shown};
-use super::super::super::render_thread::Place;
 use super::super::super::viewer::Desk;
 use eframe::egui::{self, Ui};
 

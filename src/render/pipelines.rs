@@ -1,0 +1,23 @@
+//! Pipelines of kernels that trace.
+
+use super::{layouts::Layouts, policy::Fetch};
+use crate::gpu::{Compiled, Gpu, GpuError, Kernel, Overrides};
+
+/// A kernel for groups 0 to 2, specialised by these overrides.
+pub fn tracing(
+    gpu: &Gpu,
+    fetch: Fetch,
+    layouts: &Layouts,
+    kernel: Kernel,
+    overrides: Overrides,
+) -> Result<Compiled, GpuError> {
+    let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
+    let layout = gpu
+        .device
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(kernel.name),
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        });
+    gpu.pipeline(&kernel, fetch == Fetch::Image, &layout, overrides)
+}
