@@ -91,7 +91,7 @@ lint: compiler
 
 # The library alone, and with each feature by itself: what they share is built once.
 features: compiler
-	@for feature in '' cli gl parallel video viewer; do \
+	@for feature in '' archive cli gl parallel video viewer; do \
 		echo "without default features, with: $${feature:-none}"; \
 		$(CARGO) clippy --quiet $(FLAGS) --lib --bins --no-default-features --features "$$feature" \
 			-- --deny warnings || exit; \

@@ -293,6 +293,27 @@ impl Gpu {
         }
     }
 
+    /// Whether this is another program's device and lost, of which the callback tells that program alone.
+    /// wgpu makes buffers on a lost device without a word, and then finds them invalid.
+    fn is_others_and_lost(&self) -> bool {
+        if self.is_own {
+            return false;
+        }
+        let scope = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let tried = guard::quiet(|| {
+            let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("probe"),
+                size: 4,
+                usage: wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            });
+            self.queue.write_buffer(&buffer, 0, &[0; 4]);
+        });
+        let is_lost = pollster::block_on(scope.pop()).is_some() || tried.is_err();
+        self.lost.fetch_or(is_lost, Ordering::AcqRel);
+        is_lost
+    }
+
     /// Runs `make` inside error scopes and turns what they catch into an error.
     fn scoped<T>(&self, what: &str, make: impl FnOnce() -> T) -> Result<T, GpuError> {
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
@@ -307,6 +328,9 @@ impl Gpu {
             return Err(GpuError::OutOfMemory { what: what.into() });
         }
         if let Some(error) = invalid {
+            if self.is_others_and_lost() {
+                return Err(GpuError::Lost);
+            }
             return Err(GpuError::Internal {
                 what: format!("{what}: {error}"),
             });

@@ -10,7 +10,8 @@
 //! `ply.rs` reads Stanford's PLY files, of which native scenes place triangles and points.
 //! Pictures that scenes and models name are read by `picture.rs`.
 //!
-//! Importers get files from a [`Resolver`]: a [`Folder`] on disk, [`Memory`], or another program's.
+//! Importers get files from a [`Resolver`]: a [`Folder`] on disk, [`Memory`], an `Archive`, or another
+//! program's.
 //!
 //! Files are hostile until read: nothing here panics, follows a path out of the scene's folder, or
 //! takes more memory than eight times the file's size (and 64 MiB; see `budget.rs`). Colours that no
@@ -18,6 +19,8 @@
 //! out and named in [`Scene::skipped`]; everything else is one [`ImportError`] with the place it
 //! happened at.
 
+#[cfg(feature = "archive")]
+mod archive;
 mod budget;
 mod course;
 mod error;
@@ -38,6 +41,8 @@ mod source;
 mod stage;
 mod suggest;
 
+#[cfg(feature = "archive")]
+pub use archive::Archive;
 pub use error::{Excerpt, Fault, ImportError, Position};
 #[cfg(not(target_arch = "wasm32"))]
 pub use folder::Folder;

@@ -37,6 +37,8 @@ pub struct IntegratorEntry {
     pub integrator: Integrator,
     /// Its word on the command line and in files.
     pub name: &'static str,
+    /// Its title in menus.
+    pub title: &'static str,
     /// What it shows, in a few words.
     pub help: &'static str,
     /// Its kernel.
@@ -73,14 +75,14 @@ pub const TABLE: [IntegratorEntry; 7] = [
         is_lit: true,
         ..debug_view(
             Integrator::Whitted,
-            "whitted",
+            ("whitted", "Picture"),
             "Phong shading, shadows, mirrors and glass",
             VIEW_NORMALS,
         )
     },
     debug_view(
         Integrator::Normals,
-        "normals",
+        ("normals", "Normals"),
         "shading normals as colours",
         VIEW_NORMALS,
     ),
@@ -88,14 +90,14 @@ pub const TABLE: [IntegratorEntry; 7] = [
         shows: Shows::Quantity(Quantity::Distance),
         ..debug_view(
             Integrator::Depth,
-            "depth",
+            ("depth", "Distances"),
             "distances, from white for the nearest to dark grey for the farthest",
             VIEW_DEPTH,
         )
     },
     debug_view(
         Integrator::Ids,
-        "ids",
+        ("ids", "Primitives"),
         "one colour for each primitive",
         VIEW_IDS,
     ),
@@ -103,7 +105,7 @@ pub const TABLE: [IntegratorEntry; 7] = [
         needs_uvs: true,
         ..debug_view(
             Integrator::Uv,
-            "uv",
+            ("uv", "Texture coordinates"),
             "texture coordinates as red and green",
             VIEW_UV,
         )
@@ -113,7 +115,7 @@ pub const TABLE: [IntegratorEntry; 7] = [
         counts_steps: true,
         ..debug_view(
             Integrator::Heat,
-            "heat",
+            ("heat", "Work in the tree"),
             "steps of each ray through the tree, from black over blue to white",
             VIEW_HEAT,
         )
@@ -124,7 +126,7 @@ pub const TABLE: [IntegratorEntry; 7] = [
         is_lit: true,
         ..debug_view(
             Integrator::Samples,
-            "samples",
+            ("samples", "Samples"),
             "the samples that adaptive sampling spent, from black to white",
             VIEW_NORMALS,
         )
@@ -134,13 +136,14 @@ pub const TABLE: [IntegratorEntry; 7] = [
 /// Colours for what a camera ray meets.
 const fn debug_view(
     integrator: Integrator,
-    name: &'static str,
+    (name, title): (&'static str, &'static str),
     help: &'static str,
     view: u32,
 ) -> IntegratorEntry {
     IntegratorEntry {
         integrator,
         name,
+        title,
         help,
         kernel: Kernel::DEBUG_VIEW,
         view,

@@ -145,6 +145,7 @@ fn a_device_of_another_program_keeps_its_callbacks_and_is_not_replaced() {
         usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::MAP_WRITE,
         mapped_at_creation: false,
     });
+    drop(invalid);
     assert_eq!(
         errors.load(Ordering::Relaxed),
         1,

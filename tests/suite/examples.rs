@@ -7,8 +7,8 @@ use glam::{DVec3, dvec3};
 use std::path::PathBuf;
 use std::process::Command;
 
-/// What an example prints; `None` where it is not built.
-fn run(name: &str, arguments: &[PathBuf]) -> Option<String> {
+/// The program of an example; `None` where it is not built.
+pub fn built(name: &str) -> Option<PathBuf> {
     let test = std::env::current_exe().expect("the tests' own path");
     let target = test.ancestors().nth(2).expect("the folder of the profile");
     let path = target.join("examples").join(name);
@@ -20,7 +20,12 @@ fn run(name: &str, arguments: &[PathBuf]) -> Option<String> {
         );
         return None;
     }
-    let output = Command::new(path)
+    Some(path)
+}
+
+/// What an example prints; `None` where it is not built.
+fn run(name: &str, arguments: &[PathBuf]) -> Option<String> {
+    let output = Command::new(built(name)?)
         .args(arguments)
         .output()
         .expect("it runs");

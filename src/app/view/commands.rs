@@ -8,7 +8,6 @@ use super::playback::MAX_SPEED;
 use super::session::Session;
 use super::tools::Tool;
 use super::{editing, files, inspector, sheets, tools};
-use crate::render::Integrator;
 use crate::scene::{Background, ToneCurve};
 use eframe::egui::{self, ViewportCommand};
 use glam::Vec3;
@@ -110,17 +109,7 @@ fn camera(action: Action, session: &mut Session) -> bool {
 
 fn look(action: Action, session: &mut Session) -> bool {
     let look = &mut session.look;
-    let show = match action {
-        Action::IntegratorWhitted => Some(Integrator::Whitted),
-        Action::IntegratorNormals => Some(Integrator::Normals),
-        Action::IntegratorDepth => Some(Integrator::Depth),
-        Action::IntegratorIds => Some(Integrator::Ids),
-        Action::IntegratorUv => Some(Integrator::Uv),
-        Action::IntegratorHeat => Some(Integrator::Heat),
-        Action::IntegratorSamples => Some(Integrator::Samples),
-        _ => None,
-    };
-    if let Some(integrator) = show {
+    if let Some(integrator) = action.integrator() {
         look.settings.integrator = integrator;
         return true;
     }

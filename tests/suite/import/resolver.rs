@@ -3,11 +3,12 @@
 use super::{folder, without_folder};
 use crate::reference::compare::{render, sized};
 use crate::support::verdict::Verdict;
-use glimray::import::{self, FileError, ImportError, Memory, Options, Resolver};
+use glimray::import::{self, Archive, FileError, ImportError, Memory, Options, Resolver};
 use glimray::output;
 use glimray::scene::Scene;
 use insta::assert_snapshot;
 use std::cell::RefCell;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 type Named = (&'static str, Vec<u8>);
@@ -170,4 +171,66 @@ fn a_picture_comes_from_memory_alone() {
     assert_eq!((picture.width, picture.height), (8, 4));
     let missing = import::picture_from(&memory, "sky.hdr").expect_err("a refusal");
     assert_snapshot!(missing, @"picture refused (sky.hdr): `sky.hdr` does not exist. Check the name and the folder.");
+}
+
+/// A ZIP archive of some files, those with odd indices compressed.
+fn zipped(files: &[(&str, &[u8])]) -> Vec<u8> {
+    let mut writer = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for (index, (name, bytes)) in files.iter().enumerate() {
+        let method = match index % 2 {
+            0 => zip::CompressionMethod::Stored,
+            _ => zip::CompressionMethod::Deflated,
+        };
+        let options = zip::write::SimpleFileOptions::default().compression_method(method);
+        writer.start_file(*name, options).expect("a file");
+        writer.write_all(bytes).expect("written");
+    }
+    writer.finish().expect("an archive").into_inner()
+}
+
+#[test]
+fn a_scene_from_an_archive_is_that_from_memory() {
+    let files = files();
+    let named: Vec<_> = files
+        .iter()
+        .map(|(name, bytes)| (*name, &bytes[..]))
+        .collect();
+    let archive = Archive::new(zipped(&named)).expect("an archive");
+    let names: Vec<_> = archive.names().map(Path::to_owned).collect();
+    let mut expected: Vec<_> = named.iter().map(|(name, _)| PathBuf::from(name)).collect();
+    expected.sort();
+    assert_eq!(names, expected);
+    let scene = import::load_from(&archive, "scenes/a.toml", &Options::default());
+    assert!(scene.expect("a scene") == from_memory(files, "scenes/a.toml").expect("a scene"));
+}
+
+#[test]
+fn an_archive_is_refused_where_it_leads_out_lies_or_is_damaged() {
+    let long = vec![7; 100_000];
+    let bytes = zipped(&[
+        ("../outside.toml", b"a"),
+        ("/etc/outside.toml", b"a"),
+        ("folder/long.bin", &long),
+    ]);
+    let archive = Archive::new(bytes.clone()).expect("an archive");
+    let names: Vec<_> = archive.names().collect();
+    assert_eq!(names, [Path::new("folder/long.bin")]);
+    let long_file = Path::new("folder/long.bin");
+    assert_eq!(archive.read(long_file, 100_000).expect("its bytes"), long);
+    let too_long = archive.read(long_file, 99_999);
+    assert!(matches!(
+        too_long,
+        Err(FileError::TooLong { length: 100_000 })
+    ));
+    let resolved = |name: &str| archive.resolve(Path::new("folder"), Path::new(name));
+    assert_eq!(resolved("long.bin").expect("there"), long_file);
+    assert!(matches!(resolved("../../x"), Err(FileError::Outside)));
+    assert!(matches!(resolved("short.bin"), Err(FileError::Missing)));
+    assert!(matches!(
+        archive.resolve(Path::new(""), Path::new("folder")),
+        Err(FileError::IsFolder)
+    ));
+    for cut in [0, 1, bytes.len() / 2, bytes.len() - 1] {
+        assert!(Archive::new(bytes[..cut].to_vec()).is_err(), "cut at {cut}");
+    }
 }

@@ -6,6 +6,7 @@ mod drag_source;
 use crate::support::PATIENCE;
 use crate::support::skip::{Need, skip};
 use std::cell::Cell;
+use std::ffi::OsStr;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -149,12 +150,20 @@ impl Desktop {
         opened
     }
 
+    /// A program with its windows here.
+    fn command(&self, program: impl AsRef<OsStr>) -> Command {
+        let mut command = Command::new(program);
+        command
+            .env("DISPLAY", &self.display)
+            .env_remove("WAYLAND_DISPLAY");
+        command
+    }
+
     fn program(&self, arguments: &[&str], settings: &Path, faults: &str) -> Child {
-        let program = Command::new(env!("CARGO_BIN_EXE_glimray"))
+        let program = self
+            .command(env!("CARGO_BIN_EXE_glimray"))
             .arg("view")
             .args(arguments)
-            .env("DISPLAY", &self.display)
-            .env_remove("WAYLAND_DISPLAY")
             .env("GLIMRAY_SETTINGS", settings)
             .current_dir(settings)
             .env("GLIMRAY_FAULT", faults)
@@ -520,4 +529,37 @@ fn without_a_display_one_line_points_to_render() {
     let said = String::from_utf8_lossy(&elsewhere.stderr);
     assert_eq!(elsewhere.status.code(), Some(5), "{said}");
     assert_eq!(said.lines().count(), 1, "{said}");
+}
+
+#[test]
+fn another_programs_window_shows_the_picture_of_the_command_line() {
+    let Some(desktop) = Desktop::start() else {
+        return;
+    };
+    let Some(example) = crate::examples::built("embed") else {
+        return;
+    };
+    let folder = settings();
+    let picture = folder.path().join("picture.png");
+    let scene = scene("shapes.toml");
+    let rendered = Command::new(env!("CARGO_BIN_EXE_glimray"))
+        .arg("render")
+        .args([&scene, Path::new("-o"), &picture])
+        .output()
+        .expect("glimray");
+    assert!(rendered.status.success(), "{rendered:?}");
+    let picture = ::image::open(&picture).expect("a picture").into_rgb8();
+    let (width, height) = picture.dimensions();
+    // The server puts windows in its upper left corner, with the bytes of a pixel as blue, green and red.
+    let expected: Vec<_> = picture.pixels().map(|p| [p[2], p[1], p[0]]).collect();
+
+    let mut program = (desktop.command(example).arg(&scene).spawn()).expect("the example");
+    let shown = || {
+        let pixels = desktop.screenshot([0, 0, width as u16, height as u16]);
+        let pixels: Vec<_> = pixels.chunks_exact(4).map(|p| [p[0], p[1], p[2]]).collect();
+        (pixels == expected).then_some(())
+    };
+    wait_for("the picture in the window", shown);
+    program.kill().expect("ended");
+    program.wait().expect("ended");
 }

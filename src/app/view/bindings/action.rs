@@ -1,5 +1,7 @@
 //! Every command of the viewer.
 
+use crate::render::Integrator;
+
 /// What commands have to do with each other; the order of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Category {
@@ -221,6 +223,11 @@ impl Action {
     /// Whether it is given while a handle is dragged, when keys that fly or move the camera do not.
     pub fn is_of_handles(self) -> bool {
         matches!(self, Self::SnapHandles | Self::FineHandles)
+    }
+
+    /// What it shows, by the integrator's name.
+    pub fn integrator(self) -> Option<Integrator> {
+        Integrator::named(self.name().strip_prefix("integrator-")?)
     }
 
     /// The one of that name.

@@ -8,7 +8,6 @@ use super::super::layout::{Layout, Panel};
 use super::super::look::Sharing;
 use super::super::sheets::Sheet;
 use super::super::viewer::Desk;
-use crate::render::Integrator;
 use eframe::egui::{self, Button, RichText, Ui};
 
 /// The bar with its menus.
@@ -213,22 +212,11 @@ fn render(menu: &mut Menu) {
     let integrator = look.settings.integrator;
     let sharing = look.comparison.map(|comparison| comparison.sharing);
     let (is_paused, has_region) = (look.paused, look.region.is_some());
-    let shows = |wanted| integrator == wanted;
-    menu.tick(shows(Integrator::Whitted), "Picture", A::IntegratorWhitted);
-    menu.tick(shows(Integrator::Normals), "Normals", A::IntegratorNormals);
-    menu.tick(shows(Integrator::Depth), "Distances", A::IntegratorDepth);
-    menu.tick(shows(Integrator::Ids), "Primitives", A::IntegratorIds);
-    menu.tick(
-        shows(Integrator::Uv),
-        "Texture coordinates",
-        A::IntegratorUv,
-    );
-    menu.tick(
-        shows(Integrator::Heat),
-        "Work in the tree",
-        A::IntegratorHeat,
-    );
-    menu.tick(shows(Integrator::Samples), "Samples", A::IntegratorSamples);
+    for action in A::ALL {
+        if let Some(shown) = action.integrator() {
+            menu.tick(shown == integrator, shown.entry().title, *action);
+        }
+    }
     menu.line();
     let is_wipe = matches!(sharing, Some(Sharing::Wipe(_)));
     menu.tick(is_wipe, "Compare with a line", A::SplitWipe);

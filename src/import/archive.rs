@@ -1,0 +1,88 @@
+//! Files in a ZIP archive.
+
+use super::resolver::{FileError, Resolver, goes_down, normalized};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::io::{self, Cursor, Read};
+use std::path::{Path, PathBuf};
+use zip::ZipArchive;
+use zip::result::ZipError;
+
+/// A ZIP archive in memory. Files name each other as they do in folders, and nothing is unpacked to a
+/// disk. A file is read no further than what was asked for, whatever length the archive claims.
+#[derive(Debug)]
+pub struct Archive {
+    /// Reading moves a cursor.
+    archive: RefCell<ZipArchive<Cursor<Vec<u8>>>>,
+    /// Places in it by name. Names that lead out of the archive are left out.
+    files: BTreeMap<PathBuf, usize>,
+}
+
+impl Archive {
+    /// The archive in `bytes`.
+    ///
+    /// # Errors
+    /// [`FileError::Failed`] if they are none, or it is damaged.
+    pub fn new(bytes: Vec<u8>) -> Result<Self, FileError> {
+        let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(failed)?;
+        let mut files = BTreeMap::new();
+        for index in 0..archive.len() {
+            let file = archive.by_index_raw(index).map_err(failed)?;
+            let name = file.name().map_err(failed)?.replace('\\', "/");
+            if file.is_file() && goes_down(Path::new(&name)) {
+                files.insert(normalized(Path::new(&name)), index);
+            }
+        }
+        Ok(Self {
+            archive: RefCell::new(archive),
+            files,
+        })
+    }
+
+    /// Its files, in the order of their names.
+    pub fn names(&self) -> impl Iterator<Item = &Path> {
+        self.files.keys().map(PathBuf::as_path)
+    }
+}
+
+impl Resolver for Archive {
+    fn resolve(&self, base: &Path, name: &Path) -> Result<PathBuf, FileError> {
+        if !goes_down(name) {
+            return Err(FileError::Outside);
+        }
+        let path = normalized(&base.join(name));
+        if self.files.contains_key(&path) {
+            return Ok(path);
+        }
+        Err(
+            match self.files.keys().any(|file| file.starts_with(&path)) {
+                true => FileError::IsFolder,
+                false => FileError::Missing,
+            },
+        )
+    }
+
+    fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
+        let index = *self.files.get(path).ok_or(FileError::Missing)?;
+        let mut archive = self.archive.borrow_mut();
+        let file = archive.by_index(index).map_err(failed)?;
+        let length = file.size();
+        if length > limit {
+            return Err(FileError::TooLong { length });
+        }
+        let mut bytes = Vec::new();
+        let mut file = file.take(limit.saturating_add(1));
+        file.read_to_end(&mut bytes).map_err(FileError::Failed)?;
+        match bytes.len() as u64 {
+            length if length > limit => Err(FileError::TooLong { length }),
+            _ => Ok(bytes),
+        }
+    }
+}
+
+fn failed(error: ZipError) -> FileError {
+    FileError::Failed(match error {
+        ZipError::Io(error) => error,
+        other => io::Error::new(io::ErrorKind::InvalidData, other),
+    })
+}
