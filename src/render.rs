@@ -260,7 +260,7 @@ impl Renderer {
         self.cursor.window >= self.windows.list.len()
     }
 
-    /// Share of the work that is done, in 0..=1.
+    /// Fraction of the work that is done, in 0..=1.
     pub fn progress(&self) -> f64 {
         let Some(window) = self.windows.list.get(self.cursor.window) else {
             return 1.0;
@@ -269,8 +269,8 @@ impl Renderer {
             / f64::from(window.tile_count());
         let Range { start, end } = window.samples;
         let within = (f64::from(self.cursor.sample - start) + sweep) / f64::from(end - start);
-        let share = (self.cursor.window as f64 + within) / self.windows.list.len() as f64;
-        self.windows.progress(share)
+        let fraction = (self.cursor.window as f64 + within) / self.windows.list.len() as f64;
+        self.windows.progress(fraction)
     }
 
     /// What the render has cost so far.

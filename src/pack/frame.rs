@@ -232,13 +232,19 @@ impl PackedView {
     pub fn with_aspect(&self, width: u32, height: u32) -> Self {
         let mut view = self.clone();
         let aspect = f64::from(width) / f64::from(height);
-        let widen = |camera: &PackedCamera| PackedCamera {
-            right: camera.right.map(|c| (f64::from(c) * aspect) as f32),
-            ..*camera
-        };
-        view.frame.camera = widen(&self.frame.camera);
-        view.cameras = self.cameras.iter().map(widen).collect();
+        view.frame.camera = widened(&self.frame.camera, aspect);
+        view.cameras = (self.cameras.iter())
+            .map(|camera| widened(camera, aspect))
+            .collect();
         view
+    }
+}
+
+/// A camera of square pictures for those of this aspect.
+fn widened(camera: &PackedCamera, aspect: f64) -> PackedCamera {
+    PackedCamera {
+        right: camera.right.map(|c| (f64::from(c) * aspect) as f32),
+        ..*camera
     }
 }
 

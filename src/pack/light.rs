@@ -36,12 +36,12 @@ pub fn mean_material(frames: &[Frame], light: usize) -> Material {
     let last = frames.len() - 1;
     let mut sum = DVec3::ZERO;
     for (i, frame) in frames.iter().enumerate() {
-        let share = match i {
+        let weight = match i {
             _ if last == 0 => 1.0,
             _ if i == 0 || i == last => 0.5 / intervals,
             _ => intervals.recip(),
         };
-        sum += share * material(&frame.lights[light]).emission.as_dvec3();
+        sum += weight * material(&frame.lights[light]).emission.as_dvec3();
     }
     Material {
         emission: sum.as_vec3(),

@@ -13,7 +13,7 @@ pub const TRIANGLES: u8 = 0;
 pub const SHAPES: u8 = 1;
 pub const GROUP_COUNT: usize = 2;
 
-/// Planes move outwards by this share of the node's size, which is more than the shader's slab test
+/// Planes move outwards by this fraction of the node's size, which is more than the shader's slab test
 /// rounds off when the ray starts inside the node.
 const SLACK: f64 = 1.0 / (1 << 20) as f64;
 

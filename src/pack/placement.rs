@@ -28,11 +28,11 @@ impl Placement {
     }
 
     /// Between this and the next key, as `space_between` of `lib/motion.wesl` has it.
-    pub fn between(&self, next: &Self, share: f64) -> Self {
+    pub fn between(&self, next: &Self, fraction: f64) -> Self {
         Self {
-            translation: self.translation.lerp(next.translation, share),
-            rotation: (self.rotation * (1.0 - share) + next.rotation * share).normalize(),
-            stretch: self.stretch * (1.0 - share) + next.stretch * share,
+            translation: self.translation.lerp(next.translation, fraction),
+            rotation: (self.rotation * (1.0 - fraction) + next.rotation * fraction).normalize(),
+            stretch: self.stretch * (1.0 - fraction) + next.stretch * fraction,
         }
     }
 

@@ -225,13 +225,13 @@ fn sweep(blas: &InstancedBlas, keys: &[Placement]) -> Swept {
         let start = boxes.len() - 1;
         let steps = steps_between(&pair[0], &pair[1]);
         for step in 1..=steps {
-            let share = f64::from(step) / f64::from(steps);
+            let fraction = f64::from(step) / f64::from(steps);
             let placement = match step == steps {
                 true => pair[1],
-                false => pair[0].between(&pair[1], share),
+                false => pair[0].between(&pair[1], fraction),
             };
             boxes.push((
-                (i as f64 + share) / last,
+                (i as f64 + fraction) / last,
                 blas.bounds(placement.transform()),
             ));
         }
@@ -245,9 +245,9 @@ fn sweep(blas: &InstancedBlas, keys: &[Placement]) -> Swept {
     let ((_, open), (_, close)) = (boxes[0], boxes[boxes.len() - 1]);
     // How far the two boxes must move outwards.
     let (mut below, mut above) = (DVec3::ZERO, DVec3::ZERO);
-    for &(share, (min, max)) in &boxes {
-        below = below.max(open.0.lerp(close.0, share) - min);
-        above = above.max(max - open.1.lerp(close.1, share));
+    for &(fraction, (min, max)) in &boxes {
+        below = below.max(open.0.lerp(close.0, fraction) - min);
+        above = above.max(max - open.1.lerp(close.1, fraction));
     }
     let end = |(min, max): (DVec3, DVec3)| {
         rounded_outwards(min - below - stray * 0.5, max + above + stray * 0.5)

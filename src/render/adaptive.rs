@@ -35,14 +35,14 @@ pub struct Adaptive {
     /// Most pixels of a window.
     window_pixels: usize,
     layers: &'static [&'static Layer],
-    pixels: Vec<Account>,
+    pixels: Vec<PixelStatistics>,
     /// The samples of the pixels that have most of them, in this round.
     front: Range<u32>,
 }
 
 /// What is known of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
-struct Account {
+struct PixelStatistics {
     sum: [f64; 3],
     weight: f64,
     /// Of the samples' luminance.
@@ -68,7 +68,7 @@ impl Adaptive {
             window_pixels: side * side,
             layers: layers::of_sampling(settings),
             front: 0..FIRST_SAMPLES.min(settings.samples),
-            pixels: vec![Account::default(); width as usize * height as usize],
+            pixels: vec![PixelStatistics::default(); width as usize * height as usize],
         }
     }
 
@@ -97,7 +97,7 @@ impl Adaptive {
         for (ty, tx) in tiles(height).flat_map(|y| tiles(width).map(move |x| (y, x))) {
             for (y, x) in (0..8).flat_map(|y| (0..8).map(move |x| (8 * ty + y, 8 * tx + x))) {
                 if x < width && y < height && self.goes_on(x, y) {
-                    let list = going_on.entry(self.account(x, y).count).or_default();
+                    let list = going_on.entry(self.statistics(x, y).count).or_default();
                     list.push([x0 + x, y0 + y]);
                 }
             }
@@ -110,9 +110,9 @@ impl Adaptive {
     }
 
     /// Goes by the most samples that any pixel has.
-    pub fn progress(&self, share: f64) -> f64 {
+    pub fn progress(&self, fraction: f64) -> f64 {
         let Range { start, end } = self.front;
-        (f64::from(start) + share * f64::from(end - start)) / f64::from(self.samples)
+        (f64::from(start) + fraction * f64::from(end - start)) / f64::from(self.samples)
     }
 
     fn windows(&self, pixels: Vec<[u32; 2]>, samples: Range<u32>) -> Vec<Window> {
@@ -131,22 +131,22 @@ impl Adaptive {
             let pixels = rows.chunks_exact(window.rows_per_pixel());
             for (place, rows) in window.places().iter().zip(pixels) {
                 let index = self.index(*place);
-                let account = &mut self.pixels[index];
-                for (sum, row) in account.sum.iter_mut().zip(rows[0]) {
+                let statistics = &mut self.pixels[index];
+                for (sum, row) in statistics.sum.iter_mut().zip(rows[0]) {
                     *sum += row;
                 }
-                account.weight += rows[0][3];
-                account.squares += rows[squares][0];
-                account.count += taken;
+                statistics.weight += rows[0][3];
+                statistics.squares += rows[squares][0];
+                statistics.count += taken;
             }
         }
     }
 
     /// The pixel's mean, as the film has it for one sample.
     pub fn mean(&self, pixel: [u32; 2]) -> [f32; 4] {
-        let account = &self.pixels[self.index(pixel)];
-        let share = account.share();
-        let [r, g, b] = account.sum.map(|c| (c * share) as f32);
+        let statistics = &self.pixels[self.index(pixel)];
+        let scale = statistics.scale();
+        let [r, g, b] = statistics.sum.map(|c| (c * scale) as f32);
         [r, g, b, 1.0]
     }
 
@@ -178,18 +178,18 @@ impl Adaptive {
     /// after the first round a difference from a neighbour is enough, and later a neighbour that
     /// still needs samples and has many more.
     fn goes_on(&self, x: u32, y: u32) -> bool {
-        let account = self.account(x, y);
+        let statistics = self.statistics(x, y);
         let rounds_left = NEIGHBOUR_ROUNDS.saturating_sub(self.rounds);
-        if account.count >= self.samples || self.steps_to_crop(x, y) > rounds_left {
+        if statistics.count >= self.samples || self.steps_to_crop(x, y) > rounds_left {
             return false;
         }
-        let missed = |other: &Account| {
-            let differs = (other.brightness() - account.brightness()).abs() > self.noise;
-            let is_ahead = other.count >= BEHIND * account.count && other.error() > self.noise;
-            differs && (account.count <= FIRST_SAMPLES || is_ahead)
+        let missed = |other: &PixelStatistics| {
+            let differs = (other.brightness() - statistics.brightness()).abs() > self.noise;
+            let is_ahead = other.count >= BEHIND * statistics.count && other.error() > self.noise;
+            differs && (statistics.count <= FIRST_SAMPLES || is_ahead)
         };
         let asks = self.rounds <= NEIGHBOUR_ROUNDS;
-        account.error() > self.noise || (asks && self.around(x, y).any(missed))
+        statistics.error() > self.noise || (asks && self.around(x, y).any(missed))
     }
 
     /// Steps from a pixel of the region to the nearest of the crop; 0 within it.
@@ -204,14 +204,14 @@ impl Adaptive {
     }
 
     /// The pixel and its neighbours.
-    fn around(&self, x: u32, y: u32) -> impl Iterator<Item = &Account> {
+    fn around(&self, x: u32, y: u32) -> impl Iterator<Item = &PixelStatistics> {
         let [.., width, height] = self.region;
         let near =
             |center: u32, length: u32| center.saturating_sub(1)..=(center + 1).min(length - 1);
-        near(y, height).flat_map(move |y| near(x, width).map(move |x| self.account(x, y)))
+        near(y, height).flat_map(move |y| near(x, width).map(move |x| self.statistics(x, y)))
     }
 
-    fn account(&self, x: u32, y: u32) -> &Account {
+    fn statistics(&self, x: u32, y: u32) -> &PixelStatistics {
         &self.pixels[y as usize * self.region[2] as usize + x as usize]
     }
 }
@@ -227,10 +227,10 @@ fn widened([x, y, width, height]: [u32; 4], margin: u32, size: (u32, u32)) -> [u
     [x, y, width, height]
 }
 
-impl Account {
+impl PixelStatistics {
     /// What its sum is multiplied by for the mean. Weights of both signs may cancel; what is left
     /// then says nothing, as in the shader that develops (lib/filter.wesl).
-    fn share(&self) -> f64 {
+    fn scale(&self) -> f64 {
         if self.weight.abs() > 0.5 {
             1.0 / self.weight
         } else {
@@ -241,7 +241,7 @@ impl Account {
     fn luminance(&self) -> f64 {
         let [r, g, b] = self.sum;
         let sum = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-        (sum * self.share()).max(0.0)
+        (sum * self.scale()).max(0.0)
     }
 
     /// The square root of luminance, which is nearer to what the eye sees.

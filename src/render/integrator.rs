@@ -26,7 +26,7 @@ pub enum Integrator {
     Uv,
     /// Steps of the tree walk.
     Heat,
-    /// The samples that adaptive sampling spent; raw, as a share of those allowed.
+    /// The samples that adaptive sampling spent; raw, as a fraction of those allowed.
     Samples,
 }
 

@@ -2,7 +2,7 @@
 
 use super::{RenderError, Renderer, Tone};
 
-/// Share of a pixel's samples that must hit something, as in `lib/quantity.wesl`.
+/// Fraction of a pixel's samples that must hit something, as in `lib/quantity.wesl`.
 const LEAST_COVERAGE: f32 = 0.01;
 
 /// The range over which a view of a quantity is shown. Other pictures are not affected.
@@ -30,7 +30,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Share of the pixels at either end that a range leaves out: a horizon, or a few expensive rays along
+    /// Fraction of the pixels at either end that a range leaves out: a horizon, or a few expensive rays along
     /// an edge, would leave no levels for the rest.
     pub fn outliers(self) -> f64 {
         match self {

@@ -4,7 +4,7 @@ use super::{Fingerprint, Integrator, fingerprint::Encoder};
 use crate::scene::{Antialias, Filter, OutputDefaults};
 use std::ops::Range;
 
-/// The share in a sample below which rays are not sent, unless told otherwise: half of what shows
+/// The throughput below which rays are not sent, unless told otherwise: half of what shows
 /// in 8 bits.
 pub const MIN_THROUGHPUT: f32 = 1.0 / 512.0;
 
@@ -40,7 +40,7 @@ pub struct RenderSettings {
     pub seed: u32,
     /// Bounces after the first hit; 0 is local shading only.
     pub max_depth: u32,
-    /// Mirrored and refracted rays are sent whose share in a sample, the mean of the channels, is at
+    /// Mirrored and refracted rays are sent whose throughput, the mean of the channels, is at
     /// least this, 0 to 1.
     pub min_throughput: f32,
 }

@@ -53,7 +53,7 @@ impl Renderer {
         self.settings.region()
     }
 
-    /// Samples that every pixel has got, for a picture that [`Self::shows_directly`]; else the share
+    /// Samples that every pixel has got, for a picture that [`Self::shows_directly`]; else the fraction
     /// of all that has been done.
     pub fn samples_done(&self) -> u32 {
         match self.windows.is_one_rectangle() && !self.is_done() {

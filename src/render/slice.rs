@@ -115,8 +115,8 @@ pub struct Planner {
 impl Planner {
     /// For a picture whose points take this many shadow rays each.
     pub fn new(slicing: Slicing, shadow_rays: u64) -> Self {
-        let share = FEW_SHADOW_RAYS / (shadow_rays as f64).max(FEW_SHADOW_RAYS);
-        let first = (FIRST_TILES * share).max(1.0);
+        let fraction = FEW_SHADOW_RAYS / (shadow_rays as f64).max(FEW_SHADOW_RAYS);
+        let first = (FIRST_TILES * fraction).max(1.0);
         Self {
             slicing,
             first,

@@ -74,9 +74,9 @@ impl Sums {
                 .map(|row| {
                     let [r, g, b, weight] = row.map(|sum| sum as f64 * UNIT);
                     // More than a block of samples: their weights do not cancel.
-                    let share = 1.0 / weight.max(1.0);
+                    let scale = 1.0 / weight.max(1.0);
                     let any = if weight == 0.0 { 0.0 } else { 1.0 };
-                    [r * share, g * share, b * share, any].map(|c| c as f32)
+                    [r * scale, g * scale, b * scale, any].map(|c| c as f32)
                 })
                 .collect(),
         }

@@ -51,11 +51,11 @@ impl Windows {
         windows
     }
 
-    /// How far the sampling is in all when `share` of the windows of this round are done, in 0..=1.
-    pub fn progress(&self, share: f64) -> f64 {
+    /// How far the sampling is in all when `fraction` of the windows of this round are done, in 0..=1.
+    pub fn progress(&self, fraction: f64) -> f64 {
         match &self.adaptive {
-            None => share,
-            Some(adaptive) => adaptive.progress(share),
+            None => fraction,
+            Some(adaptive) => adaptive.progress(fraction),
         }
     }
 

@@ -19,7 +19,8 @@ fn the_fingerprint_of_settings_is_the_same_in_every_build() {
 
 #[test]
 fn every_setting_changes_the_fingerprint() {
-    let changes: Vec<(&str, fn(&mut RenderSettings))> = vec![
+    type Change = fn(&mut RenderSettings);
+    let changes: Vec<(&str, Change)> = vec![
         ("nothing", |_| {}),
         ("width", |s| s.size.0 += 1),
         ("height", |s| s.size.1 += 1),

@@ -161,7 +161,7 @@ const EDITS: [(&str, TreeWork, Edit); 12] = [
         s.instances[6].placement *= DAffine3::from_rotation_x(0.5);
     }),
     ("hidden", TOP, |s| s.instances[4].node = Some(0)),
-    ("removed", TOP, |s| drop(s.instances.remove(3))),
+    ("removed", TOP, |s| _ = s.instances.remove(3)),
     ("another mesh", ONE_MESH, |s| {
         Arc::make_mut(&mut s.meshes[2]).positions[7] *= 1.1;
     }),

@@ -71,7 +71,7 @@ pub struct TracedRay {
     /// Materials of the bodies that its origin is inside of, the outermost first: indices into
     /// [`crate::scene::Scene::materials`]. Empty where nothing is transparent.
     pub media: Vec<usize>,
-    /// Its share in the sample where it starts. Of a shadow ray that of one sample of the light.
+    /// Its throughput where it starts. Of a shadow ray that of one sample of the light.
     pub throughput: [f32; 3],
     /// The same where it ends, after what the medium swallowed or the shadow took.
     pub arriving: [f32; 3],
@@ -117,9 +117,9 @@ pub struct RayHit {
     pub geometric_normal: [f64; 3],
     /// Whether the ray came from the outside.
     pub outside: bool,
-    /// Linear radiance that ambient light adds here, before the ray's share.
+    /// Linear radiance that ambient light adds here, before the ray's throughput.
     pub ambient: [f32; 3],
-    /// Linear radiance that the surface emits, before the ray's share.
+    /// Linear radiance that the surface emits, before the ray's throughput.
     pub emission: [f32; 3],
     /// How it divides light; `None` where the scene has no mirrors and no glass, or depth is 0.
     pub split: Option<RaySplit>,
@@ -128,9 +128,9 @@ pub struct RayHit {
 /// How a surface divides the light among itself, a mirrored and a refracted ray.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RaySplit {
-    /// Share that is mirrored.
+    /// Fraction that is mirrored.
     pub reflect: [f32; 3],
-    /// Share that goes through.
+    /// Fraction that goes through.
     pub transmit: [f32; 3],
     /// Fresnel's reflectance; `None` for a material that does not ask for it.
     pub reflectance: Option<f32>,
@@ -161,7 +161,7 @@ pub struct ShadowRay {
     pub distance: Option<f64>,
     /// Whether no light comes through.
     pub blocked: bool,
-    /// The share of it that comes through.
+    /// The fraction of it that comes through.
     pub transmittance: [f32; 3],
     /// Linear radiance that the light adds at the surface without a shadow.
     pub unshadowed: [f32; 3],

@@ -33,13 +33,9 @@ fn paths_in(code: &str) -> Vec<Vec<&str>> {
         let is_use = |at: usize| {
             !statement[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':')
         };
-        match statement
-            .match_indices("use ")
-            .filter(|(at, _)| is_use(*at))
-            .last()
-        {
-            Some((at, _)) => take_apart(&statement[at + 4..], &[], &mut found),
-            None => {}
+        let uses = statement.match_indices("use ");
+        if let Some((at, _)) = uses.filter(|(at, _)| is_use(*at)).last() {
+            take_apart(&statement[at + 4..], &[], &mut found);
         }
         for root in ["crate::", "super::", "self::"] {
             let starts = statement.match_indices(root).map(|(at, _)| at);
