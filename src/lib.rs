@@ -56,8 +56,9 @@
 //!   [`scene::Material::ior`], `absorption` and `priority` are those of the inside.
 //! * **Absence** is `Option` on the host and [`layout::NONE`] on the GPU, never a NaN or an infinity.
 //! * **Ownership**: the caller owns the [`scene::Scene`]; the packed scene is shared, because a
-//!   [`render::Renderer`] uploads it again when a device is lost; the renderer owns the device and
-//!   the film; an [`image::Image`] belongs to whoever asked for it.
+//!   [`render::Renderer`] uploads it again when a device is lost; the renderer owns the film, and the
+//!   device unless it was given one ([`gpu::Gpu::from_wgpu`]); an [`image::Image`] belongs to whoever
+//!   asked for it.
 //! * **Determinism**: a pixel is a function of scene, frame, settings, seed and sample index. How the
 //!   work is cut into steps does not show. Adaptive sampling ([`scene::Antialias::Adaptive`]) lets the
 //!   first samples of a pixel and its neighbours choose how many it gets.
@@ -90,7 +91,7 @@
 //! | [`layout`] | the structs and tags that shaders also see | |
 //! | [`pack`] | `Scene` → arrays for the GPU; no device needed | `scene`, `bvh`, `layout` |
 //! | [`gpu`] | the device, its memory, its loss, its errors | |
-//! | [`render`] | steps, film, adaptive rounds, developing, ray trees | `pack`, `layout`, `gpu`, `image`, `scene` |
+//! | [`render`] | steps, films that are written and merged, adaptive rounds, developing, ray trees | `pack`, `layout`, `gpu`, `image`, `scene` |
 //! | [`export`] | `Scene` → native scene file | `scene` |
 //! | [`image`](mod@image) | a finished picture in memory | |
 //! | [`output`] | `Image` → file, frames → video, complete or absent | `image` |

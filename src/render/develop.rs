@@ -162,7 +162,7 @@ pub struct Developer {
 
 /// What a film is developed with, and where.
 #[derive(Clone, Copy)]
-pub struct Bench<'a> {
+pub struct Context<'a> {
     pub gpu: &'a Gpu,
     pub layouts: &'a Layouts,
     pub frame_group: &'a wgpu::BindGroup,
@@ -172,7 +172,7 @@ pub struct Bench<'a> {
     pub staging: &'a wgpu::Buffer,
 }
 
-impl<'a> Bench<'a> {
+impl<'a> Context<'a> {
     fn new(gpu: &'a Gpu, layouts: &'a Layouts, buffers: &'a Buffers) -> Self {
         Self {
             gpu,
@@ -222,12 +222,12 @@ impl Renderer {
         tone: &PackedTone,
     ) -> Result<Vec<[f32; 4]>, GpuError> {
         let device = &mut self.device;
-        let bench = Bench::new(&device.gpu, &device.layouts, &device.buffers);
+        let context = Context::new(&device.gpu, &device.layouts, &device.buffers);
         let developer = match &mut device.developer {
             Some(developer) => developer,
-            empty => empty.insert(Developer::new(bench, self.windows.largest())?),
+            empty => empty.insert(Developer::new(context, self.windows.largest())?),
         };
-        let pixels = developer.develop(bench, window, rows, &self.settings, tone)?;
+        let pixels = developer.develop(context, window, rows, &self.settings, tone)?;
         // The film on the GPU is this window's now.
         device.loaded_window = None;
         Ok(pixels)
@@ -236,8 +236,8 @@ impl Renderer {
 
 impl Developer {
     /// For windows of at most so many pixels.
-    pub fn new(bench: Bench, most_pixels: usize) -> Result<Self, GpuError> {
-        let Bench { gpu, layouts, .. } = bench;
+    pub fn new(context: Context, most_pixels: usize) -> Result<Self, GpuError> {
+        let Context { gpu, layouts, .. } = context;
         let layout = gpu
             .device
             .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -268,13 +268,13 @@ impl Developer {
     /// One window's pixels, row by row, from the rows of its film.
     pub fn develop(
         &self,
-        bench: Bench,
+        context: Context,
         window: &Window,
         rows: &[[f32; 4]],
         settings: &RenderSettings,
         tone: &PackedTone,
     ) -> Result<Vec<[f32; 4]>, GpuError> {
-        let gpu = bench.gpu;
+        let gpu = context.gpu;
         let slice = Slice {
             first_tile: 0,
             end_tile: window.tile_count(),
@@ -282,16 +282,16 @@ impl Developer {
             end_sample: 0,
         };
         let packed = slice.packed(window, settings);
-        gpu.write(bench.slice, 0, bytes_of(&packed))?;
-        gpu.write(bench.film, 0, cast_slice(rows))?;
+        gpu.write(context.slice, 0, bytes_of(&packed))?;
+        gpu.write(context.film, 0, cast_slice(rows))?;
         gpu.write(&self.tone, 0, bytes_of(tone))?;
 
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(1, bench.frame_group, &[]);
-            pass.set_bind_group(2, bench.film_group, &[]);
+            pass.set_bind_group(1, context.frame_group, &[]);
+            pass.set_bind_group(2, context.film_group, &[]);
             pass.set_bind_group(3, &self.group, &[]);
             let (columns, rows) = slice.grid();
             pass.dispatch_workgroups(columns, rows, 1);
@@ -301,7 +301,7 @@ impl Developer {
             offset: 0,
             bytes: u64::from(window.width) * u64::from(window.height) * 16,
         };
-        gpu.submit_and_read(encoder, &[source], bench.staging, pod_collect_to_vec)
+        gpu.submit_and_read(encoder, &[source], context.staging, pod_collect_to_vec)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::{
     layout::{PackedFrame, PackedLight, PackedSlice},
     render::{
         Fetch, Levels, Quantity, RenderError, RenderSettings, Slicing, Tone,
-        develop::{Bench, Developer, counted, put},
+        develop::{Context, Developer, counted, put},
         layers::{self, LayerKind},
         layouts::{Layouts, group},
         levels,
@@ -55,7 +55,7 @@ impl Film {
         let frame = (PackedFrame::default(), PackedLight::default());
         let frame = gpu.upload("frame", &[bytes_of(&frame.0), bytes_of(&frame.1)].concat())?;
         let shared = [frame.as_entire_binding(), slice.as_entire_binding()];
-        let bench = Bench {
+        let context = Context {
             gpu,
             layouts: &layouts,
             frame_group: &group(gpu, &layouts.frame, &shared),
@@ -64,7 +64,7 @@ impl Film {
             film: &film,
             staging: &staging,
         };
-        let developer = Developer::new(bench, most)?;
+        let developer = Developer::new(context, most)?;
         let settings = RenderSettings {
             size: self.header.size,
             ..RenderSettings::default()
@@ -76,7 +76,7 @@ impl Film {
         for window in windows {
             let pixels = (0..window.pixel_count()).map(|index| window.pixel_at(index));
             let rows: Vec<_> = pixels.map(|pixel| pixel.map_or([0.0; 4], mean)).collect();
-            let pixels = developer.develop(bench, &window, &rows, &settings, &tone)?;
+            let pixels = developer.develop(context, &window, &rows, &settings, &tone)?;
             put(&mut image, &pixels, &window, [x, y]);
         }
         Ok(image)
