@@ -16,7 +16,7 @@ mod timeline;
 pub use target::Target;
 pub use timeline::Timeline;
 
-use super::cli::{AnimateArgs, SequenceFlags};
+use super::cli::{AnimateArgs, LogFlags, SequenceFlags};
 use super::clock::Clock;
 use super::error::AppError;
 use super::interrupt::Interrupt;
@@ -38,12 +38,35 @@ use studio::{Sink, Studio};
 use target::{Files, Video};
 
 pub fn run(arguments: &AnimateArgs, started: Instant) -> Result<(), AppError> {
-    let stem = arguments.scene.file_stem().unwrap_or("video".as_ref());
-    let target = Target::new(&arguments.output, Path::new(stem))?;
-    target.check_report_name(&arguments.log)?;
-    let name = arguments.scene.display().to_string();
-    let mut draft = Draft::new("animate", &arguments.log, name, &target.path, started);
-    let outcome = render(arguments, target, &mut draft);
+    let AnimateArgs {
+        scene, output, log, ..
+    } = arguments;
+    drafted(
+        ("animate", "video"),
+        scene,
+        output,
+        log,
+        started,
+        |target, draft| render(arguments, target, draft),
+    )
+}
+
+/// What a command does with the way out that `output` names, or the scene, or else `stem`; and with the draft
+/// of its report, which takes up what comes of it.
+pub fn drafted(
+    (command, stem): (&'static str, &str),
+    scene: &Path,
+    output: &SequenceFlags,
+    log: &LogFlags,
+    started: Instant,
+    render: impl FnOnce(Target, &mut Draft) -> Result<(), AppError>,
+) -> Result<(), AppError> {
+    let stem = scene.file_stem().unwrap_or(stem.as_ref());
+    let target = Target::new(output, Path::new(stem))?;
+    target.check_report_name(log)?;
+    let name = scene.display().to_string();
+    let mut draft = Draft::new(command, log, name, &target.path, started);
+    let outcome = render(target, &mut draft);
     draft.close(outcome)
 }
 

@@ -1,13 +1,12 @@
 //! `glimray turntable MODEL`: a turn round a model, as a video or as frames.
 
-use super::animate::{Sequence, Target, Timeline};
+use super::animate::{self, Sequence, Target, Timeline};
 use super::cli::{MotionFlags, Range, RangeFlags, TurnFlags, TurntableArgs};
 use super::clock::Clock;
 use super::error::AppError;
 use super::job::Job;
 use super::report::Draft;
 use crate::scene::{self, Background, Scene, Turntable};
-use std::path::Path;
 use std::time::Instant;
 
 /// Samples per pixel where the model does not ask for more than one.
@@ -17,13 +16,13 @@ const SAMPLES: u32 = 4;
 const MAX_FRAMES: f64 = 1e6;
 
 pub fn run(arguments: &TurntableArgs, started: Instant) -> Result<(), AppError> {
-    let stem = arguments.scene.file_stem().unwrap_or("turntable".as_ref());
-    let target = Target::new(&arguments.output, Path::new(stem))?;
-    target.check_report_name(&arguments.log)?;
-    let name = arguments.scene.display().to_string();
-    let mut draft = Draft::new("turntable", &arguments.log, name, &target.path, started);
-    let outcome = render(arguments, target, &mut draft);
-    draft.close(outcome)
+    let TurntableArgs {
+        scene, output, log, ..
+    } = arguments;
+    let name = ("turntable", "turntable");
+    animate::drafted(name, scene, output, log, started, |target, draft| {
+        render(arguments, target, draft)
+    })
 }
 
 fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {

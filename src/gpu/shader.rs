@@ -10,7 +10,8 @@ const MOST_PIPELINES: usize = 64;
 #[derive(Default)]
 pub(super) struct Pipelines(VecDeque<(Ingredients, wgpu::ComputePipeline)>);
 
-/// What a pipeline is made of. The layout is not among it: it follows from the kernel and its variant.
+/// What a pipeline is made of. The bind groups are not among it: they follow from the kernel and its
+/// variant.
 #[derive(PartialEq)]
 struct Ingredients {
     kernel: &'static str,
@@ -82,14 +83,14 @@ impl Kernel {
 }
 
 impl Gpu {
-    /// A kernel specialised by these overrides, compiled unless that was done before. A shader that the
+    /// A kernel for these bind groups specialised by these overrides, compiled unless that was done before. A shader that the
     /// driver refuses is our fault: the error carries the driver's words, and the linked text lies in the
     /// folder for temporary files.
     pub(crate) fn pipeline(
         &self,
         kernel: &Kernel,
         from_images: bool,
-        layout: &wgpu::PipelineLayout,
+        groups: &[Option<&wgpu::BindGroupLayout>],
         overrides: Overrides,
     ) -> Result<Compiled, GpuError> {
         let wanted = Ingredients {
@@ -105,7 +106,7 @@ impl Gpu {
             let is_new = false;
             return Ok(Compiled { pipeline, is_new });
         }
-        let pipeline = self.compile(kernel, from_images, layout, &wanted.overrides)?;
+        let pipeline = self.compile(kernel, from_images, groups, &wanted.overrides)?;
         if let Ok(mut kept) = self.pipelines.lock() {
             kept.0.truncate(MOST_PIPELINES - 1);
             kept.0.push_front((wanted, pipeline.clone()));
@@ -118,7 +119,7 @@ impl Gpu {
         &self,
         kernel: &Kernel,
         from_images: bool,
-        layout: &wgpu::PipelineLayout,
+        groups: &[Option<&wgpu::BindGroupLayout>],
         overrides: &[(&str, f64)],
     ) -> Result<wgpu::ComputePipeline, GpuError> {
         let name = kernel.name;
@@ -129,6 +130,13 @@ impl Gpu {
             .specialized(from_images, overrides)
             .map_err(refused)?;
         let made = self.scoped(name, || {
+            let layout = self
+                .device
+                .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                    label: Some(name),
+                    bind_group_layouts: groups,
+                    immediate_size: 0,
+                });
             let module = self
                 .device
                 .create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -138,7 +146,7 @@ impl Gpu {
             self.device
                 .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                     label: Some(name),
-                    layout: Some(layout),
+                    layout: Some(&layout),
                     module: &module,
                     entry_point: None,
                     compilation_options: Default::default(),

@@ -1,6 +1,6 @@
 //! Files in a ZIP archive.
 
-use super::resolver::{FileError, Resolver, goes_down, normalized};
+use super::resolver::{FileError, Resolver, goes_down, located, normalized};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io::{self, Cursor, Read};
@@ -47,19 +47,7 @@ impl Archive {
 
 impl Resolver for Archive {
     fn resolve(&self, base: &Path, name: &Path) -> Result<PathBuf, FileError> {
-        if !goes_down(name) {
-            return Err(FileError::Outside);
-        }
-        let path = normalized(&base.join(name));
-        if self.files.contains_key(&path) {
-            return Ok(path);
-        }
-        Err(
-            match self.files.keys().any(|file| file.starts_with(&path)) {
-                true => FileError::IsFolder,
-                false => FileError::Missing,
-            },
-        )
+        located(&self.files, base, name)
     }
 
     fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {

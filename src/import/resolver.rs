@@ -84,18 +84,7 @@ impl<N: AsRef<Path>, B: Into<Arc<[u8]>>> FromIterator<(N, B)> for Memory {
 
 impl Resolver for Memory {
     fn resolve(&self, base: &Path, name: &Path) -> Result<PathBuf, FileError> {
-        if !goes_down(name) {
-            return Err(FileError::Outside);
-        }
-        let path = normalized(&base.join(name));
-        if self.0.contains_key(&path) {
-            return Ok(path);
-        }
-        let is_folder = self.0.keys().any(|file| file.starts_with(&path));
-        Err(match is_folder {
-            true => FileError::IsFolder,
-            false => FileError::Missing,
-        })
+        located(&self.0, base, name)
     }
 
     fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
@@ -105,6 +94,26 @@ impl Resolver for Memory {
             _ => Ok(bytes.to_vec()),
         }
     }
+}
+
+/// The path of a file among those of a map, which have normalized paths; see [`Resolver::resolve`].
+pub(super) fn located<T>(
+    files: &BTreeMap<PathBuf, T>,
+    base: &Path,
+    name: &Path,
+) -> Result<PathBuf, FileError> {
+    if !goes_down(name) {
+        return Err(FileError::Outside);
+    }
+    let path = normalized(&base.join(name));
+    if files.contains_key(&path) {
+        return Ok(path);
+    }
+    let is_folder = files.keys().any(|file| file.starts_with(&path));
+    Err(match is_folder {
+        true => FileError::IsFolder,
+        false => FileError::Missing,
+    })
 }
 
 /// Whether the name stays in its folder or goes into folders of it.

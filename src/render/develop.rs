@@ -238,20 +238,14 @@ impl Developer {
     /// For windows of at most so many pixels.
     pub fn new(context: Context, most_pixels: usize) -> Result<Self, GpuError> {
         let Context { gpu, layouts, .. } = context;
-        let layout = gpu
-            .device
-            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("develop"),
-                bind_group_layouts: &[
-                    None,
-                    Some(&layouts.frame),
-                    Some(&layouts.film),
-                    Some(&layouts.develop),
-                ],
-                immediate_size: 0,
-            });
+        let groups = [
+            None,
+            Some(&layouts.frame),
+            Some(&layouts.film),
+            Some(&layouts.develop),
+        ];
         let Compiled { pipeline, .. } =
-            gpu.pipeline(&Kernel::DEVELOP, false, &layout, Vec::new())?;
+            gpu.pipeline(&Kernel::DEVELOP, false, &groups, Vec::new())?;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
         let developed = gpu.allocate("developed", most_pixels as u64 * 16, usage)?;
         let tone = gpu.upload("tone", bytes_of(&PackedTone::default()))?;

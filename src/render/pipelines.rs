@@ -12,12 +12,5 @@ pub fn tracing(
     overrides: Overrides,
 ) -> Result<Compiled, GpuError> {
     let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
-    let layout = gpu
-        .device
-        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(kernel.name),
-            bind_group_layouts: &groups,
-            immediate_size: 0,
-        });
-    gpu.pipeline(&kernel, fetch == Fetch::Image, &layout, overrides)
+    gpu.pipeline(&kernel, fetch == Fetch::Image, &groups, overrides)
 }

@@ -147,14 +147,9 @@ impl Renderer {
             Some(&layouts.film),
             Some(&layouts.show),
         ];
-        let layout = (gpu.device).create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("show"),
-            bind_group_layouts: &groups,
-            immediate_size: 0,
-        });
         Ok(Projector {
             pipeline: gpu
-                .pipeline(&Kernel::SHOW, false, &layout, Vec::new())?
+                .pipeline(&Kernel::SHOW, false, &groups, Vec::new())?
                 .pipeline,
             tone: gpu.upload("tone", bytes_of(&PackedTone::default()))?,
         })
