@@ -1,4 +1,4 @@
-//! The command line: one file per command, and what they share. Nothing below this module prints,
+//! The command line: one file per command, and the code they share. Nothing below this module prints,
 //! exits or reads arguments.
 
 mod advice;
@@ -44,15 +44,14 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Runs the command that `arguments` (the program's name first) ask for, prints what went wrong to
-/// the standard error, and returns the exit code. `started` is when the process began: reports
-/// count from there.
+/// Runs the command in `arguments`, whose first element is the program's name. Prints errors to standard
+/// error and returns the exit code. `started` is when the process began; reports measure from there.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, started: Instant) -> ExitCode {
     interrupt::survive_file_size_limit();
     memory::exit_as_too_big();
     let arguments = with_command(arguments);
     if wants_json(&arguments) {
-        console::speak_json();
+        console::use_json();
     }
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
@@ -64,7 +63,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, started: Instant) -> E
     }
 }
 
-/// A program that is started without words on a desktop opens its window.
+/// On a desktop, the program opens its window when it is started without arguments.
 fn with_command(arguments: impl IntoIterator<Item = OsString>) -> Vec<OsString> {
     let arguments: Vec<_> = arguments.into_iter().collect();
     #[cfg(feature = "viewer")]
@@ -74,7 +73,8 @@ fn with_command(arguments: impl IntoIterator<Item = OsString>) -> Vec<OsString> 
     arguments
 }
 
-/// Whether a program reads the standard error: mistakes in the other arguments are told in its way too.
+/// Whether `--progress json` is among the arguments. Checked before parsing, so that a command-line error is
+/// a JSON line too.
 fn wants_json(arguments: &[OsString]) -> bool {
     let is_pair = |pair: &[OsString]| pair[0] == "--progress" && pair[1] == "json";
     arguments.windows(2).any(is_pair) || arguments.iter().any(|word| word == "--progress=json")

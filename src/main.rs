@@ -1,4 +1,4 @@
-//! The `glimray` program: hands its arguments to [`glimray::app`].
+//! The `glimray` program: passes its arguments to [`glimray::app`].
 
 #![forbid(unsafe_code)]
 

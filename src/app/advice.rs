@@ -1,20 +1,20 @@
-//! The library's errors in the program's words: which flag or command changes what went wrong. The
-//! library knows neither.
+//! Adds the command line's remedies to the library's errors: which flag or command helps. The library
+//! itself knows no flags.
 
 use crate::gpu::GpuError;
 use crate::import::ImportError;
 use crate::render::{LongPath, RenderError};
 use std::path::PathBuf;
 
-/// The message of an error of the device, with what to do about it.
+/// The message of a device error, with its remedy.
 pub fn gpu(error: &GpuError) -> String {
     match error {
         GpuError::NoBackend { backend, why } => format!(
-            "no usable GPU (--backend {backend}): {why}. Leave out --backend, or choose another one."
+            "no usable GPU (--backend {backend}): {why}. Omit --backend or choose another one."
         ),
         GpuError::NoSuchAdapter { wanted, present } => format!(
-            "no such adapter (--adapter {wanted}): there are {present}. Name one of them, or part of \
-             its name."
+            "no such adapter (--adapter {wanted}): available are {present}. Give a number or part of a \
+             name."
         ),
         GpuError::NoDevice { .. } => format!("{error} Try another with --adapter."),
         GpuError::KeptFailing { .. } => {
@@ -36,7 +36,7 @@ pub fn gpu(error: &GpuError) -> String {
     }
 }
 
-/// The message of an error of a rendering, with what to do about it.
+/// The message of a rendering error, with its remedy.
 pub fn render(error: &RenderError) -> String {
     let cause = match error {
         RenderError::Gpu(error) => return gpu(error),
@@ -48,17 +48,17 @@ pub fn render(error: &RenderError) -> String {
         },
     };
     let remedy = match cause {
-        LongPath::BruteForce { .. } => "Leave out --no-bvh.",
+        LongPath::BruteForce { .. } => "Omit --no-bvh.",
         LongPath::ShadowRays { .. } => {
             "Use fewer lights, or fewer samples of area lights (--light-samples 0.1) and more --samples."
         }
         LongPath::Depth { .. } => "Lower --max-depth, or raise --min-throughput.",
-        LongPath::Crowded => "Remove duplicates of objects and triangles.",
+        LongPath::Crowded => "Remove duplicate objects and triangles.",
     };
     format!("{error} {remedy}")
 }
 
-/// The message of an error of a file, with what to do about it.
+/// The message of an import error, with its remedy.
 pub fn import(error: &ImportError) -> String {
     let mut fault = error.fault().clone();
     if fault.is_in_override() {

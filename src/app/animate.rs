@@ -1,8 +1,8 @@
-//! `glimray animate SCENE`: the frames of a moving scene → numbered files, or a video made of them.
-//! `turntable` shares everything below [`Sequence`].
+//! `glimray animate SCENE`: renders an animation to numbered frames or a video. `turntable` shares
+//! [`Sequence`] and everything below it.
 //!
-//! Frames are files first. A run renders those that are not there as it would make them, and then
-//! joins all of them; so a run that was stopped goes on, and a video can be made again.
+//! Frames are first written to files. A run renders the frames that are missing or out of date and then
+//! encodes all of them. So runs are resumable, and a video can be encoded again without rendering.
 
 mod fingerprint;
 mod journal;
@@ -34,14 +34,14 @@ use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 use std::time::Instant;
-use studio::{Sink, Studio};
+use studio::{FrameRenderer, Sink};
 use target::{Files, Video};
 
 pub fn run(arguments: &AnimateArgs, started: Instant) -> Result<(), AppError> {
     let AnimateArgs {
         scene, output, log, ..
     } = arguments;
-    drafted(
+    with_report(
         ("animate", "video"),
         scene,
         output,
@@ -51,9 +51,9 @@ pub fn run(arguments: &AnimateArgs, started: Instant) -> Result<(), AppError> {
     )
 }
 
-/// What a command does with the way out that `output` names, or the scene, or else `stem`; and with the draft
-/// of its report, which takes up what comes of it.
-pub fn drafted(
+/// Calls `render` with the target of an animation and the draft of its report, and completes the report with
+/// the outcome. The target is the one that `output` names; its default name is that of the scene, or `stem`.
+pub fn with_report(
     (command, stem): (&'static str, &str),
     scene: &Path,
     output: &SequenceFlags,
@@ -67,7 +67,7 @@ pub fn drafted(
     let name = scene.display().to_string();
     let mut draft = Draft::new(command, log, name, &target.path, started);
     let outcome = render(target, &mut draft);
-    draft.close(outcome)
+    draft.finish(outcome)
 }
 
 fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
@@ -91,7 +91,7 @@ fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<
     .run(draft)
 }
 
-/// Frames to be rendered and joined.
+/// An animation to render and encode.
 pub struct Sequence<'a> {
     pub job: Job<'a>,
     pub timeline: Timeline,
@@ -99,21 +99,22 @@ pub struct Sequence<'a> {
     pub target: Target,
 }
 
-/// What became of the frames.
+/// The result of rendering the frames.
 struct Frames {
     plan: Plan,
     rendered: usize,
-    /// Rendering, developing and writing them.
+    /// Time for rendering, developing and writing them, in seconds.
     seconds: f64,
     adapter: Option<crate::gpu::AdapterReport>,
     stats: Stats,
 }
 
 impl<'a> Sequence<'a> {
-    /// Renders the frames that are not done, writes the video if one is asked for, and the report.
+    /// Renders the frames that are not done, and writes the video and the report if they were requested.
     ///
     /// # Errors
-    /// Whatever goes wrong on the way. Finished frames stay, and a video is complete or absent.
+    /// Any error of rendering, encoding and writing. Finished frames are kept, and a video is complete or
+    /// absent.
     pub fn run(&self, draft: &mut Draft) -> Result<(), AppError> {
         let interrupt = Interrupt::install()?;
         self.job.warn_of_skipped();
@@ -121,8 +122,8 @@ impl<'a> Sequence<'a> {
         let size = job::picture_size(&settings)?;
         let video = self.video_options()?;
         let files = self.target.frames.as_ref();
-        draft.plan(self.job.image(&self.target.path, &settings, size));
-        self.target.spare(&draft.inputs)?;
+        draft.set_image(self.job.image(&self.target.path, &settings, size));
+        self.target.protect(&draft.inputs)?;
         self.job.check_report(draft)?;
         let gpu = if self.flags.encode_only {
             None
@@ -132,29 +133,29 @@ impl<'a> Sequence<'a> {
         let first = self.timeline.first;
         self.target
             .check(size, first, video.as_ref(), !self.flags.encode_only)?;
-        let mut studio = Studio::new(self, settings, gpu)?;
-        draft.seconds.bvh = studio.build_seconds();
+        let mut renderer = FrameRenderer::new(self, settings, gpu)?;
+        draft.seconds.bvh = renderer.build_seconds();
 
-        // From here on nothing may end at once: the folder is locked.
+        // The folder is locked from here on, so a signal must not end the program at once.
         let _deferred = interrupt.defer();
-        let lock = files.map(|files| Lock::take(files.pattern.folder()));
+        let lock = files.map(|files| Lock::acquire(files.pattern.folder()));
         let lock = lock.transpose()?;
         let mut journal = files.map(|files| Journal::open(&files.pattern));
-        let origin = |number| Ok(studio.origin(&studio.view(number)?));
+        let origin = |number| Ok(renderer.origin(&renderer.view(number)?));
         let plan = Plan::new(self, origin, journal.as_ref(), &interrupt)?;
-        plan.spare(self, &draft.inputs)?;
+        plan.protect(self, &draft.inputs)?;
         let sink = match (&self.target.video, &video) {
             (Some(Video::Stream), Some(options)) => {
                 Some(Sink::new(&self.target.path, size, options)?)
             }
             _ => None,
         };
-        let frames = studio.render(plan, journal.as_mut(), sink, &interrupt)?;
+        let frames = renderer.render(plan, journal.as_mut(), sink, &interrupt)?;
         if let Some(journal) = &mut journal {
             journal.close();
         }
-        draft.seconds.take(&frames.stats);
-        draft.seconds.write = studio.write_seconds();
+        draft.seconds.set_render_times(&frames.stats);
+        draft.seconds.write = renderer.write_seconds();
         let encode_seconds = match &video {
             Some(options) => self.encode(options, &interrupt)?,
             None => 0.0,
@@ -162,15 +163,15 @@ impl<'a> Sequence<'a> {
         if let (true, Some(files), Some(journal)) = (self.flags.discard_frames, files, journal) {
             journal.discard(&files.pattern, self.timeline.numbers());
             drop(lock);
-            // Stays if there is anything else in it.
+            // Fails if the folder has other files, and then it is kept.
             let _ = fs::remove_dir(files.pattern.folder());
         }
         draft.seconds.total = draft.started.elapsed().as_secs_f64();
         Job::warn_of_losses(&frames.stats);
-        self.tell(&frames, draft.seconds.total, encode_seconds);
+        self.print_summary(&frames, draft.seconds.total, encode_seconds);
         let animation = self.report(&frames, encode_seconds);
         self.job.report(
-            studio.settings(),
+            renderer.settings(),
             Outcome {
                 path: &self.target.path,
                 size,
@@ -195,7 +196,7 @@ impl<'a> Sequence<'a> {
         }))
     }
 
-    /// Joins the frames' files, and returns the seconds that it took.
+    /// Encodes the frame files to a video, and returns the time in seconds.
     fn encode(&self, options: &VideoOptions, interrupt: &Interrupt) -> Result<f64, AppError> {
         let (Some(Video::File(format)), Some(files)) = (&self.target.video, &self.target.frames)
         else {
@@ -221,36 +222,36 @@ impl<'a> Sequence<'a> {
             (Err(error), stopped) => Err(AppError::Stopped {
                 error: Box::new(stopped.unwrap_or(error.into())),
                 kept: format!(
-                    "All {count} frames are kept in {}; the same command goes on with the video.",
+                    "All {count} frames are kept in {}; the same command resumes with encoding.",
                     files.pattern.folder().display()
                 ),
             }),
         }
     }
 
-    /// Says what was made.
-    fn tell(&self, frames: &Frames, total: f64, encode_seconds: f64) {
+    /// Prints what was written.
+    fn print_summary(&self, frames: &Frames, total: f64, encode_seconds: f64) {
         let console = self.job.console();
         let count = self.timeline.count;
-        let pace = match frames.pace() {
-            Some(pace) => format!(", {} frames/s", short(pace)),
+        let rate = match frames.per_second() {
+            Some(rate) => format!(", {} frames/s", short(rate)),
             None => String::new(),
         };
         let rendered = frames.rendered;
         match (&self.target.video, &self.target.frames) {
             (None, Some(files)) if rendered == 0 => console.status(format_args!(
-                "all {count} frames of {} are done already ({total:.2} s)",
+                "all {count} frames of {} are already done ({total:.2} s)",
                 files.pattern.text().display()
             )),
             (None, Some(files)) => console.status(format_args!(
-                "wrote {rendered} of {count} frames to {} ({total:.2} s{pace})",
+                "wrote {rendered} of {count} frames to {} ({total:.2} s{rate})",
                 files.pattern.text().display()
             )),
             _ => {
                 let fps = self.timeline.video_fps();
                 console.status(format_args!(
-                    "wrote {}: {count} frames, {} s at {} frames/s ({rendered} rendered{pace}, encoded \
-                     in {encode_seconds:.2} s, {total:.2} s in all)",
+                    "wrote {}: {count} frames, {} s at {} frames/s ({rendered} rendered{rate}, encoded \
+                     in {encode_seconds:.2} s, {total:.2} s in total)",
                     self.target.path.display(),
                     short(count as f64 / fps),
                     short(fps)
@@ -279,32 +280,32 @@ impl<'a> Sequence<'a> {
                 .map(|files| files.pattern.text().display().to_string()),
             video: (self.target.video.is_some()).then(|| self.target.path.display().to_string()),
             encode_seconds,
-            frames_per_second: frames.pace(),
+            frames_per_second: frames.per_second(),
         }
     }
 }
 
 impl Frames {
-    /// Frames for each second.
-    fn pace(&self) -> Option<f64> {
+    /// Rendered frames per second; `None` if no frame was rendered.
+    fn per_second(&self) -> Option<f64> {
         (self.rendered > 0 && self.seconds > 0.0).then(|| self.rendered as f64 / self.seconds)
     }
 }
 
-/// Three digits after the point at most, and no more than needed.
+/// Rounds to three decimals.
 fn short(value: f64) -> f64 {
     (value * 1e3).round() / 1e3
 }
 
-/// How often a video shows a frame.
+/// The frame rate of a video.
 ///
 /// # Errors
-/// No video can have that many.
+/// No video format supports the rate.
 fn rate(fps: f64) -> Result<FrameRate, AppError> {
     FrameRate::from_f64(fps).ok_or_else(|| {
         AppError::Usage(format!(
-            "cannot write a video of {fps} frames per second (--fps, --step): no format has that \
-             rate. Choose another one."
+            "cannot write a video of {fps} frames per second (--fps, --step): no format supports \
+             that rate. Choose another one."
         ))
     })
 }

@@ -1,5 +1,5 @@
-//! `glimray bench`: built-in workloads, each rendered several times from the opening of the adapter
-//! on; the median counts.
+//! `glimray bench`: renders built-in workloads several times each, starting with opening the adapter, and
+//! reports medians.
 
 #[cfg(feature = "viewer")]
 mod viewer;
@@ -27,7 +27,7 @@ pub fn run(arguments: &BenchArgs) -> Result<(), AppError> {
     }
     let mut rows = Vec::new();
     for workload in workloads::all()? {
-        if !is_wanted(workload.name, arguments.only.as_deref()) {
+        if !is_selected(workload.name, arguments.only.as_deref()) {
             continue;
         }
         let row = measure(&workload, arguments)?;
@@ -43,10 +43,10 @@ pub fn run(arguments: &BenchArgs) -> Result<(), AppError> {
     Ok(())
 }
 
-/// What the window is like, if that is wanted and there is one; printed unless JSON is.
+/// Runs the viewer's benchmark if it is selected and compiled in. Prints the result unless `--json` is set.
 fn window(arguments: &BenchArgs) -> Result<Option<serde_json::Value>, AppError> {
     #[cfg(feature = "viewer")]
-    if is_wanted(viewer::NAME, arguments.only.as_deref()) {
+    if is_selected(viewer::NAME, arguments.only.as_deref()) {
         let row = viewer::measure(arguments)?;
         if !arguments.json {
             console::print(&viewer::text(&row))?;
@@ -57,37 +57,37 @@ fn window(arguments: &BenchArgs) -> Result<Option<serde_json::Value>, AppError> 
     Ok(None)
 }
 
-fn is_wanted(name: &str, only: Option<&str>) -> bool {
+fn is_selected(name: &str, only: Option<&str>) -> bool {
     only.is_none_or(|part| name.contains(part))
 }
 
-/// One workload's medians. Times are wall-clock seconds.
+/// Medians of one workload. Times are wall-clock seconds.
 #[derive(Debug, Serialize)]
 struct Row {
     name: &'static str,
     width: u32,
     height: u32,
     triangles: usize,
-    /// Building the tree.
+    /// Building the BVH.
     bvh_seconds: f64,
     /// Compiling shaders.
     compile_seconds: f64,
     trace_seconds: f64,
-    /// From the opening of the adapter to the developed picture.
+    /// From opening the adapter to the developed picture.
     total_seconds: f64,
-    /// Triangles per second of tree building, in millions.
+    /// Millions of triangles per second of BVH construction.
     bvh_mtriangles_per_second: f64,
-    /// Rays from the camera.
+    /// Camera rays.
     primary_rays: u64,
-    /// Rays to lights.
+    /// Shadow rays.
     shadow_rays: u64,
-    /// Rays from the camera per second of tracing, in millions.
+    /// Millions of camera rays per second of tracing.
     primary_mrays_per_second: f64,
-    /// All rays per second of tracing, in millions.
+    /// Millions of rays of all kinds per second of tracing.
     mrays_per_second: f64,
 }
 
-/// What one rendering took, in seconds.
+/// Times of one run, in seconds.
 struct Times {
     bvh: f64,
     compile: f64,
@@ -96,7 +96,7 @@ struct Times {
 }
 
 fn measure(workload: &Workload, arguments: &BenchArgs) -> Result<Row, AppError> {
-    // Counting costs time, so the rays are counted in a run of its own, which also warms caches.
+    // Counting rays costs time, so a separate run counts them; it also warms caches.
     let (_, rays) = render(workload, arguments, true)?;
     let times = (0..arguments.repeats)
         .map(|_| render(workload, arguments, false).map(|(times, _)| times))

@@ -1,4 +1,4 @@
-//! The command line as clap sees it. Names here are promises: add to them, rename nothing.
+//! The command line as clap declares it. Commands and flags are a stable interface: add to them, rename none.
 
 mod flags;
 mod motion;
@@ -21,14 +21,17 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use std::path::PathBuf;
 
-/// Ray traces scenes on the GPU, or on the CPU through Mesa's software driver.
+/// Ray trace scenes on the GPU, or on the CPU through Mesa's software driver.
 #[derive(Debug, Parser)]
 #[command(
     name = "glimray",
     version,
     max_term_width = 100,
     arg_required_else_help = true,
-    after_help = "Example: glimray demo -o glimray.png\n\n\
+    after_help = "Examples:\n  \
+            glimray demo -o glimray.png\n  \
+            glimray render scene.toml --samples 16 -o picture.png\n  \
+            glimray render --help\n\n\
         Exit codes: 0 done, 1 internal fault, 2 bad command line, 3 scene or input refused, \
         4 output cannot be written, 5 no usable GPU adapter, 6 the GPU kept failing, \
         7 too big for the memory or the adapter, 8 compare: different, merge: parts missing, 130 Ctrl-C, 143 SIGTERM."
@@ -40,96 +43,110 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Render a showcase scene that is part of the program: no file needed.
+    /// Render a built-in showcase scene; no file is needed.
     #[command(after_help = "Example: glimray demo --size 1280x720 --samples 16 -o demo.png")]
     Demo(Box<DemoArgs>),
-    /// Render one picture of a scene. What the scene file says is the default; a flag wins.
+    /// Render one picture of a scene.
+    ///
+    /// Settings in the scene file are the defaults; flags override them.
     #[command(after_help = "Examples:\n  \
             glimray render scene.toml -o picture.png\n  \
             glimray render model.obj --look-from 0,1,4 --look-at 0,0,0 --samples 16 -o model.exr\n  \
             glimray render scene.toml --frame 12 --shutter 0.5 -o frame.png\n  \
             glimray render scene.scene --quiet -o - --format png | display")]
     Render(Box<RenderArgs>),
-    /// Render the frames of a moving scene, as numbered files or as a video. A run that was stopped
-    /// goes on where it stopped, by the same command.
+    /// Render an animation to numbered frames or a video.
+    ///
+    /// Runs are resumable: after an interruption, the same command renders only the missing frames.
     #[command(after_help = "Examples:\n  \
             glimray animate scene.toml -o walk.mp4\n  \
             glimray animate scene.toml --frames 0..47 --shutter 180deg -o walk_%04d.png\n  \
             glimray animate scene.toml --loop --fps 12 -o walk.gif\n  \
             glimray animate scene.toml -o walk.mp4 --encode-only --quality 60\n  \
             glimray animate scene.toml --quiet -o - --format y4m | mpv -\n\n\
-            The frames of a video are kept as files (walk.mp4.frames/frame_0000.png …), so that it can \
-            be written again without rendering. A frame that is there is used if it was written \
-            completely, by the same scene, settings, adapter and version; NAME_journal.png.jsonl beside \
-            the frames knows. Delete a frame to have just that one rendered again.")]
+            The frames of a video are kept as files (walk.mp4.frames/frame_0000.png …), so the video can \
+            be encoded again without rendering. An existing frame is reused if it was written completely \
+            by the same scene, settings, adapter and version; the journal NAME_journal.png.jsonl beside the \
+            frames records this. To render a single frame again, delete its file.")]
     Animate(Box<AnimateArgs>),
-    /// Render a turn round a model, which repeats without a seam.
+    /// Render a seamless turntable animation of a model.
+    ///
+    /// The camera circles the model once. Runs are resumable, as with `animate`.
     #[command(after_help = "Examples:\n  \
             glimray turntable model.obj -o model.mp4\n  \
             glimray turntable model.obj --seconds 2 --axis z --elevation 30 -o model.gif\n\n\
-            The camera goes round the model at a distance from which all of it is seen. Frames are \
-            kept and runs go on as with `animate`.")]
+            The camera keeps the smallest distance at which all bounded geometry stays in frame for the \
+            whole turn.")]
     Turntable(Box<TurntableArgs>),
-    /// Open a window in which a scene is rendered while one looks at it.
+    /// Open a window whose picture refines progressively while you navigate and edit.
     #[cfg(feature = "viewer")]
     #[command(after_help = "Examples:\n  \
             glimray view\n  \
             glimray view scene.toml\n  \
             glimray view model.obj --look-from 0,1,4 --look-at 0,0,0 --samples 64\n  \
             glimray view scene.toml --frame 12 --shutter 180deg --size 640x360\n\n\
-            Without a scene the window shows the demo; files can be dropped on it. The scene is read \
-            again when its file changes. Without --size the picture is as large as there is room for. \
-            In the window H shows all bindings. On a desktop, glimray alone does the same as \
-            glimray view. Settings are kept in viewer.toml in the settings folder, or in the folder that \
+            Without a scene the window shows the demo scene; drop a file on it to open that file. The \
+            scene is reloaded when its file changes. Without --size the picture fills the available space. \
+            H shows the keyboard shortcuts. On a desktop, glimray without arguments opens the window too. \
+            Settings are stored in viewer.toml in the user's configuration folder, or in the folder that \
             GLIMRAY_SETTINGS names.")]
     View(Box<ViewArgs>),
-    /// Write a scene as a native one (.toml) with its meshes and pictures beside it: the same picture,
-    /// in words that can be edited.
+    /// Convert a scene to the native format (.toml).
+    ///
+    /// Meshes and pictures are written beside it. The native scene renders to the same picture and can be
+    /// edited as text.
     #[command(after_help = "Example: glimray convert model.obj -o model.toml\n\n\
-            It prints the names of all files. Files beside the scene are never replaced.")]
+            The names of all written files are printed. Existing files beside the scene are never replaced.")]
     Convert(ConvertArgs),
-    /// Put films of parts of a picture together: into one film, or into the picture. Parts are regions
-    /// (--crop) or ranges of samples (--sample-offset, --sample-count), in any order.
+    /// Merge films of parts of a picture into one film or into the picture.
+    ///
+    /// Parts are regions (--crop) or sample ranges (--sample-offset, --sample-count), in any order.
     #[command(after_help = "Examples:\n  \
             glimray render scene.toml --samples 128 --sample-count 64 -o a.film\n  \
             glimray render scene.toml --samples 128 --sample-offset 64 -o b.film\n  \
             glimray merge a.film b.film -o picture.png\n\n\
-            The picture is the one that one run renders, to the last bit. What is missing of it is listed, \
-            with exit code 8, and nothing is written then.")]
+            The merged picture is bit-identical to one rendered in a single run. If parts are missing, they \
+            are listed, nothing is written, and the exit code is 8.")]
     Merge(MergeArgs),
-    /// Say what is in a scene: counts, bounds, cameras, lights, materials, what was skipped.
+    /// Show the contents of a scene: counts, bounds, cameras, lights, materials.
+    ///
+    /// The list ends with everything that the importer skipped.
     #[command(after_help = "Example: glimray inspect scene.toml --json")]
     Inspect(InspectArgs),
-    /// Say where the light of one pixel comes from: every ray of it, as a tree, with what it met, how
-    /// the surface divides the light, and what it adds.
+    /// Show the ray tree of one pixel.
+    ///
+    /// For every ray it lists the hit, how the surface splits the light, the throughput and the
+    /// contribution.
     #[command(after_help = "Examples:\n  \
             glimray explain scene.toml --pixel 320,240\n  \
             glimray explain scene.toml --pixel 320,240 --sample 0 --json\n  \
             glimray explain scene.toml --size 96x54 --samples 1 --pixel 40,30 --obj rays.obj\n\n\
-            What the rays of a sample add is the sample's colour, and the weighted mean of all samples is \
-            the pixel, as linear light. Give the flags that the picture was rendered with.")]
+            The contributions of a sample's rays add up to the sample's colour. The weighted mean of all \
+            samples is the pixel, in linear light. Pass the flags that the picture was rendered with.")]
     Explain(Box<ExplainArgs>),
-    /// List the GPU adapters and their limits, test the one that would be used, and say what to
-    /// install when there is none.
+    /// List GPU adapters and their limits, and run a self-test.
+    ///
+    /// If there is no adapter, it names the driver packages to install.
     #[command(after_help = "Example: glimray doctor --backend vulkan")]
     Doctor(DoctorArgs),
-    /// Compare two pictures: RMSE, PSNR, FLIP, largest difference. Exit code 8 when they differ.
+    /// Compare two pictures: RMSE, PSNR, FLIP, largest difference.
+    ///
+    /// The exit code is 8 if more pixels differ than the flags allow.
     #[command(
         after_help = "Example: glimray compare a.png b.png --tolerance 3 --max-share 0.1 \
             --diff difference.png\n\n\
-            Values are compared as the files store them, 8-bit and 16-bit ones as parts of 1. One \
-            level is 1/255."
+            Values are compared as stored; 8-bit and 16-bit values are scaled to 0..1. One level is 1/255."
     )]
     Compare(CompareArgs),
-    /// Measure compile, trace and total time, and rays per second, on built-in scenes.
+    /// Benchmark built-in scenes: shader compilation, tracing, total time, rays per second.
     #[command(after_help = "Example: glimray bench --repeats 5 --json")]
     Bench(BenchArgs),
-    /// Print a completion script for a shell.
+    /// Print a shell completion script.
     #[command(
         after_help = "Example: glimray completions bash > ~/.local/share/bash-completion/completions/glimray"
     )]
     Completions(CompletionsArgs),
-    /// Print the JSON Schema of the native scene format (.toml), for editors.
+    /// Print the JSON Schema of the native scene format (.toml) for editors.
     #[command(after_help = "Example: glimray schema > glimray.schema.json")]
     Schema,
 }
@@ -148,7 +165,7 @@ pub struct DemoArgs {
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// The scene: .scene (course format), .toml (native), .nff or .obj
+    /// Scene file: .scene (course format), .toml (native), .nff or .obj
     pub scene: PathBuf,
     #[command(flatten)]
     pub output: OutputFlags,
@@ -172,7 +189,7 @@ pub struct RenderArgs {
 
 #[derive(Debug, Args)]
 pub struct AnimateArgs {
-    /// The scene: .scene (course format), .toml (native), .nff or .obj
+    /// Scene file: .scene (course format), .toml (native), .nff or .obj
     pub scene: PathBuf,
     #[command(flatten)]
     pub output: SequenceFlags,
@@ -194,7 +211,7 @@ pub struct AnimateArgs {
 
 #[derive(Debug, Args)]
 pub struct TurntableArgs {
-    /// The model: any scene that `render` reads
+    /// Model or scene file, in any format that `render` reads
     pub scene: PathBuf,
     #[command(flatten)]
     pub output: SequenceFlags,
@@ -213,7 +230,7 @@ pub struct TurntableArgs {
 #[cfg(feature = "viewer")]
 #[derive(Debug, Args)]
 pub struct ViewArgs {
-    /// The scene: any that `render` reads [default: the demo's]
+    /// Scene file, in any format that `render` reads [default: the demo scene]
     pub scene: Option<PathBuf>,
     #[command(flatten)]
     pub picture: PictureFlags,
@@ -233,12 +250,12 @@ pub struct ViewArgs {
 
 #[derive(Debug, Args)]
 pub struct ConvertArgs {
-    /// The scene: .scene (course format), .toml (native), .nff or .obj
+    /// Scene file: .scene (course format), .toml (native), .nff or .obj
     pub scene: PathBuf,
-    /// The native scene to write [default: the scene's name with .toml, in the current folder]
+    /// Output file [default: the scene's name with .toml in the current folder]
     #[arg(short, long, value_name = "OUT.toml")]
     pub output: Option<PathBuf>,
-    /// Refuse to replace a scene file that is there
+    /// Do not replace an existing scene file
     #[arg(long)]
     pub no_clobber: bool,
     #[command(flatten)]
@@ -260,7 +277,7 @@ pub struct MergeArgs {
 
 #[derive(Debug, Args)]
 pub struct InspectArgs {
-    /// The scene: .scene (course format), .toml (native), .nff or .obj
+    /// Scene file: .scene (course format), .toml (native), .nff or .obj
     pub scene: PathBuf,
     /// Print JSON instead of text
     #[arg(long)]
@@ -271,18 +288,18 @@ pub struct InspectArgs {
 
 #[derive(Debug, Args)]
 pub struct ExplainArgs {
-    /// The scene: .scene (course format), .toml (native), .nff or .obj
+    /// Scene file: .scene (course format), .toml (native), .nff or .obj
     pub scene: PathBuf,
-    /// The pixel's column and row in the whole picture, from the top-left, which is 0,0
+    /// Column and row of the pixel in the whole picture; 0,0 is the top left
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = values::pixel)]
     pub pixel: [u32; 2],
-    /// Only this sample of the pixel, the first being 0 [default: all]
+    /// Explain only this sample of the pixel, counted from 0 [default: all]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub sample: Option<u32>,
     /// Print JSON instead of text
     #[arg(long)]
     pub json: bool,
-    /// Write the rays as lines into this Wavefront OBJ file too, in the scene's units
+    /// Also write the rays as lines to this Wavefront OBJ file, in scene units
     #[arg(long, value_name = "FILE.obj")]
     pub obj: Option<PathBuf>,
     #[command(flatten)]
@@ -310,17 +327,17 @@ pub struct DoctorArgs {
 
 #[derive(Debug, Args)]
 pub struct CompareArgs {
-    /// The first picture: PNG, JPEG, OpenEXR or Radiance HDR
+    /// First picture: PNG, JPEG, OpenEXR or Radiance HDR
     pub a: PathBuf,
-    /// The second picture, of the same size
+    /// Second picture, of the same size
     pub b: PathBuf,
-    /// Let a pixel differ by this many levels of 255 in any channel before it counts
+    /// Largest difference in any channel, in levels of 1/255, at which two pixels count as equal
     #[arg(long, value_name = "LEVELS", default_value = "0", value_parser = values::tolerance)]
     pub tolerance: f64,
-    /// Let this share of the pixels differ by more than the tolerance, in percent
+    /// Percentage of pixels that may differ by more than the tolerance
     #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = values::percent)]
     pub max_share: f64,
-    /// Write a picture of the differences, scaled so that the largest is white
+    /// Write a difference image, scaled so that the largest difference is white
     #[arg(long, value_name = "OUT.png")]
     pub diff: Option<PathBuf>,
     /// Print JSON instead of text
@@ -330,10 +347,10 @@ pub struct CompareArgs {
 
 #[derive(Debug, Args)]
 pub struct BenchArgs {
-    /// How often to render each workload; the median counts
+    /// Number of runs per workload; the median is reported
     #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub repeats: u32,
-    /// Only the workloads whose name contains this
+    /// Run only workloads whose name contains this
     #[arg(long, value_name = "NAME")]
     pub only: Option<String>,
     /// Print JSON instead of text
@@ -345,6 +362,6 @@ pub struct BenchArgs {
 
 #[derive(Debug, Args)]
 pub struct CompletionsArgs {
-    /// The shell
+    /// Shell to complete for
     pub shell: Shell,
 }

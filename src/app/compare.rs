@@ -1,4 +1,4 @@
-//! `glimray compare A B`: how far two pictures are apart.
+//! `glimray compare A B`: measures the difference between two pictures.
 
 mod figures;
 mod read;
@@ -43,8 +43,7 @@ pub fn run(arguments: &CompareArgs) -> Result<(), AppError> {
     }
     if differ {
         return Err(AppError::Different(format!(
-            "the pictures differ ({names}): {} % of the pixels by more than {} of 255 levels, \
-             {} % may.",
+            "the pictures differ ({names}): {} % of pixels differ by more than {}/255; the limit is {} %.",
             rounded(figures.beyond_percent),
             arguments.tolerance,
             arguments.max_share
@@ -60,7 +59,7 @@ fn to_json(
     differ: bool,
 ) -> serde_json::Value {
     let [width, height] = a.size();
-    // JSON has no infinity: the PSNR of equal pictures is null.
+    // JSON has no infinity, so the PSNR of equal pictures is null.
     json!({
         "a": arguments.a.display().to_string(),
         "b": arguments.b.display().to_string(),
@@ -90,8 +89,8 @@ fn to_text(arguments: &CompareArgs, a: &Picture, figures: &Figures) -> String {
          RMSE      {rmse:.6} ({levels:.3} levels)\n\
          PSNR      {:.2} dB\n\
          FLIP      {flip}\n\
-         largest   {} levels, at {x},{y}\n\
-         beyond    {} % of the pixels by more than {} levels\n",
+         largest   {} levels at {x},{y}\n\
+         beyond    {} % of pixels differ by more than {} levels\n",
         figures.psnr_db(),
         rounded(figures.max_levels),
         rounded(figures.beyond_percent),
@@ -99,7 +98,7 @@ fn to_text(arguments: &CompareArgs, a: &Picture, figures: &Figures) -> String {
     )
 }
 
-/// The absolute difference of every channel, scaled so that the largest is 1.
+/// Writes the absolute difference of every channel, scaled so that the largest is 1.
 fn write_difference(
     path: &Path,
     a: &Picture,
@@ -123,7 +122,7 @@ fn write_difference(
     Ok(output::save(path, &difference)?)
 }
 
-/// Four digits after the point at most.
+/// Rounds to four decimals.
 fn rounded(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }

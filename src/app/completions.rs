@@ -1,4 +1,4 @@
-//! `glimray completions SHELL`: a completion script.
+//! `glimray completions SHELL`: prints a shell completion script.
 
 use super::cli::{Cli, CompletionsArgs};
 use super::console;

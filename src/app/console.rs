@@ -1,24 +1,25 @@
-//! What a person reads. A closed or full standard error is nobody's fault and loses nothing but
-//! words; the standard output carries results, so its errors count.
+//! Messages on standard error and results on standard output. Failures to write messages are ignored;
+//! failures to write results are errors.
 //!
-//! With `--progress json` a program reads the standard error: then each line is a JSON object.
+//! With `--progress json` every line on standard error is a JSON object.
 
 use super::cli::LogFlags;
 use super::error::AppError;
+use clap::builder::StyledStr;
 use serde_json::{Value, json};
 use std::fmt::Display;
 use std::io::{ErrorKind, IsTerminal, Write, stderr};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whether lines are JSON.
+/// Whether messages are JSON lines.
 static IS_JSON: AtomicBool = AtomicBool::new(false);
 
-/// What an error and a warning begin with on a terminal: bold red and bold yellow.
+/// Terminal styles of the labels `error:` (bold red) and `warning:` (bold yellow).
 const RED: &str = "\u{1b}[1;31m";
 const YELLOW: &str = "\u{1b}[1;33m";
 const PLAIN: &str = "\u{1b}[0m";
 
-/// Says as much about the work as the flags ask for, on the standard error.
+/// Prints status messages to standard error, as verbosely as the flags ask.
 #[derive(Clone, Copy, Debug)]
 pub struct Console {
     quiet: bool,
@@ -33,14 +34,14 @@ impl Console {
         }
     }
 
-    /// A line for everybody who did not ask for quiet.
+    /// Prints a line unless `--quiet` is set.
     pub fn status(self, text: impl Display) {
         if !self.quiet {
             note(text);
         }
     }
 
-    /// A line for those who asked for more.
+    /// Prints a line if `--verbose` is set.
     pub fn detail(self, text: impl Display) {
         if self.verbose {
             note(text);
@@ -48,74 +49,93 @@ impl Console {
     }
 }
 
-/// From now on every line is a JSON object.
-pub fn speak_json() {
+/// Makes every following message a JSON line.
+pub fn use_json() {
     IS_JSON.store(true, Ordering::Relaxed);
 }
 
-/// Whether every line is a JSON object.
-pub fn speaks_json() -> bool {
+/// Whether messages are JSON lines.
+pub fn is_json() -> bool {
     IS_JSON.load(Ordering::Relaxed)
 }
 
 fn note(text: impl Display) {
     let text = text.to_string();
-    match speaks_json() {
+    match is_json() {
         true => json_line(&json!({ "note": text })),
         false => line("", "", &text),
     }
 }
 
+/// Prints a warning.
 pub fn warning(text: impl Display) {
     let text = text.to_string();
-    match speaks_json() {
+    match is_json() {
         true => json_line(&json!({ "warning": text })),
         false => line("warning:", YELLOW, &format!(" {text}")),
     }
 }
 
-/// Says what ended the command, which returns `exit_code`.
+/// Prints the error that ended the command with `exit_code`.
 pub fn error(text: impl Display, exit_code: u8) {
     let text = text.to_string();
-    match speaks_json() {
+    match is_json() {
         true => json_line(&json!({ "error": text, "code": exit_code })),
         false => line("error:", RED, &format!(" {text}")),
     }
 }
 
-/// Writes a JSON object to the standard error, in one line.
+/// Writes a JSON object to standard error as one line.
 pub fn json_line(value: &Value) {
     let _ = writeln!(stderr().lock(), "{value}");
 }
 
-/// Writes `label` and `text` to the standard error and ends the line; a terminal gets the label in
-/// colour, and lines that end between two words. Whatever could break the line or steer the terminal is
-/// escaped: scene files choose some of the words.
+/// Writes `label` and `text` to standard error and ends the line. On a terminal the label is coloured and
+/// the text is wrapped between words. Line breaks and control characters are escaped, because parts of the
+/// text come from scene files.
 fn line(label: &str, color: &str, text: &str) {
-    let mut text = format!("{label}{}", escape(text, |c| c == '\t'));
-    let is_terminal = stderr().is_terminal();
-    if is_terminal && let Some((width, _)) = terminal_size::terminal_size_of(stderr()) {
-        text = wrap(&text, width.0.into());
-    }
-    if is_terminal && !label.is_empty() && shows_color() {
-        text.replace_range(..label.len(), &format!("{color}{label}{PLAIN}"));
-    }
-    let _ = writeln!(stderr().lock(), "{text}");
+    let text = escape(text, |c| c == '\t');
+    let text = match !label.is_empty() && shows_color() {
+        true => format!("{color}{label}{PLAIN}{text}"),
+        false => format!("{label}{text}"),
+    };
+    let _ = writeln!(stderr().lock(), "{}", fit(&text));
 }
 
-/// Whether the person wants colour, and the terminal is known to have it.
+/// Prints clap's message about a bad command line. On a terminal it is coloured, and wrapped between words.
+pub fn usage(message: &StyledStr) {
+    let text = match shows_color() {
+        true => message.ansi().to_string(),
+        false => message.to_string(),
+    };
+    let _ = writeln!(stderr().lock(), "{}", fit(text.trim_end()));
+}
+
+/// Whether standard error is a terminal with colour, and `NO_COLOR` does not forbid it.
 fn shows_color() -> bool {
     let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let is_dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
-    !is_set("NO_COLOR") && !is_dumb
+    stderr().is_terminal() && !is_set("NO_COLOR") && !is_dumb
 }
 
-/// `text` in lines of at most `width` characters; a longer word has a line for itself.
-fn wrap(text: &str, width: usize) -> String {
-    let mut wrapped = String::with_capacity(text.len() + 8);
+/// Wraps every line to the width of the terminal on standard error, if it is one.
+fn fit(text: &str) -> String {
+    match terminal_size::terminal_size_of(stderr()) {
+        Some((width, _)) => {
+            let lines = text.lines().map(|line| wrap(line, width.0.into()));
+            lines.collect::<Vec<_>>().join("\n")
+        }
+        None => text.to_owned(),
+    }
+}
+
+/// Breaks a line between words, so that no part has more than `width` columns. A longer word gets a line of
+/// its own.
+fn wrap(line: &str, width: usize) -> String {
+    let mut wrapped = String::with_capacity(line.len() + 8);
     let mut column = 0;
-    for (index, word) in text.split(' ').enumerate() {
-        let length = word.chars().count();
+    for (index, word) in line.split(' ').enumerate() {
+        let length = columns(word);
         if index > 0 && column + 1 + length > width {
             wrapped.push('\n');
             column = 0;
@@ -129,17 +149,28 @@ fn wrap(text: &str, width: usize) -> String {
     wrapped
 }
 
-/// Writes several lines to the standard error as they are, but for what could steer the terminal.
+/// Columns that a word takes on a terminal; styles (`ESC … m`) take none.
+fn columns(word: &str) -> usize {
+    let mut parts = word.split('\u{1b}');
+    let plain = parts.next().unwrap_or_default();
+    let styled = parts.map(|part| part.split_once('m').map_or("", |(_, text)| text));
+    std::iter::once(plain)
+        .chain(styled)
+        .map(|text| text.chars().count())
+        .sum()
+}
+
+/// Writes several lines to standard error. Control characters are escaped, except those to `keep`.
 pub fn block(text: &str, keep: impl Fn(char) -> bool) {
     let text = escape(text, |c| c == '\t' || c == '\n' || keep(c));
     let _ = writeln!(stderr().lock(), "{}", text.trim_end());
 }
 
-/// Writes a result to the standard output. A reader that has seen enough and closed its end
-/// (`glimray inspect … | head`) is content.
+/// Writes a result to standard output. A reader that closes the pipe early (`glimray inspect … | head`) is
+/// not an error.
 ///
 /// # Errors
-/// A standard output that takes no more for any other reason.
+/// Standard output fails for any other reason.
 pub fn print(text: &str) -> Result<(), AppError> {
     let text = escape(text, |c| c == '\t' || c == '\n');
     print_bytes(text.as_bytes())

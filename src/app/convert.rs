@@ -1,4 +1,4 @@
-//! `glimray convert SCENE`: a scene in any format → a native one.
+//! `glimray convert SCENE`: converts a scene in any format to the native one.
 
 use super::cli::ConvertArgs;
 use super::error::AppError;
@@ -11,7 +11,7 @@ pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
     let (scene, inputs) = scene_file::load(&arguments.scene, &arguments.reading);
     let scene = scene?;
     let stem = arguments.scene.file_stem().unwrap_or("scene".as_ref());
-    // What comes before the last dot is the name, whatever dots are in it.
+    // `with_extension` would cut a stem that contains a dot.
     let default = || {
         let mut name = stem.to_owned();
         name.push(".toml");
@@ -23,8 +23,8 @@ pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
         .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
     if !is_native {
         return Err(AppError::Usage(format!(
-            "cannot convert (-o {}): only native scenes are written, whose names end in .toml. \
-             Name such a file.",
+            "cannot convert (-o {}): the output is a native scene, whose name must end in .toml. \
+             Choose such a name.",
             path.display()
         )));
     }

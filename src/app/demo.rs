@@ -1,4 +1,4 @@
-//! `glimray demo`: the showcase scene, which is part of the program, → a picture.
+//! `glimray demo`: renders the built-in showcase scene.
 
 use super::cli::{DemoArgs, PartFlags, PictureFlags, SizeFlags};
 use super::destination::Destination;
@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use std::path::Path;
 use std::time::Instant;
 
-/// The showcase: what reports call it, and its text.
+/// The showcase scene: its name in reports, and its text.
 const NAME: &str = "showcase.toml";
 const TEXT: &str = include_str!(concat!(
     env!("CARGO_MANIFEST_DIR"),
@@ -24,7 +24,7 @@ pub fn run(arguments: &DemoArgs, started: Instant) -> Result<(), AppError> {
     let path = destination.path();
     let mut draft = Draft::new("demo", &arguments.log, NAME.into(), path, started);
     let outcome = render(arguments, &destination, &mut draft);
-    draft.close(outcome)
+    draft.finish(outcome)
 }
 
 fn render(
@@ -35,7 +35,7 @@ fn render(
     let loading = Instant::now();
     let scene = scene()?;
     draft.seconds.load = loading.elapsed().as_secs_f64();
-    draft.read(&scene);
+    draft.set_scene(&scene);
     let SizeFlags { size, samples } = arguments.size;
     let job = Job {
         scene,
@@ -50,7 +50,7 @@ fn render(
     picture::run(&job, destination, (0.0, 0.0), &part, draft)
 }
 
-/// The showcase scene, read anew.
+/// Parses the showcase scene.
 pub fn scene() -> Result<Scene, AppError> {
     Ok(import::parse(NAME, TEXT, &import::Options::default())?)
 }

@@ -1,4 +1,4 @@
-//! Where a picture goes: a file, a pipe, or the standard output.
+//! Where a picture is written: a file, a pipe or standard output.
 
 use super::cli::OutputFlags;
 use super::error::AppError;
@@ -8,15 +8,16 @@ use crate::render::Film;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
-/// The picture's way out.
+/// The output of a picture.
 pub struct Destination {
-    /// As on the command line; `-` is the standard output.
+    /// As given on the command line; `-` is standard output.
     path: PathBuf,
     options: SaveOptions,
 }
 
 impl Destination {
-    /// What the flags say; without a name, `stem` with the format's ending in the current folder.
+    /// The output that the flags name. The default is `stem` with the format's extension, in the current
+    /// folder.
     pub fn new(flags: &OutputFlags, stem: &Path) -> Self {
         let default = || stem.with_extension(flags.format.map_or("png", ending));
         Self {
@@ -38,13 +39,13 @@ impl Destination {
         self.path == Path::new("-")
     }
 
-    /// Whether the sums themselves are kept, to be merged and developed later.
+    /// Whether a film is written, to be merged or developed later.
     pub fn is_film(&self) -> bool {
         let ending = self.path.extension().unwrap_or_default();
         self.options.format.is_none() && ending.eq_ignore_ascii_case("film")
     }
 
-    /// Whether the file holds linear light rather than display values.
+    /// Whether the format stores linear radiance rather than display values.
     pub fn is_linear(&self) -> bool {
         let format = self.options.format;
         format
@@ -52,7 +53,7 @@ impl Destination {
             .is_some_and(Format::is_linear)
     }
 
-    /// Refuses, before any rendering, what would fail after it.
+    /// Finds errors of writing the output before rendering starts.
     pub fn check(&self, width: u32, height: u32) -> Result<(), AppError> {
         if self.is_film() {
             return Ok(output::check_file(&self.path, self.options.clobber)?);
@@ -80,18 +81,18 @@ impl Destination {
     }
 }
 
-/// Refuses to write `what` to a standard output that shows no pictures, or that is not there.
+/// Refuses to write `what` to standard output if that is a terminal or closed.
 pub fn check_stdout(what: &str) -> Result<(), AppError> {
     if std::io::stdout().is_terminal() {
         return Err(AppError::Usage(format!(
-            "cannot show {what} (standard output): it is a terminal. \
+            "cannot write {what} (standard output): it is a terminal. \
              Redirect it to a file or a program."
         )));
     }
     check_open(what)
 }
 
-/// Refuses to write `what` to a standard output that is not there.
+/// Refuses to write `what` to standard output if that is closed.
 pub fn check_open(what: &str) -> Result<(), AppError> {
     match is_stdout_closed() {
         false => Ok(()),
@@ -101,15 +102,15 @@ pub fn check_open(what: &str) -> Result<(), AppError> {
     }
 }
 
-/// Whether the program was started without a standard output. Rust opens `/dev/null` in its place before
-/// `main`, for reading and writing; a shell that redirects to it opens it for writing only.
+/// Whether the program was started with standard output closed. Rust then opens `/dev/null` in its place
+/// before `main`, for reading and writing; a shell that redirects to `/dev/null` opens it for writing only.
 fn is_stdout_closed() -> bool {
     let is_null =
         std::fs::read_link("/proc/self/fd/1").is_ok_and(|to| to == Path::new("/dev/null"));
     let info = is_null.then(|| std::fs::read_to_string("/proc/self/fdinfo/1").ok());
     let info = info.flatten().unwrap_or_default();
     let flags = info.lines().find_map(|line| line.strip_prefix("flags:"));
-    // The last octal digit has the access mode in its lower two bits: 2 is for both.
+    // The lower two bits of the last octal digit are the access mode; 2 is read and write.
     flags.is_some_and(|flags| flags.trim().ends_with(['2', '6']))
 }
 

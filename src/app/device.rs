@@ -1,4 +1,4 @@
-//! Adapters: handing one a scene, and adapters in words.
+//! Creates renderers, and describes adapters for people.
 
 use super::error::AppError;
 use crate::gpu::{AdapterReport, Backend, Gpu};
@@ -23,15 +23,15 @@ pub fn renderer(
     Ok((renderer, build_seconds))
 }
 
-/// The adapter for a status line: `NAME [BACKEND, KIND]`.
+/// Describes the adapter in a status line: `NAME [BACKEND, KIND]`.
 pub fn describe(adapter: &AdapterReport) -> String {
     format!("{} [{}, {}]", adapter.name, adapter.backend, kind(adapter))
 }
 
-/// What kind of device it is, with a warning where speed is not to be had.
+/// The kind of device, with a warning if it is slow.
 pub fn kind(adapter: &AdapterReport) -> &str {
     match adapter.device_type.as_str() {
-        "cpu" => "CPU: expect it to be slow",
+        "cpu" => "CPU, slow",
         "discrete_gpu" => "discrete GPU",
         "integrated_gpu" => "integrated GPU",
         "virtual_gpu" => "virtual GPU",
@@ -39,13 +39,13 @@ pub fn kind(adapter: &AdapterReport) -> &str {
     }
 }
 
-/// How to get a first adapter on this system: with this backend, if it is to be that one.
+/// How to get an adapter on this system, or one of `backend` if that was requested.
 pub fn advice(backend: Option<Backend>) -> &'static str {
     if backend.is_some_and(|backend| backend.absence().is_some()) {
-        return "Leave out --backend, or choose another one.";
+        return "Omit --backend or choose another one.";
     }
     if backend == Some(Backend::Gl) && cfg!(target_os = "linux") {
-        return "Install Mesa's OpenGL driver, or leave out --backend:\n  \
+        return "Install Mesa's OpenGL driver, or omit --backend:\n  \
             Debian, Ubuntu  sudo apt-get install libegl1 libgl1-mesa-dri";
     }
     if cfg!(target_os = "linux") {
@@ -55,10 +55,9 @@ pub fn advice(backend: Option<Backend>) -> &'static str {
          Arch            sudo pacman -S vulkan-swrast vulkan-icd-loader\n  \
          Alpine          sudo apk add mesa-vulkan-swrast vulkan-loader"
     } else if cfg!(target_os = "windows") {
-        "Install the driver of your GPU from its maker; Windows' own software adapter (WARP) comes \
-         with DirectX 12."
+        "Install the GPU vendor's driver. Windows' software adapter (WARP) comes with DirectX 12."
     } else if cfg!(target_os = "macos") {
-        "Metal comes with macOS: update the system, or leave a virtual machine without it."
+        "Metal is part of macOS: update the system, or use a machine with Metal support."
     } else {
         "Install a Vulkan driver, or Mesa's lavapipe for software rendering."
     }

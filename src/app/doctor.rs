@@ -1,4 +1,4 @@
-//! `glimray doctor`: the adapters, the one that would be used, and whether it computes right.
+//! `glimray doctor`: lists the adapters and tests the one that would be used.
 
 mod self_test;
 
@@ -45,8 +45,8 @@ fn verdict(chosen: Option<&AdapterReport>, outcome: Outcome) -> Result<(), AppEr
     }
     let Outcome { found, expected } = outcome;
     Err(AppError::SelfTest(format!(
-        "the adapter computes wrong results ({}): the test sphere is {found:.4}, not {expected:.4}. \
-         Choose another one with --adapter or update the driver.",
+        "the adapter computes wrong results ({}): the radiance of the test pixel is {found:.4}, not \
+         {expected:.4}. Choose another adapter with --adapter, or update the driver.",
         chosen.map_or_else(String::new, device::describe)
     )))
 }
@@ -93,7 +93,7 @@ fn write_text(
         writeln!(out, "     driver {}", adapter.driver)?;
         writeln!(
             out,
-            "     buffers to {}, bindings to {}, textures to {}², {} storage buffers a stage",
+            "     limits: buffers {}, bindings {}, textures {}², {} storage buffers per stage",
             size(adapter.max_buffer_bytes),
             size(adapter.max_binding_bytes),
             adapter.max_texture_2d,
@@ -106,11 +106,11 @@ fn write_text(
     match outcome {
         Some(outcome) if outcome.is_right() => writeln!(
             out,
-            "self-test  passed: the test sphere is {:.4}, as computed by hand",
+            "self-test  passed: the radiance of the test pixel is {:.4}, as expected",
             outcome.found
         )?,
         Some(_) => writeln!(out, "self-test  failed")?,
-        None => writeln!(out, "self-test  not done")?,
+        None => writeln!(out, "self-test  not run")?,
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! One error for everything that can end a command, with its words and its exit code.
+//! The error type of all commands, with its messages and exit codes.
 
 use super::advice;
 use crate::gpu::GpuError;
@@ -9,30 +9,30 @@ use crate::render::{FilmError, RenderError};
 use std::io;
 use std::path::PathBuf;
 
-/// What ended a command. The text is `WHAT (WHERE): WHY. WHAT TO DO.`
+/// The error that ended a command. Its message has the form `WHAT (WHERE): WHY. WHAT TO DO.`
 #[derive(Debug, thiserror::Error)]
 pub enum AppError {
-    /// The flags make no sense together, or not for this scene.
+    /// The flags contradict each other or do not fit the scene.
     #[error("{0}")]
     Usage(String),
     /// The scene file was refused.
     #[error("{}", advice::import(.0))]
     Import(#[from] ImportError),
-    /// Some other input was refused.
+    /// Another input was refused.
     #[error("{0}")]
     Refused(String),
-    /// A film was refused, or does not go with others.
+    /// A film was refused, or cannot be merged with the others.
     #[error("cannot use the film ({}): {error}", path.display())]
     Film {
-        /// Its file.
+        /// The film's file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         error: FilmError,
     },
     /// `merge` found parts of the picture missing.
     #[error("{0}")]
     Missing(String),
-    /// The scene cannot be laid out for a GPU.
+    /// The scene cannot be packed for the GPU.
     #[error(transparent)]
     Pack(#[from] PackError),
     /// No adapter could be used.
@@ -44,45 +44,45 @@ pub enum AppError {
     /// The adapter computes wrong results.
     #[error("{0}")]
     SelfTest(String),
-    /// There is no display for a window.
+    /// No display is available for the window.
     #[error("{0}")]
     NoDisplay(String),
     /// The picture or report could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The standard output takes no more.
-    #[error("cannot write the result (standard output): {}. Send it elsewhere.", output::reason(.0))]
+    /// Standard output cannot be written.
+    #[error("cannot write the result (standard output): {}. Redirect it elsewhere.", output::reason(.0))]
     Stdout(#[source] io::Error),
-    /// Files of ours or of others are in the way.
+    /// An output file must not or cannot be written.
     #[error("{0}")]
     Unwritable(String),
-    /// It would take more memory than the process may have.
+    /// More memory is needed than the process may use.
     #[error("{0}")]
     TooBig(String),
-    /// Work of many steps ended early.
-    #[error("{}{kept}", lead(error))]
+    /// A run of many frames ended early.
+    #[error("{}{kept}", prefix(error))]
     Stopped {
-        /// What ended it.
+        /// The error that ended it.
         error: Box<AppError>,
-        /// What is kept and how to go on, as a sentence.
+        /// Which frames are kept and how to resume, as a sentence.
         kept: String,
     },
     /// `compare` found the pictures different.
     #[error("{0}")]
     Different(String),
-    /// A signal asked for the end.
+    /// A signal requested termination.
     #[error("interrupted: no picture was written.")]
     Interrupted {
-        /// 128 and the signal's number.
+        /// 128 plus the signal's number.
         exit_code: u8,
     },
-    /// Our bug.
+    /// A bug in glimray.
     #[error("internal fault ({0}). Please report it.")]
     Internal(String),
 }
 
 impl AppError {
-    /// As the contract with scripts has it.
+    /// The exit code, a stable interface for scripts.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Internal(_) => 1,
@@ -117,8 +117,8 @@ fn gpu_exit_code(error: &GpuError) -> u8 {
     }
 }
 
-/// What stands before the sentence of what is kept.
-fn lead(error: &AppError) -> String {
+/// The text before the sentence about kept frames.
+fn prefix(error: &AppError) -> String {
     match error {
         AppError::Interrupted { .. } => "interrupted: ".into(),
         other => format!("{other} "),

@@ -1,4 +1,4 @@
-//! How the program ends: the error is printed, and the exit code says which kind it was.
+//! Ends the program: prints the error and returns its exit code.
 
 use super::error::AppError;
 use super::{console, memory, snippet};
@@ -11,7 +11,7 @@ use std::process::ExitCode;
 pub fn failure(error: &AppError) -> ExitCode {
     console::error(error, error.exit_code());
     if let AppError::Import(error) = error
-        && !console::speaks_json()
+        && !console::is_json()
         && io::stderr().is_terminal()
         && let Some(snippet) = snippet::of(error.fault())
     {
@@ -20,32 +20,35 @@ pub fn failure(error: &AppError) -> ExitCode {
     ExitCode::from(error.exit_code())
 }
 
-/// Prints what clap has to say: help and version to the standard output, mistakes to the standard
-/// error; and returns the exit code.
+/// Prints clap's message and returns the exit code. Help and version go to standard output, errors to
+/// standard error.
 pub fn command_line(error: &clap::Error) -> ExitCode {
-    if error.use_stderr() && console::speaks_json() {
-        console::error(mistake(&error.to_string()), 2);
+    if error.use_stderr() {
+        match console::is_json() {
+            true => console::error(one_line(&error.to_string()), 2),
+            false => console::usage(&error.render()),
+        }
         return ExitCode::from(2);
     }
-    let printed = error.print();
-    match (error.use_stderr(), printed) {
-        (true, _) => ExitCode::from(2),
-        (false, Err(error)) if error.kind() != io::ErrorKind::BrokenPipe => {
+    match error.print() {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             failure(&AppError::Stdout(error))
         }
-        (false, _) => ExitCode::SUCCESS,
+        _ => ExitCode::SUCCESS,
     }
 }
 
-/// What clap has to say of a mistake, in one line and without the usage.
-fn mistake(text: &str) -> String {
-    let text = text.split("\n\nUsage:").next().unwrap_or_default();
+/// Clap's error message in one line, without the usage and the pointer to the help.
+fn one_line(text: &str) -> String {
+    let ends = ["\n\nUsage:", "\n\nFor more information"].map(|end| text.find(end));
+    let end = ends.into_iter().flatten().min().unwrap_or(text.len());
+    let text = &text[..end];
     let text = text.strip_prefix("error: ").unwrap_or(text);
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Makes a panic, which is always our bug, end the program with one line and exit code 1. While
-/// [`gpu::is_guarded`] says so the panic is one of wgpu's, and `gpu` deals with it.
+/// Makes a panic, which is always a bug, end the program with a one-line message and exit code 1. While
+/// [`gpu::is_guarded`] is true, the panic comes from wgpu and `gpu` handles it.
 pub fn install_panic_hook() {
     std::panic::set_hook(Box::new(|panic| {
         if gpu::is_guarded() {
@@ -60,8 +63,8 @@ pub fn install_panic_hook() {
         let (message, exit_code) = match memory::is_short() {
             true => (
                 format!(
-                    "out of memory ({what}): the limit (`ulimit -v`) leaves too little. Raise the \
-                     limit, or use a smaller scene or picture."
+                    "out of memory ({what}): the memory limit (`ulimit -v`) is too low. Raise it, or use \
+                     a smaller scene or picture."
                 ),
                 7,
             ),

@@ -1,4 +1,4 @@
-//! `glimray explain SCENE --pixel X,Y`: every ray of a pixel, as a tree, as JSON or as lines.
+//! `glimray explain SCENE --pixel X,Y`: the ray tree of a pixel as text, JSON or OBJ lines.
 
 pub mod lines;
 pub mod text;
@@ -55,12 +55,12 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     console::print(&text)
 }
 
-/// Refuses a pixel that is not in the picture, and pictures whose pixels have no tree.
+/// Refuses a pixel outside the picture, and integrators without a ray tree.
 fn check(pixel: [u32; 2], settings: &RenderSettings) -> Result<(), AppError> {
     if settings.integrator != Integrator::Whitted {
         let word = INTEGRATORS.word(&settings.integrator);
         return Err(AppError::Usage(format!(
-            "cannot explain (--integrator {word}): only whitted sends rays on. Leave it out."
+            "cannot explain (--integrator {word}): only whitted has a ray tree. Omit --integrator."
         )));
     }
     job::picture_size(settings)?;
@@ -71,18 +71,18 @@ fn check(pixel: [u32; 2], settings: &RenderSettings) -> Result<(), AppError> {
     }
     let what = match settings.crop {
         None => "the picture",
-        Some(_) => "what --crop leaves of it",
+        Some(_) => "the --crop region",
     };
     Err(AppError::Usage(format!(
         "no such pixel (--pixel {x},{y}): {what} has columns {x0} to {} and rows {y0} to {}. \
-         Choose one of them.",
+         Choose a pixel inside.",
         x1 - 1,
         y1 - 1,
     )))
 }
 
-/// The samples to explain. How many adaptive sampling takes depends on the whole picture, which is
-/// rendered for that.
+/// The samples to explain. The number that adaptive sampling takes depends on the whole picture, which is
+/// therefore rendered first.
 fn samples(
     arguments: &ExplainArgs,
     settings: &RenderSettings,
@@ -97,16 +97,16 @@ fn samples(
         Some(sample) if sample < count => Ok(sample..sample + 1),
         Some(sample) => Err(AppError::Usage(format!(
             "no such sample (--sample {sample}): the pixel has {count}, from 0 to {}. \
-             Choose one of them, or set --samples.",
+             Choose one of these, or raise --samples.",
             count.saturating_sub(1)
         ))),
     }
 }
 
-/// The tree as it is, with the size of the picture: what `--json` prints.
+/// The output of `--json`: the tree with the picture's size and the weighted sum.
 ///
 /// # Errors
-/// None that is known: the tree is made of numbers and texts.
+/// The tree cannot be serialized, which would be a bug.
 pub fn json(tree: &RayTree, (width, height): (u32, u32)) -> Result<String, AppError> {
     let mut value = serde_json::to_value(tree)
         .map_err(|error| AppError::Internal(format!("explain: {error}")))?;

@@ -1,22 +1,22 @@
-//! The files that a run reads. It never writes any of them, whatever name it is given for them.
+//! The files that a run reads. It never overwrites any of them, whatever path leads there.
 
 use super::error::AppError;
 use std::path::{Path, PathBuf};
 
-/// Files that were read, or looked for and not found.
+/// Files that were read, or that were looked for and not found.
 #[derive(Clone, Debug, Default)]
 pub struct Inputs(Vec<FileId>);
 
-/// Which file a path leads to.
+/// Identifies the file that a path leads to.
 #[derive(Clone, Debug)]
 struct FileId {
-    /// `None` where there is no file.
+    /// `None` if the file does not exist.
     node: Option<Node>,
-    /// The path with links in its folder resolved; `None` where there is no folder.
+    /// The path with links in its folder resolved; `None` if the folder does not exist.
     place: Option<PathBuf>,
 }
 
-/// The device and the number of a file on it, which all of its hard links share.
+/// Device and inode number, which all hard links of a file share.
 #[cfg(unix)]
 type Node = (u64, u64);
 /// The path with all links resolved.
@@ -24,19 +24,19 @@ type Node = (u64, u64);
 type Node = PathBuf;
 
 impl Inputs {
-    /// These files as they are now.
+    /// Identifies these files as they are now.
     pub fn new(paths: impl IntoIterator<Item = impl AsRef<Path>>) -> Self {
         let ids = paths.into_iter().map(|path| FileId::of(path.as_ref()));
         Self(ids.collect())
     }
 
-    /// Whether `path` leads to one of them, by symbolic or hard links too.
+    /// Whether `path` leads to one of them, also through symbolic or hard links.
     pub fn contain(&self, path: &Path) -> bool {
         let id = FileId::of(path);
         self.0.iter().any(|known| known.is_same(&id))
     }
 
-    /// Refuses to write `what` to `path` if that is one of them. `flag` is where to name another path.
+    /// Refuses to write `what` to `path` if the path leads to one of them. `flag` names another path.
     ///
     /// # Errors
     /// [`AppError::Unwritable`].
@@ -87,7 +87,7 @@ fn place(path: &Path) -> Option<PathBuf> {
     Some(folder.canonicalize().ok()?.join(path.file_name()?))
 }
 
-/// Whether two paths lead to the same file, which need not exist.
+/// Whether two paths lead to the same file, whether it exists or not.
 pub fn is_same(a: &Path, b: &Path) -> bool {
     a == b || FileId::of(a).is_same(&FileId::of(b))
 }

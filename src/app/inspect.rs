@@ -1,4 +1,4 @@
-//! `glimray inspect SCENE`: what is in a scene, as the renderer will see it.
+//! `glimray inspect SCENE`: the contents of a scene as the renderer sees it.
 
 mod motion;
 mod textures;
@@ -14,7 +14,7 @@ use glam::{DVec3, Vec3};
 use serde_json::{Value, json};
 use std::fmt::{self, Write};
 
-/// Longer lists are cut in the text; JSON has everything.
+/// Largest number of list items in the text output; JSON lists all.
 const MAX_LISTED: usize = 20;
 
 pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
@@ -29,7 +29,7 @@ pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
     console::print(&text)
 }
 
-/// The report's `scene` with what is in it: lengths in scene units, angles in degrees.
+/// The `scene` part of the report, with details: lengths in scene units, angles in degrees.
 fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
     let mut value = serde_json::to_value(SceneReport::new(path, scene))
         .map_err(|error| AppError::Internal(format!("inspect: {error}")))?;
@@ -157,7 +157,7 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
     let counts = SceneReport::new(path, scene);
     writeln!(out, "{path}")?;
     writeln!(out, "spheres    {}", counts.spheres)?;
-    writeln!(out, "shapes     {} others", counts.shapes)?;
+    writeln!(out, "shapes     {} other", counts.shapes)?;
     let [meshes, instances] = [scene.meshes.len(), counts.instances];
     let triangles = counts.triangles;
     writeln!(
@@ -166,7 +166,7 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
     )?;
     match scene.bounds() {
         Some((min, max)) => writeln!(out, "bounds     {} to {}", point(min), point(max))?,
-        None => writeln!(out, "bounds     nothing bounded")?,
+        None => writeln!(out, "bounds     none")?,
     }
     let output = &scene.output;
     writeln!(
@@ -240,27 +240,27 @@ fn background(background: &Background) -> String {
     match background {
         Background::Color(value) => color(*value),
         Background::Gradient { bottom, top } => {
-            format!("from {} below to {} above", color(*bottom), color(*top))
+            format!(
+                "gradient from {} (bottom) to {} (top)",
+                color(*bottom),
+                color(*top)
+            )
         }
-        Background::Picture { picture, .. } => format!("picture number {picture}"),
+        Background::Picture { picture, .. } => format!("picture {picture}"),
     }
 }
 
 fn camera_text(out: &mut String, camera: &Camera) -> fmt::Result {
     let (from, at) = (point(camera.look_from), point(camera.look_at));
-    let high = match camera.orthographic_height {
-        Some(height) => format!("orthographic, {}", number(height)),
-        None => format!("{:.2}°", camera.fov_y.to_degrees()),
+    let view = match camera.orthographic_height {
+        Some(height) => format!("orthographic, view height {}", number(height)),
+        None => format!("vertical field of view {:.2}°", camera.fov_y.to_degrees()),
     };
-    write!(
-        out,
-        "{} from {from} to {at}, {high} high",
-        quoted(&camera.name)
-    )?;
+    write!(out, "{} from {from} to {at}, {view}", quoted(&camera.name))?;
     match camera.lens {
         Some(lens) => write!(
             out,
-            ", lens of radius {} sharp at {}",
+            ", lens radius {}, focus distance {}",
             number(lens.radius),
             number(lens.focus_distance)
         ),
@@ -280,7 +280,7 @@ fn light_text(out: &mut String, light: &Light) -> fmt::Result {
             outer,
         } => write!(
             out,
-            " at {} towards {}, {:.1}° to {:.1}° off axis",
+            " at {} towards {}, cone angles {:.1}° to {:.1}°",
             point(position),
             point(direction),
             inner.to_degrees(),
@@ -320,14 +320,14 @@ fn material_text(out: &mut String, material: &Material) -> fmt::Result {
         color(material.specular),
         material.shininess
     )?;
-    for (what, share) in [
+    for (what, value) in [
         ("reflect", material.reflect),
         ("transmit", material.transmit),
         ("absorption", material.absorption),
         ("emission", material.emission),
     ] {
-        if share != Vec3::ZERO {
-            write!(out, ", {what} {}", color(share))?;
+        if value != Vec3::ZERO {
+            write!(out, ", {what} {}", color(value))?;
         }
     }
     if material.transmit != Vec3::ZERO {
@@ -356,9 +356,9 @@ fn attenuation(light: &Light) -> &'static str {
 
 fn quoted(name: &str) -> String {
     if name.is_empty() {
-        "(no name)".into()
+        "(unnamed)".into()
     } else {
-        // A name of many lines must not pass for several lines of this list.
+        // Line breaks are replaced, so that a name cannot imitate lines of this list.
         format!("`{}`", name.replace(char::is_control, " "))
     }
 }
@@ -375,7 +375,7 @@ fn color(c: Vec3) -> String {
     point(c.as_dvec3())
 }
 
-/// Four digits after the point at most, and no more than needed.
+/// Formats a number with at most four decimals.
 fn number(value: f64) -> String {
     let rounded = (value * 1e4).round() / 1e4;
     // Adding 0 turns -0 into 0.

@@ -1,9 +1,9 @@
-//! Ctrl-C, SIGTERM, and the signal of a file that grows too long.
+//! Ctrl-C, SIGTERM, and the signal for exceeding the file size limit.
 //!
-//! A thread waits for the first two. Where nothing has to be kept, it ends the program at once. While a
-//! picture is rendered ([`Interrupt::defer`]) the work is given a few seconds to notice between two
-//! steps and end by itself; it may be stuck in a pipe that nobody reads, or in the driver. Then, or at
-//! the second signal, the thread ends the program. No part of a file is left either way.
+//! A thread waits for the first two. It normally ends the program at once. While a picture is rendered
+//! ([`Interrupt::defer`]), the work has a few seconds to notice the signal between two steps and stop by
+//! itself. If it is stuck in the driver or in a pipe that nobody reads, or at a second signal, the thread
+//! ends the program. Either way no partial file is left.
 
 use super::console;
 use super::error::AppError;
@@ -15,40 +15,40 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
-/// The signals that ask for the end and what the program then returns.
+/// Signals that request termination, and their exit codes.
 const SIGNALS: [(i32, u8); 2] = [(SIGINT, 130), (SIGTERM, 143)];
 
-/// How often the thread looks for a signal.
+/// Interval at which the thread polls for a signal.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// How long the work may go on after a signal.
+/// Time for the work to stop by itself after a signal.
 const GRACE: Duration = Duration::from_secs(3);
 
-/// How long the last words may take: the standard error may be a pipe that nobody reads.
-const LAST_WORDS: Duration = Duration::from_millis(200);
+/// Time limit for the last message: standard error may be a pipe that nobody reads.
+const MESSAGE_LIMIT: Duration = Duration::from_millis(200);
 
-/// Of the thread, which needs next to nothing.
+/// Stack size of the thread.
 const STACK_BYTES: usize = 128 << 10;
 
-/// Knows whether a signal has asked for the end. All of them are the same one.
+/// Tells whether a signal has requested termination. All instances share one state.
 #[derive(Clone)]
 pub struct Interrupt(Arc<State>);
 
 #[derive(Default)]
 struct State {
-    /// Set by the handlers: the exit code that a signal asks for; 0 is none.
+    /// Set by the handlers: the exit code for the signal; 0 means no signal.
     signal: Arc<AtomicUsize>,
-    /// The same once the thread has decided that the work may end by itself.
+    /// The same, once the thread has decided that the work may stop by itself.
     exit_code: AtomicUsize,
-    /// Whether the work notices by itself.
+    /// Whether the work checks for signals and stops by itself.
     is_deferred: AtomicBool,
 }
 
 impl Interrupt {
-    /// Installs the handlers and starts the thread, unless that is done.
+    /// Installs the handlers and starts the thread, once per process.
     ///
     /// # Errors
-    /// The system refuses one of them.
+    /// The system refuses a handler or the thread.
     pub fn install() -> Result<Self, AppError> {
         static INSTALLED: OnceLock<Interrupt> = OnceLock::new();
         if let Some(installed) = INSTALLED.get() {
@@ -73,16 +73,16 @@ impl Interrupt {
         Ok(())
     }
 
-    /// Until the result is dropped, the work has some time to end by itself after the first signal.
+    /// Until the result is dropped, the work may stop by itself after the first signal.
     pub fn defer(&self) -> Deferred<'_> {
         self.0.is_deferred.store(true, Ordering::SeqCst);
         Deferred(self)
     }
 
-    /// To be called between two steps.
+    /// Checks for a signal. To be called between two steps.
     ///
     /// # Errors
-    /// [`AppError::Interrupted`] when a signal has asked for the end.
+    /// [`AppError::Interrupted`] if a signal has requested termination.
     pub fn check(&self) -> Result<(), AppError> {
         match u8::try_from(self.0.exit_code.load(Ordering::SeqCst)) {
             Ok(0) => Ok(()),
@@ -92,7 +92,7 @@ impl Interrupt {
     }
 }
 
-/// The work ends by itself until this is dropped.
+/// The guard that [`Interrupt::defer`] returns.
 pub struct Deferred<'a>(&'a Interrupt);
 
 impl Drop for Deferred<'_> {
@@ -102,7 +102,7 @@ impl Drop for Deferred<'_> {
 }
 
 impl State {
-    /// The thread's work.
+    /// The thread's main function.
     fn listen(&self) {
         let first = self.next(None).unwrap_or_default();
         if !self.is_deferred.load(Ordering::SeqCst) {
@@ -113,7 +113,7 @@ impl State {
         end(second.unwrap_or(first), true);
     }
 
-    /// The exit code that the next signal asks for, unless there is none until `deadline`.
+    /// Waits for the next signal and returns its exit code; `None` if none arrives before `deadline`.
     fn next(&self, deadline: Option<Instant>) -> Option<usize> {
         loop {
             let code = self.signal.swap(0, Ordering::SeqCst);
@@ -128,29 +128,28 @@ impl State {
     }
 }
 
-/// Ends the program without a look at what else is going on in it.
-fn end(exit_code: usize, speaks: bool) -> ! {
+/// Ends the program at once, whatever its other threads are doing.
+fn end(exit_code: usize, prints_error: bool) -> ! {
     output::clear_away();
-    if speaks {
+    if prints_error {
         let (sender, receiver) = channel();
         let _ = std::thread::Builder::new().spawn(move || {
             console::error(
-                "interrupted: the program was ended before its work could stop. No part of a file is \
-                 left.",
+                "interrupted: the program was ended before its work could stop. No partial file is left.",
                 exit_code as u8,
             );
             let _ = sender.send(());
         });
-        let _ = receiver.recv_timeout(LAST_WORDS);
+        let _ = receiver.recv_timeout(MESSAGE_LIMIT);
     }
     low_level::exit(exit_code as i32)
 }
 
-/// Makes a file that grows beyond the limit on file sizes (`ulimit -f`) an error of the one who writes
-/// it; else the signal ends the program, and its part of the file stays.
+/// Makes exceeding the file size limit (`ulimit -f`) a write error. Without a handler the signal would end
+/// the program and leave a partial file.
 #[cfg(unix)]
 pub fn survive_file_size_limit() {
-    // Where there is no handler, the program is no worse off than before.
+    // If it cannot be installed, the default behaviour remains.
     let _ = flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
 }
 

@@ -1,5 +1,5 @@
-//! What `render`, `demo` and `animate` share: a scene, what the command line says about it, and the
-//! words and figures at the end.
+//! Code shared by `render`, `demo` and `animate`: a scene with its command-line options, and the messages and
+//! statistics at the end.
 
 use super::cli::{DevelopFlags, DeviceFlags, INTEGRATORS, LogFlags, PictureFlags};
 use super::console::{self, Console};
@@ -20,31 +20,31 @@ use crate::scene::{OutputDefaults, Scene, ToneCurve, Transfer};
 use std::path::Path;
 use std::time::Instant;
 
-/// What is said about a scene without light.
+/// The warning for a scene without light.
 pub const UNLIT: &str = "the scene has no light, so its surfaces are black. Add a light, an ambient \
                          light, or a material with emission.";
 
-/// A scene to be rendered, and everything the command line says about how.
+/// A scene to render, with the options from the command line.
 pub struct Job<'a> {
-    /// With flags that win over it applied.
+    /// The scene, with overriding flags applied.
     pub scene: Scene,
     pub picture: &'a PictureFlags,
     pub device: &'a DeviceFlags,
     pub log: &'a LogFlags,
 }
 
-/// What came of a job.
+/// The result of a job.
 pub struct Outcome<'a> {
-    /// Where it went; `-` is the standard output.
+    /// Output path; `-` is standard output.
     pub path: &'a Path,
     /// Width and height of every picture.
     pub size: (u32, u32),
-    /// Pictures that were rendered.
+    /// Number of pictures that were rendered.
     pub pictures: usize,
-    /// `None` where none was needed.
+    /// `None` if no adapter was needed.
     pub adapter: Option<&'a AdapterReport>,
     pub stats: &'a Stats,
-    /// Of a moving picture.
+    /// `Some` for an animation.
     pub animation: Option<AnimationReport>,
 }
 
@@ -53,7 +53,7 @@ impl Job<'_> {
         Console::new(self.log)
     }
 
-    /// Says what was left out of the scene, and whether it has no light.
+    /// Warns about skipped parts of the scene and about missing lights.
     pub fn warn_of_skipped(&self) {
         for skipped in &self.scene.skipped {
             console::warning(skipped);
@@ -71,7 +71,7 @@ impl Job<'_> {
         policy(self.device, self.log.count_rays)
     }
 
-    /// How a picture is developed, for a format that holds linear light or one that does not.
+    /// How a picture is developed, for a format that stores linear radiance or for one that does not.
     pub fn tone(&self, settings: &RenderSettings, linear_format: bool) -> Tone {
         let output = &self.scene.output;
         tone(
@@ -82,7 +82,7 @@ impl Job<'_> {
         )
     }
 
-    /// What is to be rendered, for the report.
+    /// The `image` part of the report.
     pub fn image(&self, path: &Path, settings: &RenderSettings, size: (u32, u32)) -> ImageReport {
         ImageReport {
             path: path.display().to_string(),
@@ -106,7 +106,7 @@ impl Job<'_> {
         Ok(gpu)
     }
 
-    /// Says what is about to be rendered, and on what.
+    /// Prints what is about to be rendered, and on which adapter.
     pub fn announce(&self, what: &str, settings: &RenderSettings, adapter: &AdapterReport) {
         let (width, height) = settings.size;
         let adapter = device::describe(adapter);
@@ -116,7 +116,7 @@ impl Job<'_> {
         ));
     }
 
-    /// Refuses a report that would replace what the run reads, or that cannot be written.
+    /// Refuses a report that would overwrite an input or cannot be written.
     pub fn check_report(&self, draft: &Draft) -> Result<(), AppError> {
         match self.log.report.as_deref() {
             Some(report) if report != Path::new("-") => {
@@ -128,11 +128,11 @@ impl Job<'_> {
         }
     }
 
-    /// Warns of what is missing in the pictures.
+    /// Warns about device losses, dropped samples and truncated ray trees.
     pub fn warn_of_losses(stats: &Stats) {
         if stats.device_losses > 0 {
             console::warning(format_args!(
-                "the GPU was lost {} time(s); the work went on from the last finished slice.",
+                "the GPU was lost {} time(s); rendering resumed after the last completed submission.",
                 stats.device_losses
             ));
         }
@@ -144,15 +144,15 @@ impl Job<'_> {
         }
         if stats.cut_off_trees > 0 {
             console::warning(format_args!(
-                "{} samples had too many rays and were cut off, or passed through more than 4 \
-                 transparent bodies at once. Lower --max-depth, raise --min-throughput, or nest fewer \
-                 bodies.",
+                "{} samples were truncated: they had too many rays, or a ray was inside more than 4 \
+                 transparent objects at once. Lower --max-depth, raise --min-throughput, or nest fewer \
+                 objects.",
                 stats.cut_off_trees
             ));
         }
     }
 
-    /// Reports what came of it, if a report is asked for.
+    /// Writes the report if one was requested.
     pub fn report(
         &self,
         settings: &RenderSettings,
@@ -167,7 +167,7 @@ impl Job<'_> {
             command: draft.command,
             scene: SceneReport::new(&draft.scene_path, &self.scene),
             image: ImageReport {
-                // Nothing rendered has nothing to average.
+                // Avoids 0/0 when nothing was rendered.
                 mean_samples: stats.samples as f64 / samples.max(1.0),
                 ..self.image(outcome.path, settings, outcome.size)
             },
@@ -192,7 +192,7 @@ impl Job<'_> {
     }
 }
 
-/// Refuses a report that would go where the pictures go: to `path`, or to one of those that are `taken`.
+/// Refuses a report at the output path or at another path that is `taken` by the output.
 pub fn check_report_name(
     log: &LogFlags,
     path: &Path,
@@ -210,8 +210,8 @@ pub fn check_report_name(
 }
 
 impl Seconds {
-    /// Takes over what the renderer measured.
-    pub fn take(&mut self, stats: &Stats) {
+    /// Sets the times that the renderer measured.
+    pub fn set_render_times(&mut self, stats: &Stats) {
         self.compile = stats.compile_seconds;
         self.upload = stats.upload_seconds;
         self.trace = stats.trace_seconds;
@@ -219,7 +219,7 @@ impl Seconds {
     }
 }
 
-/// How pictures are made, which does not show in them.
+/// Execution options, which do not affect the picture.
 pub fn policy(device: &DeviceFlags, count_rays: bool) -> ExecutionPolicy {
     ExecutionPolicy {
         count_rays,
@@ -228,7 +228,7 @@ pub fn policy(device: &DeviceFlags, count_rays: bool) -> ExecutionPolicy {
     }
 }
 
-/// What a picture depends on: flags win over the scene.
+/// Render settings: the scene's values, overridden by flags.
 pub fn picture_settings(scene: &OutputDefaults, picture: &PictureFlags) -> RenderSettings {
     let output = OutputDefaults {
         samples: picture.size.samples.unwrap_or(scene.samples),
@@ -236,7 +236,7 @@ pub fn picture_settings(scene: &OutputDefaults, picture: &PictureFlags) -> Rende
         ..scene.clone()
     };
     let filter = picture.filter.unwrap_or(scene.filter);
-    // A radius of the scene goes with the filter of the scene.
+    // The scene's radius applies only to the scene's filter.
     let scene_radius = scene.filter_radius.filter(|_| filter == scene.filter);
     let defaults = RenderSettings::from(&output);
     RenderSettings {
@@ -256,7 +256,7 @@ pub fn picture_settings(scene: &OutputDefaults, picture: &PictureFlags) -> Rende
     }
 }
 
-/// Width and height of what is written: the crop's where there is one.
+/// Width and height of the output: those of the crop, if there is one.
 pub fn picture_size(settings: &RenderSettings) -> Result<(u32, u32), AppError> {
     let (width, height) = settings.size;
     match settings.crop {
@@ -264,16 +264,17 @@ pub fn picture_size(settings: &RenderSettings) -> Result<(u32, u32), AppError> {
         Some([x0, y0, x1, y1]) if x1 <= width && y1 <= height => Ok((x1 - x0, y1 - y0)),
         Some([.., x1, y1]) => Err(AppError::Usage(format!(
             "cannot crop (--crop): it ends at {x1},{y1}, outside of {width}×{height} pixels. \
-             Move its corner inside."
+             Choose a region inside the picture."
         ))),
     }
 }
 
-/// Steps of the tree walk that the heat view shows in white with `--exposure 0`.
+/// Number of BVH traversal steps that the heat view shows as white with `--exposure 0`.
 const FULL_HEAT: f32 = 128.0;
 
-/// Flags win. Without them, linear formats get what was traced, pictures are developed as the scene says,
-/// quantities are shown over the range found in them, and other debug views are stored as they are.
+/// How a picture is developed. Flags override the defaults, which are: radiance unchanged for linear
+/// formats, the scene's settings for other pictures, the range found in the picture for views of a quantity,
+/// and unchanged values for other debug views.
 pub fn tone(
     scene: &OutputDefaults,
     flags: &DevelopFlags,
@@ -298,7 +299,7 @@ pub fn tone(
             levels: Levels::Found,
             ..tone
         },
-        // The exposure scales the steps, not their colours.
+        // Exposure scales the number of steps, not the colours.
         (Shows::Quantity(Quantity::Work), Some(exposure_ev)) => Tone {
             exposure_ev: 0.0,
             levels: Levels::Fixed([0.0, FULL_HEAT * (-exposure_ev).exp2()]),

@@ -1,27 +1,26 @@
-//! What the levels of a view of a quantity stand for, in words and in colours.
+//! Legends for views of a quantity: what their grey levels and colours mean.
 
 use crate::render::Quantity;
 
-/// Which levels stand for the least and the greatest value, such as "samples from 4 (black) to 64 (white)".
+/// The legend as a sentence, such as "samples from 4 (black) to 64 (white)".
 pub fn sentence(quantity: Quantity, [least, most]: [f32; 2]) -> String {
     let (what, first, last) = match quantity {
         Quantity::Distance => ("distances", "white", "dark grey"),
         Quantity::Samples => ("samples", "black", "white"),
-        Quantity::Work => ("work", "black", "white"),
+        Quantity::Work => ("traversal cost", "black", "white"),
     };
     let [least, most] = [least, most].map(number);
     match quantity {
         Quantity::Samples => format!("{what} from {least} ({first}) to {most} ({last})"),
         _ => format!(
-            "{what} from {least} ({first}) to {most} {} ({last}), less {:.1} % of the pixels at either end",
+            "{what} from {least} ({first}) to {most} {} ({last}), excluding {:.1} % of the pixels at each end",
             quantity.unit(),
             100.0 * quantity.outliers()
         ),
     }
 }
 
-/// The colours from the least value to the greatest, in sRGB levels, at equal distances; in between they go
-/// over into one another.
+/// The colour gradient from the least to the greatest value: evenly spaced sRGB stops, interpolated between.
 pub fn stops(quantity: Quantity) -> &'static [[u8; 3]] {
     match quantity {
         Quantity::Distance => &[[255; 3], [26; 3]],
@@ -37,7 +36,7 @@ pub fn stops(quantity: Quantity) -> &'static [[u8; 3]] {
     }
 }
 
-/// A value with three significant digits, and all of those before the point.
+/// Formats a value with three significant digits, and with all digits before the decimal point.
 pub fn number(value: f32) -> String {
     let digits = match value.abs() {
         0.0 => 0,

@@ -1,9 +1,8 @@
-//! The limit on the memory of this process (`ulimit -v`, `ulimit -d`), where Linux has one.
+//! The memory limit of this process on Linux (`ulimit -v`, `ulimit -d`).
 //!
-//! An allocation that fails ends a Rust program on the spot, and drivers crash. So steps that take much
-//! ask beforehand, by estimates, and [`exit_as_too_big`] gives what slips through the right exit code.
-//! Where there is no such limit, nothing is known beforehand: the system ends a process that takes too
-//! much, and that cannot be told from here.
+//! A failed allocation aborts a Rust program, and drivers crash. Large steps therefore check an estimate
+//! beforehand, and [`exit_as_too_big`] gives any remaining failure the right exit code. Without such a limit
+//! nothing can be checked: the system kills a process that uses too much memory.
 
 use super::error::AppError;
 use crate::scene::Scene;
@@ -12,66 +11,66 @@ use std::path::Path;
 
 const MIB: u64 = 1 << 20;
 
-/// What importers take for a byte of geometry.
+/// Memory that importers need per byte of a geometry file.
 const BYTES_PER_FILE_BYTE: u64 = 5;
 
-/// What packing, the trees and the driver take together for a triangle of a mesh, a texel and a pixel.
+/// Memory for packing, BVHs and the driver per mesh triangle, texel and pixel.
 const BYTES_PER_TRIANGLE: u64 = 300;
 const BYTES_PER_TEXEL: u64 = 24;
 const BYTES_PER_PIXEL: u64 = 100;
 
-/// What a driver reserves: for itself, and for each of its threads, of which it has one for a core, up to
-/// a number of them.
+/// Memory that a driver reserves: a base amount, and an amount per thread. It starts one thread per core, up
+/// to a maximum.
 const DRIVER_BYTES: u64 = 768 * MIB;
 const THREAD_BYTES: u64 = 128 * MIB;
-const MOST_THREADS: usize = 16;
+const MAX_THREADS: usize = 16;
 
-/// A process with less room than this that fails has failed for want of it.
+/// A failure with less memory left than this is taken to be caused by the limit.
 const SHORTAGE: u64 = 512 * MIB;
 
-/// Bytes that the process may still take; `None` where there is no limit, or none that is known.
-fn room() -> Option<u64> {
+/// Bytes that the process may still allocate; `None` if there is no known limit.
+fn available() -> Option<u64> {
     let limits = fs::read_to_string("/proc/self/limits").ok()?;
     let status = fs::read_to_string("/proc/self/status").ok()?;
-    let room = |limit: &str, used: &str| {
+    let left = |limit: &str, used: &str| {
         let line = limits.lines().find_map(|line| line.strip_prefix(limit))?;
         let limit: u64 = line.split_whitespace().next()?.parse().ok()?;
         let used = status.lines().find_map(|line| line.strip_prefix(used))?;
         let used: u64 = used.split_whitespace().next()?.parse().ok()?;
         Some(limit.saturating_sub(used << 10))
     };
-    let rooms = [
-        room("Max address space", "VmSize:"),
-        room("Max data size", "VmData:"),
+    let limits = [
+        left("Max address space", "VmSize:"),
+        left("Max data size", "VmData:"),
     ];
-    rooms.into_iter().flatten().min()
+    limits.into_iter().flatten().min()
 }
 
-/// Refuses `what` (`place`) if it takes more bytes than there are.
+/// Refuses `what` (at `place`) if it needs more bytes than are available.
 fn require(what: &str, place: &str, need: u64) -> Result<(), AppError> {
-    match room() {
-        Some(room) if room < need => Err(AppError::TooBig(format!(
+    match available() {
+        Some(available) if available < need => Err(AppError::TooBig(format!(
             "too big for the memory ({place}): {what} takes about {} MiB, and the limit (`ulimit -v`) \
-             leaves {}. Raise the limit, or use a smaller scene or picture.",
+             leaves {} MiB. Raise the limit, or use a smaller scene or picture.",
             need / MIB,
-            room / MIB
+            available / MIB
         ))),
         _ => Ok(()),
     }
 }
 
-/// Refuses to read a model that is too large for the limit.
+/// Refuses to read a model that needs more memory than the limit allows.
 ///
 /// # Errors
 /// [`AppError::TooBig`].
 pub fn check_file(path: &Path) -> Result<(), AppError> {
-    // Whoever reads it says what is wrong with it.
+    // A file that cannot be read is reported when it is opened.
     let length = fs::metadata(path).map_or(0, |found| found.len());
     let need = length.saturating_mul(BYTES_PER_FILE_BYTE);
     require("reading it", &path.display().to_string(), need)
 }
 
-/// Refuses to render a scene in so many pixels that is too large for the limit.
+/// Refuses to render a scene at a size that needs more memory than the limit allows.
 ///
 /// # Errors
 /// [`AppError::TooBig`].
@@ -87,26 +86,26 @@ pub fn check_scene(
         .sum();
     let pixels = u64::from(width) * u64::from(height);
     let need = DRIVER_BYTES
-        + THREAD_BYTES * cores.min(MOST_THREADS) as u64
+        + THREAD_BYTES * cores.min(MAX_THREADS) as u64
         + BYTES_PER_TRIANGLE * triangles as u64
         + BYTES_PER_TEXEL * texels as u64
         + BYTES_PER_PIXEL.saturating_mul(pixels);
     require("rendering it", place, need)
 }
 
-/// Whether the limit is the likely cause of a failure.
+/// Whether the memory limit is the likely cause of a failure.
 pub fn is_short() -> bool {
-    room().is_some_and(|room| room < SHORTAGE)
+    available().is_some_and(|available| available < SHORTAGE)
 }
 
-/// Where there is a limit, makes a failed allocation end the program with exit code 7: Rust raises the
-/// signal SIGABRT for it, after a line of its own.
+/// If there is a limit, makes a failed allocation end the program with exit code 7. Rust prints a line of
+/// its own and raises SIGABRT in that case.
 #[cfg(unix)]
 pub fn exit_as_too_big() {
-    if room().is_some() {
+    if available().is_some() {
         let always = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true));
         let abort = signal_hook::consts::SIGABRT;
-        // Where there is no handler, the program is no worse off than before.
+        // If it cannot be installed, the default behaviour remains.
         let _ = signal_hook::flag::register_conditional_shutdown(abort, 7, always);
     }
 }

@@ -1,4 +1,4 @@
-//! `glimray merge PART…`: films of parts of a picture → one film, or the picture.
+//! `glimray merge PART…`: merges films of parts of a picture into one film or into the picture.
 
 use super::cli::MergeArgs;
 use super::destination::Destination;
@@ -13,8 +13,8 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-/// Most missing parts that are listed.
-const MOST_LISTED: usize = 8;
+/// Largest number of missing parts that are listed.
+const MAX_LISTED: usize = 8;
 
 pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
     let interrupt = Interrupt::install()?;
@@ -65,20 +65,20 @@ fn read(path: &PathBuf) -> Result<Film, FilmError> {
     Film::read(BufReader::new(File::open(path)?))
 }
 
-/// What is missing, as a message.
+/// The error message for missing parts.
 fn incomplete(path: &Path, missing: &[Missing]) -> String {
     let part = |Missing { region, samples }: &Missing| {
         let [x, y, width, height] = region;
         let (first, last) = (samples.start, samples.end - 1);
         format!("samples {first} to {last} of {width}×{height} pixels at {x},{y}")
     };
-    let listed: Vec<_> = missing.iter().take(MOST_LISTED).map(part).collect();
-    let more = match missing.len().saturating_sub(MOST_LISTED) {
+    let listed: Vec<_> = missing.iter().take(MAX_LISTED).map(part).collect();
+    let more = match missing.len().saturating_sub(MAX_LISTED) {
         0 => String::new(),
         count => format!(", and {count} more parts"),
     };
     format!(
-        "cannot complete the picture ({}): missing are {}{more}. Merge films of these too.",
+        "cannot complete the picture ({}): missing {}{more}. Add films of these parts.",
         path.display(),
         listed.join(", ")
     )

@@ -1,11 +1,11 @@
-//! Keeps Mesa's device-select layer quiet. On a machine without a desktop session it asks libwayland
-//! for a display, which answers `error: XDG_RUNTIME_DIR is invalid or not set in the environment.` on
-//! our standard error, where scripts look for our own errors. The layer has nothing to select there,
-//! so it is switched off, by starting the program once more with the variable that does so: changing
-//! one's own environment is not safe in a running process. Can go when the layer asks silently.
+//! Silences Mesa's device-select layer. On a machine without a desktop session the layer asks libwayland for
+//! a display, and libwayland prints `error: XDG_RUNTIME_DIR is invalid or not set in the environment.` to
+//! standard error, where scripts look for glimray's errors. The layer has nothing to select there, so it is
+//! switched off. A running process cannot safely change its own environment, so the program is executed
+//! again with the variable that switches the layer off. This can be removed once the layer is silent.
 
-/// Replaces this process by one with `NODEVICE_SELECT=1` where the message would appear; returns
-/// where it would not, or when the program cannot be started again.
+/// Replaces this process by one with `NODEVICE_SELECT=1` if the message would appear. Returns if it would
+/// not, or if the program cannot be executed again.
 #[cfg(target_os = "linux")]
 pub fn silence_device_select() {
     use std::os::unix::process::CommandExt as _;
@@ -21,7 +21,7 @@ pub fn silence_device_select() {
     if let Some(name) = arguments.next() {
         again.arg0(name);
     }
-    // Only comes back if it fails; then the message is the lesser evil.
+    // Returns only on failure. The message is then acceptable.
     let _ = again.args(arguments).env("NODEVICE_SELECT", "1").exec();
 }
 

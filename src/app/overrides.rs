@@ -1,13 +1,13 @@
-//! Flags win over the scene file: what they change in a scene.
+//! Applies camera and background flags to a scene.
 
 use super::cli::CameraFlags;
 use super::error::AppError;
 use crate::scene::{Background, Camera, CameraProperty, Scene, Target};
 
-/// Chooses and changes the scene's camera and background as the flags say.
+/// Selects and changes the scene's camera and background as the flags say.
 ///
 /// # Errors
-/// There is no camera of that name, or the changed one looks nowhere.
+/// There is no camera of that name, or the new camera has no valid orientation.
 pub fn apply(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
     if let Some(name) = &flags.camera {
         scene.camera_index = camera_index(&scene.cameras, name)?;
@@ -17,34 +17,34 @@ pub fn apply(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
     }
     let moved = flags.look_from.or(flags.look_at).or(flags.up).is_some();
     if moved {
-        let carried = scene.cameras[scene.camera_index].node.is_some();
+        let has_node = scene.cameras[scene.camera_index].node.is_some();
         for (property, flag) in [
             (CameraProperty::LookFrom, flags.look_from),
             (CameraProperty::LookAt, flags.look_at),
             (CameraProperty::Up, flags.up),
         ] {
-            // What a carried camera's tracks say is in the space of what carries it.
-            if carried || flag.is_some() {
-                stop(scene, property);
+            // The tracks of a camera below a node are in the node's space, so none of them can remain.
+            if has_node || flag.is_some() {
+                remove_track(scene, property);
             }
         }
         place(scene, flags)?;
     }
     if let Some(fov_y) = flags.fov_y {
-        stop(scene, CameraProperty::FovY);
+        remove_track(scene, CameraProperty::FovY);
         let camera = &mut scene.cameras[scene.camera_index];
         camera.fov_y = fov_y.to_radians();
         camera.orthographic_height = None;
     }
     if let Some(height) = flags.orthographic {
-        stop(scene, CameraProperty::OrthographicHeight);
+        remove_track(scene, CameraProperty::OrthographicHeight);
         scene.cameras[scene.camera_index].orthographic_height = Some(height);
     }
     Ok(())
 }
 
-/// Makes `camera`, in the world, the one that the scene is seen by, as the flags for all of it would.
-/// Its lens stays the scene's where that changes over time.
+/// Replaces the scene's current camera by `camera`, given in world space, as all the camera flags together
+/// would. An animated lens is kept.
 #[cfg(feature = "viewer")]
 pub fn see_by(scene: &mut Scene, camera: &Camera) {
     for property in [
@@ -54,7 +54,7 @@ pub fn see_by(scene: &mut Scene, camera: &Camera) {
         CameraProperty::FovY,
         CameraProperty::OrthographicHeight,
     ] {
-        stop(scene, property);
+        remove_track(scene, property);
     }
     let index = scene.camera_index;
     let is_lens = |target: &Target| {
@@ -76,7 +76,7 @@ pub fn see_by(scene: &mut Scene, camera: &Camera) {
     };
 }
 
-/// Puts the camera where the flags say, in the world: whatever carried it goes on without it.
+/// Moves the camera as the flags say, in world space, and detaches it from its node.
 fn place(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
     let start = scene.frame(0.0).camera;
     let camera = &mut scene.cameras[scene.camera_index];
@@ -90,8 +90,8 @@ fn place(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
     check(camera)
 }
 
-/// Takes away the track that drives this property of the camera in use.
-fn stop(scene: &mut Scene, property: CameraProperty) {
+/// Removes the track that drives this property of the current camera.
+fn remove_track(scene: &mut Scene, property: CameraProperty) {
     let driven = Target::Camera(scene.camera_index, property);
     for track in &mut scene.tracks {
         track.targets.retain(|target| *target != driven);
@@ -99,7 +99,7 @@ fn stop(scene: &mut Scene, property: CameraProperty) {
     scene.tracks.retain(|track| !track.targets.is_empty());
 }
 
-/// By name, else by number.
+/// Finds a camera by name, else by number.
 fn camera_index(cameras: &[Camera], name: &str) -> Result<usize, AppError> {
     let named = cameras.iter().position(|camera| camera.name == name);
     let numbered = || name.parse().ok().filter(|&index| index < cameras.len());
@@ -120,9 +120,9 @@ fn label((index, camera): (usize, &Camera)) -> String {
     }
 }
 
-/// A camera needs a direction to look in and an up direction beside it.
+/// Checks that the camera has a viewing direction and an up direction that is not parallel to it.
 fn check(camera: &Camera) -> Result<(), AppError> {
-    // `why` closes the bracket of the place it names.
+    // `why` begins with the flags and closes their bracket.
     let refused = |why| Err(AppError::Usage(format!("cannot place the camera ({why}.")));
     let forward = camera.look_at - camera.look_from;
     let scale = camera.look_at.length().max(camera.look_from.length());
@@ -130,10 +130,12 @@ fn check(camera: &Camera) -> Result<(), AppError> {
         return refused("--look-from, --look-at): both are the same point. Move one of them");
     }
     let Some(up) = camera.up.try_normalize() else {
-        return refused("--up): it has no length. Give a direction, such as 0,1,0");
+        return refused("--up): it has zero length. Choose a direction, such as 0,1,0");
     };
     if up.cross(forward.normalize()).length() < 1e-9 {
-        return refused("--up): it is the viewing direction. Give another one, such as 0,0,1");
+        return refused(
+            "--up): it is parallel to the viewing direction. Choose another one, such as 0,0,1",
+        );
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Scene → picture in a file: what `render` and `demo` share.
+//! Renders a scene to a picture file, for `render` and `demo`.
 
 use super::cli::PartFlags;
 use super::destination::Destination;
@@ -14,11 +14,11 @@ use crate::render::{FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
 use std::ops::Range;
 use std::time::Instant;
 
-/// Renders the picture that is taken while the shutter is open, from `shot.0` to `shot.1` in
-/// seconds, and writes it, and the report if one is asked for.
+/// Renders the picture exposed from `shot.0` to `shot.1`, in seconds, and writes it, and the report if one
+/// was requested.
 ///
 /// # Errors
-/// Whatever goes wrong on the way; no picture is then left on the disk.
+/// Any error of rendering and writing; no picture is then left on disk.
 pub fn run(
     job: &Job,
     destination: &Destination,
@@ -34,7 +34,7 @@ pub fn run(
         ..settings
     };
     let size = job::picture_size(&settings)?;
-    draft.plan(job.image(destination.path(), &settings, size));
+    draft.set_image(job.image(destination.path(), &settings, size));
     draft.inputs.spare(destination.path(), "picture", "-o")?;
     destination.check(size.0, size.1)?;
     job.check_report(draft)?;
@@ -62,7 +62,7 @@ pub fn run(
         draft.seconds.write = started.elapsed().as_secs_f64();
     }
     let stats = renderer.stats();
-    draft.seconds.take(stats);
+    draft.seconds.set_render_times(stats);
     draft.seconds.total = draft.started.elapsed().as_secs_f64();
     Job::warn_of_losses(stats);
     let path = destination.path();
@@ -85,7 +85,7 @@ pub fn run(
     )
 }
 
-/// The samples that the flags ask for; `None` for all.
+/// The sample range that the flags select; `None` for all samples.
 fn range(
     part: &PartFlags,
     destination: &Destination,
@@ -98,13 +98,13 @@ fn range(
     let refused = |why: String| Err(AppError::Usage(format!("cannot render a part {why}")));
     if !destination.is_film() {
         return refused(format!(
-            "({}): only a film holds a part of the samples. Choose a name that ends in .film.",
+            "({}): only a film can store part of the samples. Choose a name that ends in .film.",
             destination.path().display()
         ));
     }
     if start >= total {
         return refused(format!(
-            "(--sample-offset {start}): the picture has samples 0 to {}. Choose a smaller one.",
+            "(--sample-offset {start}): the picture has samples 0 to {}. Choose a smaller offset.",
             total - 1
         ));
     }
@@ -112,13 +112,13 @@ fn range(
     let end = start.saturating_add(count).min(total);
     if !start.is_multiple_of(SAMPLE_BLOCK) {
         return refused(format!(
-            "(--sample-offset {start}): parts begin at multiples of {SAMPLE_BLOCK}. Choose one."
+            "(--sample-offset {start}): parts must start at a multiple of {SAMPLE_BLOCK}. Choose one."
         ));
     }
     if !end.is_multiple_of(SAMPLE_BLOCK) && end < total {
         return refused(format!(
-            "(--sample-count {count}): parts end at multiples of {SAMPLE_BLOCK}, or with the last sample. \
-             Choose such a number."
+            "(--sample-count {count}): parts must end at a multiple of {SAMPLE_BLOCK} or at the last sample. \
+             Choose another count."
         ));
     }
     if settings.is_adaptive() {

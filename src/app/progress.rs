@@ -1,4 +1,4 @@
-//! How far a picture or an animation is: a bar on a terminal, lines of JSON for a program, or nothing.
+//! Progress of a picture or an animation: a bar on a terminal, JSON lines, or nothing.
 
 use super::cli::{LogFlags, ProgressMode};
 use super::console;
@@ -6,13 +6,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
-/// Steps of the bar; finer than any terminal is wide.
+/// Steps of the bar, more than any terminal has columns.
 const STEPS: u64 = 1000;
 
-/// Lines of JSON come no faster than this.
+/// Minimum interval between JSON lines.
 const JSON_INTERVAL: Duration = Duration::from_millis(100);
 
-/// Shows progress on the standard error until it is dropped, which leaves a terminal clean.
+/// Shows progress on standard error. Dropping it clears the bar.
 pub struct Progress {
     display: Display,
     started: Instant,
@@ -27,7 +27,7 @@ impl Progress {
         }
     }
 
-    /// Shows `done`, the finished share of the work in 0..=1.
+    /// Shows `done`, the finished fraction of the work, 0 to 1.
     pub fn update(&mut self, done: f64) {
         let seconds = self.started.elapsed().as_secs_f64();
         let json = || serde_json::json!({ "progress": done, "seconds": seconds });
@@ -35,20 +35,20 @@ impl Progress {
     }
 }
 
-/// Shows how far many frames are, until it is dropped.
+/// Shows the progress of an animation. Dropping it clears the bar.
 pub struct FrameProgress {
     display: Display,
-    /// Frames in all.
+    /// Total number of frames.
     count: usize,
-    /// Of them, those that were there before.
+    /// Number of frames reused from earlier runs.
     reused: usize,
-    /// Of them, those finished since.
+    /// Number of frames that this run has finished.
     rendered: usize,
     started: Instant,
 }
 
 impl FrameProgress {
-    /// For `count` frames, `reused` of which are there already.
+    /// Progress of rendering `count` frames, of which `reused` exist already.
     pub fn new(flags: &LogFlags, count: usize, reused: usize) -> Self {
         let template = "{wide_bar} {percent:>3} %  {msg}";
         Self {
@@ -60,49 +60,50 @@ impl FrameProgress {
         }
     }
 
-    /// For joining `count` frames.
+    /// Progress of encoding `count` frames.
     pub fn encoding(flags: &LogFlags, count: usize) -> Self {
         Self::new(flags, count, 0)
     }
 
-    /// Shows the frame with this number, of which the share `part` is done.
+    /// Shows that frame `number` is being rendered and that the fraction `part` of it is done.
     pub fn update(&mut self, number: u32, part: f64) {
         let fresh = self.rendered as f64 + part;
-        let share = (self.reused as f64 + fresh) / self.count as f64;
+        let fraction = (self.reused as f64 + fresh) / self.count as f64;
         let seconds = self.started.elapsed().as_secs_f64();
         let rate = (fresh > 0.0 && seconds > 0.0).then(|| fresh / seconds);
         let left = rate.map(|rate| ((self.count - self.reused) as f64 - fresh).max(0.0) / rate);
         let (done, count) = (self.reused + self.rendered, self.count);
         let message = || {
-            let pace = rate.map_or(String::new(), |rate| format!(", {rate:.2} frames/s"));
+            let speed = rate.map_or(String::new(), |rate| format!(", {rate:.2} frames/s"));
             let left = left.map_or(String::new(), |left| {
                 let left = left.round() as u64;
                 format!(", {}:{:02} left", left / 60, left % 60)
             });
-            format!("frame {} of {count}{pace}{left}", done + 1)
+            format!("frame {} of {count}{speed}{left}", done + 1)
         };
         let json = || {
             serde_json::json!({
-                "progress": share, "seconds": seconds, "frame": number, "frames_done": done,
+                "progress": fraction, "seconds": seconds, "frame": number, "frames_done": done,
                 "frames": count, "frames_per_second": rate, "seconds_left": left,
             })
         };
-        self.display.show(share, message, json);
+        self.display.show(fraction, message, json);
     }
 
-    /// Counts a frame that is finished.
+    /// Counts a finished frame.
     pub fn finish_frame(&mut self) {
         self.rendered += 1;
     }
 
-    /// Shows that the frame at `index` is being joined to a video.
+    /// Shows that the frame at `index` is being encoded.
     pub fn encoded(&mut self, index: usize) {
         let count = self.count;
-        let share = (index + 1) as f64 / count as f64;
+        let fraction = (index + 1) as f64 / count as f64;
         let seconds = self.started.elapsed().as_secs_f64();
         let message = || format!("video: frame {} of {count}", index + 1);
-        let json = || serde_json::json!({ "encoded": share, "seconds": seconds, "frames": count });
-        self.display.show(share, message, json);
+        let json =
+            || serde_json::json!({ "encoded": fraction, "seconds": seconds, "frames": count });
+        self.display.show(fraction, message, json);
     }
 }
 
@@ -125,7 +126,7 @@ impl Display {
         }
     }
 
-    /// Shows the share `done` of the work in 0..=1, in words on a bar or as JSON.
+    /// Shows the fraction `done` of the work, 0 to 1, as a message on a bar or as JSON.
     fn show(
         &mut self,
         done: f64,

@@ -1,4 +1,4 @@
-//! `glimray render SCENE`: a scene file → a picture.
+//! `glimray render SCENE`: renders one picture of a scene file.
 
 use super::cli::RenderArgs;
 use super::clock::Clock;
@@ -18,7 +18,7 @@ pub fn run(arguments: &RenderArgs, started: Instant) -> Result<(), AppError> {
     let name = arguments.scene.display().to_string();
     let mut draft = Draft::new("render", &arguments.log, name, destination.path(), started);
     let outcome = render(arguments, &destination, &mut draft);
-    draft.close(outcome)
+    draft.finish(outcome)
 }
 
 fn render(

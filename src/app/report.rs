@@ -1,4 +1,4 @@
-//! The report of a run, for programs. Fields are promises: add to them, rename nothing.
+//! The JSON report of a run. Its fields are a stable interface: add to them, rename none.
 
 mod draft;
 
@@ -13,107 +13,107 @@ use crate::scene::{Geometry, Scene};
 use serde::Serialize;
 use std::path::Path;
 
-/// What a command did and what it took.
+/// Inputs, settings and measurements of a run.
 #[derive(Debug, Serialize)]
 pub struct Report {
-    /// The program's version.
+    /// Version of the program.
     pub glimray: &'static str,
-    /// The command's name.
+    /// Name of the command.
     pub command: &'static str,
     pub scene: SceneReport,
     pub image: ImageReport,
-    /// Null where none was needed.
+    /// Null if no adapter was needed.
     pub adapter: Option<Adapter>,
     pub seconds: Seconds,
-    /// Absent unless they were to be counted.
+    /// Null without `--count-rays`.
     pub rays: Option<RayCounts>,
     pub submissions: Submissions,
-    /// Samples that were dropped because they were infinite or no number.
+    /// Samples that were dropped because they were infinite or NaN.
     pub nonfinite_samples: u64,
-    /// Samples whose ray tree was cut off: it outgrew its stack, had too many rays, or a ray that came into
-    /// too many bodies at once.
+    /// Samples whose ray tree was truncated: it overflowed its stack, had too many rays, or had a ray inside
+    /// too many transparent objects at once.
     pub cut_off_trees: u64,
     pub memory: Memory,
-    /// Of `animate` and `turntable`.
+    /// Present for `animate` and `turntable`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub animation: Option<AnimationReport>,
-    /// Null here; the report of a run that failed says what ended it (see [`Draft`]).
+    /// Null; the report of a failed run has the error here (see [`Draft`]).
     pub error: Option<()>,
 }
 
 impl Report {
-    /// The program's version.
+    /// Version of the program.
     pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 }
 
-/// The frames, and the video if there is one.
+/// Statistics of an animation's frames and video.
 #[derive(Debug, Serialize)]
 pub struct AnimationReport {
     /// Number of the first frame.
     pub first: u32,
     /// Number of the last frame.
     pub last: u32,
-    /// From one frame's number to the next one's.
+    /// Difference between consecutive frame numbers.
     pub step: u32,
-    /// Frames in the range.
+    /// Number of frames in the range.
     pub frames: usize,
     /// Frame n is at n / `fps` seconds.
     pub fps: f64,
-    /// When the shutter opens and closes, in frames from a frame's own time.
+    /// Shutter opening and closing times, in frames relative to a frame's time.
     pub shutter: [f64; 2],
-    /// Frames that this run rendered.
+    /// Number of frames that this run rendered.
     pub rendered: usize,
-    /// Frames that an earlier run had rendered.
+    /// Number of frames reused from an earlier run.
     pub reused: usize,
-    /// Why frames were rendered again.
+    /// Frames that were rendered again, by reason.
     pub redone: Vec<Redone>,
-    /// The frames' names with their placeholder; null where none are kept.
+    /// Name pattern of the frame files; null if none are kept.
     pub frame_files: Option<String>,
-    /// Null where there is none; `-` is the standard output.
+    /// Path of the video; null if there is none, `-` for standard output.
     pub video: Option<String>,
-    /// Writing the video; 0 without one.
+    /// Time to encode the video; 0 without a video.
     pub encode_seconds: f64,
-    /// Rendered frames for each second that it took to compile, upload, render and write them; null
-    /// when there were none.
+    /// Rendered frames per second of compiling, uploading, rendering and writing; null if no frame was
+    /// rendered.
     pub frames_per_second: Option<f64>,
 }
 
-/// Frames that were there but could not be used.
+/// Existing frames that could not be reused.
 #[derive(Debug, Serialize)]
 pub struct Redone {
-    /// Such as "the scene has changed".
+    /// The reason, such as "the scene has changed".
     pub why: &'static str,
-    /// Their numbers.
+    /// Frame numbers.
     pub frames: Vec<u32>,
 }
 
-/// How much is in the scene.
+/// Counts of the scene's contents.
 #[derive(Debug, Serialize)]
 pub struct SceneReport {
     pub path: String,
     pub spheres: usize,
-    /// Instances counted each.
+    /// Triangles of all instances.
     pub triangles: usize,
-    /// Analytic shapes that are no spheres.
+    /// Analytic shapes other than spheres.
     pub shapes: usize,
-    /// Placements of meshes.
+    /// Mesh instances.
     pub instances: usize,
     pub materials: usize,
     pub lights: usize,
-    /// What the importer left out or repaired.
+    /// What the importer skipped or repaired.
     pub skipped: Vec<String>,
 }
 
-/// The picture and the settings that determine it.
+/// The picture and its main settings.
 #[derive(Debug, Serialize)]
 pub struct ImageReport {
-    /// `-` for the standard output.
+    /// `-` for standard output.
     pub path: String,
     pub width: u32,
     pub height: u32,
-    /// Those allowed for each pixel.
+    /// Maximum number of samples per pixel.
     pub samples: u32,
-    /// Those taken, on average over the pixels.
+    /// Mean number of samples per pixel that were taken.
     pub mean_samples: f64,
     pub integrator: &'static str,
     /// Bounces after the first hit.
@@ -129,14 +129,14 @@ pub struct Adapter {
     pub device_type: String,
 }
 
-/// Wall-clock seconds. `total` is from the start of the process to the file on disk; the others are
-/// parts of it that do not overlap.
+/// Wall-clock times in seconds. `total` runs from the start of the process until the file is on disk; the
+/// others are parts of it that do not overlap.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Seconds {
     pub total: f64,
     /// Reading the scene.
     pub load: f64,
-    /// Building the tree.
+    /// Building the BVH.
     pub bvh: f64,
     /// Opening the adapter.
     pub gpu: f64,
@@ -144,9 +144,9 @@ pub struct Seconds {
     pub compile: f64,
     pub upload: f64,
     pub trace: f64,
-    /// Exposure, tone curve, transfer, and reading the picture back.
+    /// Exposure, tone curve, transfer function and reading the picture back.
     pub develop: f64,
-    /// Encoding the picture and writing the file.
+    /// Encoding and writing the file.
     pub write: f64,
 }
 
@@ -154,13 +154,11 @@ pub struct Seconds {
 pub struct RayCounts {
     pub primary: u64,
     pub primary_hits: u64,
-    /// One for each light sample that faces the surface.
+    /// One per light sample that faces the surface.
     pub shadow: u64,
     pub shadow_blocked: u64,
-    /// Mirrored.
     pub reflection: u64,
     pub reflection_hits: u64,
-    /// Refracted.
     pub refraction: u64,
     pub refraction_hits: u64,
 }
@@ -174,7 +172,7 @@ pub struct Submissions {
 #[derive(Debug, Serialize)]
 pub struct Memory {
     pub gpu_bytes: u64,
-    /// Null where the system does not tell.
+    /// Null if the system does not report it.
     pub host_peak_bytes: Option<u64>,
 }
 
@@ -231,10 +229,10 @@ impl From<&Stats> for Submissions {
     }
 }
 
-/// Writes a report to `path`; `-` is the standard output.
+/// Writes a report to `path`; `-` is standard output.
 ///
 /// # Errors
-/// It cannot be written there.
+/// The report cannot be written.
 pub fn write(path: &Path, report: &impl Serialize) -> Result<(), AppError> {
     let mut text = serde_json::to_string_pretty(report)
         .map_err(|error| AppError::Internal(format!("report: {error}")))?;
@@ -246,7 +244,7 @@ pub fn write(path: &Path, report: &impl Serialize) -> Result<(), AppError> {
     }
 }
 
-/// The most memory that this process has held at once, in bytes, where Linux says so.
+/// Peak resident memory of this process in bytes. Only Linux reports it.
 pub fn host_peak_bytes() -> Option<u64> {
     let status = std::fs::read_to_string(Path::new("/proc/self/status")).ok()?;
     let line = status

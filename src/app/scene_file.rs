@@ -1,4 +1,4 @@
-//! Scene files on the disk: reading one with what it names, and saving one with those beside it.
+//! Reads and writes scene files together with the files that they reference.
 
 use super::cli::SceneFlags;
 use super::error::AppError;
@@ -11,8 +11,8 @@ use crate::scene::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Reads a scene; `--strict` refuses one of which anything had to be skipped. What the scene names is
-/// known as far as it was read, whether it could be or not.
+/// Reads a scene; with `--strict`, refuses one of which anything was skipped. The second value has the files
+/// that were read or looked for, even if reading failed.
 pub fn load(path: &Path, flags: &SceneFlags) -> (Result<Scene, AppError>, Inputs) {
     if let Err(error) = memory::check_file(path) {
         return (Err(error), Inputs::new([path]));
@@ -28,7 +28,7 @@ pub fn load(path: &Path, flags: &SceneFlags) -> (Result<Scene, AppError>, Inputs
 fn strict(path: &Path, flags: &SceneFlags, scene: Scene) -> Result<Scene, AppError> {
     match scene.skipped.first() {
         Some(first) if flags.strict => Err(AppError::Refused(format!(
-            "refusing the scene ({}): {first}{}. Repair it or leave out --strict.",
+            "refusing the scene ({}): {first}{}. Repair it or omit --strict.",
             path.display(),
             match scene.skipped.len() - 1 {
                 0 => String::new(),
@@ -39,13 +39,13 @@ fn strict(path: &Path, flags: &SceneFlags, scene: Scene) -> Result<Scene, AppErr
     }
 }
 
-/// Writes `scene` to `path`, which should end in `.toml`, and what belongs to it beside it, and returns
-/// all paths, that of the scene last. Files beside it are never replaced: what is there with the same
-/// contents is used, else another name is taken. `clobber` says whether the scene file itself may be.
+/// Writes `scene` to `path`, which should end in `.toml`, and the files that it references beside it. Returns
+/// all paths, the scene's last. Referenced files never replace existing ones: a file with the same contents is
+/// reused, otherwise another name is chosen. `clobber` allows replacing the scene file itself.
 ///
 /// # Errors
-/// There is too much in the scene, or a file cannot be written; the old scene file is then still there
-/// and whole, and new files beside it are gone again.
+/// The scene is too large, or a file cannot be written. The old scene file is then unchanged, and new files
+/// beside it are removed.
 pub fn save(path: &Path, scene: &Scene, clobber: bool) -> Result<Vec<PathBuf>, AppError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -69,7 +69,7 @@ pub fn save(path: &Path, scene: &Scene, clobber: bool) -> Result<Vec<PathBuf>, A
         written.push(path);
         Ok(())
     });
-    // The scene last: as long as it is the old one, all that it names is there.
+    // The scene is written last, so that all files referenced by an existing scene file exist.
     let outcome = outcome.and_then(|()| output::write(path, made.text.as_bytes(), clobber));
     if let Err(error) = outcome {
         for path in written {

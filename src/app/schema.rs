@@ -1,4 +1,4 @@
-//! `glimray schema`: the JSON Schema of the native scene format.
+//! `glimray schema`: prints the JSON Schema of the native scene format.
 
 use super::console;
 use super::error::AppError;

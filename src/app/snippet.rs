@@ -1,4 +1,4 @@
-//! The line of a scene file that an error points at, drawn for a terminal.
+//! Draws the line of a scene file that an error points at, for a terminal.
 
 use crate::import::{Excerpt, Fault, Position};
 use miette::{
@@ -6,10 +6,10 @@ use miette::{
     MietteSpanContents, SourceCode, SourceSpan, SpanContents,
 };
 
-/// Longer lines than this many bytes are not shown: a terminal is no place for a megabyte.
+/// Longest line that is shown, in bytes.
 const MAX_LINE: usize = 300;
 
-/// The line at fault with a mark; `None` where there is none, or it is too long.
+/// The faulty line with a mark; `None` if there is none or if it is too long.
 pub fn of(fault: &Fault) -> Option<String> {
     let snippet = Snippet {
         name: fault.place(),
@@ -24,11 +24,11 @@ pub fn of(fault: &Fault) -> Option<String> {
         .with_context_lines(0)
         .render_report(&mut drawing, &snippet)
         .ok()?;
-    // The first line is the message, which has been printed.
+    // The first line is the message, which is printed already.
     drawing.split_once('\n').map(|(_, rest)| rest.to_owned())
 }
 
-/// An excerpt as miette wants it, without a message.
+/// An excerpt in the form that miette needs, without a message.
 #[derive(Debug, thiserror::Error)]
 #[error("-")]
 struct Snippet<'a> {

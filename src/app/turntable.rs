@@ -1,4 +1,4 @@
-//! `glimray turntable MODEL`: a turn round a model, as a video or as frames.
+//! `glimray turntable MODEL`: a seamless turntable animation, as a video or as frames.
 
 use super::animate::{self, Sequence, Target, Timeline};
 use super::cli::{MotionFlags, Range, RangeFlags, TurnFlags, TurntableArgs};
@@ -9,10 +9,10 @@ use super::report::Draft;
 use crate::scene::{self, Background, Scene, Turntable};
 use std::time::Instant;
 
-/// Samples per pixel where the model does not ask for more than one.
+/// Samples per pixel, unless the model sets more than one.
 const SAMPLES: u32 = 4;
 
-/// Most frames of a turn.
+/// Largest number of frames in a turn.
 const MAX_FRAMES: f64 = 1e6;
 
 pub fn run(arguments: &TurntableArgs, started: Instant) -> Result<(), AppError> {
@@ -20,7 +20,7 @@ pub fn run(arguments: &TurntableArgs, started: Instant) -> Result<(), AppError> 
         scene, output, log, ..
     } = arguments;
     let name = ("turntable", "turntable");
-    animate::drafted(name, scene, output, log, started, |target, draft| {
+    animate::with_report(name, scene, output, log, started, |target, draft| {
         render(arguments, target, draft)
     })
 }
@@ -34,12 +34,12 @@ fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Resul
     let frames = (turn.seconds * turn.fps).round().max(1.0);
     if frames > MAX_FRAMES {
         return Err(AppError::Usage(format!(
-            "too many frames (--seconds, --fps): a turn of {frames} frames. At most {MAX_FRAMES} \
-             are possible."
+            "too many frames (--seconds, --fps): the turn has {frames}; the limit is {MAX_FRAMES}. Choose a \
+             shorter turn or a lower rate."
         )));
     }
     let size = arguments.picture.size.size.unwrap_or(scene.output.size);
-    // A whole number of frames, so that the last one is as far from the first as from its neighbour.
+    // A whole number of frames, so that the step from the last to the first equals all other steps.
     let mut scene = turned(scene, turn, frames / turn.fps, size)?;
     if let Some(background) = turn.background {
         scene.background = Background::Color(background);
@@ -73,7 +73,7 @@ fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Resul
     .run(draft)
 }
 
-/// The scene with a camera that goes once round it in `seconds`.
+/// The scene with a camera that circles it once in `seconds`.
 fn turned(
     mut scene: Scene,
     turn: &TurnFlags,
@@ -93,7 +93,7 @@ fn turned(
         return Ok(scene);
     }
     Err(AppError::Refused(
-        "cannot turn round the scene: nothing in it has an end. Give it an object other than a plane."
+        "cannot frame the scene: it has no bounded geometry. Add an object other than a plane."
             .into(),
     ))
 }

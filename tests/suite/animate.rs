@@ -1,7 +1,6 @@
-//! Moving pictures on the command line: frames as files, runs that go on, videos made of frames.
+//! Animations on the command line: frame files, resumable runs, videos.
 
 mod moving;
-pub mod place;
 mod refusals;
 mod resume;
 mod videos;

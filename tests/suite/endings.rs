@@ -1,9 +1,9 @@
-//! How a run ends when it may not go on: signals while it is stuck, files and memory under a limit. It
-//! ends soon, with the promised exit code, and leaves no part of a file.
+//! Runs that cannot continue: signals during a blocked write, and limits on files and memory. They end soon,
+//! with the promised exit code, and leave no partial file.
 
 #![cfg(target_os = "linux")]
 
-use crate::animate::place::{Place, Run};
+use crate::support::program::{Run, Workspace};
 use crate::support::verdict::Verdict;
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -12,7 +12,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Whoever waits longer waits for ever.
+/// A run that takes longer is taken to hang.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 fn signal(child: &Child, name: &str) {
@@ -21,7 +21,7 @@ fn signal(child: &Child, name: &str) {
     assert!(kill.expect("kill runs").success());
 }
 
-/// The exit code; none of a run that does not end, which is killed.
+/// The exit code. A run that hangs is killed and has none.
 fn end_of(child: &mut Child) -> Option<i32> {
     let start = Instant::now();
     while start.elapsed() < PATIENCE {
@@ -35,21 +35,23 @@ fn end_of(child: &mut Child) -> Option<i32> {
     None
 }
 
-/// Everything in the folder but what is named.
-fn left(place: &Place, known: &[&str]) -> Vec<String> {
-    let names = place.names(".").into_iter();
+/// All entries of the folder except the `known` ones.
+fn left(workspace: &Workspace, known: &[&str]) -> Vec<String> {
+    let names = workspace.names(".").into_iter();
     names
         .filter(|name| !known.contains(&name.as_str()))
         .collect()
 }
 
-/// Runs a shell's line, in which `$G` is the program.
-fn shell(place: &Place, line: &str) -> Run {
-    let mut command = place.command("");
+/// Runs a shell command in which `$G` is the program.
+fn shell(workspace: &Workspace, line: &str) -> Run {
+    let mut command = workspace.command("");
     let program = command.get_program().to_owned();
     command = Command::new("sh");
     command.args(["-c", line]).env("G", program);
-    command.current_dir(place.path(".")).stdin(Stdio::null());
+    command
+        .current_dir(workspace.path("."))
+        .stdin(Stdio::null());
     let output = command.output().expect("a shell");
     Run {
         code: output.status.code(),
@@ -61,20 +63,20 @@ fn shell(place: &Place, line: &str) -> Run {
 
 #[test]
 fn one_signal_ends_a_run_that_is_stuck_in_its_output() {
-    let place = Place::new();
+    let workspace = Workspace::new();
     let mut verdict = Verdict::on("stuck outputs");
     for (output, name, code) in [
         // Nobody opens the other end.
         ("-o pipe --format png", "-TERM", 143),
         ("-o pipe --format png", "-INT", 130),
-        // Nobody reads from it, and the picture is longer than what it holds.
+        // Nobody reads from the pipe, and the picture is larger than its buffer.
         ("-o - --format exr", "-TERM", 143),
     ] {
-        let _ = fs::remove_file(place.path("pipe"));
-        let pipe = Command::new("mkfifo").arg(place.path("pipe")).status();
+        let _ = fs::remove_file(workspace.path("pipe"));
+        let pipe = Command::new("mkfifo").arg(workspace.path("pipe")).status();
         assert!(pipe.expect("mkfifo runs").success());
         let line = format!("render a.scene --size 256x256 --progress json {output}");
-        let mut command = place.command(&line);
+        let mut command = workspace.command(&line);
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("glimray runs");
         let mut lines = BufReader::new(child.stderr.take().expect("a pipe")).lines();
@@ -87,29 +89,29 @@ fn one_signal_ends_a_run_that_is_stuck_in_its_output() {
         });
     }
     verdict.close();
-    assert_eq!(left(&place, &["a.scene", "pipe"]), Vec::<String>::new());
+    assert_eq!(left(&workspace, &["a.scene", "pipe"]), Vec::<String>::new());
 }
 
-/// The part of a file that is being written, once there is something in it.
-fn part(place: &Place) -> Option<PathBuf> {
-    let names = place.names(".");
+/// The temporary file that is being written, once it is not empty.
+fn part(workspace: &Workspace) -> Option<PathBuf> {
+    let names = workspace.names(".");
     let name = names.into_iter().find(|name| name.contains(".part-"))?;
-    let path = place.path(&name);
+    let path = workspace.path(&name);
     let has_begun = fs::metadata(&path).is_ok_and(|part| part.len() > 0);
     has_begun.then_some(path)
 }
 
 #[test]
 fn a_second_signal_in_the_midst_of_a_write_leaves_no_part_of_the_file() {
-    let place = Place::moving();
+    let workspace = Workspace::moving();
     let line = "animate a.toml --size 1024x768 --samples 1 --frames 0..7 --quiet -o v.y4m";
-    place.run(line).expect(0);
+    workspace.run(line).expect(0);
     for _ in 0..20 {
-        let mut child = place.start(&format!("{line} --encode-only"));
-        while part(&place).is_none() && child.try_wait().expect("a process").is_none() {
+        let mut child = workspace.start(&format!("{line} --encode-only"));
+        while part(&workspace).is_none() && child.try_wait().expect("a process").is_none() {
             sleep(Duration::from_millis(1));
         }
-        // While it is stopped both signals come; it meets them together when it goes on.
+        // Both signals arrive while the process is stopped, and it handles them when it continues.
         let id = child.id().to_string();
         // It may have ended meanwhile.
         let send = |name: &str| {
@@ -120,17 +122,17 @@ fn a_second_signal_in_the_midst_of_a_write_leaves_no_part_of_the_file() {
                 .status();
         };
         send("-STOP");
-        let is_writing = part(&place).is_some();
+        let is_writing = part(&workspace).is_some();
         for name in ["-INT", "-TERM", "-CONT"] {
             send(name);
         }
         let code = end_of(&mut child);
         assert_eq!(
-            place.names("."),
+            workspace.names("."),
             ["a.toml", "v.y4m", "v.y4m.frames"],
             "{code:?}"
         );
-        // What was nearly written may have been complete before the program ended.
+        // The file may have been completed before the program ended.
         if is_writing && code != Some(0) {
             assert!(code == Some(130) || code == Some(143), "{code:?}");
             return;
@@ -141,33 +143,37 @@ fn a_second_signal_in_the_midst_of_a_write_leaves_no_part_of_the_file() {
 
 #[test]
 fn a_limit_on_file_sizes_is_an_error_and_leaves_nothing() {
-    let place = Place::new();
+    let workspace = Workspace::new();
     let run = shell(
-        &place,
+        &workspace,
         "ulimit -f 1; exec $G render a.scene --size 200x200 -q -o a.exr",
     );
     let run = run.expect(4);
     run.says("error: cannot write the file (a.exr): file too large. Raise the limit of file sizes");
-    assert_eq!(left(&place, &["a.scene"]), Vec::<String>::new());
+    assert_eq!(left(&workspace, &["a.scene"]), Vec::<String>::new());
 }
 
 #[test]
 fn a_standard_output_that_is_closed_is_an_error() {
-    let place = Place::new();
+    let workspace = Workspace::new();
     for line in [
         "$G render a.scene --size 8x8 -q -o - >&-",
         "$G render a.scene --size 8x8 -q -o a.png --report - >&-",
         "$G animate a.scene --frames 0..1 --size 16x16 -q -o - >&-",
     ] {
-        let run = shell(&place, line).expect(4);
+        let run = shell(&workspace, line).expect(4);
         run.says("(standard output): it is closed. Redirect it to a file or a program.");
     }
-    // Thrown away on purpose.
-    shell(&place, "$G render a.scene --size 8x8 -q -o - >/dev/null").expect(0);
-    assert_eq!(left(&place, &["a.scene"]), Vec::<String>::new());
+    // The result is discarded on purpose.
+    shell(
+        &workspace,
+        "$G render a.scene --size 8x8 -q -o - >/dev/null",
+    )
+    .expect(0);
+    assert_eq!(left(&workspace, &["a.scene"]), Vec::<String>::new());
 }
 
-/// A bumpy square of 2 · `side`² triangles as OBJ.
+/// A height field of 2 · `side`² triangles as OBJ.
 fn terrain(side: usize) -> String {
     let mut text = String::new();
     for y in 0..=side {
@@ -187,11 +193,11 @@ fn terrain(side: usize) -> String {
 
 #[test]
 fn what_does_not_fit_into_a_memory_limit_exits_7() {
-    let place = Place::new();
-    place.write("big.obj", terrain(500));
-    let bytes = place.read("big.obj").len() as u64;
+    let workspace = Workspace::new();
+    workspace.write("big.obj", terrain(500));
+    let bytes = workspace.read("big.obj").len() as u64;
     assert!(bytes > 15 << 20, "{bytes}");
-    place.write("names.toml", "[[objects]]\nmesh = { file = \"big.obj\" }\n");
+    workspace.write("names.toml", "[[objects]]\nmesh = { file = \"big.obj\" }\n");
     let mut verdict = Verdict::on("memory limits");
     for (limit, line, words) in [
         (
@@ -214,12 +220,12 @@ fn what_does_not_fit_into_a_memory_limit_exits_7() {
             "animate a.scene --frames 0..1 -o f_%d.png",
             "error: too big for the memory",
         ),
-        // That this file is read is not known beforehand.
+        // The size of this file is not known beforehand.
         (62_000, "inspect names.toml", "do not fit into the memory"),
-        // Nor how much it takes: the words are Rust's own.
+        // The memory it needs is not known either; the message is Rust's own.
         (80_000, "inspect names.toml", "memory allocation of"),
     ] {
-        let run = shell(&place, &format!("ulimit -v {limit}; exec $G {line}"));
+        let run = shell(&workspace, &format!("ulimit -v {limit}; exec $G {line}"));
         let says_so = run.code == Some(7) && run.stderr.contains(words);
         verdict.that(format!("{limit} {line}"), says_so, || {
             format!("{:?}: {}", run.code, run.stderr)
@@ -227,12 +233,12 @@ fn what_does_not_fit_into_a_memory_limit_exits_7() {
     }
     verdict.close();
     assert_eq!(
-        left(&place, &["a.scene", "big.obj", "names.toml"]),
+        left(&workspace, &["a.scene", "big.obj", "names.toml"]),
         Vec::<String>::new()
     );
-    // And one that is large enough is no obstacle.
+    // A sufficient limit does not matter.
     shell(
-        &place,
+        &workspace,
         "ulimit -v 8000000; exec $G render a.scene --size 8x8 -q -o a.png",
     )
     .expect(0);

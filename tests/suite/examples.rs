@@ -1,6 +1,6 @@
 //! The programs in `examples/` that show how the library is used: what they write is right.
 
-use crate::animate::place::Place;
+use crate::support::program::Workspace;
 use crate::support::skip::{Need, skip};
 use crate::support::verdict::Verdict;
 use glam::{DVec3, dvec3};
@@ -36,24 +36,24 @@ fn run(name: &str, arguments: &[PathBuf]) -> Option<String> {
 
 #[test]
 fn the_headless_example_writes_what_the_program_writes() {
-    let place = Place::new();
+    let workspace = Workspace::new();
     let scene = "camera = { look_from = [0, 1, 4], look_at = [0, 0, 0] }\n\
         lights = [{ point = { position = [2, 3, 4] } }]\n\
         [output]\nsize = [24, 16]\nsamples = 4\nexposure_ev = 0.5\ntone = 'aces'\n\
         [[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n";
-    place.write("a.toml", scene);
-    let paths = [place.path("a.toml"), place.path("example.png")];
+    workspace.write("a.toml", scene);
+    let paths = [workspace.path("a.toml"), workspace.path("example.png")];
     if run("headless", &paths).is_none() {
         return;
     }
-    place.run("render a.toml -o program.png").expect(0);
-    assert!(place.read("example.png") == place.read("program.png"));
+    workspace.run("render a.toml -o program.png").expect(0);
+    assert!(workspace.read("example.png") == workspace.read("program.png"));
 }
 
 #[test]
 fn the_scene_made_in_code_has_its_sky_and_its_triangle() {
-    let place = Place::new();
-    let path = place.path("out.png");
+    let workspace = Workspace::new();
+    let path = workspace.path("out.png");
     if run("scene_from_code", std::slice::from_ref(&path)).is_none() {
         return;
     }

@@ -1,4 +1,5 @@
-//! The ray tree of a pixel: it adds up to the pixel, and it is the tree that an independent tracer sends.
+//! The ray tree of a pixel: its contributions add up to the pixel, and an independent tracer finds the same
+//! tree.
 
 use crate::reference::compare::{
     Wanted, assert_none, check_same_bits, sized, sliced, start_packed,
@@ -16,13 +17,13 @@ use glimray::scene::{Attenuation, Geometry, Light, LightKind, ObjectRef, Scene, 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Sums of contributions, and what pixels may differ by; brighter ones in proportion.
+/// Tolerance of sums and pixels, relative for values above 1.
 const TOLERANCE: f32 = 1e-4;
 
-/// Pixels of each scene.
+/// Pixels per scene.
 const PIXELS: usize = 1000;
 
-/// Every scene in `assets/scenes`, by its file's name.
+/// Every scene in `assets/scenes` with its file name.
 fn project_scenes() -> Vec<(String, Scene)> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
     let entries = std::fs::read_dir(&folder).expect("assets/scenes");
@@ -48,7 +49,7 @@ fn project_scenes() -> Vec<(String, Scene)> {
     names.into_iter().map(load).collect()
 }
 
-/// A renderer of the scene's first frame, with its shutter open as long as it says.
+/// A renderer of the scene's first frame, with the scene's shutter.
 fn renderer(scene: &Scene, settings: &impl Wanted) -> Renderer {
     let packed = Arc::new(pack::scene(scene).expect("packed"));
     let (shutter, fps) = (scene.output.shutter, scene.output.fps);
@@ -69,9 +70,9 @@ fn random_pixels((width, height): (u32, u32), count: usize, seed: u64) -> Vec<[u
     (0..count).map(|_| [below(width), below(height)]).collect()
 }
 
-/// Whether two colours are the same within the tolerance.
+/// Whether two colours are equal within the tolerance.
 fn near(a: Vec3, b: Vec3) -> bool {
-    // Written so that a NaN is not.
+    // NaN compares as different.
     (a - b)
         .abs()
         .cmple(TOLERANCE * b.abs().max(Vec3::ONE))
@@ -86,7 +87,7 @@ fn sum_of(sample: &SampleTree) -> Vec3 {
         .sum()
 }
 
-/// What is wrong with a tree whose pixel is `value` in the picture.
+/// Checks that a tree adds up to `value`, its pixel in the picture.
 fn check_sums(tree: &RayTree, value: Vec3) -> Result<(), String> {
     let (mut sum, mut weights) = (Vec3::ZERO, 0.0);
     for sample in &tree.samples {
@@ -121,7 +122,7 @@ fn check_sums(tree: &RayTree, value: Vec3) -> Result<(), String> {
     Ok(())
 }
 
-/// What is wrong with how the rays of a sample hang together.
+/// Checks the parent links and kinds of a sample's rays.
 fn check_shape(sample: &SampleTree) -> Result<(), String> {
     for (index, ray) in sample.rays.iter().enumerate() {
         let kind = ray.kind;
@@ -141,13 +142,15 @@ fn check_shape(sample: &SampleTree) -> Result<(), String> {
         let is_shadow = ray.shadow.is_some() == (kind == RayKind::Shadow);
         let names_something = ray.hit.as_ref().is_none_or(|hit| hit.object.is_some());
         if !(is_known && is_shadow && names_something) {
-            return Err(format!("ray {index} hangs in the air: {ray:?}"));
+            return Err(format!(
+                "ray {index} is not connected to its parent: {ray:?}"
+            ));
         }
     }
     Ok(())
 }
 
-/// Explains random pixels of a finished picture and holds them against it.
+/// Explains random pixels of a finished picture and compares them with it.
 fn check_scene(
     name: &str,
     scene: &Scene,
@@ -195,7 +198,7 @@ fn contributions_add_up_to_the_pixels_of_every_scene() {
 }
 
 #[test]
-fn filters_with_negative_weights_and_pixels_that_stop_early_add_up_too() {
+fn contributions_add_up_with_negative_filter_weights_and_adaptive_sampling() {
     let mut scene = scenes::mirrors_and_glass();
     scene.output.max_depth = 4;
     let settings = RenderSettings {
@@ -257,7 +260,7 @@ fn a_pixel_has_the_samples_that_adaptive_sampling_gave_it() {
 }
 
 #[test]
-fn explaining_between_steps_leaves_the_picture_as_it_would_be() {
+fn explaining_between_steps_does_not_change_the_picture() {
     let mut scene = scenes::mirrors_and_glass();
     scene.output.max_depth = 4;
     for antialias in [Antialias::Stratified, Antialias::Adaptive] {
@@ -283,7 +286,7 @@ fn explaining_between_steps_leaves_the_picture_as_it_would_be() {
             let again = disturbed.explain([30, 20], 0..4).expect("a tree");
             assert_eq!(
                 again, first,
-                "the tree does not depend on when it is asked for"
+                "the tree must not depend on when it is requested"
             );
         }
         let actual = disturbed.develop(&Tone::LINEAR).expect("a picture");
@@ -291,8 +294,8 @@ fn explaining_between_steps_leaves_the_picture_as_it_would_be() {
     }
 }
 
-/// The scene as the independent tracer knows it: a pinhole, opaque shadows, points in place of lamps,
-/// and nothing that touches a plane. It has no rule for two surfaces in one place.
+/// The scene reduced to what the independent tracer supports: a pinhole camera, opaque shadows, point lights
+/// instead of area lights, and nothing that touches a plane, because it has no rule for coincident surfaces.
 fn plain(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     scene.shadows = Shadows::Opaque;
@@ -316,14 +319,14 @@ fn plain(scene: &Scene) -> Scene {
     scene
 }
 
-/// How far off a ray may be in f32, as a share: every surface on its way makes an error larger.
+/// Relative error allowed for a ray in f32. Every surface on its path amplifies errors.
 fn slack(sample: &SampleTree, at: usize) -> f64 {
     let above = std::iter::successors(Some(at), |&at| sample.rays[at].parent);
     1e-4 * 4_f64.powi(above.count().min(5) as i32 - 1)
 }
 
-/// Whether a ray met what the tracer's ray met, and as far away. One that grazes a surface meets it
-/// anywhere.
+/// Whether a ray hit the same object as the tracer's ray, at the same distance. The tolerance grows towards
+/// grazing incidence.
 fn same_hit(ray: &TracedRay, hit: Option<(f64, ObjectRef)>, slack: f64) -> bool {
     match (&ray.hit, hit) {
         (None, None) => true,
@@ -340,14 +343,14 @@ fn same_hit(ray: &TracedRay, hit: Option<(f64, ObjectRef)>, slack: f64) -> bool 
     }
 }
 
-/// What differs between a ray with all that it sent on and the tracer's.
+/// Compares a ray and all its descendants with the tracer's.
 fn compare(sample: &SampleTree, at: usize, nodes: &[Node], node: usize) -> Result<(), String> {
     let (ray, expected) = (&sample.rays[at], &nodes[node]);
     let slack = slack(sample, at);
-    let mut shares = (ray.throughput.into_iter()).zip(expected.share.to_array());
+    let mut throughputs = (ray.throughput.into_iter()).zip(expected.share.to_array());
     let is_same = ray.kind == expected.kind
         && same_hit(ray, expected.hit, slack)
-        && shares.all(|(got, share)| (f64::from(got) - share).abs() <= slack * share.max(0.01));
+        && throughputs.all(|(got, want)| (f64::from(got) - want).abs() <= slack * want.max(0.01));
     if !is_same {
         let met = ray.hit.as_ref().map(|hit| (hit.distance, hit.object));
         return Err(format!(
@@ -381,7 +384,7 @@ fn compare(sample: &SampleTree, at: usize, nodes: &[Node], node: usize) -> Resul
             compare(sample, child, nodes, other)?;
         }
     }
-    // The tracer sends a ray to every light in front of a surface, the kernel where it would matter.
+    // The tracer sends a ray to every light in front of a surface, the kernel only if it can contribute.
     let others = sent(RayKind::Shadow);
     for child in children(RayKind::Shadow) {
         let shadow = sample.rays[child].shadow.as_ref().expect("a shadow ray");
@@ -402,7 +405,7 @@ fn compare(sample: &SampleTree, at: usize, nodes: &[Node], node: usize) -> Resul
     Ok(())
 }
 
-/// Rays along edges, and what comes after them, may go either way in f32: of so many pixels in a hundred.
+/// Percentage of pixels whose trees may differ: in f32, rays along edges may hit either side.
 const EDGES: usize = 2;
 
 #[test]
@@ -465,7 +468,7 @@ fn the_tree_is_that_of_an_independent_tracer_in_every_scene() {
     );
 }
 
-/// A ball of glass of index 1.5 in front of the camera, met head on.
+/// A glass ball of index 1.5 in front of the camera, hit at normal incidence.
 fn glass_ball() -> Scene {
     let mut scene = Scene {
         cameras: vec![glimray::scene::Camera {
@@ -494,7 +497,7 @@ fn glass_ball() -> Scene {
 }
 
 #[test]
-fn a_ball_of_glass_head_on_has_the_tree_of_fresnel_and_beer() {
+fn a_glass_ball_at_normal_incidence_follows_fresnel_and_beer() {
     let scene = glass_ball();
     let settings = RenderSettings {
         max_depth: 2,
@@ -504,13 +507,13 @@ fn a_ball_of_glass_head_on_has_the_tree_of_fresnel_and_beer() {
         .explain([0, 0], 0..1)
         .expect("a tree");
     let sample = &tree.samples[0];
-    // ((1.5 - 1) / (1.5 + 1))², and what two units of glass leave.
+    // Reflectance ((1.5 - 1) / (1.5 + 1))², and transmittance of two units of glass.
     let mirrored = 0.04;
     let left = dvec3((-0.2_f64).exp(), (-0.4_f64).exp(), 1.0);
     let inside = (1.0 - mirrored) * left;
     let background = dvec3(0.5, 0.25, 1.0);
     let one = DVec3::ONE;
-    // Kind, depth in the tree, where it starts, where it ends, throughput, contribution.
+    // Kind, z of start and end, throughput, contribution.
     let mut expected = vec![
         (RayKind::Primary, 5.0, Some(1.0), one, DVec3::ZERO),
         (
@@ -548,18 +551,18 @@ fn a_ball_of_glass_head_on_has_the_tree_of_fresnel_and_beer() {
         assert!(x.abs() < 1e-4 && y.abs() < 1e-4, "{ray:?}");
         let found = expected
             .iter()
-            .position(|(kind, start, end, share, added)| {
+            .position(|(kind, start, end, throughput, added)| {
                 let same_end = match (ray.end, end) {
                     (Some([_, _, z]), Some(end)) => near(z, *end),
                     (None, None) => true,
                     _ => false,
                 };
-                let share_error = Vec3::from(ray.throughput).as_dvec3() - *share;
+                let throughput_error = Vec3::from(ray.throughput).as_dvec3() - *throughput;
                 let added_error = Vec3::from(ray.contribution).as_dvec3() - *added;
                 ray.kind == *kind
                     && near(z, *start)
                     && same_end
-                    && share_error.length() < 1e-4
+                    && throughput_error.length() < 1e-4
                     && added_error.length() < 1e-4
             });
         expected.remove(found.unwrap_or_else(|| panic!("not expected: {ray:?}")));
@@ -596,8 +599,8 @@ fn a_ball_of_glass_head_on_has_the_tree_of_fresnel_and_beer() {
 }
 
 #[test]
-fn a_shadow_ray_says_what_is_in_its_way() {
-    // A wall seen from the front, a lamp above it, and for the upper half of it a ball between.
+fn a_shadow_ray_names_its_occluder() {
+    // A wall seen from the front, a light above the camera, and a ball between them.
     let mut scene = Scene {
         cameras: vec![glimray::scene::Camera {
             look_from: dvec3(0.0, 0.0, 4.0),
@@ -643,7 +646,7 @@ fn a_shadow_ray_says_what_is_in_its_way() {
 }
 
 #[test]
-fn a_tree_of_too_many_rays_says_so_and_keeps_the_value() {
+fn a_truncated_tree_says_so_and_keeps_the_pixels_value() {
     let mut scene = scenes::empty();
     scene.add_plane(DVec3::ZERO, DVec3::Y, 0);
     scene.lights.push(Light {
@@ -681,7 +684,7 @@ fn a_tree_of_too_many_rays_says_so_and_keeps_the_value() {
 }
 
 #[test]
-fn hits_name_the_same_things_whether_copies_are_laid_out_or_placed() {
+fn hits_name_the_same_objects_for_baked_and_instanced_copies() {
     let mut scene = scenes::meshes();
     let ball = scene.instances[2].mesh;
     std::sync::Arc::make_mut(&mut scene.meshes[ball]).name = "ball".into();
@@ -723,9 +726,9 @@ fn hits_name_the_same_things_whether_copies_are_laid_out_or_placed() {
             trees.iter().map(hit).collect::<Vec<_>>(),
         )
     };
-    let ((none, laid_out), (some, placed)) = (objects(usize::MAX), objects(0));
+    let ((none, baked), (some, instanced)) = (objects(usize::MAX), objects(0));
     assert!(none == 0 && some > 0, "{none} and {some} instances");
-    let differing = laid_out.iter().zip(&placed).filter(|(a, b)| a != b).count();
+    let differing = baked.iter().zip(&instanced).filter(|(a, b)| a != b).count();
     assert!(differing <= pixels.len() / 500, "{differing} differ");
     for (object, name) in [
         (ObjectRef::Instance(0), None),
@@ -740,7 +743,7 @@ fn hits_name_the_same_things_whether_copies_are_laid_out_or_placed() {
                 .is_some_and(|(found, as_named)| *found == object && as_named.as_deref() == name)
         };
         assert!(
-            placed.iter().filter(is_it).count() > 3,
+            instanced.iter().filter(is_it).count() > 3,
             "{object:?} {name:?} is in the picture"
         );
     }

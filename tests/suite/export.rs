@@ -1,4 +1,4 @@
-//! Scenes out and in again: nothing of what is rendered is lost on the way.
+//! Round trips of scenes through the native format: nothing that is rendered is lost.
 
 mod random;
 mod text;
@@ -13,7 +13,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// Writes `export` as `NAME.toml` with its files into a folder of their own.
+/// Writes `export` as `NAME.toml` with its files to a temporary folder.
 fn write(export: &Export, name: &str) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     for file in &export.files {
@@ -24,7 +24,7 @@ fn write(export: &Export, name: &str) -> (TempDir, PathBuf) {
     (folder, path)
 }
 
-/// What becomes of `scene` when it is written and read again, and the export.
+/// Exports `scene` and reads it again.
 fn round(scene: &Scene) -> Result<(Scene, Export), String> {
     let export =
         export::native(scene, "scene", &|_, _| false).map_err(|error| error.to_string())?;
@@ -33,8 +33,8 @@ fn round(scene: &Scene) -> Result<(Scene, Export), String> {
     Ok((read, export))
 }
 
-/// `scene` without what the format does not keep: made-up names, notes, and which targets of a curve
-/// are in one track.
+/// `scene` without what the format does not store: generated names, notes, and the grouping of targets into
+/// tracks.
 fn essence(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     scene.skipped.clear();
@@ -64,15 +64,15 @@ fn essence(scene: &Scene) -> Scene {
     scene
 }
 
-/// Every byte that the GPU gets for a scene and for some of its frames.
+/// All bytes that are uploaded for a scene and for some of its frames.
 fn bytes(scene: &Scene) -> Vec<Vec<u8>> {
     let packed = pack::scene(scene).expect("packed");
     let mut parts: Vec<Vec<u8>> = packed.parts().into_iter().map(<[u8]>::to_vec).collect();
     parts.push(format!("{:?} {:?}", packed.features, packed.pictures).into_bytes());
     let duration = scene.duration();
-    for share in [0.0, 0.3, 0.77] {
+    for fraction in [0.0, 0.3, 0.77] {
         let view = packed
-            .frame(&scene.frame(share * duration))
+            .frame(&scene.frame(fraction * duration))
             .expect("a frame");
         parts.extend(view.parts().into_iter().map(<[u8]>::to_vec));
         parts.push(view.background.to_string().into_bytes());
@@ -80,11 +80,11 @@ fn bytes(scene: &Scene) -> Vec<Vec<u8>> {
     parts
 }
 
-/// What is lost of `scene`, if anything.
+/// Fails if a round trip loses any part of `scene`.
 fn loss(scene: &Scene) -> Result<(), String> {
     let (read, export) = round(scene)?;
     let (was, is) = (essence(scene), essence(&read));
-    // As text, which shows the sign of a zero too.
+    // Text also shows the sign of a zero.
     let (was, is) = (format!("{was:#?}"), format!("{is:#?}"));
     if was != is {
         let mut differing = was.lines().zip(is.lines()).filter(|(a, b)| a != b);
@@ -105,10 +105,7 @@ fn loss(scene: &Scene) -> Result<(), String> {
         false => {
             let mut differing =
                 (export.text.lines().zip(again.text.lines())).filter(|(a, b)| a != b);
-            Err(format!(
-                "the second time it is written otherwise: {:?}",
-                differing.next()
-            ))
+            Err(format!("the second export differs: {:?}", differing.next()))
         }
     }
 }
@@ -135,7 +132,7 @@ fn scenes_in(folder: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
-fn every_scene_of_the_project_is_packed_to_the_same_bytes_after_it_was_written_and_read() {
+fn every_scene_of_the_project_is_packed_to_the_same_bytes_after_a_round_trip() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
     let scenes = scenes_in(&folder);
     assert!(scenes.len() > 15, "the scenes are in {}", folder.display());
@@ -147,12 +144,12 @@ fn every_scene_of_the_project_is_packed_to_the_same_bytes_after_it_was_written_a
     verdict.close();
 }
 
-/// Models of other people that may lie beside the checkout, in all formats.
+/// Third-party models beside the checkout, in all formats. They are optional.
 #[test]
-fn models_from_elsewhere_are_packed_to_the_same_bytes_after_they_were_written_and_read() {
+fn third_party_models_are_packed_to_the_same_bytes_after_a_round_trip() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
     let mut scenes = scenes_in(&folder);
-    // Those that are broken on purpose.
+    // These are broken on purpose.
     scenes.retain(|path| !path.starts_with(folder.join("faults")));
     if scenes.is_empty() {
         return skip(Need::Models, "there are no models in ../shared/data");

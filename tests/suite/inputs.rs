@@ -1,13 +1,13 @@
-//! What a run reads stays as it is, whatever name a person gives for what it writes: the same name, a
-//! way round, a symbolic or a hard link, a name that the program makes up.
+//! A run never overwrites its inputs, whatever output path is given: the same name, another path to it, a
+//! symbolic or hard link, or a name that the program chooses.
 
-use crate::animate::place::{MOVING, Place, Run};
+use crate::support::program::{MOVING, Run, Workspace};
 use crate::support::verdict::Verdict;
 use glimray::image::Image;
 use glimray::output;
 use std::fs;
 
-/// A sphere with a picture on it, which `TEXTURE` stands for.
+/// A sphere with a picture texture named `TEXTURE`.
 const TEXTURED: &str = r#"
 [camera]
 look_from = [0, 0, 5]
@@ -25,20 +25,20 @@ const MODEL: &str =
     "mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl paint\nf 1/1 2/1 3/1\n";
 const LIBRARY: &str = "newmtl paint\nKd 1 1 1\nmap_Kd model.png\n";
 
-fn picture(place: &Place, name: &str) {
+fn picture(workspace: &Workspace, name: &str) {
     let image = Image {
         width: 2,
         height: 2,
         pixels: vec![[1.0, 0.5, 0.0, 1.0]; 4],
     };
-    output::save(place.path(name), &image).expect("a picture");
+    output::save(workspace.path(name), &image).expect("a picture");
 }
 
-/// Scenes with textures that have the names of what is written.
-fn place() -> Place {
-    let place = Place::new();
+/// Scenes whose textures have the names of output files.
+fn workspace() -> Workspace {
+    let workspace = Workspace::new();
     for folder in ["kept", "locked"] {
-        fs::create_dir(place.path(folder)).expect("a folder");
+        fs::create_dir(workspace.path(folder)).expect("a folder");
     }
     for (scene, texture) in [
         ("floor.toml", "floor.png"),
@@ -47,19 +47,19 @@ fn place() -> Place {
         ("lock.toml", "locked/.glimray.lock"),
         ("journal.toml", "f_journal.png.jsonl"),
     ] {
-        place.write(scene, TEXTURED.replace("TEXTURE", texture));
-        picture(&place, "texture.png");
-        fs::rename(place.path("texture.png"), place.path(texture)).expect("renamed");
+        workspace.write(scene, TEXTURED.replace("TEXTURE", texture));
+        picture(&workspace, "texture.png");
+        fs::rename(workspace.path("texture.png"), workspace.path(texture)).expect("renamed");
     }
-    place.write("model.obj", MODEL);
-    place.write("model.mtl", LIBRARY);
+    workspace.write("model.obj", MODEL);
+    workspace.write("model.mtl", LIBRARY);
     for name in ["one.png", "two.png"] {
-        picture(&place, name);
+        picture(&workspace, name);
     }
-    place
+    workspace
 }
 
-fn says_so(run: &Run) -> bool {
+fn is_refusal(run: &Run) -> bool {
     let (start, words) = (
         "error: cannot write the ",
         ": this run reads that file. Name another one with -",
@@ -70,8 +70,8 @@ fn says_so(run: &Run) -> bool {
 
 #[test]
 fn no_command_writes_a_file_that_it_reads() {
-    let place = place();
-    let files = || [".", "kept", "locked"].map(|folder| place.files(folder));
+    let workspace = workspace();
+    let files = || [".", "kept", "locked"].map(|folder| workspace.files(folder));
     let before = files();
     let mut verdict = Verdict::on("inputs");
     for line in [
@@ -83,7 +83,7 @@ fn no_command_writes_a_file_that_it_reads() {
         "render floor.toml -o new.png --report ./floor.png",
         "render a.scene -o a.scene --format exr",
         "render model.obj -o model.mtl --format png",
-        // Not there, and so left out; the next run would read it.
+        // The texture is missing and skipped, but the next run would read it.
         "render model.obj",
         "animate floor.toml --frames 0..2 -o floor.png --format y4m",
         "animate floor.toml --frames 0..2 -o new_%d.png --report floor.png",
@@ -98,61 +98,61 @@ fn no_command_writes_a_file_that_it_reads() {
         "compare one.png two.png --diff ./two.png",
         "convert floor.toml -o floor.toml",
     ] {
-        let run = place.run(line);
-        verdict.that(line, says_so(&run), || {
+        let run = workspace.run(line);
+        verdict.that(line, is_refusal(&run), || {
             format!("{:?}: {}", run.code, run.stderr)
         });
         let is_kept = files() == before;
-        verdict.that(line, is_kept, || "another file than before");
+        verdict.that(line, is_kept, || "a file has changed");
     }
     verdict.close();
-    insta::assert_snapshot!(place.run("render floor.toml").stderr, @"error: cannot write the picture (floor.png): this run reads that file. Name another one with -o.");
+    insta::assert_snapshot!(workspace.run("render floor.toml").stderr, @"error: cannot write the picture (floor.png): this run reads that file. Name another one with -o.");
 }
 
 #[cfg(unix)]
 #[test]
-fn links_to_a_file_that_a_run_reads_are_that_file() {
-    let place = place();
-    std::os::unix::fs::symlink("floor.png", place.path("soft.png")).expect("a link");
-    std::os::unix::fs::symlink(place.path("."), place.path("round")).expect("a link");
-    fs::hard_link(place.path("floor.png"), place.path("hard.png")).expect("a link");
-    let before = place.files(".");
+fn links_to_an_input_are_refused_too() {
+    let workspace = workspace();
+    std::os::unix::fs::symlink("floor.png", workspace.path("soft.png")).expect("a link");
+    std::os::unix::fs::symlink(workspace.path("."), workspace.path("round")).expect("a link");
+    fs::hard_link(workspace.path("floor.png"), workspace.path("hard.png")).expect("a link");
+    let before = workspace.files(".");
     let mut verdict = Verdict::on("links");
     for name in ["soft.png", "hard.png", "round/floor.png"] {
         for flags in [format!("-o {name}"), format!("-o new.png --report {name}")] {
-            let run = place.run(&format!("render floor.toml {flags}"));
-            verdict.that(&flags, says_so(&run), || {
+            let run = workspace.run(&format!("render floor.toml {flags}"));
+            verdict.that(&flags, is_refusal(&run), || {
                 format!("{:?}: {}", run.code, run.stderr)
             });
         }
     }
     verdict.that(
         "files",
-        place.files(".") == before,
-        || "another file than before",
+        workspace.files(".") == before,
+        || "a file has changed",
     );
     verdict.close();
 }
 
 #[test]
-fn the_report_of_a_scene_that_cannot_be_read_replaces_nothing_but_a_report() {
-    let place = place();
-    // The texture is named behind the mistake.
-    place.write(
+fn the_report_of_an_unreadable_scene_replaces_only_a_report() {
+    let workspace = workspace();
+    // The texture is named after the syntax error.
+    workspace.write(
         "floor.toml",
         format!("nonsense\n{}", TEXTURED.replace("TEXTURE", "floor.png")),
     );
-    let before = place.files(".");
-    place
+    let before = workspace.files(".");
+    workspace
         .run("render floor.toml -o new.png --report floor.png")
         .expect(3);
-    assert!(place.files(".") == before);
+    assert!(workspace.files(".") == before);
     for _ in 0..2 {
-        place
+        workspace
             .run("render floor.toml -o new.png --report r.json")
             .expect(3);
         let report: serde_json::Value =
-            serde_json::from_slice(&place.read("r.json")).expect("JSON");
+            serde_json::from_slice(&workspace.read("r.json")).expect("JSON");
         assert_eq!(report["error"]["code"], 3);
     }
 }
@@ -160,45 +160,45 @@ fn the_report_of_a_scene_that_cannot_be_read_replaces_nothing_but_a_report() {
 #[cfg(unix)]
 #[test]
 fn a_frame_that_is_a_link_is_not_written_through() {
-    let place = Place::moving();
+    let workspace = Workspace::moving();
     let line = "animate a.toml -o k.y4m --size 32x18 --samples 1 --frames 0..2 --quiet";
-    place.run(line).expect(0);
-    place.write("outside.txt", "precious");
+    workspace.run(line).expect(0);
+    workspace.write("outside.txt", "precious");
     for name in ["frame_0001.png", "frame_journal.png.jsonl", ".glimray.lock"] {
-        let path = place.path("k.y4m.frames").join(name);
+        let path = workspace.path("k.y4m.frames").join(name);
         let kept = fs::read(&path).ok();
         let _ = fs::remove_file(&path);
         std::os::unix::fs::symlink("../outside.txt", &path).expect("a link");
-        let run = place.run(line).expect(4);
+        let run = workspace.run(line).expect(4);
         run.says("it is a link that leads elsewhere. Remove the link");
-        assert_eq!(place.read("outside.txt"), b"precious", "{name}");
+        assert_eq!(workspace.read("outside.txt"), b"precious", "{name}");
         assert!(path.is_symlink(), "{name}");
         fs::remove_file(&path).expect("removed");
         if let Some(kept) = kept {
             fs::write(&path, kept).expect("put back");
         }
     }
-    // A frame that was moved away and linked is what it was, and is only read.
-    let frames = place.path("k.y4m.frames");
+    // A finished frame that was moved and linked is only read, so it is accepted.
+    let frames = workspace.path("k.y4m.frames");
     for name in ["frame_0000.png", "frame_0001.png"] {
-        fs::rename(frames.join(name), place.path(name)).expect("moved");
+        fs::rename(frames.join(name), workspace.path(name)).expect("moved");
         std::os::unix::fs::symlink(format!("../{name}"), frames.join(name)).expect("a link");
     }
-    place.run(line).expect(0);
+    workspace.run(line).expect(0);
     assert!(frames.join("frame_0001.png").is_symlink());
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn a_video_into_a_device_or_a_pipe_has_no_frames_beside_it() {
-    let place = Place::moving();
+    let workspace = Workspace::moving();
     let line = |flags: &str| format!("animate a.toml --size 16x16 --frames 0..1 --quiet {flags}");
-    place
+    workspace
         .run(&line("-o /dev/full"))
         .expect(4)
         .says("error: cannot write the file (/dev/full): no space left on device.");
-    place.run(&line("-o /dev/null")).expect(0);
-    place
+    workspace.run(&line("-o /dev/null")).expect(0);
+    workspace
         .run(&line("-o /dev/null --format mp4"))
         .expect(2)
         .says("Name one with --frames-dir");
@@ -206,49 +206,52 @@ fn a_video_into_a_device_or_a_pipe_has_no_frames_beside_it() {
         let folder = format!("{device}.frames");
         assert!(!fs::exists(&folder).expect("known"), "{folder} was made");
     }
-    // The same bytes as into a file.
-    let pipe = place.path("pipe");
+    // A pipe gets the same bytes as a file.
+    let pipe = workspace.path("pipe");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
     assert!(made.expect("mkfifo runs").success());
     let reader = std::thread::spawn(move || fs::read(pipe).expect("a video"));
-    place.run(&line("-o pipe")).expect(0);
-    place.run(&line("-o file.y4m")).expect(0);
-    assert!(reader.join().expect("read") == place.read("file.y4m"));
-    assert!(!place.path("pipe.frames").exists());
+    workspace.run(&line("-o pipe")).expect(0);
+    workspace.run(&line("-o file.y4m")).expect(0);
+    assert!(reader.join().expect("read") == workspace.read("file.y4m"));
+    assert!(!workspace.path("pipe.frames").exists());
 }
 
 #[test]
 fn a_frame_of_a_video_is_not_replaced_by_the_video() {
-    let place = Place::new();
-    place.write("b.toml", MOVING);
+    let workspace = Workspace::new();
+    workspace.write("b.toml", MOVING);
     let line = "animate b.toml --frames 0..2 -o d/frame_0001.png --format y4m --frames-dir d";
-    place.run(line).expect(2).says("a frame of it goes there");
+    workspace
+        .run(line)
+        .expect(2)
+        .says("one of its frames has that name");
 }
 
 #[cfg(feature = "viewer")]
 #[test]
-fn a_recording_replaces_nothing_but_a_recording() {
-    let place = place();
-    let before = place.files(".");
+fn a_recording_replaces_only_a_recording() {
+    let workspace = workspace();
+    let before = workspace.files(".");
     for flags in [
         "floor.toml --record floor.toml",
         "floor.toml --record floor.png",
         "model.obj --record model.mtl",
     ] {
-        let run = place.run(&format!("view {flags}")).expect(4);
+        let run = workspace.run(&format!("view {flags}")).expect(4);
         run.says("that file is no recording, and would be lost. Name another one with --record.");
     }
-    place.write("r.jsonl", "{\"time\":0.0,\"size\":[640.0,480.0]}\n");
-    let run = place
+    workspace.write("r.jsonl", "{\"time\":0.0,\"size\":[640.0,480.0]}\n");
+    let run = workspace
         .run("view floor.toml --replay r.jsonl --record r.jsonl")
         .expect(4);
     run.says("error: cannot write the recording (r.jsonl): this run reads that file.");
-    fs::remove_file(place.path("r.jsonl")).expect("removed");
-    assert!(place.files(".") == before);
+    fs::remove_file(workspace.path("r.jsonl")).expect("removed");
+    assert!(workspace.files(".") == before);
 }
 
 #[test]
-fn what_make_demo_renders_is_seen_neither_by_git_nor_by_cargo() {
+fn git_and_cargo_ignore_the_picture_of_make_demo() {
     let read = |name: &str| fs::read_to_string(name).expect(name);
     let demo = read("Makefile");
     let recipe = demo

@@ -1,7 +1,8 @@
-//! What is told about a run that fails: the report with its error, lines of JSON for a program, colour
-//! and whole words for a person.
+//! Messages of failed runs: the report with its error, JSON lines, and coloured, wrapped text on terminals.
 
-use crate::animate::place::Place;
+use crate::support::program::Workspace;
+#[cfg(target_os = "linux")]
+use crate::support::skip::{Need, skip};
 use crate::support::verdict::Verdict;
 use glimray::app::error::AppError;
 use glimray::gpu::GpuError;
@@ -9,8 +10,8 @@ use insta::assert_snapshot;
 use serde_json::Value;
 use std::process::{Command, Stdio};
 
-/// Names of all fields, as `outer.inner`; those of the adapter and of the rays count as one each, which
-/// may be null.
+/// Names of all fields, such as `outer.inner`. `adapter`, `rays` and `error` count as one field each, because
+/// they may be null.
 fn fields(report: &Value) -> Vec<String> {
     let mut names = Vec::new();
     for (outer, value) in report.as_object().expect("an object") {
@@ -27,9 +28,9 @@ fn fields(report: &Value) -> Vec<String> {
 
 #[test]
 fn a_run_that_fails_reports_its_error_and_all_other_fields() {
-    let place = Place::new();
-    place.write("bad.scene", "1\nsphere\npos: 0 0 x\n");
-    let run = place
+    let workspace = Workspace::new();
+    workspace.write("bad.scene", "1\nsphere\npos: 0 0 x\n");
+    let run = workspace
         .run("render a.scene --size 8x8 -o a.png --report -")
         .expect(0);
     assert_eq!(run.report["error"], Value::Null);
@@ -70,7 +71,7 @@ fn a_run_that_fails_reports_its_error_and_all_other_fields() {
             2048.into(),
         ),
     ] {
-        let run = place.run(&format!("{line} --report -")).expect(code);
+        let run = workspace.run(&format!("{line} --report -")).expect(code);
         let report = &run.report;
         let said = run.stderr.lines().last().unwrap_or_default();
         let message = report["error"]["message"].as_str().unwrap_or_default();
@@ -87,28 +88,28 @@ fn a_run_that_fails_reports_its_error_and_all_other_fields() {
         );
     }
     verdict.close();
-    let run = place.run("animate a.scene --report -").expect(2);
+    let run = workspace.run("animate a.scene --report -").expect(2);
     assert_eq!(run.report["animation"], Value::Null);
     assert_eq!(run.report["command"], "animate");
     assert_eq!(run.report["error"]["code"], 2);
-    // Into a file as well, in place of an older one.
+    // The report also goes to a file, and replaces an older one.
     for code in [5, 3] {
         let line = match code {
             5 => "render a.scene --adapter nothing_like_it --report r.json",
             _ => "render gone.scene --report r.json",
         };
-        place.run(line).expect(code);
-        let report: Value = serde_json::from_slice(&place.read("r.json")).expect("JSON");
+        workspace.run(line).expect(code);
+        let report: Value = serde_json::from_slice(&workspace.read("r.json")).expect("JSON");
         assert_eq!(report["error"]["code"], code);
     }
 }
 
 #[test]
 fn with_progress_in_json_every_line_is_a_json_object() {
-    let place = Place::new();
-    // More objects are announced than there are: a warning.
-    let text = String::from_utf8(place.read("a.scene")).expect("text");
-    place.write("warns.scene", text.replacen('2', "9 # skip", 1));
+    let workspace = Workspace::new();
+    // The header announces more objects than there are, which causes a warning.
+    let text = String::from_utf8(workspace.read("a.scene")).expect("text");
+    workspace.write("warns.scene", text.replacen('2', "9 # skip", 1));
     let mut verdict = Verdict::on("lines");
     for (line, code, key) in [
         ("render warns.scene --size 8x8 --verbose", 0, "warning"),
@@ -125,7 +126,7 @@ fn with_progress_in_json_every_line_is_a_json_object() {
         ),
     ] {
         for flag in ["--progress json", "--progress=json"] {
-            let run = place.run(&format!("{line} {flag}")).expect(code);
+            let run = workspace.run(&format!("{line} {flag}")).expect(code);
             let lines = run.stderr.lines().map(serde_json::from_str::<Value>);
             let lines: Vec<_> = lines.map(|line| line.unwrap_or_default()).collect();
             let is_json = !lines.is_empty() && lines.iter().all(Value::is_object);
@@ -140,12 +141,21 @@ fn with_progress_in_json_every_line_is_a_json_object() {
         }
     }
     verdict.close();
+    let run = workspace.run("render a.scene --tone acse --progress json");
+    let error: Value = serde_json::from_str(&run.expect(2).stderr).expect("JSON");
+    let message = "invalid value 'acse' for '--tone <TONE>' [possible values: none, aces, agx, reinhard] tip: a \
+                   similar value exists: 'aces'";
+    assert_eq!(error["error"], message);
 }
 
-/// What a terminal of so many columns gets of a shell's line, in which `$G` is the program, with its
-/// line ends as they are in a file; `None` where there is no `script` to make a terminal.
+/// Why tests on a terminal are skipped.
 #[cfg(target_os = "linux")]
-fn on_a_terminal(place: &Place, columns: u32, line: &str) -> Option<String> {
+const NO_SCRIPT: &str = "there is no `script` to create a terminal";
+
+/// The output of a shell command on a terminal with that many columns, with `\n` as line end. `$G` is the
+/// program. `None` if there is no `script` to create a terminal.
+#[cfg(target_os = "linux")]
+fn on_a_terminal(workspace: &Workspace, columns: u32, line: &str) -> Option<String> {
     let mut command = Command::new("script");
     command.args([
         "-qec",
@@ -153,11 +163,11 @@ fn on_a_terminal(place: &Place, columns: u32, line: &str) -> Option<String> {
         "/dev/null",
     ]);
     command
-        .env("G", place.command("").get_program())
+        .env("G", workspace.command("").get_program())
         .env("TERM", "xterm");
     command
         .env_remove("NO_COLOR")
-        .current_dir(place.path("."))
+        .current_dir(workspace.path("."))
         .stdin(Stdio::null());
     let output = command.output().ok()?;
     Some(String::from_utf8_lossy(&output.stdout).replace("\r\n", "\n"))
@@ -166,16 +176,12 @@ fn on_a_terminal(place: &Place, columns: u32, line: &str) -> Option<String> {
 #[cfg(target_os = "linux")]
 #[test]
 fn labels_are_coloured_on_a_terminal_only() {
-    let place = Place::new();
+    let workspace = Workspace::new();
     let plain = "error: cannot read the file (gone.scene)";
     let colored = "\u{1b}[1;31merror:\u{1b}[0m cannot read the file (gone.scene)";
     let line = "$G inspect gone.scene";
-    let Some(on_terminal) = on_a_terminal(&place, 200, line) else {
-        assert!(
-            std::env::var_os("GLIMRAY_REQUIRE").is_none(),
-            "there is no `script`"
-        );
-        return;
+    let Some(on_terminal) = on_a_terminal(&workspace, 200, line) else {
+        return skip(Need::Special, NO_SCRIPT);
     };
     assert!(on_terminal.starts_with(colored), "{on_terminal:?}");
     for line in [
@@ -183,23 +189,60 @@ fn labels_are_coloured_on_a_terminal_only() {
         "TERM=dumb $G inspect gone.scene",
         "$G inspect gone.scene 2>&1 | cat",
     ] {
-        let text = on_a_terminal(&place, 200, line).expect("a terminal");
+        let text = on_a_terminal(&workspace, 200, line).expect("a terminal");
         assert!(text.starts_with(plain), "{line}: {text:?}");
     }
-    assert!(place.run("inspect gone.scene").stderr.starts_with(plain));
+    assert!(
+        workspace
+            .run("inspect gone.scene")
+            .stderr
+            .starts_with(plain)
+    );
 }
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_terminal_gets_the_line_at_fault_with_a_mark() {
-    let place = Place::new();
-    place.write(
+fn command_line_errors_are_coloured_and_wrapped_on_a_terminal() {
+    let workspace = Workspace::new();
+    let line = "$G render a.scene --filter lanczos";
+    let Some(colored) = on_a_terminal(&workspace, 200, line) else {
+        return skip(Need::Special, NO_SCRIPT);
+    };
+    let label = "\u{1b}[1m\u{1b}[31merror:\u{1b}[0m invalid value";
+    assert!(colored.starts_with(label), "{colored:?}");
+    let whole = workspace.run(&line["$G ".len()..]).expect(2).stderr;
+    let words = |text: &str| {
+        text.split_whitespace()
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
+    for columns in [60, 30] {
+        let plain = on_a_terminal(&workspace, columns, &format!("NO_COLOR=1 {line}"));
+        let plain = plain.expect("a terminal");
+        assert_eq!(words(&plain), words(&whole));
+        let is_fit = |line: &str| line.chars().count() <= columns as usize;
+        assert!(plain.lines().all(is_fit), "{plain}");
+        // Colours take no columns.
+        let colored = on_a_terminal(&workspace, columns, line).expect("a terminal");
+        assert_eq!(
+            colored.lines().count(),
+            plain.lines().count(),
+            "{colored:?}"
+        );
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_gets_the_faulty_line_with_a_mark() {
+    let workspace = Workspace::new();
+    workspace.write(
         "bad.toml",
         "ambient = [0, 0, 0]\nbackground = [0, oops, 0]\n",
     );
     let line = "NO_COLOR=1 $G inspect bad.toml";
-    let Some(text) = on_a_terminal(&place, 200, line) else {
-        return;
+    let Some(text) = on_a_terminal(&workspace, 200, line) else {
+        return skip(Need::Special, NO_SCRIPT);
     };
     let (message, drawing) = text.split_once('\n').expect("lines");
     assert!(
@@ -213,21 +256,21 @@ fn a_terminal_gets_the_line_at_fault_with_a_mark() {
   ·                    ╰── here
   ╰────
 ");
-    // A program that reads along gets the message alone.
-    let run = place.run("inspect bad.toml").expect(3);
+    // Without a terminal there is only the message.
+    let run = workspace.run("inspect bad.toml").expect(3);
     assert_eq!(run.stderr.trim_end(), message);
 }
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_terminal_gets_lines_that_end_between_words() {
-    let place = Place::new();
+fn lines_are_wrapped_between_words_on_a_terminal() {
+    let workspace = Workspace::new();
     let line = "$G inspect gone.scene --allow-dir a_folder_that_is_not_there_and_has_a_long_name";
-    let whole = place.run(&line["$G ".len()..]).expect(3).stderr;
+    let whole = workspace.run(&line["$G ".len()..]).expect(3).stderr;
     assert_eq!(whole.lines().count(), 1, "{whole}");
     for columns in [60, 30] {
-        let Some(text) = on_a_terminal(&place, columns, &format!("NO_COLOR=1 {line}")) else {
-            return;
+        let Some(text) = on_a_terminal(&workspace, columns, &format!("NO_COLOR=1 {line}")) else {
+            return skip(Need::Special, NO_SCRIPT);
         };
         let lines: Vec<_> = text.trim_end().lines().collect();
         let is_fit = |line: &&str| line.chars().count() <= columns as usize || !line.contains(' ');
@@ -238,9 +281,9 @@ fn a_terminal_gets_lines_that_end_between_words() {
 
 #[test]
 fn messages_of_the_program_name_its_flags() {
-    let place = Place::new();
-    place.write("out.toml", "[[objects]]\nmesh = { file = '../m.obj' }\n");
-    place.write(
+    let workspace = Workspace::new();
+    workspace.write("out.toml", "[[objects]]\nmesh = { file = '../m.obj' }\n");
+    workspace.write(
         "good.toml",
         "[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n",
     );
@@ -258,14 +301,14 @@ fn messages_of_the_program_name_its_flags() {
         ),
         (
             "render a.scene --size 8x8 --adapter nothing_like_it",
-            "no such adapter (--adapter nothing_like_it): there are",
+            "no such adapter (--adapter nothing_like_it): available are",
         ),
         (
             "render a.scene --size 2048x2048 --memory-limit 1",
             "Use a smaller scene or picture, or raise --memory-limit if memory allows.",
         ),
     ] {
-        let run = place.run(line);
+        let run = workspace.run(line);
         verdict.that(line, run.stderr.contains(message), || run.stderr.clone());
     }
     verdict.close();

@@ -1,4 +1,4 @@
-//! Pictures on the disk: what comes back is what was written, and a file is complete or absent.
+//! Picture files: reading returns what was written, and a file is complete or absent.
 
 use crate::support::skip::{Need, skip};
 use glimray::image::Image;
@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// A picture with all levels in reach, colours beyond [0, 1] and no two rows alike.
+/// A picture with many levels, values outside [0, 1] and no two equal rows.
 fn sample(width: u32, height: u32) -> Image {
     let pixel = |i: u32| {
         let (x, y) = ((i % width) as f32, (i / width) as f32);
@@ -29,14 +29,14 @@ fn folder() -> TempDir {
     tempfile::tempdir().expect("a temporary folder")
 }
 
-/// The picture's file name with the folder taken out of the message.
+/// The error message, with the folder replaced by `DIR`.
 fn message(error: &OutputError, folder: &Path) -> String {
     error
         .to_string()
         .replace(&folder.display().to_string(), "DIR")
 }
 
-/// Everything in the folder, hidden files too.
+/// The names of all entries of the folder, including hidden files.
 fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<_> = fs::read_dir(folder)
         .expect("a readable folder")
@@ -57,7 +57,7 @@ fn nearest_level(value: f32) -> u8 {
 }
 
 #[test]
-fn png_holds_the_nearest_levels() {
+fn png_stores_the_nearest_levels() {
     let folder = folder();
     let path = folder.path().join("a.png");
     let image = sample(37, 11);
@@ -76,7 +76,7 @@ fn png_holds_the_nearest_levels() {
 }
 
 #[test]
-fn png_keeps_opacity_where_there_is_some() {
+fn png_stores_opacity_if_there_is_any() {
     let folder = folder();
     let path = folder.path().join("a.png");
     let mut image = sample(3, 3);
@@ -88,7 +88,7 @@ fn png_keeps_opacity_where_there_is_some() {
 }
 
 #[test]
-fn values_beyond_the_range_go_to_its_ends_and_nan_to_black() {
+fn values_outside_the_range_are_clamped_and_nan_becomes_black() {
     let folder = folder();
     let path = folder.path().join("a.png");
     let image = Image {
@@ -105,7 +105,7 @@ fn values_beyond_the_range_go_to_its_ends_and_nan_to_black() {
 }
 
 #[test]
-fn exr_holds_the_very_floats() {
+fn exr_stores_floats_exactly() {
     let folder = folder();
     let path = folder.path().join("a.exr");
     let image = sample(37, 11);
@@ -116,7 +116,7 @@ fn exr_holds_the_very_floats() {
 }
 
 #[test]
-fn hdr_holds_one_part_in_a_hundred_and_nothing_negative() {
+fn hdr_stores_values_within_one_percent_and_none_below_zero() {
     let folder = folder();
     let path = folder.path().join("a.hdr");
     let image = sample(37, 11);
@@ -136,7 +136,7 @@ fn hdr_holds_one_part_in_a_hundred_and_nothing_negative() {
 }
 
 #[test]
-fn jpeg_is_near_and_better_quality_is_larger_and_nearer() {
+fn jpeg_of_higher_quality_is_larger_and_more_accurate() {
     let folder = folder();
     let image = sample(64, 48);
     let error_and_size = |quality| {
@@ -183,7 +183,7 @@ fn a_picture_is_the_same_bytes_every_time() {
 }
 
 #[test]
-fn endings_name_formats_in_either_case() {
+fn extensions_name_formats_in_either_case() {
     let format = |name: &str| Format::from_path(Path::new(name));
     assert_eq!(format("a.PNG"), Some(Format::Png));
     assert_eq!(format("a.b.jpeg"), Some(Format::Jpeg));
@@ -195,7 +195,7 @@ fn endings_name_formats_in_either_case() {
 }
 
 #[test]
-fn the_format_asked_for_wins_over_the_ending() {
+fn a_requested_format_overrides_the_extension() {
     let folder = folder();
     let path = folder.path().join("a.dat");
     let options = SaveOptions {
@@ -207,7 +207,7 @@ fn the_format_asked_for_wins_over_the_ending() {
 }
 
 #[test]
-fn sizes_that_a_format_cannot_count_are_refused_beforehand() {
+fn sizes_beyond_a_formats_limit_are_refused_beforehand() {
     let folder = folder();
     let check = |name: &str, width, height| {
         output::check(
@@ -293,7 +293,7 @@ fn control_characters_in_a_name_stay_out_of_the_message() {
 #[test]
 fn odd_names_are_written() {
     let folder = folder();
-    // The part's name would be longer than a file name may be.
+    // The temporary file's name would exceed the limit of file names.
     let long = format!("{}.png", "ä".repeat(120));
     for name in ["-o.png", "a b\n.png", "😀.png", long.as_str()] {
         output::check(folder.path().join(name), &SaveOptions::default(), 2, 2).expect(name);
@@ -306,7 +306,7 @@ fn odd_names_are_written() {
 }
 
 #[test]
-fn checking_leaves_nothing_and_touches_nothing() {
+fn checking_creates_and_changes_no_file() {
     let folder = folder();
     let path = folder.path().join("a.png");
     output::check(&path, &SaveOptions::default(), 1, 1).expect("writable");
@@ -318,7 +318,7 @@ fn checking_leaves_nothing_and_touches_nothing() {
 }
 
 #[test]
-fn an_existing_file_is_replaced_only_if_it_may_be() {
+fn an_existing_file_is_replaced_only_with_clobber() {
     let folder = folder();
     let path = folder.path().join("a.png");
     fs::write(&path, "old").expect("a file");
@@ -351,7 +351,7 @@ fn a_write_protected_file_is_kept() {
 }
 
 #[test]
-fn any_bytes_are_written_with_the_same_care() {
+fn other_files_are_written_atomically_too() {
     let folder = folder();
     let path = folder.path().join("report.json");
     output::check_file(&path, true).expect("writable");
@@ -363,11 +363,11 @@ fn any_bytes_are_written_with_the_same_care() {
     ));
 }
 
-/// Part files are named after the process; no process has this number.
+/// Temporary files are named after the process; no process has this number.
 const DEAD: u32 = u32::MAX;
 
 #[test]
-fn leftovers_of_dead_processes_are_removed_and_others_kept() {
+fn temporary_files_of_dead_processes_are_removed_and_others_kept() {
     let folder = folder();
     let dir = folder.path();
     let alive = format!(".a.png.part-{}-Ab12Cd", std::process::id());
@@ -392,7 +392,7 @@ fn leftovers_of_dead_processes_are_removed_and_others_kept() {
 }
 
 #[test]
-fn readers_see_the_old_picture_or_the_new_one_and_nothing_between() {
+fn readers_see_either_the_old_picture_or_the_new_one() {
     let folder = folder();
     let path = folder.path().join("a.png");
     let [small, large] = [sample(16, 16), sample(256, 256)];
@@ -430,7 +430,7 @@ mod unix {
     }
 
     #[test]
-    fn a_new_file_has_ordinary_permissions() {
+    fn a_new_file_has_default_permissions() {
         let folder = folder();
         let [ours, theirs] = ["ours.png", "theirs"].map(|name| folder.path().join(name));
         output::save(&ours, &sample(2, 2)).expect("saved");
@@ -460,7 +460,7 @@ mod unix {
     }
 
     #[test]
-    fn a_link_to_a_file_that_is_not_there_stays_and_its_file_is_made() {
+    fn a_dangling_link_is_kept_and_its_target_is_created() {
         let folder = folder();
         let place = |name: &str| folder.path().join(name);
         fs::create_dir(place("far")).expect("a folder");
@@ -546,7 +546,7 @@ mod unix {
     }
 
     #[test]
-    fn a_folder_that_takes_no_files_is_found_out_beforehand() {
+    fn a_folder_that_cannot_hold_files_is_detected_beforehand() {
         // Even root cannot create files there.
         let path = Path::new("/proc/glimray.png");
         if !Path::new("/proc/self").exists() {
@@ -560,8 +560,7 @@ mod unix {
         }
     }
 
-    /// Runs `script` where it may mount what it likes and nobody else sees it; `None` where the
-    /// system does not allow that.
+    /// Runs `script` in a private mount namespace; `None` if the system does not allow that.
     fn in_private_mounts(script: &str, arguments: &[&Path]) -> Option<std::process::Output> {
         let unshare = |script: &str| {
             Command::new("unshare")
@@ -602,7 +601,7 @@ mod unix {
     }
 
     #[test]
-    fn a_disk_that_fills_up_leaves_the_old_file_and_nothing_else() {
+    fn a_full_disk_leaves_only_the_old_file() {
         let folder = folder();
         let disk = folder.path().join("disk");
         fs::create_dir(&disk).expect("a folder");

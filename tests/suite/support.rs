@@ -1,9 +1,10 @@
-//! What several subjects need: shader functions run on the GPU, verdicts that name every failure,
-//! random numbers that are the same in every run, and how much work something is.
+//! What several subjects need: shader functions run on the GPU, runs of the program, verdicts that name every
+//! failure, random numbers that are the same in every run, and how much work something is.
 
 pub mod devices;
 pub mod effort;
 pub mod harness;
+pub mod program;
 pub mod random;
 pub mod skip;
 pub mod statistics;

@@ -1,14 +1,14 @@
-//! Short names for long bytes: two things with the same fingerprint are the same.
+//! Fingerprints: hashes that identify texts and files.
 
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 use xxhash_rust::xxh3::Xxh3;
 
-/// XXH3 of 128 bits, in hexadecimal digits. It finds accidents, not forgeries.
+/// 128-bit XXH3 in hexadecimal digits. It detects accidental changes, not forgeries.
 pub type Fingerprint = String;
 
-/// Of a text.
+/// The fingerprint of a text.
 pub fn of_text(text: &str) -> Fingerprint {
     let mut hash = Xxh3::new();
     hash.update(text.as_bytes());
@@ -18,7 +18,7 @@ pub fn of_text(text: &str) -> Fingerprint {
 /// The length in bytes and the fingerprint of a file.
 ///
 /// # Errors
-/// It cannot be read, or is no ordinary file, which might have no end.
+/// It cannot be read, or is not a regular file (a device might never end).
 pub fn of_file(path: &Path) -> io::Result<(u64, Fingerprint)> {
     let mut file = File::open(path)?;
     if !file.metadata()?.is_file() {

@@ -1,7 +1,7 @@
-//! What is known about the frames in a folder: a file of JSON lines beside them. A line is added
-//! before a frame is written and another one after it, so that a killed run loses the frame it was
-//! busy with and nothing else; half a line at the end is none. A run that ends rewrites the file
-//! in order, so that the same frames give the same journal however they came about.
+//! The journal of the frames in a folder: a file of JSON lines beside them. A line is appended before a frame
+//! is written and another after it, so that a killed run loses only the frame it was writing. An incomplete
+//! last line is ignored. A run that ends rewrites the file in frame order, so that the same frames give the
+//! same journal, in whatever order they were rendered.
 
 use super::super::console;
 use super::super::error::AppError;
@@ -14,10 +14,10 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Of the file's form; another one's is not read.
+/// Version of the file format; other versions are not read.
 const VERSION: u32 = 2;
 
-/// Larger files are no journals.
+/// Files larger than this are not taken for journals.
 const MAX_BYTES: u64 = 1 << 30;
 
 /// The first line.
@@ -26,17 +26,17 @@ struct Head {
     glimray_journal: u32,
 }
 
-/// Every other line: what is known about a frame, or that its file is about to be written.
+/// Every other line: the record of a frame, or `None` when its file is about to be written.
 #[derive(Debug, Serialize, Deserialize)]
 struct Line {
     frame: u32,
     record: Option<Record>,
 }
 
-/// What a finished frame was made of, and what its file holds.
+/// The inputs of a finished frame, and the contents of its file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Record {
-    /// Its name in the folder.
+    /// File name in the folder.
     pub file: String,
     pub bytes: u64,
     pub content: Fingerprint,
@@ -44,48 +44,48 @@ pub struct Record {
     pub origin: Origin,
 }
 
-/// Everything that a frame depends on.
+/// Fingerprints of everything that a frame depends on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Origin {
-    /// What stands still.
+    /// The static part of the scene.
     pub scene: Fingerprint,
-    /// What is special to the frame.
+    /// The frame's own part: camera, lights and moving objects.
     pub view: Fingerprint,
-    /// How it is rendered, developed and stored.
+    /// Settings for rendering, developing and storing.
     pub settings: Fingerprint,
-    /// The program, the adapter and its driver; `None` accepts any.
+    /// Program version, adapter and driver; `None` accepts any.
     pub renderer: Option<String>,
 }
 
-/// What a frame's file is worth.
+/// The state of a frame's file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum State {
-    /// There is none.
+    /// There is no file.
     Absent,
-    /// It is what would be rendered.
+    /// It equals what would be rendered.
     Done,
-    /// It is to be rendered again.
+    /// It must be rendered again, for this reason.
     Stale(&'static str),
-    /// It is there, and no run is known to have written it.
+    /// It exists, but no known run wrote it.
     Foreign,
 }
 
-/// The journal of the frames that a pattern names.
+/// The journal of the frames of a pattern.
 pub struct Journal {
     path: PathBuf,
-    /// `None` is a frame whose writing has begun.
+    /// `None` is a frame whose writing was started.
     frames: BTreeMap<u32, Option<Record>>,
-    /// Where lines are added.
+    /// The file open for appending.
     file: Option<File>,
 }
 
 impl Journal {
-    /// Reads what there is; a file that is no journal is a warning, and like none.
+    /// Reads the journal, if there is one. A file that is not a journal causes a warning and is ignored.
     pub fn open(pattern: &Pattern) -> Self {
         let path = pattern.journal();
         let frames = read(&path).unwrap_or_else(|why| {
             console::warning(format_args!(
-                "cannot use what is known about the frames ({}): {why}. All of them are rendered again.",
+                "cannot use the frame journal ({}): {why}. All frames are rendered again.",
                 path.display()
             ));
             BTreeMap::new()
@@ -97,8 +97,8 @@ impl Journal {
         }
     }
 
-    /// What the file of a frame is worth to a run that would make it of `origin`, which is asked for
-    /// only if it matters.
+    /// The state of a frame's file for a run that would render it from `origin`, which is computed only if
+    /// needed.
     pub fn state(
         &self,
         pattern: &Pattern,
@@ -108,14 +108,14 @@ impl Journal {
         let path = pattern.path(number);
         let exists = fs::symlink_metadata(&path).is_ok();
         let known = self.frames.get(&number);
-        // A record of a name with more or fewer digits is about another file.
+        // A record whose name has more or fewer digits belongs to another file.
         let name = pattern.name(number);
         let known = known.filter(|known| (known.as_ref()).is_none_or(|record| record.file == name));
         let record = match known {
             None if exists => return Ok(State::Foreign),
             None => return Ok(State::Absent),
             Some(None) if exists => {
-                return Ok(State::Stale("it was being written when a run ended"));
+                return Ok(State::Stale("a run ended while writing it"));
             }
             Some(None) => return Ok(State::Absent),
             Some(Some(_)) if !exists => return Ok(State::Stale("its file is missing")),
@@ -128,30 +128,30 @@ impl Journal {
         } else if was.settings != origin.settings {
             State::Stale("the settings have changed")
         } else if was.view != origin.view {
-            State::Stale("what moves, the camera or the lights have changed")
+            State::Stale("moving objects, the camera or the lights have changed")
         } else if origin.renderer.is_some() && was.renderer != origin.renderer {
-            State::Stale("it is from another adapter, driver or version of glimray")
+            State::Stale("another adapter, driver or glimray version rendered it")
         } else {
             match fingerprint::of_file(&path) {
                 Ok(found) if found == (record.bytes, record.content.clone()) => State::Done,
-                Ok(_) => State::Stale("its file is not what was written"),
+                Ok(_) => State::Stale("its file has been modified"),
                 Err(_) => State::Stale("its file cannot be read"),
             }
         })
     }
 
-    /// Whether an earlier run ended while it wrote a frame's file.
-    pub fn has_begun(&self, number: u32) -> bool {
+    /// Whether an earlier run ended while writing a frame's file.
+    pub fn is_unfinished(&self, number: u32) -> bool {
         matches!(self.frames.get(&number), Some(None))
     }
 
-    /// Notes that a frame's file is about to be written.
-    pub fn begin(&mut self, number: u32) -> Result<(), AppError> {
+    /// Records that a frame's file is about to be written.
+    pub fn record_start(&mut self, number: u32) -> Result<(), AppError> {
         self.add(number, None)
     }
 
-    /// Notes that a frame's file is complete, after looking at it.
-    pub fn finish(
+    /// Records that a frame's file is complete, with its fingerprint.
+    pub fn record_finish(
         &mut self,
         pattern: &Pattern,
         number: u32,
@@ -179,7 +179,7 @@ impl Journal {
         let mut file = match self.file.take() {
             Some(file) => file,
             None => {
-                // Nothing may follow half a line.
+                // Rewriting drops an incomplete last line before anything is appended.
                 self.rewrite()?;
                 let file = OpenOptions::new().append(true).open(&self.path);
                 file.map_err(failed)?
@@ -195,7 +195,7 @@ impl Journal {
         Ok(())
     }
 
-    /// Puts the file in order. What it says does not change, so nothing is lost if it cannot be.
+    /// Rewrites the file in frame order. The contents stay the same, so a failure loses nothing.
     pub fn close(&mut self) {
         if self.file.take().is_some() {
             let _ = self.rewrite();
@@ -235,7 +235,7 @@ fn json(value: &impl Serialize) -> Result<String, AppError> {
         .map_err(|error| AppError::Internal(format!("journal: {error}")))
 }
 
-/// The frames of the journal at `path`, or why it cannot be used.
+/// Reads the frames of the journal at `path`. The error is the reason why it cannot be used.
 fn read(path: &Path) -> Result<BTreeMap<u32, Option<Record>>, String> {
     let found = match fs::metadata(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(BTreeMap::new()),
@@ -243,7 +243,7 @@ fn read(path: &Path) -> Result<BTreeMap<u32, Option<Record>>, String> {
         Ok(found) => found,
     };
     if !found.is_file() || found.len() > MAX_BYTES {
-        return Err("it is no journal".into());
+        return Err("it is not a journal".into());
     }
     let bytes = fs::read(path).map_err(|error: io::Error| output::reason(&error))?;
     let text = String::from_utf8_lossy(&bytes);
@@ -251,7 +251,7 @@ fn read(path: &Path) -> Result<BTreeMap<u32, Option<Record>>, String> {
     let head: Head = lines
         .next()
         .and_then(|line| serde_json::from_str(line).ok())
-        .ok_or("it is no journal")?;
+        .ok_or("it is not a journal")?;
     if head.glimray_journal != VERSION {
         return Err("it is from another version of glimray".into());
     }

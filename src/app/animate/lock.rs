@@ -1,5 +1,5 @@
-//! One run at a time in a folder. The system lets go of the lock when a process ends, however it
-//! ends, so that a killed run is in nobody's way.
+//! Allows one run at a time per folder. The system releases the lock when a process ends, however it ends, so
+//! a killed run blocks nobody.
 
 use super::super::console;
 use super::super::error::AppError;
@@ -13,12 +13,12 @@ const NAME: &str = ".glimray.lock";
 /// Keeps other runs out of a folder until it is dropped.
 pub struct Lock {
     path: PathBuf,
-    /// `None` where the file system has no locks.
+    /// `None` if the file system has no locks.
     file: Option<File>,
     _litter: Litter,
 }
 
-/// The file in `folder` that is locked.
+/// The lock file of `folder`.
 pub fn path(folder: &Path) -> PathBuf {
     folder.join(NAME)
 }
@@ -27,8 +27,8 @@ impl Lock {
     /// Locks `folder`.
     ///
     /// # Errors
-    /// Another run has it, or no file can be written there.
-    pub fn take(folder: &Path) -> Result<Self, AppError> {
+    /// Another run holds the lock, or the lock file cannot be written.
+    pub fn acquire(folder: &Path) -> Result<Self, AppError> {
         let path = path(folder);
         output::check_no_link(&path)?;
         loop {
@@ -47,21 +47,21 @@ impl Lock {
                 Err(TryLockError::WouldBlock) => {
                     return Err(AppError::Unwritable(format!(
                         "cannot write frames (folder {}): another run is writing there. Wait until it \
-                         has ended, or choose another folder.",
+                         ends, or choose another folder.",
                         folder.display()
                     )));
                 }
                 Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {
                     console::warning(format_args!(
-                        "cannot lock the folder {}: its file system has no locks. Let no other run \
-                         write there.",
+                        "cannot lock the folder {}: its file system has no locks. Make sure that no other \
+                         run writes there.",
                         folder.display()
                     ));
                     None
                 }
                 Err(TryLockError::Error(source)) => return Err(failed(source).into()),
             };
-            // A run that ended in between has removed the file that we have locked.
+            // Another run may have ended meanwhile and removed the file that is locked now.
             let is_current = (file.as_ref()).map_or(Ok(true), |file| is_same(file, &path));
             if is_current.map_err(failed)? {
                 let listed = Litter::make(|| Ok(()), |()| path.clone());
@@ -77,16 +77,16 @@ impl Lock {
 }
 
 impl Drop for Lock {
-    /// Removes the file while it is still locked: whoever has opened it meanwhile looks again.
+    /// Removes the file while it is still locked. A run that has opened it meanwhile opens it again.
     fn drop(&mut self) {
-        // Elsewhere an open file cannot be told from another one of its name, and stays.
+        // Other systems cannot tell an open file from a new one of the same name, so the file stays.
         if cfg!(unix) || self.file.is_none() {
             let _ = fs::remove_file(&self.path);
         }
     }
 }
 
-/// Whether `file` is what `path` names.
+/// Whether `path` still leads to `file`.
 #[cfg(unix)]
 fn is_same(file: &File, path: &Path) -> io::Result<bool> {
     use std::os::unix::fs::MetadataExt as _;

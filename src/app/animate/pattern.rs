@@ -1,29 +1,29 @@
-//! Names of numbered files: `walk_%04d.png`, or `walk_####.png`.
+//! Name patterns of numbered files: `walk_%04d.png` or `walk_####.png`.
 
 use super::super::inputs::is_same;
 use std::path::{Path, PathBuf};
 
-/// A file name with room for a number, in a folder.
+/// A file name with a placeholder for a number, in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pattern {
-    /// As given.
+    /// The pattern as given.
     text: PathBuf,
     folder: PathBuf,
     before: String,
-    /// Digits at least.
+    /// Minimum number of digits.
     digits: usize,
     after: String,
 }
 
 impl Pattern {
-    /// Reads a pattern: its name has one `%d`, `%04d` or run of `#` for the number; `%%` is a
-    /// percent sign. Where there is a `%d`, a `#` is only a letter.
+    /// Parses a pattern: its name has one `%d`, `%04d` or run of `#` for the number; `%%` is a percent sign.
+    /// With a `%d`, a `#` is an ordinary character.
     ///
     /// # Errors
-    /// What is wrong with it and what to do, as the end of a sentence.
+    /// The reason and the remedy, as the end of a sentence.
     pub fn parse(path: &Path) -> Result<Self, String> {
         let name = path.file_name().and_then(|name| name.to_str());
-        let name = name.ok_or("the name is no text. Choose another one.")?;
+        let name = name.ok_or("the name is not valid Unicode. Choose another one.")?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let (before, digits, after) = match percent(name)? {
             Found::One(parts) => parts,
@@ -49,12 +49,12 @@ impl Pattern {
         }
     }
 
-    /// As given.
+    /// The pattern as given.
     pub fn text(&self) -> &Path {
         &self.text
     }
 
-    /// Where the files are; never empty.
+    /// The folder of the files; never empty.
     pub fn folder(&self) -> &Path {
         if self.folder.as_os_str().is_empty() {
             Path::new(".")
@@ -79,7 +79,7 @@ impl Pattern {
         self.folder.join(self.name(number))
     }
 
-    /// Whether `path` is a file of any number, or the journal.
+    /// Whether `path` is a file of the pattern, with any number, or the journal.
     pub fn names(&self, path: &Path) -> bool {
         let name = path.file_name().and_then(|name| name.to_str());
         let number = name
@@ -92,7 +92,7 @@ impl Pattern {
             .any(|file| is_same(&file, path))
     }
 
-    /// The path of what is remembered about the files.
+    /// The path of the files' journal.
     pub fn journal(&self) -> PathBuf {
         let Self { before, after, .. } = self;
         self.folder.join(format!("{before}journal{after}.jsonl"))
@@ -119,12 +119,12 @@ fn percent(name: &str) -> Result<Found, String> {
         }
         let (digits, after) = placeholder(rest).ok_or_else(|| {
             format!(
-                "`%{}` is no placeholder. Write %04d for the frame's number, or %% for a percent sign.",
+                "`%{}` is not a placeholder. Write %04d for the frame number, or %% for a percent sign.",
                 rest.chars().next().map(String::from).unwrap_or_default()
             )
         })?;
         if before.is_some() {
-            return Err("the name has more than one placeholder. Leave one.".into());
+            return Err("the name has more than one placeholder. Keep one.".into());
         }
         before = Some((std::mem::take(&mut text), digits));
         rest = after;
@@ -136,12 +136,12 @@ fn percent(name: &str) -> Result<Found, String> {
     })
 }
 
-/// The digits and what follows, of `d`, `4d` or `04d` after a percent sign.
+/// Parses `d`, `4d` or `04d` after a percent sign: the minimum number of digits, and the rest of the name.
 fn placeholder(rest: &str) -> Option<(usize, &str)> {
     let (width, after) = rest.split_once('d')?;
     let digits = match width.strip_prefix('0').unwrap_or(width) {
         "" => 1,
-        // More digits than a number has are a mistake.
+        // More digits than a number can have are an error.
         width => width
             .parse()
             .ok()
@@ -153,12 +153,12 @@ fn placeholder(rest: &str) -> Option<(usize, &str)> {
 fn hashes(name: &str) -> Result<(String, usize, String), String> {
     let start = name
         .find('#')
-        .ok_or("the name has no place for the number.")?;
+        .ok_or("the name has no placeholder for the frame number.")?;
     let rest = &name[start..];
     let digits = rest.find(|c| c != '#').unwrap_or(rest.len());
     let after = &rest[digits..];
     if after.contains('#') {
-        return Err("the name has more than one placeholder. Leave one.".into());
+        return Err("the name has more than one placeholder. Keep one.".into());
     }
     if digits > 18 {
         return Err("the number has too many digits. Write fewer #.".into());

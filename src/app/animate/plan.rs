@@ -1,4 +1,4 @@
-//! What is to be done: which frames are there, and why others are not good enough.
+//! Decides which existing frames are reused and which are rendered.
 
 use super::super::error::AppError;
 use super::super::inputs::Inputs;
@@ -8,19 +8,18 @@ use super::Sequence;
 use super::journal::{Journal, Origin, State};
 use crate::output;
 
-/// Longer lists of frames are cut in messages.
+/// Largest number of frame ranges in a message.
 const MAX_LISTED: usize = 6;
 
-/// The frames of a run in order, and what each one's file is worth.
+/// The frames of a run in order, and the state of each one's file.
 pub struct Plan(Vec<(u32, State)>);
 
 impl Plan {
-    /// Looks at every frame; says what is there and what is to be done again. `origin` is what a frame
-    /// would be made of.
+    /// Finds the state of every frame, and prints which are reused and which are rendered again. `origin`
+    /// gives the origin from which a frame would be rendered.
     ///
     /// # Errors
-    /// A file may not be replaced, frames are missing that may not be rendered, or a signal asked
-    /// for the end.
+    /// A file must not be replaced, a frame is missing with `--encode-only`, or a signal requested termination.
     pub fn new(
         sequence: &Sequence,
         origin: impl Fn(u32) -> Result<Origin, AppError>,
@@ -40,13 +39,13 @@ impl Plan {
         });
         let plan = Self(states.collect::<Result<_, AppError>>()?);
         plan.check(sequence)?;
-        plan.tell(sequence);
+        plan.print(sequence);
         Ok(plan)
     }
 
-    /// Refuses to write a frame, or to remove one at the end, that the run reads; or to write one through
-    /// a link that leads out of the folder.
-    pub fn spare(&self, sequence: &Sequence, inputs: &Inputs) -> Result<(), AppError> {
+    /// Refuses to write or discard a frame that is one of the run's inputs, and to write a frame through a
+    /// link.
+    pub fn protect(&self, sequence: &Sequence, inputs: &Inputs) -> Result<(), AppError> {
         let Some(files) = &sequence.target.frames else {
             return Ok(());
         };
@@ -70,18 +69,18 @@ impl Plan {
         self.0.len()
     }
 
-    /// Frames that need not be rendered.
+    /// Number of frames that need not be rendered.
     pub fn done_count(&self) -> usize {
         self.frames().filter(|(_, done)| *done).count()
     }
 
-    /// Frames that are there but could not be used, by reason.
+    /// Existing frames that cannot be reused, by reason.
     pub fn redone(&self) -> Vec<Redone> {
         let mut groups: Vec<Redone> = Vec::new();
         for (number, state) in &self.0 {
             let why = match state {
                 State::Stale(why) => why,
-                State::Foreign => "there is a file that no run is known to have written",
+                State::Foreign => "no known run wrote the file",
                 State::Absent | State::Done => continue,
             };
             match groups.iter_mut().find(|group| group.why == why) {
@@ -102,8 +101,8 @@ impl Plan {
         let foreign = self.0.iter().find(|(_, state)| *state == State::Foreign);
         if let Some((number, _)) = foreign.filter(|_| sequence.flags.no_clobber) {
             return Err(AppError::Unwritable(format!(
-                "cannot write frame {number} ({}): the file exists and no run of this animation is \
-                 known to have written it. Choose another name, or leave out --no-clobber.",
+                "cannot write frame {number} ({}): the file exists, and no known run of this \
+                 animation wrote it. Choose another name, or omit --no-clobber.",
                 files.pattern.path(*number).display()
             )));
         }
@@ -115,7 +114,7 @@ impl Plan {
                 why.push(format!("{}: not rendered yet", list(&absent)));
             }
             return Err(AppError::Refused(format!(
-                "cannot use the frames ({}): {}. Leave out --encode-only to have them rendered.",
+                "cannot use the frames ({}): {}. Omit --encode-only to render them.",
                 files.pattern.folder().display(),
                 why.join("; ")
             )));
@@ -123,15 +122,15 @@ impl Plan {
         Ok(())
     }
 
-    fn tell(&self, sequence: &Sequence) {
+    fn print(&self, sequence: &Sequence) {
         let console = sequence.job.console();
         let done = self.done_count();
         let count = self.count();
         if done > 0 && done < count {
-            console.status(format_args!("{done} of {count} frames are done already"));
+            console.status(format_args!("{done} of {count} frames are already done"));
         }
         for group in self.redone() {
-            console.status(format_args!("again {}", reason(&group)));
+            console.status(format_args!("re-rendering {}", reason(&group)));
         }
     }
 }
@@ -141,7 +140,7 @@ fn reason(group: &Redone) -> String {
     format!("{}: {}", list(&group.frames), group.why)
 }
 
-/// `frame 3`, or `frames 3, 5..9`, of rising numbers.
+/// `frame 3` or `frames 3, 5..9`, for increasing numbers.
 fn list(numbers: &[u32]) -> String {
     let mut runs: Vec<(u32, u32)> = Vec::new();
     for &number in numbers {

@@ -1,4 +1,4 @@
-//! Renders frames: one renderer for all of them, so that only what moves is uploaded for each.
+//! Renders frames. All of them share one renderer, so that only moving geometry is uploaded per frame.
 
 use super::super::error::AppError;
 use super::super::interrupt::Interrupt;
@@ -20,23 +20,23 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// All that frames are made with.
-pub struct Studio<'a> {
+/// Renders, develops and saves the frames of a sequence.
+pub struct FrameRenderer<'a> {
     sequence: &'a Sequence<'a>,
     settings: RenderSettings,
     tone: Tone,
     scene: Arc<PackedScene>,
     adapter: Option<AdapterReport>,
-    /// Until there is a renderer; `None` from the start where nothing may be rendered.
+    /// The adapter until the renderer takes it; always `None` if nothing may be rendered.
     gpu: Option<Gpu>,
     renderer: Option<Renderer>,
-    /// Of the scene, and of the settings.
+    /// Fingerprints of the scene and of the settings.
     fingerprints: (Fingerprint, Fingerprint),
     write_seconds: f64,
 }
 
-impl<'a> Studio<'a> {
-    /// Packs the scene. Without `gpu` there will be nothing to render.
+impl<'a> FrameRenderer<'a> {
+    /// Packs the scene. Without `gpu` no frame can be rendered.
     pub fn new(
         sequence: &'a Sequence<'a>,
         settings: RenderSettings,
@@ -64,17 +64,17 @@ impl<'a> Studio<'a> {
         &self.settings
     }
 
-    /// Seconds that building the tree took.
+    /// Time to build the BVHs, in seconds.
     pub fn build_seconds(&self) -> f64 {
         self.scene.build_seconds
     }
 
-    /// Seconds that writing frames took.
+    /// Time to write frames, in seconds.
     pub fn write_seconds(&self) -> f64 {
         self.write_seconds
     }
 
-    /// What a frame sees.
+    /// The packed view of a frame: camera, lights and moving geometry during its exposure.
     pub fn view(&self, number: u32) -> Result<PackedView, AppError> {
         let (open, close) = self.sequence.timeline.clock.frame(number);
         Ok(self
@@ -82,7 +82,7 @@ impl<'a> Studio<'a> {
             .shot(&self.sequence.job.scene.shot(open, close))?)
     }
 
-    /// What a frame with this view depends on.
+    /// The origin of a frame with this view.
     pub fn origin(&self, view: &PackedView) -> Origin {
         let (scene, settings) = self.fingerprints.clone();
         Origin {
@@ -105,7 +105,7 @@ impl<'a> Studio<'a> {
     /// Renders every frame that is not done, and sends all of them to `sink`.
     ///
     /// # Errors
-    /// Whatever ended the work early, with how much of it is kept.
+    /// Any error of rendering and writing, with the number of frames that are kept.
     pub fn render(
         &mut self,
         plan: Plan,
@@ -199,13 +199,13 @@ impl<'a> Studio<'a> {
         };
         let started = Instant::now();
         let path = files.pattern.path(number);
-        if journal.has_begun(number) {
-            // Removes what a run that was killed at this frame left.
+        if journal.is_unfinished(number) {
+            // Removes the partial file of a run that was killed while writing this frame.
             output::check(&path, &files.options, image.width, image.height)?;
         }
-        journal.begin(number)?;
+        journal.record_start(number)?;
         output::save_with(&path, image, &files.options)?;
-        journal.finish(&files.pattern, number, self.origin(view))?;
+        journal.record_finish(&files.pattern, number, self.origin(view))?;
         self.write_seconds += started.elapsed().as_secs_f64();
         Ok(())
     }
@@ -215,20 +215,20 @@ impl<'a> Studio<'a> {
     }
 }
 
-/// Frames on their way to the standard output, a pipe or a device.
+/// Streams frames as Y4M to standard output, a pipe or a device.
 pub struct Sink {
     writer: Y4mWriter<Box<dyn Write>>,
     path: PathBuf,
 }
 
 impl Sink {
-    /// `path` is `-` for the standard output.
+    /// Opens the stream; `-` is standard output.
     pub fn new(
         path: &Path,
         (width, height): (u32, u32),
         options: &VideoOptions,
     ) -> Result<Self, AppError> {
-        let failed = |source| no_more(path, source);
+        let failed = |source| write_error(path, source);
         let out: Box<dyn Write> = match path == Path::new("-") {
             true => Box::new(io::stdout()),
             false => Box::new(File::options().write(true).open(path).map_err(failed)?),
@@ -242,16 +242,18 @@ impl Sink {
 
     fn send(&mut self, picture: &Picture8) -> Result<(), AppError> {
         let sent = self.writer.write(picture);
-        Ok(sent.map_err(|source| no_more(&self.path, source))?)
+        Ok(sent.map_err(|source| write_error(&self.path, source))?)
     }
 
     fn finish(self) -> Result<(), AppError> {
         let Self { writer, path } = self;
-        Ok(writer.finish().map_err(|source| no_more(&path, source))?)
+        Ok(writer
+            .finish()
+            .map_err(|source| write_error(&path, source))?)
     }
 }
 
-fn no_more(path: &Path, source: io::Error) -> OutputError {
+fn write_error(path: &Path, source: io::Error) -> OutputError {
     match path == Path::new("-") {
         true => OutputError::Stdout { source },
         false => OutputError::Io {
@@ -261,10 +263,10 @@ fn no_more(path: &Path, source: io::Error) -> OutputError {
     }
 }
 
-/// Of everything but scene and view that can show in a frame's file.
+/// The fingerprint of everything except scene and view that affects a frame's file.
 fn of_settings(settings: &RenderSettings, tone: &Tone, files: Option<&Files>) -> Fingerprint {
     let format = match files {
-        // Only what is lossy has a quality.
+        // Quality affects only lossy formats.
         Some(files) if files.format == Format::Jpeg => format!("JPEG {}", files.options.quality),
         Some(files) => files.format.to_string(),
         None => String::new(),
@@ -273,8 +275,8 @@ fn of_settings(settings: &RenderSettings, tone: &Tone, files: Option<&Files>) ->
     fingerprint::of_text(&format!("{settings} {tone} {format}"))
 }
 
-/// An error that ended the work at frame `number`, with how to go on: `kept` frames are in files, or
-/// `sent` were sent where none are.
+/// Adds to an error at frame `number` how to resume: `kept` frames are in files, or, without files, `sent`
+/// frames were streamed.
 fn stopped(
     error: AppError,
     number: u32,
@@ -285,7 +287,7 @@ fn stopped(
     let kept = match kept {
         Some(0) if !matches!(error, AppError::Interrupted { .. }) => return error,
         Some(kept) => {
-            format!("{kept} of {count} frames are kept; the same command goes on from there.")
+            format!("{kept} of {count} frames are kept; the same command resumes from there.")
         }
         None => format!("{sent} of {count} frames were sent."),
     };
@@ -295,7 +297,7 @@ fn stopped(
         kept: if is_interrupted {
             kept
         } else {
-            format!("This was frame {number}; {kept}")
+            format!("The error occurred at frame {number}; {kept}")
         },
     }
 }

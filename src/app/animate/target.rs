@@ -1,4 +1,4 @@
-//! Where moving pictures go: frames in files, a video made of them, or a stream.
+//! Where an animation is written: frame files, a video, or a stream.
 
 use super::super::cli::{LogFlags, SequenceFlags, SequenceFormat};
 use super::super::error::AppError;
@@ -11,35 +11,36 @@ use crate::output::{self, Format, OutputError, SaveOptions};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// The way out.
+/// The output of an animation.
 pub struct Target {
-    /// As on the command line; `-` is the standard output.
+    /// As given on the command line; `-` is standard output.
     pub path: PathBuf,
-    /// Absent for a stream of which no frames are kept.
+    /// `None` for a stream without kept frames.
     pub frames: Option<Files>,
     pub video: Option<Video>,
 }
 
-/// A file for each frame.
+/// One file per frame.
 pub struct Files {
     pub pattern: Pattern,
     pub format: Format,
     pub options: SaveOptions,
 }
 
-/// What the frames are joined to.
+/// The video that the frames are encoded to.
 pub enum Video {
     File(VideoFormat),
-    /// Y4M into the standard output, a pipe or a device, frame by frame.
+    /// Y4M to standard output, a pipe or a device, frame by frame.
     Stream,
 }
 
 impl Target {
-    /// What the flags say; without a name, a video called `stem` in the current folder. A pipe or a device
-    /// has no frames beside it: Y4M is streamed into it, other videos need a folder for their frames.
+    /// The target that the flags name. The default is a video called `stem` in the current folder. Beside a
+    /// pipe or a device no frames can be kept: Y4M is streamed to it, and other formats need a folder for
+    /// their frames.
     ///
     /// # Errors
-    /// The name says no format, has no place for a number, or does not go with the other flags.
+    /// The name has no known extension, lacks a placeholder for the frame number, or contradicts other flags.
     pub fn new(flags: &SequenceFlags, stem: &Path) -> Result<Self, AppError> {
         let path = flags.path.clone().unwrap_or_else(|| default(flags, stem));
         let shown = path.display();
@@ -56,14 +57,14 @@ impl Target {
             _ if path == Path::new("-") => {
                 return Err(AppError::Usage(
                     "cannot write that format (standard output): only Y4M can be streamed. \
-                     Write --format y4m, or name a file."
+                     Use --format y4m, or name a file."
                         .into(),
                 ));
             }
             SequenceFormat::Video(format) if is_stream(&path) && flags.frames_dir.is_none() => {
                 return Err(AppError::Usage(format!(
-                    "cannot write {format} ({shown}): its frames are kept in a folder, and a pipe or a \
-                     device has none beside it. Name one with --frames-dir, or write --format y4m."
+                    "cannot write {format} ({shown}): its frames need a folder, and there is none beside a \
+                     pipe or a device. Name one with --frames-dir, or use --format y4m."
                 )));
             }
             SequenceFormat::Video(format) => Some(Video::File(format)),
@@ -80,7 +81,7 @@ impl Target {
                 })?;
                 Some((pattern, format))
             }
-            (_, Some(Video::Stream)) => (flags.frames_dir.as_deref()).map(kept),
+            (_, Some(Video::Stream)) => (flags.frames_dir.as_deref()).map(kept_frames),
             _ => {
                 let beside = || {
                     let mut folder = OsString::from(&path);
@@ -88,7 +89,7 @@ impl Target {
                     folder.into()
                 };
                 let folder = flags.frames_dir.clone().unwrap_or_else(beside);
-                Some(kept(&folder))
+                Some(kept_frames(&folder))
             }
         };
         for (given, flag) in [
@@ -98,8 +99,8 @@ impl Target {
         ] {
             if given && (video.is_none() || frames.is_none()) {
                 return Err(AppError::Usage(format!(
-                    "cannot use {flag} ({shown}): it is for the frames of a video, of which there \
-                     are none here. Name a video ({}), or leave it out.",
+                    "cannot use {flag} ({shown}): it applies only to the kept frames of a video. Name a \
+                     video file ({}), or omit the flag.",
                     VideoFormat::ENDINGS
                 )));
             }
@@ -120,20 +121,20 @@ impl Target {
         })
     }
 
-    /// Whether the frames hold linear light rather than display values.
+    /// Whether the frames store linear radiance rather than display values.
     pub fn is_linear(&self) -> bool {
         (self.frames.as_ref()).is_some_and(|frames| frames.format.is_linear())
     }
 
-    /// Refuses a report that would go where the video or a frame goes.
+    /// Refuses a report at the path of the video or of a frame.
     pub fn check_report_name(&self, log: &LogFlags) -> Result<(), AppError> {
         job::check_report_name(log, &self.path, |report| {
             (self.frames.as_ref()).is_some_and(|files| files.pattern.names(report))
         })
     }
 
-    /// Refuses to replace what the run reads, by the video or by what is written beside the frames.
-    pub fn spare(&self, inputs: &Inputs) -> Result<(), AppError> {
+    /// Refuses to overwrite an input with the video, the journal or the lock file.
+    pub fn protect(&self, inputs: &Inputs) -> Result<(), AppError> {
         if matches!(self.video, Some(Video::File(_))) {
             inputs.spare(&self.path, "video", "-o")?;
         }
@@ -142,7 +143,7 @@ impl Target {
         };
         if self.video.is_some() && files.pattern.names(&self.path) {
             return Err(AppError::Usage(format!(
-                "cannot write the video ({}): a frame of it goes there. Choose another name.",
+                "cannot write the video ({}): one of its frames has that name. Choose another one.",
                 self.path.display()
             )));
         }
@@ -150,9 +151,8 @@ impl Target {
         (beside.iter()).try_for_each(|path| inputs.spare(path, "file", files.flag(self)))
     }
 
-    /// Refuses, before any rendering, what would fail after it; makes the folder of the frames if
-    /// only that is missing. `first` is the first frame's number;
-    /// without `may_render` they must be there.
+    /// Finds errors of writing the output before rendering starts, and creates the folder of the frames if
+    /// only that is missing. `first` is the first frame's number. Without `may_render` the folder must exist.
     pub fn check(
         &self,
         size: (u32, u32),
@@ -175,17 +175,17 @@ impl Target {
         let folder = files.pattern.folder();
         if !folder.exists() && !may_render {
             return Err(AppError::Refused(format!(
-                "cannot use the frames ({}): there is no such folder. Leave out --encode-only to have \
-                 them rendered.",
+                "cannot use the frames ({}): there is no such folder. Omit --encode-only to render \
+                 them.",
                 folder.display()
             )));
         }
         if !folder.exists() {
-            make_folder(folder)?;
+            create_folder(folder)?;
         }
         output::check_own(files.pattern.journal())?;
         let (width, height) = size;
-        // A link may be to a frame that is done, and is refused where it is not.
+        // A link may lead to a finished frame, so it is checked later.
         let mut paths = (first..).map(|number| files.pattern.path(number));
         let path = paths.find(|path| !path.is_symlink()).unwrap_or_default();
         Ok(output::check(path, &files.options, width, height)?)
@@ -193,7 +193,7 @@ impl Target {
 }
 
 impl Files {
-    /// The flag that says where they are.
+    /// The flag that names their location.
     pub fn flag(&self, target: &Target) -> &'static str {
         match target.video {
             Some(_) => "--frames-dir",
@@ -202,7 +202,7 @@ impl Files {
     }
 }
 
-/// Whether `path` is the standard output, a pipe or a device.
+/// Whether `path` is standard output, a pipe or a device.
 fn is_stream(path: &Path) -> bool {
     let found = || path.metadata();
     path == Path::new("-") || found().is_ok_and(|found| !found.is_file() && !found.is_dir())
@@ -218,7 +218,7 @@ fn default(flags: &SequenceFlags, stem: &Path) -> PathBuf {
         Some(SequenceFormat::Frames(Format::Exr)) => "exr",
         Some(SequenceFormat::Frames(Format::Hdr)) => "hdr",
     };
-    // A percent sign of the scene's name is no placeholder.
+    // A percent sign in the scene's name must not become a placeholder.
     let stem = stem.to_string_lossy();
     match flags.format {
         Some(SequenceFormat::Frames(_)) => {
@@ -234,8 +234,8 @@ fn format_of(path: &Path) -> Result<SequenceFormat, AppError> {
         .or_else(|| Format::from_path(path).map(SequenceFormat::Frames))
         .ok_or_else(|| {
             AppError::Usage(format!(
-                "cannot tell the format ({}): the name has none of the endings {} of a video, or {} \
-                 of frames. Choose one of them or write --format.",
+                "cannot tell the format ({}): the name has none of the extensions {} of a video, or {} \
+                 of frames. Choose one of them, or use --format.",
                 path.display(),
                 VideoFormat::ENDINGS,
                 Format::ENDINGS
@@ -243,25 +243,25 @@ fn format_of(path: &Path) -> Result<SequenceFormat, AppError> {
         })
 }
 
-/// The frames that are kept for a video.
-fn kept(folder: &Path) -> (Pattern, Format) {
+/// Pattern and format of the kept frames of a video.
+fn kept_frames(folder: &Path) -> (Pattern, Format) {
     (Pattern::in_folder(folder, "frame_", ".png"), Format::Png)
 }
 
-/// Makes the last folder of a path, not those above it.
-fn make_folder(folder: &Path) -> Result<(), AppError> {
+/// Creates the last folder of a path, but not its parents.
+fn create_folder(folder: &Path) -> Result<(), AppError> {
     std::fs::create_dir(folder).map_err(|source| {
         let path = folder.to_path_buf();
-        let above = match folder.parent() {
-            Some(above) if !above.as_os_str().is_empty() => above.to_path_buf(),
+        let parent = match folder.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
             _ => PathBuf::from("."),
         };
-        AppError::from(if above.exists() {
+        AppError::from(if parent.exists() {
             OutputError::Io { path, source }
         } else {
             OutputError::MissingFolder {
                 path,
-                folder: above,
+                folder: parent,
             }
         })
     })

@@ -1,4 +1,4 @@
-//! Which frames an animation has, and when they are.
+//! The frame range of an animation and its times.
 
 use super::super::cli::{Range, RangeFlags};
 use super::super::clock::{self, Clock};
@@ -10,26 +10,26 @@ use crate::scene::Scene;
 pub struct Timeline {
     pub clock: Clock,
     pub first: u32,
-    /// From one frame to the next, at least 1.
+    /// Difference between consecutive frame numbers, at least 1.
     pub step: u32,
-    /// At least 1.
+    /// Number of frames, at least 1.
     pub count: usize,
-    /// Whether the end is the start again.
+    /// Whether the animation loops.
     pub repeat: bool,
 }
 
 impl Timeline {
-    /// What the flags say, else the scene's whole animation.
+    /// The range in the flags, by default the scene's whole animation.
     ///
     /// # Errors
-    /// There is no such frame, or the scene does not say where its animation ends.
+    /// The range is empty, or the scene has no animation that would end it.
     pub fn new(scene: &Scene, flags: &RangeFlags, clock: Clock) -> Result<Self, AppError> {
         let Range { first, last } = flags.frames.unwrap_or(Range {
             first: 0,
             last: None,
         });
         let end = match last {
-            // The last one is the first again.
+            // The last frame equals the first.
             Some(last) if flags.repeat => last.checked_sub(1),
             Some(last) => Some(last),
             None => Some(end_of(scene, clock.fps, flags.repeat)?),
@@ -37,13 +37,13 @@ impl Timeline {
         let end = end.filter(|&end| end >= first).ok_or_else(|| {
             AppError::Usage(if flags.repeat && last.is_some() {
                 format!(
-                    "there are no frames (--frames, --loop): the last one, which --loop leaves out, \
-                     is also the first ({first}). Give a longer range."
+                    "there are no frames (--frames, --loop): --loop drops the last frame, which is also \
+                     the first ({first}). Choose a longer range."
                 )
             } else {
                 format!(
                     "there are no frames (--frames): the scene's animation ends before frame {first}. \
-                     Start earlier, or say where to end."
+                     Start earlier, or give an end."
                 )
             })
         })?;
@@ -56,7 +56,7 @@ impl Timeline {
         })
     }
 
-    /// Their numbers.
+    /// The frame numbers.
     pub fn numbers(&self) -> impl Iterator<Item = u32> + use<> {
         (self.first..).step_by(self.step as usize).take(self.count)
     }
@@ -65,7 +65,7 @@ impl Timeline {
         self.first + self.step * (self.count as u32 - 1)
     }
 
-    /// Frames per second of a video of them, which lasts as long as the animation.
+    /// Frame rate of a video that lasts as long as the animation.
     pub fn video_fps(&self) -> f64 {
         self.clock.fps / f64::from(self.step)
     }
@@ -75,17 +75,16 @@ impl Timeline {
 fn end_of(scene: &Scene, fps: f64, repeat: bool) -> Result<u32, AppError> {
     let duration = clock::duration(scene).ok_or_else(|| {
         AppError::Usage(
-            "nothing moves in the scene (--frames): it has no animation and does not say how long it \
-             lasts. Give the frames, such as --frames 0..47, or make one picture with \
-             `glimray render`."
+            "nothing moves in the scene (--frames): it has no animation and no duration. Give a range, such \
+             as --frames 0..47, or render one picture with `glimray render`."
                 .into(),
         )
     })?;
     let last = clock::last_frame(duration, fps, repeat);
     if last > super::super::cli::MAX_FRAME {
         return Err(AppError::Usage(format!(
-            "too many frames (--fps): {duration} seconds at {fps} frames per second are more than {}. \
-             Give a range with --frames.",
+            "too many frames (--fps): {duration} seconds at {fps} frames per second exceed the limit of {} \
+             frames. Give a range with --frames.",
             super::super::cli::MAX_FRAME
         )));
     }

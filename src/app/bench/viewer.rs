@@ -1,5 +1,5 @@
-//! How soon there is something to see in the window, without the window: its render thread, ordered
-//! about as a hand would.
+//! The viewer's latency, measured without a window: drives its render thread with requests like those of a
+//! user.
 
 use super::workloads;
 use crate::app::cli::BenchArgs;
@@ -19,15 +19,15 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-/// The name by which it is chosen.
+/// Name of the benchmark for `--only`.
 pub const NAME: &str = "viewer";
 
-/// About the room for the picture in a window of 1280 × 800.
+/// Approximate size of the picture in a window of 1280 × 800.
 const SIZE: (u32, u32) = (750, 620);
-/// Movements in each run, and radians of each.
+/// Camera movements per run, and the angle of each in radians.
 const MOVES: u32 = 20;
 const ANGLE: f64 = 0.03;
-/// How long the picture rests before it moves, so that it is being made in full just then.
+/// Pause before each movement, so that a full-resolution picture is being rendered when it starts.
 const REST: Duration = Duration::from_millis(250);
 
 /// Medians of all runs.
@@ -36,24 +36,24 @@ pub struct Row {
     name: &'static str,
     width: u32,
     height: u32,
-    /// From the opening of the adapter to the first picture.
+    /// From opening the adapter to the first picture.
     first_picture_seconds: f64,
-    /// From an order to its coarse picture, while the one before is being made in full.
+    /// From a request to its coarse picture, while the previous picture is rendered at full resolution.
     latency_seconds: f64,
-    /// The longest of all.
+    /// The longest such latency.
     longest_latency_seconds: f64,
     /// Width and height of the last coarse picture.
     coarse_width: u32,
     coarse_height: u32,
-    /// The longest that anything had to wait for the adapter.
+    /// The longest submission.
     longest_submission_seconds: f64,
-    /// Host work from the end of a camera's movement to the first submission of the picture in full.
+    /// Host time from the end of a camera movement to the first submission at full resolution.
     rest_seconds: f64,
     /// The same in a scene of 1,000 objects with 1,000,000 triangles.
     thousand_rest_seconds: f64,
-    /// From an order that moves one of those objects to the coarse picture.
+    /// From a request that moves one of those objects to the coarse picture.
     thousand_move_seconds: f64,
-    /// The longest of all.
+    /// The longest such time.
     longest_thousand_move_seconds: f64,
 }
 
@@ -93,7 +93,7 @@ pub fn measure(arguments: &BenchArgs) -> Result<Row, AppError> {
     })
 }
 
-/// Seconds from an order that moves one of a thousand objects to the coarse picture, for each movement.
+/// Seconds from a request that moves one of a thousand objects to the coarse picture, for each movement.
 fn moves_of_one(arguments: &BenchArgs) -> Result<Vec<f64>, AppError> {
     let mut stage = Stage::new(arguments, workloads::thousand())?;
     stage.wait(|stage| stage.coarse_size().is_some())?;
@@ -109,7 +109,7 @@ fn moves_of_one(arguments: &BenchArgs) -> Result<Vec<f64>, AppError> {
     Ok(seconds)
 }
 
-/// The median of the host's work that lies before a picture in full from another camera.
+/// Median host time before a full-resolution picture from another camera starts, in seconds.
 fn rest_seconds(arguments: &BenchArgs, scene: &Scene) -> Result<f64, AppError> {
     let gpu = Gpu::with_all_limits(&arguments.device.choice())?;
     let settings = settings(scene);
@@ -140,7 +140,7 @@ fn settings(scene: &Scene) -> RenderSettings {
     }
 }
 
-/// A scene on a render thread.
+/// A scene on a render thread, with the current request.
 struct Stage {
     thread: RenderThread<()>,
     news: Receiver<()>,
@@ -153,7 +153,7 @@ impl Stage {
         let gpu = Gpu::with_all_limits(&arguments.device.choice())?;
         let (wake, news) = channel();
         let wake = move || {
-            // The receiver is gone when nobody waits any more.
+            // Fails only when nobody waits any more.
             let _ = wake.send(());
         };
         let thread = RenderThread::new(gpu, wake)
@@ -179,7 +179,7 @@ impl Stage {
         })
     }
 
-    /// Lets the picture be made in full for a while.
+    /// Lets the full-resolution picture refine for a while.
     fn rest(&mut self) -> Result<(), AppError> {
         self.orders.coarse = false;
         self.thread.order(self.orders.clone());
@@ -187,16 +187,16 @@ impl Stage {
         self.check()
     }
 
-    /// Moves, and returns the seconds until that is to be seen.
+    /// Moves the camera, and returns the seconds until the coarse picture shows it.
     fn turn(&mut self) -> Result<f64, AppError> {
         self.rig.orbit_by(ANGLE, 0.0);
-        // To where it glides.
+        // Past the camera's smoothing.
         self.rig.advance(10.0);
         let camera = self.rig.camera();
         self.order_coarse(|order| order.camera = Some(camera))
     }
 
-    /// Changes what is wanted, and returns the seconds until that is to be seen, if coarse.
+    /// Changes the request, and returns the seconds until its coarse picture is there.
     fn order_coarse(&mut self, change: impl FnOnce(&mut Order)) -> Result<f64, AppError> {
         self.orders.coarse = true;
         if let Some(order) = &mut self.orders.pictures[Place::Main as usize] {
@@ -211,7 +211,7 @@ impl Stage {
     fn wait(&self, is_there: impl Fn(&Self) -> bool) -> Result<(), AppError> {
         while !is_there(self) {
             self.check()?;
-            // News that came before are no reason to wait for more.
+            // The condition may hold already, so wait only briefly for a wake-up.
             let _ = self.news.recv_timeout(Duration::from_millis(1));
         }
         self.check()
@@ -239,8 +239,8 @@ impl Stage {
 pub fn text(row: &Row) -> String {
     format!(
         "{:<20} {:>5}×{:<5} first picture {:.3} s, movement to picture {:.0} ms (longest {:.0} ms) at \
-         {}×{}, longest submission {:.0} ms, at rest to submission {:.1} ms; 1,000 objects: {:.1} ms, one \
-         moved to picture {:.0} ms (longest {:.0} ms)\n",
+         {}×{}, longest submission {:.0} ms, camera stop to submission {:.1} ms; with 1,000 objects {:.1} ms, \
+         moved object to picture {:.0} ms (longest {:.0} ms)\n",
         row.name,
         row.width,
         row.height,

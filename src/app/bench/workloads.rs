@@ -1,4 +1,4 @@
-//! What is measured: scenes made here, the same every time.
+//! The benchmark's scenes, generated the same way every time.
 
 use crate::app::demo;
 use crate::app::error::AppError;
@@ -12,13 +12,13 @@ use glam::{DAffine3, DQuat, DVec3, Vec3};
 use std::f32::consts::TAU;
 use std::fmt::Write;
 
-/// A scene and the size to render it in.
+/// A scene with its render settings.
 pub struct Workload {
     pub name: &'static str,
     pub scene: Scene,
     /// Width and height in pixels.
     pub size: (u32, u32),
-    /// When the shutter opens and closes, in seconds.
+    /// Shutter opening and closing times, in seconds.
     pub shot: (f64, f64),
     /// See [`pack::scene_with`].
     pub most_baked: usize,
@@ -81,7 +81,7 @@ pub fn all() -> Result<Vec<Workload>, AppError> {
     ])
 }
 
-/// A scene in the course's format: small triangles strewn over a box in front of the camera.
+/// A scene in the course format: small triangles scattered in a box in front of the camera.
 fn course_text(triangle_count: u32, light_count: u32) -> String {
     let mut random = Random(1);
     let mut text = format!("{}\namb: 0.1 0.1 0.1\n", triangle_count + light_count);
@@ -107,7 +107,7 @@ fn course_text(triangle_count: u32, light_count: u32) -> String {
     text
 }
 
-/// Hills of `columns` × `rows` quads over the unit square of the ground. `shift` makes others of them.
+/// A height field of `columns` × `rows` quads over the unit square. `shift` varies its shape.
 fn hills(columns: u32, rows: u32, shift: f32) -> Mesh {
     let side = columns + 1;
     let height = |x: f32, z: f32| {
@@ -131,7 +131,7 @@ fn hills(columns: u32, rows: u32, shift: f32) -> Mesh {
     mesh
 }
 
-/// A thousand hills of a thousand triangles, no two of which are the same, in the sun.
+/// A thousand different height fields of a thousand triangles each, in sunlight.
 #[cfg(feature = "viewer")]
 pub fn thousand() -> Scene {
     let mut scene = height_field(1, vec![sun()]);
@@ -156,7 +156,7 @@ pub fn thousand() -> Scene {
     scene
 }
 
-/// Hills of `quads` × `quads` quads, seen from a corner.
+/// A height field of `quads` × `quads` quads, seen from a corner.
 fn height_field(quads: u32, lights: Vec<Light>) -> Scene {
     Scene {
         meshes: vec![hills(quads, quads, 0.0).into()],
@@ -178,13 +178,13 @@ fn height_field(quads: u32, lights: Vec<Light>) -> Scene {
     }
 }
 
-/// The same scene with 16 samples a pixel.
+/// The same scene with 16 samples per pixel.
 fn sampled(mut scene: Scene) -> Scene {
     scene.output.samples = 16;
     scene
 }
 
-/// The same scene with a camera that passes by in a second, an eighth of the picture to the right.
+/// The same scene with a camera that moves sideways by an eighth of a unit in one second.
 fn panned(mut scene: Scene) -> Scene {
     let camera = &scene.cameras[0];
     let (from, at) = (camera.look_from, camera.look_at);
@@ -207,7 +207,7 @@ fn panned(mut scene: Scene) -> Scene {
     scene
 }
 
-/// A hundred hills of 7,200 triangles in a field, each turned and stretched in its own way, in the sun.
+/// A hundred instances of a height field of 7,200 triangles, each with its own rotation and scale, in sunlight.
 fn crowd() -> Scene {
     let mut scene = height_field(60, vec![sun()]);
     let mut random = Random(3);
@@ -241,7 +241,7 @@ fn sun() -> Light {
     }
 }
 
-/// Numbers in 0..1, the same on every machine (Steele and Vigna's SplitMix64).
+/// Random numbers in 0..1, the same on every machine (SplitMix64 by Steele and Vigna).
 struct Random(u64);
 
 impl Random {

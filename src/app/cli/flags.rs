@@ -1,4 +1,4 @@
-//! Flags that several commands share, in groups as the help shows them.
+//! Flags that several commands share, grouped as in their help.
 
 use super::values::{
     self, ANTIALIAS, BACKENDS, FILTERS, FORMATS, INTEGRATORS, PROGRESS, TONES, TRANSFERS,
@@ -13,94 +13,95 @@ use clap::Args;
 use glam::{DVec3, Vec3};
 use std::path::PathBuf;
 
-/// Where the picture goes.
+/// Where the picture is written.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 pub struct OutputFlags {
-    /// Write the picture here; the ending chooses the format (.png .jpg .jpeg .exr .hdr, or
-    /// .film for what is developed later), `-` is the standard output [default: the scene's name with .png, in the current folder; for the
-    /// demo glimray.png]
+    /// Output file; its extension chooses the format (.png .jpg .jpeg .exr .hdr, or .film to merge or
+    /// develop later); `-` is standard output [default: the scene's name with .png in the current folder;
+    /// glimray.png for the demo]
     #[arg(short = 'o', long = "output", value_name = "OUT")]
     pub path: Option<PathBuf>,
-    /// Write this format, whatever the name's ending [default: by the ending; png to `-`]
+    /// File format, whatever the extension [default: by extension; png for `-`]
     #[arg(long, value_parser = FORMATS.parser())]
     pub format: Option<Format>,
-    /// Quality of a JPEG, 1 (smallest) to 100 (best)
+    /// JPEG quality, 1 (smallest file) to 100 (best)
     #[arg(long, value_name = "1..100", default_value = "90", value_parser = clap::value_parser!(u8).range(1..=100))]
     pub quality: u8,
-    /// Refuse to replace a file that exists
+    /// Do not replace an existing file
     #[arg(long)]
     pub no_clobber: bool,
 }
 
-/// Which samples of the picture are rendered.
+/// The sample range of a partial rendering.
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Output")]
 pub struct PartFlags {
-    /// Render the samples from this one on, a multiple of 64, into a film (.film) [default: 0]
+    /// First sample to render, a multiple of 64; the output must be a .film [default: 0]
     #[arg(long, value_name = "A", allow_hyphen_values = true)]
     pub sample_offset: Option<u32>,
-    /// Render so many samples of each pixel, a multiple of 64, into a film [default: all that are left]
+    /// Number of samples per pixel to render, a multiple of 64; the output must be a .film
+    /// [default: all remaining]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub sample_count: Option<u32>,
 }
 
-/// How large and how fine the picture is.
+/// Resolution and sample count.
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Picture")]
 pub struct SizeFlags {
     /// Width and height in pixels [default: the scene's, else 640x480]
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = values::size)]
     pub size: Option<(u32, u32)>,
-    /// Samples per pixel, 1 to 65536 [default: the scene's, else 16 with a lens, a light with extent
-    /// or an open shutter, else 1]
+    /// Samples per pixel, 1 to 65536 [default: the scene's; else 16 with a lens, an area light or motion
+    /// blur; else 1]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub samples: Option<u32>,
 }
 
-/// How the picture is computed and developed.
+/// How the picture is rendered and developed.
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Picture")]
 pub struct PictureFlags {
     #[command(flatten)]
     pub size: SizeFlags,
-    /// Where samples lie in a pixel [default: stratified for more than one sample, else none]
+    /// Distribution of the samples within a pixel [default: stratified for more than one sample, else none]
     #[arg(long, value_parser = ANTIALIAS.parser())]
     pub antialias: Option<Antialias>,
-    /// Adaptive sampling goes on where the estimated error, or after the first samples the difference
-    /// from a neighbour, is more than this; on the square root of luminance, where 1 is white
-    /// [default: the scene's, else 0.01]
+    /// Noise threshold of adaptive sampling, 0.000001 to 1 [default: the scene's, else 0.01]
+    ///
+    /// Keep sampling pixels whose estimated error exceeds this (or, early on, whose neighbour differs by
+    /// more). Errors are measured on the square root of luminance, where 1 is white.
     #[arg(long, value_name = "NOISE", allow_hyphen_values = true, value_parser = values::noise)]
     pub noise: Option<f32>,
-    /// Bounces after the first hit, 0 to 1000; 0 is local shading only [default: the
-    /// scene's, else 5, for .scene 0]
+    /// Bounces after the first hit, 0 to 1000; 0 is local shading only [default: the scene's, else 5; 0
+    /// for .scene]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub max_depth: Option<u32>,
-    /// Send mirrored and refracted rays only if their share in the sample is at least this, 0 to 1
-    /// [default: 1/512]
-    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = values::share)]
+    /// Terminate reflection and refraction rays below this throughput, 0 to 1 [default: 1/512]
+    #[arg(long, value_name = "FRACTION", allow_hyphen_values = true, value_parser = values::fraction)]
     pub min_throughput: Option<f32>,
-    /// What samples round a pixel are weighted by [default: the scene's, else box]
+    /// Reconstruction filter [default: the scene's, else box]
     #[arg(long, value_parser = FILTERS.parser())]
     pub filter: Option<Filter>,
-    /// How far the filter reaches, 0.01 to 16 [default: box 0.5, tent 1, mitchell 2, others 1.5]
+    /// Radius of the reconstruction filter, 0.01 to 16 [default: box 0.5, tent 1, mitchell 2, others 1.5]
     #[arg(long, value_name = "PIXELS", allow_hyphen_values = true, value_parser = values::filter_radius)]
     pub filter_radius: Option<f32>,
-    /// Multiplies the samples of every area light, 0.001 to 1000 [default: the scene's, else 1]
+    /// Multiply the sample count of every area light by this, 0.001 to 1000 [default: the scene's, else 1]
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = values::light_samples)]
     pub light_samples: Option<f32>,
-    /// What is computed for a ray [default: whitted]
+    /// Integrator or debug view [default: whitted]
     #[arg(long, value_parser = INTEGRATORS.parser())]
     pub integrator: Option<Integrator>,
-    /// How rays meet triangles [default: watertight]
+    /// Ray–triangle intersection algorithm [default: watertight]
     #[arg(long, value_parser = TRIANGLE_TESTS.parser())]
     pub triangle_test: Option<TriangleTest>,
-    /// Try every primitive for every ray instead of searching a tree: the same picture, slowly
+    /// Test every primitive for every ray instead of traversing the BVH: the same picture, but slow
     #[arg(long)]
     pub no_bvh: bool,
     #[command(flatten)]
     pub develop: DevelopFlags,
-    /// Random seed: the same scene, settings and seed give the same picture
+    /// Random seed; the same scene, settings and seed give the same picture
     #[arg(
         long,
         value_name = "N",
@@ -108,49 +109,49 @@ pub struct PictureFlags {
         default_value = "0"
     )]
     pub seed: u32,
-    /// Render only the columns X0 to X1-1 and rows Y0 to Y1-1, in pixels from the top-left
+    /// Render only columns X0 to X1-1 and rows Y0 to Y1-1, in pixels from the top left
     #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = values::crop)]
     pub crop: Option<[u32; 4]>,
 }
 
-/// How the picture is developed.
+/// How linear radiance becomes display values.
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Picture")]
 pub struct DevelopFlags {
-    /// Brightens the picture by 2^EV, -64 to 64 [default: the scene's, else 0; for .exr and .hdr 0]
+    /// Exposure: multiply radiance by 2^EV, -64 to 64 [default: the scene's, else 0; 0 for .exr and .hdr]
     #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = values::exposure)]
     pub exposure: Option<f32>,
-    /// Tone curve [default: the scene's, else none; for .exr and .hdr and debug views none]
+    /// Tone curve [default: the scene's, else none; none for .exr, .hdr and debug views]
     #[arg(long, value_parser = TONES.parser())]
     pub tone: Option<ToneCurve>,
-    /// Transfer function [default: the scene's, else srgb; for .exr and .hdr and debug views linear]
+    /// Transfer function [default: the scene's, else srgb; linear for .exr, .hdr and debug views]
     #[arg(long, value_parser = TRANSFERS.parser())]
     pub transfer: Option<Transfer>,
 }
 
-/// What the picture is taken of.
+/// Camera and background.
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Camera")]
 pub struct CameraFlags {
-    /// One of the scene's cameras, by its name or its number as `inspect` lists it
+    /// Camera of the scene, by its name or its number in `inspect`
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
-    /// Vertical field of view in degrees, 0.001 to 179.9; gives an orthographic camera perspective
+    /// Vertical field of view in degrees, 0.001 to 179.9; selects perspective projection
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = values::fov_y)]
     pub fov_y: Option<f64>,
-    /// No perspective: this is the height of what is in the picture, in the scene's units, 1e-9 to 1e9
+    /// Orthographic projection with a view of this height, in scene units, 1e-9 to 1e9
     #[arg(long, value_name = "HEIGHT", allow_hyphen_values = true, value_parser = values::orthographic, conflicts_with = "fov_y")]
     pub orthographic: Option<f64>,
-    /// Position of the camera, in the scene's units
+    /// Camera position, in scene units
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector)]
     pub look_from: Option<DVec3>,
-    /// The point in the middle of the picture, in the scene's units
+    /// Point at the centre of the picture, in scene units
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector)]
     pub look_at: Option<DVec3>,
-    /// The direction that is up in the picture
+    /// Up direction of the camera
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector)]
     pub up: Option<DVec3>,
-    /// Linear radiance of rays that hit nothing, 0 or more
+    /// Background colour: linear radiance, 0 or more per channel
     #[arg(long, value_name = "R,G,B", allow_hyphen_values = true, value_parser = values::color)]
     pub background: Option<Vec3>,
 }
@@ -159,13 +160,13 @@ pub struct CameraFlags {
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Scene")]
 pub struct SceneFlags {
-    /// Refuse a scene of which anything would be skipped or repaired
+    /// Refuse a scene if anything in it would be skipped or repaired
     #[arg(long)]
     pub strict: bool,
-    /// Override one value of a native scene, such as camera.fov_y_deg=30 (may be repeated)
+    /// Override a value of a native scene, such as camera.fov_y_deg=30 (repeatable)
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = values::override_of)]
     pub overrides: Vec<String>,
-    /// Let the scene name files in this folder too, beside its own (may be repeated)
+    /// Allow the scene to read files from this folder as well as its own (repeatable)
     #[arg(long = "allow-dir", value_name = "DIR")]
     pub allow_dirs: Vec<PathBuf>,
 }
@@ -179,35 +180,35 @@ impl SceneFlags {
     }
 }
 
-/// What is done in the window, kept and done again.
+/// Recording and replay of the window's input.
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Recording")]
 pub struct TapeFlags {
-    /// Write all that the mouse and the keyboard do to this file, a line of JSON for each event
+    /// Record mouse and keyboard input to this file, one JSON object per line
     #[arg(long, value_name = "FILE")]
     pub record: Option<PathBuf>,
-    /// Do what was recorded in this file, at the same times
+    /// Replay the input recorded in this file with its original timing
     #[arg(long, value_name = "FILE")]
     pub replay: Option<PathBuf>,
-    /// Replay as fast as possible: each frame of the recording in one of the window
+    /// Replay as fast as possible: one recorded frame per window frame
     #[arg(long, requires = "replay")]
     pub replay_fast: bool,
-    /// Close the window after a replay
+    /// Close the window after the replay
     #[arg(long, requires = "replay")]
     pub close_after_replay: bool,
 }
 
-/// What the picture is computed on.
+/// The GPU adapter and its limits.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Adapter")]
 pub struct DeviceFlags {
-    /// The adapter, by its number as `doctor` lists it or by a part of its name [default: the fastest]
+    /// GPU adapter, by its number in `doctor` or part of its name [default: the fastest]
     #[arg(long, value_name = "INDEX|NAME")]
     pub adapter: Option<String>,
-    /// The graphics interface [default: the best there is]
+    /// Graphics API [default: the best available]
     #[arg(long, value_parser = BACKENDS.parser())]
     pub backend: Option<Backend>,
-    /// Refuse a scene that needs more GPU memory than this, in MiB
+    /// Refuse scenes that need more GPU memory than this, in MiB
     #[arg(long, value_name = "MIB", default_value = "4096", value_parser = clap::value_parser!(u64).range(1..=1 << 24))]
     pub memory_limit: u64,
 }
@@ -225,29 +226,31 @@ impl DeviceFlags {
     }
 }
 
-/// What is told about the work.
+/// Messages, progress and the report.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Messages")]
 pub struct LogFlags {
-    /// Write a report (JSON: counts, settings, adapter, times in seconds, memory in bytes) here, of a
-    /// run that fails too, with its error and exit code; `-` is the standard output
+    /// Write a JSON report to this file; `-` is standard output
+    ///
+    /// It has counts, settings, the adapter, times in seconds and memory in bytes. A run that fails writes
+    /// one too, with its error and exit code.
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
-    /// Count the rays of each kind for the report, which costs a little time
+    /// Count the rays of each kind for the report, at a small cost in speed
     #[arg(long)]
     pub count_rays: bool,
-    /// How progress is shown on the standard error; with json all messages there are lines of JSON
+    /// Progress display on standard error; with json, every message there is a JSON line
     #[arg(long, default_value = "auto", value_parser = PROGRESS.parser())]
     pub progress: ProgressMode,
-    /// Print warnings and errors only
+    /// Print only warnings and errors
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
-    /// Print times and sizes as well
+    /// Also print times and sizes
     #[arg(short, long)]
     pub verbose: bool,
 }
 
-/// How progress is shown.
+/// How progress is displayed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProgressMode {
     Auto,

@@ -1,4 +1,4 @@
-//! What may follow a flag, and the words for what may not.
+//! Parsers for the values of flags, with their error messages.
 
 use super::{ProgressMode, Range, SequenceFormat};
 use crate::gpu::Backend;
@@ -11,13 +11,13 @@ use glam::{DVec3, Vec3};
 use std::fmt::Display;
 use std::str::FromStr;
 
-/// A flag's words: each with what it does and what it stands for.
+/// The words that a flag accepts: name, help text and value of each.
 pub struct Words<T: 'static>(&'static [(&'static str, &'static str, T)]);
 
 pub static FORMATS: Words<Format> = Words(&[
-    ("png", "8 bits a channel, lossless", Format::Png),
-    ("jpeg", "8 bits a channel, lossy", Format::Jpeg),
-    ("jpg", "the same as jpeg", Format::Jpeg),
+    ("png", "8 bits per channel, lossless", Format::Png),
+    ("jpeg", "8 bits per channel, lossy", Format::Jpeg),
+    ("jpg", "same as jpeg", Format::Jpeg),
     ("exr", "OpenEXR, linear float", Format::Exr),
     ("hdr", "Radiance RGBE, linear", Format::Hdr),
 ]);
@@ -25,76 +25,72 @@ pub static FORMATS: Words<Format> = Words(&[
 pub static SEQUENCE_FORMATS: Words<SequenceFormat> = Words(&[
     (
         "png",
-        "frames of 8 bits a channel, lossless",
+        "PNG frames, 8 bits per channel, lossless",
         SequenceFormat::Frames(Format::Png),
     ),
     (
         "jpeg",
-        "frames of 8 bits a channel, lossy",
+        "JPEG frames, 8 bits per channel, lossy",
         SequenceFormat::Frames(Format::Jpeg),
     ),
-    (
-        "jpg",
-        "the same as jpeg",
-        SequenceFormat::Frames(Format::Jpeg),
-    ),
+    ("jpg", "same as jpeg", SequenceFormat::Frames(Format::Jpeg)),
     (
         "exr",
-        "frames in OpenEXR, linear float",
+        "OpenEXR frames, linear float",
         SequenceFormat::Frames(Format::Exr),
     ),
     (
         "hdr",
-        "frames in Radiance RGBE, linear",
+        "Radiance RGBE frames, linear",
         SequenceFormat::Frames(Format::Hdr),
     ),
     (
         "mp4",
-        "a video of H.264",
+        "H.264 video",
         SequenceFormat::Video(VideoFormat::Mp4),
     ),
     (
         "gif",
-        "an animated GIF of 256 colours",
+        "animated GIF, 256 colours",
         SequenceFormat::Video(VideoFormat::Gif),
     ),
     (
         "y4m",
-        "YUV4MPEG2, not compressed, for other programs",
+        "YUV4MPEG2, uncompressed, for other programs",
         SequenceFormat::Video(VideoFormat::Y4m),
     ),
 ]);
 
 pub static ANTIALIAS: Words<Antialias> = Words(&[
-    ("none", "all in the pixel's centre", Antialias::None),
+    ("none", "all at the pixel centre", Antialias::None),
     (
         "stratified",
-        "well spread over the pixel",
+        "spread evenly over the pixel",
         Antialias::Stratified,
     ),
     (
         "adaptive",
-        "the same, until --noise is reached, up to --samples",
+        "stratified, until --noise is reached, at most --samples",
         Antialias::Adaptive,
     ),
 ]);
 
 pub static FILTERS: Words<Filter> = Words(&[
-    ("box", "all alike", Filter::Box),
-    ("tent", "linearly down to nothing", Filter::Tent),
+    ("box", "constant weight", Filter::Box),
+    ("tent", "linear falloff to 0", Filter::Tent),
     (
         "gaussian",
-        "a normal distribution of half a pixel, cut",
+        "Gaussian, standard deviation 0.5 pixels, truncated",
         Filter::Gaussian,
     ),
     (
         "blackman-harris",
-        "much like it, ends in nothing",
+        "similar to a Gaussian, falls to 0 at its radius",
         Filter::BlackmanHarris,
     ),
     (
         "mitchell",
-        "sharpens: Mitchell and Netravali 1988",
+        "sharpening, Mitchell and Netravali 1988",
         Filter::Mitchell,
     ),
 ]);
@@ -115,7 +111,7 @@ const INTEGRATOR_WORDS: [(&str, &str, Integrator); render::INTEGRATORS.len()] = 
 pub static TRIANGLE_TESTS: Words<TriangleTest> = Words(&[
     (
         "plane",
-        "ray and plane, then inside or not",
+        "plane intersection, then a point-in-triangle test",
         TriangleTest::Plane,
     ),
     (
@@ -131,7 +127,7 @@ pub static TRIANGLE_TESTS: Words<TriangleTest> = Words(&[
 ]);
 
 pub static TONES: Words<ToneCurve> = Words(&[
-    ("none", "clamp", ToneCurve::None),
+    ("none", "clamp to 0..1", ToneCurve::None),
     ("aces", "filmic, Narkowicz 2015", ToneCurve::Aces),
     ("agx", "filmic, Sobotka's AgX", ToneCurve::Agx),
     ("reinhard", "x / (1 + x) on luminance", ToneCurve::Reinhard),
@@ -139,7 +135,7 @@ pub static TONES: Words<ToneCurve> = Words(&[
 
 pub static TRANSFERS: Words<Transfer> = Words(&[
     ("srgb", "IEC 61966-2-1", Transfer::Srgb),
-    ("linear", "stored as is", Transfer::Linear),
+    ("linear", "no transfer function", Transfer::Linear),
 ]);
 
 pub static BACKENDS: Words<Backend> = Words(&[
@@ -152,11 +148,11 @@ pub static BACKENDS: Words<Backend> = Words(&[
 pub static PROGRESS: Words<ProgressMode> = Words(&[
     (
         "auto",
-        "a bar on a terminal, else nothing",
+        "bar on a terminal, otherwise nothing",
         ProgressMode::Auto,
     ),
-    ("bar", "a bar (on a terminal)", ProgressMode::Bar),
-    ("json", "a line of JSON now and then", ProgressMode::Json),
+    ("bar", "bar on a terminal", ProgressMode::Bar),
+    ("json", "JSON lines", ProgressMode::Json),
     ("none", "nothing", ProgressMode::None),
 ]);
 
@@ -173,7 +169,7 @@ impl<T: Clone + Send + Sync> Words<T> {
 }
 
 impl<T: PartialEq> Words<T> {
-    /// The word for `value`, as flags and reports have it.
+    /// The word for `value` in flags and reports.
     pub fn word(&self, value: &T) -> &'static str {
         let mut words = self.0.iter();
         words
@@ -184,12 +180,12 @@ impl<T: PartialEq> Words<T> {
 
 #[cfg(feature = "viewer")]
 impl<T: Clone> Words<T> {
-    /// All words, each with what it does and what it stands for.
+    /// Name, help text and value of every word.
     pub fn all(&self) -> &'static [(&'static str, &'static str, T)] {
         self.0
     }
 
-    /// What `word` stands for.
+    /// The value that `word` names.
     pub fn value(&self, word: &str) -> Option<T> {
         let mut words = self.0.iter();
         let found = words.find(|(known, ..)| *known == word);
@@ -197,10 +193,10 @@ impl<T: Clone> Words<T> {
     }
 }
 
-/// Pixels on a side of a picture.
+/// Largest width or height of a picture, in pixels.
 const MAX_SIDE: u32 = 1_000_000;
 
-/// Coordinates beyond this are mistakes.
+/// Largest absolute value of a coordinate.
 const MAX_COORDINATE: f64 = 1e9;
 
 pub fn size(text: &str) -> Result<(u32, u32), String> {
@@ -242,7 +238,7 @@ pub fn noise(text: &str) -> Result<f32, String> {
     within(text, 1e-6, 1.0, "it")
 }
 
-pub fn share(text: &str) -> Result<f32, String> {
+pub fn fraction(text: &str) -> Result<f32, String> {
     within(text, 0.0, 1.0, "it")
 }
 
@@ -274,7 +270,7 @@ pub fn percent(text: &str) -> Result<f64, String> {
     within(text, 0.0, 100.0, "it")
 }
 
-/// The highest number of a frame.
+/// The highest frame number.
 pub const MAX_FRAME: u32 = 9_999_999;
 
 pub fn fps(text: &str) -> Result<f64, String> {
@@ -315,7 +311,7 @@ pub fn axis(text: &str) -> Result<DVec3, String> {
     }
 }
 
-/// Longest time that the shutter may be open, and furthest from a frame's own time, in frames.
+/// Longest exposure, and largest offset from a frame's time, in frames.
 const MAX_SHUTTER: f64 = 16.0;
 
 /// `0.5`, `180deg` or `-0.25..0.25`.
@@ -326,7 +322,7 @@ pub fn shutter(text: &str) -> Result<Shutter, String> {
         return if open <= close {
             Ok(Shutter { open, close })
         } else {
-            Err("it closes before it opens: write the earlier time first, as in -0.25..0.25".into())
+            Err("it closes before it opens: put the earlier time first, as in -0.25..0.25".into())
         };
     }
     let close = match text.trim().strip_suffix("deg") {
@@ -338,7 +334,7 @@ pub fn shutter(text: &str) -> Result<Shutter, String> {
 
 /// `A..B`, `A..`, `..B` or `A`.
 pub fn frames(text: &str) -> Result<Range, String> {
-    let number = |text: &str| within(text, 0, MAX_FRAME, "a frame's number");
+    let number = |text: &str| within(text, 0, MAX_FRAME, "a frame number");
     let Some((first, last)) = text.split_once("..") else {
         let first = number(text)?;
         return Ok(Range {
@@ -347,13 +343,13 @@ pub fn frames(text: &str) -> Result<Range, String> {
         });
     };
     let is_given = |text: &str| !text.trim().is_empty();
-    // Rust's way of saying that the end is included.
+    // Accept Rust's inclusive syntax, A..=B.
     let last = last.strip_prefix('=').unwrap_or(last);
     let first = if is_given(first) { number(first)? } else { 0 };
     let last = is_given(last).then(|| number(last)).transpose()?;
     match last {
         Some(last) if last < first => Err(format!(
-            "it is empty: {last} is before {first}. Write the smaller number first"
+            "it is empty: {last} is before {first}. Put the smaller number first"
         )),
         _ => Ok(Range { first, last }),
     }
@@ -366,7 +362,7 @@ pub fn override_of(text: &str) -> Result<String, String> {
     }
 }
 
-/// `N` values with commas between them.
+/// `N` comma-separated values.
 fn list<T, const N: usize>(
     text: &str,
     shape: &str,
@@ -376,10 +372,10 @@ fn list<T, const N: usize>(
     let count = parts.len();
     parts
         .try_into()
-        .map_err(|_| format!("it must be {shape}, which is {N} numbers, not {count}"))
+        .map_err(|_| format!("it must be {shape}: {N} numbers, not {count}"))
 }
 
-/// A number from `min` to `max`; NaN is in no range.
+/// A number from `min` to `max`. NaN is out of every range.
 fn within<T>(text: &str, min: T, max: T, what: &str) -> Result<T, String>
 where
     T: FromStr + PartialOrd + Display,

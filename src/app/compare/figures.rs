@@ -1,32 +1,31 @@
-//! The figures of two pictures of one size.
+//! Difference metrics of two pictures of equal size.
 //!
-//! RMSE and PSNR are taken over all channels of all pixels, with 1 as the peak. FLIP is the mean of
+//! RMSE and PSNR are computed over all channels of all pixels, with a peak of 1. FLIP is the mean of
 //! Andersson et al., "FLIP: A Difference Evaluator for Alternating Images" (2020).
 
 use super::read::Picture;
 
-/// Above this many pixels FLIP would take gigabytes.
+/// Largest picture for FLIP, in pixels; larger ones would need gigabytes of memory.
 const MAX_FLIP_PIXELS: usize = 1 << 24;
 
-/// How far two pictures are apart. One level is 1/255.
+/// Difference metrics. One level is 1/255.
 pub struct Figures {
-    /// Root of the mean square difference.
+    /// Root mean square difference.
     pub rmse: f64,
-    /// The mean, 0 (equal) to 1; absent for very large pictures.
+    /// Mean FLIP error, 0 (equal) to 1; `None` for very large pictures.
     pub flip: Option<f32>,
-    /// The largest difference in any channel.
+    /// Largest difference in any channel, in levels.
     pub max_levels: f64,
-    /// Column and row of a pixel that differs so much.
+    /// Column and row of a pixel with the largest difference.
     pub max_at: [u32; 2],
-    /// The share of pixels that differ by more than the tolerance in any channel, in percent.
+    /// Percentage of pixels that differ by more than the tolerance in any channel.
     pub beyond_percent: f64,
 }
 
 impl Figures {
-    /// Compares pictures of one size; a pixel counts as beyond when it differs by more than
-    /// `tolerance` levels.
+    /// Compares pictures of equal size. `tolerance` is the difference, in levels, that still counts as equal.
     pub fn new(a: &Picture, b: &Picture, tolerance: f64) -> Self {
-        // Opacity counts only where there is any.
+        // Opacity is compared only if a picture has it.
         let channel_count = if a.has_alpha || b.has_alpha { 4 } else { 3 };
         let exact = a.is_float || b.is_float;
         let mut square_sum = 0.0;
@@ -62,14 +61,14 @@ impl Figures {
     }
 }
 
-/// The difference of two channels in levels; infinite when just one of them is a number.
+/// The difference of two channels in levels; infinite if just one of them is NaN.
 fn levels(a: f32, b: f32, exact: bool) -> f64 {
     let levels = (f64::from(a) - f64::from(b)).abs() * 255.0;
     if levels.is_nan() {
         let alike = a == b || (a.is_nan() && b.is_nan());
         return if alike { 0.0 } else { f64::INFINITY };
     }
-    // Levels of integer files went through f32, which left dust on them.
+    // The levels of integer files carry rounding errors from f32.
     if exact {
         levels
     } else {
@@ -86,7 +85,7 @@ fn flip(a: &Picture, b: &Picture) -> f32 {
     nv_flip::FlipPool::from_image(&error).mean()
 }
 
-/// What a screen would show: 8-bit sRGB.
+/// The picture as 8-bit sRGB.
 fn display_levels(picture: &Picture) -> Vec<u8> {
     let pixels = picture.image.pixels.iter();
     let channels = pixels.flat_map(|&[r, g, b, _]| [r, g, b]);
@@ -97,7 +96,7 @@ fn display_levels(picture: &Picture) -> Vec<u8> {
         .collect()
 }
 
-/// IEC 61966-2-1.
+/// The sRGB transfer function of IEC 61966-2-1.
 fn srgb(linear: f32) -> f32 {
     if linear <= 0.003_130_8 {
         linear * 12.92

@@ -1,4 +1,4 @@
-//! Picture file → pixels, under limits: a stranger's file must not take all memory.
+//! Reads picture files with limits on size, because a file from elsewhere must not exhaust memory.
 
 use crate::app::error::AppError;
 use crate::image::Image;
@@ -6,17 +6,17 @@ use crate::output;
 use ::image::{DynamicImage, ImageError, ImageReader, Limits};
 use std::path::Path;
 
-/// Pixels on a side.
+/// Largest width or height, in pixels.
 const MAX_SIDE: u32 = 1 << 16;
 
-/// Bytes that decoding may take: enough for 8192×8192 pixels of four floats.
+/// Largest allocation for decoding, in bytes: enough for 8192×8192 pixels of four floats.
 const MAX_BYTES: u64 = 3 << 29;
 
 /// A decoded picture.
 pub struct Picture {
-    /// Values as stored, integers as parts of 1.
+    /// Values as stored; integers are scaled to 0..1.
     pub image: Image,
-    /// Whether the file holds linear light in floats.
+    /// Whether the file stores linear radiance as floats.
     pub is_float: bool,
     pub has_alpha: bool,
 }

@@ -1,5 +1,5 @@
-//! The shortest proof that an adapter works: one sphere and one light, rendered, and the pixel in
-//! the middle compared with Phong's formula worked out here in f64.
+//! The self-test of an adapter: renders one sphere and one light, and compares the centre pixel with Phong's
+//! formula evaluated here in f64.
 
 use crate::app::device;
 use crate::app::error::AppError;
@@ -8,10 +8,10 @@ use crate::render::{ExecutionPolicy, RenderSettings, Tone};
 use crate::scene::{Camera, Geometry, Light, LightKind, Material, Scene, Shape};
 use glam::{DVec3, Vec3};
 
-/// Odd, so that the ray through the middle pixel runs along the camera's axis.
+/// Odd, so that the ray through the centre pixel runs along the camera's axis.
 const SIDE: u32 = 33;
 
-/// Beyond what rounding in f32 can explain, and below what any mistake makes.
+/// Larger than rounding errors in f32, smaller than the effect of any bug.
 const TOLERANCE: f64 = 1e-3;
 
 const LIGHT: DVec3 = DVec3::new(1.5, 2.0, 1.0);
@@ -22,12 +22,12 @@ const DIFFUSE: f64 = 0.5;
 const SPECULAR: f64 = 0.3;
 const SHININESS: f64 = 4.0;
 
-/// The radiance of the middle pixel.
+/// Radiance of the centre pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Outcome {
-    /// On the adapter, in its worst channel.
+    /// On the adapter, in the channel with the largest error.
     pub found: f64,
-    /// By hand.
+    /// By the formula.
     pub expected: f64,
 }
 
@@ -93,7 +93,7 @@ fn scene() -> Scene {
     }
 }
 
-/// I = k_a + k_d (l·n) + k_s (r·v)^α where the camera's axis meets the sphere.
+/// I = k_a + k_d (l·n) + k_s (r·v)^α at the point where the camera's axis meets the sphere.
 fn expected() -> f64 {
     let n = DVec3::Z;
     let v = DVec3::Z;

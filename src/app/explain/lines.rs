@@ -1,15 +1,15 @@
-//! A ray tree as lines in space: a Wavefront OBJ file, which most programs for 3-D models open.
+//! Writes a ray tree as 3-D lines in a Wavefront OBJ file, which most 3-D programs can open.
 
 use crate::render::{RayKind, RayTree, TracedRay};
 use glam::DVec3;
 use std::fmt::Write;
 
-/// One line for each ray, in groups by kind, an object for each sample. Rays that go on for ever are as
-/// long as the longest that ends.
+/// One line per ray, one group per kind and one object per sample. Rays without a hit are drawn as long as the
+/// longest ray with a hit.
 pub fn of(tree: &RayTree) -> String {
     let rays = || tree.samples.iter().flat_map(|sample| &sample.rays);
     let longest = rays().filter_map(length).fold(0.0, f64::max);
-    let endless = if longest > 0.0 { longest } else { 1.0 };
+    let unbounded = if longest > 0.0 { longest } else { 1.0 };
     let [x, y] = tree.pixel;
     let mut out = format!("# rays of pixel {x},{y}\n");
     let mut vertex = 0;
@@ -26,7 +26,7 @@ pub fn of(tree: &RayTree) -> String {
                 let _ = writeln!(out, "g {name}");
             }
             for ray in of_kind {
-                let far = DVec3::from(ray.origin) + endless * DVec3::from(ray.direction);
+                let far = DVec3::from(ray.origin) + unbounded * DVec3::from(ray.direction);
                 for [x, y, z] in [ray.origin, ray.end.unwrap_or(far.into())] {
                     let _ = writeln!(out, "v {x} {y} {z}");
                 }
@@ -38,7 +38,7 @@ pub fn of(tree: &RayTree) -> String {
     out
 }
 
-/// `None` for a ray that goes on for ever.
+/// Length of a ray; `None` if it hits nothing.
 fn length(ray: &TracedRay) -> Option<f64> {
     ray.end
         .map(|end| DVec3::from(end).distance(ray.origin.into()))

@@ -1,11 +1,11 @@
-//! A ray tree for people to read.
+//! Formats a ray tree as text.
 
 use crate::render::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
 use crate::scene::ObjectRef;
 use glam::{DVec3, Vec3};
 use std::fmt::{self, Write};
 
-/// The tree of every sample, what they add up to, and the pixel.
+/// The tree of every sample, their weighted sum, and the pixel.
 pub fn of(tree: &RayTree, (width, height): (u32, u32)) -> Result<String, fmt::Error> {
     let mut out = String::new();
     let [x, y] = tree.pixel;
@@ -20,8 +20,7 @@ pub fn of(tree: &RayTree, (width, height): (u32, u32)) -> Result<String, fmt::Er
     Ok(out)
 }
 
-/// What all rays add to the pixel: contributions by the weights of their samples, over the sum of
-/// weights.
+/// The weighted mean over the samples of the sum of their rays' contributions.
 pub fn weighted_sum(tree: &RayTree) -> DVec3 {
     let kept = tree.samples.iter().filter(|sample| !sample.dropped);
     let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
@@ -33,7 +32,7 @@ pub fn weighted_sum(tree: &RayTree) -> DVec3 {
     if weights == 0.0 { sum } else { sum / weights }
 }
 
-/// What the rays of a sample add up to.
+/// The sum of the contributions of a sample's rays.
 pub fn ray_sum(sample: &SampleTree) -> DVec3 {
     let of = |ray: &TracedRay| Vec3::from(ray.contribution).as_dvec3();
     sample.rays.iter().map(of).sum()
@@ -50,25 +49,25 @@ fn write_sample(out: &mut String, sample: &SampleTree) -> fmt::Result {
     } = sample;
     write!(out, "sample {index}: {ray_count} ray(s), weight {weight}")?;
     if *time > 0.0 {
-        write!(out, ", at {} of the time the shutter is open", short(*time))?;
+        write!(out, ", at {} of the shutter interval", short(*time))?;
     }
     writeln!(out)?;
     if !rays.is_empty() {
         write_ray(out, rays, 0, "", true)?;
     }
     if rays.len() < *ray_count {
-        writeln!(out, "  cut off after {} rays", rays.len())?;
+        writeln!(out, "  only the first {} rays are listed", rays.len())?;
     }
     if sample.cut_off {
         writeln!(
             out,
-            "  the tree had too many rays: some are missing in the picture too"
+            "  the tree was truncated: some rays are missing in the picture too"
         )?;
     }
     let sum = color(ray_sum(sample).as_vec3().into());
     writeln!(out, "  sum {sum}, colour {}", color(sample.color))?;
     if sample.dropped {
-        writeln!(out, "  left out of the pixel, as it is not finite")?;
+        writeln!(out, "  dropped from the pixel, because it is not finite")?;
     }
     Ok(())
 }
@@ -96,10 +95,10 @@ fn write_ray(
         (None, None) => {
             let [direction, throughput] = [vector(ray.direction), color(ray.throughput)];
             let added = color(ray.contribution);
-            writeln!(out, " towards {direction} meets nothing")?;
+            writeln!(out, " towards {direction} hits nothing")?;
             writeln!(
                 out,
-                "{detail}throughput {throughput}, adds {added} (background)"
+                "{detail}throughput {throughput}, contribution {added} (background)"
             )?;
         }
     }
@@ -128,27 +127,27 @@ fn write_shadow(
     match hit {
         Some(hit) if shadow.blocked => {
             let (what, distance) = (object(hit), short(hit.distance));
-            writeln!(out, ": blocked by {what} after {distance}")
+            writeln!(out, ": blocked by {what} at distance {distance}")
         }
         _ if shadow.blocked => writeln!(out, ": blocked"),
         _ => {
             let throughput = color(ray.throughput);
             let added = color(ray.contribution);
             match shadow.crossings {
-                0 => write!(out, ": free")?,
+                0 => write!(out, ": unoccluded")?,
                 count => {
                     let through = color(shadow.transmittance);
-                    write!(out, ": {through} comes through {count} surface(s)")?;
+                    write!(out, ": transmittance {through} through {count} surface(s)")?;
                 }
             }
-            writeln!(out, ", throughput {throughput}, adds {added}")
+            writeln!(out, ", throughput {throughput}, contribution {added}")
         }
     }
 }
 
 fn write_hit(out: &mut String, detail: &str, hit: &RayHit, ray: &TracedRay) -> fmt::Result {
     let distance = short(hit.distance);
-    write!(out, " hits {} after {distance}", object(hit))?;
+    write!(out, " hits {} at distance {distance}", object(hit))?;
     if let Some(material) = hit.material {
         let name = quoted(&hit.material_name);
         write!(out, ", material {material}{name}")?;
@@ -162,10 +161,10 @@ fn write_hit(out: &mut String, detail: &str, hit: &RayHit, ray: &TracedRay) -> f
     }
     write!(out, "{detail}throughput {}", color(ray.throughput))?;
     if ray.arriving != ray.throughput {
-        write!(out, ", {} arrives", color(ray.arriving))?;
+        write!(out, ", arriving {}", color(ray.arriving))?;
     }
     let [added, ambient] = [ray.contribution, hit.ambient].map(color);
-    write!(out, ", adds {added} (ambient {ambient}")?;
+    write!(out, ", contribution {added} (ambient {ambient}")?;
     if hit.emission != [0.0; 3] {
         write!(out, ", emission {}", color(hit.emission))?;
     }
@@ -185,14 +184,14 @@ fn write_split(out: &mut String, detail: &str, split: &RaySplit) -> fmt::Result 
         write!(out, ", Fresnel {}", short(reflectance))?;
     }
     if split.total {
-        write!(out, ", total reflection")?;
+        write!(out, ", total internal reflection")?;
     }
     if split.transparent && split.boundary {
         let [front, behind] = split.iors.map(short);
-        write!(out, ", index {front} to {behind}")?;
+        write!(out, ", refractive index {front} to {behind}")?;
     }
     if !split.boundary {
-        write!(out, ", no boundary: the medium goes on")?;
+        write!(out, ", no boundary: the medium continues")?;
     }
     if let Some(medium) = split.medium {
         let name = quoted(&split.medium_name);
@@ -201,7 +200,7 @@ fn write_split(out: &mut String, detail: &str, split: &RaySplit) -> fmt::Result 
     writeln!(out)
 }
 
-/// As a word.
+/// Name of a kind of ray.
 pub fn kind(kind: RayKind) -> &'static str {
     match kind {
         RayKind::Primary => "primary",
@@ -211,7 +210,7 @@ pub fn kind(kind: RayKind) -> &'static str {
     }
 }
 
-/// What was hit: its number, and its name where it has one.
+/// The hit object's number, and its name if it has one.
 pub fn object(hit: &RayHit) -> String {
     let name = quoted(&hit.name);
     match hit.object {
@@ -224,23 +223,23 @@ pub fn object(hit: &RayHit) -> String {
     }
 }
 
-/// A name to follow a number. One of many lines must not pass for several.
+/// Quotes a name to follow a number. Line breaks are replaced, so that a name cannot imitate output lines.
 pub fn quoted(name: &Option<String>) -> String {
     let quote = |name: &String| format!(" `{}`", name.replace(char::is_control, " "));
     name.as_ref().map(quote).unwrap_or_default()
 }
 
-/// Coordinates, four digits of each.
+/// Formats coordinates with four digits each.
 pub fn vector(v: [f64; 3]) -> String {
     format!("({})", v.map(short).join(", "))
 }
 
-/// Linear radiance or a throughput: red, green, blue, four digits of each.
+/// Formats red, green and blue of a radiance or throughput with four digits each.
 pub fn color(c: [f32; 3]) -> String {
     c.map(short).join(" ")
 }
 
-/// Four digits at most, wherever they begin.
+/// Formats a number with at most four significant digits.
 pub fn short(value: impl Into<f64>) -> String {
     let value: f64 = value.into();
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);

@@ -1,4 +1,4 @@
-//! What moves in a scene, and for how long.
+//! The animation of a scene: nodes, tracks, duration and frames.
 
 use super::super::clock;
 use super::number;
@@ -6,8 +6,7 @@ use crate::scene::{OutputDefaults, Scene, Shutter};
 use serde_json::{Value, json};
 use std::fmt::{self, Write};
 
-/// Seconds, frames per second, and frames from its edges; `duration` and `frames` are null where
-/// nothing moves.
+/// `duration` is in seconds, `shutter` in frames. `duration` and `frames` are null for a static scene.
 pub fn to_json(scene: &Scene) -> Value {
     let OutputDefaults { fps, shutter, .. } = scene.output;
     json!({
@@ -30,7 +29,7 @@ pub fn write_text(out: &mut String, scene: &Scene) -> fmt::Result {
     let duration = number(duration);
     write!(
         out,
-        ", {duration} s, {frames} frames at {} a second",
+        ", {duration} s, {frames} frames at {} frames/s",
         number(fps)
     )?;
     let Shutter { open, close } = shutter;
@@ -45,7 +44,7 @@ pub fn write_text(out: &mut String, scene: &Scene) -> fmt::Result {
     writeln!(out)
 }
 
-/// As many as `animate` renders unless told otherwise.
+/// Number of frames that `animate` renders by default.
 fn frames(scene: &Scene) -> Option<u64> {
     let duration = clock::duration(scene)?;
     Some(u64::from(clock::last_frame(duration, scene.output.fps, false)) + 1)

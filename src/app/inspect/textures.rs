@@ -1,4 +1,4 @@
-//! What `inspect` says of textures and pictures.
+//! Textures and pictures in the output of `inspect`.
 
 use super::{color, color_json};
 use crate::scene::{Pattern, Picture, Space, Texture};
@@ -34,7 +34,7 @@ pub fn texture_text(out: &mut String, texture: &Texture) -> fmt::Result {
         | Pattern::Stripes { a, b }
         | Pattern::Gradient { a, b }
         | Pattern::Noise { a, b, .. } => write!(out, ", {} and {}", color(a), color(b)),
-        Pattern::Picture { picture, .. } => write!(out, ", number {picture}"),
+        Pattern::Picture { picture, .. } => write!(out, ", picture {picture}"),
     }
 }
 

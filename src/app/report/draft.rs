@@ -1,5 +1,5 @@
-//! What is known of a run while it goes on. A run that fails has this as its report, with the error;
-//! what it did not get to is null.
+//! The report of a run in progress. If the run fails, this is its report, with the error; values that are not
+//! known yet are null.
 
 use super::{Adapter, ImageReport, Report, SceneReport, Seconds, host_peak_bytes};
 use crate::app::cli::{LogFlags, SceneFlags};
@@ -12,32 +12,32 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Longer files are no reports.
+/// Files longer than this are not taken for reports.
 const MAX_REPORT_BYTES: u64 = 1 << 20;
 
-/// The report of a run that is going on.
+/// The report of a run in progress.
 pub struct Draft<'a> {
-    /// The command's name.
+    /// Name of the command.
     pub command: &'static str,
     pub log: &'a LogFlags,
     /// When the process began.
     pub started: Instant,
-    /// The scene's name.
+    /// Name of the scene.
     pub scene_path: String,
-    /// What the run has read so far.
+    /// Files that the run has read so far.
     pub inputs: Inputs,
     pub seconds: Seconds,
     pub adapter: Option<Adapter>,
-    /// Where the pictures go.
+    /// Output path.
     image_path: PathBuf,
     image: Option<ImageReport>,
-    /// `None` until the scene is read, and with it the names of all that it reads.
+    /// `None` until the scene and all its files are read.
     scene: Option<SceneReport>,
 }
 
 impl<'a> Draft<'a> {
-    /// Of a run that is to read a scene called `scene_path` and to write to `image_path`, which is not
-    /// where the report goes.
+    /// Starts the report of a run that reads the scene `scene_path` and writes to `image_path`, which differs
+    /// from the report's own path.
     pub fn new(
         command: &'static str,
         log: &'a LogFlags,
@@ -69,35 +69,35 @@ impl<'a> Draft<'a> {
         self.inputs = inputs;
         let scene = scene?;
         self.seconds.load = loading.elapsed().as_secs_f64();
-        self.read(&scene);
+        self.set_scene(&scene);
         Ok(scene)
     }
 
-    /// Takes note of what is in the scene, all of which is read by now.
-    pub fn read(&mut self, scene: &Scene) {
+    /// Records the contents of the scene, which is completely read by now.
+    pub fn set_scene(&mut self, scene: &Scene) {
         self.scene = Some(SceneReport::new(&self.scene_path, scene));
     }
 
-    /// Takes note of what is to be rendered.
-    pub fn plan(&mut self, image: ImageReport) {
+    /// Records the picture to be rendered.
+    pub fn set_image(&mut self, image: ImageReport) {
         self.image = Some(image);
     }
 
-    /// Passes `outcome` on. Of a failure a report is written, if the flags ask for one and nothing else
-    /// is lost by it.
-    pub fn close(self, outcome: Result<(), AppError>) -> Result<(), AppError> {
+    /// Returns `outcome`. If it is an error, writes the report if one was requested and no other file would be
+    /// overwritten.
+    pub fn finish(self, outcome: Result<(), AppError>) -> Result<(), AppError> {
         if let Err(error) = &outcome
             && let Some(path) = &self.log.report
             && self.may_replace(path)
         {
-            // What ended the run is told; that its report could not be written either adds nothing.
+            // The run's own error matters more than a failure to write its report.
             let _ = super::write(path, &self.failed(error));
         }
         outcome
     }
 
-    /// Whether what is at `path` can be given up. As long as a scene is not read as a whole, it is not
-    /// known which files it names, and only an old report is safe to replace.
+    /// Whether the file at `path` may be replaced. Until the scene is completely read, the files that it names
+    /// are unknown, and only an old report is safe to replace.
     fn may_replace(&self, path: &Path) -> bool {
         !self.inputs.contain(path) && (self.scene.is_some() || is_free(path) || is_report(path))
     }
@@ -120,7 +120,7 @@ impl<'a> Draft<'a> {
         image["mean_samples"] = Value::Null;
         let mut seconds = json!(self.seconds);
         for part in seconds.as_object_mut().into_iter().flatten() {
-            // What took no time at all was not reached.
+            // A part that took no time was not reached.
             if *part.1 == json!(0.0) {
                 *part.1 = Value::Null;
             }
@@ -147,12 +147,12 @@ impl<'a> Draft<'a> {
     }
 }
 
-/// Whether there is nothing at `path` that could be lost: no file, or a pipe or a device.
+/// Whether nothing at `path` could be lost: there is no file, or a pipe or a device.
 fn is_free(path: &Path) -> bool {
     path == Path::new("-") || fs::metadata(path).map_or(true, |found| !found.is_file())
 }
 
-/// Whether the file at `path` is a report that an earlier run wrote.
+/// Whether the file at `path` is the report of an earlier run.
 fn is_report(path: &Path) -> bool {
     let is_short = fs::metadata(path).is_ok_and(|found| found.len() <= MAX_REPORT_BYTES);
     let text = is_short.then(|| fs::read(path).ok()).flatten();

@@ -1,11 +1,11 @@
-//! Bad input of moving pictures: one line, the right exit code, nothing made.
+//! Bad input for animations: one-line errors, the right exit codes, and no files.
 
-use super::place::Place;
+use crate::support::program::Workspace;
 use std::fs;
 
 #[test]
 fn bad_command_lines_exit_2_and_say_why() {
-    let place = Place::new();
+    let workspace = Workspace::new();
     let video = "-o v.y4m --frames 0..3";
     let animate = |flags: &str| format!("animate a.scene {flags}");
     for (line, why) in [
@@ -64,16 +64,16 @@ fn bad_command_lines_exit_2_and_say_why() {
         ),
         (
             animate("--frames 0..3 -o v.avi"),
-            "none of the endings .mp4, .gif, .y4m of a video",
+            "none of the extensions .mp4, .gif, .y4m of a video",
         ),
-        (animate("--frames 0..3 -o v"), "none of the endings"),
+        (animate("--frames 0..3 -o v"), "none of the extensions"),
         (
             animate("--frames 0..3 -o f.png"),
-            "the name has no place for the number. Write NAME_%04d.png",
+            "the name has no placeholder for the frame number. Write NAME_%04d.png",
         ),
         (
             animate("--frames 0..3 -o f_%s.png"),
-            "`%s` is no placeholder",
+            "`%s` is not a placeholder",
         ),
         (
             animate("--frames 0..3 -o f_%d_%d.png"),
@@ -83,10 +83,13 @@ fn bad_command_lines_exit_2_and_say_why() {
             animate("--frames 0..3 -o f_##_##.png"),
             "more than one placeholder",
         ),
-        (animate("--frames 0..3 -o f_%99d.png"), "is no placeholder"),
+        (
+            animate("--frames 0..3 -o f_%99d.png"),
+            "is not a placeholder",
+        ),
         (
             animate("--frames 0..3 -o x%d/f.png"),
-            "the name has no place for the number",
+            "the name has no placeholder for the frame number",
         ),
         (
             animate("--frames 0..3 -o f%d.png --frames-dir d"),
@@ -159,21 +162,24 @@ fn bad_command_lines_exit_2_and_say_why() {
         ),
         ("render a.scene --frame -1".into(), "-1"),
     ] {
-        let run = place.run(&line).expect(2);
+        let run = workspace.run(&line).expect(2);
         run.says(why);
         assert!(run.stderr.starts_with("error: "), "{line}: {}", run.stderr);
         assert_eq!(run.stderr.matches("error:").count(), 1, "{line}");
         assert!(run.stdout.is_empty(), "{line}");
     }
-    assert_eq!(place.files(".").len(), 1);
-    assert_eq!(fs::read_dir(place.path(".")).expect("a folder").count(), 1);
+    assert_eq!(workspace.files(".").len(), 1);
+    assert_eq!(
+        fs::read_dir(workspace.path(".")).expect("a folder").count(),
+        1
+    );
 }
 
 #[test]
 fn places_that_cannot_be_written_exit_4_before_any_rendering() {
-    let place = Place::new();
-    place.write("file", "not a folder");
-    place.write("old.y4m", "old");
+    let workspace = Workspace::new();
+    workspace.write("file", "not a folder");
+    workspace.write("old.y4m", "old");
     for (flags, why) in [
         (
             "-o no/where/f_%d.png",
@@ -187,26 +193,29 @@ fn places_that_cannot_be_written_exit_4_before_any_rendering() {
         ("-o v.y4m --frames-dir file", "(file/"),
         ("-o old.y4m --no-clobber", "it exists and is to be kept"),
     ] {
-        let run = place.animate(&format!("--frames 0..3 {flags}"), 4);
+        let run = workspace.animate(&format!("--frames 0..3 {flags}"), 4);
         run.says(why);
         assert_eq!(run.stderr.matches("error:").count(), 1, "{}", run.stderr);
     }
-    assert_eq!(place.read("old.y4m"), b"old");
-    assert_eq!(fs::read_dir(place.path(".")).expect("a folder").count(), 3);
+    assert_eq!(workspace.read("old.y4m"), b"old");
+    assert_eq!(
+        fs::read_dir(workspace.path(".")).expect("a folder").count(),
+        3
+    );
 }
 
 #[test]
-fn no_clobber_keeps_strangers_frames_and_goes_on_with_its_own() {
-    let place = Place::new();
+fn no_clobber_keeps_foreign_frames_and_resumes_its_own() {
+    let workspace = Workspace::new();
     let flags = "--frames 0..3 -o f_%d.png --no-clobber";
-    place.write("f_2.png", "a stranger's");
-    let run = place.animate(flags, 4);
-    run.says("error: cannot write frame 2 (f_2.png): the file exists and no run of this animation");
-    assert_eq!(place.read("f_2.png"), b"a stranger's");
-    assert_eq!(place.frames("."), ["f_2.png"]);
+    workspace.write("f_2.png", "a stranger's");
+    let run = workspace.animate(flags, 4);
+    run.says("error: cannot write frame 2 (f_2.png): the file exists, and no known run of this animation");
+    assert_eq!(workspace.read("f_2.png"), b"a stranger's");
+    assert_eq!(workspace.frames("."), ["f_2.png"]);
 
-    let run = place.animate(flags.trim_end_matches("--no-clobber"), 0);
-    run.says("again frame 2: there is a file that no run is known to have written");
-    fs::remove_file(place.path("f_3.png")).expect("removed");
-    assert_eq!(place.animate(flags, 0).counts(), (1, 3));
+    let run = workspace.animate(flags.trim_end_matches("--no-clobber"), 0);
+    run.says("re-rendering frame 2: no known run wrote the file");
+    fs::remove_file(workspace.path("f_3.png")).expect("removed");
+    assert_eq!(workspace.animate(flags, 0).counts(), (1, 3));
 }

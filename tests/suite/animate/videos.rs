@@ -1,26 +1,26 @@
-//! Frames joined to videos, and the same frame by other commands.
+//! Videos, name patterns, and the same frame from other commands.
 
-use super::place::Place;
+use crate::support::program::Workspace;
 use std::fs;
 
-/// Frames in a Y4M, of the size that the tests' frames have.
+/// Number of frames in a Y4M stream of the tests' frame size.
 fn y4m_frames(bytes: &[u8]) -> usize {
     let end = bytes.iter().position(|&b| b == b'\n').expect("a header");
     let header = std::str::from_utf8(&bytes[..end]).expect("text");
     assert!(header.starts_with("YUV4MPEG2 W32 H24 "), "{header}");
     let marks = bytes[end..].windows(7).filter(|part| part == b"\nFRAME\n");
-    // The first stands right behind the header, the others behind pixels.
+    // The first marker follows the header, the others follow pixels.
     let others = bytes[end..].windows(6).filter(|part| part == b"FRAME\n");
     assert!(marks.count() >= 1);
     others.count()
 }
 
 #[test]
-fn a_video_is_made_of_frames_that_stay_and_again_without_rendering() {
-    let place = Place::moving();
-    let run = place.animate("--frames 0..7 -o v.y4m", 0);
+fn a_video_keeps_its_frames_and_is_encoded_again_without_rendering() {
+    let workspace = Workspace::moving();
+    let run = workspace.animate("--frames 0..7 -o v.y4m", 0);
     assert_eq!(run.counts(), (8, 0));
-    assert_eq!(place.frames("v.y4m.frames").len(), 8);
+    assert_eq!(workspace.frames("v.y4m.frames").len(), 8);
     let animation = &run.report["animation"];
     assert_eq!(animation["video"], "v.y4m");
     assert_eq!(animation["frame_files"], "v.y4m.frames/frame_%04d.png");
@@ -29,21 +29,21 @@ fn a_video_is_made_of_frames_that_stay_and_again_without_rendering() {
             .as_f64()
             .is_some_and(|s| s > 0.0)
     );
-    let video = place.read("v.y4m");
+    let video = workspace.read("v.y4m");
     assert_eq!(y4m_frames(&video), 8);
 
-    fs::remove_file(place.path("v.y4m")).expect("removed");
-    let again = place.animate("--frames 0..7 -o v.y4m --encode-only", 0);
+    fs::remove_file(workspace.path("v.y4m")).expect("removed");
+    let again = workspace.animate("--frames 0..7 -o v.y4m --encode-only", 0);
     assert_eq!(again.counts(), (0, 8));
     assert!(again.report["adapter"].is_null());
-    assert!(place.read("v.y4m") == video);
-    // Every other frame lasts twice as long.
-    let half = place.animate(
+    assert!(workspace.read("v.y4m") == video);
+    // With every other frame, the video has half the frame rate.
+    let half = workspace.animate(
         "--frames 0..7 --step 2 -o w.y4m --frames-dir v.y4m.frames",
         0,
     );
     assert_eq!(half.counts(), (0, 4));
-    assert_eq!(y4m_frames(&place.read("w.y4m")), 4);
+    assert_eq!(y4m_frames(&workspace.read("w.y4m")), 4);
     let rate = |bytes: Vec<u8>| {
         let text = String::from_utf8_lossy(&bytes).into_owned();
         let field = text.split_whitespace().find(|field| field.starts_with('F'));
@@ -52,48 +52,48 @@ fn a_video_is_made_of_frames_that_stay_and_again_without_rendering() {
             .expect("a ratio");
         n.parse::<f64>().expect("a number") / d.parse::<f64>().expect("a number")
     };
-    assert_eq!((rate(video), rate(place.read("w.y4m"))), (24.0, 12.0));
+    assert_eq!((rate(video), rate(workspace.read("w.y4m"))), (24.0, 12.0));
 
-    fs::remove_file(place.path("v.y4m.frames/frame_0002.png")).expect("removed");
-    let run = place.animate("--frames 0..8 -o v.y4m --encode-only", 3);
+    fs::remove_file(workspace.path("v.y4m.frames/frame_0002.png")).expect("removed");
+    let run = workspace.animate("--frames 0..8 -o v.y4m --encode-only", 3);
     run.says("frame 2: its file is missing; frame 8: not rendered yet");
-    place.animate("--frames 0..2 -o none.y4m --encode-only", 3);
-    assert!(!place.path("none.y4m.frames").exists());
+    workspace.animate("--frames 0..2 -o none.y4m --encode-only", 3);
+    assert!(!workspace.path("none.y4m.frames").exists());
 }
 
 #[test]
-fn frames_of_a_video_are_discarded_on_request_but_not_what_is_beside_them() {
-    let place = Place::moving();
-    place.animate("--frames 0..2 -o v.y4m --discard-frames", 0);
-    assert!(!place.path("v.y4m.frames").exists());
-    fs::create_dir(place.path("d")).expect("a folder");
-    place.write("d/mine.txt", "mine");
+fn discard_frames_keeps_other_files_in_the_folder() {
+    let workspace = Workspace::moving();
+    workspace.animate("--frames 0..2 -o v.y4m --discard-frames", 0);
+    assert!(!workspace.path("v.y4m.frames").exists());
+    fs::create_dir(workspace.path("d")).expect("a folder");
+    workspace.write("d/mine.txt", "mine");
     let flags = "--frames 0..2 -o v.y4m --frames-dir d --discard-frames";
-    let run = place.animate(flags, 0);
+    let run = workspace.animate(flags, 0);
     assert!(run.report["animation"]["frame_files"].is_null());
-    let left: Vec<_> = place.files("d").into_keys().collect();
+    let left: Vec<_> = workspace.files("d").into_keys().collect();
     assert_eq!(left, ["mine.txt"]);
 }
 
 #[test]
-fn a_stream_is_nothing_but_the_video_and_leaves_no_file() {
-    let place = Place::moving();
+fn a_stream_is_only_the_video_and_leaves_no_file() {
+    let workspace = Workspace::moving();
     let line = "animate a.toml --size 32x24 --frames 0..3 --quiet -o - --format y4m";
-    let run = place.run(line).expect(0);
+    let run = workspace.run(line).expect(0);
     assert_eq!(y4m_frames(&run.stdout), 4);
     assert_eq!(run.stderr, "");
-    assert_eq!(place.files(".").len(), 1);
-    // With a folder for the frames the same stream can be had again.
-    let kept = place.run(&format!("{line} --frames-dir d")).expect(0);
+    assert_eq!(workspace.files(".").len(), 1);
+    // With a folder for the frames, the same stream can be written again.
+    let kept = workspace.run(&format!("{line} --frames-dir d")).expect(0);
     assert!(kept.stdout == run.stdout);
-    assert_eq!(place.frames("d").len(), 4);
-    let again = place.run(&format!("{line} --frames-dir d --verbose").replace("--quiet", ""));
+    assert_eq!(workspace.frames("d").len(), 4);
+    let again = workspace.run(&format!("{line} --frames-dir d --verbose").replace("--quiet", ""));
     assert!(again.expect(0).stdout == run.stdout);
 }
 
 #[test]
 fn loop_leaves_out_the_last_frame() {
-    let place = Place::moving();
+    let workspace = Workspace::moving();
     for (range, numbers) in [
         ("--frames 0..4 --loop", vec![0, 1, 2, 3]),
         ("--frames 0..4 --loop --step 2", vec![0, 2]),
@@ -101,67 +101,67 @@ fn loop_leaves_out_the_last_frame() {
         ("--frames 2", vec![2]),
         ("--frames ..1", vec![0, 1]),
     ] {
-        fs::create_dir(place.path("f")).expect("a folder");
-        let run = place.animate(&format!("{range} -o f/####.png"), 0);
+        fs::create_dir(workspace.path("f")).expect("a folder");
+        let run = workspace.animate(&format!("{range} -o f/####.png"), 0);
         let expected: Vec<_> = numbers.iter().map(|n| format!("{n:04}.png")).collect();
-        assert_eq!(place.frames("f"), expected, "{range}");
+        assert_eq!(workspace.frames("f"), expected, "{range}");
         let animation = &run.report["animation"];
         assert_eq!(animation["first"], numbers[0]);
         assert_eq!(animation["last"], *numbers.last().expect("a number"));
-        fs::remove_dir_all(place.path("f")).expect("removed");
+        fs::remove_dir_all(workspace.path("f")).expect("removed");
     }
 }
 
 #[test]
-fn names_of_frames_are_what_the_pattern_says() {
-    let place = Place::moving();
+fn frame_names_follow_the_pattern() {
+    let workspace = Workspace::moving();
     for (pattern, name, journal) in [
         ("a%%b_%03d.png", "a%b_007.png", "a%b_journal.png.jsonl"),
         ("take#2_%d.jpg", "take#2_7.jpg", "take#2_journal.jpg.jsonl"),
         ("%5d.exr", "00007.exr", "journal.exr.jsonl"),
         ("100%%_##.hdr", "100%_07.hdr", "100%_journal.hdr.jsonl"),
-        // Only the last folder is made.
+        // Only the last folder is created.
         ("new/x%d.png", "new/x7.png", "new/xjournal.png.jsonl"),
     ] {
-        place.animate(&format!("--frames 7 -o {pattern}"), 0);
-        assert!(place.path(name).is_file(), "{pattern}");
-        assert!(place.path(journal).is_file(), "{pattern}");
+        workspace.animate(&format!("--frames 7 -o {pattern}"), 0);
+        assert!(workspace.path(name).is_file(), "{pattern}");
+        assert!(workspace.path(journal).is_file(), "{pattern}");
     }
 }
 
 #[test]
-fn frames_of_another_number_of_digits_are_others() {
-    let place = Place::moving();
-    place.animate("--frames 8..10 -o f_%d.png", 0);
-    let run = place.animate("--frames 8..10 -o f_%02d.png", 0);
-    // Frame 10 has two digits either way.
+fn frames_with_another_number_of_digits_are_different_files() {
+    let workspace = Workspace::moving();
+    workspace.animate("--frames 8..10 -o f_%d.png", 0);
+    let run = workspace.animate("--frames 8..10 -o f_%02d.png", 0);
+    // Frame 10 has two digits in both patterns.
     assert_eq!(run.counts(), (2, 1));
     assert_eq!(
-        place.frames("."),
+        workspace.frames("."),
         ["f_08.png", "f_09.png", "f_10.png", "f_8.png", "f_9.png"]
     );
 }
 
 #[test]
 fn render_makes_the_same_frame_as_animate() {
-    let place = Place::moving();
+    let workspace = Workspace::moving();
     let flags = "--size 32x24 --samples 3 --fps 10 --shutter 180deg";
-    place
+    workspace
         .run(&format!("animate a.toml {flags} --frames 3..5 -o f_%d.png"))
         .expect(0);
     for (when, name) in [("--frame 4", "f_4.png"), ("--time 0.5", "f_5.png")] {
-        place
+        workspace
             .run(&format!("render a.toml {flags} {when} -o one.png"))
             .expect(0);
-        assert!(place.read("one.png") == place.read(name), "{when}");
+        assert!(workspace.read("one.png") == workspace.read(name), "{when}");
     }
 }
 
 #[test]
 fn a_turntable_is_a_loop_of_whole_frames() {
-    let place = Place::moving();
+    let workspace = Workspace::moving();
     let flags = "--seconds 0.26 --fps 20 --size 32x24 --report -";
-    let run = place
+    let run = workspace
         .run(&format!("turntable a.toml {flags} -o t.y4m"))
         .expect(0);
     // 5.2 frames are rounded to 5, numbered from 0.
@@ -169,5 +169,5 @@ fn a_turntable_is_a_loop_of_whole_frames() {
     assert_eq!(run.report["animation"]["last"], 4);
     assert_eq!(run.report["command"], "turntable");
     assert_eq!(run.report["image"]["samples"], 4);
-    assert_eq!(y4m_frames(&place.read("t.y4m")), 5);
+    assert_eq!(y4m_frames(&workspace.read("t.y4m")), 5);
 }

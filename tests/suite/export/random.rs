@@ -1,4 +1,4 @@
-//! Scenes that nobody would write: everything in them is drawn by lot.
+//! Random scenes.
 
 use super::loss;
 use crate::support::random::Random;
@@ -14,7 +14,7 @@ fn vector(random: &mut Random) -> DVec3 {
         _ => random.between(-9.0, 9.0),
     };
     let vector = DVec3::new(axis(), axis(), axis());
-    // Zeros without a sign; those with one are drawn with matrices.
+    // Zeros without a sign; matrices cover negative zeros.
     vector + 0.0
 }
 
@@ -80,7 +80,7 @@ fn placement(random: &mut Random) -> DAffine3 {
     }
 }
 
-/// One of the indices below `count`, or none.
+/// A random index below `count`, or `None`.
 fn maybe(random: &mut Random, count: usize) -> Option<usize> {
     let index = random.below(2 * count + 1);
     (index < count).then_some(index)
@@ -466,7 +466,7 @@ fn scene(random: &mut Random) -> Scene {
     let mut driven = Vec::new();
     for _ in 0..5 {
         let track = track(random, &scene);
-        // Both turn a node: it has one of them.
+        // Both properties rotate a node, so only one of them is animated.
         let slot = format!("{:?}", track.targets).replace("Angles", "Rotation");
         if !driven.contains(&slot) {
             driven.push(slot);
@@ -479,7 +479,7 @@ fn scene(random: &mut Random) -> Scene {
 }
 
 #[test]
-fn scenes_drawn_by_lot_are_packed_to_the_same_bytes_after_they_were_written_and_read() {
+fn random_scenes_are_packed_to_the_same_bytes_after_a_round_trip() {
     let mut verdict = Verdict::on("round trips");
     for seed in 0..60 {
         let lost = loss(&scene(&mut Random::new(seed)));

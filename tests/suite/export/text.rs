@@ -1,4 +1,4 @@
-//! What the text is like, and what lies beside it.
+//! The text of an export and the files beside it.
 
 use super::write;
 use glam::{DAffine3, DVec3, Vec3};
@@ -31,7 +31,7 @@ fn load(name: &str) -> Scene {
 }
 
 #[test]
-fn what_a_person_wrote_comes_back_in_the_same_numbers() {
+fn numbers_are_written_as_in_the_original_file() {
     let text = text(&load("glass_and_mirrors.toml"));
     for line in [
         "look_from = [0, 2.5, 9.2]",
@@ -52,20 +52,20 @@ fn what_a_person_wrote_comes_back_in_the_same_numbers() {
 }
 
 #[test]
-fn what_is_as_by_default_is_not_written() {
+fn default_values_are_not_written() {
     let text = text(&scene());
     let said: Vec<_> = text
         .lines()
         .filter(|l| !l.is_empty() && !l.starts_with('#'))
         .collect();
     let camera = ["[camera]", "look_from = [0, 0, 0]", "look_at = [0, 0, -1]"];
-    // A native material without a word on highlights has an exponent of 32.
+    // The native format's default exponent is 32.
     let material = ["[materials.\"material 1\"]", "phong = { shininess = 1 }"];
     assert_eq!(said, [&camera[..], &material[..]].concat());
 }
 
 #[test]
-fn names_that_are_missing_or_given_twice_become_different_ones() {
+fn missing_and_duplicate_names_become_unique() {
     let named = |name: &str, red: f32| Material {
         name: name.to_owned(),
         diffuse: Vec3::new(red, 0.0, 0.0),
@@ -100,7 +100,7 @@ fn names_that_are_missing_or_given_twice_become_different_ones() {
 }
 
 #[test]
-fn many_copies_in_a_row_are_one_object_and_a_file_of_places() {
+fn many_copies_become_one_object_and_a_file_of_placements() {
     let mut scene = scene();
     scene.shapes = (0..5000_u32)
         .map(|i| Shape {
@@ -125,7 +125,7 @@ fn many_copies_in_a_row_are_one_object_and_a_file_of_places() {
 }
 
 #[test]
-fn too_many_different_things_are_refused_with_a_number() {
+fn a_scene_beyond_the_size_limit_is_refused() {
     let mut scene = scene();
     scene.shapes = (0..60_000_u32)
         .map(|i| Shape {
@@ -145,7 +145,7 @@ fn too_many_different_things_are_refused_with_a_number() {
 }
 
 #[test]
-fn a_picture_is_a_png_where_its_texels_are_those_of_one_and_otherwise_an_exr() {
+fn a_picture_is_a_png_if_8_bits_suffice_and_otherwise_an_exr() {
     let picture = |texels: Vec<Vec3>| {
         let mut scene = scene();
         scene.pictures.push(Arc::new(Picture {
@@ -171,7 +171,7 @@ fn a_picture_is_a_png_where_its_texels_are_those_of_one_and_otherwise_an_exr() {
 }
 
 #[test]
-fn files_that_are_in_the_way_are_left_alone() {
+fn existing_files_are_kept() {
     let mut scene = scene();
     let corner = |x: f32, y: f32| Vec3::new(x, y, 0.0);
     scene.meshes.push(Arc::new(Mesh {

@@ -19,7 +19,7 @@ pub enum Need {
     Models,
     /// Mounts that only one process sees.
     Mounts,
-    /// Named pipes, `/dev/full` and `/proc`.
+    /// Named pipes, `/dev/full`, `/proc`, and `script`, which creates terminals.
     Special,
     /// The scenes of the Standard Procedural Database.
     Spd,

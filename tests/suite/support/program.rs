@@ -1,13 +1,15 @@
-//! A folder with a scene, and runs of the program in it.
+//! Runs the program in a temporary folder with a scene.
 
+use glimray::image::Image;
+use glimray::output;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use tempfile::TempDir;
 
-/// A red sphere and a light, in the course's format.
+/// A red sphere and a light, in the course format.
 pub const SCENE: &str = "2
 amb: 0.1 0.1 0.1
 sphere
@@ -21,8 +23,8 @@ pos: 2 2 1
 col: 1 1 1
 ";
 
-/// A red sphere that crosses the picture in a quarter of a second, on a way that bends: at 24 frames a
-/// second no frame is like another.
+/// A red sphere that crosses the picture in a quarter of a second along a bent path, so that at 24 frames per
+/// second all frames differ.
 pub const MOVING: &str = r#"
 ambient = [0.1, 0.1, 0.1]
 
@@ -48,39 +50,41 @@ property = "translate"
 keys = [[0, [-1.5, 0, 0]], [0.125, [0.5, 0, 0]], [0.25, [1.5, 0.1, 0]]]
 "#;
 
-/// Names of files and what is in them.
+/// File names with their contents.
 pub type Files = BTreeMap<String, Vec<u8>>;
 
-pub struct Place {
+/// A temporary folder with a scene in it.
+pub struct Workspace {
     folder: TempDir,
     scene: &'static str,
 }
 
-/// What a run of the program left.
+/// The result of a run of the program.
+#[derive(Debug)]
 pub struct Run {
     pub code: Option<i32>,
     pub stdout: Vec<u8>,
     pub stderr: String,
-    /// Null unless one was asked for on the standard output.
+    /// JSON on standard output, such as a report; null if there is none.
     pub report: Value,
 }
 
-impl Place {
-    /// With a scene in which nothing moves, `a.scene`.
+impl Workspace {
+    /// With a static scene, `a.scene`.
     pub fn new() -> Self {
         Self::with("a.scene", SCENE)
     }
 
-    /// With a scene of seven frames in which something does, `a.toml`.
+    /// With an animated scene of seven frames, `a.toml`.
     pub fn moving() -> Self {
         Self::with("a.toml", MOVING)
     }
 
     fn with(scene: &'static str, text: &str) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let place = Self { folder, scene };
-        place.write(scene, text);
-        place
+        let workspace = Self { folder, scene };
+        workspace.write(scene, text);
+        workspace
     }
 
     pub fn path(&self, name: &str) -> PathBuf {
@@ -99,20 +103,28 @@ impl Place {
         let mut command = Command::new(env!("CARGO_BIN_EXE_glimray"));
         command.current_dir(self.folder.path());
         command.args(line.split_whitespace()).stdin(Stdio::null());
+        // With a display, the program would open its window.
+        for name in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+            command.env_remove(name);
+        }
         command
     }
 
     pub fn run(&self, line: &str) -> Run {
-        let output = self.command(line).output().expect("glimray runs");
-        Run {
-            code: output.status.code(),
-            report: serde_json::from_slice(&output.stdout).unwrap_or_default(),
-            stdout: output.stdout,
-            stderr: String::from_utf8(output.stderr).expect("messages are text"),
-        }
+        Run::from(self.command(line).output().expect("glimray runs"))
     }
 
-    /// `animate` of its scene with small pictures, a report and more flags; it must end with `code`.
+    /// Saves a PNG or OpenEXR picture.
+    pub fn picture(&self, name: &str, width: u32, pixels: &[[f32; 3]]) {
+        let image = Image {
+            width,
+            height: pixels.len() as u32 / width,
+            pixels: pixels.iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect(),
+        };
+        output::save(self.path(name), &image).expect("saved");
+    }
+
+    /// Runs `animate` on the scene with small pictures, a report and more flags. It must exit with `code`.
     #[track_caller]
     pub fn animate(&self, flags: &str, code: i32) -> Run {
         let scene = self.scene;
@@ -126,12 +138,12 @@ impl Place {
         command.spawn().expect("glimray runs")
     }
 
-    /// Everything in a folder, hidden files too.
+    /// All files in a folder, including hidden ones.
     pub fn files(&self, folder: &str) -> Files {
         read_folder(&self.path(folder))
     }
 
-    /// The names of everything in a folder, hidden files, folders and pipes too.
+    /// The names of all entries of a folder, including hidden files, folders and pipes.
     pub fn names(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.path(folder)).expect("a folder");
         let names = entries.map(|entry| entry.expect("an entry").file_name());
@@ -139,6 +151,13 @@ impl Place {
             .map(|name| name.to_string_lossy().into_owned())
             .collect();
         names.sort();
+        names
+    }
+
+    /// The names of all entries beside the scene, including hidden files.
+    pub fn made(&self) -> Vec<String> {
+        let mut names = self.names(".");
+        names.retain(|name| name != self.scene);
         names
     }
 
@@ -151,15 +170,34 @@ impl Place {
     }
 }
 
+impl From<Output> for Run {
+    fn from(output: Output) -> Self {
+        Self {
+            code: output.status.code(),
+            report: serde_json::from_slice(&output.stdout).unwrap_or_default(),
+            stdout: output.stdout,
+            stderr: String::from_utf8(output.stderr).expect("messages are text"),
+        }
+    }
+}
+
 impl Run {
-    /// Fails unless the run ended with `code`.
+    pub fn text(&self) -> &str {
+        std::str::from_utf8(&self.stdout).expect("text on standard output")
+    }
+
+    pub fn json(&self) -> Value {
+        serde_json::from_slice(&self.stdout).expect("JSON on standard output")
+    }
+
+    /// Fails unless the run exited with `code`.
     #[track_caller]
     pub fn expect(self, code: i32) -> Self {
         assert_eq!(self.code, Some(code), "{}", self.stderr);
         self
     }
 
-    /// Frames rendered, and frames that were there.
+    /// Numbers of frames that were rendered and reused.
     pub fn counts(&self) -> (u64, u64) {
         let number = |name: &str| self.report["animation"][name].as_u64().expect(name);
         (number("rendered"), number("reused"))
@@ -177,7 +215,7 @@ pub fn read_folder(folder: &Path) -> Files {
     };
     entries
         .map(|entry| entry.expect("an entry"))
-        // A file may be gone again while another process writes.
+        // Another process may remove files meanwhile.
         .filter(|entry| entry.path().is_file())
         .map(|entry| {
             let bytes = fs::read(entry.path()).unwrap_or_default();

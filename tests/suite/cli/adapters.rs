@@ -1,0 +1,84 @@
+//! Choosing an adapter, and `doctor`.
+
+use crate::support::program::{Run, Workspace};
+use serde_json::Value;
+
+#[cfg(target_os = "linux")]
+#[test]
+fn without_an_adapter_the_exit_code_is_5_and_doctor_names_packages() {
+    let workspace = Workspace::new();
+    let run = |line: &str| {
+        // The Vulkan loader then finds no driver.
+        let mut command = workspace.command(line);
+        command.args(["--backend", "vulkan"]);
+        for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+            command.env(name, "/nonexistent.json");
+        }
+        Run::from(command.output().expect("glimray runs")).expect(5)
+    };
+    let render = run("render a.scene");
+    assert!(
+        render
+            .stderr
+            .starts_with("error: no usable GPU (tried Vulkan)"),
+        "{}",
+        render.stderr
+    );
+    let install = "apt-get install libvulkan1 mesa-vulkan-drivers";
+    assert!(render.stderr.contains(install), "{}", render.stderr);
+    let doctor = run("doctor");
+    assert!(
+        doctor
+            .text()
+            .contains("apt-get install mesa-vulkan-drivers libvulkan1")
+    );
+    let doctor = run("doctor --json").json();
+    assert_eq!(doctor["adapters"], serde_json::json!([]));
+    assert_eq!(doctor["chosen"], Value::Null);
+    assert!(workspace.made().is_empty());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_backend_of_another_platform_is_refused_without_install_advice() {
+    let workspace = Workspace::new();
+    for (backend, why) in [
+        ("metal", "only Apple's systems have Metal"),
+        ("dx12", "only Windows has DirectX 12"),
+    ] {
+        let run = workspace
+            .run(&format!("render a.scene --backend {backend}"))
+            .expect(5);
+        assert_eq!(
+            run.stderr,
+            format!(
+                "error: no usable GPU (--backend {backend}): {why}. Omit --backend or choose another \
+                 one.\n"
+            )
+        );
+        let doctor = workspace
+            .run(&format!("doctor --backend {backend}"))
+            .expect(5);
+        assert!(!doctor.text().contains("install"), "{}", doctor.text());
+    }
+}
+
+#[test]
+fn doctor_finds_the_adapter_and_its_self_test_passes() {
+    let doctor = Workspace::new().run("doctor --json").expect(0).json();
+    assert!(doctor["chosen"].is_u64());
+    assert_eq!(doctor["self_test"]["passed"], true, "{doctor}");
+}
+
+#[test]
+fn the_adapter_is_named_unless_quiet() {
+    let workspace = Workspace::new();
+    let run = workspace.run("render a.scene --size 8x6").expect(0);
+    assert!(
+        run.stderr.starts_with("rendering 8×6 on "),
+        "{}",
+        run.stderr
+    );
+    let run = workspace.run("render a.scene --size 8x6 --quiet").expect(0);
+    assert_eq!(run.stderr, "");
+}

@@ -1,0 +1,70 @@
+//! `inspect`, and the warning about missing lights.
+
+use crate::support::program::Workspace;
+use std::fs;
+
+#[test]
+fn inspect_lists_the_contents_of_a_scene() {
+    let workspace = Workspace::new();
+    let scene = workspace.run("inspect a.scene --json").expect(0).json();
+    assert_eq!(scene["spheres"], 1);
+    assert_eq!(scene["lights"], 1);
+    assert_eq!(scene["triangles"], 0);
+    assert_eq!(
+        scene["bounds"]["min"],
+        serde_json::json!([-1.0, -1.0, -4.0])
+    );
+    assert_eq!(
+        scene["cameras"][0]["look_at"],
+        serde_json::json!([0.0, 0.0, -1.0])
+    );
+    let text = workspace.run("inspect a.scene").expect(0);
+    for line in [
+        "spheres    1",
+        "lights     1",
+        "bounds     (-1, -1, -4) to (1, 1, -2)",
+    ] {
+        assert!(text.text().contains(line), "{}", text.text());
+    }
+}
+
+#[test]
+fn inspect_lists_lenses_and_area_lights() {
+    let workspace = Workspace::new();
+    let text = "[camera]\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\nlens = { radius = 0.5, blades = 7 }\n\
+        [[lights]]\ndisc = { center = [0, 4, 0], normal = [0, -1, 0], radius = 2, samples = 9, visible = false }";
+    fs::write(workspace.path("lens.toml"), text).expect("a scene");
+    let scene = workspace.run("inspect lens.toml --json").expect(0).json();
+    let lens = &scene["cameras"][0]["lens"];
+    assert_eq!(
+        (&lens["radius"], &lens["focus_distance"], &lens["blades"]),
+        (&0.5.into(), &5.0.into(), &7.into())
+    );
+    assert_eq!(scene["light_list"][0]["samples"], 9, "{scene}");
+    let text = workspace.run("inspect lens.toml").expect(0);
+    for part in [
+        "lens radius 0.5, focus distance 5",
+        "radius 2, attenuation inverse-square, 9 sample(s), invisible",
+    ] {
+        assert!(text.text().contains(part), "{}", text.text());
+    }
+}
+
+#[test]
+fn a_scene_without_light_causes_one_warning() {
+    let workspace = Workspace::new();
+    let ball = "[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n";
+    fs::write(workspace.path("dark.toml"), ball).expect("a scene");
+    let lit = format!("[[lights]]\npoint = {{ position = [3, 3, 3] }}\n{ball}");
+    fs::write(workspace.path("lit.toml"), lit).expect("a scene");
+    for (name, count) in [("dark", 1), ("lit", 0)] {
+        let render = workspace.run(&format!("render {name}.toml --size 8x8 -o {name}.png"));
+        let said = render.expect(0).stderr;
+        assert_eq!(said.matches("has no light").count(), count, "{said}");
+        let inspect = workspace.run(&format!("inspect {name}.toml")).expect(0);
+        let text = inspect.text();
+        assert_eq!(text.matches("has no light").count(), count, "{text}");
+        let json = workspace.run(&format!("inspect {name}.toml --json"));
+        assert_eq!(json.expect(0).json()["unlit"], count == 1);
+    }
+}

@@ -1,0 +1,80 @@
+//! `merge`: parts of a picture.
+
+use crate::support::program::Workspace;
+use std::fs;
+
+#[test]
+fn films_of_parts_merge_to_the_picture_of_one_run() {
+    let workspace = Workspace::new();
+    let render = "render a.scene --size 40x30 --samples 150 --quiet";
+    let read = |name: &str| fs::read(workspace.path(name)).expect("a file");
+    workspace.run(&format!("{render} -o one.png")).expect(0);
+    workspace.run(&format!("{render} -o one.film")).expect(0);
+    for part in [
+        "--sample-count 64 -o a.film",
+        "--sample-offset 64 --crop 0,0,40,11 -o b.film",
+        "--sample-offset 64 --crop 0,11,40,30 -o c.film",
+    ] {
+        workspace.run(&format!("{render} {part}")).expect(0);
+    }
+    workspace
+        .run("merge c.film a.film b.film -o all.film")
+        .expect(0);
+    workspace.run("merge all.film -o all.png").expect(0);
+    assert!(read("all.film") == read("one.film"));
+    assert!(read("all.png") == read("one.png"));
+
+    let run = workspace.run("merge a.film c.film -o less.png").expect(8);
+    let missing = "missing samples 64 to 149 of 40×11 pixels at 0,0";
+    assert!(run.stderr.contains(missing), "{}", run.stderr);
+    assert!(!workspace.path("less.png").exists());
+    let run = workspace
+        .run("merge a.film all.film -o more.film")
+        .expect(3);
+    assert!(run.stderr.contains("overlap"), "{}", run.stderr);
+    workspace
+        .run(&format!("{render} --seed 1 --crop 0,0,40,11 -o d.film"))
+        .expect(0);
+    let run = workspace.run("merge a.film d.film -o other.film").expect(3);
+    assert!(
+        run.stderr.contains("differ in the settings"),
+        "{}",
+        run.stderr
+    );
+    workspace.run("merge a.film -o ./a.film").expect(4);
+}
+
+#[test]
+fn damaged_films_and_invalid_parts_are_refused() {
+    let workspace = Workspace::new();
+    let render = "render a.scene --size 16x12 --samples 150 --quiet";
+    workspace.run(&format!("{render} -o a.film")).expect(0);
+    let bytes = fs::read(workspace.path("a.film")).expect("a film");
+    fs::write(workspace.path("short.film"), &bytes[..bytes.len() / 2]).expect("written");
+    let mut damaged = bytes.clone();
+    damaged[bytes.len() / 2] ^= 1;
+    fs::write(workspace.path("damaged.film"), damaged).expect("written");
+    for (name, why) in [
+        ("short.film", "cut short"),
+        ("damaged.film", "damaged"),
+        ("a.scene", "not a film"),
+        ("gone.film", "gone.film"),
+    ] {
+        let run = workspace.run(&format!("merge {name} -o out.png")).expect(3);
+        assert!(run.stderr.contains(why), "{}", run.stderr);
+    }
+    for (flags, why) in [
+        ("--sample-offset 64 -o part.png", "only a film"),
+        ("--sample-offset 10 -o part.film", "multiple of 64"),
+        ("--sample-count 10 -o part.film", "multiple of 64"),
+        ("--sample-offset 192 -o part.film", "0 to 149"),
+        (
+            "--antialias adaptive --sample-count 64 -o part.film",
+            "adaptive",
+        ),
+    ] {
+        let run = workspace.run(&format!("{render} {flags}")).expect(2);
+        assert!(run.stderr.contains(why), "{}", run.stderr);
+    }
+    assert_eq!(workspace.made(), ["a.film", "damaged.film", "short.film"]);
+}
