@@ -31,7 +31,7 @@ pub fn describe(adapter: &AdapterReport) -> String {
 /// The kind of device, with a warning if it is slow.
 pub fn kind(adapter: &AdapterReport) -> &str {
     match adapter.device_type.as_str() {
-        "cpu" => "CPU, slow",
+        "cpu" => "CPU (slow)",
         "discrete_gpu" => "discrete GPU",
         "integrated_gpu" => "integrated GPU",
         "virtual_gpu" => "virtual GPU",

@@ -115,7 +115,10 @@ impl<'a> FrameRenderer<'a> {
     ) -> Result<Frames, AppError> {
         let (count, reused) = (plan.count(), plan.done_count());
         if let Some(adapter) = self.adapter.as_ref().filter(|_| reused < count) {
-            let what = format!("{} frames of ", count - reused);
+            let what = match count - reused {
+                1 => "1 frame of ".to_owned(),
+                missing => format!("{missing} frames of "),
+            };
             (self.sequence.job).announce(&what, &self.settings, adapter);
         }
         let started = Instant::now();

@@ -1,6 +1,6 @@
 //! Exit codes and messages for bad command lines, scenes and outputs.
 
-use crate::support::program::Workspace;
+use crate::support::program::{SCENE, Workspace};
 use std::fs;
 
 #[test]
