@@ -65,7 +65,7 @@
 //! * **Limits are told**: what had to be left out of a picture is counted ([`render::Stats`]), what
 //!   had to be left out of a scene is named ([`scene::Scene::skipped`]).
 //! * **Errors**: one enum for each module that can fail, with what a user needs to know. Only
-//!   [`app`] prints, exits or names flags. There is no panic on a bad file, a missing GPU or a full disk.
+//!   [`app`] and [`cli`] print, exit or name flags. There is no panic on a bad file, a missing GPU or a full disk.
 //!
 //! # Features
 //!
@@ -75,7 +75,7 @@
 //!
 //! | feature | adds |
 //! |---|---|
-//! | `cli` | [`app`], the program |
+//! | `cli` | [`cli`], the program |
 //! | `viewer` | the window of `glimray view`; brings `cli` |
 //! | `video` | MP4 and GIF |
 //! | `gl` | OpenGL, where there is no Vulkan, Metal or DirectX 12 |
@@ -95,7 +95,9 @@
 //! | [`export`] | `Scene` → native scene file | `scene` |
 //! | [`image`](mod@image) | a finished picture in memory | |
 //! | [`output`] | `Image` → file, frames → video, complete or absent | `image` |
-//! | [`app`] | the command line | everything |
+//! | [`app`] | what the command line and the window share | everything above |
+//! | [`cli`] | the commands | `app` and everything above |
+//! | [`viewer`] | the window of `glimray view` | `app` and everything above |
 //!
 //! The shaders are in `shaders/`: `types.wesl` (shared structs), `bindings.wesl` (all bindings and
 //! overrides), `lib/` (pure functions), `scene/` (what reads bindings), `kernels/` (entry points).
@@ -107,6 +109,8 @@
 #[cfg(feature = "cli")]
 pub mod app;
 pub mod bvh;
+#[cfg(feature = "cli")]
+pub mod cli;
 mod clock;
 pub mod export;
 pub mod gpu;
@@ -118,3 +122,5 @@ pub mod output;
 pub mod pack;
 pub mod render;
 pub mod scene;
+#[cfg(feature = "viewer")]
+pub mod viewer;

@@ -3,7 +3,6 @@
 //!
 //! With `--progress json` a program reads the standard error: then each line is a JSON object.
 
-use super::cli::LogFlags;
 use super::error::AppError;
 use serde_json::{Value, json};
 use std::fmt::Display;
@@ -26,11 +25,9 @@ pub struct Console {
 }
 
 impl Console {
-    pub fn new(flags: &LogFlags) -> Self {
-        Self {
-            quiet: flags.quiet,
-            verbose: flags.verbose,
-        }
+    /// `quiet` leaves out status lines, `verbose` adds details.
+    pub fn new(quiet: bool, verbose: bool) -> Self {
+        Self { quiet, verbose }
     }
 
     /// A line for everybody who did not ask for quiet.
