@@ -160,8 +160,8 @@ impl Gpu {
     }
 
     /// This device if it serves `needs`, else one on the same adapter with higher limits.
-    pub(crate) fn serving(self, needs: Needs) -> Result<Self, GpuError> {
-        if self.serves(needs) {
+    pub(crate) fn with_limits_for(self, needs: Needs) -> Result<Self, GpuError> {
+        if self.meets(needs) {
             return Ok(self);
         }
         self.check_limits(needs)?;
@@ -192,7 +192,7 @@ impl Gpu {
     }
 
     /// Whether this device's limits allow for `needs`.
-    pub(crate) fn serves(&self, needs: Needs) -> bool {
+    pub(crate) fn meets(&self, needs: Needs) -> bool {
         let limits = self.device.limits();
         needs.binding_bytes <= limits.max_storage_buffer_binding_size
             && needs.binding_bytes <= limits.max_buffer_size
@@ -238,8 +238,8 @@ impl Gpu {
 
     /// Workgroups along x of a dispatch that is to have `columns`: one less where a driver that cuts
     /// it short is rehearsed.
-    pub(crate) fn dispatched(&self, columns: u32) -> u32 {
-        columns - u32::from(fault::strikes(fault::Site::Dispatch))
+    pub(crate) fn dispatch_columns(&self, columns: u32) -> u32 {
+        columns - u32::from(fault::should_fail(fault::Site::Dispatch))
     }
 
     /// Submits and waits until the work is done. A device that is lost, or does not answer within
@@ -254,10 +254,10 @@ impl Gpu {
         &self,
         commands: wgpu::CommandBuffer,
     ) -> Result<wgpu::SubmissionIndex, GpuError> {
-        if fault::strikes(fault::Site::Device) {
+        if fault::should_fail(fault::Site::Device) {
             self.lose();
         }
-        guard::quiet(|| self.queue.submit([commands])).map_err(|()| GpuError::Lost)
+        guard::catch(|| self.queue.submit([commands])).map_err(|()| GpuError::Lost)
     }
 
     fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {
@@ -266,7 +266,7 @@ impl Gpu {
                 submission_index: Some(index.clone()),
                 timeout: Some(WAIT),
             };
-            let polled = guard::quiet(|| self.device.poll(poll)).map_err(|_| GpuError::Lost)?;
+            let polled = guard::catch(|| self.device.poll(poll)).map_err(|_| GpuError::Lost)?;
             self.check()?;
             match polled {
                 Ok(_) => return Ok(()),
@@ -300,7 +300,7 @@ impl Gpu {
             return false;
         }
         let scope = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let tried = guard::quiet(|| {
+        let tried = guard::catch(|| {
             let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("probe"),
                 size: 4,
@@ -318,7 +318,7 @@ impl Gpu {
     fn scoped<T>(&self, what: &str, make: impl FnOnce() -> T) -> Result<T, GpuError> {
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let made = guard::quiet(make);
+        let made = guard::catch(make);
         let invalid = pollster::block_on(validation.pop());
         let exhausted = pollster::block_on(memory.pop());
         if self.is_lost() {

@@ -19,7 +19,7 @@ mod tlas;
 mod trees;
 
 pub use frame::PackedView;
-pub use instance::MOST_BAKED;
+pub use instance::MAX_BAKED;
 pub use segments::Segments;
 pub use trees::TreeWork;
 
@@ -39,7 +39,7 @@ use material::PackedPicture;
 use mesh::CachedMesh;
 use object::Origins;
 use std::sync::Arc;
-use surfaces::Changing;
+use surfaces::AnimatedMaterials;
 use tlas::TlasSource;
 use trees::Trees;
 
@@ -82,13 +82,13 @@ pub struct PackedScene {
     /// What the scene has, so that all else is compiled out.
     pub features: Features,
     /// Bodies that are transparent at some time, which the camera may be inside of.
-    bodies: Vec<media::Body>,
+    volumes: Vec<media::Volume>,
     meshes: Vec<Arc<CachedMesh>>,
     trees: Trees,
     tlas_source: Arc<TlasSource>,
     packed_pictures: Vec<PackedPicture>,
     /// The scene's materials where its visible lights or a track may change some.
-    changing: Option<Changing>,
+    animated_materials: Option<AnimatedMaterials>,
     /// What everything is in the scene.
     origins: Origins,
     /// Where render space has its origin, in world space: [`Scene::render_origin`].
@@ -174,7 +174,7 @@ pub enum PackError {
 /// # Errors
 /// It is too big for the formats the GPU reads.
 pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
-    pack(None, scene, MOST_BAKED)
+    pack(None, scene, MAX_BAKED)
 }
 
 /// The same, bit by bit, with all that `previous` has of it: trees of meshes that are the same objects
@@ -185,7 +185,7 @@ pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
 /// # Errors
 /// As [`scene`].
 pub fn scene_from(previous: &PackedScene, scene: &Scene) -> Result<PackedScene, PackError> {
-    pack(Some(previous), scene, MOST_BAKED)
+    pack(Some(previous), scene, MAX_BAKED)
 }
 
 /// The same as [`scene`], where static meshes in several places are baked into the world if their
@@ -217,7 +217,7 @@ fn pack(
     let (shapes, blas_of_shapes) = instanced_shapes(scene, &plan, first_instanced)?;
     let instanced_shapes: Arc<[_]> = shapes.into();
     let first_baked_triangle = (trees.baked.first())
-        .map_or(joint.place, |t| t.blas.place)
+        .map_or(joint.offsets, |t| t.blas.offsets)
         .triangle;
     let end = joint.end();
     let shape_count = joint.shapes.len() + instanced_shapes.len();
@@ -259,7 +259,7 @@ fn pack(
         ..material::features(scene)
     };
     let has_uvs = scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty());
-    let (materials, changing) = surfaces::materials(scene, &rest);
+    let (materials, animated_materials) = surfaces::materials(scene, &rest);
     Ok(PackedScene {
         nodes,
         triangles: trees.triangles(&plan),
@@ -281,14 +281,14 @@ fn pack(
         texels: (packed_pictures.iter().map(|(_, texels)| texels.clone())).collect(),
         pictures,
         features,
-        bodies: media::bodies(scene, &meshes),
+        volumes: media::volumes(scene, &meshes),
         origins: Origins::new(scene, &plan, &trees),
         work: trees.work,
         meshes,
         trees,
         tlas_source,
         packed_pictures,
-        changing,
+        animated_materials,
         origin,
         build_seconds,
     })

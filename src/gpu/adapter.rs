@@ -82,7 +82,7 @@ pub(super) struct Found {
 
 /// All adapters that can run compute shaders, in the order of their indices.
 pub fn adapters(choice: &AdapterChoice) -> Vec<AdapterReport> {
-    enumerate(everything(choice))
+    enumerate(allowed_backends(choice))
         .1
         .iter()
         .enumerate()
@@ -102,7 +102,7 @@ pub(super) fn choose(choice: &AdapterChoice) -> Result<Found, GpuError> {
         _ => (None, Vec::new()),
     };
     if enumerated.1.is_empty() {
-        enumerated = enumerate(everything(choice));
+        enumerated = enumerate(allowed_backends(choice));
     }
     let (instance, mut found) = enumerated;
     let reports: Vec<_> = found
@@ -166,7 +166,7 @@ fn preference(report: &AdapterReport) -> (usize, bool, usize) {
 }
 
 /// The backends that a choice allows.
-fn everything(choice: &AdapterChoice) -> wgpu::Backends {
+fn allowed_backends(choice: &AdapterChoice) -> wgpu::Backends {
     match choice.backend {
         None => wgpu::Backends::PRIMARY | wgpu::Backends::GL,
         Some(Backend::Vulkan) => wgpu::Backends::VULKAN,
@@ -188,7 +188,7 @@ fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Ada
         for_resource_creation: Some(90),
         for_device_loss: Some(97),
     };
-    let found = guard::quiet(|| {
+    let found = guard::catch(|| {
         let instance = wgpu::Instance::new(descriptor);
         let adapters = pollster::block_on(instance.enumerate_adapters(backends));
         (Some(instance), adapters)

@@ -45,7 +45,7 @@ impl Gpu {
         bytes: u64,
         usage: wgpu::BufferUsages,
     ) -> Result<wgpu::Buffer, GpuError> {
-        if fault::strikes(fault::Site::Allocation) {
+        if fault::should_fail(fault::Site::Allocation) {
             return Err(GpuError::OutOfMemory { what: what.into() });
         }
         self.scoped(what, || {
@@ -99,7 +99,7 @@ impl Gpu {
         width: u32,
         format: wgpu::TextureFormat,
     ) -> Result<wgpu::TextureView, GpuError> {
-        if fault::strikes(fault::Site::Allocation) {
+        if fault::should_fail(fault::Site::Allocation) {
             return Err(GpuError::OutOfMemory { what: what.into() });
         }
         let binding = match format {
@@ -129,7 +129,7 @@ impl Gpu {
         height: u32,
         format: wgpu::TextureFormat,
     ) -> Result<wgpu::TextureView, GpuError> {
-        if fault::strikes(fault::Site::Allocation) {
+        if fault::should_fail(fault::Site::Allocation) {
             return Err(GpuError::OutOfMemory {
                 what: "screen".into(),
             });

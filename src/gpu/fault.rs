@@ -22,7 +22,7 @@ struct Plan {
 }
 
 /// Whether this occasion is one that is to fail.
-pub(super) fn strikes(site: Site) -> bool {
+pub(super) fn should_fail(site: Site) -> bool {
     static PLAN: OnceLock<Option<Plan>> = OnceLock::new();
     let plan = PLAN.get_or_init(|| parse(&std::env::var("GLIMRAY_FAULT").ok()?));
     let Some(plan) = plan.as_ref().filter(|plan| plan.site == site) else {

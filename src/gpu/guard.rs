@@ -34,7 +34,7 @@ pub fn surviving_loss<T>(gpu: &Gpu, draw: impl FnOnce() -> T) -> Result<T, GpuEr
 }
 
 /// What `run` returns, or `Err` if it panicked.
-pub(super) fn quiet<T>(run: impl FnOnce() -> T) -> Result<T, ()> {
+pub(super) fn catch<T>(run: impl FnOnce() -> T) -> Result<T, ()> {
     let before = GUARDED.replace(true);
     // What a panic leaves half done is the device's state, and that is thrown away with it.
     let result = catch_unwind(AssertUnwindSafe(run)).map_err(|_| ());

@@ -32,7 +32,7 @@ impl Reading {
 impl Drop for Reading {
     fn drop(&mut self) {
         // Also takes back a request that was not answered yet: a mapped buffer takes no copies.
-        let _ = guard::quiet(|| self.staging.unmap());
+        let _ = guard::catch(|| self.staging.unmap());
     }
 }
 
@@ -56,11 +56,11 @@ impl Gpu {
             );
             bytes += source.bytes;
         }
-        let commands = guard::quiet(|| encoder.finish()).map_err(|()| GpuError::Lost)?;
+        let commands = guard::catch(|| encoder.finish()).map_err(|()| GpuError::Lost)?;
         let submission = self.enqueue(commands)?;
         let mapped = Arc::new(Mutex::new(None));
         let on_mapped = mapped.clone();
-        guard::quiet(|| {
+        guard::catch(|| {
             staging.map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
                 if let Ok(mut outcome) = on_mapped.lock() {
                     *outcome = Some(result);
@@ -78,7 +78,7 @@ impl Gpu {
 
     /// Whether the work is done and its results can be read. Does not wait.
     pub(crate) fn is_readable(&self, reading: &Reading) -> Result<bool, GpuError> {
-        let polled = guard::quiet(|| self.device.poll(wgpu::PollType::Poll));
+        let polled = guard::catch(|| self.device.poll(wgpu::PollType::Poll));
         polled
             .map_err(|()| GpuError::Lost)?
             .map_err(|_| GpuError::Lost)?;

@@ -4,7 +4,7 @@ use super::{Gpu, GpuError, specialize::specialize};
 use std::{borrow::Cow, collections::VecDeque};
 
 /// How many pipelines of a device are kept: each may be a megabyte of machine code.
-const MOST_PIPELINES: usize = 64;
+const MAX_PIPELINES: usize = 64;
 
 /// Pipelines by what they are made of, the newest first.
 #[derive(Default)]
@@ -108,7 +108,7 @@ impl Gpu {
         }
         let pipeline = self.compile(kernel, from_images, groups, &wanted.overrides)?;
         if let Ok(mut kept) = self.pipelines.lock() {
-            kept.0.truncate(MOST_PIPELINES - 1);
+            kept.0.truncate(MAX_PIPELINES - 1);
             kept.0.push_front((wanted, pipeline.clone()));
         }
         let is_new = true;
@@ -124,7 +124,7 @@ impl Gpu {
     ) -> Result<wgpu::ComputePipeline, GpuError> {
         let name = kernel.name;
         let refused = |what: String| GpuError::Internal {
-            what: dumped(name, kernel.source(from_images), &what),
+            what: with_dump(name, kernel.source(from_images), &what),
         };
         let module = kernel
             .specialized(from_images, overrides)
@@ -162,7 +162,7 @@ impl Gpu {
 
 /// An error about a kernel, with the file that its linked text was written to. There are no files in a
 /// browser.
-fn dumped(name: &str, source: &str, what: &str) -> String {
+fn with_dump(name: &str, source: &str, what: &str) -> String {
     if cfg!(target_arch = "wasm32") {
         return what.to_owned();
     }

@@ -174,7 +174,7 @@ impl Fold<'_> {
                 }
                 _ => folded.push(statement, span),
             }
-            if folded.last().is_some_and(leaves) {
+            if folded.last().is_some_and(ends_block) {
                 break;
             }
         }
@@ -256,7 +256,7 @@ fn stores(block: &Block, found: &mut Vec<(Handle<Expression>, Handle<Expression>
 }
 
 /// Whether nothing behind this statement in its block is reached.
-fn leaves(statement: &Statement) -> bool {
+fn ends_block(statement: &Statement) -> bool {
     matches!(
         statement,
         Statement::Return { .. } | Statement::Break | Statement::Continue | Statement::Kill

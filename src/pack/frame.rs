@@ -112,7 +112,7 @@ impl PackedScene {
                 plane_count: self.plane_count,
                 vertex_count: self.vertices.len() as u32,
                 material_count: self.materials.len() as u32,
-                camera_media: media::around(&self.bodies, first, first.camera.look_from)?,
+                camera_media: media::at_point(&self.volumes, first, first.camera.look_from)?,
                 root: if self.features.instances {
                     first_node | moving
                 } else {
@@ -146,14 +146,14 @@ impl PackedScene {
 
     /// The materials of a shot; empty if they never change.
     fn materials_of(&self, frames: &[Frame]) -> Arc<[PackedMaterial]> {
-        let Some(changing) = &self.changing else {
+        let Some(animated_materials) = &self.animated_materials else {
             return Arc::default();
         };
         let materials = match &frames[0].materials[..] {
-            [] => &changing.materials,
+            [] => &animated_materials.materials,
             changed => changed,
         };
-        let lamps = changing.lamps.iter();
+        let lamps = animated_materials.lamps.iter();
         let lamps = lamps.map(|&index| light::mean_material(frames, index));
         (materials.iter().map(material::material))
             .chain(lamps.map(|lamp| material::material(&lamp)))

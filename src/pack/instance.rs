@@ -11,12 +11,12 @@ use glam::{DAffine3, DVec3};
 
 /// Copies of a static mesh are baked into the world if they have at most this many triangles together:
 /// rays need no way into the space of an instance then.
-pub const MOST_BAKED: usize = 1 << 14;
+pub const MAX_BAKED: usize = 1 << 14;
 
 /// Static meshes of at most this many triangles share a tree with others ...
-const MOST_IN_SMALL: usize = 1 << 11;
+const MAX_IN_SMALL: usize = 1 << 11;
 /// ... as long as all of them have at most this many, which bounds the time to build it again.
-const MOST_JOINT: usize = 1 << 14;
+const MAX_JOINT: usize = 1 << 14;
 
 /// A tree of its own in the world.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,7 +97,7 @@ impl Plan {
         }
         let mut plan = Self::default();
         let mut place_of_mesh = vec![None; scene.meshes.len()];
-        let mut room = MOST_JOINT;
+        let mut room = MAX_JOINT;
         for (index, instance) in scene.instances.iter().enumerate() {
             let triangles = scene.meshes[instance.mesh].triangles.len();
             let is_visible = is_there(instance.node);
@@ -118,7 +118,7 @@ impl Plan {
                     });
                     plan.instances.push((index, place, source));
                 }
-                None if triangles <= MOST_IN_SMALL.min(room) => {
+                None if triangles <= MAX_IN_SMALL.min(room) => {
                     room -= triangles;
                     if is_visible {
                         plan.joint.push((index, world_from_object));

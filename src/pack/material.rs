@@ -69,34 +69,38 @@ pub fn material(material: &Material) -> PackedMaterial {
 
 /// For each material of a scene whether its `color` is not black at some time: its own, or one
 /// that a track gives to `property`.
-fn is_lit(scene: &Scene, color: fn(&Material) -> Vec3, property: MaterialProperty) -> Vec<bool> {
+fn may_be_nonblack(
+    scene: &Scene,
+    color: fn(&Material) -> Vec3,
+    property: MaterialProperty,
+) -> Vec<bool> {
     let own = scene.materials.iter().map(|m| color(m) != Vec3::ZERO);
-    let mut lit: Vec<bool> = own.collect();
+    let mut nonblack: Vec<bool> = own.collect();
     for track in &scene.tracks {
-        let is_nothing =
+        let is_black =
             matches!(&track.curve.values, Values::Vector(v) if v.iter().all(|v| *v == DVec3::ZERO));
         for target in &track.targets {
             if let Target::Material(index, p) = *target
                 && p == property
             {
-                lit[index] |= !is_nothing;
+                nonblack[index] |= !is_black;
             }
         }
     }
-    lit
+    nonblack
 }
 
 /// For each material of a scene whether it is transparent at some time.
-pub fn clear(scene: &Scene) -> Vec<bool> {
-    is_lit(scene, |m| m.transmit, MaterialProperty::Transmit)
+pub fn may_transmit(scene: &Scene) -> Vec<bool> {
+    may_be_nonblack(scene, |m| m.transmit, MaterialProperty::Transmit)
 }
 
 /// Whether total reflection turns the light that some material lets through into mirrored light. Where
 /// Fresnel's equations count, `reflect` says what is mirrored there too, and a sum has no such rule.
 fn has_total_reflection(scene: &Scene) -> bool {
-    let mut materials = scene.materials.iter().zip(clear(scene));
-    materials.any(|(material, is_clear)| {
-        is_clear && material.fresnel == Fresnel::None && material.mixing != Mixing::Sum
+    let mut materials = scene.materials.iter().zip(may_transmit(scene));
+    materials.any(|(material, transmits)| {
+        transmits && material.fresnel == Fresnel::None && material.mixing != Mixing::Sum
     })
 }
 
@@ -114,9 +118,10 @@ fn has_thin_material(scene: &Scene) -> bool {
 
 /// What the materials, textures and pictures of a scene ask for.
 pub fn features(scene: &Scene) -> Features {
-    let mirrors = is_lit(scene, |m| m.reflect, MaterialProperty::Reflect).contains(&true);
-    let refraction = clear(scene).contains(&true);
-    let emission = is_lit(scene, |m| m.emission, MaterialProperty::Emission).contains(&true);
+    let mirrors = may_be_nonblack(scene, |m| m.reflect, MaterialProperty::Reflect).contains(&true);
+    let refraction = may_transmit(scene).contains(&true);
+    let emission =
+        may_be_nonblack(scene, |m| m.emission, MaterialProperty::Emission).contains(&true);
     Features {
         // Refraction brings the code for thin materials along.
         reflection: mirrors

@@ -19,14 +19,14 @@ const SLACK: f64 = 1.0 / (1 << 20) as f64;
 
 /// Where a tree's nodes, triangles, shapes and vertices begin in the arrays of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Place {
+pub struct Offsets {
     pub node: u32,
     pub triangle: u32,
     pub shape: u32,
     pub vertex: u32,
 }
 
-impl Place {
+impl Offsets {
     /// The child reference to a child of a tree at this place.
     pub fn reference(&self, child: &Child) -> u32 {
         match *child {
@@ -81,9 +81,9 @@ impl Children {
     }
 
     /// Those of a node of a tree at `place`.
-    pub fn of(node: &WideNode, place: &Place) -> Self {
+    pub fn of(node: &WideNode, offsets: &Offsets) -> Self {
         let children = node.children.iter();
-        Self::new(children.map(|(aabb, child)| (*aabb, place.reference(child))))
+        Self::new(children.map(|(aabb, child)| (*aabb, offsets.reference(child))))
     }
 
     pub fn map_references(&mut self, map: impl Fn(u32) -> u32) {

@@ -26,9 +26,9 @@ impl Origins {
     pub fn new(scene: &Scene, plan: &Plan, trees: &Trees) -> Self {
         let own_trees = plan.baked.iter().zip(&trees.baked);
         let mut baked: Vec<_> = own_trees
-            .map(|(baked, tree)| (tree.blas.place.vertex, baked.index))
+            .map(|(baked, tree)| (tree.blas.offsets.vertex, baked.index))
             .collect();
-        let mut first_vertex = trees.joint.blas.place.vertex;
+        let mut first_vertex = trees.joint.blas.offsets.vertex;
         for &(index, _) in &plan.joint {
             baked.push((first_vertex, index));
             let mesh = &scene.meshes[scene.instances[index].mesh];

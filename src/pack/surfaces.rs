@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// What the packed materials are made of, where they may change over time.
 #[derive(Clone, Debug)]
-pub struct Changing {
+pub struct AnimatedMaterials {
     pub materials: Vec<Material>,
     /// Indices of the visible lights.
     pub lamps: Vec<usize>,
@@ -15,7 +15,10 @@ pub struct Changing {
 
 /// Materials in scene order, then those of visible lights; and what they are made of where that may
 /// change over time.
-pub fn materials(scene: &Scene, rest: &Frame) -> (Arc<[PackedMaterial]>, Option<Changing>) {
+pub fn materials(
+    scene: &Scene,
+    rest: &Frame,
+) -> (Arc<[PackedMaterial]>, Option<AnimatedMaterials>) {
     let lamps: Vec<usize> = light::visible(scene).collect();
     let lamp_materials = lamps
         .iter()
@@ -28,9 +31,9 @@ pub fn materials(scene: &Scene, rest: &Frame) -> (Arc<[PackedMaterial]>, Option<
         .chain(lamp_materials.map(|lamp| material::material(&lamp)))
         .collect();
     let is_changing = !rest.materials.is_empty() || (!lamps.is_empty() && !scene.tracks.is_empty());
-    let changing = is_changing.then(|| Changing {
+    let animated_materials = is_changing.then(|| AnimatedMaterials {
         materials: scene.materials.clone(),
         lamps,
     });
-    (materials, changing)
+    (materials, animated_materials)
 }

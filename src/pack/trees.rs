@@ -3,12 +3,12 @@
 
 use super::{
     PackError,
-    blas::{Blas, MOST_PARTS, STACK_BELOW, opened},
+    blas::{Blas, MAX_PARTS, STACK_BELOW, opened},
     geometry::Flat,
     instance::{InstancedBlas, Plan},
     light,
     mesh::CachedMesh,
-    nodes::{self, Children, Place},
+    nodes::{self, Children, Offsets},
     segments::Segments,
 };
 use crate::{
@@ -57,7 +57,7 @@ impl MeshTree {
     pub fn instanced(&self) -> InstancedBlas {
         InstancedBlas {
             root: self.blas.root(),
-            first: self.blas.place.triangle,
+            first: self.blas.offsets.triangle,
             count: self.blas.triangles.len() as u32,
             boxes: self.blas.boxes(),
             shape: None,
@@ -129,32 +129,32 @@ impl Trees {
     ) -> Result<Self, PackError> {
         let previous = previous.filter(|previous| previous.origin == origin);
         let mut work = TreeWork::default();
-        let known = Known::new(previous);
+        let known = ExistingTrees::new(previous);
         // Node 0 is the root of what is baked.
-        let mut place = Place {
+        let mut offsets = Offsets {
             node: 1,
-            ..Place::default()
+            ..Offsets::default()
         };
         let mut tree = |index: usize, world_from_object: Option<DAffine3>| {
             let mesh = &meshes[index];
             let tree = MeshTree {
                 mesh: mesh.clone(),
                 world_from_object,
-                blas: match known.find(mesh, world_from_object, place) {
-                    Some(blas) => blas.moved_to(place),
+                blas: match known.find(mesh, world_from_object, offsets) {
+                    Some(blas) => blas.moved_to(offsets),
                     None => {
                         let (transform, origin) = match world_from_object {
                             Some(transform) => (transform, origin),
                             None => (DAffine3::IDENTITY, DVec3::ZERO),
                         };
-                        let flat = Flat::of_mesh(&mesh.mesh, transform, origin, place.vertex)?;
+                        let flat = Flat::of_mesh(&mesh.mesh, transform, origin, offsets.vertex)?;
                         work.refits += 1;
                         let topology = mesh.topology(&mut work.topologies);
-                        Arc::new(Blas::refitted(topology, flat, place))
+                        Arc::new(Blas::refitted(topology, flat, offsets))
                     }
                 },
             };
-            place = tree.blas.end();
+            offsets = tree.blas.end();
             Ok(tree)
         };
         let instanced = (plan.instanced_meshes.iter())
@@ -173,15 +173,15 @@ impl Trees {
         let input = JointInput::new(scene, (rest, origin), plan, meshes, stack_size);
         let before = previous.map(|previous| &previous.joint);
         let joint = match before.filter(|before| before.input == input) {
-            Some(before) if before.blas.place == place => before.clone(),
+            Some(before) if before.blas.offsets == offsets => before.clone(),
             Some(before) => Arc::new(Joint {
                 input,
-                blas: before.blas.moved_to(place),
+                blas: before.blas.moved_to(offsets),
                 planes: before.planes.clone(),
             }),
             None => {
                 work.joint = 1;
-                Arc::new(Joint::build(input, place)?)
+                Arc::new(Joint::build(input, offsets)?)
             }
         };
 
@@ -257,12 +257,12 @@ impl Trees {
 }
 
 /// Trees that are there already, by mesh and place in the world.
-struct Known<'a>(HashMap<Key, Vec<&'a Arc<Blas>>>);
+struct ExistingTrees<'a>(HashMap<Key, Vec<&'a Arc<Blas>>>);
 
 /// The mesh's address and the bits of its transform.
 type Key = (usize, Option<[u64; 12]>);
 
-impl<'a> Known<'a> {
+impl<'a> ExistingTrees<'a> {
     fn new(trees: Option<&'a Trees>) -> Self {
         let mut known: HashMap<_, Vec<_>> = HashMap::new();
         for tree in trees.into_iter().flat_map(Trees::own) {
@@ -272,15 +272,15 @@ impl<'a> Known<'a> {
         Self(known)
     }
 
-    /// Of several the one at this place.
+    /// Of several the one at this offsets.
     fn find(
         &self,
         mesh: &Arc<CachedMesh>,
         world_from_object: Option<DAffine3>,
-        place: Place,
+        offsets: Offsets,
     ) -> Option<&'a Arc<Blas>> {
         let all = self.0.get(&key(mesh, world_from_object))?;
-        let here = all.iter().find(|blas| blas.place == place);
+        let here = all.iter().find(|blas| blas.offsets == offsets);
         here.or(all.first()).copied()
     }
 }
@@ -298,8 +298,11 @@ impl JointInput {
         meshes: &[Arc<CachedMesh>],
         stack_size: usize,
     ) -> Self {
-        let mesh = |&(index, place): &(usize, DAffine3)| {
-            (meshes[scene.instances[index].mesh].clone(), place)
+        let mesh = |&(index, world_from_object): &(usize, DAffine3)| {
+            (
+                meshes[scene.instances[index].mesh].clone(),
+                world_from_object,
+            )
         };
         let shapes = plan.joint_shapes.iter().map(|&id| {
             let shape = &scene.shapes[id];
@@ -324,17 +327,17 @@ impl JointInput {
 }
 
 impl Joint {
-    fn build(input: JointInput, place: Place) -> Result<Self, PackError> {
+    fn build(input: JointInput, offsets: Offsets) -> Result<Self, PackError> {
         let mut flat = Flat::default();
         for (mesh, world_from_object) in &input.meshes {
-            flat.add_mesh(&mesh.mesh, *world_from_object, input.origin, place.vertex)?;
+            flat.add_mesh(&mesh.mesh, *world_from_object, input.origin, offsets.vertex)?;
         }
         for (geometry, material, id) in &input.shapes {
             flat.add_shape(geometry, *material, *id, Some(input.origin))?;
         }
         Ok(Self {
             planes: std::mem::take(&mut flat.planes).into(),
-            blas: Arc::new(Blas::joint(flat, input.stack_size, place)),
+            blas: Arc::new(Blas::joint(flat, input.stack_size, offsets)),
             input,
         })
     }
@@ -357,7 +360,7 @@ impl Top {
                 first_node,
             }))
         };
-        let limit = MOST_PARTS + 2 * trees.len().saturating_sub(1);
+        let limit = MAX_PARTS + 2 * trees.len().saturating_sub(1);
         match trees {
             _ if has_instances => {
                 return alone(opened(trees.iter().copied(), limit), PackedNode::default());

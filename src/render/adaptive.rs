@@ -1,9 +1,9 @@
 //! Adaptive sampling: which pixels go on after a round.
 
 use super::{
+    film_tile::FilmTile,
     layers::{self, Layer, SQUARES},
     settings::RenderSettings,
-    window::Window,
 };
 use std::{collections::BTreeMap, ops::Range};
 
@@ -32,8 +32,8 @@ pub struct Adaptive {
     samples: u32,
     /// Rounds after the first.
     rounds: u32,
-    /// Most pixels of a window.
-    window_pixels: usize,
+    /// Most pixels of a tile.
+    tile_pixels: usize,
     layers: &'static [&'static Layer],
     pixels: Vec<PixelStatistics>,
     /// The samples of the pixels that have most of them, in this round.
@@ -51,21 +51,21 @@ struct PixelStatistics {
 }
 
 impl Adaptive {
-    pub fn new(settings: &RenderSettings, window_side: u32) -> Self {
+    pub fn new(settings: &RenderSettings, tile_side: u32) -> Self {
         let crop = settings.region();
         // With so few samples there are no rounds.
         let has_rounds = settings.samples > FIRST_SAMPLES;
         let margin = if has_rounds { NEIGHBOUR_ROUNDS } else { 0 };
         let region = widened(crop, margin, settings.size);
         let [.., width, height] = region;
-        let side = window_side as usize;
+        let side = tile_side as usize;
         Self {
             region,
             crop,
             rounds: 0,
             noise: f64::from(settings.noise),
             samples: settings.samples,
-            window_pixels: side * side,
+            tile_pixels: side * side,
             layers: layers::of_sampling(settings),
             front: 0..FIRST_SAMPLES.min(settings.samples),
             pixels: vec![PixelStatistics::default(); width as usize * height as usize],
@@ -82,31 +82,31 @@ impl Adaptive {
         self.crop
     }
 
-    /// Windows over all the pixels.
-    pub fn first_round(&self, pixels: Vec<[u32; 2]>) -> Vec<Window> {
-        self.windows(pixels, 0..FIRST_SAMPLES.min(self.samples))
+    /// FilmTiles over all the pixels.
+    pub fn first_round(&self, pixels: Vec<[u32; 2]>) -> Vec<FilmTile> {
+        self.tiles(pixels, 0..FIRST_SAMPLES.min(self.samples))
     }
 
-    /// Windows over the pixels that need more samples, those that have as many together; none when
+    /// FilmTiles over the pixels that need more samples, those that have as many together; none when
     /// all are done. A round doubles the samples of a pixel.
-    pub fn next_round(&mut self) -> Vec<Window> {
+    pub fn next_round(&mut self) -> Vec<FilmTile> {
         self.rounds += 1;
         let [x0, y0, width, height] = self.region;
-        let tiles = |length: u32| 0..length.div_ceil(8);
-        let mut going_on: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
-        for (ty, tx) in tiles(height).flat_map(|y| tiles(width).map(move |x| (y, x))) {
+        let groups = |length: u32| 0..length.div_ceil(8);
+        let mut unfinished: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
+        for (ty, tx) in groups(height).flat_map(|y| groups(width).map(move |x| (y, x))) {
             for (y, x) in (0..8).flat_map(|y| (0..8).map(move |x| (8 * ty + y, 8 * tx + x))) {
-                if x < width && y < height && self.goes_on(x, y) {
-                    let list = going_on.entry(self.statistics(x, y).count).or_default();
+                if x < width && y < height && self.needs_more_samples(x, y) {
+                    let list = unfinished.entry(self.statistics(x, y).count).or_default();
                     list.push([x0 + x, y0 + y]);
                 }
             }
         }
-        if let Some((&count, _)) = going_on.last_key_value() {
+        if let Some((&count, _)) = unfinished.last_key_value() {
             self.front = self.front.end..(2 * count).min(self.samples).max(self.front.end);
         }
-        let windows = |(count, pixels)| self.windows(pixels, count..(2 * count).min(self.samples));
-        going_on.into_iter().flat_map(windows).collect()
+        let tiles = |(count, pixels)| self.tiles(pixels, count..(2 * count).min(self.samples));
+        unfinished.into_iter().flat_map(tiles).collect()
     }
 
     /// Goes by the most samples that any pixel has.
@@ -115,21 +115,21 @@ impl Adaptive {
         (f64::from(start) + fraction * f64::from(end - start)) / f64::from(self.samples)
     }
 
-    fn windows(&self, pixels: Vec<[u32; 2]>, samples: Range<u32>) -> Vec<Window> {
-        let lists = pixels.chunks(self.window_pixels);
+    fn tiles(&self, pixels: Vec<[u32; 2]>, samples: Range<u32>) -> Vec<FilmTile> {
+        let lists = pixels.chunks(self.tile_pixels);
         lists
-            .map(|list| Window::list(list.to_vec(), samples.clone(), self.layers))
+            .map(|list| FilmTile::list(list.to_vec(), samples.clone(), self.layers))
             .collect()
     }
 
     /// Adds what a round has gathered.
-    pub fn take(&mut self, windows: Vec<Window>) {
+    pub fn add_round(&mut self, tiles: Vec<FilmTile>) {
         let squares = layers::row_of(self.layers, &SQUARES).unwrap_or_default();
-        for window in windows {
-            let taken = window.samples.end - window.samples.start;
-            let rows = window.totals();
-            let pixels = rows.chunks_exact(window.rows_per_pixel());
-            for (place, rows) in window.places().iter().zip(pixels) {
+        for tile in tiles {
+            let taken = tile.samples.end - tile.samples.start;
+            let rows = tile.totals();
+            let pixels = rows.chunks_exact(tile.rows_per_pixel());
+            for (place, rows) in tile.places().iter().zip(pixels) {
                 let index = self.index(*place);
                 let statistics = &mut self.pixels[index];
                 for (sum, row) in statistics.sum.iter_mut().zip(rows[0]) {
@@ -177,7 +177,7 @@ impl Adaptive {
     /// its neighbours have found. Few samples may all have missed what is there, and then agree: so
     /// after the first round a difference from a neighbour is enough, and later a neighbour that
     /// still needs samples and has many more.
-    fn goes_on(&self, x: u32, y: u32) -> bool {
+    fn needs_more_samples(&self, x: u32, y: u32) -> bool {
         let statistics = self.statistics(x, y);
         let rounds_left = NEIGHBOUR_ROUNDS.saturating_sub(self.rounds);
         if statistics.count >= self.samples || self.steps_to_crop(x, y) > rounds_left {
@@ -188,8 +188,8 @@ impl Adaptive {
             let is_ahead = other.count >= BEHIND * statistics.count && other.error() > self.noise;
             differs && (statistics.count <= FIRST_SAMPLES || is_ahead)
         };
-        let asks = self.rounds <= NEIGHBOUR_ROUNDS;
-        statistics.error() > self.noise || (asks && self.around(x, y).any(missed))
+        let looks_at_neighbours = self.rounds <= NEIGHBOUR_ROUNDS;
+        statistics.error() > self.noise || (looks_at_neighbours && self.around(x, y).any(missed))
     }
 
     /// Steps from a pixel of the region to the nearest of the crop; 0 within it.

@@ -18,7 +18,7 @@ pub const IMAGE_WIDTH: u32 = 1 << IMAGE_WIDTH_LOG2;
 pub const ARRAY_COUNT: usize = 6;
 
 /// Most bytes that are gathered for one write.
-const MOST_GATHERED: usize = 16 << 20;
+const MAX_GATHERED: usize = 16 << 20;
 
 /// What belongs into one buffer or image.
 pub struct Array<'a> {
@@ -156,11 +156,11 @@ impl<'a> Array<'a> {
         for piece in self.pieces.iter().filter(|piece| !is_there(piece)) {
             *(piece.counts_as)(uploads) += piece.bytes.len() as u64;
             let is_next = start + gathered.len() as u64 == piece.offset;
-            if !is_next || gathered.len() + piece.bytes.len() > MOST_GATHERED {
+            if !is_next || gathered.len() + piece.bytes.len() > MAX_GATHERED {
                 rows.write(gpu, start, &gathered)?;
                 gathered.clear();
             }
-            if piece.bytes.len() > MOST_GATHERED {
+            if piece.bytes.len() > MAX_GATHERED {
                 rows.write(gpu, piece.offset, piece.bytes)?;
                 start = piece.offset + piece.bytes.len() as u64;
                 continue;

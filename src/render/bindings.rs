@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     gpu::{Gpu, GpuError, Ledger, Needs},
-    layout::{PackedFrame, PackedSlice, PackedTone},
+    layout::{PackedCounters, PackedDispatch, PackedFrame, PackedTone},
     pack::{PackedScene, PackedView},
 };
 use bytemuck::{bytes_of, cast_slice};
@@ -25,7 +25,7 @@ pub struct Buffers {
     pub scene_group: wgpu::BindGroup,
     pub frame_group: wgpu::BindGroup,
     pub film_group: wgpu::BindGroup,
-    pub slice: Buffer,
+    pub dispatch: Buffer,
     pub film: Buffer,
     pub staging: Buffer,
     scene: SceneBuffers,
@@ -43,16 +43,16 @@ impl Buffers {
     ) -> Result<Self, GpuError> {
         let buffers = SceneBuffers::new(gpu, fetch, scene, view, uploads)?;
         let scene_group = buffers.group(gpu, layouts);
-        let slice = gpu.allocate("slice", size_of::<PackedSlice>() as u64, READABLE)?;
+        let dispatch = gpu.allocate("dispatch", size_of::<PackedDispatch>() as u64, READABLE)?;
         let (film, staging) = film(gpu, film_rows)?;
-        let frame_group = frame_group(gpu, layouts, view, &slice)?;
+        let frame_group = frame_group(gpu, layouts, view, &dispatch)?;
         uploads.frames += frame_bytes(view);
         let film_group = group(gpu, &layouts.film, &[film.as_entire_binding()]);
         Ok(Self {
             scene_group,
             frame_group,
             film_group,
-            slice,
+            dispatch,
             film,
             staging,
             scene: buffers,
@@ -89,7 +89,7 @@ impl Buffers {
         if self.scene.set(gpu, scene, view, spare, uploads)? {
             self.scene_group = self.scene.group(gpu, layouts);
         }
-        self.frame_group = frame_group(gpu, layouts, view, &self.slice)?;
+        self.frame_group = frame_group(gpu, layouts, view, &self.dispatch)?;
         uploads.frames += frame_bytes(view);
         Ok(())
     }
@@ -166,29 +166,30 @@ impl SceneBuffers {
     }
 }
 
-/// A film with this many rows, and what it is read back through, with the accounts of a slice.
+/// A film with this many rows, and the staging buffer through which it is read back with the counters of a
+/// dispatch.
 fn film(gpu: &Gpu, rows: usize) -> Result<(Buffer, Buffer), GpuError> {
     let bytes = rows as u64 * ROW_BYTES;
     let film = gpu.allocate("film", bytes, READABLE)?;
     let staging = gpu.allocate(
         "staging",
-        bytes + size_of::<PackedSlice>() as u64,
+        bytes + size_of::<PackedCounters>() as u64,
         BufferUsages::MAP_READ | BufferUsages::COPY_DST,
     )?;
     Ok((film, staging))
 }
 
-/// The view's frame and lights, with the accounts of a slice.
+/// The bind group of a frame with its lights, and of the dispatch parameters.
 fn frame_group(
     gpu: &Gpu,
     layouts: &Layouts,
     view: &PackedView,
-    slice: &Buffer,
+    dispatch: &Buffer,
 ) -> Result<wgpu::BindGroup, GpuError> {
     let mut bytes = bytes_of(&view.frame).to_vec();
     bytes.extend_from_slice(cast_slice(&view.lights));
     let frame = gpu.upload("frame", &bytes)?;
-    let resources = [frame.as_entire_binding(), slice.as_entire_binding()];
+    let resources = [frame.as_entire_binding(), dispatch.as_entire_binding()];
     Ok(group(gpu, &layouts.frame, &resources))
 }
 

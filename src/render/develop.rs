@@ -3,11 +3,11 @@
 use super::{
     Fingerprint, Integrator, Levels, Quantity, RenderError, RenderSettings, Renderer,
     bindings::Buffers,
+    film_tile::FilmTile,
     fingerprint::Encoder,
     layouts::{Layouts, group},
     levels,
     slice::Slice,
-    window::Window,
 };
 use crate::clock::Instant;
 use crate::{
@@ -167,7 +167,7 @@ pub struct Context<'a> {
     pub layouts: &'a Layouts,
     pub frame_group: &'a wgpu::BindGroup,
     pub film_group: &'a wgpu::BindGroup,
-    pub slice: &'a wgpu::Buffer,
+    pub dispatch: &'a wgpu::Buffer,
     pub film: &'a wgpu::Buffer,
     pub staging: &'a wgpu::Buffer,
 }
@@ -179,7 +179,7 @@ impl<'a> Context<'a> {
             layouts,
             frame_group: &buffers.frame_group,
             film_group: &buffers.film_group,
-            slice: &buffers.slice,
+            dispatch: &buffers.dispatch,
             film: &buffers.film,
             staging: &buffers.staging,
         }
@@ -195,7 +195,7 @@ impl Renderer {
         let range = self.range_of(tone)?;
         let region = self.settings.region();
         if self.settings.integrator.quantity() == Some(Quantity::Samples) {
-            return Ok(counted(
+            return Ok(sample_count_image(
                 region,
                 &self.counts(),
                 self.settings.samples,
@@ -204,20 +204,20 @@ impl Renderer {
         }
         let [x, y, width, height] = region;
         let mut image = Image::new(width, height);
-        for (window, rows) in self.windows.developable(self.policy.slicing.window_side) {
-            let tone = tone.packed(self.settings.integrator, range, window.rows_per_pixel());
+        for (tile, rows) in self.tiles.developable(self.policy.slicing.tile_side) {
+            let tone = tone.packed(self.settings.integrator, range, tile.rows_per_pixel());
             let pixels =
-                self.surviving_losses(|renderer| renderer.develop_window(&window, &rows, &tone))?;
-            put(&mut image, &pixels, &window, [x, y]);
+                self.surviving_losses(|renderer| renderer.develop_tile(&tile, &rows, &tone))?;
+            copy_tile(&mut image, &pixels, &tile, [x, y]);
         }
         self.stats.develop_seconds += start.elapsed().as_secs_f64();
         Ok(image)
     }
 
-    /// One window's pixels, row by row.
-    fn develop_window(
+    /// One tile's pixels, row by row.
+    fn develop_tile(
         &mut self,
-        window: &Window,
+        tile: &FilmTile,
         rows: &[[f32; 4]],
         tone: &PackedTone,
     ) -> Result<Vec<[f32; 4]>, GpuError> {
@@ -225,17 +225,17 @@ impl Renderer {
         let context = Context::new(&device.gpu, &device.layouts, &device.buffers);
         let developer = match &mut device.developer {
             Some(developer) => developer,
-            empty => empty.insert(Developer::new(context, self.windows.largest())?),
+            empty => empty.insert(Developer::new(context, self.tiles.largest())?),
         };
-        let pixels = developer.develop(context, window, rows, &self.settings, tone)?;
-        // The film on the GPU is this window's now.
-        device.loaded_window = None;
+        let pixels = developer.develop(context, tile, rows, &self.settings, tone)?;
+        // The film on the GPU is this tile's now.
+        device.loaded_tile = None;
         Ok(pixels)
     }
 }
 
 impl Developer {
-    /// For windows of at most so many pixels.
+    /// For tiles of at most so many pixels.
     pub fn new(context: Context, most_pixels: usize) -> Result<Self, GpuError> {
         let Context { gpu, layouts, .. } = context;
         let groups = [
@@ -259,24 +259,24 @@ impl Developer {
         })
     }
 
-    /// One window's pixels, row by row, from the rows of its film.
+    /// One tile's pixels, row by row, from the rows of its film.
     pub fn develop(
         &self,
         context: Context,
-        window: &Window,
+        tile: &FilmTile,
         rows: &[[f32; 4]],
         settings: &RenderSettings,
         tone: &PackedTone,
     ) -> Result<Vec<[f32; 4]>, GpuError> {
         let gpu = context.gpu;
         let slice = Slice {
-            first_tile: 0,
-            end_tile: window.tile_count(),
+            first_group: 0,
+            end_group: tile.group_count(),
             first_sample: 0,
             end_sample: 0,
         };
-        let packed = slice.packed(window, settings);
-        gpu.write(context.slice, 0, bytes_of(&packed))?;
+        let packed = slice.packed(tile, settings);
+        gpu.write(context.dispatch, 0, bytes_of(&packed))?;
         gpu.write(context.film, 0, cast_slice(rows))?;
         gpu.write(&self.tone, 0, bytes_of(tone))?;
 
@@ -293,23 +293,23 @@ impl Developer {
         let source = Source {
             buffer: &self.developed,
             offset: 0,
-            bytes: u64::from(window.width) * u64::from(window.height) * 16,
+            bytes: u64::from(tile.width) * u64::from(tile.height) * 16,
         };
         gpu.submit_and_read(encoder, &[source], context.staging, pod_collect_to_vec)
     }
 }
 
-/// Puts a window's pixels where they belong in a picture that begins at `origin`.
-pub fn put(image: &mut Image, pixels: &[[f32; 4]], window: &Window, [x, y]: [u32; 2]) {
-    for (row, line) in pixels.chunks_exact(window.width as usize).enumerate() {
-        let start = (window.y - y) as usize + row;
-        let start = start * image.width as usize + (window.x - x) as usize;
+/// Puts a tile's pixels where they belong in a picture that begins at `origin`.
+pub fn copy_tile(image: &mut Image, pixels: &[[f32; 4]], tile: &FilmTile, [x, y]: [u32; 2]) {
+    for (row, line) in pixels.chunks_exact(tile.width as usize).enumerate() {
+        let start = (tile.y - y) as usize + row;
+        let start = start * image.width as usize + (tile.x - x) as usize;
         image.pixels[start..start + line.len()].copy_from_slice(line);
     }
 }
 
 /// A picture of numbers of samples, as grey levels over a range or as shares of the most possible.
-pub fn counted(
+pub fn sample_count_image(
     [.., width, height]: [u32; 4],
     counts: &[f32],
     most: u32,
@@ -318,7 +318,7 @@ pub fn counted(
     let mut image = Image::new(width, height);
     for (pixel, count) in image.pixels.iter_mut().zip(counts) {
         let level = match range {
-            Some(range) => levels::place(*count, range),
+            Some(range) => levels::position_in_range(*count, range),
             None => count / most as f32,
         };
         *pixel = [level, level, level, 1.0];

@@ -1,5 +1,5 @@
 //! How much work one sample of a pixel may be, as far as it is known before: a submission cannot do less
-//! than one sample of one tile, and drivers reset a GPU that takes too long over one.
+//! than one sample of one group, and drivers reset a GPU that takes too long over one.
 
 use super::{FilmError, RenderError, RenderSettings};
 use crate::{
@@ -10,7 +10,7 @@ use std::fmt;
 
 /// Most shadow rays from one point: what one light of any format may ask for. In a lane of its own a GPU
 /// takes a good part of a second for so many.
-pub const MOST_SHADOW_RAYS: u64 = 1 << 16;
+pub const MAX_SHADOW_RAYS: u64 = 1 << 16;
 
 /// More rays than this can end a driver's loops without anything else that is unusual.
 const MANY_RAYS: u64 = 512;
@@ -108,11 +108,11 @@ pub fn check(view: &PackedView, settings: &RenderSettings) -> Result<(), RenderE
         return Err(FilmError::Adaptive.into());
     }
     let rays = shadow_rays(view, settings);
-    if rays > MOST_SHADOW_RAYS {
+    if rays > MAX_SHADOW_RAYS {
         return Err(RenderError::TooManyShadowRays {
             lights: u64::from(view.frame.light_count),
             rays,
-            limit: MOST_SHADOW_RAYS,
+            limit: MAX_SHADOW_RAYS,
         });
     }
     Ok(())

@@ -1,7 +1,7 @@
 //! What was gathered of a picture, as a value: it can be written, read, merged with other parts of the same
 //! picture, and developed.
 //!
-//! Sums are kept pixel by pixel, whatever windows and submissions they came from, and blocks of samples are
+//! Sums are kept pixel by pixel, whatever tiles and submissions they came from, and blocks of samples are
 //! added exactly ([`SAMPLE_BLOCK`]). So parts of a picture, cut anywhere between pixels and between blocks,
 //! merge in any order to the same film, which is that of one run.
 
@@ -132,7 +132,7 @@ impl Film {
             coverage = united(&coverage, &own)?;
         }
         let parts = pieces.iter().map(|piece| (piece.region, &piece.sums));
-        let sums = gathered(&header, &coverage, parts);
+        let sums = combined_sums(&header, &coverage, parts);
         Ok(Self {
             header,
             coverage,
@@ -176,7 +176,7 @@ impl Film {
             let regions = film.coverage.patches().map(|(region, _)| region);
             regions.zip(&film.sums)
         });
-        let sums = gathered(&header, &coverage, parts);
+        let sums = combined_sums(&header, &coverage, parts);
         Ok(Self {
             header,
             coverage,
@@ -212,7 +212,7 @@ fn united(first: &Coverage, second: &Coverage) -> Result<Coverage, FilmError> {
 }
 
 /// The sums of the patches of a coverage, from those of rectangles that are covered.
-fn gathered<'a>(
+fn combined_sums<'a>(
     header: &FilmHeader,
     coverage: &Coverage,
     parts: impl Iterator<Item = ([u32; 4], &'a Sums)>,

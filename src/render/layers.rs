@@ -2,7 +2,7 @@
 //!
 //! Another layer is another constant here and its place in [`of_sampling`] and [`of_pictures`]; and in
 //! `shaders/scene/film.wesl` a member of `Sample` and of `Sum`, with the row that it is loaded from and stored
-//! in. Memory, windows, exact totals, files and merging follow from the table.
+//! in. Memory, tiles, exact totals, files and merging follow from the table.
 
 use super::settings::RenderSettings;
 

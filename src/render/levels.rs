@@ -51,7 +51,7 @@ impl Quantity {
 }
 
 /// Where a value lies in a range, from 0 to 1; in the middle of one that has no extent.
-pub(super) fn place(value: f32, [least, most]: [f32; 2]) -> f32 {
+pub(super) fn position_in_range(value: f32, [least, most]: [f32; 2]) -> f32 {
     match most > least {
         true => ((value - least) / (most - least)).clamp(0.0, 1.0),
         false => 0.5,
@@ -72,10 +72,10 @@ impl Renderer {
             return Ok(extent(self.counts(), quantity));
         }
         self.fetch_film()?;
-        let windows = self.windows.developable(self.policy.slicing.window_side);
-        let rows = windows
+        let tiles = self.tiles.developable(self.policy.slicing.tile_side);
+        let rows = tiles
             .iter()
-            .flat_map(|(window, rows)| rows.iter().step_by(window.rows_per_pixel()));
+            .flat_map(|(tile, rows)| rows.iter().step_by(tile.rows_per_pixel()));
         Ok(extent(values(quantity, rows), quantity))
     }
 
@@ -84,7 +84,7 @@ impl Renderer {
         let [x, y, width, height] = self.settings.region();
         let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
         pixels
-            .map(|pixel| self.windows.samples_at(pixel) as f32)
+            .map(|pixel| self.tiles.samples_at(pixel) as f32)
             .collect()
     }
 

@@ -41,7 +41,7 @@ impl Renderer {
             view: &self.view,
             settings: &self.settings,
             policy: &self.policy,
-            film_rows: self.windows.largest(),
+            film_rows: self.tiles.largest(),
         };
         let reopen = |stats: &mut Stats| device::reopen(&choice, fetch, task, stats);
         let device = reopen(&mut self.stats);

@@ -47,22 +47,22 @@ pub enum Fetch {
 pub struct Slicing {
     /// Time that one submission should take, in seconds.
     pub target_seconds: f64,
-    /// Most tiles of 8x8 pixels in a submission, at least 1.
-    pub max_tiles: u32,
+    /// Most groups of 8x8 pixels in a submission, at least 1.
+    pub max_groups: u32,
     /// Most samples per pixel in a submission, at least 1.
     pub max_samples: u32,
-    /// Longest side of a window, the part of the picture that is on the GPU at a time, in pixels;
+    /// Longest side of a tile, the part of the picture that is on the GPU at a time, in pixels;
     /// 8 to 2048.
-    pub window_side: u32,
+    pub tile_side: u32,
 }
 
 impl Default for Slicing {
     fn default() -> Self {
         Self {
             target_seconds: 0.1,
-            max_tiles: u32::MAX,
+            max_groups: u32::MAX,
             max_samples: 16,
-            window_side: 2048,
+            tile_side: 2048,
         }
     }
 }

@@ -1,11 +1,11 @@
-//! Cuts the work on a window into submissions that take about the target time each: watchdogs kill
+//! Cuts the work on a tile into submissions that take about the target time each: watchdogs kill
 //! long ones, and nothing can be shown, stopped or saved within one.
 
-use super::{policy::Slicing, settings::RenderSettings, window::Window};
-use crate::layout::PackedSlice;
+use super::{film_tile::FilmTile, policy::Slicing, settings::RenderSettings};
+use crate::layout::{PackedCounters, PackedDispatch};
 
-/// Tiles of the first submission; one that turns out heavier than planned stays short.
-const FIRST_TILES: f64 = 8.0;
+/// Groups of the first submission; one that turns out heavier than planned stays short.
+const FIRST_GROUPS: f64 = 8.0;
 /// Shadow rays from one point for which it is that many; with more of them it is fewer.
 const FEW_SHADOW_RAYS: f64 = 256.0;
 /// The most by which a submission may be larger than the one before.
@@ -19,11 +19,11 @@ const LONGEST_WAIT: f64 = 1.5;
 /// Most workgroups along x: a second dimension keeps both below WebGPU's 65,535.
 const GRID_WIDTH: u32 = 256;
 
-/// What one submission does: some tiles of a window, some samples of their pixels.
+/// What one submission does: some groups of a tile, some samples of their pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Slice {
-    pub first_tile: u32,
-    pub end_tile: u32,
+    pub first_group: u32,
+    pub end_group: u32,
     pub first_sample: u32,
     pub end_sample: u32,
 }
@@ -31,29 +31,29 @@ pub struct Slice {
 impl Slice {
     /// Workgroups along x and y.
     pub fn grid(&self) -> (u32, u32) {
-        let tiles = (self.end_tile - self.first_tile).max(1);
-        let rows = tiles.div_ceil(GRID_WIDTH);
-        (tiles.div_ceil(rows), rows)
+        let groups = (self.end_group - self.first_group).max(1);
+        let rows = groups.div_ceil(GRID_WIDTH);
+        (groups.div_ceil(rows), rows)
     }
 
     /// Whether every workgroup of the dispatch signed off.
-    pub fn is_signed_off(&self, tally: &PackedSlice) -> bool {
+    pub fn is_done(&self, counters: &PackedCounters) -> bool {
         let (columns, rows) = self.grid();
-        tally.tiles_done == columns * rows
+        counters.groups_done == columns * rows
     }
 
     /// Whether all of it was done, and no path cut off.
-    pub fn is_complete(&self, tally: &PackedSlice) -> bool {
-        self.is_signed_off(tally) && tally.cut_off_paths == 0
+    pub fn is_complete(&self, counters: &PackedCounters) -> bool {
+        self.is_done(counters) && counters.cut_off_paths == 0
     }
 
-    /// Its first and its last tiles, if it has several.
-    pub fn tile_halves(&self) -> Option<(Self, Self)> {
-        let middle = self.first_tile + (self.end_tile - self.first_tile) / 2;
+    /// Its first and its last groups, if it has several.
+    pub fn group_halves(&self) -> Option<(Self, Self)> {
+        let middle = self.first_group + (self.end_group - self.first_group) / 2;
         let mut parts = (*self, *self);
-        parts.0.end_tile = middle;
-        parts.1.first_tile = middle;
-        (middle > self.first_tile).then_some(parts)
+        parts.0.end_group = middle;
+        parts.1.first_group = middle;
+        (middle > self.first_group).then_some(parts)
     }
 
     /// Its earlier and its later samples, if it has several.
@@ -65,25 +65,26 @@ impl Slice {
         (middle > self.first_sample).then_some(parts)
     }
 
-    /// Tiles times samples, the measure of work.
+    /// Groups times samples, the measure of work.
     fn work(&self) -> f64 {
-        f64::from(self.end_tile - self.first_tile) * f64::from(self.end_sample - self.first_sample)
+        f64::from(self.end_group - self.first_group)
+            * f64::from(self.end_sample - self.first_sample)
     }
 
     /// The slice as the shader reads it.
-    pub fn packed(&self, window: &Window, settings: &RenderSettings) -> PackedSlice {
-        PackedSlice {
+    pub fn packed(&self, tile: &FilmTile, settings: &RenderSettings) -> PackedDispatch {
+        PackedDispatch {
             picture_width: settings.size.0,
             picture_height: settings.size.1,
-            window_x: window.x,
-            window_y: window.y,
-            window_width: window.width,
-            window_height: window.height,
-            tile_columns: window.tile_columns(),
-            tile_count: window.tile_count(),
-            tile_stride: window.tile_stride(),
-            first_tile: self.first_tile,
-            end_tile: self.end_tile,
+            tile_x: tile.x,
+            tile_y: tile.y,
+            tile_width: tile.width,
+            tile_height: tile.height,
+            group_columns: tile.group_columns(),
+            group_count: tile.group_count(),
+            group_stride: tile.group_stride(),
+            first_group: self.first_group,
+            end_group: self.end_group,
             grid_width: self.grid().0,
             first_sample: self.first_sample,
             end_sample: self.end_sample,
@@ -116,7 +117,7 @@ impl Planner {
     /// For a picture whose points take this many shadow rays each.
     pub fn new(slicing: Slicing, shadow_rays: u64) -> Self {
         let fraction = FEW_SHADOW_RAYS / (shadow_rays as f64).max(FEW_SHADOW_RAYS);
-        let first = (FIRST_TILES * fraction).max(1.0);
+        let first = (FIRST_GROUPS * fraction).max(1.0);
         Self {
             slicing,
             first,
@@ -132,36 +133,36 @@ impl Planner {
         self.first < other.first
     }
 
-    /// The next slice of a sweep over `tile_count` tiles that stands at `first_tile`; all slices of
+    /// The next slice of a sweep over `group_count` groups that stands at `first_group`; all slices of
     /// a sweep take the same samples.
-    pub fn next(
+    pub fn next_slice(
         &self,
-        tile_count: u32,
-        first_tile: u32,
+        group_count: u32,
+        first_group: u32,
         first_sample: u32,
         sweep_samples: u32,
     ) -> Slice {
-        let tiles = (self.budget / f64::from(sweep_samples)) as u32;
-        let tiles = tiles
-            .clamp(1, self.slicing.max_tiles)
-            .min(tile_count - first_tile);
+        let groups = (self.budget / f64::from(sweep_samples)) as u32;
+        let groups = groups
+            .clamp(1, self.slicing.max_groups)
+            .min(group_count - first_group);
         Slice {
-            first_tile,
-            end_tile: first_tile + tiles,
+            first_group,
+            end_group: first_group + groups,
             first_sample,
             end_sample: first_sample + sweep_samples,
         }
     }
 
-    /// Samples per pixel of the next sweep: several only where a slice holds the whole window, which
+    /// Samples per pixel of the next sweep: several only where a slice holds the whole tile, which
     /// then saves submissions.
-    pub fn sweep_samples(&self, tile_count: u32, samples_left: u32) -> u32 {
-        let fitting = (self.budget / f64::from(tile_count)) as u32;
+    pub fn sweep_samples(&self, group_count: u32, samples_left: u32) -> u32 {
+        let fitting = (self.budget / f64::from(group_count)) as u32;
         fitting.clamp(1, self.max_samples).min(samples_left)
     }
 
     /// Learns from a finished slice.
-    pub fn finished(&mut self, slice: &Slice, seconds: f64) {
+    pub fn learn(&mut self, slice: &Slice, seconds: f64) {
         let work = slice.work();
         self.floor = match self.last {
             _ if seconds <= self.slicing.target_seconds => self.floor / TWICE,
@@ -196,7 +197,7 @@ impl Planner {
     }
 
     /// Answers a slice that the driver cut short: smaller ones from now on.
-    pub fn cut_short(&mut self) {
+    pub fn shrink(&mut self) {
         self.budget = (self.budget / 2.0).max(1.0);
         self.floor = 1.0;
     }

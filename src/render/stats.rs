@@ -1,7 +1,7 @@
 //! The accounts of a render.
 
 use super::RenderError;
-use crate::{gpu::GpuError, layout::PackedSlice};
+use crate::{gpu::GpuError, layout::PackedCounters};
 
 /// How often a lost device is replaced before a picture is given up.
 const MAX_LOSSES: u32 = 3;
@@ -82,18 +82,18 @@ impl Stats {
     }
 
     /// Adds the accounts of a slice.
-    pub(super) fn add(&mut self, tally: &PackedSlice) {
-        self.nonfinite_samples += u64::from(tally.nonfinite_samples);
-        self.cut_off_trees += u64::from(tally.cut_off_trees);
+    pub(super) fn add(&mut self, counters: &PackedCounters) {
+        self.nonfinite_samples += u64::from(counters.nonfinite_samples);
+        self.cut_off_trees += u64::from(counters.cut_off_trees);
         if let Some(rays) = &mut self.rays {
-            rays.primary += u64::from(tally.primary);
-            rays.primary_hits += u64::from(tally.primary_hits);
-            rays.shadow += u64::from(tally.shadow);
-            rays.shadow_blocked += u64::from(tally.shadow_blocked);
-            rays.reflection += u64::from(tally.reflection);
-            rays.reflection_hits += u64::from(tally.reflection_hits);
-            rays.refraction += u64::from(tally.refraction);
-            rays.refraction_hits += u64::from(tally.refraction_hits);
+            rays.primary += u64::from(counters.primary);
+            rays.primary_hits += u64::from(counters.primary_hits);
+            rays.shadow += u64::from(counters.shadow);
+            rays.shadow_blocked += u64::from(counters.shadow_blocked);
+            rays.reflection += u64::from(counters.reflection);
+            rays.reflection_hits += u64::from(counters.reflection_hits);
+            rays.refraction += u64::from(counters.refraction);
+            rays.refraction_hits += u64::from(counters.refraction_hits);
         }
     }
 

@@ -66,7 +66,7 @@ impl Sums {
     }
 
     /// The sums as they are where one block holds them all, else means and ones; zeros where there are no
-    /// samples, as in what pads windows.
+    /// samples, as in what pads tiles.
     pub fn developable(&self) -> Vec<[f32; 4]> {
         match self {
             Self::Block(block) => block.clone(),

@@ -11,6 +11,6 @@ pub struct Task<'a> {
     pub view: &'a PackedView,
     pub settings: &'a RenderSettings,
     pub policy: &'a ExecutionPolicy,
-    /// Rows of the film of the largest window.
+    /// Rows of the film of the largest tile.
     pub film_rows: usize,
 }

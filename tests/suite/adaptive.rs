@@ -132,16 +132,16 @@ fn the_cut_of_the_work_does_not_show_in_adaptive_pictures() {
     let whole = settings(Antialias::Adaptive, 300, 0.01);
     let expected = render(&scene, &whole).0;
     assert_none([(1, 3, 2048), (50, 16, 16), (7, 1, 40)].map(
-        |(max_tiles, max_samples, window_side)| {
+        |(max_groups, max_samples, tile_side)| {
             let slicing = Slicing {
-                max_tiles,
+                max_groups,
                 max_samples,
-                window_side,
+                tile_side,
                 ..Slicing::default()
             };
             let cut = sliced(&whole, slicing);
             check_same_bits(
-                &format!("{max_tiles} tiles"),
+                &format!("{max_groups} workgroups"),
                 &expected,
                 &render(&scene, &cut).0,
             )

@@ -31,7 +31,7 @@ fn settings() -> RenderSettings {
 /// In many small submissions.
 fn policy(host_copy: bool) -> ExecutionPolicy {
     let slicing = Slicing {
-        max_tiles: 7,
+        max_groups: 7,
         max_samples: 2,
         ..Slicing::default()
     };

@@ -269,7 +269,7 @@ fn explaining_between_steps_leaves_the_picture_as_it_would_be() {
         };
         // Many steps.
         let slicing = Slicing {
-            max_tiles: 8,
+            max_groups: 8,
             ..Slicing::default()
         };
         let settings = sliced(&settings, slicing);

@@ -497,7 +497,7 @@ fn what_is_compiled_out_of_a_kernel_is_not_missing_in_the_picture() {
             ..sized(32, 24)
         };
         let everything = with_everything_compiled_in(&scene, &settings);
-        let most_baked = [0, pack::MOST_BAKED][random.below(2)];
+        let most_baked = [0, pack::MAX_BAKED][random.below(2)];
         let packed = packed(&scene, most_baked);
         let (specialised, _) = shot(&packed, &scene.shot(0.0, 1.0), &settings);
         // Where roundings move a ray over an edge it sees something else.

@@ -121,8 +121,8 @@ fn windows_and_submissions_do_not_show_in_films() {
     let scene = scenes::spheres();
     let whole = stratified(70, (41, 23));
     let slicing = Slicing {
-        window_side: 16,
-        max_tiles: 3,
+        tile_side: 16,
+        max_groups: 3,
         max_samples: 5,
         ..Slicing::default()
     };

@@ -207,7 +207,7 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (0, 4, "shapes", "read"),
     (0, 5, "texels", "texture"),
     (1, 0, "frame", "read"),
-    (1, 1, "slice", "read and write"),
+    (1, 1, "dispatch", "read and write"),
     (2, 0, "film", "read and write"),
     (2, 0, "records", "read and write"),
     (3, 0, "tone", "read"),

@@ -343,15 +343,15 @@ fn counts_do_not_depend_on_how_the_work_is_cut() {
         ..to_depth(5)
     };
     let (image, stats) = render(&scene, &counting(&whole));
-    for (max_tiles, max_samples, window_side, fetch) in [
+    for (max_groups, max_samples, tile_side, fetch) in [
         (1, 1, 8, Fetch::Buffer),
         (3, 2, 2048, Fetch::Image),
         (2, 4, 16, Fetch::Auto),
     ] {
         let slicing = Slicing {
-            max_tiles,
+            max_groups,
             max_samples,
-            window_side,
+            tile_side,
             ..Slicing::default()
         };
         let (settings, policy) = sliced(&whole, slicing);

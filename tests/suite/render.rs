@@ -42,16 +42,16 @@ pub fn slicings() -> Vec<(&'static str, Slicing)> {
     let base = Slicing::default();
     vec![
         (
-            "one tile at a time",
+            "one workgroup at a time",
             Slicing {
-                max_tiles: 1,
+                max_groups: 1,
                 ..base
             },
         ),
         (
-            "seven tiles at a time",
+            "seven workgroups at a time",
             Slicing {
-                max_tiles: 7,
+                max_groups: 7,
                 ..base
             },
         ),
@@ -70,16 +70,16 @@ pub fn slicings() -> Vec<(&'static str, Slicing)> {
             },
         ),
         (
-            "windows of one tile",
+            "film tiles of one workgroup",
             Slicing {
-                window_side: 8,
+                tile_side: 8,
                 ..base
             },
         ),
         (
-            "windows that cut tiles",
+            "film tiles that cut workgroups",
             Slicing {
-                window_side: 29,
+                tile_side: 29,
                 ..base
             },
         ),
@@ -128,7 +128,7 @@ fn the_cut_does_not_show_where_samples_fill_more_than_a_block() {
     let (expected, _) = render(&scene, &base);
     let rows = slicings()
         .into_iter()
-        .filter(|(name, _)| *name != "one tile at a time");
+        .filter(|(name, _)| *name != "one workgroup at a time");
     assert_none(rows.map(|(name, slicing)| {
         let (actual, _) = render(&scene, &sliced(&base, slicing));
         check_same_bits(name, &expected, &actual)
@@ -192,9 +192,9 @@ fn looking_at_an_unfinished_picture_does_not_change_the_finished_one() {
         ..sized(24, 24)
     };
     let slicing = Slicing {
-        max_tiles: 5,
+        max_groups: 5,
         max_samples: 40,
-        window_side: 16,
+        tile_side: 16,
         ..Slicing::default()
     };
     let settings = sliced(&settings, slicing);
@@ -220,9 +220,9 @@ fn progress_grows_from_0_to_1() {
         ..sized(50, 40)
     };
     let slicing = Slicing {
-        max_tiles: 3,
+        max_groups: 3,
         max_samples: 2,
-        window_side: 32,
+        tile_side: 32,
         ..Slicing::default()
     };
     let mut renderer = start(&scenes::spheres(), &sliced(&settings, slicing)).expect("a renderer");

@@ -189,7 +189,7 @@ fn filters_neither_add_light_nor_take_it_at_tiles_or_edges() {
         };
         // Windows and tiles are cut where they must not show.
         let slicing = glimray::render::Slicing {
-            window_side: 13,
+            tile_side: 13,
             ..Default::default()
         };
         let got = mean(&render(&scene, &sliced(&settings, slicing)).0);

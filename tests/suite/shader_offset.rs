@@ -177,9 +177,9 @@ fn a_mirrored_ray_starts_on_the_way_of_the_one_before() {
     let slanted = |length: f32| ray([-0.6 * length, 0.8 * length, 0.0], [0.6, -0.8, 0.0]);
     const RETREAT: &str = "
         import package::types::Ray;
-        import package::lib::offset::retreat;
+        import package::lib::offset::mirrored_origin;
         fn probe(error: vec3f, ng: vec3f, arriving: Ray, distance: f32, is_flat: bool) -> vec3f {
-            return retreat(vec3f(0.0), error, ng, arriving, distance, is_flat);
+            return mirrored_origin(vec3f(0.0), error, ng, arriving, distance, is_flat);
         }
     ";
     let down = [0f32, -1.0, 0.0];
@@ -194,7 +194,7 @@ fn a_mirrored_ray_starts_on_the_way_of_the_one_before() {
     ];
     let inputs: Vec<_> = rows.iter().map(|row| row.1).collect();
     let origins: Vec<[f32; 3]> = gpu().map_source(RETREAT, &inputs);
-    let mut verdict = Verdict::on("retreat");
+    let mut verdict = Verdict::on("mirrored_origin");
     for ((name, _, expected), got) in rows.iter().zip(&origins) {
         verdict.near(name, got, expected, Tolerance::Absolute(1e-9));
     }
@@ -207,14 +207,14 @@ fn a_mirrored_ray_starts_between_the_two_faces_of_a_sharp_edge() {
     const MIRROR: &str = "
         import package::types::{NONE, NO_INSTANCE, Ray};
         import package::lib::numeric::normalize_or;
-        import package::lib::offset::{retreat, triangle_error};
+        import package::lib::offset::{mirrored_origin, triangle_error};
         fn probe(v0: vec3f, v1: vec3f, v2: vec3f, weights: vec2f, origin: vec3f) -> vec3f {
             let p = (1.0 - weights.x - weights.y) * v0 + weights.x * v1 + weights.y * v2;
             let ng = normalize_or(cross(v1 - v0, v2 - v0), v0);
             let direction = normalize(p - origin);
             let arriving = Ray(origin, 3e38, direction, NONE, NO_INSTANCE);
             let error = triangle_error(v0, v1, v2, weights.x, weights.y);
-            return retreat(p, error, ng, arriving, length(p - origin), true);
+            return mirrored_origin(p, error, ng, arriving, length(p - origin), true);
         }
     ";
     let mut random = Random::new(18);

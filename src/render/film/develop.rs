@@ -4,14 +4,14 @@ use super::Film;
 use crate::{
     gpu::{Gpu, Ledger, MEMORY_LIMIT_BYTES},
     image::Image,
-    layout::{PackedFrame, PackedLight, PackedSlice},
+    layout::{PackedDispatch, PackedFrame, PackedLight},
     render::{
         Fetch, Levels, Quantity, RenderError, RenderSettings, Slicing, Tone,
-        develop::{Context, Developer, counted, put},
+        develop::{Context, Developer, copy_tile, sample_count_image},
+        film_tile::{FilmTile, rectangles},
         layers::{self, LayerKind},
         layouts::{Layouts, group},
         levels,
-        window::{Window, rectangles},
     },
 };
 use bytemuck::bytes_of;
@@ -38,11 +38,16 @@ impl Film {
             let counts: Vec<_> = (self.layer(LayerKind::Count).iter())
                 .map(|row| row[0])
                 .collect();
-            return Ok(counted(region, &counts, self.header.samples, range));
+            return Ok(sample_count_image(
+                region,
+                &counts,
+                self.header.samples,
+                range,
+            ));
         }
         let mut image = Image::new(width, height);
-        let windows = rectangles(region, Slicing::default().window_side, 0..0, 1);
-        let Some(most) = windows.iter().map(Window::pixel_count).max() else {
+        let tiles = rectangles(region, Slicing::default().tile_side, 0..0, 1);
+        let Some(most) = tiles.iter().map(FilmTile::pixel_count).max() else {
             return Ok(image);
         };
         let layouts = Layouts::new(gpu, Fetch::Buffer);
@@ -50,17 +55,17 @@ impl Film {
         let film = gpu.allocate("film", most as u64 * 16, written)?;
         let read = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
         let staging = gpu.allocate("staging", most as u64 * 16, read)?;
-        let slice = gpu.allocate("slice", size_of::<PackedSlice>() as u64, written)?;
+        let dispatch = gpu.allocate("dispatch", size_of::<PackedDispatch>() as u64, written)?;
         // The layout has a frame, which is not looked at.
         let frame = (PackedFrame::default(), PackedLight::default());
         let frame = gpu.upload("frame", &[bytes_of(&frame.0), bytes_of(&frame.1)].concat())?;
-        let shared = [frame.as_entire_binding(), slice.as_entire_binding()];
+        let shared = [frame.as_entire_binding(), dispatch.as_entire_binding()];
         let context = Context {
             gpu,
             layouts: &layouts,
             frame_group: &group(gpu, &layouts.frame, &shared),
             film_group: &group(gpu, &layouts.film, &[film.as_entire_binding()]),
-            slice: &slice,
+            dispatch: &dispatch,
             film: &film,
             staging: &staging,
         };
@@ -73,11 +78,11 @@ impl Film {
         let means = self.layer(LayerKind::Weighted);
         let mean =
             |[px, py]: [u32; 2]| means[(py - y) as usize * width as usize + (px - x) as usize];
-        for window in windows {
-            let pixels = (0..window.pixel_count()).map(|index| window.pixel_at(index));
+        for tile in tiles {
+            let pixels = (0..tile.pixel_count()).map(|index| tile.pixel_at(index));
             let rows: Vec<_> = pixels.map(|pixel| pixel.map_or([0.0; 4], mean)).collect();
-            let pixels = developer.develop(context, &window, &rows, &settings, &tone)?;
-            put(&mut image, &pixels, &window, [x, y]);
+            let pixels = developer.develop(context, &tile, &rows, &settings, &tone)?;
+            copy_tile(&mut image, &pixels, &tile, [x, y]);
         }
         Ok(image)
     }

@@ -21,7 +21,7 @@ impl Renderer {
             tone: Tone::LINEAR,
             adapters: [self.adapter().name.clone()].into(),
         };
-        let (done, sample) = (self.cursor.window, self.cursor.sample);
-        Ok(self.windows.film(header, done, sample)?)
+        let (done, sample) = (self.cursor.tile, self.cursor.sample);
+        Ok(self.tiles.film(header, done, sample)?)
     }
 }

@@ -10,14 +10,14 @@ use super::{
 };
 use std::ops::Range;
 
-/// Pixels of a tile; one workgroup each.
-pub const TILE_PIXELS: usize = 64;
-const TILE_SIDE: u32 = 8;
+/// Pixels of a group; one workgroup each.
+pub const GROUP_PIXELS: usize = 64;
+const GROUP_SIDE: u32 = 8;
 
-/// A rectangle of the picture that is on the GPU at a time. Its pixels are in film order: tile by
-/// tile in the shader's order, 64 lanes each, edges padded.
+/// A rectangle of the picture that is on the GPU at a time. Its pixels are in film order: group by
+/// group in the shader's order, 64 lanes each, edges padded.
 #[derive(Clone, Debug)]
-pub struct Window {
+pub struct FilmTile {
     pub x: u32,
     pub y: u32,
     pub width: u32,
@@ -35,7 +35,7 @@ pub struct Window {
     pub closed: Option<Sums>,
 }
 
-impl Window {
+impl FilmTile {
     /// A rectangle of the picture.
     pub fn new(
         [x, y, width, height]: [u32; 4],
@@ -58,11 +58,11 @@ impl Window {
 
     /// A list of pixels of the picture, at least one.
     pub fn list(places: Vec<[u32; 2]>, samples: Range<u32>, layers: &[&Layer]) -> Self {
-        let side = TILE_SIDE;
-        let mut window = Self::new([0, 0, side, side], samples, layers::rows(layers));
-        window.place_row = layers::row_of(layers, &SQUARES).unwrap_or_default();
-        window.places = places;
-        window
+        let side = GROUP_SIDE;
+        let mut tile = Self::new([0, 0, side, side], samples, layers::rows(layers));
+        tile.place_row = layers::row_of(layers, &SQUARES).unwrap_or_default();
+        tile.places = places;
+        tile
     }
 
     /// The same rectangle without anything in it.
@@ -90,25 +90,25 @@ impl Window {
         self.rows_per_pixel
     }
 
-    pub fn tile_columns(&self) -> u32 {
-        self.width.div_ceil(TILE_SIDE)
+    pub fn group_columns(&self) -> u32 {
+        self.width.div_ceil(GROUP_SIDE)
     }
 
-    pub fn tile_count(&self) -> u32 {
+    pub fn group_count(&self) -> u32 {
         if self.places.is_empty() {
-            self.tile_columns() * self.height.div_ceil(TILE_SIDE)
+            self.group_columns() * self.height.div_ceil(GROUP_SIDE)
         } else {
-            self.places.len().div_ceil(TILE_PIXELS) as u32
+            self.places.len().div_ceil(GROUP_PIXELS) as u32
         }
     }
 
-    /// A stride coprime to the tile count that steps to the next tile down and right: neighbours
-    /// share what is in the caches, and any run of tiles longer than the window is high samples all
+    /// A stride coprime to the group count that steps to the next group down and right: neighbours
+    /// share what is in the caches, and any run of groups longer than the tile is high samples all
     /// of its height.
-    pub fn tile_stride(&self) -> u32 {
-        let count = self.tile_count();
+    pub fn group_stride(&self) -> u32 {
+        let count = self.group_count();
         let columns = match self.places.len() {
-            0 => self.tile_columns(),
+            0 => self.group_columns(),
             _ => count.isqrt(),
         };
         (columns + 1..count)
@@ -118,7 +118,7 @@ impl Window {
 
     /// Number of pixels in film order, padding included.
     pub fn pixel_count(&self) -> usize {
-        self.tile_count() as usize * TILE_PIXELS
+        self.group_count() as usize * GROUP_PIXELS
     }
 
     /// Rows of its film.
@@ -127,7 +127,7 @@ impl Window {
     }
 
     /// Makes room for the sums, all zero.
-    pub fn begin(&mut self) {
+    pub fn reset_sums(&mut self) {
         self.sums.clear();
         self.sums.resize(self.row_count(), [0.0; 4]);
         let pixels = self.sums.chunks_exact_mut(self.rows_per_pixel);
@@ -139,12 +139,15 @@ impl Window {
     /// The pixel at a place in the film of a rectangle: its x and y in the picture, or `None` for
     /// padding. The same order as in the shader (scene/slice.wesl).
     pub fn pixel_at(&self, film_index: usize) -> Option<[u32; 2]> {
-        let (index, lane) = (film_index / TILE_PIXELS, (film_index % TILE_PIXELS) as u32);
-        let tile =
-            (index as u64 * u64::from(self.tile_stride()) % u64::from(self.tile_count())) as u32;
+        let (index, lane) = (
+            film_index / GROUP_PIXELS,
+            (film_index % GROUP_PIXELS) as u32,
+        );
+        let group =
+            (index as u64 * u64::from(self.group_stride()) % u64::from(self.group_count())) as u32;
         let bit = |shift: u32, to: u32| ((lane >> shift) & 1) << to;
-        let x = tile % self.tile_columns() * TILE_SIDE + (bit(0, 0) | bit(2, 1) | bit(4, 2));
-        let y = tile / self.tile_columns() * TILE_SIDE + (bit(1, 0) | bit(3, 1) | bit(5, 2));
+        let x = group % self.group_columns() * GROUP_SIDE + (bit(0, 0) | bit(2, 1) | bit(4, 2));
+        let y = group / self.group_columns() * GROUP_SIDE + (bit(1, 0) | bit(3, 1) | bit(5, 2));
         (x < self.width && y < self.height).then_some([self.x + x, self.y + y])
     }
 
@@ -155,7 +158,7 @@ impl Window {
     }
 
     /// The sums of all samples, `None` before the first.
-    pub fn all(&self) -> Option<Sums> {
+    pub fn all_sums(&self) -> Option<Sums> {
         match self.sums.is_empty() {
             true => self.closed.clone(),
             false => Some(Sums::with_block(self.closed.clone(), &self.sums)),
@@ -165,12 +168,12 @@ impl Window {
     /// The rows of all blocks together; those of a list hold its places as often as there were
     /// blocks, and are of no use there.
     pub fn totals(&self) -> Vec<[f64; 4]> {
-        self.all().map_or_else(Vec::new, |sums| sums.rounded())
+        self.all_sums().map_or_else(Vec::new, |sums| sums.rounded())
     }
 
     /// What `develop` reads: sums and weights where one block holds them all, else means and ones.
     pub fn developable(&self) -> Vec<[f32; 4]> {
-        match self.all() {
+        match self.all_sums() {
             None => vec![[0.0; 4]; self.row_count()],
             Some(sums) => sums.developable(),
         }
@@ -184,7 +187,7 @@ pub fn rectangles(
     side: u32,
     samples: Range<u32>,
     rows_per_pixel: usize,
-) -> Vec<Window> {
+) -> Vec<FilmTile> {
     let cuts = |start: u32, length: u32| {
         (0..length.div_ceil(side)).map(move |i| {
             let offset = i * side;
@@ -193,8 +196,8 @@ pub fn rectangles(
     };
     let row = |(wy, wh)| {
         let samples = samples.clone();
-        let window = move |(wx, ww)| Window::new([wx, wy, ww, wh], samples.clone(), rows_per_pixel);
-        cuts(x, width).map(window)
+        let tile = move |(wx, ww)| FilmTile::new([wx, wy, ww, wh], samples.clone(), rows_per_pixel);
+        cuts(x, width).map(tile)
     };
     cuts(y, height).flat_map(row).collect()
 }
