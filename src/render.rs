@@ -1,5 +1,5 @@
-//! The renderer: takes a packed scene and a frame, adds samples to the film step by step, and
-//! develops the picture. Every front end runs this same loop.
+//! The renderer: takes a packed scene and a frame, adds samples to the film step by step, and develops the
+//! picture. All front ends run this loop.
 
 mod adaptive;
 mod arrays;
@@ -58,7 +58,7 @@ use std::{ops::Range, sync::Arc};
 use task::Task;
 use work::Work;
 
-/// Renders one frame after another of one scene.
+/// Renders frames of a scene, one after another.
 pub struct Renderer {
     scene: Arc<PackedScene>,
     settings: RenderSettings,
@@ -68,14 +68,15 @@ pub struct Renderer {
     tiles: FilmTiles,
     planner: Planner,
     cursor: Cursor,
-    /// The slice that is under way.
+    /// The current slice.
     work: Option<Work>,
     stats: Stats,
-    /// Losses before the picture that is under way.
+    /// Device losses before the current picture.
     earlier_losses: u32,
 }
 
-/// How far the render is: the group and the samples of the sweep that is under way.
+/// The position of the render: film tile, sweep and workgroup. A sweep visits all workgroups of a tile once,
+/// with the same samples.
 #[derive(Clone, Copy, Debug, Default)]
 struct Cursor {
     tile: usize,
@@ -94,8 +95,8 @@ impl Cursor {
 }
 
 impl Renderer {
-    /// Checks the limits of memory and of work, uploads the scene and compiles the kernels. The settings' sizes and
-    /// counts must be in the ranges they document.
+    /// Checks the limits on memory and work, uploads the scene and compiles the kernels. Sizes and counts of
+    /// the settings must be in their documented ranges.
     pub fn new(
         gpu: Gpu,
         scene: Arc<PackedScene>,
@@ -123,7 +124,7 @@ impl Renderer {
         let (choice, is_own) = (gpu.choice().clone(), gpu.is_own());
         let device = Device::new(gpu, fetch, task, &mut stats);
         let device = match device {
-            // Others draw with this device, and cannot with another.
+            // Other code draws with this device and cannot switch to another one.
             Err(GpuError::Lost) if !policy.host_copy || !is_own => {
                 return Err(GpuError::Lost.into());
             }
@@ -147,19 +148,19 @@ impl Renderer {
         })
     }
 
-    /// Starts over with another frame of the same scene.
+    /// Restarts with another frame of the same scene.
     ///
     /// # Errors
-    /// The device failed, or the frame places more than the memory limit or the adapter allows.
+    /// The device failed, or the frame exceeds the memory limit or the limits of the adapter.
     pub fn set_frame(&mut self, view: &PackedView) -> Result<(), RenderError> {
         self.restart(self.scene.clone(), view, self.settings.clone(), self.policy)
     }
 
-    /// Starts over with another scene, frame or other settings. Kernels that are compiled, and what
-    /// is on the device and still serves, are kept.
+    /// Restarts with another scene, frame or other settings. Compiled kernels and unchanged data on the device
+    /// are reused.
     ///
     /// # Errors
-    /// Those of [`Renderer::new`]; the renderer can be restarted again after them.
+    /// As [`Renderer::new`]; the renderer can be restarted again afterwards.
     pub fn restart(
         &mut self,
         scene: Arc<PackedScene>,
@@ -189,9 +190,9 @@ impl Renderer {
         self.prepare_device(is_other_scene, spare)
     }
 
-    /// Goes on to another number of samples with those that there are: sample `i` of a pixel is the same,
-    /// however many follow. Whether that is possible; if not, nothing changes. It is not where sampling
-    /// plans ahead (adaptive), where tiles take turns, or where there are as many already.
+    /// Changes the number of samples and keeps those already taken: sample `i` of a pixel does not depend on
+    /// their total. Returns whether that is possible; if not, nothing changes. It is impossible with adaptive
+    /// sampling, with several film tiles, or if at least this many samples have been started.
     pub fn continue_to(&mut self, samples: u32) -> bool {
         let Cursor {
             group,
@@ -199,18 +200,18 @@ impl Renderer {
             sweep_samples,
             ..
         } = self.cursor;
-        let begun = if group > 0 {
+        let started = if group > 0 {
             sample + sweep_samples
         } else {
             sample
         };
         let is_done = self.is_done();
-        if !self.tiles.is_one_rectangle() || samples <= begun {
+        if !self.tiles.is_one_rectangle() || samples <= started {
             return false;
         }
         let tile = &mut self.tiles.list[0];
         if is_done {
-            // As between any two sweeps, see `advance`; the sums are on the host.
+            // As between two sweeps (see `advance`); the sums are on the host.
             if sample.is_multiple_of(SAMPLE_BLOCK) {
                 tile.close_block();
                 self.device.loaded_tile = None;
@@ -222,7 +223,7 @@ impl Renderer {
         true
     }
 
-    /// Brings the device to what is to be rendered. `spare` bytes may be allocated beyond what is needed.
+    /// Updates the device for the current task. Up to `spare` bytes may be allocated beyond what is needed.
     fn prepare_device(&mut self, is_other_scene: bool, spare: u64) -> Result<(), RenderError> {
         let (gpu, scene, view) = (&self.device.gpu, &self.scene, &self.view);
         let fetch = match is_other_scene {
@@ -252,12 +253,12 @@ impl Renderer {
         })
     }
 
-    /// Whether every pixel has its samples.
+    /// Whether every pixel has all its samples.
     pub fn is_done(&self) -> bool {
         self.cursor.tile >= self.tiles.list.len()
     }
 
-    /// Fraction of the work that is done, in 0..=1.
+    /// Completed fraction of the work, in 0..=1.
     pub fn progress(&self) -> f64 {
         let Some(tile) = self.tiles.list.get(self.cursor.tile) else {
             return 1.0;
@@ -270,7 +271,7 @@ impl Renderer {
         self.tiles.progress(fraction)
     }
 
-    /// What the render has cost so far.
+    /// Statistics of the render so far.
     pub fn stats(&self) -> &Stats {
         &self.stats
     }
@@ -281,10 +282,10 @@ impl Renderer {
     }
 }
 
-/// What a frame will take, in bytes.
+/// The memory needed for a frame, in bytes.
 ///
 /// # Errors
-/// It is more than the policy allows.
+/// It exceeds the memory limit of the policy.
 fn planned_bytes(
     scene: &PackedScene,
     view: &PackedView,

@@ -1,4 +1,4 @@
-//! Which adapters there are, and which one to use.
+//! Lists the adapters and chooses one.
 
 use super::{GpuError, guard};
 
@@ -16,7 +16,8 @@ pub enum Backend {
 }
 
 impl Backend {
-    /// Why it is not to be had here, whatever is installed, as a clause; `None` where it may be.
+    /// Why this backend is unavailable on this platform whatever is installed, as a clause; `None` if it may be
+    /// available.
     pub fn absence(self) -> Option<&'static str> {
         let is_apple = cfg!(target_vendor = "apple");
         match self {
@@ -41,21 +42,21 @@ impl Backend {
     }
 }
 
-/// What the user wants; the default leaves it to us.
+/// The choice of an adapter; the default chooses automatically.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AdapterChoice {
-    /// The only backend to look at.
+    /// The backend to use; all if `None`.
     pub backend: Option<Backend>,
-    /// An index into [`adapters`], or part of a name in either case.
+    /// An index into [`adapters`], or part of a name, case-insensitive.
     pub adapter: Option<String>,
 }
 
-/// An adapter and what it can do.
+/// An adapter and its capabilities.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdapterReport {
-    /// Place in [`adapters`].
+    /// Index in [`adapters`].
     pub index: usize,
-    /// As the driver gives it.
+    /// The name that the driver reports.
     pub name: String,
     /// "vulkan", "metal", "dx12" or "gl".
     pub backend: String,
@@ -63,13 +64,13 @@ pub struct AdapterReport {
     pub driver: String,
     /// "discrete_gpu", "integrated_gpu", "virtual_gpu", "cpu" or "other".
     pub device_type: String,
-    /// Largest buffer.
+    /// Maximum size of a buffer, in bytes.
     pub max_buffer_bytes: u64,
-    /// Most of a storage buffer that a shader can see at a time.
+    /// Maximum size of a storage buffer binding, in bytes.
     pub max_binding_bytes: u64,
-    /// Longest side of a 2-D texture, in texels.
+    /// Maximum side of a 2-D texture, in texels.
     pub max_texture_2d: u32,
-    /// Most storage buffers that a compute shader can see at a time.
+    /// Maximum number of storage buffers in a compute shader.
     pub storage_buffers_per_stage: u32,
 }
 
@@ -90,13 +91,13 @@ pub fn adapters(choice: &AdapterChoice) -> Vec<AdapterReport> {
         .collect()
 }
 
-/// The adapter asked for, else the first of the best kind: a card of its own, one in the processor,
-/// a virtual one, a software renderer; among equals a modern API before GL.
+/// The requested adapter, otherwise the first of the best kind: discrete, integrated, virtual, software; among
+/// equals a modern API before GL.
 pub(super) fn choose(choice: &AdapterChoice) -> Result<Found, GpuError> {
     if let Some((backend, why)) = choice.backend.and_then(|b| Some((b.name(), b.absence()?))) {
         return Err(GpuError::NoBackend { backend, why });
     }
-    // Looking for GL devices takes as long as a small picture, so it is done only when it must.
+    // Enumerating GL devices takes as long as rendering a small picture, so it happens only if necessary.
     let mut enumerated = match (choice.backend, &choice.adapter) {
         (None, None) => enumerate(wgpu::Backends::PRIMARY),
         _ => (None, Vec::new()),
@@ -176,11 +177,11 @@ fn allowed_backends(choice: &AdapterChoice) -> wgpu::Backends {
     }
 }
 
-/// The adapters that can run compute shaders, and what they belong to.
+/// The adapters that can run compute shaders, and their instance.
 fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Adapter>) {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = backends;
-    // Nothing is dispatched indirectly, so the check of such calls only costs start-up time.
+    // There are no indirect dispatches, so validating them would only cost start-up time.
     descriptor
         .flags
         .remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
@@ -201,7 +202,7 @@ fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Ada
     (instance, found.into_iter().filter(has_compute).collect())
 }
 
-/// What there is to say about an adapter that is at this place among all.
+/// The report of an adapter with this index.
 pub(super) fn report(index: usize, adapter: &wgpu::Adapter) -> AdapterReport {
     let info = adapter.get_info();
     let limits = adapter.limits();

@@ -1,5 +1,5 @@
-//! Bottom-level trees (BLAS): the topology over a mesh is built once in object space, and refitted to
-//! where the mesh is baked.
+//! Bottom-level acceleration structures (BLAS): the topology over a mesh is built once in object space, and
+//! refitted to the position at which the mesh is baked.
 
 use super::{
     geometry::{self, Flat},
@@ -15,19 +15,19 @@ use crate::{
 };
 use std::{collections::BinaryHeap, sync::Arc};
 
-/// Most primitives in a leaf.
+/// Maximum number of primitives in a leaf.
 const LEAF_SIZE: u32 = 4;
 
-/// Bound on the traversal stack of trees that have another above them, for which it leaves room.
+/// Stack limit of BVHs below another one, which leaves room for it.
 pub const STACK_BELOW: usize = 60;
 
-/// Most parts into which one tree is opened.
+/// Maximum number of parts into which one BVH is opened.
 pub const MAX_PARTS: usize = 64;
 
-/// Which triangles of a mesh are in which leaf; boxes come with the offsets.
+/// The assignment of the triangles of a mesh to leaves, without boxes, which depend on the position.
 #[derive(Debug)]
 pub struct Topology {
-    /// Child references of each node, as in a tree at offsets 0. Children come after their parents.
+    /// Child references of each node, for offsets of 0. Children come after their parents.
     children: Vec<[u32; 4]>,
     /// Triangles of the mesh in leaf order.
     order: Vec<u32>,
@@ -36,7 +36,7 @@ pub struct Topology {
 
 impl Topology {
     pub fn build(mesh: &Mesh) -> Self {
-        // Powers of two change no tree, but keep areas in range.
+        // Scaling by a power of two does not change the BVH, but keeps areas in range.
         let largest =
             (mesh.positions.iter()).fold(0.0, |most: f32, p| most.max(p.abs().max_element()));
         let scale = (-largest.log2().floor()).clamp(-126.0, 126.0).exp2();
@@ -68,7 +68,7 @@ fn limits() -> bvh::Limits {
     }
 }
 
-/// A tree as it lies in the arrays of a scene.
+/// A BLAS with its offsets in the arrays of a scene.
 #[derive(Clone, Debug)]
 pub struct Blas {
     pub offsets: Offsets,
@@ -77,16 +77,16 @@ pub struct Blas {
     pub triangles: Arc<[PackedTriangle]>,
     /// In leaf order.
     pub shapes: Arc<[PackedShape]>,
-    /// In the order of the meshes.
+    /// In mesh order.
     pub vertices: Arc<[PackedVertex]>,
-    /// The most entries that a walk through it has on the stack.
+    /// Maximum number of stack entries during traversal.
     pub stack_need: usize,
-    /// The children of the nodes near the root, with exact boxes, by the nodes' indices in the tree.
+    /// The children of nodes near the root, with exact boxes, by node index in the BLAS.
     top: Vec<(u32, Children)>,
 }
 
 impl Blas {
-    /// The tree of one mesh, whose geometry is in `flat`, with its boxes refitted.
+    /// The BLAS of one mesh, whose geometry is in `flat`, with refitted boxes.
     pub fn refitted(topology: &Topology, flat: Flat, offsets: Offsets) -> Self {
         let triangles: Arc<[_]> = (topology.order.iter())
             .map(|&i| flat.triangles[i as usize])
@@ -123,7 +123,7 @@ impl Blas {
         }
     }
 
-    /// A tree over several meshes and shapes.
+    /// One BLAS over several meshes and shapes.
     pub fn joint(flat: Flat, stack_size: usize, offsets: Offsets) -> Self {
         let boxes: Vec<_> = (flat.triangles.iter().map(geometry::triangle_box))
             .chain(flat.bounded.iter().map(|(_, bounds)| *bounds))
@@ -153,7 +153,7 @@ impl Blas {
         }
     }
 
-    /// The same tree at another offsets.
+    /// The same BLAS at other offsets.
     pub fn moved_to(self: &Arc<Self>, offsets: Offsets) -> Arc<Self> {
         let from = self.offsets;
         if from == offsets {
@@ -187,7 +187,7 @@ impl Blas {
         Arc::new(moved)
     }
 
-    /// The offsets behind it.
+    /// The offsets of what follows it.
     pub fn end(&self) -> Offsets {
         Offsets {
             node: self.offsets.node + self.nodes.len() as u32,
@@ -197,7 +197,7 @@ impl Blas {
         }
     }
 
-    /// Whether there is nothing in it.
+    /// Whether it has no primitives.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty() && self.shapes.is_empty()
     }
@@ -210,12 +210,12 @@ impl Blas {
         }
     }
 
-    /// The box round all of it.
+    /// The bounding box.
     pub fn bounds(&self) -> Aabb {
         self.top[0].1.bounds()
     }
 
-    /// Boxes that hold it together; none where it is empty.
+    /// Boxes that together bound it; none if it is empty.
     pub fn boxes(&self) -> Vec<Aabb> {
         match self.is_empty() {
             true => Vec::new(),
@@ -223,7 +223,7 @@ impl Blas {
         }
     }
 
-    /// The children of a node near the root.
+    /// The children of a node near the root; `None` for nodes further down.
     fn children(&self, reference: u32) -> Option<&Children> {
         let index = reference.wrapping_sub(self.offsets.node);
         let known = self.top.iter().find(|(known, _)| *known == index);
@@ -231,13 +231,13 @@ impl Blas {
     }
 }
 
-/// Places of the primitives of a leaf in a tree at offsets 0.
+/// The primitives of a leaf, for offsets of 0.
 fn leaf_range(reference: u32) -> std::ops::Range<usize> {
     let first = (reference & LEAF_FIRST_MASK) as usize;
     first..first + ((reference & LEAF_COUNT_MASK) >> LEAF_COUNT_SHIFT) as usize + 1
 }
 
-/// The children of the root, and of the nodes that are opened until there are [`MAX_PARTS`].
+/// The children of the root, and of the nodes that are opened until there are [`MAX_PARTS`] parts.
 fn top_of(offsets: &Offsets, children_of: impl Fn(usize) -> Children) -> Vec<(u32, Children)> {
     let root = children_of(0);
     let mut top = vec![(0, root)];
@@ -252,8 +252,8 @@ fn top_of(offsets: &Offsets, children_of: impl Fn(usize) -> Children) -> Vec<(u3
     top
 }
 
-/// The boxes near the roots of several trees, with references to what is in them: of all that are nodes
-/// the largest is opened, until there are `limit`.
+/// The boxes near the roots of several BVHs, with their references: the largest node is opened repeatedly,
+/// until there are `limit` parts.
 pub fn opened<'a>(trees: impl IntoIterator<Item = &'a Blas>, limit: usize) -> Vec<(Aabb, u32)> {
     let trees: Vec<_> = trees.into_iter().collect();
     let mut parts = Parts::new(limit);
@@ -264,11 +264,11 @@ pub fn opened<'a>(trees: impl IntoIterator<Item = &'a Blas>, limit: usize) -> Ve
     parts.into_list()
 }
 
-/// Parts of trees, which nodes among them are opened to.
+/// Parts of BVHs, some of which are replaced by their children.
 struct Parts {
-    /// The tree that it is of, its box and the reference to it; `None` where it was opened.
+    /// Index of the BVH, box and reference of each part; `None` once it is opened.
     list: Vec<Option<(usize, Aabb, u32)>>,
-    /// Areas of nodes, as ordered bits, and their places in the list.
+    /// Areas of nodes, as ordered bits, and their list indices.
     nodes: BinaryHeap<(u32, usize)>,
     count: usize,
     limit: usize,
@@ -292,7 +292,7 @@ impl Parts {
         self.count += 1;
     }
 
-    /// Opens the largest node again and again. Nodes that `children` does not know stay as they are.
+    /// Opens the largest node repeatedly. Nodes unknown to `children` stay closed.
     fn open_all(&mut self, mut children: impl FnMut(usize, u32) -> Option<Children>) {
         while let Some((_, index)) = self.nodes.pop() {
             let Some((tree, _, reference)) = self.list[index] else {

@@ -1,4 +1,4 @@
-//! Which transparent volumes the camera is inside of.
+//! Dielectric volumes around the camera.
 
 use super::{PackError, light, material, mesh::CachedMesh, shell::Shell};
 use crate::{
@@ -8,13 +8,13 @@ use crate::{
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
-/// Most media that a ray remembers.
+/// Maximum number of media in the list of a ray.
 pub const MEDIA_SIZE: usize = 4;
 
-/// A closed surface of a material that is transparent at some time.
+/// A closed surface with a material that is transparent at some time.
 #[derive(Clone, Debug)]
 pub struct Volume {
-    /// In whose space it is; `None` is the world.
+    /// The node whose space it is in; `None` for world space.
     node: Option<usize>,
     material: u32,
     surface: Surface,
@@ -23,11 +23,11 @@ pub struct Volume {
 #[derive(Clone, Debug)]
 enum Surface {
     Shape(Geometry),
-    /// All instances of a mesh share it; the transform leads to their own space.
+    /// Shared by all instances of a mesh; the transform leads to the node.
     Mesh(Arc<Shell>, DAffine3),
 }
 
-/// The volumes of a scene that are transparent at some time.
+/// The dielectric volumes of a scene.
 pub fn volumes(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> Vec<Volume> {
     let may_transmit = material::may_transmit(scene);
     let shapes = (scene.shapes.iter())
@@ -40,7 +40,7 @@ pub fn volumes(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> Vec<Volume> {
     let shells: Vec<_> = (meshes.iter())
         .map(|cached| {
             let mesh = &cached.mesh;
-            // A mesh of several materials is several volumes, which nothing tells apart.
+            // A mesh with several materials consists of several volumes that cannot be told apart.
             let material = *mesh.materials.first()?;
             let is_volume = may_transmit[material as usize]
                 && mesh.materials.iter().all(|&other| other == material);
@@ -59,8 +59,8 @@ pub fn volumes(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> Vec<Volume> {
     shapes.chain(meshes).collect()
 }
 
-/// Whether a body that is transparent at some time may touch or overlap another volume. One mesh may hold
-/// several: mostly they differ in material, but parts that do not hang together are volumes as well.
+/// Whether a dielectric volume may touch or overlap another object. One mesh may contain several volumes, with
+/// different materials or as disconnected parts.
 pub fn may_touch(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> bool {
     let lamps = light::visible(scene).count();
     let volumes = scene.shapes.len() + scene.instances.len() + lamps;
@@ -69,11 +69,11 @@ pub fn may_touch(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> bool {
         && (volumes > 1 || scene.materials.len() > 1 || is_divided())
 }
 
-/// The materials of the volumes round a point in the world that are transparent in this frame, the
-/// outermost first, then [`NONE`].
+/// The materials of the volumes that contain a world-space point and are transparent in this frame, outermost
+/// first, then [`NONE`].
 ///
 /// # Errors
-/// More than [`MEDIA_SIZE`] are nested there.
+/// More than [`MEDIA_SIZE`] volumes contain the point.
 pub fn at_point(
     volumes: &[Volume],
     frame: &Frame,
@@ -97,7 +97,7 @@ pub fn at_point(
         .collect();
     if inside.len() > MEDIA_SIZE {
         return Err(PackError::TooMany {
-            what: "transparent volumes round the camera",
+            what: "transparent volumes around the camera",
             count: inside.len(),
             limit: MEDIA_SIZE,
         });
@@ -130,7 +130,7 @@ impl Volume {
         }
     }
 
-    /// The volume of its box in the world: what lies inside another body has the smaller one.
+    /// The volume of its bounding box in the world: a nested volume has the smaller one.
     fn extent(&self, world_from_volume: DAffine3) -> f64 {
         let bounds = match &self.surface {
             Surface::Shape(geometry) => geometry.placed(world_from_volume).bounds(),
@@ -143,7 +143,7 @@ impl Volume {
 fn shape_contains(geometry: &Geometry, point: DVec3) -> bool {
     match *geometry {
         Geometry::Sphere { center, radius } => point.distance(center) < radius,
-        // A half-space: inside is where the normal points away from.
+        // A half-space: the inside is opposite to the normal.
         Geometry::Plane {
             point: foot,
             normal,

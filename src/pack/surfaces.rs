@@ -1,11 +1,11 @@
-//! The materials of a scene and of the lights that rays can see.
+//! Packs the materials of a scene and of its visible lights.
 
 use super::{light, material};
 use crate::layout::PackedMaterial;
 use crate::scene::{Frame, Material, Scene};
 use std::sync::Arc;
 
-/// What the packed materials are made of, where they may change over time.
+/// The source of the packed materials, if they may change over time.
 #[derive(Clone, Debug)]
 pub struct AnimatedMaterials {
     pub materials: Vec<Material>,
@@ -13,8 +13,8 @@ pub struct AnimatedMaterials {
     pub lamps: Vec<usize>,
 }
 
-/// Materials in scene order, then those of visible lights; and what they are made of where that may
-/// change over time.
+/// Packed materials in scene order, then those of visible lights; and their source if they may change over
+/// time.
 pub fn materials(
     scene: &Scene,
     rest: &Frame,

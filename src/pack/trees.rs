@@ -1,5 +1,5 @@
-//! All trees of a scene: those of its meshes, the joint one of what is small, and the one above what
-//! is baked. Those that serve a scene that differs a little are kept.
+//! All BVHs of a scene: those of its meshes, the joint BLAS of shapes and small meshes, and the one above baked
+//! geometry. Unchanged ones are reused from a previous scene.
 
 use super::{
     PackError,
@@ -19,41 +19,40 @@ use crate::{
 use glam::{DAffine3, DVec3};
 use std::{collections::HashMap, sync::Arc};
 
-/// The most entries on the stack of a walk through what is baked: the last store of a traversal step
-/// lies one beyond the entries that count.
+/// Stack limit for baked geometry: the last store of a traversal step writes one entry beyond the top.
 const STACK_ENTRIES: usize = STACK_SIZE as usize - 1;
 
-/// What had to be built to pack a scene.
+/// Counts of the BVHs built to pack a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TreeWork {
-    /// Topologies of meshes.
+    /// Mesh topologies that were built.
     pub topologies: usize,
-    /// Trees of one mesh each that were laid out in the world or in their own space.
+    /// BLASes of single meshes that were refitted in world space or in their own space.
     pub refits: usize,
-    /// 1 if the tree of all shapes and small meshes was built.
+    /// 1 if the joint BLAS of shapes and small meshes was built.
     pub joint: usize,
-    /// 1 if the tree above baked trees was built.
+    /// 1 if the tree above the baked BLASes was built.
     pub top: usize,
 }
 
 impl TreeWork {
-    /// All trees that were built or refitted.
+    /// Number of BVHs built or refitted.
     pub fn total(&self) -> usize {
         self.refits + self.joint + self.top
     }
 }
 
-/// The tree of a mesh.
+/// The BLAS of a mesh.
 #[derive(Clone, Debug)]
 pub struct MeshTree {
     pub mesh: Arc<CachedMesh>,
-    /// Where it is baked; `None` in a space of its own.
+    /// The transform at which it is baked; `None` if it is instanced.
     world_from_object: Option<DAffine3>,
     pub blas: Arc<Blas>,
 }
 
 impl MeshTree {
-    /// What the tree over its instances sees.
+    /// The input of the TLAS.
     pub fn instanced(&self) -> InstancedBlas {
         InstancedBlas {
             root: self.blas.root(),
@@ -65,7 +64,7 @@ impl MeshTree {
     }
 }
 
-/// Trees in the order in which they lie in the arrays, so that what changes most lies last.
+/// BVHs in the order of the arrays: those that change most often come last.
 #[derive(Clone, Debug)]
 pub struct Trees {
     pub instanced: Vec<MeshTree>,
@@ -76,7 +75,7 @@ pub struct Trees {
     origin: DVec3,
 }
 
-/// What shares a tree: static shapes and small static meshes; and planes, which are in none.
+/// The joint BLAS of static shapes and small static meshes; and planes, which are in no BVH.
 #[derive(Debug)]
 pub struct Joint {
     input: JointInput,
@@ -87,7 +86,7 @@ pub struct Joint {
 #[derive(Debug)]
 struct JointInput {
     meshes: Vec<(Arc<CachedMesh>, DAffine3)>,
-    /// With their materials and ids.
+    /// Shapes with their materials and ids.
     shapes: Vec<(Geometry, usize, usize)>,
     stack_size: usize,
     origin: DVec3,
@@ -106,20 +105,20 @@ impl PartialEq for JointInput {
     }
 }
 
-/// The tree above baked trees, where nothing is instanced.
+/// The tree above the baked BLASes, if nothing is instanced.
 #[derive(Debug)]
 pub struct Top {
-    /// Boxes of what is baked, and child references.
+    /// Boxes of baked geometry, and child references.
     pub parts: Vec<(Aabb, u32)>,
     /// Node 0 of the scene.
     pub root: Arc<[PackedNode]>,
-    /// Those below it, behind all other nodes.
+    /// Its descendants, after all other nodes.
     pub nodes: Arc<[PackedNode]>,
     first_node: u32,
 }
 
 impl Trees {
-    /// The trees of a scene that `meshes` are of. `previous` are those of another one.
+    /// Builds the BVHs of a scene with these `meshes`; `previous` are those of another scene.
     pub fn build(
         previous: Option<&Self>,
         scene: &Scene,
@@ -130,7 +129,7 @@ impl Trees {
         let previous = previous.filter(|previous| previous.origin == origin);
         let mut work = TreeWork::default();
         let known = ExistingTrees::new(previous);
-        // Node 0 is the root of what is baked.
+        // Node 0 is the root of the baked geometry.
         let mut offsets = Offsets {
             node: 1,
             ..Offsets::default()
@@ -213,7 +212,7 @@ impl Trees {
             .collect()
     }
 
-    /// All triangles; zeros stand in for what is hidden.
+    /// All triangles; those of hidden meshes are zero.
     pub fn triangles(&self, plan: &Plan) -> Segments<PackedTriangle> {
         let instanced = self
             .instanced
@@ -243,12 +242,12 @@ impl Trees {
         self.own().map(|tree| &*tree.mesh).chain(joint)
     }
 
-    /// Trees of one mesh.
+    /// The BLASes of single meshes.
     fn own(&self) -> impl Iterator<Item = &MeshTree> {
         self.instanced.iter().chain(&self.baked)
     }
 
-    /// The most entries on the stack in any of those that others may be above.
+    /// Maximum number of stack entries of any BLAS that may be below another tree.
     pub fn stack_need(&self) -> usize {
         (self.own())
             .map(|tree| tree.blas.stack_need)
@@ -256,7 +255,7 @@ impl Trees {
     }
 }
 
-/// Trees that are there already, by mesh and place in the world.
+/// Existing BLASes, by mesh and transform.
 struct ExistingTrees<'a>(HashMap<Key, Vec<&'a Arc<Blas>>>);
 
 /// The mesh's address and the bits of its transform.
@@ -272,7 +271,7 @@ impl<'a> ExistingTrees<'a> {
         Self(known)
     }
 
-    /// Of several the one at this offsets.
+    /// An existing BLAS, preferably at these offsets.
     fn find(
         &self,
         mesh: &Arc<CachedMesh>,
@@ -344,7 +343,7 @@ impl Joint {
 }
 
 impl Top {
-    /// Above `trees`, of which none is empty; where something is instanced the boxes are enough.
+    /// The tree above non-empty `trees`; if something is instanced, only their boxes are needed.
     fn over(
         trees: &[&Blas],
         has_instances: bool,

@@ -1,4 +1,4 @@
-//! What is in the bind groups of `bindings.wesl`, on the host.
+//! The contents of the bind groups of `bindings.wesl`.
 
 use super::{
     arrays::{ARRAY_COUNT, Array, IMAGE_WIDTH, ROW_BYTES, Rows, arrays},
@@ -15,12 +15,12 @@ use bytemuck::{bytes_of, cast_slice};
 use std::sync::Arc;
 use wgpu::{Buffer, BufferUsages};
 
-/// What shaders write and the host reads.
+/// Usage of buffers that shaders write and the host reads.
 const READABLE: BufferUsages = BufferUsages::STORAGE
     .union(BufferUsages::COPY_SRC)
     .union(BufferUsages::COPY_DST);
 
-/// Everything on the GPU but the pipelines.
+/// All GPU resources except the pipelines.
 pub struct Buffers {
     pub scene_group: wgpu::BindGroup,
     pub frame_group: wgpu::BindGroup,
@@ -32,7 +32,7 @@ pub struct Buffers {
 }
 
 impl Buffers {
-    /// Uploads the scene and the frame, and makes room for `film_rows`.
+    /// Uploads the scene and the frame, and allocates a film of `film_rows`.
     pub fn new(
         gpu: &Gpu,
         layouts: &Layouts,
@@ -59,7 +59,7 @@ impl Buffers {
         })
     }
 
-    /// Makes room for `film_rows`, unless there is. Returns whether the film is another now.
+    /// Ensures room for `film_rows`. Returns whether the film buffer was replaced.
     pub fn make_room(
         &mut self,
         gpu: &Gpu,
@@ -76,8 +76,8 @@ impl Buffers {
         Ok(true)
     }
 
-    /// Puts another frame in place, or another scene with it: of both only what is not there yet.
-    /// Arrays that are too small grow beyond what is needed, by `spare` bytes at most.
+    /// Switches to another frame, or to another scene with its frame, and uploads only the differences. Arrays
+    /// that are too small grow by up to `spare` bytes beyond what is needed.
     pub fn set(
         &mut self,
         gpu: &Gpu,
@@ -95,12 +95,12 @@ impl Buffers {
     }
 }
 
-/// What kernels read of a scene, and of what a view places in it.
+/// The buffers of a scene and its view.
 struct SceneBuffers {
     fetch: Fetch,
-    /// In the order of [`arrays`], and of the bindings.
+    /// In the order of [`arrays`] and of the bindings.
     buffers: Vec<Rows>,
-    /// What is in them; `None` before they are written, and after that failed.
+    /// Their contents; `None` before they are written or after a failure.
     on_device: Option<(Arc<PackedScene>, PackedView)>,
 }
 
@@ -121,8 +121,8 @@ impl SceneBuffers {
         Ok(buffers)
     }
 
-    /// Writes what differs from what is there. Returns whether some buffer is another now: those that were
-    /// too small are destroyed first, as the ledger counts them once.
+    /// Uploads the differences. Returns whether some buffer was replaced; buffers that are too small are
+    /// destroyed first, because the ledger counts them once.
     fn set(
         &mut self,
         gpu: &Gpu,
@@ -166,7 +166,7 @@ impl SceneBuffers {
     }
 }
 
-/// A film with this many rows, and the staging buffer through which it is read back with the counters of a
+/// A film with this many rows, and the staging buffer for reading it back together with the counters of a
 /// dispatch.
 fn film(gpu: &Gpu, rows: usize) -> Result<(Buffer, Buffer), GpuError> {
     let bytes = rows as u64 * ROW_BYTES;
@@ -198,8 +198,8 @@ fn frame_bytes(view: &PackedView) -> u64 {
     (size_of::<PackedFrame>() + size_of_val(&view.lights[..])) as u64
 }
 
-/// The fetch to use: as asked, or images on software adapters, where they are twice as fast.
-/// Elsewhere buffers, unless only images are large enough.
+/// The fetch to use: the requested one, or by default images on software adapters, where they are twice as
+/// fast, and buffers elsewhere unless only images are large enough.
 pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene, view: &PackedView) -> Fetch {
     let fits = largest_row_bytes(scene, view) <= gpu.adapter().max_binding_bytes;
     match wanted {
@@ -209,7 +209,7 @@ pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene, view: &Packed
     }
 }
 
-/// What the device must be able to do for this scene and this film.
+/// The device limits needed for this scene and film.
 pub fn needs(scene: &PackedScene, view: &PackedView, fetch: Fetch, film_rows: usize) -> Needs {
     let shapes = scene.shapes.byte_len();
     let film = film_rows as u64 * ROW_BYTES;
@@ -220,7 +220,7 @@ pub fn needs(scene: &PackedScene, view: &PackedView, fetch: Fetch, film_rows: us
             texture_side: 0,
         };
     }
-    // Texels keep to what WebGPU guarantees.
+    // Texels stay within the limits that WebGPU guarantees.
     let height = rows.div_ceil(u64::from(IMAGE_WIDTH) * 16);
     Needs {
         binding_bytes: shapes.max(film),
@@ -233,7 +233,7 @@ fn largest_row_bytes(scene: &PackedScene, view: &PackedView) -> u64 {
     rows.map(|array| array.bytes).max().unwrap_or(0)
 }
 
-/// All that a render will allocate, on the GPU and for the picture on the host.
+/// The planned allocations of a render, on the GPU and for the picture on the host.
 pub fn ledger(
     scene: &PackedScene,
     view: &PackedView,

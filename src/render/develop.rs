@@ -1,4 +1,4 @@
-//! From sums to a picture: `kernels/develop.wesl`.
+//! Develops sums to a picture: `kernels/develop.wesl`.
 
 use super::{
     Fingerprint, Integrator, Levels, Quantity, RenderError, RenderSettings, Renderer,
@@ -21,21 +21,21 @@ use crate::{
 use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec};
 use wgpu::BufferUsages;
 
-/// How linear radiance becomes a picture.
+/// How linear radiance is developed to a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tone {
-    /// Stops; each doubles the brightness.
+    /// Exposure in stops; each doubles the brightness.
     pub exposure_ev: f32,
-    /// Applied after the exposure.
+    /// Tone curve, applied after the exposure.
     pub curve: ToneCurve,
-    /// Applied last.
+    /// Transfer function, applied last.
     pub transfer: Transfer,
-    /// The range of a view that shows a quantity, such as distances.
+    /// The range for views that show a quantity, such as distances.
     pub levels: Levels,
 }
 
 impl From<&OutputDefaults> for Tone {
-    /// What the scene says, for pictures of radiance.
+    /// The output defaults of the scene, for pictures of radiance.
     fn from(output: &OutputDefaults) -> Self {
         Self {
             exposure_ev: output.exposure_ev,
@@ -47,7 +47,7 @@ impl From<&OutputDefaults> for Tone {
 }
 
 impl Tone {
-    /// Leaves radiance as it is.
+    /// Keeps radiance unchanged.
     pub const LINEAR: Self = Self {
         exposure_ev: 0.0,
         curve: ToneCurve::None,
@@ -55,7 +55,7 @@ impl Tone {
         levels: Levels::Raw,
     };
 
-    /// A name for all of it: see [`RenderSettings::fingerprint`].
+    /// A fingerprint of all members: see [`RenderSettings::fingerprint`].
     pub fn fingerprint(&self) -> Fingerprint {
         let mut encoder = Encoder::new("tone", 1);
         for number in self.numbers() {
@@ -64,7 +64,7 @@ impl Tone {
         encoder.finish()
     }
 
-    /// All of it in numbers that stay the same in other builds.
+    /// All members as numbers that are stable across builds.
     pub(super) fn numbers(&self) -> [u32; 6] {
         let Self {
             exposure_ev,
@@ -124,7 +124,7 @@ impl Tone {
         })
     }
 
-    /// Over this range, where there is one, for a film with so many rows a pixel.
+    /// The packed tone, with a range for a quantity if there is one, for a film with this many rows per pixel.
     pub(super) fn packed(
         &self,
         integrator: Integrator,
@@ -152,7 +152,7 @@ impl Tone {
     }
 }
 
-/// What developing keeps on the GPU once it has been used.
+/// GPU resources for developing, created on first use.
 pub struct Developer {
     pipeline: wgpu::ComputePipeline,
     developed: wgpu::Buffer,
@@ -160,7 +160,7 @@ pub struct Developer {
     group: wgpu::BindGroup,
 }
 
-/// What a film is developed with, and where.
+/// The device and buffers with which a film is developed.
 #[derive(Clone, Copy)]
 pub struct Context<'a> {
     pub gpu: &'a Gpu,
@@ -187,8 +187,8 @@ impl<'a> Context<'a> {
 }
 
 impl Renderer {
-    /// The picture of what has been gathered so far, also before the render is done. Changing the
-    /// tone costs no new rays.
+    /// Develops the samples so far to a picture, also before the render is done. Changing the tone requires no
+    /// new rays.
     pub fn develop(&mut self, tone: &Tone) -> Result<Image, RenderError> {
         let start = Instant::now();
         self.fetch_film()?;
@@ -214,7 +214,7 @@ impl Renderer {
         Ok(image)
     }
 
-    /// One tile's pixels, row by row.
+    /// The pixels of one film tile, row by row.
     fn develop_tile(
         &mut self,
         tile: &FilmTile,
@@ -228,15 +228,15 @@ impl Renderer {
             empty => empty.insert(Developer::new(context, self.tiles.largest())?),
         };
         let pixels = developer.develop(context, tile, rows, &self.settings, tone)?;
-        // The film on the GPU is this tile's now.
+        // The film buffer now holds this tile.
         device.loaded_tile = None;
         Ok(pixels)
     }
 }
 
 impl Developer {
-    /// For tiles of at most so many pixels.
-    pub fn new(context: Context, most_pixels: usize) -> Result<Self, GpuError> {
+    /// For film tiles of at most `max_pixels` pixels.
+    pub fn new(context: Context, max_pixels: usize) -> Result<Self, GpuError> {
         let Context { gpu, layouts, .. } = context;
         let groups = [
             None,
@@ -247,7 +247,7 @@ impl Developer {
         let Compiled { pipeline, .. } =
             gpu.pipeline(&Kernel::DEVELOP, false, &groups, Vec::new())?;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
-        let developed = gpu.allocate("developed", most_pixels as u64 * 16, usage)?;
+        let developed = gpu.allocate("developed", max_pixels as u64 * 16, usage)?;
         let tone = gpu.upload("tone", bytes_of(&PackedTone::default()))?;
         let resources = [tone.as_entire_binding(), developed.as_entire_binding()];
         let group = group(gpu, &layouts.develop, &resources);
@@ -259,7 +259,7 @@ impl Developer {
         })
     }
 
-    /// One tile's pixels, row by row, from the rows of its film.
+    /// Develops one film tile from its film rows to pixels, row by row.
     pub fn develop(
         &self,
         context: Context,
@@ -299,7 +299,7 @@ impl Developer {
     }
 }
 
-/// Puts a tile's pixels where they belong in a picture that begins at `origin`.
+/// Copies the pixels of a film tile to their position in a picture whose upper left corner is `[x, y]`.
 pub fn copy_tile(image: &mut Image, pixels: &[[f32; 4]], tile: &FilmTile, [x, y]: [u32; 2]) {
     for (row, line) in pixels.chunks_exact(tile.width as usize).enumerate() {
         let start = (tile.y - y) as usize + row;
@@ -308,18 +308,18 @@ pub fn copy_tile(image: &mut Image, pixels: &[[f32; 4]], tile: &FilmTile, [x, y]
     }
 }
 
-/// A picture of numbers of samples, as grey levels over a range or as shares of the most possible.
+/// A picture of sample counts, as grey levels over a range or as fractions of `max`.
 pub fn sample_count_image(
     [.., width, height]: [u32; 4],
     counts: &[f32],
-    most: u32,
+    max: u32,
     range: Option<[f32; 2]>,
 ) -> Image {
     let mut image = Image::new(width, height);
     for (pixel, count) in image.pixels.iter_mut().zip(counts) {
         let level = match range {
             Some(range) => levels::position_in_range(*count, range),
-            None => count / most as f32,
+            None => count / max as f32,
         };
         *pixel = [level, level, level, 1.0];
     }

@@ -1,4 +1,4 @@
-//! What a render keeps on the GPU, and how one slice is run there.
+//! The GPU resources of a render, and the submission of slices.
 
 use super::{
     Stats,
@@ -23,18 +23,18 @@ use std::ops::Range;
 
 const ROW_BYTES: u64 = 16;
 
-/// Everything that lives on the GPU, and dies with it.
+/// All GPU resources, which are lost with the device.
 pub struct Device {
     pub gpu: Gpu,
-    /// Image or buffer, not auto.
+    /// Image or buffer, never auto.
     pub fetch: Fetch,
     pub layouts: Layouts,
     pub buffers: Buffers,
-    /// What the view needs: views of one scene differ in what moves and shines.
+    /// The pipeline for the current view: views of one scene differ in motion and lights.
     pipeline: wgpu::ComputePipeline,
     pub developer: Option<Developer>,
     pub presenter: Option<Presenter>,
-    /// The tile whose sums are in the film buffer.
+    /// Index of the film tile whose sums are in the film buffer.
     pub loaded_tile: Option<usize>,
 }
 
@@ -60,8 +60,8 @@ impl Device {
         })
     }
 
-    /// Puts another frame in place, or another scene with it, and makes room for its film. `spare` bytes
-    /// may be allocated beyond what is needed.
+    /// Switches to another frame, or to another scene with its frame, and ensures room for its film. Up to
+    /// `spare` bytes may be allocated beyond what is needed.
     pub fn set(&mut self, task: Task, spare: u64, stats: &mut Stats) -> Result<(), GpuError> {
         let start = Instant::now();
         let (gpu, layouts) = (&self.gpu, &self.layouts);
@@ -76,7 +76,7 @@ impl Device {
         Ok(())
     }
 
-    /// The sums of the tile that is on the device.
+    /// Reads back the sums of the film tile on the device.
     pub fn fetch_film(&self, tile: &mut FilmTile) -> Result<(), GpuError> {
         let encoder = self.gpu.device.create_command_encoder(&Default::default());
         let rows = Source {
@@ -93,8 +93,8 @@ impl Device {
             })
     }
 
-    /// Submits one slice of the tile with this index, without waiting for it. [`Device::finish`] takes up
-    /// what comes of it.
+    /// Submits one slice of the film tile with this index, without waiting for it. [`Device::finish`] collects
+    /// the results.
     pub fn launch(
         &mut self,
         slice: &Slice,
@@ -124,8 +124,8 @@ impl Device {
         gpu.submit_reading(encoder, sources, &buffers.staging)
     }
 
-    /// The accounts of a slice that was launched, for which this waits. What came back of the film goes to
-    /// the tile if the slice was done in full.
+    /// Waits for a launched slice and returns its counters. The sums that were read back are stored in the tile
+    /// if the slice is complete.
     pub fn finish(
         &self,
         reading: Reading,
@@ -145,19 +145,19 @@ impl Device {
     }
 }
 
-/// What of the film comes to the host with a slice.
+/// Which part of the film is read back with a slice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Readback {
     /// Nothing.
     Nothing,
-    /// Its groups.
+    /// Its workgroups.
     Groups,
-    /// The tile.
+    /// The whole film tile.
     Tile,
 }
 
 impl Readback {
-    /// The rows of the tile's film.
+    /// The film rows to read back.
     fn rows(self, slice: &Slice, tile: &FilmTile) -> Range<usize> {
         let group_rows = GROUP_PIXELS * tile.rows_per_pixel();
         match self {
@@ -170,7 +170,7 @@ impl Readback {
     }
 }
 
-/// A device like the one that was lost.
+/// Opens a replacement for a lost device.
 pub fn reopen(
     choice: &AdapterChoice,
     fetch: Fetch,
@@ -190,8 +190,8 @@ pub fn counters(dispatch: &wgpu::Buffer) -> Source<'_> {
     }
 }
 
-/// The integrator's pipeline. One that is new runs once on nothing, which is when some drivers really
-/// compile.
+/// The pipeline of the integrator. A new one is dispatched once without work, because some drivers only compile
+/// then.
 fn compile(
     gpu: &Gpu,
     fetch: Fetch,

@@ -1,7 +1,8 @@
-//! All rays of a pixel, one by one: `kernels/whitted.wesl` with the feature `record`.
+//! Records all rays of a pixel: `kernels/whitted.wesl` with the feature `record`.
 //!
-//! The same code runs that traced the picture, once more for each sample, with the same random numbers.
-//! It writes what it does into a buffer of its own: the film, which may still be growing, is not touched.
+//! The same kernel that rendered the picture, compiled a second time with recording enabled, runs once more for
+//! each sample with the same random numbers. It writes to its own buffer, so the film, which may still be
+//! growing, is not changed.
 
 mod tree;
 
@@ -23,20 +24,20 @@ use std::ops::Range;
 use tree::Reader;
 use wgpu::BufferUsages;
 
-/// Most rays of a sample that are kept.
+/// Maximum number of recorded rays of a sample.
 const MAX_RAYS: u32 = 1 << 16;
-/// Most rays of a pixel that are kept, when many samples are asked for.
+/// Maximum number of recorded rays of a pixel, over all its samples.
 const MAX_PIXEL_RAYS: u32 = 1 << 18;
-/// Most samples in a submission.
+/// Maximum number of samples in a submission.
 const MAX_PROBES: usize = 1024;
-/// Most rays of a submission together: 32 MiB of them.
+/// Maximum number of recorded rays of a submission: 32 MiB.
 const MAX_RECORDS: u32 = (32 << 20) / (16 * RAY_ROWS);
-/// Lanes of a workgroup, each of which takes a sample.
+/// Lanes of a workgroup; each traces one sample.
 const LANES: usize = 64;
-/// There is no film here, and nothing is counted.
+/// Overrides that the kernel lacks, because it has no film and counts no rays.
 const UNUSED_OVERRIDES: [&str; 4] = ["COUNT_RAYS", "ADAPTIVE", "FILM_ROWS", "SQUARES_ROW"];
 
-/// What came of a submission.
+/// The results of a submission.
 struct Records {
     counters: PackedCounters,
     probes: Vec<PackedProbe>,
@@ -44,17 +45,18 @@ struct Records {
 }
 
 impl Renderer {
-    /// Every ray of some samples of a pixel of the picture. Their contributions add up to the samples'
-    /// colours, and these by their weights to [`RayTree::value`]. With the samples 0 to
-    /// [`Self::samples_at`] that is the pixel's value in the film when the render is done.
+    /// Traces samples of a pixel of the picture and records all their rays. The contributions of the rays add
+    /// up to the colour of a sample, and the weighted colours of the samples to [`RayTree::value`]. With the
+    /// samples 0 to [`Self::samples_at`] that is the pixel's value in the finished film.
     ///
-    /// Of very many rays the first are kept, and [`SampleTree::ray_count`] says how many there were.
+    /// If there are too many rays, only the first are recorded, and [`SampleTree::ray_count`] is their full
+    /// number.
     ///
-    /// It can be called at any moment and leaves the film as it is. The rays are those of
-    /// [`Integrator::Whitted`], whatever the settings' integrator is.
+    /// This can be called at any time and does not change the film. The rays are those of
+    /// [`Integrator::Whitted`], whatever integrator the settings specify.
     ///
     /// # Errors
-    /// The device failed, or the driver ends a shader's loops early even for one sample.
+    /// The device failed, or the driver ends the loops of a shader early even for one sample.
     pub fn explain(
         &mut self,
         pixel: [u32; 2],
@@ -64,7 +66,7 @@ impl Renderer {
         Ok(RayTree::new(pixel, self.explain_samples(wanted)?))
     }
 
-    /// The same for several pixels, which takes fewer submissions than one after the other.
+    /// Like [`Self::explain`] for several pixels, with fewer submissions.
     ///
     /// # Errors
     /// As [`Self::explain`].
@@ -83,8 +85,8 @@ impl Renderer {
         Ok(pixels.iter().map(tree).collect())
     }
 
-    /// The samples that a pixel of the picture is to get; with adaptive sampling those of the rounds that
-    /// are done. 0 outside of [`RenderSettings::region`].
+    /// The number of samples that a pixel will have; with adaptive sampling the number after the finished
+    /// rounds. 0 outside of [`RenderSettings::region`].
     pub fn samples_at(&self, pixel: [u32; 2]) -> u32 {
         let [x, y, width, height] = self.settings.region();
         let within = |at: u32, start: u32, length: u32| (start..start + length).contains(&at);
@@ -109,7 +111,7 @@ impl Renderer {
                     ..Default::default()
                 })
                 .collect();
-            // Once to count the rays, so that there is just enough room for them.
+            // First only count the rays, to allocate exactly enough room.
             let counted = self.record(&probes, 0)?.probes;
             for (probe, counted) in probes.iter_mut().zip(&counted) {
                 let place = Some([probe.pixel_x, probe.pixel_y]);
@@ -137,7 +139,7 @@ impl Renderer {
         Ok(trees)
     }
 
-    /// Traces the probes, each in a lane of its own, with room for so many rays behind them.
+    /// Traces the probes, one per lane, with room for `record_count` rays after them.
     fn record(
         &mut self,
         probes: &[PackedProbe],
@@ -151,7 +153,7 @@ impl Renderer {
         }
     }
 
-    /// The kernel that records.
+    /// The pipeline of the recording kernel.
     fn recorder(&self) -> Result<wgpu::ComputePipeline, GpuError> {
         let settings = RenderSettings {
             integrator: Integrator::Whitted,
@@ -230,14 +232,14 @@ impl Renderer {
                 rays: read_all(rays),
             }
         })?;
-        // A driver that stops a dispatch of a thousand samples is as good as lost.
+        // A driver that stops a dispatch of a thousand samples is treated as lost.
         match records.counters.groups_done == groups {
             true => Ok(records),
             false => Err(GpuError::Lost),
         }
     }
 
-    /// What the kernel reads of the settings.
+    /// The dispatch parameters.
     fn packed(&self, groups: u32) -> PackedDispatch {
         let settings = &self.settings;
         PackedDispatch {
@@ -260,7 +262,7 @@ fn read_all<T: Pod>(bytes: &[u8]) -> Vec<T> {
     each.map(pod_read_unaligned).collect()
 }
 
-/// How many of the probes, at least one, have room in one submission.
+/// How many of the probes fit in one submission, at least one.
 fn probes_that_fit(probes: &[PackedProbe]) -> usize {
     let mut room = MAX_RECORDS;
     let fits = |probe: &&PackedProbe| {
@@ -271,7 +273,7 @@ fn probes_that_fit(probes: &[PackedProbe]) -> usize {
     probes.iter().take_while(fits).count().max(1)
 }
 
-/// Says where each probe's rays go, behind the probes of whole workgroups, and how many there are.
+/// Assigns rows to the rays of each probe, after the probes of whole workgroups. Returns the number of rays.
 fn assign_rows(probes: &mut [PackedProbe]) -> u32 {
     let first_row = PROBE_ROWS * probes.len().next_multiple_of(LANES) as u32;
     let mut count = 0;

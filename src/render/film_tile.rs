@@ -1,8 +1,8 @@
-//! A part of the picture that is on the GPU at a time.
+//! A film tile: the part of the picture that is on the GPU at a time.
 //!
-//! The GPU adds samples one after the other to f32 sums; after each slice they are copied here, so
-//! a lost device costs one slice. Every [`super::SAMPLE_BLOCK`] samples the sums are added to exact totals and
-//! start again from zero.
+//! The GPU adds samples one after the other to f32 sums. After each slice the sums are copied here, so a lost
+//! device costs at most one slice. After every [`super::SAMPLE_BLOCK`] samples the sums are added to exact
+//! totals and restart from zero.
 
 use super::{
     layers::{self, Layer, SQUARES},
@@ -10,28 +10,28 @@ use super::{
 };
 use std::ops::Range;
 
-/// Pixels of a group; one workgroup each.
+/// Pixels of a workgroup.
 pub const GROUP_PIXELS: usize = 64;
 const GROUP_SIDE: u32 = 8;
 
-/// A rectangle of the picture that is on the GPU at a time. Its pixels are in film order: group by
-/// group in the shader's order, 64 lanes each, edges padded.
+/// A rectangle or a list of pixels of the picture that is on the GPU at a time. Its pixels are in film order:
+/// workgroup by workgroup in dispatch order, 64 lanes each, with padding at the edges.
 #[derive(Clone, Debug)]
 pub struct FilmTile {
     pub x: u32,
     pub y: u32,
     pub width: u32,
     pub height: u32,
-    /// The samples that its pixels are to get.
+    /// The samples to render.
     pub samples: Range<u32>,
     /// The pixels of a list, in film order; empty for a rectangle.
     places: Vec<[u32; 2]>,
-    /// Rows of the film for each pixel, and in a list which of them holds its place.
+    /// Film rows per pixel, and the row that holds the pixel position in a list.
     rows_per_pixel: usize,
     place_row: usize,
-    /// Rows of the film in the current block, layer by layer for each pixel; empty before it has begun.
+    /// Film rows of the current block, layer by layer for each pixel; empty before the block starts.
     pub sums: Vec<[f32; 4]>,
-    /// The same of all finished blocks.
+    /// The sums of all finished blocks.
     pub closed: Option<Sums>,
 }
 
@@ -56,7 +56,7 @@ impl FilmTile {
         }
     }
 
-    /// A list of pixels of the picture, at least one.
+    /// A list of pixels of the picture, not empty.
     pub fn list(places: Vec<[u32; 2]>, samples: Range<u32>, layers: &[&Layer]) -> Self {
         let side = GROUP_SIDE;
         let mut tile = Self::new([0, 0, side, side], samples, layers::rows(layers));
@@ -65,13 +65,13 @@ impl FilmTile {
         tile
     }
 
-    /// The same rectangle without anything in it.
+    /// The same rectangle without sums.
     pub fn blank(&self) -> Self {
         let region = [self.x, self.y, self.width, self.height];
         Self::new(region, self.samples.clone(), self.rows_per_pixel)
     }
 
-    /// Its pixels without padding.
+    /// Number of pixels without padding.
     pub fn sampled_pixels(&self) -> u64 {
         if self.places.is_empty() {
             u64::from(self.width) * u64::from(self.height)
@@ -85,7 +85,7 @@ impl FilmTile {
         &self.places
     }
 
-    /// Rows of the film for each pixel.
+    /// Film rows per pixel.
     pub fn rows_per_pixel(&self) -> usize {
         self.rows_per_pixel
     }
@@ -102,9 +102,9 @@ impl FilmTile {
         }
     }
 
-    /// A stride coprime to the group count that steps to the next group down and right: neighbours
-    /// share what is in the caches, and any run of groups longer than the tile is high samples all
-    /// of its height.
+    /// A stride, coprime to the number of workgroups, that steps to the next one down and right. Neighbouring
+    /// workgroups then share cached data, and any long enough range of workgroups covers the full height of the
+    /// tile.
     pub fn group_stride(&self) -> u32 {
         let count = self.group_count();
         let columns = match self.places.len() {
@@ -121,12 +121,12 @@ impl FilmTile {
         self.group_count() as usize * GROUP_PIXELS
     }
 
-    /// Rows of its film.
+    /// Number of film rows.
     pub fn row_count(&self) -> usize {
         self.pixel_count() * self.rows_per_pixel()
     }
 
-    /// Makes room for the sums, all zero.
+    /// Sets all sums to zero.
     pub fn reset_sums(&mut self) {
         self.sums.clear();
         self.sums.resize(self.row_count(), [0.0; 4]);
@@ -136,8 +136,8 @@ impl FilmTile {
         }
     }
 
-    /// The pixel at a place in the film of a rectangle: its x and y in the picture, or `None` for
-    /// padding. The same order as in the shader (scene/slice.wesl).
+    /// The position in the picture of a film index of a rectangle; `None` for padding. The order is that of the
+    /// shader (scene/dispatch.wesl).
     pub fn pixel_at(&self, film_index: usize) -> Option<[u32; 2]> {
         let (index, lane) = (
             film_index / GROUP_PIXELS,
@@ -151,7 +151,7 @@ impl FilmTile {
         (x < self.width && y < self.height).then_some([self.x + x, self.y + y])
     }
 
-    /// Closes a block: its sums become part of the totals.
+    /// Finishes a block: adds its sums to the totals.
     pub fn close_block(&mut self) {
         self.closed = Some(Sums::with_block(self.closed.take(), &self.sums));
         self.sums.clear();
@@ -165,13 +165,13 @@ impl FilmTile {
         }
     }
 
-    /// The rows of all blocks together; those of a list hold its places as often as there were
-    /// blocks, and are of no use there.
+    /// The film rows of all blocks together. For a list, the rows with positions are summed as well and
+    /// therefore meaningless.
     pub fn totals(&self) -> Vec<[f64; 4]> {
         self.all_sums().map_or_else(Vec::new, |sums| sums.rounded())
     }
 
-    /// What `develop` reads: sums and weights where one block holds them all, else means and ones.
+    /// The rows for `develop`: sums and weights of a single block, otherwise means with a weight of 1.
     pub fn developable(&self) -> Vec<[f32; 4]> {
         match self.all_sums() {
             None => vec![[0.0; 4]; self.row_count()],
@@ -180,8 +180,7 @@ impl FilmTile {
     }
 }
 
-/// A region (x, y, width, height) of the picture cut into rectangles of at most this longest side, which are
-/// to get these samples.
+/// Splits a region (x, y, width, height) of the picture into rectangles of at most `side` pixels a side.
 pub fn rectangles(
     [x, y, width, height]: [u32; 4],
     side: u32,

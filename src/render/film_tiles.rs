@@ -1,7 +1,7 @@
-//! What has been gathered so far, tile by tile as the GPU works on it.
+//! The accumulated samples of a picture, by film tile.
 //!
-//! Without adaptive sampling there is one round: all samples, tile by tile. With it
-//! (adaptive.rs) there are several, and a tile is a list of the pixels that go on.
+//! Without adaptive sampling there is one round: all samples, tile by tile. With it (adaptive.rs) there are
+//! several rounds, and a tile is a list of the pixels that need more samples.
 
 use super::{
     adaptive::Adaptive,
@@ -13,21 +13,21 @@ use super::{
 };
 use std::ops::Range;
 
-/// All tiles of a picture, row by row, and the samples that they are to get.
+/// All film tiles of a picture, row by row.
 #[derive(Clone, Debug)]
 pub struct FilmTiles {
     pub list: Vec<FilmTile>,
     adaptive: Option<Adaptive>,
-    /// In film rows, of all rounds.
+    /// Maximum number of film rows of a tile, over all rounds.
     largest: usize,
 }
 
 impl FilmTiles {
-    /// Cuts the region into tiles of at most so many pixels a side and plans the first round.
+    /// Splits the region into tiles of at most `tile_side` pixels a side and plans the first round.
     pub fn new(settings: &RenderSettings, tile_side: u32) -> Self {
         let adaptive = (settings.is_adaptive()).then(|| Adaptive::new(settings, tile_side));
         let region = (adaptive.as_ref()).map_or(settings.region(), Adaptive::region);
-        // Of adaptive sampling only the mean is laid out in rectangles, to be developed.
+        // With adaptive sampling, only the mean is arranged in rectangles, to be developed.
         let rows = match adaptive {
             Some(_) => 1,
             None => layers::rows(layers::of_sampling(settings)),
@@ -40,7 +40,7 @@ impl FilmTiles {
         };
         tiles.largest = tiles.largest_row_count();
         if let Some(adaptive) = &tiles.adaptive {
-            // In the order of groups, so that what lies together stays together.
+            // In workgroup order, so that neighbouring pixels stay together.
             let rectangles = tiles.list.iter();
             let pixels = rectangles
                 .flat_map(|tile| (0..tile.pixel_count()).filter_map(|index| tile.pixel_at(index)));
@@ -50,7 +50,7 @@ impl FilmTiles {
         tiles
     }
 
-    /// How far the sampling is in all when `fraction` of the tiles of this round are done, in 0..=1.
+    /// Overall progress when `fraction` of the tiles of this round are done, in 0..=1.
     pub fn progress(&self, fraction: f64) -> f64 {
         match &self.adaptive {
             None => fraction,
@@ -58,7 +58,7 @@ impl FilmTiles {
         }
     }
 
-    /// Ends the round. If there is another, the tiles are what goes on.
+    /// Ends the round and plans the next one. Returns whether there is one.
     pub fn next_round(&mut self) -> bool {
         let Some(adaptive) = &mut self.adaptive else {
             return false;
@@ -68,7 +68,7 @@ impl FilmTiles {
         !self.list.is_empty()
     }
 
-    /// The tiles to develop: rectangles with what has been gathered so far.
+    /// The rectangles to develop, with the samples so far.
     pub fn developable(&self, tile_side: u32) -> Vec<(FilmTile, Vec<[f32; 4]>)> {
         let Some(adaptive) = &self.adaptive else {
             let tiles = self.list.iter();
@@ -90,8 +90,8 @@ impl FilmTiles {
             .collect()
     }
 
-    /// The film of what has been gathered so far: all samples of the first `done` tiles, and of the
-    /// next one those before `sample` that are in finished blocks.
+    /// The film of the samples so far: all samples of the first `done` tiles, and the finished blocks of the
+    /// next one before `sample`.
     pub fn film(&self, header: FilmHeader, done: usize, sample: u32) -> Result<Film, FilmError> {
         let mut pieces = Vec::new();
         if let Some(adaptive) = &self.adaptive {
@@ -117,23 +117,23 @@ impl FilmTiles {
         Film::new(header, pieces)
     }
 
-    /// Whether some pixels are to get more samples than a block has.
+    /// Whether some pixels will have more samples than one block.
     pub fn has_totals(&self) -> bool {
         let is_more = |tile: &FilmTile| tile.samples.len() > SAMPLE_BLOCK as usize;
         self.adaptive.is_none() && self.list.iter().any(is_more)
     }
 
-    /// Whether the whole picture is sampled at once, every pixel in its turn.
+    /// Whether the whole picture is a single rectangle, sampled evenly.
     pub fn is_one_rectangle(&self) -> bool {
         self.adaptive.is_none() && self.list.len() == 1
     }
 
-    /// Whether moreover all samples so far are in one block.
+    /// Whether in addition all samples so far are in one block.
     pub fn is_one_block(&self) -> bool {
         self.is_one_rectangle() && self.list[0].closed.is_none()
     }
 
-    /// The samples that a pixel of the picture has got.
+    /// The number of samples of a pixel.
     pub fn samples_at(&self, pixel: [u32; 2]) -> u32 {
         match &self.adaptive {
             None => self.list.first().map_or(0, |tile| tile.samples.end),
@@ -141,7 +141,7 @@ impl FilmTiles {
         }
     }
 
-    /// The most rows that a tile has.
+    /// Maximum number of film rows of a tile.
     pub fn largest(&self) -> usize {
         self.largest
     }
@@ -152,7 +152,7 @@ impl FilmTiles {
     }
 }
 
-/// The sums of a tile, its pixels row by row.
+/// The sums of a tile, with its pixels row by row.
 fn piece(tile: &FilmTile, samples: Range<u32>, sums: &Sums) -> Piece {
     let rows = tile.rows_per_pixel();
     let pixels = tile.sampled_pixels() as usize;

@@ -1,4 +1,4 @@
-//! From sums to a picture on the screen, without leaving the GPU: `kernels/show.wesl`.
+//! Develops sums to a texture on the GPU: `kernels/show.wesl`.
 
 use super::{
     Levels, Quantity, RenderError, Renderer, Tone,
@@ -11,15 +11,15 @@ use crate::{
 };
 use bytemuck::{bytes_of, cast_slice};
 
-/// What a tile or a test shows: a texture as large as a picture, 8 bits a channel, encoded as its
-/// tone says, with premultiplied alpha.
+/// A texture for display, as large as the picture: 8 bits per channel, encoded with the transfer function of
+/// the tone, premultiplied alpha.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Screen {
     view: wgpu::TextureView,
 }
 
 impl Screen {
-    /// The texture, to be sampled without any conversion.
+    /// The texture, to be sampled without conversion.
     pub fn view(&self) -> &wgpu::TextureView {
         &self.view
     }
@@ -31,14 +31,14 @@ impl Screen {
     }
 }
 
-/// What showing keeps on the GPU once it has been used.
+/// GPU resources for display, created on first use.
 pub struct Presenter {
     pipeline: wgpu::ComputePipeline,
     tone: wgpu::Buffer,
 }
 
 impl Renderer {
-    /// A black screen as large as the picture, or as its crop.
+    /// A black screen of the size of the picture or its crop.
     pub fn new_screen(&self) -> Result<Screen, RenderError> {
         let [.., width, height] = self.settings.region();
         let view = self
@@ -48,13 +48,13 @@ impl Renderer {
         Ok(Screen { view })
     }
 
-    /// The part of the picture that is rendered: x, y, width, height in pixels.
+    /// The rendered part of the picture: x, y, width, height in pixels.
     pub fn region(&self) -> [u32; 4] {
         self.settings.region()
     }
 
-    /// Samples that every pixel has got, for a picture that [`Self::shows_directly`]; else the fraction
-    /// of all that has been done.
+    /// The number of samples of every pixel, for a picture that [`Self::shows_directly`]; otherwise an estimate
+    /// from the progress.
     pub fn samples_done(&self) -> u32 {
         match self.tiles.is_one_rectangle() && !self.is_done() {
             true => self.cursor.sample,
@@ -62,15 +62,15 @@ impl Renderer {
         }
     }
 
-    /// Whether [`Self::show`] leaves the film where it is. Else the host has a part in it: films of
-    /// several tiles, more samples than one sum takes, adaptive sampling.
+    /// Whether [`Self::show`] works on the GPU alone. The host is needed for several film tiles, for more
+    /// samples than one block, and for adaptive sampling.
     pub fn shows_directly(&self) -> bool {
         self.settings.integrator.quantity() != Some(Quantity::Samples) && self.tiles.is_one_block()
     }
 
-    /// Puts what has been gathered so far on a screen of the picture's size: for every pixel that has a
-    /// sample what [`Self::develop`] gives, rounded to 8 bits. Returns the range of a quantity over which it
-    /// is shown. Where it [`Self::shows_directly`] and no range is to be found, it waits for nothing.
+    /// Develops the samples so far to a screen of the size of the picture: pixels with samples get the result
+    /// of [`Self::develop`], rounded to 8 bits. Returns the range over which a quantity is shown. If it
+    /// [`Self::shows_directly`] and needs no range, it does not wait for the GPU.
     pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
         let range = self.range_of(tone)?;
         if self.shows_directly() {

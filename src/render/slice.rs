@@ -1,25 +1,25 @@
-//! Cuts the work on a tile into submissions that take about the target time each: watchdogs kill
-//! long ones, and nothing can be shown, stopped or saved within one.
+//! Splits the work on a film tile into submissions of about the target time each: watchdogs kill long
+//! submissions, and nothing can be displayed, stopped or saved during one.
 
 use super::{film_tile::FilmTile, policy::Slicing, settings::RenderSettings};
 use crate::layout::{PackedCounters, PackedDispatch};
 
-/// Groups of the first submission; one that turns out heavier than planned stays short.
+/// Workgroups of the first submission, so that it stays short even if the work is heavier than expected.
 const FIRST_GROUPS: f64 = 8.0;
-/// Shadow rays from one point for which it is that many; with more of them it is fewer.
+/// Number of shadow rays per point above which the first submission has fewer workgroups.
 const FEW_SHADOW_RAYS: f64 = 256.0;
-/// The most by which a submission may be larger than the one before.
+/// Maximum growth from one submission to the next.
 const GROWTH: f64 = 4.0;
-/// Where twice the work takes no more than this much longer, time goes elsewhere: to the submission itself,
-/// or to what else the adapter and the machine have to do. Smaller submissions would only waste it.
+/// If twice the work takes at most this factor longer, the time is spent on overhead: on the submission itself,
+/// or on other work of the adapter and the machine. Smaller submissions would only add overhead.
 const TWICE: f64 = 2.0;
 const HARDLY_LONGER: f64 = 1.4;
-/// Seconds within which submissions grow for that reason: watchdogs wait for a little longer.
+/// Maximum duration, in seconds, up to which submissions grow for that reason: watchdogs allow a little more.
 const LONGEST_WAIT: f64 = 1.5;
-/// Most workgroups along x: a second dimension keeps both below WebGPU's 65,535.
+/// Maximum number of workgroups along x: with a second dimension both stay below the 65,535 of WebGPU.
 const GRID_WIDTH: u32 = 256;
 
-/// What one submission does: some groups of a tile, some samples of their pixels.
+/// The work of one submission: a range of workgroups of a film tile, and a range of samples of their pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Slice {
     pub first_group: u32,
@@ -36,18 +36,18 @@ impl Slice {
         (groups.div_ceil(rows), rows)
     }
 
-    /// Whether every workgroup of the dispatch signed off.
+    /// Whether every workgroup of the dispatch finished.
     pub fn is_done(&self, counters: &PackedCounters) -> bool {
         let (columns, rows) = self.grid();
         counters.groups_done == columns * rows
     }
 
-    /// Whether all of it was done, and no path cut off.
+    /// Whether every workgroup finished and no path was cut off.
     pub fn is_complete(&self, counters: &PackedCounters) -> bool {
         self.is_done(counters) && counters.cut_off_paths == 0
     }
 
-    /// Its first and its last groups, if it has several.
+    /// Two slices with half of the workgroups each, if there are several.
     pub fn group_halves(&self) -> Option<(Self, Self)> {
         let middle = self.first_group + (self.end_group - self.first_group) / 2;
         let mut parts = (*self, *self);
@@ -56,7 +56,7 @@ impl Slice {
         (middle > self.first_group).then_some(parts)
     }
 
-    /// Its earlier and its later samples, if it has several.
+    /// Two slices with half of the samples each, if there are several.
     pub fn sample_halves(&self) -> Option<(Self, Self)> {
         let middle = self.first_sample + (self.end_sample - self.first_sample) / 2;
         let mut parts = (*self, *self);
@@ -65,13 +65,13 @@ impl Slice {
         (middle > self.first_sample).then_some(parts)
     }
 
-    /// Groups times samples, the measure of work.
+    /// Workgroups times samples, the measure of work.
     fn work(&self) -> f64 {
         f64::from(self.end_group - self.first_group)
             * f64::from(self.end_sample - self.first_sample)
     }
 
-    /// The slice as the shader reads it.
+    /// The dispatch parameters of the slice.
     pub fn packed(&self, tile: &FilmTile, settings: &RenderSettings) -> PackedDispatch {
         PackedDispatch {
             picture_width: settings.size.0,
@@ -97,24 +97,24 @@ impl Slice {
     }
 }
 
-/// Plans slices from how long the last ones took.
+/// Plans slices from the duration of the previous ones.
 #[derive(Clone, Debug)]
 pub struct Planner {
     slicing: Slicing,
     /// Work of the first submission.
     first: f64,
-    /// Work that should fit into the target time.
+    /// Work that is expected to take the target time.
     budget: f64,
-    /// Work below which time is wasted.
+    /// Minimum work, below which overhead dominates.
     floor: f64,
     /// Work and seconds of the last submission.
     last: Option<(f64, f64)>,
-    /// Most samples that an invocation takes.
+    /// Maximum number of samples per invocation.
     max_samples: u32,
 }
 
 impl Planner {
-    /// For a picture whose points take this many shadow rays each.
+    /// A planner for a picture with this many shadow rays per point.
     pub fn new(slicing: Slicing, shadow_rays: u64) -> Self {
         let fraction = FEW_SHADOW_RAYS / (shadow_rays as f64).max(FEW_SHADOW_RAYS);
         let first = (FIRST_GROUPS * fraction).max(1.0);
@@ -128,13 +128,13 @@ impl Planner {
         }
     }
 
-    /// Whether it begins more carefully than another, which has learned from lighter work.
+    /// Whether it starts with smaller slices than another planner, which has learned from lighter work.
     pub fn is_for_more_work_than(&self, other: &Self) -> bool {
         self.first < other.first
     }
 
-    /// The next slice of a sweep over `group_count` groups that stands at `first_group`; all slices of
-    /// a sweep take the same samples.
+    /// The next slice of a sweep over `group_count` workgroups, starting at `first_group`; all slices of a
+    /// sweep have the same samples.
     pub fn next_slice(
         &self,
         group_count: u32,
@@ -154,14 +154,14 @@ impl Planner {
         }
     }
 
-    /// Samples per pixel of the next sweep: several only where a slice holds the whole tile, which
-    /// then saves submissions.
+    /// Samples per pixel of the next sweep. More than one only if a slice covers the whole film tile; that
+    /// saves submissions.
     pub fn sweep_samples(&self, group_count: u32, samples_left: u32) -> u32 {
         let fitting = (self.budget / f64::from(group_count)) as u32;
         fitting.clamp(1, self.max_samples).min(samples_left)
     }
 
-    /// Learns from a finished slice.
+    /// Updates the plan with the duration of a finished slice.
     pub fn learn(&mut self, slice: &Slice, seconds: f64) {
         let work = slice.work();
         self.floor = match self.last {
@@ -173,15 +173,15 @@ impl Planner {
                 } else {
                     (took, seconds)
                 };
-                let is_wasted =
+                let is_overhead =
                     more >= TWICE * less && long <= HARDLY_LONGER * short && long <= LONGEST_WAIT;
-                if is_wasted {
+                if is_overhead {
                     TWICE * more
                 } else {
                     self.floor.min(less)
                 }
             }
-            // Whether it still is wasted shows when there is less of it.
+            // Smaller slices will show whether overhead still dominates.
             _ => self.floor / TWICE,
         }
         .max(1.0);
@@ -191,12 +191,12 @@ impl Planner {
         self.budget = fitting.clamp(self.floor.min(most), most);
     }
 
-    /// Answers paths that the driver cut off: fewer samples in an invocation from now on.
+    /// Reacts to paths that the driver cut off: fewer samples per invocation from now on.
     pub fn shorten_paths(&mut self) {
         self.max_samples = (self.max_samples / 2).max(1);
     }
 
-    /// Answers a slice that the driver cut short: smaller ones from now on.
+    /// Reacts to a slice that the driver cut short: smaller slices from now on.
     pub fn shrink(&mut self) {
         self.budget = (self.budget / 2.0).max(1.0);
         self.floor = 1.0;

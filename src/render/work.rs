@@ -1,4 +1,4 @@
-//! Work for the GPU, slice by slice: planned, submitted, and taken up when it is done.
+//! Submits work to the GPU slice by slice and collects the results.
 
 use super::{
     Cursor, RenderError, Renderer, device::Readback, effort::LongPath, film_tile::FilmTile,
@@ -10,26 +10,26 @@ use crate::{
     layout::PackedCounters,
 };
 
-/// How it stands with the work that [`Renderer::submit`] handed to the GPU.
+/// The state of the work that [`Renderer::submit`] submitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The GPU is at it.
+    /// The GPU is busy.
     Working,
-    /// It is taken up, or there was none: the GPU can have more.
+    /// It is finished, or there was none: the renderer can submit more.
     Ready,
-    /// Every pixel has its samples.
+    /// Every pixel has all its samples.
     Done,
 }
 
-/// A slice that is under way, in parts if it must be.
+/// The current slice, possibly split into parts.
 pub struct Work {
     slice: Slice,
-    /// Those that are still to be submitted, the last one first.
+    /// Parts still to be submitted, the last one first.
     parts: Vec<Slice>,
     running: Option<Running>,
 }
 
-/// What the GPU is at.
+/// A submitted part.
 struct Running {
     part: Slice,
     back: Readback,
@@ -38,8 +38,8 @@ struct Running {
 }
 
 impl Renderer {
-    /// Adds samples for about [`super::Slicing::target_seconds`], and waits for them. Does nothing when the
-    /// render is done.
+    /// Adds samples for about [`super::Slicing::target_seconds`] and waits for them. Does nothing if the render
+    /// is done.
     ///
     /// # Errors
     /// The device failed or cannot render the scene.
@@ -54,8 +54,8 @@ impl Renderer {
         Ok(())
     }
 
-    /// Hands the GPU its next work, unless it has some or the render is done. Does not wait for it:
-    /// [`Self::poll`] takes up what comes of it.
+    /// Submits the next work unless the GPU is busy or the render is done. Does not wait: [`Self::poll`]
+    /// collects the results.
     ///
     /// # Errors
     /// The device failed.
@@ -74,8 +74,8 @@ impl Renderer {
         Ok(())
     }
 
-    /// Takes up what the GPU has finished, without waiting for it. A device that is lost is replaced first,
-    /// which takes a moment, where it is the renderer's own.
+    /// Collects finished work without waiting for the GPU. If the device is lost and belongs to the renderer,
+    /// it is replaced first, which takes a moment.
     ///
     /// # Errors
     /// The device failed or cannot render the scene.
@@ -145,7 +145,7 @@ impl Renderer {
         })
     }
 
-    /// Waits for what the GPU is at, if it is at something, and takes it up.
+    /// Waits for submitted work, if any, and collects its results.
     fn wait(&mut self) -> Result<(), RenderError> {
         let Some(running) = self.work.as_mut().and_then(|work| work.running.take()) else {
             return Ok(());
@@ -166,7 +166,7 @@ impl Renderer {
         }
     }
 
-    /// Answers an error of what the GPU was at: it is done again if a loss is all that it was.
+    /// Handles an error of submitted work: after a device loss the work is repeated.
     fn handle_error(&mut self, error: GpuError) -> Result<(), RenderError> {
         if let Some(running) = self.work.as_mut().and_then(|work| work.running.take()) {
             self.submit_again(running.part);
@@ -183,9 +183,9 @@ impl Renderer {
         }
     }
 
-    /// Takes up a part that was done: a driver may stop a dispatch, or end the loops of a path, without a
-    /// word. What it did then is thrown away, and smaller parts follow; where the host has no copy of what
-    /// was there before, the picture starts over, with copies.
+    /// Collects a finished part. A driver may silently stop a dispatch or end the loops of a path. The result
+    /// is then discarded, and the work is repeated in smaller parts; if the host has no copy of the sums before
+    /// it, the picture restarts with host copies.
     fn finish_part(
         &mut self,
         part: Slice,
@@ -230,20 +230,20 @@ impl Renderer {
         Ok(())
     }
 
-    /// The error of a sample that the driver's loops are too short for.
+    /// The error of a sample that exceeds the driver's loop limit.
     pub(super) fn path_too_long(&self) -> RenderError {
         RenderError::PathTooLong(LongPath::of(&self.scene, &self.view, &self.settings))
     }
 
-    /// Goes on behind a slice that was done.
+    /// Advances the cursor past a finished slice.
     fn advance(&mut self, slice: &Slice) {
         let tile = &mut self.tiles.list[self.cursor.tile];
         self.cursor.group = slice.end_group;
         if self.cursor.group < tile.group_count() {
             return;
         }
-        let taken = slice.end_sample - slice.first_sample;
-        self.stats.samples += u64::from(taken) * tile.sampled_pixels();
+        let sample_count = slice.end_sample - slice.first_sample;
+        self.stats.samples += u64::from(sample_count) * tile.sampled_pixels();
         self.cursor.group = 0;
         self.cursor.sample = slice.end_sample;
         if self.cursor.sample < tile.samples.end {
@@ -263,7 +263,7 @@ impl Renderer {
         }
     }
 
-    /// Brings the sums to the host that are only on the device, once the GPU is done with what it is at.
+    /// Reads back sums that are only on the device, after submitted work has finished.
     pub(super) fn fetch_film(&mut self) -> Result<(), RenderError> {
         self.wait()?;
         let index = self.cursor.tile;
@@ -275,7 +275,7 @@ impl Renderer {
     }
 }
 
-/// Whether the sums of the tile are closed, or complete, behind a slice.
+/// Whether a slice completes the current block, or the tile.
 fn ends_block(slice: &Slice, tile: &FilmTile) -> bool {
     let ends_samples =
         slice.end_sample == tile.samples.end || slice.end_sample.is_multiple_of(SAMPLE_BLOCK);

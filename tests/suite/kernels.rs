@@ -170,6 +170,6 @@ fn an_override_that_is_not_declared_is_refused() {
     let refused = Kernel::WHITTED.specialized(true, &[("HAS_LIGHTS", 1.0), ("HAS_LIGHT", 1.0)]);
     assert_eq!(
         refused.map(|_| ()),
-        Err("no override is called HAS_LIGHT".to_owned())
+        Err("there is no override HAS_LIGHT".to_owned())
     );
 }

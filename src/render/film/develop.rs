@@ -1,4 +1,4 @@
-//! From a film to a picture, without the scene that it is of.
+//! Develops a film to a picture, without its scene.
 
 use super::Film;
 use crate::{
@@ -17,15 +17,15 @@ use crate::{
 use bytemuck::bytes_of;
 use wgpu::BufferUsages;
 
-/// Bytes of a pixel of the picture, of its film, and of both on the way to the GPU and back.
+/// Bytes per pixel of the picture, its film, and their copies for upload and readback.
 const PIXEL_BYTES: u64 = 64;
 
 impl Film {
-    /// The picture of the rectangle round all its pixels, the same as that of the renderer which they are
-    /// from. Pixels without samples are black.
+    /// Develops the bounding rectangle of all pixels, with the same result as the renderer that made the film.
+    /// Pixels without samples are black.
     ///
     /// # Errors
-    /// The device failed, or the picture is larger than [`MEMORY_LIMIT_BYTES`] allow.
+    /// The device failed, or the picture exceeds [`MEMORY_LIMIT_BYTES`].
     pub fn develop(&self, gpu: &Gpu, tone: &Tone) -> Result<Image, RenderError> {
         let region = self.region();
         let [x, y, width, height] = region;
@@ -56,7 +56,7 @@ impl Film {
         let read = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
         let staging = gpu.allocate("staging", most as u64 * 16, read)?;
         let dispatch = gpu.allocate("dispatch", size_of::<PackedDispatch>() as u64, written)?;
-        // The layout has a frame, which is not looked at.
+        // The layout requires a frame, which is not used.
         let frame = (PackedFrame::default(), PackedLight::default());
         let frame = gpu.upload("frame", &[bytes_of(&frame.0), bytes_of(&frame.1)].concat())?;
         let shared = [frame.as_entire_binding(), dispatch.as_entire_binding()];
@@ -87,8 +87,7 @@ impl Film {
         Ok(image)
     }
 
-    /// The least and the greatest value in it, less [`Quantity::outliers`]; see
-    /// [`crate::render::Renderer::range`].
+    /// The minimum and maximum, without [`Quantity::outliers`]; see [`crate::render::Renderer::range`].
     pub fn range(&self) -> Option<[f32; 2]> {
         let quantity = self.header.integrator.quantity()?;
         let values = match quantity {
@@ -116,7 +115,7 @@ impl Film {
         }
     }
 
-    /// What is to be developed of a layer, for each pixel of [`Film::region`] row by row; zeros without samples.
+    /// The developable values of a layer, for each pixel of [`Film::region`] row by row; zeros without samples.
     fn layer(&self, kind: LayerKind) -> Vec<[f32; 4]> {
         let [left, top, full, height] = self.region();
         let full = full as usize;
@@ -131,7 +130,7 @@ impl Film {
         found
     }
 
-    /// The same of the pixels that have samples, rectangle by rectangle (x, y, width, height).
+    /// The developable values of a layer for the pixels with samples, by rectangle (x, y, width, height).
     fn patches(&self, kind: LayerKind) -> impl Iterator<Item = ([u32; 4], Vec<[f32; 4]>)> {
         let layers = self.header.layers;
         let layer = layers.iter().find(|layer| layer.kind == kind);
@@ -142,7 +141,7 @@ impl Film {
             let pixels = pixels.chunks_exact(self.rows());
             let rows = match first {
                 Some(first) => pixels.map(|pixel| pixel[first]).collect(),
-                // All pixels have as many samples where no layer counts them.
+                // All pixels have the same number of samples if no layer counts them.
                 None => pixels
                     .map(|_| [samples.len() as f32, 0.0, 0.0, 0.0])
                     .collect(),

@@ -1,7 +1,7 @@
-//! Films in files. All numbers are little-endian.
+//! The file format of films. All numbers are little-endian.
 //!
-//! A signature, the version, the header, the coverage band by band, the sums patch by patch, and XXH3 (128
-//! bits) of all that. Memory grows with what is read, not with what a number in the file announces.
+//! A signature, the version, the header, the coverage band by band, the sums patch by patch, and a 128-bit XXH3
+//! hash of everything before it. Memory grows with the data that is read, not with counts that the file claims.
 
 use super::{
     super::{
@@ -20,14 +20,14 @@ use xxhash_rust::xxh3::Xxh3;
 
 const SIGNATURE: [u8; 8] = *b"glimfilm";
 const VERSION: u32 = 1;
-/// Most bytes that are asked for at once.
+/// Maximum number of bytes read at once.
 const STEP: usize = 1 << 16;
 
 impl Film {
-    /// Writes the film, the same bytes for equal films.
+    /// Writes the film. Equal films give the same bytes.
     ///
     /// # Errors
-    /// What `out` says.
+    /// Those of `out`.
     pub fn write(&self, out: impl Write) -> io::Result<()> {
         let mut out = Writer {
             out,
@@ -91,10 +91,10 @@ impl Film {
         out.out.flush()
     }
 
-    /// Reads what [`Film::write`] wrote, up to the end of `input`.
+    /// Reads a film written by [`Film::write`], up to the end of `input`.
     ///
     /// # Errors
-    /// It is no film, of another version, cut short or damaged, or `input` cannot be read.
+    /// The input is not a film, has another version, is truncated or damaged, or cannot be read.
     pub fn read(input: impl Read) -> Result<Self, FilmError> {
         let mut input = Reader {
             input,
@@ -244,7 +244,7 @@ fn damaged(why: &'static str) -> FilmError {
     FilmError::Damaged { why }
 }
 
-/// What is too short for a signature is no film.
+/// A file too short for the signature is not a film.
 fn no_film(error: FilmError) -> FilmError {
     match error {
         FilmError::CutShort { .. } => FilmError::NotAFilm,
@@ -288,7 +288,7 @@ impl<W: Write> Writer<W> {
 struct Reader<R> {
     input: R,
     hash: Xxh3,
-    /// Read so far.
+    /// Bytes read so far.
     bytes: u64,
 }
 
@@ -309,7 +309,7 @@ impl<R: Read> Reader<R> {
         String::from_utf8(bytes).map_err(|_| damaged("it has a name that is no text"))
     }
 
-    /// As many words as are announced, with memory for those that are there.
+    /// Reads `count` words, allocating memory only for those present.
     fn words<T, const N: usize>(
         &mut self,
         count: u64,
