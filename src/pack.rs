@@ -126,7 +126,7 @@ pub struct Features {
 pub enum PackError {
     /// An index does not fit its bits.
     #[error(
-        "scene too big (after instancing): it has {count} {what}, the tree can address {limit}. Use fewer or simpler objects."
+        "scene too big (after instancing): it has {count} {what}, at most {limit} are possible. Use fewer or simpler objects."
     )]
     TooMany {
         /// The counted objects, in the plural.
@@ -158,7 +158,7 @@ pub enum PackError {
     },
     /// The TLAS and the BLASes together need a deeper traversal stack than shaders have.
     #[error(
-        "scene too deep (tree over instances): walking it takes a stack of {need} entries, at most {limit} are possible. Use fewer objects, or spread them more evenly."
+        "scene too deep (BVH over instances): traversal needs {need} stack entries, at most {limit} are available. Use fewer objects, or spread them more evenly."
     )]
     TooDeep {
         /// Entries needed.

@@ -49,8 +49,8 @@ impl PackedScene {
         self.shot(slice::from_ref(frame))
     }
 
-    /// Packs what [`crate::scene::Scene::shot`] of the scene that this was made from gives: at least
-    /// one frame, evenly spaced over the time in which the shutter is open.
+    /// Packs the frames of [`crate::scene::Scene::shot`] of the scene that this was packed from: at least one,
+    /// evenly spaced over the shutter interval.
     pub fn shot(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
         self.shot_from(None, frames)
     }

@@ -14,12 +14,12 @@ pub enum RenderError {
     Film(#[from] FilmError),
     /// The driver ended the loops of a shader early, even with one sample per invocation.
     #[error(
-        "too much work in one sample ({0}): this driver ends a shader's loops after 65,535 rounds, and the picture would be wrong."
+        "too much work in one sample ({0}): this driver ends the loops of a shader after 65,535 iterations, so the picture would be wrong."
     )]
     PathTooLong(LongPath),
     /// One sample would keep the GPU busy for longer than drivers allow.
     #[error(
-        "too many shadow rays ({lights} lights): every point takes {rays}, at most {limit} are possible before a driver may reset the GPU."
+        "too many shadow rays ({lights} lights): every point needs {rays}, at most {limit} are possible before a driver may reset the GPU."
     )]
     TooManyShadowRays {
         /// Number of lights of the scene.

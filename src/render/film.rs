@@ -39,7 +39,7 @@ pub struct FilmHeader {
     pub samples: u32,
     /// The layers of each pixel.
     pub layers: &'static [&'static Layer],
-    /// How the picture is developed unless told otherwise.
+    /// The default tone for developing the picture.
     pub tone: Tone,
     /// Names of the adapters that took part; different adapters may round differently.
     pub adapters: BTreeSet<String>,
@@ -146,7 +146,7 @@ impl Film {
         &self.header
     }
 
-    /// Says how the picture is developed unless told otherwise.
+    /// Sets the default tone for developing the picture.
     pub fn set_tone(&mut self, tone: Tone) {
         self.header.tone = tone;
     }

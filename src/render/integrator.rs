@@ -74,8 +74,8 @@ pub const TABLE: [IntegratorEntry; 7] = [
         is_lit: true,
         ..debug_view(
             Integrator::Whitted,
-            ("whitted", "Picture"),
-            "Phong shading, shadows, mirrors and glass",
+            ("whitted", "Full render"),
+            "Phong shading with shadows, reflection and refraction",
             VIEW_NORMALS,
         )
     },
@@ -114,8 +114,8 @@ pub const TABLE: [IntegratorEntry; 7] = [
         counts_steps: true,
         ..debug_view(
             Integrator::Heat,
-            ("heat", "Work in the tree"),
-            "steps of each ray through the tree, from black over blue to white",
+            ("heat", "BVH heatmap"),
+            "BVH traversal steps of each ray, from black through blue to white",
             VIEW_HEAT,
         )
     },
@@ -126,7 +126,7 @@ pub const TABLE: [IntegratorEntry; 7] = [
         ..debug_view(
             Integrator::Samples,
             ("samples", "Samples"),
-            "the samples that adaptive sampling spent, from black to white",
+            "sample counts of adaptive sampling, from black to white",
             VIEW_NORMALS,
         )
     },

@@ -47,11 +47,11 @@ pub enum FilmError {
     #[error("an adaptive picture has no film before it is finished. Let it finish.")]
     Unfinished,
     /// The file is not a film.
-    #[error("it is not a film. Choose a file that ends in .film.")]
+    #[error("the file is not a film. Choose a file that ends in .film.")]
     NotAFilm,
     /// An unknown version of the format.
     #[error(
-        "it is a film of version {found}, and this program reads version {known}. Render it again, or use the program that wrote it."
+        "the film has version {found}, but this program reads version {known}. Render it again, or use the program that wrote it."
     )]
     Version {
         /// Its version.
@@ -72,12 +72,12 @@ pub enum FilmError {
         why: &'static str,
     },
     /// Out of memory while reading.
-    #[error("the film is too big: there is no memory left after {bytes} bytes of it.")]
+    #[error("the film is too big: memory ran out after {bytes} bytes.")]
     TooBig {
         /// Bytes read so far.
         bytes: u64,
     },
     /// An input or output error.
-    #[error("it cannot be read: {0}. Check the file and its folder.")]
+    #[error("the film cannot be read: {0}. Check the file and its folder.")]
     Io(#[from] io::Error),
 }

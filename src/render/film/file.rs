@@ -128,12 +128,12 @@ impl Film {
         }
         let digest = input.hash.digest128();
         if u128::from_le_bytes(input.array()?) != digest {
-            return Err(damaged("its bytes are not those that were written"));
+            return Err(damaged("its checksum is wrong"));
         }
         match input.array::<1>() {
             Err(FilmError::CutShort { .. }) => {}
             Err(error) => return Err(error),
-            Ok(_) => return Err(damaged("something follows its end")),
+            Ok(_) => return Err(damaged("there is data after its end")),
         }
         Ok(Self {
             header,
@@ -152,21 +152,21 @@ fn header<R: Read>(input: &mut Reader<R>) -> Result<FilmHeader, FilmError> {
     let size = (input.number()?, input.number()?);
     let samples = input.number()?;
     if input.number()? != SAMPLE_BLOCK || samples == 0 {
-        return Err(damaged("its samples are not those of a picture"));
+        return Err(damaged("its number of samples is invalid"));
     }
     let name = input.text()?;
-    let integrator = Integrator::named(&name).ok_or(damaged("its integrator is not known"))?;
+    let integrator = Integrator::named(&name).ok_or(damaged("its integrator is unknown"))?;
     let mut names = Vec::new();
     for _ in 0..input.number()? {
         let name = input.text()?;
         input.push(&mut names, name)?;
     }
-    let layers = layers::named(&names).ok_or(damaged("its layers are not known"))?;
+    let layers = layers::named(&names).ok_or(damaged("its layers are unknown"))?;
     let mut numbers = [0; 6];
     for number in &mut numbers {
         *number = input.number()?;
     }
-    let tone = Tone::from_numbers(numbers).ok_or(damaged("its tone is not known"))?;
+    let tone = Tone::from_numbers(numbers).ok_or(damaged("its tone is unknown"))?;
     let mut adapters = BTreeSet::new();
     for _ in 0..input.number()? {
         let adapter = input.text()?;
@@ -197,7 +197,7 @@ fn coverage<R: Read>(input: &mut Reader<R>, header: &FilmHeader) -> Result<Cover
             let x = input.number()?..input.number()?;
             let samples = samples(input, header)?;
             if x.end > header.size.0 {
-                return Err(damaged("it has pixels outside of its picture"));
+                return Err(damaged("it has pixels outside of the picture"));
             }
             input.push(&mut runs, Run { x, samples })?;
         }
@@ -217,7 +217,7 @@ fn samples<R: Read>(input: &mut Reader<R>, header: &FilmHeader) -> Result<Sample
             && (end.is_multiple_of(SAMPLE_BLOCK) || end == header.samples);
         let is_whole = start == 0 && end == header.samples;
         if end > header.samples || !is_cut_well || header.is_adaptive() && !is_whole {
-            return Err(damaged("it has samples that its picture has not"));
+            return Err(damaged("it has samples that the picture does not have"));
         }
         if !samples.push(start..end) || samples.ranges().len() != index + 1 {
             return Err(damaged("its samples are not in order"));
@@ -306,7 +306,7 @@ impl<R: Read> Reader<R> {
     fn text(&mut self) -> Result<String, FilmError> {
         let length = self.number()?;
         let bytes = self.words(length.into(), |[byte]: [u8; 1]| byte)?;
-        String::from_utf8(bytes).map_err(|_| damaged("it has a name that is no text"))
+        String::from_utf8(bytes).map_err(|_| damaged("it has a name that is not valid text"))
     }
 
     /// Reads `count` words, allocating memory only for those present.
