@@ -8,7 +8,7 @@
 //! ```
 //!
 //! For a moving picture the river runs from [`scene::Scene::frame`] on once for each frame, or from
-//! [`scene::Scene::shot`] on where the shutter is open for a while: [`render::Renderer::set_frame`] takes
+//! [`scene::Scene::motion_samples`] on where the shutter is open for a while: [`render::Renderer::set_frame`] takes
 //! the next [`pack::PackedView`].
 //!
 //! ```
@@ -43,7 +43,7 @@
 //!   JPEG hold what exposure, tone curve and transfer made of it ([`render::Tone`]).
 //! * **Spaces**: a mesh is f32 in object space; instances, shapes, lights, cameras and the places of
 //!   textures are f64 in the space of the [`scene::Node`] that carries them, or in world space; shapes
-//!   other than spheres and planes are canonical in a space of their own ([`scene::Form`]). On the GPU
+//!   other than spheres and planes are canonical in a space of their own ([`scene::CanonicalShape`]). On the GPU
 //!   what instances place (what moves, and large meshes that stand in several places) is f32 in the
 //!   space of its own tree, and everything else f32 in render space, which is world space moved so that
 //!   the scene's render origin is at the origin ([`scene::Scene::render_origin`]).

@@ -38,17 +38,17 @@ pub const IMAGE_WIDTH_LOG2: u32 = 12;
 pub const SHAPE_SPHERE: u32 = 0;
 /// [`super::PackedShape::kind`]: an infinite plane.
 pub const SHAPE_PLANE: u32 = 1;
-/// [`super::PackedShape::kind`]: [`crate::scene::Form::Disc`].
+/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Disc`].
 pub const SHAPE_DISC: u32 = 2;
-/// [`super::PackedShape::kind`]: [`crate::scene::Form::Rectangle`].
+/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Rectangle`].
 pub const SHAPE_RECTANGLE: u32 = 3;
-/// [`super::PackedShape::kind`]: [`crate::scene::Form::Box`].
+/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Box`].
 pub const SHAPE_BOX: u32 = 4;
-/// [`super::PackedShape::kind`]: [`crate::scene::Form::Cone`].
+/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Cone`].
 pub const SHAPE_CONE: u32 = 5;
-/// [`super::PackedShape::kind`]: [`crate::scene::Form::Torus`].
+/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Torus`].
 pub const SHAPE_TORUS: u32 = 6;
-/// [`super::PackedShape::kind`]: [`crate::scene::Form::Ellipsoid`].
+/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Ellipsoid`].
 pub const SHAPE_ELLIPSOID: u32 = 7;
 /// [`super::PackedShape::kind`]: a sphere that is huge compared to its distance from the origin of
 /// render space.

@@ -46,13 +46,13 @@ pub struct PackedView {
 impl PackedScene {
     /// Packs a frame of the scene that this was packed from.
     pub fn frame(&self, frame: &Frame) -> Result<PackedView, PackError> {
-        self.shot(slice::from_ref(frame))
+        self.view(slice::from_ref(frame))
     }
 
     /// Packs the frames of [`crate::scene::Scene::shot`] of the scene that this was packed from: at least one,
     /// evenly spaced over the shutter interval.
-    pub fn shot(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
-        self.shot_from(None, frames)
+    pub fn view(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
+        self.view_from(None, frames)
     }
 
     /// Like [`Self::shot`], but reuses the TLAS of another view of this scene, or of the one it was packed
@@ -60,7 +60,7 @@ impl PackedScene {
     ///
     /// # Errors
     /// As [`Self::shot`].
-    pub fn shot_from(
+    pub fn view_from(
         &self,
         previous: Option<&PackedView>,
         frames: &[Frame],

@@ -59,10 +59,10 @@ impl Scene {
     }
 
     pub(super) fn nodes_at(&self, time: f64, opened: f64) -> Vec<NodeState> {
-        let rig = Rig::new(self);
+        let hierarchy = Hierarchy::new(self);
         let mut states = Vec::with_capacity(self.nodes.len());
         for index in 0..self.nodes.len() {
-            states.push(rig.state(index, &states, time, opened));
+            states.push(hierarchy.state(index, &states, time, opened));
         }
         states
     }
@@ -101,13 +101,13 @@ impl Scene {
 }
 
 /// Which curves drive which node, so that a few nodes can be evaluated without all others.
-pub(super) struct Rig<'a> {
+pub(super) struct Hierarchy<'a> {
     scene: &'a Scene,
     /// In the nodes' order.
     curves: Vec<(usize, NodeProperty, &'a Curve)>,
 }
 
-impl<'a> Rig<'a> {
+impl<'a> Hierarchy<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         let mut curves = Vec::new();
         for track in &scene.tracks {

@@ -16,7 +16,7 @@ pub struct Shape {
 /// The surface of a [`Shape`], in the space of its node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Geometry {
-    /// All points at one distance from a centre. u and v are those of [`Form::Ellipsoid`].
+    /// All points at one distance from a centre. u and v are those of [`CanonicalShape::Ellipsoid`].
     Sphere {
         /// The centre.
         center: DVec3,
@@ -33,16 +33,16 @@ pub enum Geometry {
     /// A surface of canonical size and place, brought into the world.
     Placed {
         /// Which one.
-        form: Form,
+        canonical: CanonicalShape,
         /// Invertible; may scale unevenly or mirror.
-        world_from_form: DAffine3,
+        world_from_canonical: DAffine3,
     },
 }
 
 /// A surface of canonical size and place. Its axis, where it has one, is y. u and v are in [0, 1]; the
 /// longitude goes from −z by −x, +z and +x.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Form {
+pub enum CanonicalShape {
     /// x² + z² ≤ 1 at y = 0, facing +y, less a hole. u grows along x, v along −z.
     Disc {
         /// Radius of the hole, in [0, 1).
@@ -80,32 +80,32 @@ impl Geometry {
             Self::Sphere { center, radius } => Some((center - radius, center + radius)),
             Self::Plane { .. } => None,
             Self::Placed {
-                form,
-                world_from_form,
-            } => Some(placed_bounds(form, world_from_form)),
+                canonical,
+                world_from_canonical,
+            } => Some(placed_bounds(canonical, world_from_canonical)),
         }
     }
 
     /// The same surface in the space that `space_from_node` leads to; a sphere becomes an ellipsoid.
     /// Planes stand still.
     pub fn placed(&self, space_from_node: DAffine3) -> Self {
-        let (form, world_from_form) = match *self {
+        let (canonical, world_from_canonical) = match *self {
             Self::Sphere { center, radius } => {
                 let place = DAffine3::from_translation(center);
                 (
-                    Form::Ellipsoid,
+                    CanonicalShape::Ellipsoid,
                     place * DAffine3::from_scale(DVec3::splat(radius)),
                 )
             }
             Self::Plane { .. } => return *self,
             Self::Placed {
-                form,
-                world_from_form,
-            } => (form, world_from_form),
+                canonical,
+                world_from_canonical,
+            } => (canonical, world_from_canonical),
         };
         Self::Placed {
-            form,
-            world_from_form: space_from_node * world_from_form,
+            canonical,
+            world_from_canonical: space_from_node * world_from_canonical,
         }
     }
 
@@ -124,8 +124,8 @@ impl Geometry {
     }
 }
 
-fn placed_bounds(form: Form, world_from_form: DAffine3) -> (DVec3, DVec3) {
-    let columns = world_from_form.matrix3;
+fn placed_bounds(canonical: CanonicalShape, world_from_canonical: DAffine3) -> (DVec3, DVec3) {
+    let columns = world_from_canonical.matrix3;
     let [x, y, z] = [columns.x_axis, columns.y_axis, columns.z_axis];
     let squared = |v: DVec3| v * v;
     let root = |v: DVec3| DVec3::new(v.x.sqrt(), v.y.sqrt(), v.z.sqrt());
@@ -133,14 +133,14 @@ fn placed_bounds(form: Form, world_from_form: DAffine3) -> (DVec3, DVec3) {
     let circle = root(squared(x) + squared(z));
     let sphere = root(squared(x) + squared(y) + squared(z));
     let around = |center: DVec3, reach: DVec3| (center - reach, center + reach);
-    let center = world_from_form.translation;
-    match form {
-        Form::Disc { .. } => around(center, circle),
-        Form::Rectangle => around(center, x.abs() + z.abs()),
-        Form::Box => around(center, x.abs() + y.abs() + z.abs()),
-        Form::Ellipsoid => around(center, sphere),
-        Form::Torus { minor } => around(center, circle + minor * sphere),
-        Form::Cone { bottom, top, .. } => {
+    let center = world_from_canonical.translation;
+    match canonical {
+        CanonicalShape::Disc { .. } => around(center, circle),
+        CanonicalShape::Rectangle => around(center, x.abs() + z.abs()),
+        CanonicalShape::Box => around(center, x.abs() + y.abs() + z.abs()),
+        CanonicalShape::Ellipsoid => around(center, sphere),
+        CanonicalShape::Torus { minor } => around(center, circle + minor * sphere),
+        CanonicalShape::Cone { bottom, top, .. } => {
             let (low, high) = around(center, bottom * circle);
             let (other_low, other_high) = around(center + y, top * circle);
             (low.min(other_low), high.max(other_high))

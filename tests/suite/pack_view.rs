@@ -10,7 +10,7 @@ use glimray::{
     layout::{INSTANCE, LEAF, MOVING, PackedInstance, PackedKey, PackedNode, STACK_SIZE},
     pack::{self, PackedScene, PackedView},
     scene::{
-        Beyond, Curve, Easing, Form, Geometry, Instance, Interpolation, Light, LightKind,
+        Beyond, CanonicalShape, Curve, Easing, Geometry, Instance, Interpolation, Light, LightKind,
         LightProperty, Mesh, Node, NodeProperty, Scene, Shape, Target, Track, Values,
     },
 };
@@ -217,8 +217,8 @@ fn flock(random: &mut Random) -> (Scene, Vec<Vec<DVec3>>) {
                 placement.transform_point3(dvec3(side(0), side(1), side(2)))
             });
             let geometry = Geometry::Placed {
-                form: Form::Box,
-                world_from_form: placement,
+                canonical: CanonicalShape::Box,
+                world_from_canonical: placement,
             };
             (geometry, corners.collect())
         };
@@ -242,8 +242,8 @@ fn boxes_bound_moving_objects_at_every_moment() {
         let packed = pack::scene(&scene).expect("packed");
         // From a tiny part of the animation to all of it.
         let (open, close) = [(0.3, 0.31), (0.2, 0.4), (0.0, 1.0)][round % 3];
-        let frames = scene.shot(open, close);
-        let view = packed.shot(&frames).expect("a shot");
+        let frames = scene.motion_samples(open, close);
+        let view = packed.view(&frames).expect("a view");
         let behind = behind(&packed, &view);
         assert_eq!(behind.instances.len(), points.len());
         assert!(view.has_moving_instances());
@@ -290,7 +290,9 @@ fn keys_give_the_transforms_of_the_scene_at_every_moment() {
     let packed = pack::scene(&scene).expect("packed");
     // Between keys of the scene: at a key with a sharp bend, the maximum number of frames may be too few.
     let (open, close) = (0.35, 0.48);
-    let view = packed.shot(&scene.shot(open, close)).expect("a shot");
+    let view = packed
+        .view(&scene.motion_samples(open, close))
+        .expect("a view");
     let behind = behind(&packed, &view);
     let mut verdict = Verdict::on("keys of a view");
     for _ in 0..200 {
@@ -304,8 +306,8 @@ fn keys_give_the_transforms_of_the_scene_at_every_moment() {
             };
             let world = frame.nodes[node.expect("a node")].world_from_node * placement;
             let space = behind.space_at(instance, fraction);
-            // The required precision of the frames: a thousandth of the distance for positions, and a rotation
-            // of 0.1 for the size of the object.
+            // The required precision of motion samples: a thousandth of the distance for positions, and a
+            // rotation of 0.1 for the size of the object.
             let worst = (points[object].iter())
                 .map(|p| {
                     let expected = world.transform_point3(*p) - packed.origin;
@@ -361,7 +363,9 @@ fn every_transform_survives_decomposition_into_a_key() {
         });
     }
     let packed = pack::scene(&scene).expect("packed");
-    let view = packed.shot(&scene.shot(0.0, 1.0)).expect("a shot");
+    let view = packed
+        .view(&scene.motion_samples(0.0, 1.0))
+        .expect("a view");
     let behind = behind(&packed, &view);
     let mut verdict = Verdict::on("keys");
     for (instance, matrix) in behind.instances.iter().zip(&transforms) {
@@ -402,7 +406,9 @@ fn keys_go_the_short_way_round() {
     let turn = vec![DVec3::ZERO, dvec3(0.0, 3.0 * std::f64::consts::TAU, 0.0)];
     scene.tracks.push(track(0, NodeProperty::Angles, turn));
     let packed = pack::scene(&scene).expect("packed");
-    let view = packed.shot(&scene.shot(0.0, 1.0)).expect("a shot");
+    let view = packed
+        .view(&scene.motion_samples(0.0, 1.0))
+        .expect("a view");
     let keys = behind(&packed, &view).keys;
     assert!(keys.len() > 180, "{} keys", keys.len());
     for pair in keys.windows(2) {
@@ -470,14 +476,17 @@ fn the_same_frames_are_packed_to_the_same_bytes() {
     };
     let ((scene, packed), (_, again)) = (pack(), pack());
     assert!(packed.parts() == again.parts());
-    let shot =
-        |packed: &PackedScene, open, close| packed.shot(&scene.shot(open, close)).expect("a shot");
-    let first = shot(&packed, 0.2, 0.4);
+    let view_of = |packed: &PackedScene, open, close| {
+        packed
+            .view(&scene.motion_samples(open, close))
+            .expect("a view")
+    };
+    let first = view_of(&packed, 0.2, 0.4);
     // Other views in between have no effect.
-    let other = shot(&packed, 0.5, 0.6);
+    let other = view_of(&packed, 0.5, 0.6);
     assert!(first.parts() != other.parts());
-    assert!(first.parts() == shot(&packed, 0.2, 0.4).parts());
-    assert!(first.parts() == shot(&again, 0.2, 0.4).parts());
+    assert!(first.parts() == view_of(&packed, 0.2, 0.4).parts());
+    assert!(first.parts() == view_of(&again, 0.2, 0.4).parts());
     let still = |packed: &PackedScene| packed.frame(&scene.frame(0.7)).expect("a frame");
     assert!(still(&packed).parts() == still(&again).parts());
 }

@@ -24,7 +24,7 @@
 //! which they too hold with equality.
 
 use super::Turntable;
-use crate::scene::{Form, Geometry, Scene};
+use crate::scene::{CanonicalShape, Geometry, Scene};
 use glam::{DAffine3, DVec3};
 
 /// What goes round the axis, which is y.
@@ -74,21 +74,21 @@ impl Swept {
 
     fn add(&mut self, geometry: Geometry) {
         let Geometry::Placed {
-            form,
-            world_from_form: place,
+            canonical,
+            world_from_canonical: place,
         } = geometry
         else {
             return;
         };
-        if let (Form::Ellipsoid, Some(radius)) = (form, even_scale(place)) {
+        if let (CanonicalShape::Ellipsoid, Some(radius)) = (canonical, even_scale(place)) {
             let center = place.translation;
             self.spheres
                 .push([center.x.hypot(center.z), center.y, radius]);
             return;
         }
         let at_home = Geometry::Placed {
-            form,
-            world_from_form: DAffine3::IDENTITY,
+            canonical,
+            world_from_canonical: DAffine3::IDENTITY,
         };
         if let Some((min, max)) = at_home.bounds() {
             self.points.extend((0..8).map(|i| {

@@ -5,7 +5,7 @@
 //! nothing of that in any two states; that is why turning is measured along the curves, from key
 //! to key, and why states are compared at the keys too.
 
-use super::frame::{Rig, rotation_from};
+use super::frame::{Hierarchy, rotation_from};
 use super::{
     Beyond, Camera, Curve, Easing, Frame, Interpolation, Light, LightKind, LightProperty,
     NodeProperty, NodeState, Scene, Target, Value,
@@ -44,7 +44,7 @@ impl Scene {
     ///
     /// A jump cannot be told by interpolation: it takes all frames, and is spread over the distance
     /// of two. What jumps at the very moment when the shutter closes has not done so yet.
-    pub fn shot(&self, open: f64, close: f64) -> Vec<Frame> {
+    pub fn motion_samples(&self, open: f64, close: f64) -> Vec<Frame> {
         let first = self.frame(open);
         let mut frames = vec![first];
         if close <= open {
@@ -82,7 +82,7 @@ struct Probe {
 /// What moves in a shot.
 struct Motion<'a> {
     scene: &'a Scene,
-    rig: Rig<'a>,
+    hierarchy: Hierarchy<'a>,
     open: f64,
     close: f64,
     /// The nodes that move, parents first.
@@ -103,7 +103,7 @@ impl<'a> Motion<'a> {
             let is_held = curve.beyond == Beyond::Hold && (close <= start || open >= end);
             !is_held && !curve.is_constant()
         };
-        let rig = Rig::new(scene);
+        let hierarchy = Hierarchy::new(scene);
         let mut moving = vec![false; scene.nodes.len()];
         let mut lights = Vec::new();
         let mut camera = false;
@@ -145,7 +145,7 @@ impl<'a> Motion<'a> {
         let jumps = (curves.iter()).any(|curve| curve.jumps_within(close - just, close + just));
         Self {
             scene,
-            rig,
+            hierarchy,
             open,
             close: if jumps { close - just } else { close },
             nodes: (0..moving.len()).filter(|&node| moving[node]).collect(),
@@ -197,7 +197,7 @@ impl<'a> Motion<'a> {
                 .parent
                 .map_or(0.0, |parent| turns[parent]);
             let mut own = 0.0_f64;
-            for (_, property, curve) in self.rig.curves_of(index) {
+            for (_, property, curve) in self.hierarchy.curves_of(index) {
                 if matches!(property, NodeProperty::Rotation | NodeProperty::Angles) {
                     own = own.max(curve.fastest_turn(self.open, self.close)?);
                 }
@@ -256,7 +256,7 @@ impl<'a> Motion<'a> {
     /// All that moves, at one time.
     fn probes(&mut self, time: f64) -> Vec<Probe> {
         for &index in &self.nodes {
-            self.states[index] = self.rig.state(index, &self.states, time, self.open);
+            self.states[index] = self.hierarchy.state(index, &self.states, time, self.open);
         }
         let camera = self.scene.camera_at(time, &self.states);
         let reach = camera.look_from.distance(camera.look_at);
