@@ -5,7 +5,7 @@ use super::{GpuError, guard};
 /// A graphics API that wgpu can drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Backend {
-    /// Vulkan, which Mesa's software renderer speaks too.
+    /// Vulkan, also supported by Mesa's software renderer.
     Vulkan,
     /// Metal, on Apple's systems.
     Metal,

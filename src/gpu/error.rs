@@ -47,7 +47,7 @@ pub enum GpuError {
         /// The number of failures.
         count: u32,
     },
-    /// The scene or picture needs more than a limit of the adapter.
+    /// The scene or picture exceeds a limit of the adapter.
     #[error("too big for this adapter ({name}): {need} needed, {limit} allowed.")]
     Limit {
         /// The limit, with its unit.

@@ -22,7 +22,7 @@ struct PipelineKey {
 /// Values for overrides of `bindings.wesl`, by their names.
 pub type Overrides = Vec<(&'static str, f64)>;
 
-/// A pipeline, and whether it had to be compiled.
+/// A pipeline, and whether it was compiled just now.
 pub(crate) struct Compiled {
     pub pipeline: wgpu::ComputePipeline,
     pub is_new: bool,

@@ -49,17 +49,17 @@ impl PackedScene {
         self.view(slice::from_ref(frame))
     }
 
-    /// Packs the frames of [`crate::scene::Scene::shot`] of the scene that this was packed from: at least one,
-    /// evenly spaced over the shutter interval.
+    /// Packs the result of [`crate::scene::Scene::motion_samples`] for the scene that this was packed from: at
+    /// least one frame, evenly spaced over the shutter interval.
     pub fn view(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
         self.view_from(None, frames)
     }
 
-    /// Like [`Self::shot`], but reuses the TLAS of another view of this scene, or of the one it was packed
+    /// Like [`Self::view`], but reuses the TLAS of another view of this scene, or of the one it was packed
     /// from, if only camera, lights, materials or background differ.
     ///
     /// # Errors
-    /// As [`Self::shot`].
+    /// As [`Self::view`].
     pub fn view_from(
         &self,
         previous: Option<&PackedView>,

@@ -78,7 +78,7 @@ pub struct Plan {
     pub instances: Vec<(usize, usize, TransformSource)>,
     /// Indices of moving shapes, and their nodes.
     pub shapes: Vec<(usize, usize)>,
-    /// Lights whose surfaces move.
+    /// Visible lights that move.
     pub lamps: Vec<usize>,
 }
 

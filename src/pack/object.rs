@@ -14,7 +14,7 @@ pub struct Origins {
     /// The object of each instance.
     instanced: Vec<ObjectRef>,
     shape_count: usize,
-    /// Lights whose surfaces follow the shapes.
+    /// Visible lights, whose ids follow those of the shapes.
     lamps: Vec<usize>,
     material_names: Vec<String>,
     instance_names: Vec<String>,

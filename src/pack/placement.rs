@@ -9,7 +9,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 pub struct Placement {
     pub translation: DVec3,
     pub rotation: DQuat,
-    /// Symmetric; negative definite where the transform mirrors.
+    /// Symmetric; negative definite if the transform mirrors.
     pub stretch: DMat3,
 }
 

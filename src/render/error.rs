@@ -1,9 +1,9 @@
-//! Why a picture cannot be rendered.
+//! Errors of the renderer.
 
 use super::{FilmError, effort::LongPath};
 use crate::gpu::GpuError;
 
-/// Why a picture cannot be rendered.
+/// An error of the renderer.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
     /// The device or its driver failed.

@@ -5,7 +5,7 @@ use crate::gpu::MEMORY_LIMIT_BYTES;
 /// How a picture is rendered. The policy does not affect the result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExecutionPolicy {
-    /// How work is cut into submissions.
+    /// How work is split into submissions.
     pub slicing: Slicing,
     /// Whether the film is read back after each submission, so that a lost device costs at most one submission.
     /// Otherwise it is read back on request, and a loss is an error.
@@ -42,7 +42,7 @@ pub enum Fetch {
     Buffer,
 }
 
-/// How work is cut into submissions.
+/// How work is split into submissions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slicing {
     /// Target time of a submission, in seconds.

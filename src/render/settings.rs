@@ -170,7 +170,7 @@ impl RenderSettings {
     }
 }
 
-/// How a ray is tested against a triangle.
+/// Ray–triangle intersection algorithm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TriangleTest {
     /// Intersects the plane, then tests whether the point is inside.

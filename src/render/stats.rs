@@ -59,7 +59,7 @@ pub struct Uploads {
 pub struct Rays {
     /// Camera rays, one for each sample.
     pub primary: u64,
-    /// Those that hit something.
+    /// Those with a hit.
     pub primary_hits: u64,
     /// Shadow rays.
     pub shadow: u64,
@@ -67,11 +67,11 @@ pub struct Rays {
     pub shadow_blocked: u64,
     /// Reflected rays.
     pub reflection: u64,
-    /// Those that hit something.
+    /// Those with a hit.
     pub reflection_hits: u64,
     /// Refracted rays.
     pub refraction: u64,
-    /// Those that hit something.
+    /// Those with a hit.
     pub refraction_hits: u64,
 }
 

@@ -50,7 +50,7 @@ pub struct SampleTree {
 /// A traced ray, in world space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TracedRay {
-    /// What it was sent for.
+    /// Its kind.
     pub kind: RayKind,
     /// Index in [`SampleTree::rays`] of the parent; `None` for the primary ray.
     pub parent: Option<usize>,
@@ -79,7 +79,7 @@ pub struct TracedRay {
     pub contribution: [f32; 3],
 }
 
-/// What a ray was sent for.
+/// The kind of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RayKind {
