@@ -1,5 +1,6 @@
 //! Links every kernel under `shaders/` to plain WGSL, once for each way of fetching geometry, so that the
-//! binary carries its shaders and a broken import stops the build. `explain` is the kernel `whitted` with the feature `record`.
+//! binary contains its shaders and a broken import fails the build. `explain` is the kernel `whitted` with the
+//! feature `record`.
 
 use std::{error::Error, path::Path, process::ExitCode};
 

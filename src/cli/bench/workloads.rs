@@ -31,7 +31,7 @@ impl Workload {
             scene,
             size,
             shot: (0.0, 0.0),
-            most_baked: pack::MOST_BAKED,
+            most_baked: pack::MAX_BAKED,
         }
     }
 }

@@ -97,7 +97,7 @@ pub fn policy(gpu: &Gpu, policy: ExecutionPolicy) -> ExecutionPolicy {
     ExecutionPolicy {
         slicing: Slicing {
             target_seconds: slice.as_secs_f64(),
-            window_side: MAX_SIDE,
+            tile_side: MAX_SIDE,
             ..policy.slicing
         },
         host_copy: false,

@@ -1,8 +1,8 @@
-//! A part of the picture that is on the GPU at a time.
+//! A film tile: the part of the picture that is on the GPU at a time.
 //!
-//! The GPU adds samples one after the other to f32 sums; after each slice they are copied here, so
-//! a lost device costs one slice. Every [`super::SAMPLE_BLOCK`] samples the sums are added to exact totals and
-//! start again from zero.
+//! The GPU adds samples one after the other to f32 sums. After each slice the sums are copied here, so a lost
+//! device costs at most one slice. After every [`super::SAMPLE_BLOCK`] samples the sums are added to exact
+//! totals and restart from zero.
 
 use super::{
     layers::{self, Layer, SQUARES},
@@ -10,32 +10,32 @@ use super::{
 };
 use std::ops::Range;
 
-/// Pixels of a tile; one workgroup each.
-pub const TILE_PIXELS: usize = 64;
-const TILE_SIDE: u32 = 8;
+/// Pixels of a workgroup.
+pub const GROUP_PIXELS: usize = 64;
+const GROUP_SIDE: u32 = 8;
 
-/// A rectangle of the picture that is on the GPU at a time. Its pixels are in film order: tile by
-/// tile in the shader's order, 64 lanes each, edges padded.
+/// A rectangle or a list of pixels of the picture that is on the GPU at a time. Its pixels are in film order:
+/// workgroup by workgroup in dispatch order, 64 lanes each, with padding at the edges.
 #[derive(Clone, Debug)]
-pub struct Window {
+pub struct FilmTile {
     pub x: u32,
     pub y: u32,
     pub width: u32,
     pub height: u32,
-    /// The samples that its pixels are to get.
+    /// The samples to render.
     pub samples: Range<u32>,
     /// The pixels of a list, in film order; empty for a rectangle.
     places: Vec<[u32; 2]>,
-    /// Rows of the film for each pixel, and in a list which of them holds its place.
+    /// Film rows per pixel, and the row that holds the pixel position in a list.
     rows_per_pixel: usize,
     place_row: usize,
-    /// Rows of the film in the current block, layer by layer for each pixel; empty before it has begun.
+    /// Film rows of the current block, layer by layer for each pixel; empty before the block starts.
     pub sums: Vec<[f32; 4]>,
-    /// The same of all finished blocks.
+    /// The sums of all finished blocks.
     pub closed: Option<Sums>,
 }
 
-impl Window {
+impl FilmTile {
     /// A rectangle of the picture.
     pub fn new(
         [x, y, width, height]: [u32; 4],
@@ -56,22 +56,22 @@ impl Window {
         }
     }
 
-    /// A list of pixels of the picture, at least one.
+    /// A list of pixels of the picture, not empty.
     pub fn list(places: Vec<[u32; 2]>, samples: Range<u32>, layers: &[&Layer]) -> Self {
-        let side = TILE_SIDE;
-        let mut window = Self::new([0, 0, side, side], samples, layers::rows(layers));
-        window.place_row = layers::row_of(layers, &SQUARES).unwrap_or_default();
-        window.places = places;
-        window
+        let side = GROUP_SIDE;
+        let mut tile = Self::new([0, 0, side, side], samples, layers::rows(layers));
+        tile.place_row = layers::row_of(layers, &SQUARES).unwrap_or_default();
+        tile.places = places;
+        tile
     }
 
-    /// The same rectangle without anything in it.
+    /// The same rectangle without sums.
     pub fn blank(&self) -> Self {
         let region = [self.x, self.y, self.width, self.height];
         Self::new(region, self.samples.clone(), self.rows_per_pixel)
     }
 
-    /// Its pixels without padding.
+    /// Number of pixels without padding.
     pub fn sampled_pixels(&self) -> u64 {
         if self.places.is_empty() {
             u64::from(self.width) * u64::from(self.height)
@@ -85,30 +85,30 @@ impl Window {
         &self.places
     }
 
-    /// Rows of the film for each pixel.
+    /// Film rows per pixel.
     pub fn rows_per_pixel(&self) -> usize {
         self.rows_per_pixel
     }
 
-    pub fn tile_columns(&self) -> u32 {
-        self.width.div_ceil(TILE_SIDE)
+    pub fn group_columns(&self) -> u32 {
+        self.width.div_ceil(GROUP_SIDE)
     }
 
-    pub fn tile_count(&self) -> u32 {
+    pub fn group_count(&self) -> u32 {
         if self.places.is_empty() {
-            self.tile_columns() * self.height.div_ceil(TILE_SIDE)
+            self.group_columns() * self.height.div_ceil(GROUP_SIDE)
         } else {
-            self.places.len().div_ceil(TILE_PIXELS) as u32
+            self.places.len().div_ceil(GROUP_PIXELS) as u32
         }
     }
 
-    /// A stride coprime to the tile count that steps to the next tile down and right: neighbours
-    /// share what is in the caches, and any run of tiles longer than the window is high samples all
-    /// of its height.
-    pub fn tile_stride(&self) -> u32 {
-        let count = self.tile_count();
+    /// A stride, coprime to the number of workgroups, that steps to the next one down and right. Neighbouring
+    /// workgroups then share cached data, and any long enough range of workgroups covers the full height of the
+    /// tile.
+    pub fn group_stride(&self) -> u32 {
+        let count = self.group_count();
         let columns = match self.places.len() {
-            0 => self.tile_columns(),
+            0 => self.group_columns(),
             _ => count.isqrt(),
         };
         (columns + 1..count)
@@ -118,16 +118,16 @@ impl Window {
 
     /// Number of pixels in film order, padding included.
     pub fn pixel_count(&self) -> usize {
-        self.tile_count() as usize * TILE_PIXELS
+        self.group_count() as usize * GROUP_PIXELS
     }
 
-    /// Rows of its film.
+    /// Number of film rows.
     pub fn row_count(&self) -> usize {
         self.pixel_count() * self.rows_per_pixel()
     }
 
-    /// Makes room for the sums, all zero.
-    pub fn begin(&mut self) {
+    /// Sets all sums to zero.
+    pub fn reset_sums(&mut self) {
         self.sums.clear();
         self.sums.resize(self.row_count(), [0.0; 4]);
         let pixels = self.sums.chunks_exact_mut(self.rows_per_pixel);
@@ -136,55 +136,57 @@ impl Window {
         }
     }
 
-    /// The pixel at a place in the film of a rectangle: its x and y in the picture, or `None` for
-    /// padding. The same order as in the shader (scene/slice.wesl).
+    /// The position in the picture of a film index of a rectangle; `None` for padding. The order is that of the
+    /// shader (scene/dispatch.wesl).
     pub fn pixel_at(&self, film_index: usize) -> Option<[u32; 2]> {
-        let (index, lane) = (film_index / TILE_PIXELS, (film_index % TILE_PIXELS) as u32);
-        let tile =
-            (index as u64 * u64::from(self.tile_stride()) % u64::from(self.tile_count())) as u32;
+        let (index, lane) = (
+            film_index / GROUP_PIXELS,
+            (film_index % GROUP_PIXELS) as u32,
+        );
+        let group =
+            (index as u64 * u64::from(self.group_stride()) % u64::from(self.group_count())) as u32;
         let bit = |shift: u32, to: u32| ((lane >> shift) & 1) << to;
-        let x = tile % self.tile_columns() * TILE_SIDE + (bit(0, 0) | bit(2, 1) | bit(4, 2));
-        let y = tile / self.tile_columns() * TILE_SIDE + (bit(1, 0) | bit(3, 1) | bit(5, 2));
+        let x = group % self.group_columns() * GROUP_SIDE + (bit(0, 0) | bit(2, 1) | bit(4, 2));
+        let y = group / self.group_columns() * GROUP_SIDE + (bit(1, 0) | bit(3, 1) | bit(5, 2));
         (x < self.width && y < self.height).then_some([self.x + x, self.y + y])
     }
 
-    /// Closes a block: its sums become part of the totals.
+    /// Finishes a block: adds its sums to the totals.
     pub fn close_block(&mut self) {
         self.closed = Some(Sums::with_block(self.closed.take(), &self.sums));
         self.sums.clear();
     }
 
     /// The sums of all samples, `None` before the first.
-    pub fn all(&self) -> Option<Sums> {
+    pub fn all_sums(&self) -> Option<Sums> {
         match self.sums.is_empty() {
             true => self.closed.clone(),
             false => Some(Sums::with_block(self.closed.clone(), &self.sums)),
         }
     }
 
-    /// The rows of all blocks together; those of a list hold its places as often as there were
-    /// blocks, and are of no use there.
+    /// The film rows of all blocks together. For a list, the rows with positions are summed as well and
+    /// therefore meaningless.
     pub fn totals(&self) -> Vec<[f64; 4]> {
-        self.all().map_or_else(Vec::new, |sums| sums.rounded())
+        self.all_sums().map_or_else(Vec::new, |sums| sums.rounded())
     }
 
-    /// What `develop` reads: sums and weights where one block holds them all, else means and ones.
+    /// The rows for `develop`: sums and weights of a single block, otherwise means with a weight of 1.
     pub fn developable(&self) -> Vec<[f32; 4]> {
-        match self.all() {
+        match self.all_sums() {
             None => vec![[0.0; 4]; self.row_count()],
             Some(sums) => sums.developable(),
         }
     }
 }
 
-/// A region (x, y, width, height) of the picture cut into rectangles of at most this longest side, which are
-/// to get these samples.
+/// Splits a region (x, y, width, height) of the picture into rectangles of at most `side` pixels a side.
 pub fn rectangles(
     [x, y, width, height]: [u32; 4],
     side: u32,
     samples: Range<u32>,
     rows_per_pixel: usize,
-) -> Vec<Window> {
+) -> Vec<FilmTile> {
     let cuts = |start: u32, length: u32| {
         (0..length.div_ceil(side)).map(move |i| {
             let offset = i * side;
@@ -193,8 +195,8 @@ pub fn rectangles(
     };
     let row = |(wy, wh)| {
         let samples = samples.clone();
-        let window = move |(wx, ww)| Window::new([wx, wy, ww, wh], samples.clone(), rows_per_pixel);
-        cuts(x, width).map(window)
+        let tile = move |(wx, ww)| FilmTile::new([wx, wy, ww, wh], samples.clone(), rows_per_pixel);
+        cuts(x, width).map(tile)
     };
     cuts(y, height).flat_map(row).collect()
 }
