@@ -22,6 +22,7 @@ mod inspect;
 mod interrupt;
 mod job;
 pub mod legend;
+mod man;
 mod memory;
 mod merge;
 pub mod mesa;
@@ -96,6 +97,7 @@ fn dispatch(command: Command, started: Instant) -> Result<(), AppError> {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
+        Command::Man(arguments) => man::run(&arguments),
         Command::Schema => schema::run(),
     }
 }
