@@ -15,7 +15,7 @@ export NODEVICE_SELECT := 1
 # `make test` builds, or installs with apt-get, and FFmpeg where it is installed; it would double what is downloaded.
 comma := ,
 ifneq ($(shell command -v apt-get),)
-GLIMRAY_REQUIRE ?= examples,gl,xvfb$(if $(shell command -v ffmpeg >/dev/null && command -v ffprobe),$(comma)ffmpeg)
+GLIMRAY_REQUIRE ?= examples,gl,xvfb$(if $(wildcard .git),$(comma)git)$(if $(shell command -v ffmpeg >/dev/null && command -v ffprobe),$(comma)ffmpeg)
 export GLIMRAY_REQUIRE
 endif
 
@@ -29,7 +29,7 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench gallery man hand-in build linker compiler display driver opengl lint features headless wasm
+.PHONY: help demo test bench gallery man size hand-in build linker compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png (about 4 minutes the first time)'
@@ -69,6 +69,12 @@ gallery: build driver display
 man: build
 	mkdir -p $(TARGET)/man
 	$(GLIMRAY) man $(TARGET)/man
+
+# In bytes, of the program that users install.
+MOST_BYTES := 30000000
+size: build
+	@bytes=$$(wc -c < $(GLIMRAY)); echo "$(GLIMRAY): $$bytes bytes, $(MOST_BYTES) allowed"; \
+		[ "$$bytes" -le $(MOST_BYTES) ]
 
 # All files of the working tree that Git does not ignore; the frames and the video again, on top.
 HAND_IN_FOLDER ?= .
