@@ -29,13 +29,14 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench gallery man size hand-in build linker compiler display driver opengl lint features headless wasm
+.PHONY: help demo test bench gallery man size hand-in build shaders linker compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png (about 4 minutes the first time)'
 	@echo 'make test      format, lints, documentation, all tests (about 20 minutes the first time)'
 	@echo 'make bench     measure speed on built-in scenes'
 	@echo 'make gallery   render the pictures of README.md again'
+	@echo 'make shaders   link the kernels again after a change in a shader; the others do so by themselves'
 	@echo 'make man       write the manual pages to $(TARGET)/man'
 	@echo 'make hand-in NAME=YourName'
 	@echo '               pack the exercise: code, readme, JPEG frames and video, in Exercise4-YourName.zip'
@@ -43,7 +44,7 @@ help:
 	@echo 'and the software driver of Mesa (Debian and Ubuntu, with apt-get).'
 
 # The renderer and its commands, without the window, videos and FLIP: a third of all crates, and no C++.
-demo: linker
+demo: linker shaders
 	@[ -e $(GLIMRAY) ] || echo 'Building glimray. On 2 cores this takes about 4 minutes, only the first time.'
 	$(CARGO) build $(FLAGS) --no-default-features --features cli
 	@$(MAKE) --no-print-directory driver GLIMRAY=$(GLIMRAY)
@@ -91,8 +92,15 @@ hand-in:
 		--prefix="Exercise4-$$NAME/" --add-file=assets/gallery/carousel.mp4 "$$files" && \
 	echo "$(HAND_IN_FOLDER)/Exercise4-$$NAME.zip"
 
-build: compiler
+build: compiler shaders
 	$(CARGO) build --release --locked
+
+# Links the kernels again where a shader has changed since. Sums are compared, not times: a fresh
+# checkout has none to go by.
+shaders: linker
+	@cd shaders && find * -name '*.wesl' | LC_ALL=C sort | xargs cksum | cmp -s - linked/sources.txt || { \
+		cd .. && echo 'A shader has changed: linking the kernels again.' && \
+		$(CARGO) check $(FLAGS) --lib --no-default-features --features link; }
 
 # Rust links with it.
 linker:
@@ -121,7 +129,7 @@ display:
 	@if [ "$$(uname -s)" = Linux ] && command -v apt-get >/dev/null && \
 		! { command -v Xvfb && command -v xdotool; } >/dev/null; then $(install) xvfb xdotool; fi
 
-lint: compiler
+lint: compiler shaders
 	@$(CARGO) fmt --version >/dev/null && $(CARGO) clippy --version >/dev/null || \
 		rustup component add rustfmt clippy
 	$(CARGO) fmt --check

@@ -99,7 +99,7 @@
 //!
 //! The shaders are in `shaders/`: `types.wesl` (shared structs), `bindings.wesl` (all bindings and
 //! overrides), `lib/` (pure functions), `scene/` (what reads bindings), `kernels/` (entry points).
-//! `build.rs` links them to plain WGSL, which the binary carries.
+//! The binary carries them linked to plain WGSL (`shaders/linked`), which `make shaders` keeps up to date.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
