@@ -16,6 +16,7 @@ mod explain;
 mod inspect;
 mod interrupt;
 mod job;
+mod man;
 mod memory;
 mod merge;
 pub mod mesa;
@@ -97,6 +98,7 @@ fn dispatch(command: Command, started: Instant, window: Option<&Window>) -> Resu
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments, window),
         Command::Completions(arguments) => completions::run(&arguments),
+        Command::Man(arguments) => man::run(&arguments),
         Command::Schema => schema::run(),
     }
 }

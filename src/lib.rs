@@ -102,7 +102,7 @@
 //!
 //! The shaders are in `shaders/`: `types.wesl` (shared structs), `bindings.wesl` (all bindings and
 //! overrides), `lib/` (pure functions), `scene/` (functions that read bindings), `kernels/` (entry
-//! points). `build.rs` links them to plain WGSL, which is embedded in the binary.
+//! points). The binary embeds them linked to plain WGSL (`shaders/linked`), which `make shaders` updates.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]

@@ -100,6 +100,15 @@ fn line(label: &str, color: &str, text: &str) {
     let _ = writeln!(stderr().lock(), "{text}");
 }
 
+/// The escape sequences that begin and end red text on the standard error, which is a terminal; empty
+/// where colour is unwanted.
+pub fn red() -> (&'static str, &'static str) {
+    match shows_color() {
+        true => (RED, PLAIN),
+        false => ("", ""),
+    }
+}
+
 /// Whether the person wants colour, and the terminal is known to have it.
 fn shows_color() -> bool {
     let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());

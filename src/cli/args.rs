@@ -127,6 +127,9 @@ pub enum Command {
         after_help = "Example: glimray completions bash > ~/.local/share/bash-completion/completions/glimray"
     )]
     Completions(CompletionsArgs),
+    /// Write manual pages: glimray.1, and a page for each command.
+    #[command(after_help = "Example: glimray man ~/.local/share/man/man1")]
+    Man(ManArgs),
     /// Print the JSON Schema of the native scene format (.toml), for editors.
     #[command(after_help = "Example: glimray schema > glimray.schema.json")]
     Schema,
@@ -345,4 +348,11 @@ pub struct BenchArgs {
 pub struct CompletionsArgs {
     /// The shell
     pub shell: Shell,
+}
+
+#[derive(Debug, Args)]
+pub struct ManArgs {
+    /// An existing folder for the pages; pages of the same name are replaced
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
 }

@@ -81,7 +81,10 @@ fn to_text(arguments: &CompareArgs, a: &Picture, figures: &Figures) -> String {
     let [width, height] = a.size();
     let [x, y] = figures.max_at;
     let flip = figures.flip.map_or_else(
-        || "not computed: too many pixels".into(),
+        || match cfg!(feature = "flip") {
+            true => "not computed: too many pixels".to_owned(),
+            false => "not computed: built without the feature `flip`".to_owned(),
+        },
         |flip| format!("{flip:.6}"),
     );
     let (rmse, levels) = (figures.rmse, figures.rmse * 255.0);

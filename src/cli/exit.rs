@@ -14,7 +14,7 @@ pub fn failure(error: &AppError) -> ExitCode {
     if let AppError::Import(error) = error
         && !console::speaks_json()
         && io::stderr().is_terminal()
-        && let Some(snippet) = snippet::of(error.fault())
+        && let Some(snippet) = snippet::of(error.fault(), console::red())
     {
         console::block(&snippet, |c| c == '\u{1b}');
     }

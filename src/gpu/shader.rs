@@ -28,7 +28,7 @@ pub(crate) struct Compiled {
     pub is_new: bool,
 }
 
-/// A compute kernel: WGSL linked by `build.rs`, and its entry point.
+/// A compute kernel: linked WGSL from `shaders/linked`, and its entry point.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
     /// The name of the kernel, its entry point and its file in `shaders/kernels/`; `explain` is `whitted` with
@@ -43,8 +43,8 @@ macro_rules! kernels {
         $($(#[$doc])* pub const $constant: Kernel = Kernel {
             name: $name,
             sources: [
-                ("image", include_str!(concat!(env!("OUT_DIR"), "/", $name, "_image.wgsl"))),
-                ("buffer", include_str!(concat!(env!("OUT_DIR"), "/", $name, "_buffer.wgsl"))),
+                ("image", include_str!(concat!("../../shaders/linked/", $name, "_image.wgsl"))),
+                ("buffer", include_str!(concat!("../../shaders/linked/", $name, "_buffer.wgsl"))),
             ],
         };)*
         /// All kernels.

@@ -21,7 +21,7 @@ const HEIGHT: u32 = 48;
 /// Tolerance for a tenth of a percent of the pixels.
 const LEVELS: f32 = 3.0;
 const MOST_BYTES: u64 = 16 << 10;
-const UPDATE: &str = "UPDATE_GOLDEN=1 cargo test --release --test suite golden";
+const UPDATE: &str = "UPDATE_GOLDEN=1 cargo test --profile ci --test suite golden";
 
 struct Golden {
     name: &'static str,

@@ -8,6 +8,27 @@ use naga::{
 };
 use std::fs;
 
+#[path = "../../shaders/link.rs"]
+mod link;
+
+/// A build from stale sources stops by itself; this finds files that were edited by hand.
+#[test]
+fn linked_kernels_are_what_the_sources_link_to() {
+    let mut verdict = Verdict::on("shaders/linked");
+    let linked = link::kernels().expect("the sources link");
+    for (name, text) in &linked {
+        let kept = fs::read_to_string(format!("shaders/linked/{name}")).unwrap_or_default();
+        verdict.that(name, kept == *text, || "differs: run `make shaders`");
+    }
+    for entry in fs::read_dir("shaders/linked").expect("a folder") {
+        let name = entry.expect("an entry").file_name();
+        let name = name.to_string_lossy();
+        let is_known = name == "sources.txt" || linked.iter().any(|(known, _)| *known == name);
+        verdict.that(&name, is_known, || "is no kernel");
+    }
+    verdict.close();
+}
+
 /// All variants of every kernel: (name, WGSL).
 fn sources() -> impl Iterator<Item = (String, &'static str)> {
     Kernel::ALL.iter().flat_map(|kernel| {

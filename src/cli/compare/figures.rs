@@ -6,13 +6,14 @@
 use crate::cli::compare::read::Picture;
 
 /// Above this many pixels FLIP would take gigabytes.
+#[cfg(feature = "flip")]
 const MAX_FLIP_PIXELS: usize = 1 << 24;
 
 /// How far two pictures are apart. One level is 1/255.
 pub struct Figures {
     /// Root of the mean square difference.
     pub rmse: f64,
-    /// The mean, 0 (equal) to 1; absent for very large pictures.
+    /// The mean, 0 (equal) to 1; absent for very large pictures, and without the feature `flip`.
     pub flip: Option<f32>,
     /// The largest difference in any channel.
     pub max_levels: f64,
@@ -49,7 +50,7 @@ impl Figures {
         let width = a.image.width.max(1) as usize;
         Self {
             rmse: (square_sum / (pixel_count * channel_count) as f64).sqrt(),
-            flip: (pixel_count <= MAX_FLIP_PIXELS).then(|| flip(a, b)),
+            flip: flip(a, b),
             max_levels: largest.0,
             max_at: [(largest.1 % width) as u32, (largest.1 / width) as u32],
             beyond_percent: 100.0 * beyond_count as f64 / pixel_count as f64,
@@ -77,16 +78,26 @@ fn levels(a: f32, b: f32, exact: bool) -> f64 {
     }
 }
 
-fn flip(a: &Picture, b: &Picture) -> f32 {
+#[cfg(not(feature = "flip"))]
+fn flip(_: &Picture, _: &Picture) -> Option<f32> {
+    None
+}
+
+#[cfg(feature = "flip")]
+fn flip(a: &Picture, b: &Picture) -> Option<f32> {
+    if a.image.pixels.len() > MAX_FLIP_PIXELS {
+        return None;
+    }
     let image = |picture: &Picture| {
         let [width, height] = picture.size();
         nv_flip::FlipImageRgb8::with_data(width, height, &display_levels(picture))
     };
     let error = nv_flip::flip(image(a), image(b), nv_flip::DEFAULT_PIXELS_PER_DEGREE);
-    nv_flip::FlipPool::from_image(&error).mean()
+    Some(nv_flip::FlipPool::from_image(&error).mean())
 }
 
 /// What a screen would show: 8-bit sRGB.
+#[cfg(feature = "flip")]
 fn display_levels(picture: &Picture) -> Vec<u8> {
     let pixels = picture.image.pixels.iter();
     let channels = pixels.flat_map(|&[r, g, b, _]| [r, g, b]);
@@ -98,6 +109,7 @@ fn display_levels(picture: &Picture) -> Vec<u8> {
 }
 
 /// IEC 61966-2-1.
+#[cfg(feature = "flip")]
 fn srgb(linear: f32) -> f32 {
     if linear <= 0.003_130_8 {
         linear * 12.92

@@ -11,6 +11,8 @@ pub enum Need {
     Examples,
     /// The programs of FFmpeg, `ffmpeg` and `ffprobe`.
     Ffmpeg,
+    /// A Git checkout of the project.
+    Git,
     /// An adapter of the OpenGL backend of wgpu.
     Gl,
     /// A driver that limits the loop iterations of a shader, as lavapipe does.
@@ -30,9 +32,10 @@ pub enum Need {
 }
 
 impl Need {
-    const ALL: [Self; 10] = [
+    const ALL: [Self; 11] = [
         Self::Examples,
         Self::Ffmpeg,
+        Self::Git,
         Self::Gl,
         Self::LoopLimit,
         Self::Models,
@@ -47,6 +50,7 @@ impl Need {
         match self {
             Self::Examples => "examples",
             Self::Ffmpeg => "ffmpeg",
+            Self::Git => "git",
             Self::Gl => "gl",
             Self::LoopLimit => "loop-limit",
             Self::Models => "models",
