@@ -3,9 +3,7 @@
 //!
 //! With `--progress json` every line on standard error is a JSON object.
 
-use super::cli::LogFlags;
 use super::error::AppError;
-use clap::builder::StyledStr;
 use serde_json::{Value, json};
 use std::fmt::Display;
 use std::io::{ErrorKind, IsTerminal, Write, stderr};
@@ -27,11 +25,9 @@ pub struct Console {
 }
 
 impl Console {
-    pub fn new(flags: &LogFlags) -> Self {
-        Self {
-            quiet: flags.quiet,
-            verbose: flags.verbose,
-        }
+    /// `quiet` leaves out status lines, `verbose` adds details.
+    pub fn new(quiet: bool, verbose: bool) -> Self {
+        Self { quiet, verbose }
     }
 
     /// Prints a line unless `--quiet` is set.
@@ -102,17 +98,21 @@ fn line(label: &str, color: &str, text: &str) {
     let _ = writeln!(stderr().lock(), "{}", fit(&text));
 }
 
-/// Prints clap's message about a bad command line. On a terminal it is coloured, and wrapped between words.
-pub fn usage(message: &StyledStr) {
-    let text = match shows_color() {
-        true => message.ansi().to_string(),
-        false => message.to_string(),
-    };
+/// Prints lines to standard error, wrapped between words on a terminal. They may contain styles.
+pub fn wrapped(text: &str) {
     let _ = writeln!(stderr().lock(), "{}", fit(text.trim_end()));
 }
 
+/// The escape sequences that begin and end red text on standard error; empty without colour.
+pub fn red() -> (&'static str, &'static str) {
+    match shows_color() {
+        true => (RED, PLAIN),
+        false => ("", ""),
+    }
+}
+
 /// Whether standard error is a terminal with colour, and `NO_COLOR` does not forbid it.
-fn shows_color() -> bool {
+pub fn shows_color() -> bool {
     let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let is_dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
     stderr().is_terminal() && !is_set("NO_COLOR") && !is_dumb

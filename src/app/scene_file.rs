@@ -1,47 +1,15 @@
-//! Reads and writes scene files together with the files that they reference.
+//! Saving a scene as a native file, with its meshes and pictures beside it.
 
-use super::cli::SceneFlags;
 use super::error::AppError;
-use super::inputs::Inputs;
-use super::memory;
 use crate::export;
-use crate::import;
 use crate::output;
 use crate::scene::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Reads a scene; with `--strict`, refuses one of which anything was skipped. The second value has the files
-/// that were read or looked for, even if reading failed.
-pub fn load(path: &Path, flags: &SceneFlags) -> (Result<Scene, AppError>, Inputs) {
-    if let Err(error) = memory::check_file(path) {
-        return (Err(error), Inputs::new([path]));
-    }
-    let (scene, files) = import::load_watched(path, &flags.import_options());
-    let scene = scene.map_err(AppError::from);
-    (
-        scene.and_then(|scene| strict(path, flags, scene)),
-        Inputs::new(files),
-    )
-}
-
-fn strict(path: &Path, flags: &SceneFlags, scene: Scene) -> Result<Scene, AppError> {
-    match scene.skipped.first() {
-        Some(first) if flags.strict => Err(AppError::Refused(format!(
-            "refusing the scene ({}): {first}{}. Repair it or omit --strict.",
-            path.display(),
-            match scene.skipped.len() - 1 {
-                0 => String::new(),
-                more => format!(" (and {more} more)"),
-            }
-        ))),
-        _ => Ok(scene),
-    }
-}
-
-/// Writes `scene` to `path`, which should end in `.toml`, and the files that it references beside it. Returns
-/// all paths, the scene's last. Referenced files never replace existing ones: a file with the same contents is
-/// reused, otherwise another name is chosen. `clobber` allows replacing the scene file itself.
+/// Writes `scene` to `path`, which should end in `.toml`, and what belongs to it beside it, and returns
+/// all paths, that of the scene last. Files beside it are never replaced: what is there with the same
+/// contents is used, else another name is taken. `clobber` says whether the scene file itself may be.
 ///
 /// # Errors
 /// The scene is too large, or a file cannot be written. The old scene file is then unchanged, and new files

@@ -1,4 +1,4 @@
-//! Backgrounds that a frame brings along, in place of the scene's.
+//! Backgrounds of a frame that replace that of the scene.
 
 use crate::reference::compare::{assert_none, check_same_bits, render, sized, start};
 use crate::reference::scenes;
@@ -15,8 +15,8 @@ const GRADIENT: Background = Background::Gradient {
     top: Vec3::new(0.2, 0.4, 1.5),
 };
 
-/// A renderer that restarts with a frame before another background, with the scene that it has, gives the
-/// bits of a scene that was packed with that background; and those of its own again.
+/// A renderer restarted with a frame with another background gives the bits of a scene packed with that
+/// background, and afterwards again those of its own.
 fn check(name: &str, scene: &Scene) -> Vec<Result<(), String>> {
     let settings = RenderSettings {
         samples: 3,
@@ -28,11 +28,11 @@ fn check(name: &str, scene: &Scene) -> Vec<Result<(), String>> {
     let own = scene.background.clone();
     let mut outcomes = Vec::new();
     for (what, background) in [("colour", COLOR), ("gradient", GRADIENT), ("own", own)] {
-        let mut frames = scene.shot(0.0, 0.0);
+        let mut frames = scene.motion_samples(0.0, 0.0);
         for frame in &mut frames {
             frame.background = background.clone();
         }
-        let view = packed.shot(&frames).expect("a view");
+        let view = packed.view(&frames).expect("a view");
         renderer.set_frame(&view).expect("another frame");
         while !renderer.is_done() {
             renderer.step().expect("a step");

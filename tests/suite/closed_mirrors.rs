@@ -1,11 +1,11 @@
-//! Closed bodies that mirror everything, seen from inside: no ray ever gets out.
+//! Closed meshes of perfect mirrors, seen from inside: no ray ever escapes.
 
 use crate::reference::compare::{counting, render, sized};
 use crate::reference::scenes::{self, Build};
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::render::RenderSettings;
-use glimray::scene::{Form, Geometry, Material, Mesh, Scene, Shape};
+use glimray::scene::{CanonicalShape, Geometry, Material, Mesh, Scene, Shape};
 
 /// Sharp edges in all directions.
 fn tetrahedron() -> Mesh {
@@ -27,11 +27,11 @@ fn tetrahedron() -> Mesh {
     mesh
 }
 
-/// A ball with spikes and interpolated normals, which mirror rays deep into its corners.
+/// A ball with spikes and interpolated normals, which reflect rays deep into its corners.
 fn spiky() -> Mesh {
     let mut mesh = scenes::ball(UVec2::new(24, 12), 0);
     for position in &mut mesh.positions {
-        // The same for all vertices of one place.
+        // The same for all vertices at one position.
         let place = (*position * 1e3).round().as_ivec3();
         let odd = (place.x + 3 * place.y + 5 * place.z).rem_euclid(2);
         *position *= if odd == 1 { 2.2 } else { 1.0 };
@@ -41,7 +41,7 @@ fn spiky() -> Mesh {
     mesh
 }
 
-/// Looks from inside, all round but for what is behind.
+/// Looks from inside in all directions except backwards.
 fn mirrors(look_from: DVec3) -> Scene {
     let mut scene = scenes::empty();
     let camera = &mut scene.cameras[0];
@@ -65,19 +65,19 @@ fn no_mirrored_ray_gets_out_of_a_closed_body() {
         scene.add_mesh(mesh, DAffine3::from_scale(DVec3::splat(scale)));
         scene
     };
-    let with_form = |form: Form| {
+    let with_canonical = |canonical: CanonicalShape| {
         let mut scene = mirrors(inside);
         scene.shapes.push(Shape {
             geometry: Geometry::Placed {
-                form,
-                world_from_form: DAffine3::IDENTITY,
+                canonical,
+                world_from_canonical: DAffine3::IDENTITY,
             },
             material: 0,
             node: None,
         });
         scene
     };
-    let cone = Form::Cone {
+    let cone = CanonicalShape::Cone {
         bottom: 1.0,
         top: 0.0,
         capped: true,
@@ -87,8 +87,8 @@ fn no_mirrored_ray_gets_out_of_a_closed_body() {
         ("tetrahedron", with_mesh(tetrahedron(), 1.0)),
         ("large tetrahedron", with_mesh(tetrahedron(), 1e4)),
         ("spiky ball", with_mesh(spiky(), 1.0)),
-        ("box", with_form(Form::Box)),
-        ("cone", with_form(cone)),
+        ("box", with_canonical(CanonicalShape::Box)),
+        ("cone", with_canonical(cone)),
     ] {
         let settings = RenderSettings {
             max_depth: 200,

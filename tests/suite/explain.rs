@@ -53,8 +53,8 @@ fn project_scenes() -> Vec<(String, Scene)> {
 fn renderer(scene: &Scene, settings: &impl Wanted) -> Renderer {
     let packed = Arc::new(pack::scene(scene).expect("packed"));
     let (shutter, fps) = (scene.output.shutter, scene.output.fps);
-    let frames = scene.shot(shutter.open / fps, shutter.close / fps);
-    let view = packed.shot(&frames).expect("a view");
+    let frames = scene.motion_samples(shutter.open / fps, shutter.close / fps);
+    let view = packed.view(&frames).expect("a view");
     start_packed(packed, &view, settings)
 }
 
@@ -272,7 +272,7 @@ fn explaining_between_steps_does_not_change_the_picture() {
         };
         // Many steps.
         let slicing = Slicing {
-            max_tiles: 8,
+            max_groups: 8,
             ..Slicing::default()
         };
         let settings = sliced(&settings, slicing);
@@ -347,7 +347,7 @@ fn same_hit(ray: &TracedRay, hit: Option<(f64, ObjectRef)>, slack: f64) -> bool 
 fn compare(sample: &SampleTree, at: usize, nodes: &[Node], node: usize) -> Result<(), String> {
     let (ray, expected) = (&sample.rays[at], &nodes[node]);
     let slack = slack(sample, at);
-    let mut throughputs = (ray.throughput.into_iter()).zip(expected.share.to_array());
+    let mut throughputs = (ray.throughput.into_iter()).zip(expected.throughput.to_array());
     let is_same = ray.kind == expected.kind
         && same_hit(ray, expected.hit, slack)
         && throughputs.all(|(got, want)| (f64::from(got) - want).abs() <= slack * want.max(0.01));
@@ -355,7 +355,7 @@ fn compare(sample: &SampleTree, at: usize, nodes: &[Node], node: usize) -> Resul
         let met = ray.hit.as_ref().map(|hit| (hit.distance, hit.object));
         return Err(format!(
             "{:?} of {:?} meets {met:?}, not {:?} of {} meets {:?}",
-            ray.kind, ray.throughput, expected.kind, expected.share, expected.hit
+            ray.kind, ray.throughput, expected.kind, expected.throughput, expected.hit
         ));
     }
     let children = |kind: RayKind| {

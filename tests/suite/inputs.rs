@@ -259,7 +259,7 @@ fn git_and_cargo_ignore_the_picture_of_make_demo() {
         .nth(1)
         .expect("a recipe")
         .lines()
-        .nth(1);
+        .find(|line| line.contains(" demo -o "));
     let name = recipe
         .and_then(|line| line.split("-o ").nth(1))
         .expect("a name");

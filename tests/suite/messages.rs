@@ -250,11 +250,8 @@ fn a_terminal_gets_the_faulty_line_with_a_mark() {
         "{text}"
     );
     assert_snapshot!(drawing, @r"
-  ╭─[bad.toml:2:18]
 2 │ background = [0, oops, 0]
-  ·                  ──┬─
-  ·                    ╰── here
-  ╰────
+  │                  ^^^^
 ");
     // Without a terminal there is only the message.
     let run = workspace.run("inspect bad.toml").expect(3);

@@ -1,8 +1,8 @@
-//! Whole moving pictures: against the independent tracer, against the mean of their moments, and
-//! against themselves made in other ways.
+//! Whole moving pictures: against the independent tracer, against the mean of their moments, and against
+//! themselves rendered in other ways.
 
 use crate::{
-    instances::{crowd, glass, mirror, packed, shot},
+    instances::{crowd, glass, mirror, packed, rendered},
     motion_blur::track,
     reference::{
         compare::{
@@ -20,9 +20,9 @@ use glimray::{
     pack::{self, PackedScene},
     render::{Antialias, Fetch, Integrator, RenderSettings, Tone},
     scene::{
-        Attenuation, Background, Camera, CameraProperty, Form, Fresnel, Geometry, Instance, Lens,
-        Light, LightKind, LightProperty, Material, Node, NodeProperty, Pattern, Scene, Shape,
-        Space, Target, Texture, Values,
+        Attenuation, Background, Camera, CameraProperty, CanonicalShape, Fresnel, Geometry,
+        Instance, Lens, Light, LightKind, LightProperty, Material, Node, NodeProperty, Pattern,
+        Scene, Shape, Space, Target, Texture, Values,
     },
 };
 use std::{f64::consts::TAU, sync::Arc};
@@ -46,8 +46,8 @@ fn under(parent: usize) -> Node {
     }
 }
 
-/// What moves in every way, for one second, over a floor with a pattern: carried meshes and shapes with
-/// patterns, one node under another, unevenly scaled and mirrored, something that comes and goes.
+/// Objects that move in every way for one second over a patterned floor: meshes and shapes with patterns on
+/// nodes, nested nodes, non-uniform and mirrored scales, and an object that appears and disappears.
 fn fair() -> Scene {
     let mut scene = scenes::empty();
     let pattern = |pattern, size: f64| Texture {
@@ -77,7 +77,7 @@ fn fair() -> Scene {
         NodeProperty::Angles,
         &[DVec3::ZERO, dvec3(0.0, 4.0, 0.0)],
     );
-    // Uneven above what turns: it shears.
+    // Non-uniform scale above a rotation: it shears.
     let horse = node(
         &mut scene,
         Node {
@@ -154,12 +154,12 @@ fn fair() -> Scene {
     };
     shape(&mut scene, sphere, cloudy, flier);
     let cone = Geometry::Placed {
-        form: Form::Cone {
+        canonical: CanonicalShape::Cone {
             bottom: 0.4,
             top: 0.0,
             capped: true,
         },
-        world_from_form: DAffine3::from_translation(dvec3(0.0, 0.4, 0.0)),
+        world_from_canonical: DAffine3::from_translation(dvec3(0.0, 0.4, 0.0)),
     };
     shape(&mut scene, cone, striped, flier);
     let crate_node = node(&mut scene, Node::default());
@@ -176,15 +176,15 @@ fn fair() -> Scene {
         &[DVec3::splat(0.3), dvec3(0.5, 0.2, 0.3)],
     );
     let cube = Geometry::Placed {
-        form: Form::Box,
-        world_from_form: DAffine3::IDENTITY,
+        canonical: CanonicalShape::Box,
+        world_from_canonical: DAffine3::IDENTITY,
     };
     shape(&mut scene, cube, checkered, crate_node);
     scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.6);
     scene
 }
 
-/// Mirrors and glass that move, one of them with the camera inside of nothing else.
+/// Moving mirrors and glass, with the camera inside one of them.
 fn glassware() -> Scene {
     let mut scene = scenes::mirrors_and_glass();
     for i in 1..scene.shapes.len() {
@@ -210,7 +210,7 @@ fn glassware() -> Scene {
     scene
 }
 
-/// Lamps that are carried, turn, and travel by themselves, and can be seen.
+/// Visible lamps that move with nodes, rotate, and move by themselves.
 fn lamps() -> Scene {
     let mut scene = scenes::spheres();
     scene.lights.clear();
@@ -255,7 +255,7 @@ fn lamps() -> Scene {
     let target = Target::Light(1, LightProperty::Position);
     let way = vec![dvec3(2.2, 2.0, 0.5), dvec3(-2.0, 1.9, 1.2)];
     scene.tracks.push(track(target, Values::Vector(way)));
-    // Stands still and fades: of one that moves too, the trace is even.
+    // Static and fading: the trail of a lamp that moves as well has uniform brightness.
     scene.lights.push(area(
         LightKind::Disc {
             center: dvec3(0.4, 2.8, -0.5),
@@ -272,7 +272,7 @@ fn lamps() -> Scene {
     scene
 }
 
-/// A camera on a carrier that itself is carried, with a body beside it.
+/// A camera on nested moving nodes, with a volume next to it.
 fn ride() -> Scene {
     let mut scene = fair();
     let cart = node(&mut scene, Node::default());
@@ -329,8 +329,8 @@ fn moments_of_moving_scenes_match_an_independent_tracer() {
         assert!(packed.instance_count() > 0, "{name}");
         [0.0, 0.37, 1.0].map(|time| {
             let expected = trace_at(&scene, time, settings.size).image;
-            let (actual, _) = shot(&packed, &[scene.frame(time)], &settings);
-            // Small pictures have their share of pixels on edges.
+            let (actual, _) = rendered(&packed, &[scene.frame(time)], &settings);
+            // Small pictures have relatively many pixels on edges.
             check_alike(&format!("{name} at {time}"), &expected, &actual, 2.0, 0.002)
         })
     }));
@@ -344,7 +344,7 @@ fn stratified(samples: u32, (width, height): (u32, u32)) -> RenderSettings {
     }
 }
 
-/// The mean of as many moments of a second, each a picture without blur.
+/// The mean of this many moments of a second, each a picture without blur.
 fn mean_of_moments(
     scene: &Scene,
     packed: &Arc<PackedScene>,
@@ -375,8 +375,7 @@ fn mean_of_moments(
     sum
 }
 
-/// The mean difference of the colours as a share of their mean in `a`, and the root of their mean
-/// squared difference.
+/// The mean colour difference relative to the mean of `a`, and the root mean squared difference.
 fn difference(a: &Image, b: &Image) -> (f64, f64) {
     let channels = |image: &Image| -> Vec<f64> {
         let colors = image.pixels.iter().flat_map(|pixel| &pixel[..3]);
@@ -415,15 +414,15 @@ fn an_open_shutter_gives_the_mean_of_its_moments() {
             light.samples = 4;
         }
         let packed = Arc::new(pack::scene(&scene).expect("a scene that can be packed"));
-        let frames = scene.shot(0.0, 1.0);
-        let (blurred, stats) = shot(&packed, &frames, &stratified(256, size));
+        let frames = scene.motion_samples(0.0, 1.0);
+        let (blurred, stats) = rendered(&packed, &frames, &stratified(256, size));
         assert_eq!(stats.nonfinite_samples, 0, "{name}");
         let other = RenderSettings {
             seed: 5,
             ..stratified(8, size)
         };
         let expected = mean_of_moments(&scene, &packed, 32, &other);
-        // As shares of the picture's own strength: lamps are much brighter than what they light.
+        // Relative to the brightness of the picture: lamps are much brighter than the surfaces they light.
         let (_, strength) = difference(&expected, &Image::new(size.0, size.1));
         let (bias, rmse) = difference(&blurred, &expected);
         let rmse = rmse / strength;
@@ -431,14 +430,14 @@ fn an_open_shutter_gives_the_mean_of_its_moments() {
             bias.abs() < 0.005 && rmse < 0.05,
             "{name}: bias {bias}, RMSE {rmse}"
         );
-        // A moment alone is another picture.
-        let (sharp, _) = shot(&packed, &[scene.frame(0.0)], &stratified(16, size));
+        // A single moment is a different picture.
+        let (sharp, _) = rendered(&packed, &[scene.frame(0.0)], &stratified(16, size));
         let sharp = difference(&sharp, &expected).1 / strength;
         assert!(sharp > 3.0 * rmse, "{name}: RMSE {rmse} and {sharp}");
     }
 }
 
-/// Everything that samples can depend on at once, small.
+/// Everything that samples can depend on at once, in a small scene.
 fn busy() -> (Arc<PackedScene>, Vec<glimray::scene::Frame>) {
     let mut scene = ride();
     scene.cameras[0].lens = Some(Lens {
@@ -457,7 +456,7 @@ fn busy() -> (Arc<PackedScene>, Vec<glimray::scene::Frame>) {
     let target = Target::Light(1, LightProperty::Position);
     let way = vec![dvec3(2.2, 2.0, 0.5), dvec3(-2.0, 1.9, 1.2)];
     scene.tracks.push(track(target, Values::Vector(way)));
-    let frames = scene.shot(0.2, 0.6);
+    let frames = scene.motion_samples(0.2, 0.6);
     (Arc::new(pack::scene(&scene).expect("packed")), frames)
 }
 
@@ -465,18 +464,18 @@ fn busy() -> (Arc<PackedScene>, Vec<glimray::scene::Frame>) {
 fn the_cut_of_the_work_does_not_show_in_blurred_pictures() {
     let (packed, frames) = busy();
     let base = stratified(6, (37, 27));
-    let (expected, stats) = shot(&packed, &frames, &counting(&base));
+    let (expected, stats) = rendered(&packed, &frames, &counting(&base));
     let other = RenderSettings {
         seed: 1,
         ..base.clone()
     };
     assert!(
-        shot(&packed, &frames, &other).0 != expected,
+        rendered(&packed, &frames, &other).0 != expected,
         "nothing is drawn"
     );
-    // Every other one: each means a shader to be compiled.
+    // Every second one: each needs a shader to be compiled.
     assert_none(slicings().into_iter().step_by(2).map(|(name, slicing)| {
-        let (actual, cut) = shot(&packed, &frames, &sliced(&base, slicing));
+        let (actual, cut) = rendered(&packed, &frames, &sliced(&base, slicing));
         assert_eq!(cut.rays, stats.rays, "{name}");
         check_same_bits(name, &expected, &actual)
     }));
@@ -487,14 +486,14 @@ fn two_runs_images_buffers_and_crops_give_the_same_blur() {
     let (packed, frames) = busy();
     let base = stratified(4, (48, 36));
     let with = |fetch| fetched(&base, fetch);
-    let (expected, _) = shot(&packed, &frames, &with(Fetch::Image));
-    let (again, _) = shot(&packed, &frames, &with(Fetch::Image));
-    let (buffers, _) = shot(&packed, &frames, &with(Fetch::Buffer));
+    let (expected, _) = rendered(&packed, &frames, &with(Fetch::Image));
+    let (again, _) = rendered(&packed, &frames, &with(Fetch::Image));
+    let (buffers, _) = rendered(&packed, &frames, &with(Fetch::Buffer));
     let crop = RenderSettings {
         crop: Some([11, 5, 40, 30]),
         ..base.clone()
     };
-    let (part, _) = shot(&packed, &frames, &crop);
+    let (part, _) = rendered(&packed, &frames, &crop);
     let mut cut = Image::new(29, 25);
     for (i, pixel) in cut.pixels.iter_mut().enumerate() {
         *pixel = expected.pixels[(5 + i / 29) * 48 + 11 + i % 29];
@@ -508,7 +507,7 @@ fn two_runs_images_buffers_and_crops_give_the_same_blur() {
 
 #[test]
 fn adaptive_sampling_spends_more_on_blur_and_comes_near_the_converged_picture() {
-    // A bright ball that crosses the left half; the right one stands still.
+    // A bright ball that crosses the left half; the one on the right is static.
     let mut scene = scenes::empty();
     scene.background = Background::Color(Vec3::splat(0.1));
     let glow = scene.add_material(Material {
@@ -533,15 +532,15 @@ fn adaptive_sampling_spends_more_on_blur_and_comes_near_the_converged_picture() 
     scene.add_sphere(dvec3(1.6, 0.5, 0.0), 0.5, 0);
     scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.7);
     let packed = Arc::new(pack::scene(&scene).expect("packed"));
-    let frames = scene.shot(0.0, 1.0);
+    let frames = scene.motion_samples(0.0, 1.0);
     let size = (64, 48);
-    let (converged, _) = shot(&packed, &frames, &stratified(512, size));
+    let (converged, _) = rendered(&packed, &frames, &stratified(512, size));
     let adaptive = RenderSettings {
         antialias: Antialias::Adaptive,
         noise: 0.01,
         ..stratified(256, size)
     };
-    let (picture, stats) = shot(&packed, &frames, &adaptive);
+    let (picture, stats) = rendered(&packed, &frames, &adaptive);
     let (bias, rmse) = difference(&picture, &converged);
     assert!(bias.abs() < 0.01 && rmse < 0.02, "bias {bias}, RMSE {rmse}");
     assert_eq!(stats.nonfinite_samples, 0);
@@ -549,14 +548,14 @@ fn adaptive_sampling_spends_more_on_blur_and_comes_near_the_converged_picture() 
         integrator: Integrator::Samples,
         ..adaptive
     };
-    let (spent, _) = shot(&packed, &frames, &spent);
-    // Along its way, and in the sky above the other.
-    let share = |columns: std::ops::Range<usize>, rows: std::ops::Range<usize>| {
+    let (spent, _) = rendered(&packed, &frames, &spent);
+    // Along its path, and in the sky above the other.
+    let fraction = |columns: std::ops::Range<usize>, rows: std::ops::Range<usize>| {
         let pixels = rows.flat_map(|y| columns.clone().map(move |x| y * 64 + x));
         let values: Vec<_> = pixels.map(|i| f64::from(spent.pixels[i][0])).collect();
         values.iter().sum::<f64>() / values.len() as f64
     };
-    let (blur, sky) = (share(14..22, 16..26), share(40..60, 2..12));
+    let (blur, sky) = (fraction(14..22, 16..26), fraction(40..60, 2..12));
     assert!(blur > 4.0 * sky, "{blur} in the blur, {sky} in the sky");
 }
 
@@ -574,7 +573,7 @@ fn trees_of_rays_are_counted_alike_through_instances() {
         });
         let frame = [scene.frame(0.0)];
         let [laid_out, instanced] = [usize::MAX, 0].map(|most| {
-            let (_, stats) = shot(&packed(&scene, most), &frame, &settings);
+            let (_, stats) = rendered(&packed(&scene, most), &frame, &settings);
             let rays = stats.rays.expect("counted");
             [
                 rays.primary,
@@ -593,7 +592,7 @@ fn trees_of_rays_are_counted_alike_through_instances() {
         let total = laid_out.iter().step_by(2).sum::<u64>() as f64;
         for (a, b) in laid_out.iter().zip(&instanced) {
             let off = a.abs_diff(*b) as f64;
-            // Rays of a kind that is rare are few in all.
+            // Rare kinds of rays are few in total.
             let allowed = 0.002 * (*a as f64).max(0.1 * total);
             assert!(off <= allowed, "{name}: {laid_out:?} and {instanced:?}");
         }
@@ -611,12 +610,12 @@ fn normals_and_depths_are_the_same_through_instances() {
             ..sized(96, 72)
         };
         let [laid_out, instanced] =
-            [usize::MAX, 0].map(|most| shot(&packed(&scene, most), &frame, &settings).0);
+            [usize::MAX, 0].map(|most| rendered(&packed(&scene, most), &frame, &settings).0);
         let pairs = laid_out.pixels.iter().zip(&instanced.pixels);
         let off = pairs
             .filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 1e-3))
             .count();
-        // On an edge either of two is right.
+        // On an edge either result is correct.
         assert!(off <= 7, "{integrator:?}: {off} pixels");
         let seen = laid_out
             .pixels
@@ -664,7 +663,7 @@ fn a_wheel_of_glass_does_not_show_in_a_furnace() {
         max_depth: 8,
         ..stratified(16, (48, 36))
     };
-    let (image, stats) = shot(&packed, &scene.shot(0.0, 1.0), &settings);
+    let (image, stats) = rendered(&packed, &scene.motion_samples(0.0, 1.0), &settings);
     assert_eq!(stats.cut_off_trees, 0);
     let off = |pixel: &[f32; 4]| (pixel[1] - 1.0).abs();
     let worst = image.pixels.iter().map(off).fold(0.0, f32::max);

@@ -1,6 +1,6 @@
 //! The manual's table of bindings is that of the program.
 
-use glimray::app::view::bindings::markdown_table;
+use glimray::viewer::model::bindings::markdown_table;
 use std::path::Path;
 
 const BEGIN: &str = "<!-- bindings: UPDATE_README=1 cargo test --release --test suite readme -->\n";

@@ -86,6 +86,7 @@ fn help_documents_every_promised_flag_and_has_an_example() {
         ("compare", "--tolerance --max-share --diff --json".into()),
         ("bench", ["--json --repeats --only", device].join(" ")),
         ("completions", "bash zsh fish".into()),
+        ("man", "<DIR>".into()),
         ("schema", "--help".into()),
     ] {
         let help = workspace.run(&format!("{command} --help")).expect(0);

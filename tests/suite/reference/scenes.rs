@@ -2,13 +2,13 @@
 
 use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::scene::{
-    Attenuation, Background, Camera, Form, Fresnel, Geometry, Instance, Light, LightKind, Material,
-    Mesh, Scene, Shape,
+    Attenuation, Background, Camera, CanonicalShape, Fresnel, Geometry, Instance, Light, LightKind,
+    Material, Mesh, Scene, Shape,
 };
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// A camera, a grey material and a bluish background, and nothing in it.
+/// A camera, a grey material and a bluish background, without objects.
 pub fn empty() -> Scene {
     Scene {
         cameras: vec![Camera {
@@ -122,7 +122,7 @@ pub fn everything() -> Scene {
     scene
 }
 
-/// Mirrors, varnish, glass, one glass in another and a medium that counts before its surroundings.
+/// Mirrors, varnish, glass, nested glass, and a medium with a higher priority than its surroundings.
 pub fn mirrors_and_glass() -> Scene {
     let mut scene = spheres();
     scene.shapes.truncate(1);
@@ -162,7 +162,7 @@ pub fn mirrors_and_glass() -> Scene {
             ..shiny(vec3(0.7, 0.1, 0.1))
         },
     );
-    // A bubble, a drop of another liquid, and one that overlaps with glass and goes before it.
+    // A bubble, a drop of another liquid, and a volume that overlaps with glass and has priority over it.
     ball(
         dvec3(-1.7, 0.9, 0.5),
         0.3,
@@ -194,42 +194,42 @@ pub fn mirrors_and_glass() -> Scene {
     scene
 }
 
-/// Every form, turned and scaled unevenly, over a floor.
+/// Every canonical shape, rotated and scaled non-uniformly, over a floor.
 pub fn solids() -> Scene {
     let mut scene = empty();
     scene.add_plane(dvec3(0.0, -0.2, 0.0), DVec3::Y, 0);
-    let cone = |bottom, top, capped| Form::Cone {
+    let cone = |bottom, top, capped| CanonicalShape::Cone {
         bottom,
         top,
         capped,
     };
     let rows = [
-        (Form::Disc { hole: 0.0 }, [0.7, 0.2, 0.3]),
-        (Form::Disc { hole: 0.6 }, [0.8, 1.0, 0.5]),
-        (Form::Rectangle, [0.6, 1.0, 0.3]),
-        (Form::Box, [0.3, 0.5, 0.4]),
-        (Form::Ellipsoid, [0.6, 0.3, 0.4]),
-        (Form::Torus { minor: 0.3 }, [0.5, 0.7, 0.5]),
-        (Form::Torus { minor: 1.0 }, [0.3, 0.3, 0.2]),
+        (CanonicalShape::Disc { hole: 0.0 }, [0.7, 0.2, 0.3]),
+        (CanonicalShape::Disc { hole: 0.6 }, [0.8, 1.0, 0.5]),
+        (CanonicalShape::Rectangle, [0.6, 1.0, 0.3]),
+        (CanonicalShape::Box, [0.3, 0.5, 0.4]),
+        (CanonicalShape::Ellipsoid, [0.6, 0.3, 0.4]),
+        (CanonicalShape::Torus { minor: 0.3 }, [0.5, 0.7, 0.5]),
+        (CanonicalShape::Torus { minor: 1.0 }, [0.3, 0.3, 0.2]),
         (cone(1.0, 1.0, true), [0.4, 0.8, 0.3]),
         (cone(1.0, 1.0, false), [0.4, 0.6, 0.4]),
         (cone(0.5, 0.0, true), [0.9, 0.9, -0.9]),
         (cone(0.2, 0.5, false), [1.0, 0.7, 1.0]),
         (cone(0.5, 0.2, true), [-1.0, 0.8, 1.0]),
     ];
-    for (i, (form, scale)) in rows.into_iter().enumerate() {
+    for (i, (canonical, scale)) in rows.into_iter().enumerate() {
         let (column, row) = ((i % 4) as f64, (i / 4) as f64);
         let hue = i as f64 * 2.4;
         let color = dvec3(hue.sin(), (hue + 2.1).sin(), (hue + 4.2).sin()) * 0.4 + 0.5;
         let material = scene.add_material(shiny(color.as_vec3()));
         let turn = DQuat::from_scaled_axis(dvec3(0.5 + 0.1 * column, 0.7 * column, 0.3 * row));
         let place = dvec3(1.5 * column - 2.2, 1.0 * row + 0.2, 0.6 - 0.8 * row);
-        let world_from_form =
+        let world_from_canonical =
             DAffine3::from_scale_rotation_translation(DVec3::from(scale), turn, place);
         scene.shapes.push(Shape {
             geometry: Geometry::Placed {
-                form,
-                world_from_form,
+                canonical,
+                world_from_canonical,
             },
             material,
             node: None,
@@ -251,7 +251,7 @@ pub fn shiny(color: Vec3) -> Material {
     }
 }
 
-/// What tests build scenes with.
+/// Helpers for building scenes.
 pub trait Build {
     fn add_material(&mut self, material: Material) -> usize;
     fn add_sphere(&mut self, center: DVec3, radius: f64, material: usize);
@@ -331,7 +331,7 @@ pub fn ball(parts: UVec2, material: u32) -> Mesh {
     })
 }
 
-/// A torus round the y axis.
+/// A torus around the y axis.
 pub fn torus(radius: f64, thickness: f64, parts: UVec2, material: u32) -> Mesh {
     lattice(parts, material, |u, v| {
         let outwards = dvec3((TAU * u).sin(), 0.0, (TAU * u).cos());
@@ -340,7 +340,7 @@ pub fn torus(radius: f64, thickness: f64, parts: UVec2, material: u32) -> Mesh {
     })
 }
 
-/// A height field over the square of this side, without normals of its own.
+/// A height field over the square of this side, without its own normals.
 pub fn height_field(
     side: f64,
     parts: u32,
@@ -380,7 +380,7 @@ fn lattice(parts: UVec2, material: u32, at: impl Fn(f64, f64) -> (DVec3, DVec3))
     mesh
 }
 
-/// Numbers that look random and are the same each time (SplitMix64).
+/// Reproducible pseudo-random numbers (SplitMix64).
 pub struct Random(pub u64);
 
 impl Random {
@@ -400,7 +400,7 @@ impl Random {
         low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// In the cube round the origin with this half side.
+    /// In the cube around the origin with this half side.
     pub fn within(&mut self, half: f64) -> DVec3 {
         DVec3::from_array(std::array::from_fn(|_| self.between(-half, half)))
     }

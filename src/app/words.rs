@@ -1,0 +1,114 @@
+//! The names of settings, as flags, reports and the window's lists show them.
+
+use crate::render::{self, Antialias, Integrator, TriangleTest};
+use crate::scene::{Filter, ToneCurve, Transfer};
+
+/// The names of one setting's values: each with a description and the value.
+pub struct Words<T: 'static>(pub &'static [(&'static str, &'static str, T)]);
+
+/// Where samples lie in a pixel.
+pub static ANTIALIAS: Words<Antialias> = Words(&[
+    ("none", "all at the pixel centre", Antialias::None),
+    (
+        "stratified",
+        "spread evenly over the pixel",
+        Antialias::Stratified,
+    ),
+    (
+        "adaptive",
+        "stratified, until --noise is reached, at most --samples",
+        Antialias::Adaptive,
+    ),
+]);
+
+/// Reconstruction filters.
+pub static FILTERS: Words<Filter> = Words(&[
+    ("box", "constant weight", Filter::Box),
+    ("tent", "linear falloff to 0", Filter::Tent),
+    (
+        "gaussian",
+        "Gaussian, standard deviation 0.5 pixels, truncated",
+        Filter::Gaussian,
+    ),
+    (
+        "blackman-harris",
+        "similar to a Gaussian, falls to 0 at its radius",
+        Filter::BlackmanHarris,
+    ),
+    (
+        "mitchell",
+        "sharpening, Mitchell and Netravali 1988",
+        Filter::Mitchell,
+    ),
+]);
+
+/// Integrators, from the table of `render`.
+pub static INTEGRATORS: Words<Integrator> = Words(&INTEGRATOR_WORDS);
+
+const INTEGRATOR_WORDS: [(&str, &str, Integrator); render::INTEGRATORS.len()] = {
+    let mut words = [("", "", Integrator::Whitted); render::INTEGRATORS.len()];
+    let mut index = 0;
+    while index < words.len() {
+        let entry = &render::INTEGRATORS[index];
+        words[index] = (entry.name, entry.help, entry.integrator);
+        index += 1;
+    }
+    words
+};
+
+/// Ray–triangle intersection algorithms.
+pub static TRIANGLE_TESTS: Words<TriangleTest> = Words(&[
+    (
+        "plane",
+        "plane intersection, then a point-in-triangle test",
+        TriangleTest::Plane,
+    ),
+    (
+        "moller-trumbore",
+        "Möller and Trumbore 1997",
+        TriangleTest::MollerTrumbore,
+    ),
+    (
+        "watertight",
+        "Woop, Benthin and Wald 2013",
+        TriangleTest::Watertight,
+    ),
+]);
+
+/// Tone curves.
+pub static TONES: Words<ToneCurve> = Words(&[
+    ("none", "clamp to 0..1", ToneCurve::None),
+    ("aces", "filmic, Narkowicz 2015", ToneCurve::Aces),
+    ("agx", "filmic, Sobotka's AgX", ToneCurve::Agx),
+    ("reinhard", "x / (1 + x) on luminance", ToneCurve::Reinhard),
+]);
+
+/// Transfer functions.
+pub static TRANSFERS: Words<Transfer> = Words(&[
+    ("srgb", "IEC 61966-2-1", Transfer::Srgb),
+    ("linear", "no transfer function", Transfer::Linear),
+]);
+
+impl<T: PartialEq> Words<T> {
+    /// The word for `value` in flags and reports.
+    pub fn word(&self, value: &T) -> &'static str {
+        let mut words = self.0.iter();
+        words
+            .find(|(.., known)| known == value)
+            .map_or("unknown", |(word, ..)| word)
+    }
+}
+
+impl<T: Clone> Words<T> {
+    /// Name, help text and value of every word.
+    pub fn all(&self) -> &'static [(&'static str, &'static str, T)] {
+        self.0
+    }
+
+    /// The value that `word` names.
+    pub fn value(&self, word: &str) -> Option<T> {
+        let mut words = self.0.iter();
+        let found = words.find(|(known, ..)| *known == word);
+        found.map(|(.., value)| value.clone())
+    }
+}

@@ -1,0 +1,375 @@
+//! The command line as clap declares it. Commands and flags are a stable interface: add to them, rename none.
+
+mod flags;
+mod motion;
+mod values;
+
+#[cfg(feature = "viewer")]
+pub use flags::RecordingFlags;
+pub use flags::{
+    CameraFlags, DevelopFlags, DeviceFlags, LogFlags, OutputFlags, PartFlags, PictureFlags,
+    ProgressMode, SceneFlags, SizeFlags,
+};
+pub use motion::{
+    MomentFlags, MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags,
+};
+pub use values::MAX_FRAME;
+
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
+use std::path::PathBuf;
+
+/// Ray trace scenes on the GPU, or on the CPU through Mesa's software driver.
+#[derive(Debug, Parser)]
+#[command(
+    name = "glimray",
+    version,
+    max_term_width = 100,
+    arg_required_else_help = true,
+    after_help = "Examples:\n  \
+            glimray demo -o glimray.png\n  \
+            glimray render scene.toml --samples 16 -o picture.png\n  \
+            glimray render --help\n\n\
+        Exit codes: 0 done, 1 internal fault, 2 bad command line, 3 scene or input refused, \
+        4 output cannot be written, 5 no usable GPU adapter, 6 the GPU kept failing, \
+        7 too big for the memory or the adapter, 8 compare: different, merge: parts missing, 130 Ctrl-C, 143 SIGTERM."
+)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render a built-in showcase scene; no file is needed.
+    #[command(after_help = "Example: glimray demo --size 1280x720 --samples 16 -o demo.png")]
+    Demo(Box<DemoArgs>),
+    /// Render one picture of a scene.
+    ///
+    /// Settings in the scene file are the defaults; flags override them.
+    #[command(after_help = "Examples:\n  \
+            glimray render scene.toml -o picture.png\n  \
+            glimray render model.obj --look-from 0,1,4 --look-at 0,0,0 --samples 16 -o model.exr\n  \
+            glimray render scene.toml --frame 12 --shutter 0.5 -o frame.png\n  \
+            glimray render scene.scene --quiet -o - --format png | display")]
+    Render(Box<RenderArgs>),
+    /// Render an animation to numbered frames or a video.
+    ///
+    /// Runs are resumable: after an interruption, the same command renders only the missing frames.
+    #[command(after_help = "Examples:\n  \
+            glimray animate scene.toml -o walk.mp4\n  \
+            glimray animate scene.toml --frames 0..47 --shutter 180deg -o walk_%04d.png\n  \
+            glimray animate scene.toml --loop --fps 12 -o walk.gif\n  \
+            glimray animate scene.toml -o walk.mp4 --encode-only --quality 60\n  \
+            glimray animate scene.toml --quiet -o - --format y4m | mpv -\n\n\
+            The frames of a video are kept as files (walk.mp4.frames/frame_0000.png …), so the video can \
+            be encoded again without rendering. An existing frame is reused if it was written completely \
+            by the same scene, settings, adapter and version; the journal NAME_journal.png.jsonl beside the \
+            frames records this. To render a single frame again, delete its file.")]
+    Animate(Box<AnimateArgs>),
+    /// Render a seamless turntable animation of a model.
+    ///
+    /// The camera circles the model once. Runs are resumable, as with `animate`.
+    #[command(after_help = "Examples:\n  \
+            glimray turntable model.obj -o model.mp4\n  \
+            glimray turntable model.obj --seconds 2 --axis z --elevation 30 -o model.gif\n\n\
+            The camera keeps the smallest distance at which all bounded geometry stays in frame for the \
+            whole turn.")]
+    Turntable(Box<TurntableArgs>),
+    /// Open a window whose picture refines progressively while you navigate and edit.
+    #[cfg(feature = "viewer")]
+    #[command(after_help = "Examples:\n  \
+            glimray view\n  \
+            glimray view scene.toml\n  \
+            glimray view model.obj --look-from 0,1,4 --look-at 0,0,0 --samples 64\n  \
+            glimray view scene.toml --frame 12 --shutter 180deg --size 640x360\n\n\
+            Without a scene the window shows the demo scene; drop a file on it to open that file. The \
+            scene is reloaded when its file changes. Without --size the picture fills the available space. \
+            H shows the keyboard shortcuts. On a desktop, glimray without arguments opens the window too. \
+            Settings are stored in viewer.toml in the user's configuration folder, or in the folder that \
+            GLIMRAY_SETTINGS names.")]
+    View(Box<ViewArgs>),
+    /// Convert a scene to the native format (.toml).
+    ///
+    /// Meshes and pictures are written beside it. The native scene renders to the same picture and can be
+    /// edited as text.
+    #[command(after_help = "Example: glimray convert model.obj -o model.toml\n\n\
+            The names of all written files are printed. Existing files beside the scene are never replaced.")]
+    Convert(ConvertArgs),
+    /// Merge films of parts of a picture into one film or into the picture.
+    ///
+    /// Parts are regions (--crop) or sample ranges (--sample-offset, --sample-count), in any order.
+    #[command(after_help = "Examples:\n  \
+            glimray render scene.toml --samples 128 --sample-count 64 -o a.film\n  \
+            glimray render scene.toml --samples 128 --sample-offset 64 -o b.film\n  \
+            glimray merge a.film b.film -o picture.png\n\n\
+            The merged picture is bit-identical to one rendered in a single run. If parts are missing, they \
+            are listed, nothing is written, and the exit code is 8.")]
+    Merge(MergeArgs),
+    /// Show the contents of a scene: counts, bounds, cameras, lights, materials.
+    ///
+    /// The list ends with everything that the importer skipped.
+    #[command(after_help = "Example: glimray inspect scene.toml --json")]
+    Inspect(InspectArgs),
+    /// Show the ray tree of one pixel.
+    ///
+    /// For every ray it lists the hit, how the surface splits the light, the throughput and the
+    /// contribution.
+    #[command(after_help = "Examples:\n  \
+            glimray explain scene.toml --pixel 320,240\n  \
+            glimray explain scene.toml --pixel 320,240 --sample 0 --json\n  \
+            glimray explain scene.toml --size 96x54 --samples 1 --pixel 40,30 --obj rays.obj\n\n\
+            The contributions of a sample's rays add up to the sample's colour. The weighted mean of all \
+            samples is the pixel, in linear light. Pass the flags that the picture was rendered with.")]
+    Explain(Box<ExplainArgs>),
+    /// List GPU adapters and their limits, and run a self-test.
+    ///
+    /// If there is no adapter, it names the driver packages to install.
+    #[command(after_help = "Example: glimray doctor --backend vulkan")]
+    Doctor(DoctorArgs),
+    /// Compare two pictures: RMSE, PSNR, FLIP, largest difference.
+    ///
+    /// The exit code is 8 if more pixels differ than the flags allow.
+    #[command(
+        after_help = "Example: glimray compare a.png b.png --tolerance 3 --max-share 0.1 \
+            --diff difference.png\n\n\
+            Values are compared as stored; 8-bit and 16-bit values are scaled to 0..1. One level is 1/255."
+    )]
+    Compare(CompareArgs),
+    /// Benchmark built-in scenes: shader compilation, tracing, total time, rays per second.
+    #[command(after_help = "Example: glimray bench --repeats 5 --json")]
+    Bench(BenchArgs),
+    /// Print a shell completion script.
+    #[command(
+        after_help = "Example: glimray completions bash > ~/.local/share/bash-completion/completions/glimray"
+    )]
+    Completions(CompletionsArgs),
+    /// Write manual pages: glimray.1, and a page for each command.
+    #[command(after_help = "Example: glimray man ~/.local/share/man/man1")]
+    Man(ManArgs),
+    /// Print the JSON Schema of the native scene format (.toml) for editors.
+    #[command(after_help = "Example: glimray schema > glimray.schema.json")]
+    Schema,
+}
+
+#[derive(Debug, Args)]
+pub struct DemoArgs {
+    #[command(flatten)]
+    pub output: OutputFlags,
+    #[command(flatten)]
+    pub size: SizeFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+    #[command(flatten)]
+    pub log: LogFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// Scene file: .scene (course format), .toml (native), .nff or .obj
+    pub scene: PathBuf,
+    #[command(flatten)]
+    pub output: OutputFlags,
+    #[command(flatten)]
+    pub part: PartFlags,
+    #[command(flatten)]
+    pub picture: PictureFlags,
+    #[command(flatten)]
+    pub camera: CameraFlags,
+    #[command(flatten)]
+    pub moment: MomentFlags,
+    #[command(flatten)]
+    pub motion: MotionFlags,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+    #[command(flatten)]
+    pub log: LogFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct AnimateArgs {
+    /// Scene file: .scene (course format), .toml (native), .nff or .obj
+    pub scene: PathBuf,
+    #[command(flatten)]
+    pub output: SequenceFlags,
+    #[command(flatten)]
+    pub range: RangeFlags,
+    #[command(flatten)]
+    pub motion: MotionFlags,
+    #[command(flatten)]
+    pub picture: PictureFlags,
+    #[command(flatten)]
+    pub camera: CameraFlags,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+    #[command(flatten)]
+    pub log: LogFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct TurntableArgs {
+    /// Model or scene file, in any format that `render` reads
+    pub scene: PathBuf,
+    #[command(flatten)]
+    pub output: SequenceFlags,
+    #[command(flatten)]
+    pub turn: TurnFlags,
+    #[command(flatten)]
+    pub picture: PictureFlags,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+    #[command(flatten)]
+    pub log: LogFlags,
+}
+
+#[cfg(feature = "viewer")]
+#[derive(Debug, Args)]
+pub struct ViewArgs {
+    /// Scene file, in any format that `render` reads [default: the demo scene]
+    pub scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: PictureFlags,
+    #[command(flatten)]
+    pub camera: CameraFlags,
+    #[command(flatten)]
+    pub moment: MomentFlags,
+    #[command(flatten)]
+    pub motion: MotionFlags,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+    #[command(flatten)]
+    pub recording: RecordingFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct ConvertArgs {
+    /// Scene file: .scene (course format), .toml (native), .nff or .obj
+    pub scene: PathBuf,
+    /// Output file [default: the scene's name with .toml in the current folder]
+    #[arg(short, long, value_name = "OUT.toml")]
+    pub output: Option<PathBuf>,
+    /// Do not replace an existing scene file
+    #[arg(long)]
+    pub no_clobber: bool,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct MergeArgs {
+    /// Films of parts of one picture, written by `render` or `merge`
+    #[arg(required = true, value_name = "PART")]
+    pub parts: Vec<PathBuf>,
+    #[command(flatten)]
+    pub output: OutputFlags,
+    #[command(flatten)]
+    pub develop: DevelopFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct InspectArgs {
+    /// Scene file: .scene (course format), .toml (native), .nff or .obj
+    pub scene: PathBuf,
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct ExplainArgs {
+    /// Scene file: .scene (course format), .toml (native), .nff or .obj
+    pub scene: PathBuf,
+    /// Column and row of the pixel in the whole picture; 0,0 is the top left
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = values::pixel)]
+    pub pixel: [u32; 2],
+    /// Explain only this sample of the pixel, counted from 0 [default: all]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub sample: Option<u32>,
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+    /// Also write the rays as lines to this Wavefront OBJ file, in scene units
+    #[arg(long, value_name = "FILE.obj")]
+    pub obj: Option<PathBuf>,
+    #[command(flatten)]
+    pub picture: PictureFlags,
+    #[command(flatten)]
+    pub camera: CameraFlags,
+    #[command(flatten)]
+    pub moment: MomentFlags,
+    #[command(flatten)]
+    pub motion: MotionFlags,
+    #[command(flatten)]
+    pub reading: SceneFlags,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct DoctorArgs {
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    /// First picture: PNG, JPEG, OpenEXR or Radiance HDR
+    pub a: PathBuf,
+    /// Second picture, of the same size
+    pub b: PathBuf,
+    /// Largest difference in any channel, in levels of 1/255, at which two pixels count as equal
+    #[arg(long, value_name = "LEVELS", default_value = "0", value_parser = values::tolerance)]
+    pub tolerance: f64,
+    /// Percentage of pixels that may differ by more than the tolerance
+    #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = values::percent)]
+    pub max_share: f64,
+    /// Write a difference image, scaled so that the largest difference is white
+    #[arg(long, value_name = "OUT.png")]
+    pub diff: Option<PathBuf>,
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// Number of runs per workload; the median is reported
+    #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub repeats: u32,
+    /// Run only workloads whose name contains this
+    #[arg(long, value_name = "NAME")]
+    pub only: Option<String>,
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub device: DeviceFlags,
+}
+
+#[derive(Debug, Args)]
+pub struct CompletionsArgs {
+    /// Shell to complete for
+    pub shell: Shell,
+}
+
+#[derive(Debug, Args)]
+pub struct ManArgs {
+    /// An existing folder for the pages; pages of the same name are replaced
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+}

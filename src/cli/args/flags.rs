@@ -1,0 +1,304 @@
+//! Flags that several commands share, grouped as in their help.
+
+use super::values::{self, BACKENDS, FORMATS, PROGRESS};
+use crate::app::overrides::{CameraOverrides, PictureOverrides, ToneOverrides};
+use crate::app::words::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
+use crate::gpu::{AdapterChoice, Backend};
+use crate::import;
+use crate::output::Format;
+use crate::render::{Antialias, Integrator, TriangleTest};
+use crate::scene::{Filter, ToneCurve, Transfer};
+use clap::Args;
+use glam::{DVec3, Vec3};
+use std::path::PathBuf;
+
+/// Where the picture is written.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+pub struct OutputFlags {
+    /// Output file; its extension chooses the format (.png .jpg .jpeg .exr .hdr, or .film to merge or
+    /// develop later); `-` is standard output [default: the scene's name with .png in the current folder;
+    /// glimray.png for the demo]
+    #[arg(short = 'o', long = "output", value_name = "OUT")]
+    pub path: Option<PathBuf>,
+    /// File format, whatever the extension [default: by extension; png for `-`]
+    #[arg(long, value_parser = values::one_of(&FORMATS))]
+    pub format: Option<Format>,
+    /// JPEG quality, 1 (smallest file) to 100 (best)
+    #[arg(long, value_name = "1..100", default_value = "90", value_parser = clap::value_parser!(u8).range(1..=100))]
+    pub quality: u8,
+    /// Do not replace an existing file
+    #[arg(long)]
+    pub no_clobber: bool,
+}
+
+/// The sample range of a partial rendering.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Output")]
+pub struct PartFlags {
+    /// First sample to render, a multiple of 64; the output must be a .film [default: 0]
+    #[arg(long, value_name = "A", allow_hyphen_values = true)]
+    pub sample_offset: Option<u32>,
+    /// Number of samples per pixel to render, a multiple of 64; the output must be a .film
+    /// [default: all remaining]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
+    pub sample_count: Option<u32>,
+}
+
+/// Resolution and sample count.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Picture")]
+pub struct SizeFlags {
+    /// Width and height in pixels [default: the scene's, else 640x480]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = values::size)]
+    pub size: Option<(u32, u32)>,
+    /// Samples per pixel, 1 to 65536 [default: the scene's; else 16 with a lens, an area light or motion
+    /// blur; else 1]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    pub samples: Option<u32>,
+}
+
+/// How the picture is rendered and developed.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Picture")]
+pub struct PictureFlags {
+    #[command(flatten)]
+    pub size: SizeFlags,
+    /// Distribution of the samples within a pixel [default: stratified for more than one sample, else none]
+    #[arg(long, value_parser = values::one_of(&ANTIALIAS))]
+    pub antialias: Option<Antialias>,
+    /// Noise threshold of adaptive sampling, 0.000001 to 1 [default: the scene's, else 0.01]
+    ///
+    /// Keep sampling pixels whose estimated error exceeds this (or, early on, whose neighbour differs by
+    /// more). Errors are measured on the square root of luminance, where 1 is white.
+    #[arg(long, value_name = "NOISE", allow_hyphen_values = true, value_parser = values::noise)]
+    pub noise: Option<f32>,
+    /// Bounces after the first hit, 0 to 1000; 0 is local shading only [default: the scene's, else 5; 0
+    /// for .scene]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    pub max_depth: Option<u32>,
+    /// Terminate reflection and refraction rays below this throughput, 0 to 1 [default: 1/512]
+    #[arg(long, value_name = "FRACTION", allow_hyphen_values = true, value_parser = values::fraction)]
+    pub min_throughput: Option<f32>,
+    /// Reconstruction filter [default: the scene's, else box]
+    #[arg(long, value_parser = values::one_of(&FILTERS))]
+    pub filter: Option<Filter>,
+    /// Radius of the reconstruction filter, 0.01 to 16 [default: box 0.5, tent 1, mitchell 2, others 1.5]
+    #[arg(long, value_name = "PIXELS", allow_hyphen_values = true, value_parser = values::filter_radius)]
+    pub filter_radius: Option<f32>,
+    /// Multiply the sample count of every area light by this, 0.001 to 1000 [default: the scene's, else 1]
+    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = values::light_samples)]
+    pub light_samples: Option<f32>,
+    /// Integrator or debug view [default: whitted]
+    #[arg(long, value_parser = values::one_of(&INTEGRATORS))]
+    pub integrator: Option<Integrator>,
+    /// Ray–triangle intersection algorithm [default: watertight]
+    #[arg(long, value_parser = values::one_of(&TRIANGLE_TESTS))]
+    pub triangle_test: Option<TriangleTest>,
+    /// Test every primitive for every ray instead of traversing the BVH: the same picture, but slow
+    #[arg(long)]
+    pub no_bvh: bool,
+    #[command(flatten)]
+    pub develop: DevelopFlags,
+    /// Random seed; the same scene, settings and seed give the same picture
+    #[arg(
+        long,
+        value_name = "N",
+        allow_hyphen_values = true,
+        default_value = "0"
+    )]
+    pub seed: u32,
+    /// Render only columns X0 to X1-1 and rows Y0 to Y1-1, in pixels from the top left
+    #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = values::crop)]
+    pub crop: Option<[u32; 4]>,
+}
+
+/// How linear radiance becomes display values.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Picture")]
+pub struct DevelopFlags {
+    /// Exposure: multiply radiance by 2^EV, -64 to 64 [default: the scene's, else 0; 0 for .exr and .hdr]
+    #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = values::exposure)]
+    pub exposure: Option<f32>,
+    /// Tone curve [default: the scene's, else none; none for .exr, .hdr and debug views]
+    #[arg(long, value_parser = values::one_of(&TONES))]
+    pub tone: Option<ToneCurve>,
+    /// Transfer function [default: the scene's, else srgb; linear for .exr, .hdr and debug views]
+    #[arg(long, value_parser = values::one_of(&TRANSFERS))]
+    pub transfer: Option<Transfer>,
+}
+
+/// Camera and background.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Camera")]
+pub struct CameraFlags {
+    /// Camera of the scene, by its name or its number in `inspect`
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
+    /// Vertical field of view in degrees, 0.001 to 179.9; selects perspective projection
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = values::fov_y)]
+    pub fov_y: Option<f64>,
+    /// Orthographic projection with a view of this height, in scene units, 1e-9 to 1e9
+    #[arg(long, value_name = "HEIGHT", allow_hyphen_values = true, value_parser = values::orthographic, conflicts_with = "fov_y")]
+    pub orthographic: Option<f64>,
+    /// Camera position, in scene units
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector)]
+    pub look_from: Option<DVec3>,
+    /// Point at the centre of the picture, in scene units
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector)]
+    pub look_at: Option<DVec3>,
+    /// Up direction of the camera
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector)]
+    pub up: Option<DVec3>,
+    /// Background colour: linear radiance, 0 or more per channel
+    #[arg(long, value_name = "R,G,B", allow_hyphen_values = true, value_parser = values::color)]
+    pub background: Option<Vec3>,
+}
+
+/// How a scene file is read.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Scene")]
+pub struct SceneFlags {
+    /// Refuse a scene if anything in it would be skipped or repaired
+    #[arg(long)]
+    pub strict: bool,
+    /// Override a value of a native scene, such as camera.fov_y_deg=30 (repeatable)
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = values::override_of)]
+    pub overrides: Vec<String>,
+    /// Allow the scene to read files from this folder as well as its own (repeatable)
+    #[arg(long = "allow-dir", value_name = "DIR")]
+    pub allow_dirs: Vec<PathBuf>,
+}
+
+impl SceneFlags {
+    pub fn import_options(&self) -> import::Options {
+        import::Options {
+            allow_dirs: self.allow_dirs.clone(),
+            overrides: self.overrides.clone(),
+        }
+    }
+}
+
+/// Recording and replay of the window's input.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Recording")]
+pub struct RecordingFlags {
+    /// Record mouse and keyboard input to this file, one JSON object per line
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Replay the input recorded in this file with its original timing
+    #[arg(long, value_name = "FILE")]
+    pub replay: Option<PathBuf>,
+    /// Replay as fast as possible: one recorded frame per window frame
+    #[arg(long, requires = "replay")]
+    pub replay_fast: bool,
+    /// Close the window after the replay
+    #[arg(long, requires = "replay")]
+    pub close_after_replay: bool,
+}
+
+/// The GPU adapter and its limits.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Adapter")]
+pub struct DeviceFlags {
+    /// GPU adapter, by its number in `doctor` or part of its name [default: the fastest]
+    #[arg(long, value_name = "INDEX|NAME")]
+    pub adapter: Option<String>,
+    /// Graphics API [default: the best available]
+    #[arg(long, value_parser = values::one_of(&BACKENDS))]
+    pub backend: Option<Backend>,
+    /// Refuse scenes that need more GPU memory than this, in MiB
+    #[arg(long, value_name = "MIB", default_value = "4096", value_parser = clap::value_parser!(u64).range(1..=1 << 24))]
+    pub memory_limit: u64,
+}
+
+impl PictureFlags {
+    pub fn overrides(&self) -> PictureOverrides {
+        PictureOverrides {
+            size: self.size.size,
+            samples: self.size.samples,
+            antialias: self.antialias,
+            noise: self.noise,
+            max_depth: self.max_depth,
+            min_throughput: self.min_throughput,
+            filter: self.filter,
+            filter_radius: self.filter_radius,
+            light_samples: self.light_samples,
+            integrator: self.integrator,
+            triangle_test: self.triangle_test,
+            brute_force: self.no_bvh,
+            seed: self.seed,
+            crop: self.crop,
+        }
+    }
+}
+
+impl DevelopFlags {
+    pub fn overrides(&self) -> ToneOverrides {
+        ToneOverrides {
+            exposure_ev: self.exposure,
+            curve: self.tone,
+            transfer: self.transfer,
+        }
+    }
+}
+
+impl CameraFlags {
+    pub fn overrides(&self) -> CameraOverrides {
+        CameraOverrides {
+            name: self.camera.clone(),
+            fov_y_deg: self.fov_y,
+            orthographic_height: self.orthographic,
+            look_from: self.look_from,
+            look_at: self.look_at,
+            up: self.up,
+            background: self.background,
+        }
+    }
+}
+
+impl DeviceFlags {
+    pub fn choice(&self) -> AdapterChoice {
+        AdapterChoice {
+            backend: self.backend,
+            adapter: self.adapter.clone(),
+        }
+    }
+
+    pub fn memory_limit_bytes(&self) -> u64 {
+        self.memory_limit << 20
+    }
+}
+
+/// Messages, progress and the report.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Messages")]
+pub struct LogFlags {
+    /// Write a JSON report to this file; `-` is standard output
+    ///
+    /// It has counts, settings, the adapter, times in seconds and memory in bytes. A run that fails writes
+    /// one too, with its error and exit code.
+    #[arg(long, value_name = "FILE.json")]
+    pub report: Option<PathBuf>,
+    /// Count the rays of each kind for the report, at a small cost in speed
+    #[arg(long)]
+    pub count_rays: bool,
+    /// Progress display on standard error; with json, every message there is a JSON line
+    #[arg(long, default_value = "auto", value_parser = values::one_of(&PROGRESS))]
+    pub progress: ProgressMode,
+    /// Print only warnings and errors
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Also print times and sizes
+    #[arg(short, long)]
+    pub verbose: bool,
+}
+
+/// How progress is displayed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProgressMode {
+    Auto,
+    Bar,
+    Json,
+    None,
+}

@@ -1,0 +1,161 @@
+//! The report of a run in progress. If the run fails, this is its report, with the error; values that are not
+//! known yet are null.
+
+use crate::app::error::AppError;
+use crate::app::inputs::Inputs;
+use crate::cli::args::{LogFlags, SceneFlags};
+use crate::cli::report::{Adapter, ImageReport, Report, SceneReport, Seconds, host_peak_bytes};
+use crate::cli::scene_file;
+use crate::scene::Scene;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Files longer than this are not taken for reports.
+const MAX_REPORT_BYTES: u64 = 1 << 20;
+
+/// The report of a run in progress.
+pub struct Draft<'a> {
+    /// Name of the command.
+    pub command: &'static str,
+    pub log: &'a LogFlags,
+    /// When the process began.
+    pub started: Instant,
+    /// Name of the scene.
+    pub scene_path: String,
+    /// Files that the run has read so far.
+    pub inputs: Inputs,
+    pub seconds: Seconds,
+    pub adapter: Option<Adapter>,
+    /// Output path.
+    image_path: PathBuf,
+    image: Option<ImageReport>,
+    /// `None` until the scene and all its files are read.
+    scene: Option<SceneReport>,
+}
+
+impl<'a> Draft<'a> {
+    /// Starts the report of a run that reads the scene `scene_path` and writes to `image_path`, which differs
+    /// from the report's own path.
+    pub fn new(
+        command: &'static str,
+        log: &'a LogFlags,
+        scene_path: String,
+        image_path: &Path,
+        started: Instant,
+    ) -> Self {
+        Self {
+            command,
+            log,
+            started,
+            scene_path,
+            inputs: Inputs::default(),
+            seconds: Seconds::default(),
+            adapter: None,
+            image_path: image_path.into(),
+            image: None,
+            scene: None,
+        }
+    }
+
+    /// Reads the scene.
+    ///
+    /// # Errors
+    /// Those of [`scene_file::load`].
+    pub fn load(&mut self, path: &Path, flags: &SceneFlags) -> Result<Scene, AppError> {
+        let loading = Instant::now();
+        let (scene, inputs) = scene_file::load(path, flags);
+        self.inputs = inputs;
+        let scene = scene?;
+        self.seconds.load = loading.elapsed().as_secs_f64();
+        self.set_scene(&scene);
+        Ok(scene)
+    }
+
+    /// Records the contents of the scene, which is completely read by now.
+    pub fn set_scene(&mut self, scene: &Scene) {
+        self.scene = Some(SceneReport::new(&self.scene_path, scene));
+    }
+
+    /// Records the picture to be rendered.
+    pub fn set_image(&mut self, image: ImageReport) {
+        self.image = Some(image);
+    }
+
+    /// Returns `outcome`. If it is an error, writes the report if one was requested and no other file would be
+    /// overwritten.
+    pub fn finish(self, outcome: Result<(), AppError>) -> Result<(), AppError> {
+        if let Err(error) = &outcome
+            && let Some(path) = &self.log.report
+            && self.may_replace(path)
+        {
+            // The run's own error matters more than a failure to write its report.
+            let _ = crate::cli::report::write(path, &self.failed(error));
+        }
+        outcome
+    }
+
+    /// Whether the file at `path` may be replaced. Until the scene is completely read, the files that it names
+    /// are unknown, and only an old report is safe to replace.
+    fn may_replace(&self, path: &Path) -> bool {
+        !self.inputs.contain(path) && (self.scene.is_some() || is_free(path) || is_report(path))
+    }
+
+    fn failed(&self, error: &AppError) -> Value {
+        let scene = match &self.scene {
+            Some(scene) => json!(scene),
+            None => json!({
+                "path": self.scene_path, "spheres": null, "triangles": null, "shapes": null,
+                "instances": null, "materials": null, "lights": null, "skipped": null,
+            }),
+        };
+        let mut image = match &self.image {
+            Some(image) => json!(image),
+            None => json!({
+                "path": self.image_path.display().to_string(), "width": null, "height": null,
+                "samples": null, "integrator": null, "max_depth": null, "seed": null,
+            }),
+        };
+        image["mean_samples"] = Value::Null;
+        let mut seconds = json!(self.seconds);
+        for part in seconds.as_object_mut().into_iter().flatten() {
+            // A part that took no time was not reached.
+            if *part.1 == json!(0.0) {
+                *part.1 = Value::Null;
+            }
+        }
+        seconds["total"] = json!(self.started.elapsed().as_secs_f64());
+        let mut report = json!({
+            "glimray": Report::VERSION,
+            "command": self.command,
+            "scene": scene,
+            "image": image,
+            "adapter": self.adapter,
+            "seconds": seconds,
+            "rays": null,
+            "submissions": { "count": null, "longest_ms": null },
+            "nonfinite_samples": null,
+            "cut_off_trees": null,
+            "memory": { "gpu_bytes": null, "host_peak_bytes": host_peak_bytes() },
+            "error": { "message": error.to_string(), "code": error.exit_code() },
+        });
+        if matches!(self.command, "animate" | "turntable") {
+            report["animation"] = Value::Null;
+        }
+        report
+    }
+}
+
+/// Whether nothing at `path` could be lost: there is no file, or a pipe or a device.
+fn is_free(path: &Path) -> bool {
+    path == Path::new("-") || fs::metadata(path).map_or(true, |found| !found.is_file())
+}
+
+/// Whether the file at `path` is the report of an earlier run.
+fn is_report(path: &Path) -> bool {
+    let is_short = fs::metadata(path).is_ok_and(|found| found.len() <= MAX_REPORT_BYTES);
+    let text = is_short.then(|| fs::read(path).ok()).flatten();
+    let value: Option<Value> = text.and_then(|text| serde_json::from_slice(&text).ok());
+    value.is_some_and(|value| value["glimray"].is_string() && value["command"].is_string())
+}
