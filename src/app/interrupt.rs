@@ -130,7 +130,7 @@ impl State {
 
 /// Ends the program without a look at what else is going on in it.
 fn end(exit_code: usize, speaks: bool) -> ! {
-    output::clear_away();
+    output::remove_unfinished_files();
     if speaks {
         let (sender, receiver) = channel();
         let _ = std::thread::Builder::new().spawn(move || {

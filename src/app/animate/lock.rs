@@ -3,7 +3,7 @@
 
 use super::super::console;
 use super::super::error::AppError;
-use crate::output::{self, Litter, OutputError};
+use crate::output::{self, OutputError, RemoveOnExit};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ pub struct Lock {
     path: PathBuf,
     /// `None` where the file system has no locks.
     file: Option<File>,
-    _litter: Litter,
+    _remove_on_exit: RemoveOnExit,
 }
 
 /// The file in `folder` that is locked.
@@ -64,12 +64,12 @@ impl Lock {
             // A run that ended in between has removed the file that we have locked.
             let is_current = (file.as_ref()).map_or(Ok(true), |file| is_same(file, &path));
             if is_current.map_err(failed)? {
-                let listed = Litter::make(|| Ok(()), |()| path.clone());
-                let ((), litter) = listed.map_err(failed)?;
+                let listed = RemoveOnExit::make(|| Ok(()), |()| path.clone());
+                let ((), registered) = listed.map_err(failed)?;
                 return Ok(Self {
                     path,
                     file,
-                    _litter: litter,
+                    _remove_on_exit: registered,
                 });
             }
         }

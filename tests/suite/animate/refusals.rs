@@ -126,7 +126,7 @@ fn bad_command_lines_exit_2_and_say_why() {
         ),
         (
             animate("--frames 0..3 -o f%d.jpg --size 65536x1"),
-            "JPEG holds at most",
+            "JPEG supports at most",
         ),
         (
             animate(&format!("{video} --quality 0")),
