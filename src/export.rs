@@ -1,13 +1,13 @@
-//! A [`Scene`] into a native scene file, as a person would have written it: sections in a fixed order,
-//! everything named that something else refers to, and only what differs from the defaults.
+//! Exports a [`Scene`] as a native scene file that reads like one written by hand: sections in a fixed
+//! order, names for everything that is referred to, and only values that differ from the defaults.
 //!
-//! Nothing is lost: [`crate::import`] makes of the text and the files beside it a scene that is packed
-//! to the same bytes, and writing that scene gives the same text. A number is written in as few digits
-//! as give back all its bits. Angles, scales and corners take the place of a matrix where they give
-//! that matrix exactly. Not kept are [`Scene::skipped`], the grouping of tracks, pictures that nothing
-//! shows, and names that are missing or given twice, in whose place new ones are made up.
+//! Nothing is lost: [`crate::import`] turns the text and its companion files into a scene that is packed
+//! to the same bytes, and exporting that scene gives the same text. Numbers are written in the fewest
+//! digits that preserve all bits. Angles, scales and corners replace a matrix if they give exactly that
+//! matrix. Not preserved are [`Scene::skipped`], the grouping of tracks, unused images, and missing or
+//! duplicate names, which are replaced by generated ones.
 //!
-//! Nothing here touches a disk: whoever calls writes the files, those beside the scene first.
+//! This module does not access the disk: the caller writes the files, companion files first.
 
 mod animation;
 mod cameras;
@@ -31,59 +31,59 @@ use names::Names;
 use std::collections::HashMap;
 use text::Text;
 
-/// A scene as a file, and what lies beside it.
+/// A scene file and its companion files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Export {
     /// The scene file itself, in TOML.
     pub text: String,
-    /// Files that it names, relative to its folder: meshes, pictures, places of copies.
+    /// Files that it refers to, relative to its folder: meshes, images, transforms of copies.
     pub files: Vec<ExportFile>,
 }
 
-/// A file beside a scene file.
+/// A companion file of a scene file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExportFile {
-    /// Its name, without a folder.
+    /// Its name without a folder.
     pub name: String,
-    /// All of it.
+    /// Its contents.
     pub bytes: Vec<u8>,
 }
 
-/// Why a scene cannot be written.
+/// Why a scene cannot be exported.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ExportError {
-    /// A native scene has a limit on how much it may say.
+    /// The scene exceeds the native format's limit of keys and values.
     #[error(
-        "scene refused: it has so many different things that a scene file would take {marks} keys \
-         and values, but at most {limit} are read. Leave out objects that no copy of one stands for."
+        "scene refused: it has so many different objects that a scene file would need {marks} keys \
+         and values, but the limit is {limit}. Remove objects that are not copies of others."
     )]
     TooBig {
-        /// Keys, values and brackets.
+        /// Number of keys, values and brackets.
         marks: usize,
-        /// How many there may be.
+        /// Limit of that number.
         limit: usize,
     },
-    /// A picture cannot be encoded.
-    #[error("scene refused: a picture of {width} × {height} texels cannot be written: {why}.")]
+    /// An image cannot be encoded.
+    #[error("scene refused: an image of {width} × {height} texels cannot be written: {why}.")]
     Picture {
         /// In texels.
         width: u32,
         /// In texels.
         height: u32,
-        /// What the encoder says.
+        /// The encoder's message.
         why: String,
     },
 }
 
-/// How many keys, values and brackets the importer of the native format reads.
+/// Limit of keys, values and brackets in the importer of the native format.
 const MAX_MARKS: usize = 500_000;
 
-/// `scene` as a native scene file. The names of files beside it begin with `stem`; `is_taken` says
-/// whether a name belongs to a file with other contents than these, so that another one is chosen:
-/// no file has to be overwritten, and an older scene file goes on to find what it names.
+/// Exports `scene` as a native scene file. The names of its companion files start with `stem`. `is_taken`
+/// tells whether a name belongs to a file with different contents; then another name is chosen, so that
+/// no file is overwritten and older scene files stay valid.
 ///
 /// # Errors
-/// There is too much in the scene for a scene file, or a picture that cannot be encoded.
+/// The scene is too large for a scene file, or an image cannot be encoded.
 pub fn native(
     scene: &Scene,
     stem: &str,
@@ -123,7 +123,7 @@ struct Writer<'a> {
     scene: &'a Scene,
     names: Names,
     beside: Beside<'a>,
-    /// The files of pictures, by their index.
+    /// The names of image files, by image index.
     pictures: HashMap<usize, String>,
     text: Text,
 }

@@ -1,23 +1,23 @@
-//! Scene files into [`Scene`]s: [`load`] and [`load_from`] choose the importer by the file's ending.
+//! Importers: scene files to [`Scene`]s. [`load`] and [`load_from`] choose the format by the file
+//! extension.
 //!
-//! | ending | format | module |
+//! | extension | format | module |
 //! |---|---|---|
 //! | `.toml` | glimray's own | `native.rs` |
 //! | `.scene` | the course's | `course.rs` |
 //! | `.nff` | Haines' Neutral File Format | `nff.rs` |
 //! | `.obj` | Wavefront OBJ with MTL | `obj.rs` |
 //!
-//! `ply.rs` reads Stanford's PLY files, of which native scenes place triangles and points.
-//! Pictures that scenes and models name are read by `picture.rs`.
+//! `ply.rs` reads Stanford PLY files: meshes and point sets of native scenes. `picture.rs` reads the
+//! images that scenes and models refer to.
 //!
-//! Importers get files from a [`Resolver`]: a [`Folder`] on disk, [`Memory`], an `Archive`, or another
-//! program's.
+//! Importers get files from a [`Resolver`]: a [`Folder`] on disk, [`Memory`], an `Archive`, or an
+//! implementation of the caller.
 //!
-//! Files are hostile until read: nothing here panics, follows a path out of the scene's folder, or
-//! takes more memory than eight times the file's size (and 64 MiB; see `budget.rs`). Colours that no
-//! arithmetic could bear are lowered (`range.rs`). What cannot be rendered but does no harm is left
-//! out and named in [`Scene::skipped`]; everything else is one [`ImportError`] with the place it
-//! happened at.
+//! Files are not trusted: nothing here panics, follows a path out of the scene's folder, or takes more
+//! memory than eight times the file's size plus 64 MiB (see `budget.rs`). Colours so large that
+//! arithmetic would overflow are clamped (`range.rs`). Features that cannot be rendered are skipped and
+//! listed in [`Scene::skipped`]; everything else is one [`ImportError`] with its position.
 
 #[cfg(feature = "archive")]
 mod archive;
@@ -55,27 +55,27 @@ use source::Source;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What a caller may add to a scene file.
+/// Options for importing a scene file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Folders outside the scene's own in which it may name files, for [`load_with`].
+    /// Folders besides the scene's own whose files the scene may refer to, for [`load_with`].
     pub allow_dirs: Vec<PathBuf>,
-    /// `KEY=VALUE` pairs that replace or add one value of a native scene each, such as
-    /// `camera.fov_y_deg=30`, `objects.0.sphere.radius=2` or `output.tone=aces`. Values are TOML; a
-    /// bare word is a string.
+    /// `KEY=VALUE` pairs. Each replaces or adds one value of a native scene, such as
+    /// `camera.fov_y_deg=30`, `objects.0.sphere.radius=2` or `output.tone=aces`. Values are TOML; a bare
+    /// word is a string.
     pub overrides: Vec<String>,
 }
 
-/// The endings of the files that [`load`] reads, in lower case.
+/// The extensions of the files that [`load`] reads, in lower case.
 pub const SCENE_ENDINGS: &[&str] = &["toml", "scene", "nff", "obj"];
 
-/// The endings of the files that [`picture()`] reads, as they usually are.
+/// The usual extensions of the files that [`picture()`] reads.
 pub const PICTURE_ENDINGS: &[&str] = &["hdr", "exr", "png", "jpg", "jpeg"];
 
-/// The largest geometry file (`.scene`, `.nff`, `.obj`) that is read, in bytes.
+/// Size limit of a geometry file (`.scene`, `.nff`, `.obj`) in bytes.
 const MAX_GEOMETRY_BYTES: u64 = 2 << 30;
 
-/// The formats of scenes.
+/// The scene formats.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Format {
     Native,
@@ -85,7 +85,7 @@ enum Format {
 }
 
 impl Format {
-    /// What the ending of the file's name says.
+    /// The format of a file extension.
     fn of(path: &Path) -> Result<Self, ImportError> {
         let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
         match ending.to_str() {
@@ -97,7 +97,7 @@ impl Format {
         }
     }
 
-    /// The longest file that is read, in bytes.
+    /// The format's size limit for files, in bytes.
     fn limit(self) -> u64 {
         match self {
             Self::Native => native::MAX_BYTES,
@@ -105,16 +105,16 @@ impl Format {
         }
     }
 
-    /// Why the file of a scene was not read.
+    /// The error for a scene file that could not be read.
     fn unreadable(self, path: &Path, error: &FileError) -> ImportError {
         match paths::unreadable(path, error, self.limit()) {
-            // A limit of the format, not of the memory.
+            // The size limit belongs to the format; it is not for lack of memory.
             ImportError::TooBig(fault) if self == Self::Native => ImportError::Malformed(fault),
             error => error,
         }
     }
 
-    /// The scene that is written in `bytes`, those of the file at `path`.
+    /// The scene in `bytes`, the contents of the file at `path`.
     fn scene(
         self,
         path: &Path,
@@ -144,7 +144,7 @@ impl Format {
     }
 }
 
-/// The scene in the file at `path`, with default [`Options`].
+/// Loads the scene file at `path` with default [`Options`].
 ///
 /// # Errors
 /// See [`load_with`].
@@ -153,19 +153,19 @@ pub fn load(path: &Path) -> Result<Scene, ImportError> {
     load_with(path, &Options::default())
 }
 
-/// The scene in the file at `path`.
+/// Loads the scene file at `path`.
 ///
 /// # Errors
-/// The file or one it names is missing, unreadable, too big, malformed or outside the scene's
-/// folder; the ending is unknown; an override does not fit, or the format takes none.
+/// The file or one that it refers to is missing, unreadable, too large, malformed or outside the scene's
+/// folder; the extension is unknown; an override is invalid, or the format has no overrides.
 #[cfg(not(target_arch = "wasm32"))]
 pub fn load_with(path: &Path, options: &Options) -> Result<Scene, ImportError> {
     load_seen(path, options, &mut Vec::new())
 }
 
-/// The scene in the file at `path`, and every file that it comes from or asked for: the file itself,
-/// meshes, material libraries, pictures; those too that are missing. Whoever watches them for changes
-/// knows when to load it again, whether it could be loaded or not.
+/// Loads the scene file at `path` and returns every file that it depends on: the scene file, meshes,
+/// material libraries and images, including missing ones. A caller that watches these files knows when to
+/// reload the scene, also if loading failed.
 #[cfg(not(target_arch = "wasm32"))]
 pub fn load_watched(path: &Path, options: &Options) -> (Result<Scene, ImportError>, Vec<PathBuf>) {
     let mut seen = vec![path.to_owned()];
@@ -184,7 +184,7 @@ fn load_seen(
     let bytes = bytes.map_err(|error| format.unreadable(path, &error))?;
     let folder = Folder::of(path)?.allowing(&options.allow_dirs)?;
     let scene = format.scene(path, bytes, options, &Files::of(&folder));
-    for file in folder.seen() {
+    for file in folder.requested() {
         if !seen.contains(&file) {
             seen.push(file);
         }
@@ -192,11 +192,11 @@ fn load_seen(
     scene
 }
 
-/// The scene in the file called `name` of `resolver`, which also has the files that it names. Of
-/// `options` only the overrides count: which folders are open is up to the resolver.
+/// Loads the scene `name` from `resolver`, which also provides the files that it refers to. Only the
+/// overrides of `options` apply: the resolver decides which folders are accessible.
 ///
 /// # Errors
-/// As [`load_with`].
+/// See [`load_with`].
 ///
 /// ```
 /// use glimray::import::{self, Memory, Options};
@@ -225,11 +225,11 @@ pub fn load_from(
     format.scene(&path, bytes, options, &files)
 }
 
-/// The scene in `text`, which can name no files. `name` stands for the file's path in errors; if it
-/// ends in `.scene` or `.nff` the text is in that format, else in the native one.
+/// Parses the scene in `text`, which must not refer to files. `name` stands for the file's path in
+/// errors. If it ends in `.scene` or `.nff`, the text has that format, otherwise the native one.
 ///
 /// # Errors
-/// `text` is malformed or names a file, or an override does not fit.
+/// `text` is malformed or refers to a file, or an override is invalid.
 pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportError> {
     let path = Path::new(name);
     let source = Source::new("bad scene", path, text.as_bytes().to_vec())?;
@@ -243,10 +243,10 @@ pub fn parse(name: &str, text: &str, options: &Options) -> Result<Scene, ImportE
     Ok(scene)
 }
 
-/// The picture in the file at `path`, as linear colours.
+/// Reads the image file at `path` as linear colours.
 ///
 /// # Errors
-/// The file is missing, unreadable, too big, or no picture that is known.
+/// The file is missing, unreadable, too large, or not a supported image.
 #[cfg(not(target_arch = "wasm32"))]
 pub fn picture(path: &Path) -> Result<Arc<Picture>, ImportError> {
     let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
@@ -255,15 +255,15 @@ pub fn picture(path: &Path) -> Result<Arc<Picture>, ImportError> {
     named_picture(&folder, &name, path)
 }
 
-/// The picture in the file called `name` of `resolver`, as linear colours.
+/// Reads the image `name` from `resolver` as linear colours.
 ///
 /// # Errors
-/// As [`picture()`].
+/// See [`picture()`].
 pub fn picture_from(resolver: &dyn Resolver, name: &str) -> Result<Arc<Picture>, ImportError> {
     named_picture(resolver, name, Path::new(name))
 }
 
-/// The picture called `name`, at `path` in errors.
+/// Reads the image `name`, which errors show as `path`.
 fn named_picture(
     resolver: &dyn Resolver,
     name: &str,
@@ -278,18 +278,18 @@ fn named_picture(
     }
 }
 
-/// The JSON Schema (2020-12) of the native format, for editors that complete and check TOML.
+/// The JSON Schema (2020-12) of the native format, for editors with TOML completion and validation.
 pub fn native_schema() -> serde_json::Value {
     native::schema()
 }
 
 fn unknown_format(path: &Path) -> ImportError {
     let ending = path.extension().map_or_else(
-        || "the name has no ending".to_owned(),
+        || "the name has no extension".to_owned(),
         |ending| {
             let ending = format!(".{}", ending.to_string_lossy());
             format!(
-                "the ending {} is not known",
+                "the extension {} is not supported",
                 source::quote(ending.as_bytes())
             )
         },

@@ -1,44 +1,44 @@
-//! Image → file. A file is complete or absent: the picture is encoded in memory, written beside its
-//! name, synced and renamed, and an old file stays intact until then. Pipes and devices are written
-//! to directly and never replaced. A symbolic link that a person names stays, and its file is written.
+//! Writes images to files. A file is complete or absent: the image is encoded in memory, written to a
+//! temporary file beside its target, synced and renamed; an existing file stays intact until then. Pipes
+//! and devices are written to directly and never replaced. A symbolic link given by the user is kept, and
+//! its target is written.
 //!
-//! What the values of an [`Image`] mean is settled before they get here: PNG and JPEG take them as
-//! display values in [0, 1], OpenEXR and Radiance HDR as linear light ([`Format::is_linear`]). Frames
-//! become one file in [`video`].
+//! The values of an [`Image`] are final: PNG and JPEG store display values in [0, 1], OpenEXR and
+//! Radiance HDR linear light ([`Format::is_linear`]). [`video`] writes frames to one file.
 
 mod atomic;
 mod encode;
 mod error;
 mod format;
-mod litter;
+mod remove_on_exit;
 pub mod video;
 
 pub use error::OutputError;
 pub(crate) use error::reason;
 pub use format::Format;
-pub(crate) use litter::Litter;
-pub use litter::clear_away;
+pub(crate) use remove_on_exit::RemoveOnExit;
+pub use remove_on_exit::remove_unfinished_files;
 
 use crate::image::Image;
 use std::io::Write;
 use std::path::Path;
 
-/// How to write a picture.
+/// How to write an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SaveOptions {
-    /// `None` goes by the ending of the file's name.
+    /// `None` selects the format by the file extension.
     pub format: Option<Format>,
-    /// Of a JPEG: 1 (smallest) to 100 (best). Values outside are clamped.
+    /// JPEG quality: 1 (smallest) to 100 (best). Values outside are clamped.
     pub quality: u8,
-    /// Whether a file of that name may be replaced.
+    /// Whether an existing file may be replaced.
     pub clobber: bool,
-    /// Whether a name that is a symbolic link stands for the file that it leads to. Names that a person
-    /// gave do; a link under a name that the program made up is an error.
+    /// Whether a symbolic link stands for its target. That is right for names given by the user; a link
+    /// under a generated name is an error.
     pub follow_links: bool,
 }
 
 impl Default for SaveOptions {
-    /// The format that the name says, quality 90, replacing what is there, also behind a link.
+    /// Format by extension, quality 90, replacing existing files, and following links.
     fn default() -> Self {
         Self {
             format: None,
@@ -49,19 +49,19 @@ impl Default for SaveOptions {
     }
 }
 
-/// Writes `image` to `path` in the format that the ending of its name says.
+/// Writes `image` to `path` in the format of the file extension.
 ///
 /// # Errors
-/// As [`save_with`].
+/// See [`save_with`].
 pub fn save(path: impl AsRef<Path>, image: &Image) -> Result<(), OutputError> {
     save_with(path, image, &SaveOptions::default())
 }
 
-/// Writes `image` to `path`. When it returns an error, whatever was at `path` is still there.
+/// Writes `image` to `path`. If it returns an error, the previous contents of `path` are intact.
 ///
 /// # Errors
-/// An unknown format, a picture too large for its format, and whatever keeps the file from being
-/// written: a missing or read-only folder, a full disk, a file that must not be replaced.
+/// An unknown format, an image too large for its format, and everything that prevents writing the file: a
+/// missing or read-only folder, a full disk, a file that must not be replaced.
 pub fn save_with(
     path: impl AsRef<Path>,
     image: &Image,
@@ -74,10 +74,10 @@ pub fn save_with(
     atomic::write(path, &bytes, options.clobber, options.follow_links)
 }
 
-/// Writes `image` to the standard output, as PNG unless `options` names a format.
+/// Writes `image` to standard output, as PNG unless `options` names a format.
 ///
 /// # Errors
-/// A picture too large for its format, and a standard output that takes no more.
+/// An image too large for its format, or a closed standard output.
 pub fn save_to_stdout(image: &Image, options: &SaveOptions) -> Result<(), OutputError> {
     let format = options.format.unwrap_or(Format::Png);
     format.check_size(image.width, image.height)?;
@@ -89,12 +89,12 @@ pub fn save_to_stdout(image: &Image, options: &SaveOptions) -> Result<(), Output
         .map_err(|source| OutputError::Stdout { source })
 }
 
-/// Finds out, before a picture of `width` × `height` pixels is rendered, whether [`save_with`] can
-/// write it to `path`: it tries to create a file beside it. Also removes what processes that were
-/// killed while writing to `path` left in its folder (`.NAME.part-PID-…`).
+/// Checks, before an image of `width` × `height` pixels is rendered, whether [`save_with`] can write it
+/// to `path`: it creates a temporary file beside it. Also removes the temporary files
+/// (`.NAME.part-PID-…`) that killed processes left for `path`.
 ///
 /// # Errors
-/// Those of [`save_with`] that can be known beforehand.
+/// Those of [`save_with`] that can be detected in advance.
 pub fn check(
     path: impl AsRef<Path>,
     options: &SaveOptions,
@@ -106,24 +106,24 @@ pub fn check(
     atomic::check(path, options.clobber, options.follow_links)
 }
 
-/// Like [`check`], for a file that is no picture.
+/// Like [`check`], for a file that is not an image.
 ///
 /// # Errors
-/// Those of [`write()`] that can be known beforehand.
+/// Those of [`write()`] that can be detected in advance.
 pub fn check_file(path: impl AsRef<Path>, clobber: bool) -> Result<(), OutputError> {
     atomic::check(path.as_ref(), clobber, true)
 }
 
-/// Like [`check_file`], for a name that a program made up: a file of that name may be replaced, and
-/// the name must not be a symbolic link, unless it is one to a pipe or a device.
+/// Like [`check_file`], for a generated name: an existing file may be replaced, but the name must not be
+/// a symbolic link, except to a pipe or a device.
 ///
 /// # Errors
-/// Those of [`write_own`] that can be known beforehand.
+/// Those of [`write_own`] that can be detected in advance.
 pub fn check_own(path: impl AsRef<Path>) -> Result<(), OutputError> {
     atomic::check(path.as_ref(), true, false)
 }
 
-/// Refuses a name that is a symbolic link, unless it is one to a pipe or a device.
+/// Refuses a name that is a symbolic link, except to a pipe or a device.
 ///
 /// # Errors
 /// [`OutputError::Link`].
@@ -131,24 +131,24 @@ pub fn check_no_link(path: impl AsRef<Path>) -> Result<(), OutputError> {
     atomic::check_no_link(path.as_ref())
 }
 
-/// Writes any `bytes` to `path` with the care that pictures get. `clobber` says whether a file of
-/// that name may be replaced.
+/// Writes any `bytes` to `path` as safely as images. `clobber` tells whether an existing file may be
+/// replaced.
 ///
 /// # Errors
-/// Whatever keeps the file from being written; what was at `path` is then still there.
+/// Everything that prevents writing the file; the previous contents of `path` are then intact.
 pub fn write(path: impl AsRef<Path>, bytes: &[u8], clobber: bool) -> Result<(), OutputError> {
     atomic::write(path.as_ref(), bytes, clobber, true)
 }
 
-/// Writes any `bytes` to `path`, a name that the program made up: see [`check_own`].
+/// Writes any `bytes` to `path`, a generated name: see [`check_own`].
 ///
 /// # Errors
-/// As [`write()`], and [`OutputError::Link`].
+/// See [`write()`], and [`OutputError::Link`].
 pub fn write_own(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputError> {
     atomic::write(path.as_ref(), bytes, true, false)
 }
 
-/// What the options say, else the ending, else PNG for pipes and devices, whose names say nothing.
+/// The format of the options or the extension, or PNG for pipes and devices, which have none.
 fn format_of(path: &Path, options: &SaveOptions) -> Result<Format, OutputError> {
     if path.is_dir() {
         return Err(OutputError::IsFolder { path: path.into() });

@@ -77,7 +77,7 @@ pub fn install_panic_hook() {
                 1,
             ),
         };
-        output::clear_away();
+        output::remove_unfinished_files();
         console::error(message, exit_code);
         std::process::exit(exit_code.into());
     }));

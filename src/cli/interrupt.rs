@@ -130,7 +130,7 @@ impl State {
 
 /// Ends the program at once, whatever its other threads are doing.
 fn end(exit_code: usize, prints_error: bool) -> ! {
-    output::clear_away();
+    output::remove_unfinished_files();
     if prints_error {
         let (sender, receiver) = channel();
         let _ = std::thread::Builder::new().spawn(move || {

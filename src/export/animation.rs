@@ -1,4 +1,4 @@
-//! What changes over time.
+//! The animations of a scene.
 
 use super::materials::has_same_ambient;
 use super::text::{Table, list, number, quaternion, string, vector};
@@ -9,13 +9,13 @@ use crate::scene::{
 };
 use glam::DVec3;
 
-/// Longer lists of keys have a line for each.
+/// Longer lists of keys have one key per line.
 const MOST_IN_A_LINE: usize = 2;
 
 impl Writer<'_> {
     pub fn animations(&mut self) {
         if !self.scene.tracks.is_empty() {
-            self.text.section("What moves");
+            self.text.section("Animations");
         }
         for track in &self.scene.tracks {
             for targets in self.parts(track) {
@@ -25,7 +25,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The targets of a track that one animation can name.
+    /// The targets of a track, grouped so that one animation can name each group.
     fn parts(&self, track: &Track) -> Vec<Vec<Target>> {
         let mut parts: Vec<Vec<Target>> = Vec::new();
         for &target in &track.targets {
@@ -35,7 +35,7 @@ impl Writer<'_> {
                 .is_some_and(|last| {
                     match (*last, target) {
                         (Target::Node(_, a), Target::Node(_, b)) => a == b,
-                        // The ambient colour follows the diffuse one where the material gives none.
+                        // The ambient colour follows the diffuse one unless the material gives its own.
                         (
                             Target::Material(a, MaterialProperty::Diffuse),
                             Target::Material(b, MaterialProperty::Ambient),
@@ -93,7 +93,7 @@ impl Writer<'_> {
             Interpolation::Hermite => table.put("interpolation", string("hermite")),
         }
         match curve.easing {
-            // It is of effect on straight ways only, and refused on others.
+            // Easing applies to linear interpolation only, and is an error with others.
             Easing::Bezier(points) if curve.interpolation == Interpolation::Linear => {
                 table.put("easing", easing(curve.easing, points));
             }
@@ -168,7 +168,7 @@ fn of_material(property: MaterialProperty) -> &'static str {
     }
 }
 
-/// Whether all values are exactly so many degrees.
+/// Whether all values are exactly representable in degrees.
 fn in_degrees(curve: &Curve) -> bool {
     let is_told = |radians: &f64| exact::degrees(*radians).is_some();
     match &curve.values {

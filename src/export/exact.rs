@@ -1,14 +1,14 @@
-//! Numbers as people write them, where they give back exactly what is there.
+//! Numbers as they would be written by hand, provided that they preserve the exact value.
 
 use super::text::{self, Table};
 use crate::scene::{Transform, rotation};
 use glam::{DAffine3, DQuat, DVec3, EulerRot};
 
-/// How many decimals are tried first.
+/// The numbers of decimals that are tried, in order.
 const DECIMALS: [usize; 7] = [0, 1, 2, 3, 5, 8, 11];
 
-/// The shortest numbers near `exact` for which something `holds`.
-pub(super) fn settle<const N: usize>(
+/// The shortest numbers near `exact` for which `holds` is true.
+pub(super) fn shortest<const N: usize>(
     exact: [f64; N],
     holds: impl Fn([f64; N]) -> bool,
 ) -> Option<[f64; N]> {
@@ -25,11 +25,11 @@ pub(super) fn settle<const N: usize>(
     holds(exact).then_some(exact)
 }
 
-/// The degrees that become exactly these radians, if there are any.
+/// The angle in degrees that converts to exactly these radians, if there is one.
 pub(super) fn degrees(radians: f64) -> Option<f64> {
     let is_it = |degrees: f64| degrees.to_radians().to_bits() == radians.to_bits();
     let near = radians.to_degrees();
-    settle([near], |[degrees]| is_it(degrees))
+    shortest([near], |[degrees]| is_it(degrees))
         .map(|[degrees]| degrees)
         .or_else(|| {
             [near.next_up(), near.next_down()]
@@ -42,7 +42,7 @@ pub(super) fn is_same(a: DAffine3, b: DAffine3) -> bool {
     a.to_cols_array().map(f64::to_bits) == b.to_cols_array().map(f64::to_bits)
 }
 
-/// A transform as a table, if it is not the identity.
+/// A transform as a table; `None` for the identity.
 pub(super) fn transform(affine: DAffine3) -> Option<String> {
     if is_same(affine, DAffine3::IDENTITY) {
         return None;
@@ -50,7 +50,7 @@ pub(super) fn transform(affine: DAffine3) -> Option<String> {
     let mut table = Table::default();
     if is_same(DAffine3::from_translation(affine.translation), affine) {
         table.put("translate", text::vector(affine.translation));
-    } else if let Some(transform) = told(affine) {
+    } else if let Some(transform) = decomposed(affine) {
         let Transform {
             translate,
             rotate_deg,
@@ -66,14 +66,14 @@ pub(super) fn transform(affine: DAffine3) -> Option<String> {
     Some(table.inline())
 }
 
-/// The scale, angles and translation that are exactly `affine`, if they are of bearable length.
-fn told(affine: DAffine3) -> Option<Transform> {
+/// The scale, angles and translation that give exactly `affine`, if they are short enough.
+fn decomposed(affine: DAffine3) -> Option<Transform> {
     let (near, is_near) = Transform::of(affine);
     if !is_near {
         return None;
     }
     let mirrored = affine.matrix3.determinant() < 0.0;
-    // Signs of the scale whose product says whether it mirrors; the first is what is likeliest meant.
+    // Combinations of signs of the scale, mirroring or not; the most likely one comes first.
     let signs: &[[f64; 3]] = match mirrored {
         true => &[
             [-1.0, 1.0, 1.0],
@@ -101,17 +101,17 @@ fn told(affine: DAffine3) -> Option<Transform> {
             let t = affine.translation.to_array();
             let [a, s] = [angles.to_array(), scale.to_array()];
             let near = [t[0], t[1], t[2], a[0], a[1], a[2], s[0], s[1], s[2]];
-            // The translation is always exact: rounding it would only be tried in vain.
+            // The translation is exact already: rounding it would not help.
             let exact = |n: [f64; 9]| Transform {
                 translate: affine.translation,
                 ..of(n)
             };
-            settle(near, |n| is_same(exact(n).affine(), affine)).map(exact)
+            shortest(near, |n| is_same(exact(n).affine(), affine)).map(exact)
         })
     })
 }
 
-/// Degrees round x, y and z that turn alike.
+/// Equivalent angles about x, y and z in degrees.
 fn angles(turn: DQuat) -> [DVec3; 2] {
     let (z, y, x) = turn.to_euler(EulerRot::ZYX);
     let first = DVec3::new(x, y, z);
@@ -123,14 +123,14 @@ fn angles(turn: DQuat) -> [DVec3; 2] {
     both
 }
 
-/// A rotation as an entry of a transform, if it is not the identity.
+/// A rotation as an entry of a transform; none for the identity.
 pub(super) fn put_rotation(table: &mut Table, turn: DQuat) {
     let bits = |q: DQuat| q.to_array().map(f64::to_bits);
     if bits(turn) == bits(DQuat::IDENTITY) {
         return;
     }
     let found = angles(turn).into_iter().find_map(|angles| {
-        settle(angles.to_array(), |n| {
+        shortest(angles.to_array(), |n| {
             bits(rotation(n.into())) == bits(turn)
         })
     });

@@ -1,8 +1,8 @@
-//! The files beside a scene file.
+//! The companion files of a scene file.
 
 use super::ExportFile;
 
-/// Files that lie beside a scene file.
+/// Companion files of a scene file.
 pub(super) struct Beside<'a> {
     stem: &'a str,
     is_taken: &'a dyn Fn(&str, &[u8]) -> bool,

@@ -5,7 +5,7 @@ use super::{Writer, exact};
 use crate::scene::{Attenuation, Light, LightKind};
 use glam::Vec3;
 
-/// Shadow rays of area lights whose file gives no number.
+/// The importer's default number of shadow rays of area lights.
 const SAMPLES: u32 = 16;
 
 impl Writer<'_> {
@@ -20,7 +20,7 @@ impl Writer<'_> {
             if let Some(node) = light.node {
                 table.put("carried_by", string(&self.names.nodes[node]));
             }
-            // What is animated multiplies the plain colour.
+            // An animated intensity multiplies the plain colour.
             put(&mut table, light, name.is_empty());
             self.text.gap();
             self.text.head("[[lights]]");

@@ -1,12 +1,12 @@
 //! The materials of a scene.
 
 use super::Writer;
-use super::exact::settle;
+use super::exact::shortest;
 use super::text::{Table, color, key, number32, string};
 use crate::scene::{Fresnel, Material, MaterialProperty, Mixing, Target, Textures};
 use glam::Vec3;
 
-/// What a native material has that says nothing.
+/// The defaults of a native material.
 const SHININESS: f32 = 32.0;
 const IOR: f32 = 1.5;
 
@@ -56,8 +56,8 @@ impl Writer<'_> {
         table
     }
 
-    /// Whether the diffuse colour of a material moves while its ambient one, which is the same at
-    /// rest, stays: only an ambient colour of its own keeps it there.
+    /// Whether the diffuse colour of a material is animated while its ambient colour, which is the same
+    /// at rest, is not: the ambient colour must then be written.
     fn is_own_ambient(&self, index: usize) -> bool {
         let mut targets = self.scene.tracks.iter().flat_map(|track| &track.targets);
         let moves = |property| Target::Material(index, property);
@@ -66,7 +66,7 @@ impl Writer<'_> {
         targets.clone().any(|target| *target == diffuse) && !targets.any(|t| *t == ambient)
     }
 
-    /// A colour with or without a texture.
+    /// A colour, with or without a texture.
     fn shade(&self, constant: Vec3, texture: Option<usize>) -> String {
         let Some(texture) = texture else {
             return color(constant);
@@ -77,7 +77,7 @@ impl Writer<'_> {
         table.inline()
     }
 
-    /// What is mirrored and let through.
+    /// Reflection and transmission.
     fn optics(&self, table: &mut Table, material: &Material) {
         let plain = Material {
             ior: 1.0,
@@ -120,7 +120,7 @@ impl Writer<'_> {
         table
     }
 
-    /// How much is mirrored, and in which colour.
+    /// The reflected fraction and its colour.
     fn mirror(&self, table: &mut Table, material: &Material) {
         let amount = material.reflect.x;
         let texture = material.textures.reflect;
@@ -131,13 +131,13 @@ impl Writer<'_> {
         }
     }
 
-    /// What it lets through, if `refract`, beside a mirror or by its own Fresnel term, says just that.
+    /// Its transmission, if `refract` expresses it exactly, beside a mirror or with its own Fresnel term.
     fn refract(&self, material: &Material) -> Option<Table> {
         let opacity = material.opacity.to_bits();
         let gives = |amount: f32| (1.0 - amount).to_bits() == opacity;
         let near = f64::from(1.0 - material.opacity);
         let amount = if material.fresnel == Fresnel::None {
-            let found = settle([near], |[amount]| gives(amount as f32));
+            let found = shortest([near], |[amount]| gives(amount as f32));
             found.map(|[amount]| amount as f32)?
         } else {
             material.reflect.x
@@ -146,7 +146,7 @@ impl Writer<'_> {
             return None;
         }
         if material.fresnel == Fresnel::None {
-            // Beside it a mirror of at most the rest, and that may be as bright as its colour says.
+            // A mirror beside it may reflect at most the rest, and its colour may be of any brightness.
             let texture = material.textures.reflect;
             let mirrored = material.reflect.x;
             let is_gray = texture.is_none() && is_same(material.reflect, Vec3::splat(mirrored));
@@ -168,7 +168,7 @@ impl Writer<'_> {
                 return None;
             }
             let of = |n: [f64; 3]| glam::DVec3::from(n).as_vec3();
-            of(settle(near, |n| tint(of(n)))?)
+            of(shortest(near, |n| tint(of(n)))?)
         };
         let texture = material.textures.transmit;
         let mut table = Table::default();
@@ -212,7 +212,7 @@ impl Writer<'_> {
     }
 }
 
-/// Whether the ambient colour is the diffuse one, which a file then need not say.
+/// Whether the ambient colour equals the diffuse one, which is the default.
 pub(super) fn has_same_ambient(material: &Material) -> bool {
     let textures = &material.textures;
     is_same(material.ambient, material.diffuse) && textures.ambient == textures.diffuse

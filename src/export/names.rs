@@ -1,17 +1,17 @@
-//! Names for what other parts of a scene file refer to.
+//! Names for everything that a scene file refers to.
 
 use crate::scene::{Scene, Target};
 use std::collections::HashSet;
 
-/// A name for each, by its index in the scene's list.
+/// Names by index in the scene's lists.
 pub(super) struct Names {
     pub materials: Vec<String>,
     pub textures: Vec<String>,
     pub meshes: Vec<String>,
     pub nodes: Vec<String>,
-    /// Empty where nothing refers to it and it had none.
+    /// Empty if nothing refers to it and it had none.
     pub cameras: Vec<String>,
-    /// Empty where nothing refers to it.
+    /// Empty if nothing refers to it.
     pub lights: Vec<String>,
 }
 
@@ -34,7 +34,7 @@ impl Names {
             }
         }
         let materials = unique("material", scene.materials.iter().map(|m| given(&m.name)));
-        // A texture is called after the first material that it is on.
+        // A texture is named after the first material that uses it.
         let mut textures = vec![String::new(); scene.textures.len()];
         for (name, material) in materials.iter().zip(&scene.materials) {
             for texture in material.textures.all().into_iter().flatten() {
@@ -54,7 +54,7 @@ impl Names {
     }
 }
 
-/// Names that differ: the first of equal ones keeps it, and what has none gets one of its kind.
+/// Unique names: the first of several equal names is kept, and missing ones are generated from the kind.
 fn unique(kind: &str, names: impl Iterator<Item = String>) -> Vec<String> {
     let mut names: Vec<String> = names.collect();
     let mut taken: HashSet<String> = HashSet::new();
@@ -69,7 +69,7 @@ fn unique(kind: &str, names: impl Iterator<Item = String>) -> Vec<String> {
             "" => kind.to_owned(),
             name => name.to_owned(),
         };
-        // Numbers count from 1, and the second of two is number 2.
+        // Numbers count from 1, so the second of two gets number 2.
         let mut number = if names[index].is_empty() {
             index + 1
         } else {

@@ -1,4 +1,4 @@
-//! The meshes of a scene, its nodes, and where the meshes stand.
+//! The meshes of a scene, its nodes, and the instances of meshes.
 
 use super::runs::{LEAST, runs};
 use super::text::{Table, key, list, scale, string, vector};
@@ -33,7 +33,7 @@ impl Writer<'_> {
 
     pub fn nodes(&mut self) {
         if !self.scene.nodes.is_empty() {
-            self.text.section("What carries others");
+            self.text.section("Nodes");
         }
         for (index, node) in self.scene.nodes.iter().enumerate() {
             let mut table = Table::default();
@@ -56,7 +56,7 @@ impl Writer<'_> {
     pub fn instances(&mut self) {
         let instances = &self.scene.instances;
         if !instances.is_empty() {
-            self.text.section("Placed meshes");
+            self.text.section("Mesh instances");
         }
         let is_alike = |a: &usize, b: &usize| {
             let (a, b) = (&instances[*a], &instances[*b]);
@@ -84,7 +84,7 @@ impl Writer<'_> {
         }
     }
 
-    /// One object, carried and placed.
+    /// One object with its parent node and transform.
     pub fn object(&mut self, mut table: Table, node: Option<usize>, transform: Option<String>) {
         if let Some(node) = node {
             table.put("carried_by", string(&self.names.nodes[node]));
@@ -97,7 +97,7 @@ impl Writer<'_> {
         self.text.lines(&table);
     }
 
-    /// One object for many places.
+    /// One object with many copies.
     pub fn copies(&mut self, mut table: Table, name: &str, places: &[DAffine3]) {
         let bytes = ply::places(places);
         let file = self.beside.add(&format!("{name}-places"), "ply", bytes);
@@ -109,7 +109,7 @@ impl Writer<'_> {
     }
 }
 
-/// What animations of a node take the place of.
+/// The transform that animations of a node override.
 fn at_rest(node: &Node) -> Table {
     let mut table = Table::default();
     let bits = |v: DVec3| v.to_array().map(f64::to_bits);

@@ -1,4 +1,4 @@
-//! What holds for all of a scene: its picture, background, ambient light and shadows.
+//! Scene-wide settings: output, background, ambient light and shadows.
 
 use super::text::{Table, color, list, number, number32};
 use super::{ExportError, Writer, exact};
@@ -6,7 +6,7 @@ use crate::scene::{Antialias, Background, Filter, OutputDefaults, Shadows, ToneC
 use glam::Vec3;
 
 impl Writer<'_> {
-    /// What is in no table.
+    /// Keys outside of tables.
     pub fn root(&mut self) -> Result<(), ExportError> {
         let scene = self.scene;
         let mut table = Table::default();
@@ -44,7 +44,7 @@ impl Writer<'_> {
             return Ok(String::new());
         };
         let mut table = Table::default();
-        // Textures number their pictures first: this one may be among them, by the same name.
+        // Textures write their images first: this image may be among them, under the same name.
         for texture in &self.scene.textures {
             if let crate::scene::Pattern::Picture { picture, .. } = texture.pattern {
                 self.picture(picture)?;

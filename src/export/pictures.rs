@@ -1,4 +1,4 @@
-//! Pictures as files that keep every texel: PNG where the texels are those of one, else OpenEXR.
+//! Images as files that preserve every texel: PNG if it can represent them exactly, otherwise OpenEXR.
 
 use super::text::string;
 use super::{ExportError, Writer};
@@ -7,7 +7,7 @@ use image::{ExtendedColorType, ImageEncoder, ImageError};
 use std::io::Cursor;
 
 impl Writer<'_> {
-    /// The name of the file with a picture, in quotes.
+    /// The name of the file with an image, in quotes.
     pub fn picture(&mut self, index: usize) -> Result<String, ExportError> {
         if let Some(name) = self.pictures.get(&index) {
             return Ok(string(name));
@@ -47,7 +47,7 @@ fn encode(picture: &Picture) -> Result<(&'static str, Vec<u8>), ImageError> {
     Ok(("exr", bytes))
 }
 
-/// The 16-bit sRGB codes whose linear values the texels are exactly, if they all are.
+/// The 16-bit sRGB codes that decode to exactly these texels, if there are such codes.
 fn codes(picture: &Picture) -> Option<Vec<u16>> {
     let curve: Vec<f32> = (0..=u16::MAX)
         .map(|code| linear_from_srgb(f64::from(code) / f64::from(u16::MAX)) as f32)

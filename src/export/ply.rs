@@ -1,9 +1,9 @@
-//! Meshes and places as binary PLY files, which keep every bit of a number.
+//! Meshes and transforms of copies as binary PLY files, which preserve every bit.
 
 use crate::scene::Mesh;
 use glam::{DAffine3, DMat3};
 
-/// A mesh whose materials are numbered by `number_of`.
+/// A mesh; `number_of` gives the numbers of its materials.
 pub(super) fn mesh(mesh: &Mesh, number_of: impl Fn(u32) -> u32, has_numbers: bool) -> Vec<u8> {
     let mut header = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\n",
@@ -46,7 +46,7 @@ pub(super) fn mesh(mesh: &Mesh, number_of: impl Fn(u32) -> u32, has_numbers: boo
     bytes
 }
 
-/// Places of copies.
+/// Transforms of copies.
 pub(super) fn places(places: &[DAffine3]) -> Vec<u8> {
     let bits = |m: DMat3| m.to_cols_array().map(f64::to_bits);
     let are_moved_only = places

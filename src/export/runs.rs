@@ -1,11 +1,11 @@
-//! Many alike in a row, which one object with many places stands for.
+//! Runs of equal objects, which one object with copies represents.
 
 use std::ops::Range;
 
-/// From how many on places go to a file of their own.
+/// Runs of at least this length write the transforms to a file of their own.
 pub(super) const LEAST: usize = 64;
 
-/// The stretches of `items` of which each is alike to the first.
+/// Splits `items` into runs in which every item is equivalent to the first.
 pub(super) fn runs<T>(items: &[T], is_alike: impl Fn(&T, &T) -> bool) -> Vec<Range<usize>> {
     let mut runs = Vec::new();
     let mut start = 0;

@@ -1,8 +1,8 @@
-//! The analytic surfaces of a scene: by the corners, radii and ends that are exactly they, else in
-//! canonical place under a transform.
+//! The analytic surfaces of a scene: with corners, radii and ends that represent them exactly, or in
+//! canonical position with a transform.
 
 use super::Writer;
-use super::exact::{is_same, settle, transform};
+use super::exact::{is_same, shortest, transform};
 use super::runs::{LEAST, runs};
 use super::text::{Table, number, string, vector};
 use crate::scene::{CanonicalShape, Geometry, Shape};
@@ -34,7 +34,7 @@ impl Writer<'_> {
     }
 
     fn shape(&mut self, shape: &Shape) {
-        let (key, own, place) = told(shape.geometry);
+        let (key, own, place) = readable(shape.geometry);
         let mut table = Table::default();
         table.put(key, own.inline());
         table.put("material", string(&self.names.materials[shape.material]));
@@ -42,7 +42,7 @@ impl Writer<'_> {
     }
 }
 
-/// Whether one object with several places can stand for both.
+/// Whether one object with copies can represent both.
 fn is_alike(a: &Shape, b: &Shape) -> bool {
     let is_same_shape = match (a.geometry, b.geometry) {
         (Geometry::Sphere { .. }, Geometry::Sphere { .. }) => true,
@@ -52,7 +52,7 @@ fn is_alike(a: &Shape, b: &Shape) -> bool {
     is_same_shape && a.material == b.material && a.node == b.node
 }
 
-/// What brings the canonical surface to where it is, if that keeps all digits.
+/// The transform of the canonical shape, if that keeps all digits.
 fn canonical_place(shape: &Shape) -> Option<DAffine3> {
     match shape.geometry {
         Geometry::Plane { .. } => None,
@@ -74,7 +74,7 @@ fn canonical_place(shape: &Shape) -> Option<DAffine3> {
     }
 }
 
-/// A cone whose greater radius is 1, as files have them.
+/// A cone scaled so that its larger radius is 1, as the importer does.
 fn normalized(geometry: Geometry) -> Option<(CanonicalShape, DAffine3)> {
     let Geometry::Placed {
         canonical:
@@ -101,7 +101,7 @@ fn normalized(geometry: Geometry) -> Option<(CanonicalShape, DAffine3)> {
     Some((canonical, world_from_canonical * axes))
 }
 
-/// The key and table of a surface in canonical place, and where that is.
+/// The key and table of a shape in canonical position, and its transform.
 fn in_place(geometry: Geometry) -> (&'static str, Table, DAffine3) {
     let mut table = Table::default();
     let (canonical, place) = match geometry {
@@ -173,8 +173,8 @@ fn put_radii(table: &mut Table, [bottom, top]: [f64; 2], capped: bool) {
     table.put_if(!capped, "open", "true");
 }
 
-/// The key and table of a surface as a person would give it, and what is left for a transform.
-fn told(geometry: Geometry) -> (&'static str, Table, DAffine3) {
+/// The key and table of a surface as written by hand, and the remaining transform.
+fn readable(geometry: Geometry) -> (&'static str, Table, DAffine3) {
     let found = match geometry {
         Geometry::Sphere { center, radius } => {
             let mut table = Table::default();
@@ -183,7 +183,7 @@ fn told(geometry: Geometry) -> (&'static str, Table, DAffine3) {
             return ("sphere", table, DAffine3::IDENTITY);
         }
         Geometry::Plane { .. } => None,
-        // In canonical place files keep no signs of zeros but the transform's.
+        // In canonical position, only the transform keeps the signs of zeros.
         Geometry::Placed {
             world_from_canonical,
             ..
@@ -242,7 +242,7 @@ fn cuboid(place: DAffine3) -> Option<Table> {
         DAffine3::from_scale_rotation_translation(size, DQuat::IDENTITY, middle)
     };
     let near = six(place.translation - half, place.translation + half);
-    let found = settle(near, |n| {
+    let found = shortest(near, |n| {
         three(&n).cmplt(three(&n[3..])).all() && is_same(of(n), place)
     })?;
     let mut table = Table::default();
@@ -275,7 +275,7 @@ fn rectangle(place: DAffine3) -> Option<Table> {
         DAffine3::from_mat3_translation(DMat3::from_cols(u, normal, -v) * 0.5, place.translation)
     };
     let near = six(2.0 * place.matrix3.x_axis, -2.0 * place.matrix3.z_axis);
-    let found = settle(near, |n| is_same(of(n), place))?;
+    let found = shortest(near, |n| is_same(of(n), place))?;
     let mut table = Table::default();
     table.put("center", vector(place.translation));
     table.put("edge_u", vector(three(&found) + 0.0));
@@ -299,7 +299,7 @@ fn disc(hole: f64, place: DAffine3) -> Option<Table> {
             .then(|| DAffine3::from_mat3_translation(axes, place.translation))
     };
     let near = [normal.x, normal.y, normal.z, radius, hole * radius];
-    let found = settle(near, |n| of(n).is_some_and(|made| is_same(made, place)))?;
+    let found = shortest(near, |n| of(n).is_some_and(|made| is_same(made, place)))?;
     let mut table = Table::default();
     table.put("center", vector(place.translation));
     let normal = three(&found);
@@ -323,7 +323,7 @@ fn torus(minor: f64, place: DAffine3) -> Option<Table> {
             .then(|| DAffine3::from_mat3_translation(axes, place.translation))
     };
     let near = [axis.x, axis.y, axis.z, major, minor * major];
-    let found = settle(near, |n| of(n).is_some_and(|made| is_same(made, place)))?;
+    let found = shortest(near, |n| of(n).is_some_and(|made| is_same(made, place)))?;
     let mut table = Table::default();
     table.put("center", vector(place.translation));
     let axis = three(&found);
@@ -337,7 +337,7 @@ fn torus(minor: f64, place: DAffine3) -> Option<Table> {
     Some(table)
 }
 
-/// Of cylinders, cones and frustums.
+/// Cylinders, cones and frustums.
 fn cone([bottom, top]: [f64; 2], capped: bool, place: DAffine3) -> Option<Table> {
     let from = place.translation;
     let wide = place.matrix3.x_axis.length();
@@ -352,7 +352,7 @@ fn cone([bottom, top]: [f64; 2], capped: bool, place: DAffine3) -> Option<Table>
     };
     let to = from + place.matrix3.y_axis;
     let near = [to.x, to.y, to.z, bottom * wide, top * wide];
-    let found = settle(near, |n| of(n).is_some_and(|made| is_same(made, place)))?;
+    let found = shortest(near, |n| of(n).is_some_and(|made| is_same(made, place)))?;
     let mut table = Table::default();
     table.put("from", vector(from));
     table.put("to", vector(three(&found)));
@@ -360,7 +360,7 @@ fn cone([bottom, top]: [f64; 2], capped: bool, place: DAffine3) -> Option<Table>
     Some(table)
 }
 
-/// A direction as the importer takes it: what has length 1 already stays as it is.
+/// A direction as the importer reads it: normalised vectors stay as they are.
 fn unit(direction: DVec3) -> Option<DVec3> {
     if (direction.length_squared() - 1.0).abs() <= 8.0 * f64::EPSILON {
         return Some(direction);

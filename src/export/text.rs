@@ -1,18 +1,18 @@
-//! TOML as text: numbers in as few digits as give back all their bits.
+//! TOML text: numbers in the fewest digits that preserve all bits.
 
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 use std::fmt::Write;
 
-/// A scene file while it is written.
+/// A scene file being written.
 pub(super) struct Text {
     out: String,
-    /// Whether a section has just begun.
+    /// Whether a section has just started.
     is_fresh: bool,
 }
 
 impl Text {
     pub fn new() -> Self {
-        let out = "# A glimray scene: right-handed, +Y up, linear colours. `glimray schema` has all keys.\n";
+        let out = "# A glimray scene: right-handed, +Y up, linear colours. `glimray schema` lists all keys.\n";
         Self {
             out: out.to_owned(),
             is_fresh: false,
@@ -23,25 +23,25 @@ impl Text {
         self.out
     }
 
-    /// Begins a section with a comment.
+    /// Starts a section with a comment.
     pub fn section(&mut self, comment: &str) {
         let _ = writeln!(self.out, "\n# {comment}");
         self.is_fresh = true;
     }
 
-    /// An empty line, unless a section has just begun.
+    /// Adds an empty line, unless a section has just started.
     pub fn gap(&mut self) {
         if !std::mem::take(&mut self.is_fresh) {
             self.out.push('\n');
         }
     }
 
-    /// The head of a table, such as `[a.b]`, or of one more in a list of them.
+    /// The head of a table, such as `[a.b]`, or of a list element.
     pub fn head(&mut self, head: &str) {
         let _ = writeln!(self.out, "{head}");
     }
 
-    /// One entry for each line.
+    /// One line per entry.
     pub fn lines(&mut self, table: &Table) {
         for (key, value) in &table.entries {
             let _ = writeln!(self.out, "{key} = {value}");
@@ -70,7 +70,7 @@ impl Table {
         self.entries.is_empty()
     }
 
-    /// As a value within a line.
+    /// The table as an inline value.
     pub fn inline(&self) -> String {
         if self.is_empty() {
             return "{}".to_owned();
@@ -85,7 +85,7 @@ impl Table {
 pub(super) fn number(value: f64) -> String {
     let text = format!("{value:?}");
     match text.strip_suffix(".0") {
-        // Zero has a sign, which integers have not.
+        // Zero has a sign, integers do not.
         Some(whole) if value != 0.0 || value.is_sign_positive() => whole.to_owned(),
         _ => text,
     }
@@ -93,7 +93,7 @@ pub(super) fn number(value: f64) -> String {
 
 pub(super) fn number32(value: f32) -> String {
     let text = format!("{value:?}");
-    // The importer reads f64 and rounds: the shortest digits may then mean the neighbour.
+    // The importer parses f64 and rounds to f32: the shortest f32 digits may round to a neighbour.
     if text
         .parse::<f64>()
         .is_ok_and(|read| (read as f32).to_bits() == value.to_bits())
@@ -125,7 +125,7 @@ pub(super) fn matrix(value: DAffine3) -> String {
     list(columns.map(vector))
 }
 
-/// A colour: as "#rrggbb" where that is exactly it and its numbers are long.
+/// A colour: as "#rrggbb" if that is exact and shorter.
 pub(super) fn color(value: Vec3) -> String {
     let numbers = list(value.to_array().map(number32));
     let code = |channel: f32| {
@@ -144,7 +144,7 @@ pub(super) fn color(value: Vec3) -> String {
     }
 }
 
-/// A number, or one for each axis.
+/// A number, or one per axis.
 pub(super) fn scale(value: DVec3) -> String {
     let [x, y, z] = value.to_array().map(f64::to_bits);
     if x == y && y == z {

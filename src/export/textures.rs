@@ -51,38 +51,42 @@ impl Writer<'_> {
     }
 }
 
-/// Where the pattern is.
+/// The transform of the pattern.
 fn place(table: &mut Table, texture: &Texture) {
     let wanted = texture.pattern_from_space;
-    // What a file without a place gives.
+    // The transform of a file without one.
     if exact::is_same(Transform::default().affine().inverse(), wanted) {
         return;
     }
     let near = wanted.inverse();
     let candidates = [0, 2, 4, 6, 9, 12].map(|decimals| {
-        let (told, is_near) = Transform::of(near);
+        let (transform, is_near) = Transform::of(near);
         let round = |v: DVec3| {
             let round = |x: f64| format!("{x:.decimals$}").parse::<f64>().unwrap_or(x) + 0.0;
             DVec3::from(v.to_array().map(round))
         };
-        let told = Transform {
-            translate: round(told.translate),
-            rotate_deg: round(told.rotate_deg),
-            scale: round(told.scale),
+        let transform = Transform {
+            translate: round(transform.translate),
+            rotate_deg: round(transform.rotate_deg),
+            scale: round(transform.scale),
         };
-        is_near.then_some(told)
+        is_near.then_some(transform)
     });
-    let gives_it = |told: &Transform| {
-        let is_flat = told.scale.abs().min_element() == 0.0;
-        !is_flat && exact::is_same(told.affine().inverse(), wanted)
+    let gives_it = |transform: &Transform| {
+        let is_flat = transform.scale.abs().min_element() == 0.0;
+        !is_flat && exact::is_same(transform.affine().inverse(), wanted)
     };
     match candidates.into_iter().flatten().find(gives_it) {
-        Some(told) => {
-            table.put_if(told.scale != DVec3::ONE, "scale", text::scale(told.scale));
-            let turned = told.rotate_deg != DVec3::ZERO;
-            table.put_if(turned, "rotate_deg", text::vector(told.rotate_deg));
-            let moved = told.translate != DVec3::ZERO;
-            table.put_if(moved, "translate", text::vector(told.translate));
+        Some(transform) => {
+            table.put_if(
+                transform.scale != DVec3::ONE,
+                "scale",
+                text::scale(transform.scale),
+            );
+            let turned = transform.rotate_deg != DVec3::ZERO;
+            table.put_if(turned, "rotate_deg", text::vector(transform.rotate_deg));
+            let moved = transform.translate != DVec3::ZERO;
+            table.put_if(moved, "translate", text::vector(transform.translate));
         }
         None if exact::is_same(wanted, DAffine3::IDENTITY) => {
             table.put("pattern_from_space", text::matrix(DAffine3::IDENTITY));

@@ -8,21 +8,21 @@ use std::path::{Path, PathBuf};
 use zip::ZipArchive;
 use zip::result::ZipError;
 
-/// A ZIP archive in memory. Files name each other as they do in folders, and nothing is unpacked to a
-/// disk. A file is read no further than what was asked for, whatever length the archive claims.
+/// A ZIP archive in memory. Files refer to each other as in folders, and nothing is unpacked to disk. A
+/// file is read up to the requested limit, whatever length the archive claims.
 #[derive(Debug)]
 pub struct Archive {
-    /// Reading moves a cursor.
+    /// Reading moves its cursor.
     archive: RefCell<ZipArchive<Cursor<Vec<u8>>>>,
-    /// Places in it by name. Names that lead out of the archive are left out.
+    /// Indices of entries by name, without names that point outside the archive.
     files: BTreeMap<PathBuf, usize>,
 }
 
 impl Archive {
-    /// The archive in `bytes`.
+    /// Opens the archive in `bytes`.
     ///
     /// # Errors
-    /// [`FileError::Failed`] if they are none, or it is damaged.
+    /// [`FileError::Failed`] if `bytes` are not a ZIP archive or it is damaged.
     pub fn new(bytes: Vec<u8>) -> Result<Self, FileError> {
         let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(failed)?;
         let mut files = BTreeMap::new();
@@ -39,7 +39,7 @@ impl Archive {
         })
     }
 
-    /// Its files, in the order of their names.
+    /// Its files, sorted by name.
     pub fn names(&self) -> impl Iterator<Item = &Path> {
         self.files.keys().map(PathBuf::as_path)
     }

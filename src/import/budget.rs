@@ -1,33 +1,33 @@
-//! How much memory of the host a file may take while it is read. What a file needs can only be told
-//! while it is read: a line of eight bytes may place three vertices. So importers count what they
-//! hold, with what is still to be made of it, and stop when it is out of proportion to the file.
+//! Bounds the memory that reading a file may take. It cannot be computed in advance: a line of eight
+//! bytes may place three vertices. Importers therefore count the memory they hold and the memory that
+//! later steps will need, and stop when it exceeds the file's budget.
 
 use super::error::{Fault, ImportError};
 
-/// Bytes of memory for each byte of a file.
+/// Bytes of memory per byte of the file.
 const PER_BYTE: u64 = 8;
 
-/// Bytes that every file may take.
+/// Bytes that every file may take in addition.
 const ALWAYS: u64 = 64 << 20;
 
-/// The memory that one file may take.
+/// The memory budget of one file.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Budget {
     limit: u64,
 }
 
 impl Budget {
-    /// Of a file of `length` bytes.
+    /// The budget of a file of `length` bytes.
     pub fn of(length: usize) -> Self {
         Self {
             limit: ALWAYS.saturating_add(PER_BYTE.saturating_mul(length as u64)),
         }
     }
 
-    /// Checks that `bytes` are within it.
+    /// Checks that `bytes` are within the budget.
     ///
     /// # Errors
-    /// They are not: `refuse` says where, given why and what to do.
+    /// They are not: `refuse` adds the position to the reason and the remedy.
     pub fn check(
         self,
         bytes: u64,
@@ -37,8 +37,8 @@ impl Budget {
             return Ok(());
         }
         let why = format!(
-            "reading on would take more than {} MiB of memory, which is {PER_BYTE} times the size of the \
-             file and {} MiB",
+            "reading it would take more than {} MiB of memory: {PER_BYTE} times the size of the \
+             file plus {} MiB",
             self.limit >> 20,
             ALWAYS >> 20
         );
@@ -47,7 +47,7 @@ impl Budget {
     }
 }
 
-/// The memory that `count` values of the type `T` take.
+/// The memory taken by `count` values of type `T`.
 pub(super) fn size<T>(count: usize) -> u64 {
     (count as u64).saturating_mul(size_of::<T>() as u64)
 }

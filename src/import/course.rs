@@ -8,9 +8,9 @@
 //! vertex   := "pos:" x y z  "nor:" x y z  "dif:" r g b  "spe:" r g b  "shi:" s
 //! light    := "light"    "pos:" x y z  "col:" r g b
 //! ```
-//! Read as found in the wild: keys of an object in any order and case, an `N` that does not count,
-//! `#` and `//` comments, and the extensions `ref:`, which is not rendered yet, and `area_light:`,
-//! which makes a rectangle of a light: `pos:` is its middle, `area_u:` and `area_v:` are its sides.
+//! Accepted as found in practice: keys of an object in any order and case, a wrong `N`, `#` and `//`
+//! comments, and the extensions `ref:`, which is not rendered, and `area_light:`, which turns a light
+//! into a rectangle: `pos:` is its centre, `area_u:` and `area_v:` are its edges.
 
 mod area;
 mod palette;
@@ -31,7 +31,7 @@ use glam::{DAffine3, DVec3, Vec3};
 use palette::Palette;
 use tokens::Tokens;
 
-/// One `key:` and the values that an object or vertex has for it.
+/// One `key:` of an object or vertex.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Key {
     Pos,
@@ -50,7 +50,7 @@ const VERTEX: &[Key] = &[Pos, Nor, Dif, Spe, Shi];
 const LIGHT: &[Key] = &[Pos, Col];
 const OBJECTS: [&str; 3] = ["sphere", "triangle", "light"];
 
-/// Keys that student renderers added, and how many words follow them.
+/// Keys that student renderers added, and the number of words that follow them.
 const EXTENSIONS: [(&str, usize); 5] = [
     ("ref:", 1),
     ("area_light:", 1),
@@ -59,7 +59,7 @@ const EXTENSIONS: [(&str, usize); 5] = [
     ("samples:", 1),
 ];
 
-/// The values of one object or vertex, by [`Key`]; single numbers in the first place.
+/// The values of one object or vertex by [`Key`]; single numbers are in the first component.
 type Fields = [Option<[f64; 3]>; 7];
 
 impl Key {
@@ -72,7 +72,7 @@ impl Key {
     }
 }
 
-/// The scene in `source`, with the picture that the course asks for.
+/// The scene in `source`, with the output settings of the course.
 pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
     let mut reader = Reader {
         source,
@@ -106,7 +106,7 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
     reader.close_light()?;
     if announced != found as f64 {
         let note = format!(
-            "the file announces {announced} objects, but has {found}: all of them are read"
+            "the file announces {announced} objects, but contains {found}: all of them are read"
         );
         reader.scene.skipped.push(note);
     }
@@ -121,19 +121,19 @@ struct Reader<'s> {
     mesh: Mesh,
     positions: Vec<DVec3>,
     palette: Palette,
-    /// How often each of [`EXTENSIONS`] was met without effect.
+    /// How often each of [`EXTENSIONS`] occurred without effect.
     extensions: [usize; 5],
-    /// What the current object says about its extent.
+    /// The extent that the current object specifies.
     area: Area<'s>,
 }
 
 impl<'s> Reader<'s> {
-    /// Reads up to the first object and returns how many are announced.
+    /// Reads up to the first object and returns the announced number of objects.
     fn header(&mut self) -> Result<f64, ImportError> {
         let token = self.expect("the number of objects ", "N")?;
         let announced = number::parse(self.source, token)?;
         if announced < 0.0 || announced.fract() != 0.0 {
-            let why = format!("{} is not a number of objects", token.quote());
+            let why = format!("{} is not a count of objects", token.quote());
             return Err(self.refuse(token, why, "Write a whole number, 0 or more"));
         }
         let token = self.expect("", "amb:")?;
@@ -145,7 +145,7 @@ impl<'s> Reader<'s> {
         Ok(announced)
     }
 
-    /// The memory that the file takes by now, with what will be made of it.
+    /// The memory that the file takes so far, including later steps.
     fn memory(&self) -> u64 {
         self.source.bytes.len() as u64
             + budget::size::<Shape>(self.scene.shapes.len())
@@ -155,7 +155,7 @@ impl<'s> Reader<'s> {
             + self.palette.memory()
     }
 
-    /// The keyword of the next object, or `None` at the end.
+    /// The keyword of the next object; `None` at the end.
     fn next_object(&mut self) -> Result<Option<Token<'s>>, ImportError> {
         while let Some(token) = self.tokens.next() {
             if !self.is_extension(token)? {
@@ -219,7 +219,7 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    /// Gives the light that has just ended its extent, if it has one.
+    /// Gives the light that just ended its extent, if it has one.
     fn close_light(&mut self) -> Result<(), ImportError> {
         let area = std::mem::take(&mut self.area);
         match self.scene.lights.last_mut() {
@@ -237,7 +237,7 @@ impl<'s> Reader<'s> {
             .index(diffuse, specular, Shi.of(fields).x as f32)
     }
 
-    /// Reads keys in any order until all of `wanted` are there.
+    /// Reads keys in any order until all of `wanted` are present.
     fn fields(&mut self, object: &str, wanted: &[Key]) -> Result<Fields, ImportError> {
         let mut fields = Fields::default();
         while let Some(missing) = wanted.iter().find(|&&key| fields[key as usize].is_none()) {
@@ -254,7 +254,7 @@ impl<'s> Reader<'s> {
             let key = self.key(token, object, wanted, *missing)?;
             if fields[key as usize].is_some() {
                 let why = format!("a second `{}` before `{}`", key.name(), missing.name());
-                return Err(self.refuse(token, why, &takes(object, wanted)));
+                return Err(self.refuse(token, why, &expects(object, wanted)));
             }
             fields[key as usize] = Some(self.values(key)?);
         }
@@ -281,7 +281,7 @@ impl<'s> Reader<'s> {
         } else {
             suggest::unknown("key", &word, wanted.iter().map(|key| key.name()))
         };
-        Err(self.refuse(token, why, &takes(object, wanted)))
+        Err(self.refuse(token, why, &expects(object, wanted)))
     }
 
     /// The checked values of `key`.
@@ -331,7 +331,7 @@ impl<'s> Reader<'s> {
         Ok((token, number::parse(self.source, token)?))
     }
 
-    /// The next token, which should be `key` or something of it.
+    /// The next token, expected to be `key` or one of its values.
     fn expect(&mut self, what: &str, key: &str) -> Result<Token<'s>, ImportError> {
         self.tokens.next().ok_or_else(|| {
             let why = format!("the file ends where {what}`{key}` should be");
@@ -339,7 +339,7 @@ impl<'s> Reader<'s> {
         })
     }
 
-    /// Whether `token` is an extension, whose words are then passed over.
+    /// Whether `token` is an extension; if so, skips its words.
     fn is_extension(&mut self, token: Token<'s>) -> Result<bool, ImportError> {
         let known = |(name, _): &(&str, usize)| token.bytes.eq_ignore_ascii_case(name.as_bytes());
         let Some(index) = EXTENSIONS.iter().position(known) else {
@@ -372,7 +372,7 @@ impl<'s> Reader<'s> {
                     format!("{count} times")
                 };
                 let why = if *name == "ref:" {
-                    "is not rendered yet"
+                    "is not supported"
                 } else {
                     "has no effect without a light, `area_light: true`, `area_u:` and `area_v:`"
                 };
@@ -400,7 +400,7 @@ impl<'s> Reader<'s> {
     }
 }
 
-fn takes(object: &str, wanted: &[Key]) -> String {
+fn expects(object: &str, wanted: &[Key]) -> String {
     let names: Vec<_> = wanted
         .iter()
         .map(|key| format!("`{}`", key.name()))
@@ -410,5 +410,5 @@ fn takes(object: &str, wanted: &[Key]) -> String {
     } else {
         object
     };
-    format!("A {part} takes {}, each once", names.join(", "))
+    format!("A {part} needs {}, each once", names.join(", "))
 }

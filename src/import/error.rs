@@ -1,49 +1,48 @@
-//! What can go wrong on the way from a file to a scene, and how it reads.
+//! Errors of importers and their text.
 
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Why a scene was refused. The kinds differ in what a program may want to do about them; the text
-/// is in the [`Fault`], and `Display` is one line: `WHAT (FILE:LINE:COLUMN): WHY. WHAT TO DO.`
+/// Why a scene was refused. The variants differ in how a program may react; the text is in the [`Fault`].
+/// `Display` is one line: `WHAT (FILE:LINE:COLUMN): WHY. WHAT TO DO.`
 #[derive(Debug, thiserror::Error)]
 pub enum ImportError {
-    /// A file is missing, is no file, or the system would not let us read it.
+    /// A file is missing, is not a plain file, or cannot be read.
     #[error("{0}")]
     Unreadable(Box<Fault>),
-    /// No importer knows the file's ending.
+    /// The file extension is not supported.
     #[error("{0}")]
     UnknownFormat(Box<Fault>),
-    /// A scene names a file outside its folder.
+    /// A scene refers to a file outside its folder.
     #[error("{0}")]
     OutsideFolder(Box<Fault>),
-    /// The contents are not what the format says.
+    /// The contents do not conform to the format.
     #[error("{0}")]
     Malformed(Box<Fault>),
-    /// Reading on would take more memory than we allow.
+    /// Reading the file would exceed the memory budget or the size limit.
     #[error("{0}")]
     TooBig(Box<Fault>),
 }
 
-/// One error, in the parts that a report is made of. A program may put its own words into them before
-/// it shows the fault.
+/// One error in its parts. A program may change the wording before it shows the fault.
 #[derive(Clone, Debug)]
 pub struct Fault {
     /// What failed: "bad scene".
     pub what: String,
-    /// The file at fault; empty where an override is ([`super::Options::overrides`]).
+    /// The file at fault; empty if an override is ([`super::Options::overrides`]).
     pub path: PathBuf,
-    /// In the file, or in the text of the override. Absent when the whole file is at fault.
+    /// Position in the file, or in the text of the override; `None` if the whole file is at fault.
     pub position: Option<Position>,
     /// Why, as a clause without a full stop.
     pub why: String,
     /// What the user can do, as a sentence without a full stop.
     pub todo: String,
-    /// The line at fault. Absent where `position` is.
+    /// The line at fault; `None` if `position` is.
     pub excerpt: Option<Excerpt>,
 }
 
-/// A place in a text file, counted from 1; columns count characters.
+/// A position in a text file, counted from 1; columns count characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Position {
     /// From the top.
@@ -52,17 +51,16 @@ pub struct Position {
     pub column: usize,
 }
 
-/// The line at fault, as far as it is near to the fault: without control characters, `…` in place of
-/// what is cut off.
+/// The part of the line around the fault: without control characters, `…` where it is truncated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Excerpt {
     /// The text.
     pub text: String,
-    /// Bytes of `text` to point at.
+    /// Bytes of `text` to mark.
     pub span: Range<usize>,
 }
 
-/// A fault of a whole file.
+/// A fault that concerns a whole file.
 pub(super) fn fault(what: &str, path: &Path, why: &str, todo: &str) -> Box<Fault> {
     Box::new(Fault {
         what: what.to_owned(),
@@ -75,7 +73,7 @@ pub(super) fn fault(what: &str, path: &Path, why: &str, todo: &str) -> Box<Fault
 }
 
 impl ImportError {
-    /// Whether the scene was refused for its size alone.
+    /// Whether the scene was refused because of its size.
     pub fn is_too_big(&self) -> bool {
         matches!(self, Self::TooBig(_))
     }
@@ -109,12 +107,12 @@ impl Fault {
         self
     }
 
-    /// Whether an override is at fault, not a file.
+    /// Whether an override is at fault rather than a file.
     pub fn is_in_override(&self) -> bool {
         self.path.as_os_str().is_empty()
     }
 
-    /// The file at fault, or "override", as text that keeps to one line.
+    /// The file at fault, or "override", without line breaks.
     pub fn place(&self) -> String {
         match self.is_in_override() {
             true => "override".to_owned(),
@@ -134,7 +132,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// A path as text that keeps to one line, whatever characters are in it.
+/// A path without control characters, on one line.
 fn one_line(path: &Path) -> String {
     let visible = |c: char| if c.is_control() { '\u{fffd}' } else { c };
     path.to_string_lossy().chars().map(visible).collect()

@@ -1,4 +1,4 @@
-//! Files on disk: what a scene names must lie in its folder and be a plain file.
+//! Files on disk: a scene may only refer to plain files in its folder.
 
 use super::error::{ImportError, fault};
 use super::paths::reason;
@@ -8,18 +8,18 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// How many files are kept in mind; nobody watches more.
-const MAX_SEEN: usize = 4096;
+/// The number of files that are recorded for watching.
+const MAX_REQUESTED: usize = 4096;
 
-/// A folder on disk, and others beside it whose files may be named too. Names and links that lead out
-/// of them are refused.
+/// A folder on disk, and permitted folders besides it. Names and symbolic links that point outside them
+/// are refused.
 #[derive(Debug)]
 pub struct Folder {
-    /// Without links.
+    /// Canonical path.
     root: PathBuf,
-    /// Without links.
+    /// Canonical paths.
     allowed: Vec<PathBuf>,
-    seen: RefCell<Vec<PathBuf>>,
+    requested: RefCell<Vec<PathBuf>>,
 }
 
 impl Folder {
@@ -31,11 +31,11 @@ impl Folder {
         Ok(Self {
             root: real("cannot find the scene folder", path)?,
             allowed: Vec::new(),
-            seen: RefCell::default(),
+            requested: RefCell::default(),
         })
     }
 
-    /// The folder that the file at `path` is in.
+    /// The folder that contains the file at `path`.
     ///
     /// # Errors
     /// It does not exist.
@@ -46,7 +46,7 @@ impl Folder {
         }
     }
 
-    /// The same, and the folders `dirs`, in which files may be named by absolute paths or by `..`.
+    /// Also permits the folders `dirs`, whose files may be named by absolute paths or with `..`.
     ///
     /// # Errors
     /// One of them does not exist.
@@ -58,15 +58,15 @@ impl Folder {
         Ok(self)
     }
 
-    /// Every file that was looked for, each once: those too that are missing.
-    pub fn seen(&self) -> Vec<PathBuf> {
-        self.seen.borrow().clone()
+    /// Every file that was looked up, once each, including missing ones.
+    pub fn requested(&self) -> Vec<PathBuf> {
+        self.requested.borrow().clone()
     }
 
-    fn note(&self, path: &Path) {
-        let mut seen = self.seen.borrow_mut();
-        if seen.len() < MAX_SEEN && !seen.iter().any(|known| known == path) {
-            seen.push(path.to_owned());
+    fn record(&self, path: &Path) {
+        let mut requested = self.requested.borrow_mut();
+        if requested.len() < MAX_REQUESTED && !requested.iter().any(|known| known == path) {
+            requested.push(path.to_owned());
         }
     }
 
@@ -77,23 +77,23 @@ impl Folder {
 
 impl Resolver for Folder {
     fn resolve(&self, base: &Path, name: &Path) -> Result<PathBuf, FileError> {
-        // Decided by name alone, so that nothing outside is even looked at.
+        // Decide by name alone first, so that nothing outside is even accessed.
         let wanted = normalized(&self.root.join(base).join(name));
         if !(goes_down(name) || self.is_allowed(&wanted)) {
             return Err(FileError::Outside);
         }
         let real = wanted.canonicalize().map_err(|error| {
-            self.note(&wanted);
+            self.record(&wanted);
             match error.kind() {
                 io::ErrorKind::NotFound => FileError::Missing,
                 _ => FileError::Failed(error),
             }
         })?;
-        // Decided again once links are resolved.
+        // Decide again after resolving symbolic links.
         if !(real.starts_with(&self.root) || self.is_allowed(&real)) {
             return Err(FileError::Outside);
         }
-        self.note(&real);
+        self.record(&real);
         match real.is_file() {
             true => Ok(real),
             false => Err(FileError::NotPlain),
@@ -105,9 +105,9 @@ impl Resolver for Folder {
     }
 }
 
-/// The bytes of the plain file at `path`, wherever it is: at most `limit`.
+/// Reads the plain file at `path`, at most `limit` bytes.
 pub(super) fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
-    // Asked before opening: opening a pipe would wait for a writer.
+    // Check before opening: opening a pipe would block until there is a writer.
     let metadata = fs::metadata(path).map_err(FileError::Failed)?;
     if metadata.is_dir() {
         return Err(FileError::IsFolder);
@@ -123,7 +123,7 @@ pub(super) fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     let capacity = usize::try_from(length).unwrap_or(usize::MAX);
     let reserved = bytes.try_reserve_exact(capacity);
     reserved.map_err(|_| FileError::NoMemory { length })?;
-    // The length may be a lie, as in /proc.
+    // The reported length may be wrong, as in /proc.
     let mut file = File::open(path).map_err(FileError::Failed)?.take(limit + 1);
     file.read_to_end(&mut bytes).map_err(FileError::Failed)?;
     match bytes.len() as u64 {

@@ -1,9 +1,8 @@
-//! glimray's own format (`.toml`): written by hand, checked to the last key.
+//! glimray's own format (`.toml`): written by hand, and checked down to the last key.
 //!
-//! [`file`] is the format: its types are what a scene may say, and their docs become the JSON
-//! Schema. [`values`] checks single values, [`build`] what only shows when several are put together:
-//! [`objects`] knows who is who and how many there will be, then everything is placed, and at last
-//! [`animation`] moves it.
+//! [`file`] is the format: its types define the keys, and their docs become the JSON Schema. [`values`]
+//! checks single values, and [`build`] checks combinations. [`objects`] resolves names and counts
+//! objects, then everything is placed, and finally [`animation`] adds the tracks.
 
 mod animation;
 mod build;
@@ -31,18 +30,18 @@ use set::Override;
 use std::ops::Range;
 use toml::de::DeTable;
 
-/// The longest native scene that is read. Geometry of any size belongs into mesh files.
+/// Size limit of a native scene in bytes. Large geometry belongs in mesh files.
 pub(super) const MAX_BYTES: u64 = 16 << 20;
 
-/// How many keys, values and tables a native scene may have, about. The parser takes up to 800
-/// bytes for each.
+/// Approximate limit of keys, values and tables in a native scene. The parser takes up to 800 bytes for
+/// each.
 const MAX_MARKS: usize = 500_000;
 
-/// How deep values may nest in TOML arrays and inline tables, and how many dots a key may have.
-/// No scene needs more than a handful.
+/// Limit of the nesting depth of TOML arrays and inline tables, and of the dots in a key. Scenes need no
+/// more than a handful.
 const MAX_DEPTH: usize = 32;
 
-/// The scene in `source`, changed by the overrides of `options`.
+/// The scene in `source`, with the overrides of `options` applied.
 pub(super) fn read(
     source: &Source,
     options: &Options,
@@ -82,15 +81,15 @@ pub(super) fn schema() -> serde_json::Value {
     schemars::schema_for!(file::SceneFile).to_value()
 }
 
-/// Refuses what would take the TOML parser too much memory, or what it would refuse without saying
-/// where.
+/// Refuses input that would take the TOML parser too much memory, or that it would refuse without a
+/// position.
 fn refuse_excess(source: &Source) -> Result<(), ImportError> {
     let (mut depth, mut dots, mut marks) = (0_usize, 0, 0);
     let mut quote = None;
     for (at, &byte) in source.bytes.iter().enumerate() {
         match (quote, byte) {
-            // Ends comments, and strings: those over several lines are not followed, since no scene
-            // has use for one with dozens of brackets in it.
+            // Ends comments and strings. Strings over several lines are not tracked, since no scene needs
+            // one with dozens of brackets in it.
             (_, b'\n') => (quote, dots) = (None, 0),
             (Some(open), _) if open == byte && open != b'#' => quote = None,
             (Some(_), _) => continue,
@@ -107,18 +106,18 @@ fn refuse_excess(source: &Source) -> Result<(), ImportError> {
             return Err(source.malformed(at..at + 1, why, "Look for a missing bracket"));
         }
         if marks > MAX_MARKS {
-            let why = "a native scene cannot have so many keys and values".to_owned();
+            let why = "the scene has too many keys and values".to_owned();
             return Err(source.malformed(
                 at..at + 1,
                 why,
-                "Keep geometry in OBJ files, and let fewer keys move it",
+                "Keep geometry in OBJ or PLY files, and use fewer keys",
             ));
         }
     }
     Ok(())
 }
 
-/// The texts that a span may lie in: the file, and behind it the overrides.
+/// The texts that a span may lie in: the file, followed by the overrides.
 struct Texts<'s> {
     source: &'s Source,
     overrides: &'s [Override],
@@ -133,7 +132,7 @@ impl Texts<'_> {
         }
     }
 
-    /// An error of the TOML parser or of serde, in our words where we have better ones.
+    /// An error of the TOML parser or serde, reworded where possible.
     fn explain(&self, error: &toml::de::Error, todo: &str) -> ImportError {
         let message = error.message();
         let (why, todo) = explain_unknown(message)
@@ -143,7 +142,7 @@ impl Texts<'_> {
     }
 }
 
-/// Serde's "unknown field `a`, expected one of `b`, `c`" with a suggestion instead.
+/// Rewrites serde's "unknown field `a`, expected one of `b`, `c`" with a suggestion.
 fn explain_unknown(message: &str) -> Option<(String, String)> {
     let fields = message
         .strip_prefix("unknown field `")
@@ -156,10 +155,10 @@ fn explain_unknown(message: &str) -> Option<(String, String)> {
     let known: Vec<&str> = expected.split('`').skip(1).step_by(2).collect();
     let list: Vec<_> = known.iter().map(|name| format!("`{name}`")).collect();
     let why = suggest::unknown(kind, word, known.iter().copied());
-    Some((why, format!("Known here: {}", list.join(", "))))
+    Some((why, format!("Allowed here: {}", list.join(", "))))
 }
 
-/// Serde's "missing field `a`".
+/// Rewrites serde's "missing field `a`".
 fn explain_missing(message: &str) -> Option<(String, String)> {
     let name = message.strip_prefix("missing field `")?.strip_suffix('`')?;
     Some((
@@ -168,7 +167,7 @@ fn explain_missing(message: &str) -> Option<(String, String)> {
     ))
 }
 
-/// `message` on one line of bearable length: it may quote the file.
+/// `message` on one line of limited length: it may quote the file.
 fn shorten(message: &str) -> String {
     const LONGEST: usize = 200;
     let line: String = message

@@ -1,5 +1,5 @@
-//! Haines' Neutral File Format (`.nff`), version 3.9 of 1996, in which the scenes of the Standard
-//! Procedural Database (SPD) come.
+//! Haines' Neutral File Format (`.nff`), version 3.9 of 1996, the format of the Standard Procedural
+//! Database (SPD).
 //!
 //! ```text
 //! v  from X Y Z  at X Y Z  up X Y Z  angle DEGREES  hither DISTANCE  resolution X Y
@@ -13,12 +13,12 @@
 //! #  comment up to the end of the line
 //! ```
 //!
-//! What the format leaves open is settled as SPD's own writers for other ray tracers settle it:
-//! Phong's highlight and the mirror are white and as strong as Ks, only the diffuse part has the
-//! colour; a light without a colour has 1/√(number of lights); there is no ambient light; rays go
-//! five levels deep. `angle` is the whole height of the picture. Values are stored without gamma, as
-//! was the custom of the format's time. The near plane (`hither`) cuts nothing off. Surfaces are
-//! seen from both sides; negative radii, for surfaces seen from inside only, are reported.
+//! Where the format leaves room, this importer follows SPD's own writers for other ray tracers: Phong's
+//! highlight and the reflection are white with weight Ks, and only the diffuse part is coloured; a light
+//! without a colour has 1/√(number of lights); there is no ambient light; the ray depth is five. `angle`
+//! is the full vertical field of view. Output values are stored without gamma, as was usual at the time.
+//! The near plane (`hither`) is ignored. Surfaces are two-sided; negative radii, for surfaces visible
+//! from inside only, are reported.
 
 mod mesh;
 mod view;
@@ -37,7 +37,7 @@ use mesh::Surface;
 use std::collections::HashMap;
 use words::Words;
 
-/// Entities: what they are called in the file and in errors, and how they are written.
+/// Entities: keyword, name in errors, and syntax.
 const ENTITIES: [(&str, &str, &str); 8] = [
     (
         "v",
@@ -69,7 +69,7 @@ const ENTITIES: [(&str, &str, &str); 8] = [
     ),
 ];
 
-/// Other words that people have for entities.
+/// Other names for entities.
 const SYNONYMS: [(&str, &str); 8] = [
     ("viewpoint", "v"),
     ("camera", "v"),
@@ -81,10 +81,10 @@ const SYNONYMS: [(&str, &str); 8] = [
     ("polypatch", "pp"),
 ];
 
-/// The smallest length that the GPU can tell from 0.
+/// The smallest length distinguishable from 0 on the GPU.
 const SHORTEST: f64 = f32::MIN_POSITIVE as f64;
 
-/// The scene in `source`, with the picture that it asks for.
+/// The scene in `source`, with its output settings.
 pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
     let mut reader = Reader {
         source,
@@ -117,15 +117,15 @@ pub(super) fn read(source: &Source) -> Result<Scene, ImportError> {
 struct Reader<'s> {
     source: &'s Source,
     words: Words<'s>,
-    /// Index into [`ENTITIES`] of the one being read.
+    /// Index into [`ENTITIES`] of the current entity.
     entity: usize,
     scene: Scene,
     /// Indices of lights without a colour.
     plain_lights: Vec<usize>,
     backgrounds: usize,
-    /// Index into the scene's materials of the one in use.
+    /// Index into the scene's materials of the current material.
     material: Option<usize>,
-    /// By the bits of the numbers in the file.
+    /// Indices by the bits of the numbers in the file.
     material_ids: HashMap<[u64; 8], usize>,
     /// Polygons and patches.
     surface: Surface,
@@ -151,9 +151,9 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// The memory that the file takes by now, with what will be made of it.
+    /// The memory that the file takes so far, including later steps.
     fn memory(&self) -> u64 {
-        // A number and its key are kept in a table with free places.
+        // An index and its key are stored in a hash table with spare capacity.
         self.source.bytes.len() as u64
             + budget::size::<Shape>(self.scene.shapes.len())
             + budget::size::<(Light, usize)>(self.scene.lights.len())
@@ -165,12 +165,12 @@ impl<'s> Reader<'s> {
         const TODO: &str = "Entities are `v`, `b`, `l`, `f`, `c`, `s`, `p` and `pp`";
         let quoted = word.quote();
         if looks_like_number(word) {
-            let why = format!("an entity should begin here, not {quoted}");
+            let why = format!("expected an entity, found {quoted}");
             return self.refuse(word, why, "Count the numbers before it");
         }
         let text = String::from_utf8_lossy(word.bytes).to_lowercase();
         if view::KEYS.contains(&text.as_str()) {
-            let why = format!("{quoted} stands outside a view");
+            let why = format!("{quoted} is outside a view");
             return self.refuse(word, why, ENTITIES[0].2);
         }
         let letters = ENTITIES.map(|(letter, name, _)| (name, letter));
@@ -215,7 +215,7 @@ impl<'s> Reader<'s> {
         }
         let [r, g, b, kd, ks, shine, t, index] = values;
         if t > 0.0 && index < SHORTEST {
-            let why = "what lets light through needs an index of refraction".to_owned();
+            let why = "a transparent material needs an index of refraction".to_owned();
             return Err(self.refuse(keyword, why, "Write 1 or more as the last number"));
         }
         let diffuse = DVec3::new(r, g, b) * kd;
@@ -279,11 +279,11 @@ impl<'s> Reader<'s> {
         }
         let axis = apex - base;
         if axis.length() < SHORTEST {
-            let why = "both ends of a cone are one point".to_owned();
+            let why = "both ends of a cone are the same point".to_owned();
             return Err(self.refuse(keyword, why, "Place them apart"));
         }
         self.inside_out += usize::from(bottom + top < 0.0);
-        // The height is scaled, the radii are not: circles stay round.
+        // The height is scaled but not the radii: circles stay round.
         let up = axis.normalize();
         let right = up.any_orthonormal_vector();
         let wide = bottom.abs().max(top.abs());
@@ -311,7 +311,7 @@ impl<'s> Reader<'s> {
         })
     }
 
-    /// What the entity being read is called.
+    /// Name of the current entity.
     fn name(&self) -> &'static str {
         ENTITIES[self.entity].1
     }
@@ -347,7 +347,7 @@ impl<'s> Reader<'s> {
         self.number_of("")
     }
 
-    /// The next word, which must be a number; `progress` says how far the entity is.
+    /// The next word, which must be a number; `progress` tells how much of the entity has been read.
     fn number_of(&mut self, progress: &str) -> Result<(Token<'s>, f64), ImportError> {
         let (name, todo) = (self.name(), ENTITIES[self.entity].2);
         let Some(token) = self.words.next() else {
@@ -357,7 +357,7 @@ impl<'s> Reader<'s> {
         let is_entity = |(letter, ..): &(&str, &str, &str)| letter.as_bytes() == token.bytes;
         if ENTITIES.iter().any(is_entity) || view::is_key(token) {
             let why = format!(
-                "{} begins something new inside a {name}{progress}",
+                "{} starts a new entity inside a {name}{progress}",
                 token.quote()
             );
             return Err(self.refuse(token, why, todo));
@@ -380,12 +380,12 @@ impl<'s> Reader<'s> {
         }
         let skipped = &mut self.scene.skipped;
         if self.backgrounds > 1 {
-            let note = format!("{} backgrounds: the last of them counts", self.backgrounds);
+            let note = format!("{} backgrounds: the last one is used", self.backgrounds);
             skipped.push(note);
         }
         if self.inside_out > 0 {
             let note = format!(
-                "shapes to be seen from inside only (negative radii), shown from both sides: {}",
+                "shapes visible from inside only (negative radii), rendered two-sided: {}",
                 self.inside_out
             );
             skipped.push(note);
@@ -398,7 +398,7 @@ impl<'s> Reader<'s> {
     }
 }
 
-/// Whether `token` is meant as a number.
+/// Whether `token` looks like a number.
 fn looks_like_number(token: Token) -> bool {
     matches!(token.bytes.first(), Some(b'0'..=b'9' | b'+' | b'-' | b'.'))
 }

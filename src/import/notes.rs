@@ -1,10 +1,10 @@
-//! What importers have to say about what they left out. A file can give cause for millions of equal
-//! notes, so of each kind only the first few are kept, and the others are counted.
+//! Notes about skipped features. A file may cause millions of similar notes, so the first few of each
+//! kind are kept and the others counted.
 
-/// How many notes of one kind are kept.
+/// Number of notes kept per kind.
 const MOST: usize = 8;
 
-/// Notes for [`crate::scene::Scene::skipped`], in order, those of one kind together.
+/// Notes for [`crate::scene::Scene::skipped`], in order, grouped by kind.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
     kinds: Vec<Kind>,
@@ -12,7 +12,7 @@ pub(super) struct Notes {
 
 #[derive(Debug)]
 struct Kind {
-    /// What the notes are about, in the plural.
+    /// The subject of the notes, in the plural.
     what: &'static str,
     kept: Vec<String>,
     more: usize,
@@ -32,8 +32,8 @@ impl Notes {
         &mut self.kinds[index]
     }
 
-    /// Adds a note about one of `what`, a plural such as "undefined materials", unless it is kept
-    /// already.
+    /// Adds a note of the kind `what`, a plural such as "undefined materials", unless an equal one is
+    /// kept.
     pub fn add(&mut self, what: &'static str, note: impl FnOnce() -> String) {
         let kind = self.kind(what);
         if kind.kept.len() >= MOST {
@@ -46,7 +46,7 @@ impl Notes {
         }
     }
 
-    /// Adds those of one of several files, whose name then stands before each.
+    /// Adds the notes of one of several files, prefixed with its name.
     pub fn append(&mut self, other: Self, name: &str) {
         for Kind { what, kept, more } in other.kinds {
             for note in kept {
@@ -66,7 +66,7 @@ impl Notes {
     }
 }
 
-/// What [`crate::scene::Mesh::repair`] did.
+/// Notes the repairs that [`crate::scene::Mesh::repair`] made.
 pub(super) fn of_repairs(notes: &mut Notes, repairs: crate::scene::Repairs) {
     const WHAT: &str = "repaired meshes";
     let count = |count: usize, what: &str| match count {
@@ -75,10 +75,10 @@ pub(super) fn of_repairs(notes: &mut Notes, repairs: crate::scene::Repairs) {
     };
     if repairs.dropped_triangles > 0 {
         let triangles = count(repairs.dropped_triangles, "triangle");
-        notes.add(WHAT, || format!("{triangles} without area dropped"));
+        notes.add(WHAT, || format!("dropped {triangles} without area"));
     }
     if repairs.recomputed_normals > 0 {
         let normals = count(repairs.recomputed_normals, "normal");
-        notes.add(WHAT, || format!("{normals} without length recomputed"));
+        notes.add(WHAT, || format!("recomputed {normals} of zero length"));
     }
 }

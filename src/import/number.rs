@@ -1,12 +1,12 @@
-//! Numbers of the text formats, as C's `scanf("%lf")` reads them, less what no scene needs.
+//! Numbers in text formats: the decimal subset of C's `scanf("%lf")`.
 
 use super::error::ImportError;
 use super::source::{Source, Token};
 
-/// The number that is all of `token`, in the range of f32: the GPU computes in it.
+/// Parses all of `token` as a number in the range of f32, the precision of the GPU.
 ///
 /// # Errors
-/// `token` is not a decimal number, or is beyond the range.
+/// `token` is not a decimal number, or is out of range.
 pub(super) fn parse(source: &Source, token: Token) -> Result<f64, ImportError> {
     let is_decimal = |b: &u8| b.is_ascii_digit() || b"+-.eE".contains(b);
     let text = std::str::from_utf8(token.bytes).ok();
@@ -25,7 +25,7 @@ pub(super) fn parse(source: &Source, token: Token) -> Result<f64, ImportError> {
     }
 }
 
-/// What is wrong with a word that is no number, or one beyond the range.
+/// The error for a word that is not a number or is out of range.
 fn diagnosis(word: &[u8], is_number: bool) -> &'static str {
     let digits = word
         .strip_prefix(b"-")

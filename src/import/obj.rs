@@ -1,9 +1,9 @@
 //! Wavefront OBJ with MTL: polygons, normals, and the Phong part of materials.
 //!
-//! All groups of a file become one [`Mesh`]. Polygons are triangulated, concave ones too. Faces
+//! All groups of a file become one [`Mesh`]. Polygons, including concave ones, are triangulated. Faces
 //! without normals are flat unless they are in a smoothing group; see `smooth.rs`. Lines, points and
-//! curves are left out and reported. Vertices have u and v only where some material wants them: they
-//! part vertices that are one without.
+//! curves are skipped and reported. Vertices keep u and v only if a material uses them, because they
+//! would split vertices that are otherwise equal.
 
 mod face;
 mod lines;
@@ -30,7 +30,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use std::path::Path;
 
-/// Statements of the format that say nothing about triangles.
+/// Statements of the format that do not affect triangles.
 const IGNORED: [&[u8]; 17] = [
     b"o",
     b"g",
@@ -51,11 +51,11 @@ const IGNORED: [&[u8]; 17] = [
     b"end",
 ];
 
-/// The triangles of a file.
+/// The mesh of a file.
 pub(super) struct Model {
     /// Its materials are indices into `materials`.
     pub mesh: Mesh,
-    /// World from mesh: the translation that brings the mesh back to where the file has it.
+    /// World from mesh: the translation to the position in the file.
     pub offset: DVec3,
     /// Their textures are indices into `textures`.
     pub materials: Vec<Material>,
@@ -63,7 +63,7 @@ pub(super) struct Model {
     pub notes: Notes,
 }
 
-/// The model in `source` as a scene, with a camera and lights that show it.
+/// The model in `source` as a scene, with a camera and lights to show it.
 pub(super) fn read_scene(source: &Source, files: &Files) -> Result<Scene, ImportError> {
     let mut pictures = Pictures::default();
     let model = read(source, files, &mut pictures, None)?;
@@ -95,9 +95,8 @@ pub(super) fn read_scene(source: &Source, files: &Files) -> Result<Scene, Import
     Ok(scene)
 }
 
-/// The model in the file at `path`, which must already be known to be permitted. Its pictures go to
-/// `pictures`. Where another material takes the place of its own, `replaced` says whether that one
-/// wants u and v.
+/// The model in the file at `path`, which must have been resolved. Its images are added to `pictures`. If
+/// another material replaces its own, `replaced` tells whether that one uses u and v.
 pub(super) fn read_model(
     path: &Path,
     files: &Files,
@@ -150,7 +149,7 @@ fn read(
     }
     if let (Some(span), 0) = (reader.unknown.clone(), reader.known_count) {
         let why = format!(
-            "{} is no statement of an OBJ file",
+            "{} is not an OBJ statement",
             quote(&source.bytes[span.clone()])
         );
         return Err(source.malformed(span, why, "Check that this is a Wavefront OBJ file"));
@@ -166,30 +165,30 @@ struct Reader<'s> {
     positions: Vec<DVec3>,
     normals: Vec<Vec3>,
     uvs: Vec<Vec2>,
-    /// Normals that the file does not have.
+    /// Normals that are computed, not from the file.
     made_normals: Vec<Vec3>,
     smooth_faces: Vec<SmoothFace>,
     corners: Vec<Corner>,
     cutter: Cutter,
-    /// Faces that could only be cut into fans.
+    /// Number of faces that could only be triangulated as fans.
     fan_count: usize,
     /// Indices into `corners`.
     triangles: Vec<[u32; 3]>,
-    /// The name of the material in use; `None` before the first `usemtl`.
+    /// The name of the current material; `None` before the first `usemtl`.
     material: Option<&'s [u8]>,
-    /// Those that faces use.
+    /// The materials that faces use.
     material_names: Vec<Option<&'s [u8]>>,
     material_ids: HashMap<Option<&'s [u8]>, u32>,
-    /// The smoothing group of the faces that follow; 0 for none.
+    /// The current smoothing group; 0 for none.
     smoothing: u32,
-    /// Material libraries, of which only what is used becomes more than text.
+    /// Material libraries. Only the materials in use are parsed.
     libraries: Vec<Source>,
     textures: Vec<Texture>,
     notes: Notes,
     budget: Budget,
-    /// How much of what was left out.
+    /// Numbers of skipped statements by kind.
     left_out: BTreeMap<&'static str, usize>,
-    /// The first statement that we do not know.
+    /// The first unknown statement.
     unknown: Option<Range<usize>>,
     known_count: usize,
 }
@@ -208,19 +207,17 @@ impl<'s> Reader<'s> {
             b"usemtl" => self.material = Some(line.rest().bytes),
             b"mtllib" => self.material_library(line)?,
             b"s" => self.smoothing = smooth::group(line.word()),
-            b"l" | b"p" => self.leave_out("lines and points"),
+            b"l" | b"p" => self.skip("lines and points"),
             b"curv" | b"curv2" | b"surf" | b"cstype" | b"deg" | b"bmat" | b"step" | b"parm"
-            | b"trim" | b"hole" | b"scrv" | b"sp" | b"con" => {
-                self.leave_out("free-form statements")
-            }
+            | b"trim" | b"hole" | b"scrv" | b"sp" | b"con" => self.skip("free-form statements"),
             word if IGNORED.contains(&word) => {}
             word if word.iter().all(|b| b.is_ascii_alphanumeric() || *b == b'_') => {
                 self.known_count -= 1;
-                self.leave_out("unknown statements");
+                self.skip("unknown statements");
                 self.unknown.get_or_insert(keyword.span());
             }
             _ => {
-                let why = format!("{} is no statement of an OBJ file", keyword.quote());
+                let why = format!("{} is not an OBJ statement", keyword.quote());
                 let todo = "Check that this is a Wavefront OBJ file";
                 return Err(self.source.malformed(keyword.span(), why, todo));
             }
@@ -228,7 +225,7 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    fn leave_out(&mut self, what: &'static str) {
+    fn skip(&mut self, what: &'static str) {
         *self.left_out.entry(what).or_default() += 1;
     }
 
@@ -246,7 +243,7 @@ impl<'s> Reader<'s> {
             }
         }
         if more >= 3 {
-            self.leave_out("vertex colours");
+            self.skip("vertex colours");
         }
         Ok(())
     }
@@ -269,7 +266,7 @@ impl<'s> Reader<'s> {
         let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
         let mut face = face::read(self.source, keyword, line, counts)?;
         if face.len() < 3 {
-            self.leave_out("faces of fewer than three corners");
+            self.skip("faces with fewer than three corners");
             return Ok(());
         }
         let material = self.material_in_use();
@@ -282,7 +279,7 @@ impl<'s> Reader<'s> {
         self.complete_normals(&mut face, polygon::normal(&points));
         let first = self.corners.len();
         if first + face.len() > face::MAX_CORNERS {
-            let why = format!("more than {} corners of faces", face::MAX_CORNERS);
+            let why = format!("more than {} face corners", face::MAX_CORNERS);
             let error =
                 self.source
                     .malformed(keyword.span(), why, "Split the model into several files");
@@ -299,10 +296,10 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    /// The memory that the file takes by now, with what will be made of it.
+    /// The memory that the file takes so far, including later steps.
     fn memory(&self) -> u64 {
-        /// While vertices are welded, a corner is in an order and has the number of a vertex, which has a
-        /// corner, a position, a normal, a material, and u and v. `repair` takes less.
+        /// Bytes per corner while vertices are welded: a corner is in an order and has a vertex index; a
+        /// vertex has a corner, a position, a normal, a material, and u and v. `repair` takes less.
         const WELDED: usize = 3 * size_of::<u32>() + size_of::<(Vec3, Vec3, u32, Vec2)>();
         let libraries = self
             .libraries
@@ -316,7 +313,7 @@ impl<'s> Reader<'s> {
             + budget::size::<(Corner, [u8; WELDED])>(self.corners.len())
             + budget::size::<[u32; 3]>(self.triangles.len())
             + budget::size::<(SmoothFace, [Vec3; 3])>(self.smooth_faces.len())
-            // A name and its number are kept three times, once of them in a table with free places.
+            // A name and its index are stored three times, once in a hash table with spare capacity.
             + budget::size::<(Material, [&[u8]; 6])>(self.material_names.len())
     }
 
@@ -349,14 +346,14 @@ impl<'s> Reader<'s> {
             triangles: self.triangles,
         };
         for (what, count) in self.left_out {
-            self.notes.add("models with parts left out", || {
-                format!("{what} left out: {count}")
+            self.notes.add("models with skipped parts", || {
+                format!("{what} skipped: {count}")
             });
         }
         if self.fan_count > 0 {
-            self.notes.add("models with faces cut into fans", || {
+            self.notes.add("models with faces triangulated as fans", || {
                 format!(
-                    "faces that cross themselves or are too large, cut into fans: {}",
+                    "faces that intersect themselves or are too large, triangulated as fans: {}",
                     self.fan_count
                 )
             });

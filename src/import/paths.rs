@@ -1,4 +1,4 @@
-//! The files that a scene may name, and the words for those that it may not.
+//! The files that a scene may refer to, and errors about the others.
 
 use super::error::{Fault, ImportError, fault};
 use super::resolver::{FileError, Resolver};
@@ -6,26 +6,26 @@ use super::source::quote;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The files that a scene, or a file of it, may name.
+/// Resolves the file names in a scene or in a file that it refers to.
 pub(super) struct Files<'r> {
-    /// `None` when it may name no files at all.
+    /// `None` if it must not refer to files.
     resolver: Option<&'r dyn Resolver>,
-    /// What names are relative to: the folder of the file that they stand in.
+    /// The folder of the referring file, to which names are relative.
     base: PathBuf,
 }
 
-/// Why a named file may not be read.
+/// Why a file may not be read.
 pub(super) enum Refusal {
     /// There is no such file.
     Missing(String),
-    /// It may not be asked for.
+    /// It is outside the permitted folders.
     Outside(String),
-    /// It is no name, or there is something else than a file that can be read.
+    /// It is not a valid name or not a file that can be read.
     Unfit(String),
 }
 
 impl Refusal {
-    /// The refusal as an error about `what`, which `malformed` puts in its place.
+    /// Turns the refusal into an error about `what`; `malformed` adds the position.
     pub fn into_error(
         self,
         what: &str,
@@ -55,7 +55,7 @@ impl Refusal {
 }
 
 impl<'r> Files<'r> {
-    /// Those that files in the root of `resolver` may name.
+    /// Files in the root of `resolver`.
     pub fn of(resolver: &'r dyn Resolver) -> Self {
         Self {
             resolver: Some(resolver),
@@ -63,7 +63,7 @@ impl<'r> Files<'r> {
         }
     }
 
-    /// None.
+    /// No files at all.
     pub fn none() -> Self {
         Self {
             resolver: None,
@@ -71,7 +71,7 @@ impl<'r> Files<'r> {
         }
     }
 
-    /// Those that the file at `path`, itself named by the scene, may name.
+    /// Files referred to in the file at `path`, to which the scene itself refers.
     pub fn named_in(&self, path: &Path) -> Self {
         Self {
             resolver: self.resolver,
@@ -79,7 +79,7 @@ impl<'r> Files<'r> {
         }
     }
 
-    /// The plain file that is called `name`. Both kinds of slashes part folders.
+    /// Resolves the plain file `name`. Both kinds of slashes separate folders.
     pub fn resolve(&self, name: &str) -> Result<PathBuf, Refusal> {
         let quoted = quote(name.as_bytes());
         let Some(resolver) = self.resolver else {
@@ -107,10 +107,10 @@ impl<'r> Files<'r> {
         })
     }
 
-    /// The bytes of the file at `path`, which was resolved.
+    /// Reads the file at `path`, which was resolved.
     ///
     /// # Errors
-    /// It cannot be read, or is longer than `limit` bytes or than the memory.
+    /// It cannot be read, or exceeds `limit` bytes or the available memory.
     pub fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>, ImportError> {
         let read = match self.resolver {
             Some(resolver) => resolver.read(path, limit),
@@ -120,7 +120,7 @@ impl<'r> Files<'r> {
     }
 }
 
-/// Why the file at `path`, of which at most `limit` bytes are read, could not be read.
+/// The error for the file at `path`, whose size limit is `limit`.
 pub(super) fn unreadable(path: &Path, error: &FileError, limit: u64) -> ImportError {
     let unreadable = |why: &str, todo: &str| {
         ImportError::Unreadable(fault("cannot read the file", path, why, todo))
@@ -146,7 +146,7 @@ pub(super) fn unreadable(path: &Path, error: &FileError, limit: u64) -> ImportEr
     }
 }
 
-/// `C:…`, `http://…`, `file:…`: a colon after nothing but letters.
+/// `C:…`, `http://…`, `file:…`: letters or digits before the first colon.
 fn is_url_or_drive(name: &str) -> bool {
     name.split_once(':').is_some_and(|(scheme, _)| {
         !scheme.is_empty() && scheme.bytes().all(|b| b.is_ascii_alphanumeric())

@@ -1,7 +1,7 @@
-//! Pictures that scenes name: PNG, JPEG, Radiance HDR and OpenEXR, told apart by their first bytes.
+//! Images that scenes refer to: PNG, JPEG, Radiance HDR and OpenEXR, recognised by their first bytes.
 //!
-//! PNG and JPEG are taken as sRGB, HDR and EXR as linear Rec. 709. Transparency is left out. A file
-//! that is truncated is refused, whatever its decoder would make of it.
+//! PNG and JPEG are decoded as sRGB, HDR and EXR as linear Rec. 709. Transparency is ignored. A truncated
+//! file is refused even if its decoder would accept it.
 
 mod complete;
 
@@ -17,27 +17,27 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The largest picture file, in bytes.
+/// Size limit of an image file in bytes.
 const MAX_BYTES: u64 = 512 << 20;
 
-/// Texels of all pictures of a scene together, which is what the GPU's side takes.
+/// Limit of the number of texels of all images of a scene together, from the GPU's texel buffer.
 const MAX_TEXELS: u64 = (8192 << 12) - 1;
 
-/// Bytes that decoding may take: four floats for each texel.
+/// Memory limit for decoding: four floats per texel.
 const MAX_DECODED_BYTES: u64 = (MAX_TEXELS + 1) * 16;
 
-/// The pictures of a scene, each file read once.
+/// The images of a scene; each file is read once.
 #[derive(Default)]
 pub(super) struct Pictures {
     pub pictures: Vec<Arc<Picture>>,
     indices: HashMap<PathBuf, usize>,
 }
 
-/// Why a picture is not there.
+/// Why an image could not be read.
 pub(super) enum Refused {
-    /// Its name leads to no file that may be read.
+    /// The name does not resolve to a readable file.
     File(Refusal),
-    /// The file is there, but no picture that we can use.
+    /// The file exists but is not a usable image.
     Unfit {
         kind: fn(Box<Fault>) -> ImportError,
         why: String,
@@ -46,7 +46,7 @@ pub(super) enum Refused {
 }
 
 impl Refused {
-    /// As an error, which `malformed` puts in its place.
+    /// As an error; `malformed` adds the position.
     pub fn into_error(self, malformed: impl FnOnce(String, &str) -> ImportError) -> ImportError {
         const WHAT: &str = "picture refused";
         match self {
@@ -69,10 +69,10 @@ impl Refused {
 }
 
 impl Pictures {
-    /// The index of the picture in the file that is called `name`.
+    /// The index of the image in the file `name`.
     ///
     /// # Errors
-    /// There is no such file, it may not be read, it is no picture, or it is too big.
+    /// The file is missing or inaccessible, is not an image, or is too large.
     pub fn read(&mut self, files: &Files, name: &str) -> Result<usize, Refused> {
         let path = files.resolve(name).map_err(Refused::File)?;
         if let Some(&index) = self.indices.get(&path) {
@@ -86,7 +86,7 @@ impl Pictures {
     }
 }
 
-/// The picture in the file at `path`, where `taken` texels are already in use.
+/// Reads the image at `path`; `taken` texels are already in use.
 fn decode(files: &Files, path: &Path, name: &str, taken: u64) -> Result<Picture, Refused> {
     let quoted = quote(name.as_bytes());
     let too_big = |why: String| Refused::Unfit {
@@ -118,19 +118,19 @@ fn decode(files: &Files, path: &Path, name: &str, taken: u64) -> Result<Picture,
     let explain = |error: ImageError| match error {
         ImageError::Limits(_) => too_big("takes too much memory to decode".to_owned()),
         ImageError::Unsupported(_) => {
-            let why = "is a picture of a kind that is not read";
+            let why = "is an image of an unsupported kind";
             unfit(why.to_owned(), "Save it as PNG, JPEG, HDR or EXR")
         }
         error => {
-            let why = format!("is broken: {}", one_line(&error.to_string()));
+            let why = format!("is damaged: {}", one_line(&error.to_string()));
             unfit(why, "Check that it was written completely")
         }
     };
     let (Some(head), Some(mut body)) = (reader(), reader()) else {
-        let why = "is not a picture that is known";
+        let why = "is not a supported image";
         return Err(unfit(why.to_owned(), "Name a PNG, JPEG, HDR or EXR file"));
     };
-    // Asked first: headers are cheap to lie in, and memory is not.
+    // Check the header first: it may claim any size.
     let (width, height) = head.into_dimensions().map_err(explain)?;
     let count = u64::from(width) * u64::from(height);
     if count == 0 {
@@ -141,8 +141,7 @@ fn decode(files: &Files, path: &Path, name: &str, taken: u64) -> Result<Picture,
             0 => String::new(),
             _ => format!(", the others {taken} texels"),
         };
-        let why =
-            format!("has {width} × {height}{others}, but at most {MAX_TEXELS} texels are read");
+        let why = format!("has {width} × {height}{others}, but the limit is {MAX_TEXELS} texels");
         return Err(too_big(why));
     }
     if let Some(format) = body.format() {
@@ -161,8 +160,7 @@ fn decode(files: &Files, path: &Path, name: &str, taken: u64) -> Result<Picture,
     })
 }
 
-/// The texels of `image`, row by row from the top left, as linear colours that are finite and not
-/// negative.
+/// The texels of `image`, row by row from the top left, as finite linear colours, 0 or more.
 fn linear(image: DynamicImage) -> Vec<Vec3> {
     let as_they_are = |c: f32| if c > 0.0 { c.min(f32::MAX) } else { 0.0 };
     match image {
@@ -180,7 +178,7 @@ fn linear(image: DynamicImage) -> Vec<Vec3> {
             let texel = |p: &[u16; 3]| Vec3::from(p.map(|code| curve[usize::from(code)]));
             let channels = usize::from(image.color().channel_count());
             if usize::from(image.color().bytes_per_pixel()) == channels {
-                // 8 bits become 16 without loss: 65535 is 255 times 257.
+                // 8 bits convert to 16 without loss: 65535 is 255 times 257.
                 let wide = |byte: u8| 257 * u16::from(byte);
                 let texels = image.as_bytes().chunks_exact(channels);
                 return texels

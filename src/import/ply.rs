@@ -1,8 +1,9 @@
-//! Stanford's PLY: triangles and points, as text or binary.
+//! Stanford PLY: triangles and points, ASCII or binary.
 //!
-//! Of vertices `x y z` count, `nx ny nz`, `s t` (also `u v` or `texture_u texture_v`) and the number of
-//! a `material`, which is ours; of faces the list `vertex_indices` (also `vertex_index`). All else is
-//! passed over. Single precision is taken as it is; of double precision the offset is kept.
+//! Vertex properties read: `x y z`, `nx ny nz`, `s t` (also `u v` or `texture_u texture_v`), and
+//! glimray's own material number `material`. Face property read: the list `vertex_indices` (also
+//! `vertex_index`). All others are skipped. Single precision is kept as it is; of double precision the
+//! mesh's offset is kept.
 
 use super::budget::{self, Budget};
 use super::error::{ImportError, fault};
@@ -12,14 +13,14 @@ use crate::scene::Mesh;
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use std::path::Path;
 
-/// The longest header, in bytes.
+/// Size limit of the header in bytes.
 const MAX_HEADER: usize = 64 << 10;
 
-/// The properties of a vertex that place a copy: where its axes go.
+/// The vertex properties that hold the axes of a copy's transform.
 const AXES: [&str; 9] = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
 
-/// The triangles in `bytes`, those of the file at `path`, whose materials are numbers below `material_count`, still to
-/// be repaired; and where their origin is.
+/// The triangles in `bytes`, the contents of the file at `path`, not yet repaired, and the translation of
+/// their origin. Material numbers are below `material_count`.
 pub(super) fn mesh(
     path: &Path,
     bytes: &[u8],
@@ -43,7 +44,7 @@ pub(super) fn mesh(
     }
 }
 
-/// What the vertices in `bytes`, those of the file at `path`, place copies by.
+/// The transforms of copies at the vertices in `bytes`, the contents of the file at `path`.
 pub(super) fn places(path: &Path, bytes: &[u8]) -> Result<Vec<DAffine3>, ImportError> {
     let mut reader = Reader::new(path, bytes)?;
     for element in reader.elements()? {
@@ -54,7 +55,7 @@ pub(super) fn places(path: &Path, bytes: &[u8]) -> Result<Vec<DAffine3>, ImportE
         let place = reader.columns(&element, &["x", "y", "z"])?;
         let place = place.ok_or_else(|| reader.refuse("its vertices lack x, y or z", AGAIN))?;
         let axes = reader.columns(&element, &AXES)?;
-        reader.take(budget::size::<DAffine3>(element.count))?;
+        reader.reserve(budget::size::<DAffine3>(element.count))?;
         let mut places = Vec::with_capacity(element.count);
         let mut row = Vec::new();
         for _ in 0..element.count {
@@ -94,14 +95,14 @@ fn vertices(
     let is_double = place
         .iter()
         .any(|&i| element.properties[i].kind == Kind::Double);
-    // A position, a normal, what it is computed from, and a material; see `Mesh::repair`.
+    // A position, a normal, its accumulator, and a material; see `Mesh::repair`.
     let mut needed = budget::size::<(Vec3, Vec3, u32)>(element.count);
     if normal.is_none() {
         needed += budget::size::<Option<DVec3>>(element.count);
     }
     needed += budget::size::<Vec2>(if uv.is_some() { element.count } else { 0 });
     needed += budget::size::<DVec3>(if is_double { element.count } else { 0 });
-    reader.take(needed)?;
+    reader.reserve(needed)?;
     let mut places = Vec::with_capacity(if is_double { element.count } else { 0 });
     let mut row = Vec::new();
     for _ in 0..element.count {
@@ -121,8 +122,10 @@ fn vertices(
         }
         let number = material.as_ref().map_or(0.0, |at| row[at[0]]);
         if !(0.0..material_count as f64).contains(&number) || number.fract() != 0.0 {
-            let why = format!("a vertex has the material number {number}, of {material_count}");
-            let todo = "List as many `materials` as it counts, from 0, where the scene names it";
+            let why = format!(
+                "a vertex has the material number {number}, but there are {material_count} materials"
+            );
+            let todo = "List more `materials` in the mesh's table, or repair the file";
             return Err(reader.refuse(&why, todo));
         }
         mesh.materials.push(number as u32);
@@ -141,7 +144,7 @@ fn faces(reader: &mut Reader, element: &Element, mesh: &mut Mesh) -> Result<(), 
     let at = element.properties.iter().position(is_wanted);
     let at = at.filter(|&at| element.properties[at].count.is_some());
     let at = at.ok_or_else(|| reader.refuse("its faces have no list `vertex_indices`", AGAIN))?;
-    reader.take(budget::size::<[u32; 3]>(element.count))?;
+    reader.reserve(budget::size::<[u32; 3]>(element.count))?;
     for _ in 0..element.count {
         for (i, property) in element.properties.iter().enumerate() {
             let count = reader.length(property)?;
@@ -152,7 +155,7 @@ fn faces(reader: &mut Reader, element: &Element, mesh: &mut Mesh) -> Result<(), 
                 continue;
             }
             if count != 3 {
-                let why = format!("a face has {count} corners, but only triangles are read");
+                let why = format!("a face has {count} corners, but only triangles are supported");
                 return Err(reader.refuse(&why, "Triangulate the mesh, or save it as OBJ"));
             }
             let mut corners = [0; 3];
@@ -160,7 +163,9 @@ fn faces(reader: &mut Reader, element: &Element, mesh: &mut Mesh) -> Result<(), 
                 let index = reader.number(property.kind)?;
                 if !(0.0..mesh.positions.len() as f64).contains(&index) {
                     let count = mesh.positions.len();
-                    let why = format!("a face has the vertex {index}, of {count}, counted from 0");
+                    let why = format!(
+                        "a face has the vertex index {index}, but there are {count} vertices"
+                    );
                     return Err(reader.refuse(&why, AGAIN));
                 }
                 *corner = index as u32;
@@ -171,7 +176,7 @@ fn faces(reader: &mut Reader, element: &Element, mesh: &mut Mesh) -> Result<(), 
     Ok(())
 }
 
-/// A number's type.
+/// The type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     I8,
@@ -211,7 +216,7 @@ impl Kind {
 
 struct Property {
     name: String,
-    /// The type of the length, if it is a list.
+    /// The type of the length for a list.
     count: Option<Kind>,
     kind: Kind,
 }
@@ -229,13 +234,13 @@ enum Encoding {
     Big,
 }
 
-/// Reads one number after the other.
+/// Reads numbers one after the other.
 struct Reader<'a> {
     path: &'a Path,
     bytes: &'a [u8],
     at: usize,
     encoding: Encoding,
-    /// Bytes of memory that the file takes.
+    /// Memory in bytes that the file takes.
     taken: u64,
 }
 
@@ -258,18 +263,18 @@ impl<'a> Reader<'a> {
         ImportError::Malformed(fault("bad mesh", self.path, why, todo))
     }
 
-    /// Takes more memory, before it is used.
-    fn take(&mut self, bytes: u64) -> Result<(), ImportError> {
+    /// Reserves memory from the budget, before it is allocated.
+    fn reserve(&mut self, bytes: u64) -> Result<(), ImportError> {
         self.taken = self.taken.saturating_add(bytes);
         Budget::of(self.bytes.len()).check(self.taken, |why, todo| self.refuse(&why, todo))
     }
 
     fn cut(&self) -> ImportError {
         let todo = "Check that it was written completely";
-        self.refuse("it ends before all that its header announces", todo)
+        self.refuse("it is shorter than its header announces", todo)
     }
 
-    /// Reads the header.
+    /// Parses the header.
     fn elements(&mut self) -> Result<Vec<Element>, ImportError> {
         let mut elements: Vec<Element> = Vec::new();
         let mut number = 0;
@@ -326,7 +331,7 @@ impl<'a> Reader<'a> {
         Ok(elements)
     }
 
-    /// Refuses headers that announce more than is there, before any memory is taken.
+    /// Refuses headers that announce more data than the file has, before memory is allocated.
     fn check(&self, elements: &[Element]) -> Result<(), ImportError> {
         let left = (self.bytes.len() - self.at) as u128;
         let least = |property: &Property| match self.encoding {
@@ -337,14 +342,14 @@ impl<'a> Reader<'a> {
             let row: u128 = element.properties.iter().map(least).sum();
             row.max(1) * element.count as u128
         };
-        // The last line of a text may lack its end.
+        // The last line of a text file may lack its line break.
         match elements.iter().map(size).sum::<u128>() > left + 1 {
             true => Err(self.cut()),
             false => Ok(()),
         }
     }
 
-    /// The columns of properties, if the element has all of them; none may be a list.
+    /// The columns of properties, if the element has all of them; lists are refused.
     fn columns(
         &self,
         element: &Element,
@@ -360,7 +365,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The numbers of one row; a list leaves 0.
+    /// The numbers of one row; a list gives 0.
     fn row(&mut self, element: &Element, row: &mut Vec<f64>) -> Result<(), ImportError> {
         row.clear();
         for property in &element.properties {
@@ -381,14 +386,14 @@ impl<'a> Reader<'a> {
         (0..element.count).try_for_each(|_| self.row(element, &mut row))
     }
 
-    /// How many numbers a property has.
+    /// The number of values of a property.
     fn length(&mut self, property: &Property) -> Result<usize, ImportError> {
         let Some(kind) = property.count else {
             return Ok(1);
         };
         match self.number(kind)? {
             length if length >= 0.0 => Ok(length as usize),
-            _ => Err(self.refuse("a list has fewer than no entries", AGAIN)),
+            _ => Err(self.refuse("a list has a negative length", AGAIN)),
         }
     }
 
@@ -400,7 +405,7 @@ impl<'a> Reader<'a> {
         match in_range(number) {
             true => Ok(number),
             false => {
-                let why = format!("{number} is no finite number of at most 3.4e38");
+                let why = format!("{number} is not a finite number of at most 3.4e38");
                 Err(self.refuse(&why, "Repair the mesh"))
             }
         }
@@ -417,7 +422,7 @@ impl<'a> Reader<'a> {
         let number = std::str::from_utf8(word)
             .ok()
             .and_then(|word| word.parse().ok());
-        number.ok_or_else(|| self.refuse(&format!("{} is no number", quote(word)), AGAIN))
+        number.ok_or_else(|| self.refuse(&format!("{} is not a number", quote(word)), AGAIN))
     }
 
     fn binary(&mut self, kind: Kind) -> Result<f64, ImportError> {

@@ -1,32 +1,32 @@
-//! Polygons into triangles: fans where a polygon is convex, ear clipping (Meisters 1975, by the crate
-//! `earcut`) where it is not.
+//! Triangulates polygons: as fans if convex, otherwise by ear clipping (Meisters 1975, by the crate
+//! `earcut`).
 
 use earcut::Earcut;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// The most corners of a polygon that is not convex: ear clipping may take quadratic time.
+/// Limit of corners of a polygon that is not convex: ear clipping may take quadratic time.
 pub(super) const MAX_CONCAVE: usize = 16_384;
 
-/// Polygons of more corners are looked at for crossing edges before anything is clipped: what
-/// `earcut` makes of those takes cubic time.
+/// Polygons with more corners are checked for crossing edges before they are clipped: on such polygons
+/// `earcut` takes cubic time.
 const MAX_UNCHECKED: usize = 64;
 
-/// The most squares of the corners of polygons over [`MAX_UNCHECKED`], all together.
+/// Limit of the sum of squared corner counts over all polygons above [`MAX_UNCHECKED`].
 const MAX_WORK: u64 = 1 << 30;
 
-/// Why a polygon has no triangles.
+/// Why a polygon cannot be triangulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Defect {
-    /// All corners lie on a line, or what is left of it equals what is right of it.
+    /// All corners are collinear, or the signed areas of its parts cancel.
     NoArea,
-    /// It crosses or covers itself.
+    /// It intersects itself or winds around more than once.
     Crossing,
-    /// It is not convex, and cutting it, or all before it, would take too long.
+    /// It is not convex, and clipping it, or all polygons so far, would take too long.
     TooMuchWork,
 }
 
-/// Cuts the polygons of one file.
+/// Triangulates the polygons of one file.
 pub(super) struct Cutter {
     earcut: Earcut<f64>,
     work: u64,
@@ -40,7 +40,7 @@ pub(super) fn normal(points: &[DVec3]) -> DVec3 {
         .sum()
 }
 
-/// The fan from the first corner: the triangles of a convex polygon.
+/// The fan from the first corner, which triangulates a convex polygon.
 pub(super) fn fan(count: usize) -> Vec<[u32; 3]> {
     (1..count.max(2) as u32 - 1)
         .map(|i| [0, i, i + 1])
@@ -55,8 +55,8 @@ impl Cutter {
         }
     }
 
-    /// The triangles of the polygon, as indices into `points`, wound the same way. Together they
-    /// cover it once.
+    /// The triangles of the polygon as indices into `points`, with the same winding. Together they cover
+    /// it once.
     pub fn triangles(&mut self, points: &[DVec3]) -> Result<Vec<[u32; 3]>, Defect> {
         let before = |i: usize| points[(i + points.len() - 1) % points.len()];
         let is_repeated = |i: usize| points[i] == before(i);
@@ -72,12 +72,12 @@ impl Cutter {
         Ok(triangles)
     }
 
-    /// The same for a polygon none of whose corners equals the next.
+    /// The same for a polygon without equal consecutive corners.
     fn triangles_of_distinct(&mut self, points: &[DVec3]) -> Result<Vec<[u32; 3]>, Defect> {
         let count = points.len();
         let normal = normal(points);
         let reach = points.iter().map(|p| p.distance(points[0]));
-        // A square below the smallest positive number is no area either.
+        // An area whose square underflows is zero too.
         let reach = reach.fold(0.0, f64::max);
         if count < 3 || normal.length() <= 1e-12 * reach * reach {
             return Err(Defect::NoArea);
@@ -88,7 +88,7 @@ impl Cutter {
         let flat = projected(points, normal);
         let corners = || (0..count).map(|i| [0, 1, 2].map(|k| flat[(i + k) % count]));
         let is_convex = corners().all(|[a, b, c]| turn(a, b, c) > 0.0);
-        // Four corners cannot go round twice.
+        // Four corners cannot wind around twice.
         let round = if is_convex && count == 4 {
             TAU
         } else {
@@ -117,8 +117,8 @@ impl Cutter {
         let corners = flat.iter().map(|p| p.to_array());
         self.earcut.earcut(corners, &[], &mut indices);
         let triangles: Vec<[u32; 3]> = indices.as_chunks().0.to_vec();
-        // Ears that are cut off one by one add up to the polygon. Where they do not, or are turned
-        // over, the polygon crosses itself, and what there is was a guess.
+        // The areas of the clipped ears add up to the area of the polygon. If they do not, or an ear is
+        // flipped, the polygon intersects itself and the result is not valid.
         let area =
             |[a, b, c]: &[u32; 3]| turn(flat[*a as usize], flat[*b as usize], flat[*c as usize]);
         let whole: f64 = fan(flat.len()).iter().map(area).sum();
@@ -131,7 +131,7 @@ impl Cutter {
     }
 }
 
-/// The polygon on the coordinate plane in which it is largest, counter-clockwise.
+/// The polygon projected on the coordinate plane in which it is largest, counter-clockwise.
 fn projected(points: &[DVec3], normal: DVec3) -> Vec<DVec2> {
     let size = normal.abs();
     let project = |p: &DVec3| {
@@ -152,13 +152,13 @@ fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// By how much the way from `a` over `b` to `c` turns left at `b`, in [-π, π].
+/// The left turn in radians at `b` on the path from `a` over `b` to `c`, in [-π, π].
 fn exterior_angle(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let (to, from) = (b - a, c - b);
     to.perp_dot(from).atan2(to.dot(from))
 }
 
-/// Whether two edges cross, or more corners than the two of a seam lie in one point.
+/// Whether two edges cross, or more corners than the two of a seam coincide.
 fn meets_itself(points: &[DVec2]) -> bool {
     let mut sorted: Vec<_> = points.iter().map(|p| (p.x, p.y)).collect();
     sorted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -178,7 +178,7 @@ fn meets_itself(points: &[DVec2]) -> bool {
     })
 }
 
-/// Whether each segment has its ends on both sides of the other.
+/// Whether each segment's ends lie on opposite sides of the other.
 fn cross((a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2)) -> bool {
     a.y.min(b.y) <= c.y.max(d.y)
         && c.y.min(d.y) <= a.y.max(b.y)

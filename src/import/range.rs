@@ -1,5 +1,5 @@
-//! Colours that are finite in a file but whose products are not: they are brought into ranges in which
-//! light stays finite over many bounces. Real scenes are far within them.
+//! Clamps colours that are finite in the file but whose products could overflow, to ranges in which light
+//! stays finite over many bounces. Real scenes are far within these ranges.
 
 use super::notes::Notes;
 use crate::scene::{
@@ -9,22 +9,22 @@ use crate::scene::{
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
-/// The most of a coefficient, such as a diffuse colour, and of the colours of a pattern, by which it is
-/// multiplied.
+/// Limit of coefficients, such as diffuse colours, and of pattern colours, which are multiplied with
+/// them.
 const COEFFICIENT: f32 = 1e3;
 
-/// The most of a radiance: of the background, ambient light, emission, lights that do not fall off, and
-/// of pictures, which may be the background.
+/// Limit of radiance: of the background, ambient light, emission, lights without attenuation, and images,
+/// which may be the background.
 const RADIANCE: f32 = 1e12;
 
-/// The most of a light that falls off with the distance, and of the surface of a lamp. The Sun's light
-/// at a distance in metres takes 2e25.
+/// Limit of lights with attenuation and of the surfaces of area lights. The Sun at its distance in metres
+/// needs 2e25.
 const INTENSITY: f32 = 1e30;
 
-/// What indices of refraction may be; their squares are computed with.
+/// Range of indices of refraction, whose squares must not overflow.
 const IOR: (f32, f32) = (1e-6, 1e6);
 
-/// Brings the colours of `scene` into range and says how many were not.
+/// Clamps the colours of `scene` and notes how many were out of range.
 pub(super) fn limit(scene: &mut Scene) {
     let mut counts = Counts::default();
     for material in &mut scene.materials {
@@ -59,7 +59,7 @@ pub(super) fn limit(scene: &mut Scene) {
     counts.report(scene);
 }
 
-/// How many values were out of range.
+/// Numbers of values out of range.
 #[derive(Default)]
 struct Counts {
     coefficients: usize,
@@ -68,7 +68,7 @@ struct Counts {
     indices: usize,
 }
 
-/// Lowers what of `color` is above `most`.
+/// Clamps each component of `color` to `most`.
 fn lower(color: &mut Vec3, most: f32, count: &mut usize) {
     if color.max_element() > most {
         *color = color.min(Vec3::splat(most));
@@ -126,7 +126,7 @@ impl Counts {
     }
 
     fn light(&mut self, light: &mut Light) {
-        // Of a small lamp the surface is brighter than what it gives.
+        // The surface of a small area light is brighter than its intensity.
         let surface = light.kind.radiance().unwrap_or(1.0).max(1.0);
         let most = most_of(light.attenuation).min((f64::from(INTENSITY) / surface) as f32);
         lower(&mut light.color, most, &mut self.intensities);
@@ -171,7 +171,7 @@ impl Counts {
                 }
                 Values::Rotation(_) => {}
             }
-            // One value or many of a track are one fault.
+            // A track counts once, however many of its values are out of range.
             self.intensities = self.intensities.min(before + 1);
         }
     }
@@ -181,24 +181,16 @@ impl Counts {
         for (count, what) in [
             (
                 self.coefficients,
-                format!("coefficients above {COEFFICIENT} lowered to it"),
+                format!("coefficients clamped to {COEFFICIENT}"),
             ),
-            (
-                self.radiances,
-                format!("radiances above {RADIANCE:e} lowered to it"),
-            ),
+            (self.radiances, format!("radiances clamped to {RADIANCE:e}")),
             (
                 self.intensities,
-                format!(
-                    "lights too bright, lowered to {RADIANCE:e}, or {INTENSITY:e} where they fall off"
-                ),
+                format!("lights clamped to {RADIANCE:e}, or {INTENSITY:e} with attenuation"),
             ),
             (
                 self.indices,
-                format!(
-                    "indices of refraction brought between {} and {}",
-                    IOR.0, IOR.1
-                ),
+                format!("indices of refraction clamped to {} to {}", IOR.0, IOR.1),
             ),
         ] {
             if count > 0 {
@@ -209,7 +201,7 @@ impl Counts {
     }
 }
 
-/// The most of a light's colour.
+/// The limit of a light's colour.
 fn most_of(attenuation: Attenuation) -> f32 {
     match attenuation {
         Attenuation::None => RADIANCE,

@@ -1,72 +1,71 @@
-//! Where importers get files from: a folder, memory, or whatever implements [`Resolver`].
+//! Where importers get files from: a folder, memory, or any implementation of [`Resolver`].
 
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-/// Finds and reads the files that a scene consists of. Importers ask for files in no other way, so
-/// that scenes can come from memory or out of an archive as well.
+/// Finds and reads the files that a scene consists of. Importers access files only through it, so scenes
+/// can also come from memory or an archive.
 ///
-/// A file is known by the path that [`Resolver::resolve`] returns for it: equal paths are one file, and
-/// errors show them. What they mean otherwise is up to the resolver.
+/// A file is identified by the path that [`Resolver::resolve`] returns for it: equal paths are the same
+/// file, and errors show them. Otherwise their meaning is up to the resolver.
 pub trait Resolver {
-    /// The file called `name` in a file of the folder `base`, which is the parent of a path returned
-    /// before, or empty for the root. Names come out of scene files, whose authors nobody knows; their
-    /// folders are parted by `/`, and they are neither empty nor URLs.
+    /// The file `name`, relative to the folder `base`, which is the parent of a path returned before, or
+    /// empty for the root. Names come from scene files, which are not trusted; folders are separated by
+    /// `/`, and names are neither empty nor URLs.
     ///
     /// # Errors
-    /// [`FileError::Missing`] if there is no such file, [`FileError::Outside`] if the name leads to
-    /// where scenes may not read, [`FileError::NotPlain`] for a folder, [`FileError::Failed`].
+    /// [`FileError::Missing`] if there is no such file, [`FileError::Outside`] if the name points outside
+    /// the folders that scenes may read, [`FileError::NotPlain`] for a folder, [`FileError::Failed`].
     fn resolve(&self, base: &Path, name: &Path) -> Result<PathBuf, FileError>;
 
-    /// The bytes of the file at `path`, which [`Resolver::resolve`] returned.
+    /// Reads the file at `path`, which [`Resolver::resolve`] returned.
     ///
     /// # Errors
-    /// [`FileError::TooLong`] if they are more than `limit`, and whatever keeps them from being read.
+    /// [`FileError::TooLong`] if it has more than `limit` bytes, and any error that prevents reading it.
     fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>, FileError>;
 }
 
-/// Why a [`Resolver`] has no file.
+/// Why a [`Resolver`] cannot provide a file.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
-    /// There is none of that name.
+    /// There is no file of that name.
     #[error("no such file")]
     Missing,
-    /// The name leads out of what scenes may read.
-    #[error("outside of what may be read")]
+    /// The name points outside the folders that scenes may read.
+    #[error("outside the folders that may be read")]
     Outside,
     /// It is a folder.
     #[error("it is a folder")]
     IsFolder,
-    /// It is a pipe, a device or the like.
+    /// It is a pipe, a device or similar.
     #[error("it is not a plain file")]
     NotPlain,
-    /// It is longer than what was asked for.
+    /// It is longer than the limit.
     #[error("{length} bytes")]
     TooLong {
-        /// Bytes that it has, as far as is known.
+        /// Its length in bytes, as far as known.
         length: u64,
     },
     /// There is not enough memory for it.
-    #[error("{length} bytes do not fit into the memory")]
+    #[error("{length} bytes do not fit into memory")]
     NoMemory {
-        /// Bytes that it has.
+        /// Its length in bytes.
         length: u64,
     },
-    /// The system refused.
+    /// The operating system refused.
     #[error("{0}")]
     Failed(#[source] io::Error),
 }
 
-/// Files in memory, by their names: `a.toml`, `meshes/b.ply`. Files name each other as they do in
-/// folders.
+/// Files in memory by name: `a.toml`, `meshes/b.ply`. Files refer to each other as in folders.
 #[derive(Clone, Debug, Default)]
 pub struct Memory(BTreeMap<PathBuf, Arc<[u8]>>);
 
 impl Memory {
-    /// Adds a file, or replaces the one of that name. `name` is relative to the root, its folders are
-    /// parted by `/`.
+    /// Adds a file, or replaces the one of that name. `name` is relative to the root, with folders
+    /// separated by `/`.
     pub fn insert(&mut self, name: impl AsRef<Path>, bytes: impl Into<Arc<[u8]>>) {
         self.0.insert(normalized(name.as_ref()), bytes.into());
     }
@@ -96,7 +95,7 @@ impl Resolver for Memory {
     }
 }
 
-/// The path of a file among those of a map, which have normalized paths; see [`Resolver::resolve`].
+/// Looks a file up in a map with normalised paths; see [`Resolver::resolve`].
 pub(super) fn located<T>(
     files: &BTreeMap<PathBuf, T>,
     base: &Path,
@@ -116,13 +115,13 @@ pub(super) fn located<T>(
     })
 }
 
-/// Whether the name stays in its folder or goes into folders of it.
+/// Whether the name stays in its folder or a subfolder.
 pub(super) fn goes_down(name: &Path) -> bool {
     name.components()
         .all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
 }
 
-/// `path` with its `.` and `..` carried out by name alone.
+/// `path` with `.` and `..` resolved lexically.
 pub(super) fn normalized(path: &Path) -> PathBuf {
     let mut result = PathBuf::new();
     for component in path.components() {

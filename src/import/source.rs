@@ -1,22 +1,22 @@
-//! A text file in memory that can say where in it something is wrong.
+//! A text file in memory, and error positions in it.
 
 use super::error::{Excerpt, ImportError, Position, fault};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Bytes of the line that an error shows on either side of the fault.
+/// Number of bytes that an error shows on either side of the fault.
 const EXCERPT_REACH: usize = 60;
 
 /// The text of one file, or of an override, without its byte order mark.
 pub(super) struct Source {
-    /// What an error in it is called, such as "bad scene".
+    /// The heading of errors, such as "bad scene".
     what: &'static str,
     /// Empty for an override.
     pub path: PathBuf,
     pub bytes: Vec<u8>,
 }
 
-/// Some bytes of a [`Source`] and where they begin.
+/// Some bytes of a [`Source`] and their position.
 #[derive(Clone, Copy)]
 pub(super) struct Token<'s> {
     pub bytes: &'s [u8],
@@ -24,12 +24,12 @@ pub(super) struct Token<'s> {
 }
 
 impl Token<'_> {
-    /// The bytes of the source that the token takes.
+    /// The range of the token in the source.
     pub fn span(&self) -> Range<usize> {
         self.at..self.at + self.bytes.len()
     }
 
-    /// The token as an error shows it.
+    /// The token as shown in errors.
     pub fn quote(&self) -> String {
         quote(self.bytes)
     }
@@ -37,7 +37,7 @@ impl Token<'_> {
 
 impl Source {
     /// # Errors
-    /// `bytes` are empty, UTF-16 or no text at all.
+    /// `bytes` are empty, UTF-16 or binary.
     pub fn new(what: &'static str, path: &Path, mut bytes: Vec<u8>) -> Result<Self, ImportError> {
         let refuse = |why, todo| Err(ImportError::Malformed(fault(what, path, why, todo)));
         if bytes.is_empty() {
@@ -73,14 +73,14 @@ impl Source {
         })
     }
 
-    /// An error about `span`. `why` is a clause without a full stop (or a question with its mark),
-    /// `todo` a sentence without one.
+    /// An error about `span`. `why` is a clause without a full stop (or a question with its mark), `todo`
+    /// a sentence without a full stop.
     pub fn malformed(&self, span: Range<usize>, why: String, todo: &str) -> ImportError {
         let fault = fault(self.what, &self.path, &why, todo);
         ImportError::Malformed(fault.at(self.position(span.start), self.excerpt(span)))
     }
 
-    /// The window round `span`, which may end, but not begin, beyond the text.
+    /// The excerpt around `span`, which may end, but not begin, beyond the text.
     fn excerpt(&self, span: Range<usize>) -> Excerpt {
         let at = span.start.min(self.bytes.len());
         let line = self.line_around(at);
@@ -100,7 +100,7 @@ impl Source {
         }
     }
 
-    /// The line and column of the byte `at`, or of the end if that is before it.
+    /// The line and column of the byte `at`, or of the end of the text if that comes first.
     pub fn position(&self, at: usize) -> Position {
         let at = at.min(self.bytes.len());
         let start = self.line_around(at).start;
@@ -126,7 +126,7 @@ impl Source {
     }
 }
 
-/// By its byte order mark, or else by the zero half of its first character.
+/// Detected by the byte order mark, or else by the zero byte of the first character.
 fn is_utf16(bytes: &[u8]) -> bool {
     match *bytes {
         [a, b, ..] => matches!((a, b), (0xff, 0xfe) | (0xfe, 0xff)) || (a == 0) != (b == 0),
@@ -134,7 +134,7 @@ fn is_utf16(bytes: &[u8]) -> bool {
     }
 }
 
-/// `bytes` in backquotes, cut when long, with nothing in it that could upset a terminal.
+/// `bytes` in backquotes, truncated if long, without control characters.
 pub(super) fn quote(bytes: &[u8]) -> String {
     const LONGEST: usize = 32;
     let mut quoted = String::from("`");

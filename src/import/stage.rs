@@ -1,16 +1,16 @@
-//! A camera and lights for geometry that comes without.
+//! A camera and lights for models that have none.
 
 use crate::scene::{Background, Camera, Light, LightKind, Scene};
 use glam::{DVec3, Vec3};
 
-/// A camera that sees all of `scene` from the front, a little to the right and above, in a picture
-/// of 4:3 or wider; the course's camera when nothing in the scene is bounded.
+/// A camera that sees all of `scene` from the front, slightly right and above, in an image of aspect
+/// ratio 4:3 or wider; the course's camera if nothing in the scene is bounded.
 pub(super) fn camera(scene: &Scene) -> Camera {
     let Some((min, max)) = scene.bounds() else {
         return Camera::default();
     };
     let center = (min + max) / 2.0;
-    // Never 0, not even for a single point far out.
+    // Never 0, not even for a single point far from the origin.
     let half = ((max - min) / 2.0).max(DVec3::splat(1e-6 * center.abs().max_element().max(1e-6)));
     let backward = DVec3::new(0.55, 0.4, 1.0).normalize();
     let right = DVec3::Y.cross(backward).normalize();
@@ -18,7 +18,7 @@ pub(super) fn camera(scene: &Scene) -> Camera {
 
     let fov_y = 35_f64.to_radians();
     let slope = (fov_y / 2.0).tan();
-    // How far back the camera must be for a corner of the box to be on the edge of the picture.
+    // Distance at which a corner of the box lies on the edge of the image.
     let distance = |i: u8| {
         let side = |bit: u8| if i & bit == 0 { -1.0 } else { 1.0 };
         let corner = half * DVec3::new(side(1), side(2), side(4));
@@ -34,8 +34,8 @@ pub(super) fn camera(scene: &Scene) -> Camera {
     }
 }
 
-/// Lights, background and ambient light for a bare model: a warm key from the right above, a cool
-/// fill from the left, and enough ambient that nothing is black.
+/// Lights, background and ambient light for a bare model: a warm key light from the right above, a cool
+/// fill light from the left, and enough ambient light that nothing is black.
 pub(super) fn light(scene: &mut Scene) {
     let sun = |towards: DVec3, color: Vec3| Light {
         kind: LightKind::Directional {

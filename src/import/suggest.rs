@@ -1,8 +1,8 @@
 //! "Did you mean …?"
 
-/// The one of `known` that `word` was probably meant to be, if any is close.
+/// The entry of `known` that `word` is probably a misspelling of, if any is close.
 pub(super) fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // Nobody misspells a long key by accident, and distances are quadratic in the length.
+    // Long words are not misspelled keys, and the distance takes quadratic time.
     if word.len() > 64 {
         return None;
     }
@@ -21,7 +21,7 @@ pub(super) fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
         .map(|(_, candidate)| candidate)
 }
 
-/// "unknown KIND `word`", with a suggestion where there is one.
+/// "unknown KIND `word`", with a suggestion if there is one.
 pub(super) fn unknown<'a>(
     kind: &str,
     word: &str,
@@ -34,8 +34,8 @@ pub(super) fn unknown<'a>(
     }
 }
 
-/// The number of insertions, deletions, substitutions and swaps of neighbours from `a` to `b`
-/// (optimal string alignment).
+/// The number of insertions, deletions, substitutions and transpositions from `a` to `b` (optimal string
+/// alignment).
 fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
     let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];

@@ -1,37 +1,37 @@
-//! Bytes → file, so that a reader, a crash or a full disk never sees half of it: a new file beside
-//! the old one, written, synced, renamed over it; then the folder synced and the result looked at.
+//! Writes files so that no reader, crash or full disk ever leaves half of one: a temporary file beside
+//! the target is written, synced and renamed over it; then the folder is synced and the result checked.
 
-use super::{Litter, OutputError};
+use super::{OutputError, RemoveOnExit};
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, ErrorKind, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tempfile::NamedTempFile;
 
-/// Between a file's name and the process that was writing it.
+/// Separates a file's name from the id of the process that writes it.
 const PART: &str = ".part-";
 
-/// Names of files end at 255 bytes nearly everywhere; this leaves room for what is put round them.
+/// Most file systems limit names to 255 bytes; this leaves room for the additions.
 const MAX_STEM: usize = 200;
 
-/// Links in a row that lead to a file that is yet to be made. Systems give up at about as many.
+/// Limit of chained links to a file that does not exist yet. Operating systems have similar limits.
 const MAX_LINKS: usize = 40;
 
-/// Where bytes for a path really go.
+/// Where the bytes for a path are written.
 enum Target {
-    /// A file, new or old, to be put in place by renaming.
+    /// A file, new or existing, that is put in place by renaming.
     File {
-        /// With symbolic links resolved, so that a link survives and its file is replaced or made.
+        /// With symbolic links resolved, so that the link is kept and its target is replaced or created.
         path: PathBuf,
-        /// Of the file that is there.
+        /// Of the existing file.
         permissions: Option<Permissions>,
     },
-    /// A pipe, a device or a socket: to be written to as it is.
+    /// A pipe, a device or a socket, which is written to directly.
     Stream,
 }
 
-/// A part of a file beside its place, and its entry among what is cleared away with the process.
-type Part = (NamedTempFile, Litter);
+/// A temporary file beside its target, registered for removal when the process ends.
+type Part = (NamedTempFile, RemoveOnExit);
 
 pub(super) fn check(path: &Path, clobber: bool, follow_links: bool) -> Result<(), OutputError> {
     if let Target::File { path: file, .. } = target(path, clobber, follow_links)? {
@@ -52,8 +52,8 @@ pub(super) fn write(
     })
 }
 
-/// Like [`write`], for what is too long to be held in memory: `fill` writes it bit by bit. Its
-/// errors leave what was at `path` as it was.
+/// Like [`write`], for contents too large for memory: `fill` writes them piece by piece. If it fails, the
+/// previous contents of `path` stay.
 pub(super) fn write_with(
     path: &Path,
     clobber: bool,
@@ -89,7 +89,7 @@ pub(super) fn write_with(
     }
 }
 
-/// Refuses a link, unless it is one to a pipe or a device.
+/// Refuses a symbolic link, except to a pipe or a device.
 pub(super) fn check_no_link(path: &Path) -> Result<(), OutputError> {
     let is_link = fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink());
     let is_stream = || fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
@@ -126,7 +126,7 @@ fn target(path: &Path, clobber: bool, follow_links: bool) -> Result<Target, Outp
     })
 }
 
-/// Of a path at which there is nothing yet.
+/// The target for a path that does not exist yet.
 fn new_target(path: &Path) -> Result<Target, OutputError> {
     let ends_in_separator = path.to_string_lossy().ends_with(std::path::is_separator);
     let file = end_of_links(path).map_err(|source| failed(path, source))?;
@@ -147,7 +147,7 @@ fn new_target(path: &Path) -> Result<Target, OutputError> {
     })
 }
 
-/// The file, which does not exist, that a path leads to over any links.
+/// The path of the file, which does not exist yet, behind any chain of links.
 fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..MAX_LINKS {
@@ -159,10 +159,10 @@ fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     Err(ErrorKind::InvalidFilename.into())
 }
 
-/// Puts a part that has been filled in its place, and returns how many bytes went into it.
+/// Renames a complete temporary file to its target, and returns the number of bytes in it.
 fn replace(
     path: &Path,
-    (mut part, litter): Part,
+    (mut part, registered): Part,
     permissions: Option<Permissions>,
     clobber: bool,
 ) -> io::Result<u64> {
@@ -172,28 +172,28 @@ fn replace(
     part.flush()?;
     part.as_file().sync_all()?;
     let length = part.stream_position()?;
-    // An error from here on drops, and thereby removes, the part.
+    // From here on, an error drops and thereby removes the temporary file.
     if clobber {
         part.persist(path)?;
     } else {
         part.persist_noclobber(path)?;
     }
-    drop(litter);
+    drop(registered);
     sync_folder(folder_of(path));
     Ok(length)
 }
 
-/// A new empty file beside `path`, gone when it is dropped.
+/// A new empty file beside `path`, removed when dropped.
 fn part_file(path: &Path) -> io::Result<Part> {
     let prefix = format!("{}{}-", part_prefix(path), std::process::id());
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix);
-    // Temporary files are private by default; this one is to become an ordinary file, for which
-    // the system takes the umask off.
+    // Temporary files are private by default; this one becomes an ordinary file, with permissions
+    // according to the umask.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let make = || builder.tempfile_in(folder_of(path));
-    Litter::make(make, |part| part.path().to_owned())
+    RemoveOnExit::make(make, |part| part.path().to_owned())
 }
 
 fn part_prefix(path: &Path) -> String {
@@ -202,7 +202,7 @@ fn part_prefix(path: &Path) -> String {
     format!(".{}{PART}", &name[..end])
 }
 
-/// Removes the parts that killed processes left for `path`. What cannot be removed stays.
+/// Removes the temporary files that killed processes left for `path`. Errors are ignored.
 fn remove_leftovers(path: &Path) {
     let prefix = part_prefix(path);
     let Ok(entries) = fs::read_dir(folder_of(path)) else {
@@ -221,7 +221,7 @@ fn remove_leftovers(path: &Path) {
     }
 }
 
-/// Whether nobody can still be writing the file. Without a /proc to ask, a day settles it.
+/// Whether no process can still be writing the file. Without /proc, files older than a day count.
 fn is_abandoned(process: u32, entry: &fs::DirEntry) -> bool {
     let processes = Path::new("/proc");
     if processes.join("self").exists() {
@@ -236,14 +236,14 @@ fn is_abandoned(process: u32, entry: &fs::DirEntry) -> bool {
         })
 }
 
-/// Makes the renaming itself last through a power cut, where the system lets folders be synced.
+/// Syncs the folder so that the renaming survives a power failure, where the system supports it.
 fn sync_folder(folder: &Path) {
     if let Ok(folder) = File::open(folder) {
         let _ = folder.sync_all();
     }
 }
 
-/// Looks at the file that is now at its place.
+/// Checks the file after it was put in place.
 fn verify(path: &Path, file: &Path, expected: u64) -> Result<(), OutputError> {
     let found = File::open(file)
         .and_then(|file| file.metadata())

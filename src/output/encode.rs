@@ -1,5 +1,5 @@
-//! Image → the bytes of a file, in memory: the writers of `image` drop the errors of a full disk
-//! (PNG's last chunk is written in `Drop`), but memory cannot fail them.
+//! Encodes images in memory: the encoders of `image` ignore errors of a full disk (PNG's last chunk is
+//! written in `Drop`), but writing to memory cannot fail.
 
 use super::{Format, OutputError};
 use crate::image::Image;
@@ -9,7 +9,7 @@ use ::image::codecs::{
 use ::image::{DynamicImage, ImageBuffer, Pixel, Rgb, Rgba};
 use std::io::Cursor;
 
-/// The file's bytes. Opacity is kept where the format can and any pixel is not opaque.
+/// The contents of the file. Opacity is kept if the format supports it and any pixel is not opaque.
 pub(super) fn encode(image: &Image, format: Format, quality: u8) -> Result<Vec<u8>, OutputError> {
     let alpha = matches!(format, Format::Png | Format::Exr) && !image.is_opaque();
     let pixels = match (format, alpha) {
@@ -40,7 +40,7 @@ pub(super) fn encode(image: &Image, format: Format, quality: u8) -> Result<Vec<u
     Ok(file.into_inner())
 }
 
-/// The pixels in the form that the encoders of `image` take; `None` when their number is wrong.
+/// The pixels in the layout that the encoders of `image` expect; `None` if their number is wrong.
 fn raster<P: Pixel>(image: &Image, convert: impl Fn([f32; 4]) -> P) -> Option<DynamicImage>
 where
     DynamicImage: From<ImageBuffer<P, Vec<P::Subpixel>>>,
@@ -59,7 +59,7 @@ fn rgb([r, g, b, _]: [f32; 4]) -> [f32; 3] {
     [r, g, b]
 }
 
-/// The nearest of the 256 levels to a value in [0, 1]; values beyond go to its ends, a NaN to 0.
+/// The nearest of 256 levels to a value, clamped to [0, 1]; 0 for NaN.
 pub(super) fn level(value: f32) -> u8 {
     (value.clamp(0.0, 1.0) * 255.0).round() as u8
 }

@@ -1,58 +1,58 @@
-//! Why a picture or a video could not be written, in one line each.
+//! Why an image or a video could not be written, in one line each.
 
 use super::Format;
 use super::video::{FrameRate, VideoFormat};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What keeps a file from being written. The text is `WHAT (WHERE): WHY. WHAT TO DO.`
+/// Why a file could not be written. The text is `WHAT (WHERE): WHY. WHAT TO DO.`
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// The name's ending says nothing known, and no format was given.
+    /// The file extension is unknown, and no format was given.
     #[error(
-        "cannot tell the picture format ({}): the name has none of the endings {}. \
+        "cannot determine the image format ({}): the extension is none of {}. \
          Choose one of them or name the format.",
         show(path),
         Format::ENDINGS
     )]
     UnknownFormat {
-        /// Where the picture was to go.
+        /// The target.
         path: PathBuf,
     },
 
-    /// The format cannot count that many pixels. All figures are pixels.
+    /// The format does not support that size. All figures are pixels.
     #[error(
-        "cannot write the picture ({width}×{height} pixels): {format} holds at most \
+        "cannot write the image ({width}×{height} pixels): {format} supports at most \
          {max_width}×{max_height}. Choose a smaller size or another format."
     )]
     TooLarge {
-        /// The format asked for.
+        /// The requested format.
         format: Format,
-        /// The picture's width.
+        /// Width of the image.
         width: u32,
-        /// The picture's height.
+        /// Height of the image.
         height: u32,
-        /// The format's greatest width.
+        /// The format's largest width.
         max_width: u32,
-        /// The format's greatest height.
+        /// The format's largest height.
         max_height: u32,
     },
 
-    /// The picture has not as many pixels as its width and height say.
+    /// The number of pixels does not match the width and height.
     #[error(
-        "cannot write the picture ({width}×{height} pixels): it holds {pixel_count} pixels. \
-         Give it as many as its size says."
+        "cannot write the image ({width}×{height} pixels): it has {pixel_count} pixels. \
+         Give it as many as its size requires."
     )]
     Misshapen {
-        /// The picture's width.
+        /// Width of the image.
         width: u32,
-        /// The picture's height.
+        /// Height of the image.
         height: u32,
-        /// How many it holds.
+        /// Its number of pixels.
         pixel_count: usize,
     },
 
-    /// The name is a folder's.
+    /// The name is that of a folder.
     #[error(
         "cannot write the file ({}): it is a folder. Add a file name.",
         show(path)
@@ -69,15 +69,15 @@ pub enum OutputError {
         show(folder)
     )]
     MissingFolder {
-        /// Where the file was to go.
+        /// The target.
         path: PathBuf,
-        /// What is missing.
+        /// The missing folder.
         folder: PathBuf,
     },
 
-    /// The file exists and may not be replaced.
+    /// The file exists and must not be replaced.
     #[error(
-        "cannot write the file ({}): it exists and is to be kept. Choose another name.",
+        "cannot write the file ({}): it exists and must not be replaced. Choose another name.",
         show(path)
     )]
     Exists {
@@ -95,9 +95,9 @@ pub enum OutputError {
         path: PathBuf,
     },
 
-    /// The name is one that the program made up, and there is a symbolic link of that name.
+    /// The name was generated, and a symbolic link of that name exists.
     #[error(
-        "cannot write the file ({}): it is a link that leads elsewhere. Remove the link, or choose \
+        "cannot write the file ({}): it is a symbolic link. Remove the link, or choose \
          another folder.",
         show(path)
     )]
@@ -114,142 +114,142 @@ pub enum OutputError {
         advice(source)
     )]
     Io {
-        /// Where the file was to go.
+        /// The target.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
 
-    /// The standard output takes no more.
+    /// Standard output could not be written.
     #[error(
-        "cannot write the picture (standard output): {}. {}",
+        "cannot write the image (standard output): {}. {}",
         reason(source),
         advice(source)
     )]
     Stdout {
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
 
-    /// The file was written without an error, yet does not hold what was written.
+    /// Writing reported no error, but the file is incomplete.
     #[error(
-        "cannot write the file ({}): {found} of {expected} bytes arrived. \
+        "cannot write the file ({}): only {found} of {expected} bytes were written. \
          Check the disk and write to another one.",
         show(path)
     )]
     Incomplete {
         /// The file.
         path: PathBuf,
-        /// How many bytes it should have.
+        /// Its expected length in bytes.
         expected: u64,
-        /// How many it has.
+        /// Its actual length in bytes.
         found: u64,
     },
 
-    /// The encoder refused the picture.
-    #[error("cannot write the picture ({format}): {source}. Choose another format.")]
+    /// The encoder refused the image.
+    #[error("cannot write the image ({format}): {source}. Choose another format.")]
     Encode {
-        /// The format asked for.
+        /// The requested format.
         format: Format,
-        /// What the encoder said.
+        /// The encoder's error.
         source: ::image::ImageError,
     },
 
-    /// The name's ending says no known video format.
+    /// The file extension is not that of a supported video format.
     #[error(
-        "cannot tell the video format ({}): the name has none of the endings {}. \
+        "cannot determine the video format ({}): the extension is none of {}. \
          Choose one of them.",
         show(path),
         VideoFormat::ENDINGS
     )]
     UnknownVideoFormat {
-        /// Where the video was to go.
+        /// The target.
         path: PathBuf,
     },
 
-    /// The program was built without the encoders of videos.
+    /// The program was built without the video encoders.
     #[error(
-        "cannot write the video ({format}): this program was built without its encoder, the cargo \
-         feature `video`. Choose .y4m, or numbered pictures."
+        "cannot write the video ({format}): this program was built without its encoder, cargo \
+         feature `video`. Choose .y4m, or numbered images."
     )]
     VideoLeftOut {
-        /// The format asked for.
+        /// The requested format.
         format: VideoFormat,
     },
 
-    /// The format cannot hold frames of that size. All figures are pixels.
+    /// The format does not support frames of that size. All figures are pixels.
     #[error(
-        "cannot write the video ({width}×{height} pixels): {format} holds at most {long}×{short}, \
-         or upright. Choose a smaller size or another format."
+        "cannot write the video ({width}×{height} pixels): {format} supports at most {long}×{short}, \
+         or the same in portrait. Choose a smaller size or another format."
     )]
     VideoTooLarge {
-        /// The format asked for.
+        /// The requested format.
         format: VideoFormat,
-        /// The frames' width.
+        /// Width of the frames.
         width: u32,
-        /// The frames' height.
+        /// Height of the frames.
         height: u32,
-        /// The greatest longer side.
+        /// Limit of the longer side.
         long: u32,
-        /// The greatest shorter side.
+        /// Limit of the shorter side.
         short: u32,
     },
 
-    /// The format cannot play frames at that rate.
+    /// The format does not support that frame rate.
     #[error(
-        "cannot write the video ({rate} frames per second): {format} plays {least} to {most}. \
+        "cannot write the video ({rate} frames per second): {format} supports {least} to {most}. \
          Choose a rate between them or another format."
     )]
     VideoRate {
-        /// The format asked for.
+        /// The requested format.
         format: VideoFormat,
-        /// The rate asked for.
+        /// The requested rate.
         rate: FrameRate,
-        /// The lowest rate, in frames per second.
+        /// The lowest supported rate, in frames per second.
         least: f64,
-        /// The highest rate, in frames per second.
+        /// The highest supported rate, in frames per second.
         most: f64,
     },
 
-    /// A frame has not the size of the first. All figures are pixels.
+    /// A frame differs in size from the first one. All figures are pixels.
     #[error(
         "cannot write the video (frame {index}, counted from 0): it has {width}×{height} pixels, \
-         the first one {first_width}×{first_height}. Render it again in that size."
+         but the first one {first_width}×{first_height}. Render it again at that size."
     )]
     FrameSize {
-        /// Which frame, from 0 on.
+        /// Index of the frame, from 0.
         index: usize,
-        /// Its width.
+        /// Width of the frame.
         width: u32,
-        /// Its height.
+        /// Height of the frame.
         height: u32,
-        /// The first frame's width.
+        /// Width of the first frame.
         first_width: u32,
-        /// The first frame's height.
+        /// Height of the first frame.
         first_height: u32,
     },
 
-    /// A frame could not be read back.
+    /// A frame file could not be read.
     #[error("cannot read the frame ({}): {reason}. Render it again.", show(path))]
     UnreadableFrame {
         /// The frame's file.
         path: PathBuf,
-        /// What the system or the decoder said.
+        /// The error of the system or the decoder.
         reason: String,
     },
 
     /// The encoder refused a frame.
     #[error("cannot write the video ({format}): {reason}. Choose another format.")]
     VideoEncode {
-        /// The format asked for.
+        /// The requested format.
         format: VideoFormat,
-        /// What the encoder said.
+        /// The encoder's error.
         reason: String,
     },
 }
 
 impl OutputError {
-    /// Whether another name, format, size or rate is all it takes.
+    /// Whether another name, format, size or rate would help.
     pub fn is_usage(&self) -> bool {
         matches!(
             self,
@@ -262,12 +262,12 @@ impl OutputError {
         )
     }
 
-    /// Whether a frame that was to be read back is at fault.
+    /// Whether the error concerns a frame file.
     pub fn is_refused_input(&self) -> bool {
         matches!(self, Self::FrameSize { .. } | Self::UnreadableFrame { .. })
     }
 
-    /// Whether it can only be our bug.
+    /// Whether it can only be a bug in glimray.
     pub fn is_internal(&self) -> bool {
         matches!(
             self,
@@ -276,8 +276,8 @@ impl OutputError {
     }
 }
 
-/// A path for a one-line message: control characters are escaped, so that no file name can break
-/// the line or steer the terminal.
+/// A path for a one-line message: control characters are escaped, so that a file name cannot break the
+/// line or control the terminal.
 fn show(path: &Path) -> String {
     path.to_string_lossy()
         .chars()
@@ -289,7 +289,7 @@ fn show(path: &Path) -> String {
         .collect()
 }
 
-/// The system's words without its number, as a part of a sentence.
+/// The system's message without its number, as a clause.
 pub(crate) fn reason(error: &io::Error) -> String {
     let text = error.to_string();
     let text = text.split(" (os error").next().unwrap_or_default();
@@ -304,10 +304,10 @@ fn advice(error: &io::Error) -> &'static str {
     use io::ErrorKind::*;
     match error.kind() {
         StorageFull | QuotaExceeded => "Free some space or choose another disk.",
-        FileTooLarge => "Raise the limit of file sizes (`ulimit -f`), or write a smaller file.",
+        FileTooLarge => "Raise the file size limit (`ulimit -f`), or write a smaller file.",
         PermissionDenied | ReadOnlyFilesystem => "Choose a folder that you may write to.",
         InvalidFilename | InvalidInput | NotADirectory => "Choose another name.",
-        BrokenPipe => "Keep the reading program running until the end.",
-        _ => "Choose another place.",
+        BrokenPipe => "Keep the reading program running until the end of the output.",
+        _ => "Choose another location.",
     }
 }

@@ -1,27 +1,27 @@
-//! The picture formats and what they can hold.
+//! Image file formats and their limits.
 
 use super::OutputError;
 use std::fmt;
 use std::path::Path;
 
-/// A picture file format.
+/// An image file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Format {
-    /// 8 bits a channel, lossless.
+    /// 8 bits per channel, lossless.
     Png,
-    /// 8 bits a channel, lossy, no opacity.
+    /// 8 bits per channel, lossy, without opacity.
     Jpeg,
     /// OpenEXR, 32-bit float.
     Exr,
-    /// Radiance RGBE, about 8 bits of precision at any brightness, no opacity and nothing negative.
+    /// Radiance RGBE, about 8 bits of precision at any brightness, without opacity and negative values.
     Hdr,
 }
 
 impl Format {
-    /// Every ending that [`Format::from_path`] knows, for messages.
+    /// The extensions that [`Format::from_path`] knows, for messages.
     pub const ENDINGS: &str = ".png, .jpg, .jpeg, .exr, .hdr";
 
-    /// The format that the ending of `path` says, in upper or lower case.
+    /// The format of the extension of `path`, in upper or lower case.
     pub fn from_path(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {
@@ -33,12 +33,12 @@ impl Format {
         }
     }
 
-    /// Whether it holds linear light of any brightness, rather than display values in [0, 1].
+    /// Whether it stores linear light of any brightness rather than display values in [0, 1].
     pub fn is_linear(self) -> bool {
         matches!(self, Self::Exr | Self::Hdr)
     }
 
-    /// Refuses a picture with more pixels on a side than the format can count.
+    /// Refuses images that exceed the format's limits.
     pub(super) fn check_size(self, width: u32, height: u32) -> Result<(), OutputError> {
         let (max_width, max_height) = self.max_size();
         if width <= max_width && height <= max_height {
@@ -53,13 +53,13 @@ impl Format {
         })
     }
 
-    /// Width and height in pixels.
+    /// Largest width and height in pixels.
     fn max_size(self) -> (u32, u32) {
         let signed = i32::MAX as u32;
         match self {
             Self::Png | Self::Exr => (signed, signed),
             Self::Jpeg => (0xFFFF, 0xFFFF),
-            // Run-length coded lines count their pixels in 15 bits.
+            // Run-length encoded lines have a 15-bit length.
             Self::Hdr => (0x7FFF, signed),
         }
     }

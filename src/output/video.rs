@@ -1,5 +1,5 @@
-//! Numbered frames → a video: MP4, GIF or Y4M, one file for each. A frame is a [`Picture8`]; all
-//! of a video have the size of the first.
+//! Encodes numbered frames as a video: MP4, GIF or Y4M. A frame is a [`Picture8`]; all frames have the
+//! size of the first.
 
 #[cfg(feature = "video")]
 mod gif;
@@ -26,17 +26,17 @@ use std::path::Path;
 pub enum VideoFormat {
     /// H.264 in MP4: small, lossy, plays nearly everywhere.
     Mp4,
-    /// 255 colours and no sound, plays wherever pictures show.
+    /// 255 colours without sound; supported wherever images are.
     Gif,
-    /// YUV4MPEG2, uncompressed: what other programs' encoders read from a pipe.
+    /// YUV4MPEG2, uncompressed: for other programs' encoders that read from a pipe.
     Y4m,
 }
 
 impl VideoFormat {
-    /// Every ending that [`VideoFormat::from_path`] knows, for messages.
+    /// The extensions that [`VideoFormat::from_path`] knows, for messages.
     pub const ENDINGS: &str = ".mp4, .gif, .y4m";
 
-    /// The format that the ending of `path` says, in upper or lower case.
+    /// The format of the extension of `path`, in upper or lower case.
     pub fn from_path(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {
@@ -47,9 +47,9 @@ impl VideoFormat {
         }
     }
 
-    /// Width and height, in pixels, of the video that frames of `width` × `height` make. Colour at
-    /// half the resolution needs even sides in MP4, and its encoder sides of 16 at least: the last
-    /// column and row are repeated.
+    /// Width and height in pixels of the video for frames of `width` × `height`. In MP4, chroma
+    /// subsampling needs even sides, and the encoder needs sides of at least 16: the last column and row
+    /// are repeated.
     pub fn padded_size(self, width: u32, height: u32) -> (u32, u32) {
         let padded = |side: u32| side.max(16).next_multiple_of(2);
         match self {
@@ -58,20 +58,20 @@ impl VideoFormat {
         }
     }
 
-    /// The greatest longer and shorter side, in pixels.
+    /// The largest longer and shorter side in pixels.
     fn max_sides(self) -> (u32, u32) {
         match self {
-            // OpenH264's own: level 5.2.
+            // OpenH264's limit: level 5.2.
             Self::Mp4 => (3840, 2160),
             Self::Gif => (0xFFFF, 0xFFFF),
             Self::Y4m => (i32::MAX as u32, i32::MAX as u32),
         }
     }
 
-    /// Frames per second, the least and the most.
+    /// The lowest and the highest number of frames per second.
     fn rates(self) -> (f64, f64) {
         match self {
-            // Delays are counted in 1/100 s, in 16 bits; players take a single one for ten.
+            // Delays are counted in 1/100 s with 16 bits; players treat a delay of 1 as 10.
             Self::Gif => (0.01, 50.0),
             Self::Mp4 | Self::Y4m => (0.0, f64::INFINITY),
         }
@@ -119,16 +119,16 @@ impl fmt::Display for VideoFormat {
 pub struct VideoOptions {
     /// Frames per second.
     pub rate: FrameRate,
-    /// Of an MP4: 1 (smallest) to 100 (best), the same for every frame. Values outside are clamped.
+    /// MP4 quality: 1 (smallest) to 100 (best), the same for every frame. Values outside are clamped.
     pub quality: u8,
-    /// Of a GIF: whether it starts over for ever.
+    /// Whether a GIF repeats forever.
     pub repeat: bool,
-    /// Whether a file of that name may be replaced.
+    /// Whether an existing file may be replaced.
     pub clobber: bool,
 }
 
 impl Default for VideoOptions {
-    /// 24 frames per second, quality 75, repeating, replacing what is there.
+    /// 24 frames per second, quality 75, repeating, replacing existing files.
     fn default() -> Self {
         Self {
             rate: FrameRate::FILM,
@@ -139,13 +139,13 @@ impl Default for VideoOptions {
     }
 }
 
-/// Encodes `count` frames, which `frame` fetches by their number from 0 on (in order; some of a GIF
-/// once more beforehand), and writes the file like every other: complete or absent. The same frames
-/// and options give the same bytes.
+/// Encodes `count` frames and writes the file: complete or absent. `frame` returns each frame by its
+/// number, from 0 in order; for a GIF, some of them are read once before that. The same frames and
+/// options give the same bytes.
 ///
 /// # Errors
-/// Those of `frame`; frames of different sizes, sizes and rates that the format cannot hold, and
-/// whatever keeps the file from being written.
+/// Those of `frame`; frames of different sizes, unsupported sizes and rates, and everything that prevents
+/// writing the file.
 pub fn encode(
     path: &Path,
     format: VideoFormat,
@@ -161,18 +161,18 @@ pub fn encode(
         VideoFormat::Gif => super::write(path, &gif::encode(frames, options)?, options.clobber),
         #[cfg(not(feature = "video"))]
         VideoFormat::Mp4 | VideoFormat::Gif => Err(OutputError::VideoLeftOut { format }),
-        // The only one that need not be held in memory, and is too long to be.
+        // Y4M alone is streamed: it need not be held in memory, and is too large for that.
         VideoFormat::Y4m => atomic::write_with(path, options.clobber, true, |file| {
             y4m::encode(frames, options.rate, path, file)
         }),
     }
 }
 
-/// Finds out, before frames of `width` × `height` pixels are rendered, whether [`encode`] can write
-/// them to `path`.
+/// Checks, before frames of `width` × `height` pixels are rendered, whether [`encode`] can write them to
+/// `path`.
 ///
 /// # Errors
-/// Those of [`encode`] that can be known beforehand.
+/// Those of [`encode`] that can be detected in advance.
 pub fn check(
     path: &Path,
     format: VideoFormat,
@@ -184,7 +184,7 @@ pub fn check(
     super::check_file(path, options.clobber)
 }
 
-/// The frames of one video, held against the first.
+/// The frames of one video, checked against the first.
 struct Frames<'a> {
     count: usize,
     fetch: &'a mut dyn FnMut(usize) -> Result<Picture8, OutputError>,
@@ -255,7 +255,7 @@ impl<'a> Frames<'a> {
     }
 }
 
-/// What an encoder said, as a part of a sentence.
+/// An encoder's message as a clause.
 fn failed(format: VideoFormat, reason: impl fmt::Display) -> OutputError {
     let reason = reason.to_string();
     OutputError::VideoEncode {

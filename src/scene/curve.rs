@@ -173,7 +173,7 @@ fn cubic<V: Blend>(from: V, leave: V, reach: V, to: V, fraction: f64) -> V {
     let bend = leave * (s * rest * rest) - reach * (s * s * rest);
     let value = from + (to - from) * (s * s * (3.0 - 2.0 * s)) + bend;
     // Large tangents may overflow.
-    value.settled().unwrap_or_else(|| from.mix(to, fraction))
+    value.validated().unwrap_or_else(|| from.mix(to, fraction))
 }
 
 impl Easing {
@@ -230,19 +230,19 @@ trait Blend:
     }
 
     /// The value, if it is valid.
-    fn settled(self) -> Option<Self>;
+    fn validated(self) -> Option<Self>;
 }
 
 impl Blend for f64 {
     fn mix(self, to: Self, fraction: f64) -> Self {
         let value = self + (to - self) * fraction;
-        value.settled().unwrap_or_else(|| {
+        value.validated().unwrap_or_else(|| {
             // The difference between the ends may overflow.
             (self * (1.0 - fraction) + to * fraction).clamp(f64::MIN, f64::MAX)
         })
     }
 
-    fn settled(self) -> Option<Self> {
+    fn validated(self) -> Option<Self> {
         self.is_finite().then_some(self)
     }
 }
@@ -253,7 +253,7 @@ impl Blend for DVec3 {
         Self::new(mix(0), mix(1), mix(2))
     }
 
-    fn settled(self) -> Option<Self> {
+    fn validated(self) -> Option<Self> {
         self.is_finite().then_some(self)
     }
 }
@@ -270,7 +270,7 @@ impl Blend for DQuat {
             (self * ((1.0 - fraction) * angle).sin() + to * (fraction * angle).sin())
                 * angle.sin().recip()
         };
-        mixed.settled().unwrap_or(self)
+        mixed.validated().unwrap_or(self)
     }
 
     fn near(self, other: Self) -> Self {
@@ -281,7 +281,7 @@ impl Blend for DQuat {
         (self.near(other) - other).length_squared() < 1e-20
     }
 
-    fn settled(self) -> Option<Self> {
+    fn validated(self) -> Option<Self> {
         let length = self.length();
         (length.is_finite() && length > 1e-9).then(|| self * length.recip())
     }

@@ -52,9 +52,9 @@ impl Transform {
             rotate_deg: DVec3::from(rotate_deg.to_array().map(f64::to_degrees)),
             scale,
         };
-        let told = transform.affine().matrix3;
+        let recomposed = transform.affine().matrix3;
         let size = lengths.into_iter().fold(0.0, f64::max);
-        let is_same = told.abs_diff_eq(columns, 1e-9 * size);
+        let is_same = recomposed.abs_diff_eq(columns, 1e-9 * size);
         (transform, is_same)
     }
 }

@@ -1,4 +1,4 @@
-//! The tree: what every builder input must give, and that rays find in it what they find without it.
+//! The BVH: properties that hold for every input, and rays that find the same with and without it.
 
 use crate::reference::compare::{assert_none, check_same_bits, render};
 use crate::reference::scenes::{self, Build, Random};
@@ -52,7 +52,7 @@ fn inputs() -> Vec<(&'static str, Vec<Aabb>)> {
                 }),
             ),
         ),
-        // The builder must not take time that grows with the square of these.
+        // The builder must not take quadratic time for these.
         (
             "coincident",
             vec![box_round(DVec3::ONE, DVec3::ONE); 100_000],
@@ -103,7 +103,7 @@ fn inputs() -> Vec<(&'static str, Vec<Aabb>)> {
     ]
 }
 
-/// Each box twice as far out as the one before: whoever joins nearest neighbours digs a chain.
+/// Each box is twice as far out as the one before: merging nearest neighbours produces a chain.
 fn exponential() -> Vec<Aabb> {
     let place = |i: i32| DVec3::X * 2f64.powi(i);
     (-70..50)
@@ -111,7 +111,7 @@ fn exponential() -> Vec<Aabb> {
         .collect()
 }
 
-/// Says what is wrong with a tree.
+/// Describes what is wrong with a tree.
 fn check_tree(bvh: &Bvh, boxes: &[Aabb], groups: &[u8]) -> Result<(), String> {
     let mut seen = vec![0; boxes.len()];
     let mut visited = vec![0; bvh.nodes.len()];
@@ -172,8 +172,8 @@ fn check_tree(bvh: &Bvh, boxes: &[Aabb], groups: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// The most entries at a time when the walk meets every child of every node, over all orders in
-/// which siblings may be visited: each child is tried as the first, with its siblings waiting.
+/// The largest stack size when a traversal visits every child of every node, over all orders of siblings:
+/// each child is tried first, with its siblings on the stack.
 fn deepest_stack(bvh: &Bvh) -> usize {
     let mut deepest = 1;
     let mut open = vec![(0, 1)];
@@ -364,7 +364,7 @@ fn soup(seed: u64, count: usize) -> Scene {
     scene
 }
 
-/// Spheres that overlap, some twice the same.
+/// Overlapping spheres, some of them duplicates.
 fn bubbles(seed: u64) -> Scene {
     let mut random = Random(seed);
     let mut scene = seen_from(dvec3(0.0, 0.0, 6.0));
@@ -396,7 +396,7 @@ fn walls(seed: u64) -> Scene {
     scene
 }
 
-/// The same triangles several times over, and others that lie in the same plane and overlap.
+/// The same triangles several times, and others that overlap in the same plane.
 fn ties(seed: u64) -> Scene {
     let mut random = Random(seed);
     let mut triangles = Vec::new();
@@ -450,7 +450,7 @@ fn check_tree_against_brute_force(
     }
 }
 
-/// An odd number of pixels, so that the middle ones look straight along an axis.
+/// An odd number of pixels, so that the central ones look exactly along an axis.
 fn odd_sized() -> RenderSettings {
     RenderSettings {
         size: (129, 129),

@@ -149,7 +149,7 @@ fn a_limit_on_file_sizes_is_an_error_and_leaves_nothing() {
         "ulimit -f 1; exec $G render a.scene --size 200x200 -q -o a.exr",
     );
     let run = run.expect(4);
-    run.says("error: cannot write the file (a.exr): file too large. Raise the limit of file sizes");
+    run.says("error: cannot write the file (a.exr): file too large. Raise the file size limit");
     assert_eq!(left(&workspace, &["a.scene"]), Vec::<String>::new());
 }
 

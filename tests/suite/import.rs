@@ -1,4 +1,4 @@
-//! Scene files in: what each format means, and what everything that is wrong with one gets.
+//! Importers: the meaning of each format, and the message for every error.
 
 mod assets;
 mod corpus;
@@ -37,18 +37,18 @@ fn folder(files: &[(&str, &[u8])]) -> TempDir {
     folder
 }
 
-/// What a file of this name and contents loads as.
+/// The result of loading a file with this name and contents.
 fn load(name: &str, contents: impl AsRef<[u8]>) -> Result<Scene, ImportError> {
     let folder = folder(&[(name, contents.as_ref())]);
     import::load(&folder.path().join(name))
 }
 
-/// The scene in a file that is known to be good.
+/// Loads the scene in a valid file.
 fn scene(name: &str, contents: impl AsRef<[u8]>) -> Scene {
     load(name, contents).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The message that the file `name` in `folder` gets, without the folder's own name.
+/// The error message for the file `name` in `folder`, without the folder's own name.
 fn message_in(folder: &TempDir, name: &str, options: &Options) -> String {
     match import::load_with(&folder.path().join(name), options) {
         Ok(_) => "no error".to_owned(),
@@ -64,7 +64,7 @@ fn without_folder(error: &ImportError, folder: &Path) -> String {
     text.replace(&format!("{}/", folder.display()), "")
 }
 
-/// The messages for files of one kind, one line for each text.
+/// The messages for files of one kind, one line per text.
 fn messages<T: AsRef<[u8]>>(name: &str, texts: &[T]) -> String {
     let message = |text: &T| {
         let folder = folder(&[(name, text.as_ref())]);

@@ -170,7 +170,7 @@ fn a_frame_that_is_a_link_is_not_written_through() {
         let _ = fs::remove_file(&path);
         std::os::unix::fs::symlink("../outside.txt", &path).expect("a link");
         let run = workspace.run(line).expect(4);
-        run.says("it is a link that leads elsewhere. Remove the link");
+        run.says("it is a symbolic link. Remove the link");
         assert_eq!(workspace.read("outside.txt"), b"precious", "{name}");
         assert!(path.is_symlink(), "{name}");
         fs::remove_file(&path).expect("removed");

@@ -233,7 +233,7 @@ fn sizes_beyond_a_formats_limit_are_refused_beforehand() {
         Err(OutputError::TooLarge { .. })
     ));
     let error = check("a.jpg", 65_536, 1).expect_err("too wide");
-    insta::assert_snapshot!(error, @"cannot write the picture (65536×1 pixels): JPEG holds at most 65535×65535. Choose a smaller size or another format.");
+    insta::assert_snapshot!(error, @"cannot write the image (65536×1 pixels): JPEG supports at most 65535×65535. Choose a smaller size or another format.");
 }
 
 #[test]
@@ -244,7 +244,7 @@ fn a_picture_whose_pixels_do_not_fit_its_size_is_refused() {
         ..sample(2, 2)
     };
     let error = output::save(folder.path().join("a.png"), &image).expect_err("3×2 is not 4");
-    insta::assert_snapshot!(error, @"cannot write the picture (3×2 pixels): it holds 4 pixels. Give it as many as its size says.");
+    insta::assert_snapshot!(error, @"cannot write the image (3×2 pixels): it has 4 pixels. Give it as many as its size requires.");
     assert!(names(folder.path()).is_empty());
 }
 
@@ -275,10 +275,10 @@ fn messages_say_what_where_why_and_what_to_do() {
         message(&error, dir)
     };
     let any = SaveOptions::default();
-    insta::assert_snapshot!(check("a.bmp", &any), @"cannot tell the picture format (DIR/a.bmp): the name has none of the endings .png, .jpg, .jpeg, .exr, .hdr. Choose one of them or name the format.");
+    insta::assert_snapshot!(check("a.bmp", &any), @"cannot determine the image format (DIR/a.bmp): the extension is none of .png, .jpg, .jpeg, .exr, .hdr. Choose one of them or name the format.");
     insta::assert_snapshot!(check("", &any), @"cannot write the file (DIR/): it is a folder. Add a file name.");
     insta::assert_snapshot!(check("no/a.png", &any), @"cannot write the file (DIR/no/a.png): the folder DIR/no does not exist. Create it first.");
-    insta::assert_snapshot!(check("old.png", &keep), @"cannot write the file (DIR/old.png): it exists and is to be kept. Choose another name.");
+    insta::assert_snapshot!(check("old.png", &keep), @"cannot write the file (DIR/old.png): it exists and must not be replaced. Choose another name.");
     if cfg!(unix) {
         insta::assert_snapshot!(check("old.png/a.png", &any), @"cannot write the file (DIR/old.png/a.png): not a directory. Choose another name.");
     }

@@ -1,4 +1,4 @@
-//! The host model: what a mesh is after its repair, and what a scene says of itself.
+//! The host model: repaired meshes, bounds and counts.
 
 use crate::reference::scenes::{self, Build};
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
@@ -89,7 +89,7 @@ fn thin_and_tiny_triangles_stay() {
 }
 
 #[test]
-fn missing_normals_are_made_without_a_word() {
+fn missing_normals_are_computed_silently() {
     let mut mesh = square();
     assert_eq!(mesh.repair(), Repairs::default());
     assert_eq!(mesh.normals, [Vec3::Z; 4]);
@@ -124,7 +124,7 @@ fn normals_of_any_length_become_unit_vectors() {
 }
 
 #[test]
-fn recomputed_normals_weigh_triangles_by_area() {
+fn recomputed_normals_are_weighted_by_area() {
     // A large triangle facing z and a small one facing x share the edge at the origin.
     let mut mesh = Mesh {
         positions: vec![
@@ -148,7 +148,7 @@ fn recomputed_normals_weigh_triangles_by_area() {
 }
 
 #[test]
-fn a_vertex_of_no_triangle_gets_a_unit_normal_and_counts_as_nothing() {
+fn an_unused_vertex_gets_a_unit_normal_and_is_not_counted() {
     let mut mesh = square();
     mesh.positions.push(Vec3::ONE);
     mesh.materials.push(0);
@@ -178,7 +178,7 @@ fn vertices_far_from_the_origin_are_kept_near_their_own() {
 }
 
 #[test]
-fn bounds_hold_everything_that_is_bounded() {
+fn bounds_contain_all_bounded_geometry() {
     let mut scene = scenes::empty();
     assert_eq!(scene.bounds(), None);
     scene.add_plane(DVec3::ZERO, DVec3::Y, 0);
@@ -206,7 +206,7 @@ fn triangles_count_once_for_each_instance() {
 }
 
 #[test]
-fn a_frame_holds_what_the_default_camera_sees() {
+fn a_frame_has_the_default_camera() {
     let mut scene = scenes::spheres();
     let mut other = scene.cameras[0].clone();
     other.fov_y = 0.3;

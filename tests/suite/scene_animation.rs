@@ -1,4 +1,4 @@
-//! What moves: curves against their closed forms, and the state of a scene at one moment.
+//! Animation: curves against their closed forms, and the state of a scene at one moment.
 
 use crate::support::effort;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3, dvec3};
@@ -166,7 +166,7 @@ fn rotations_turn_at_constant_speed_on_the_shorter_arc() {
 
 #[test]
 fn cubic_rotations_stay_of_unit_length_and_near_an_even_turn() {
-    // Keys of a turn at constant speed, some with the other sign.
+    // Keys of a rotation at constant speed, some with the opposite sign.
     let times = [0.0, 0.5, 0.8, 1.7, 2.0];
     let keys: Vec<DQuat> = (times.iter().enumerate())
         .map(|(i, t)| DQuat::from_rotation_y(*t) * if i % 2 == 0 { 1.0 } else { -1.0 })
@@ -191,7 +191,7 @@ fn easing_is_that_of_css() {
     };
     let in_out = eased(Easing::IN_OUT);
     assert!((scalar(&in_out, 0.5) - 0.5).abs() < 1e-12);
-    // By definition: at the parameter s the time is x(s) and the way y(s).
+    // By definition: at the parameter s the time is x(s) and the progress y(s).
     let rows = [
         [0.42, 0.0, 1.0, 1.0],
         [0.0, 0.0, 0.58, 1.0],
@@ -209,7 +209,7 @@ fn easing_is_that_of_css() {
                 3.0 * (1.0 - s).powi(2) * s * a + 3.0 * (1.0 - s) * s * s * b + s.powi(3)
             };
             let (time, way) = (at(x1, x2), at(y1, y2));
-            // Where x stands still, y has no bounds to its slope.
+            // Where x is stationary, the slope of y is unbounded.
             let tolerance = if (x1, x2) == (1.0, 0.0) { 1e-4 } else { 1e-9 };
             let off = (scalar(&curve, time) - way).abs();
             assert!(off < tolerance, "{x1} {y1} {x2} {y2} at {s}: {off}");
@@ -218,7 +218,7 @@ fn easing_is_that_of_css() {
 }
 
 #[test]
-fn what_repeats_goes_on_smoothly_over_the_seam() {
+fn repeated_curves_are_smooth_across_the_seam() {
     let curve = Curve {
         interpolation: Interpolation::CatmullRom,
         beyond: Beyond::Repeat,
@@ -240,7 +240,7 @@ fn what_repeats_goes_on_smoothly_over_the_seam() {
 }
 
 #[test]
-fn there_and_back_again_is_a_mirror() {
+fn ping_pong_mirrors_the_curve() {
     let curve = Curve {
         beyond: Beyond::PingPong,
         ..scalars(&[1.0, 2.0, 4.0], &[0.0, 10.0, 40.0])
@@ -261,7 +261,7 @@ fn there_and_back_again_is_a_mirror() {
 }
 
 #[test]
-fn no_time_and_no_size_of_keys_makes_a_curve_lose_its_value() {
+fn extreme_times_and_keys_give_finite_values() {
     let wide = scalars(&[-1e308, 1e308], &[-1.7e308, 1.7e308]);
     let short = scalars(&[0.0, 5e-324, 1e-323], &[1.7e308, -1.7e308, 1e300]);
     let plain = scalars(&[0.1, 0.2, 0.7], &[1.0, -2.0, 1.0]);
@@ -297,7 +297,7 @@ fn a_curve_of_a_million_keys_is_looked_up_quickly() {
         interpolation: Interpolation::CatmullRom,
         ..scalars(&times, &values)
     };
-    // To look at all keys for each value would be a hundred thousand million comparisons.
+    // Comparing all keys for each value would take 10¹¹ comparisons.
     effort::within(1000.0, || {
         for i in 0..100_000 {
             let t = f64::from(i) * 9.87;
@@ -331,7 +331,7 @@ fn planets() -> Scene {
 }
 
 #[test]
-fn children_go_with_their_parents() {
+fn children_follow_their_parents() {
     let scene = planets();
     for i in 0..40 {
         let t = f64::from(i) * 0.037;
@@ -368,7 +368,7 @@ fn angles_turn_about_x_then_y_then_z() {
 }
 
 #[test]
-fn scaled_through_nothing_a_node_keeps_an_inverse() {
+fn a_node_scaled_through_zero_stays_invertible() {
     let curve = vectors(&[0.0, 1.0], &[DVec3::ONE, dvec3(-1.0, 1.0, 1.0)]);
     let scene = scene(
         vec![Node::default()],
@@ -383,7 +383,7 @@ fn scaled_through_nothing_a_node_keeps_an_inverse() {
 }
 
 #[test]
-fn a_carried_camera_sees_what_it_would_see_at_rest() {
+fn a_camera_on_a_node_sees_the_nodes_space_unchanged() {
     let place = DAffine3::from_scale_rotation_translation(
         DVec3::splat(2.0),
         DQuat::from_rotation_z(0.4) * DQuat::from_rotation_x(1.0),
@@ -426,7 +426,7 @@ fn a_carried_camera_sees_what_it_would_see_at_rest() {
 }
 
 #[test]
-fn a_camera_looks_at_its_target_and_never_nowhere() {
+fn a_camera_looks_at_its_target_and_always_has_a_direction() {
     let curve = vectors(&[0.0, 2.0], &[dvec3(0.0, 0.0, 5.0), dvec3(0.0, 0.0, 15.0)]);
     let mut scene = scene(
         vec![Node::default()],
@@ -440,12 +440,12 @@ fn a_camera_looks_at_its_target_and_never_nowhere() {
     };
     assert_eq!(forward(&scene.frame(0.0).camera), DVec3::NEG_Z);
     assert_eq!(forward(&scene.frame(2.0).camera), DVec3::Z);
-    // At the very place of the camera it goes on looking where its own look_at is.
+    // If the target coincides with the camera, it keeps the direction to its own look_at.
     assert_eq!(forward(&scene.frame(1.0).camera), DVec3::NEG_Z);
 }
 
 #[test]
-fn a_camera_that_looks_straight_down_has_before_it_upwards() {
+fn a_camera_that_tilts_straight_down_keeps_a_continuous_up_vector() {
     let curve = vectors(&[0.0, 1.0], &[dvec3(0.0, 0.0, -1.0), dvec3(0.0, -2.0, 0.0)]);
     let mut scene = scene(vec![], vec![]);
     scene.cameras[0].look_from = DVec3::ZERO;
@@ -462,7 +462,7 @@ fn a_camera_that_looks_straight_down_has_before_it_upwards() {
 }
 
 #[test]
-fn lights_go_with_their_nodes() {
+fn lights_follow_their_nodes() {
     let matrix = DMat3::from_rotation_y(0.7) * DMat3::from_diagonal(dvec3(2.0, -1.0, 0.5));
     let place = DAffine3::from_mat3_translation(matrix, dvec3(1.0, -2.0, 3.0));
     let mut scene = scene(
@@ -510,7 +510,7 @@ fn lights_go_with_their_nodes() {
     let lights = scene.frame(0.0).lights;
     let middle = place.transform_point3(center);
     let along = (matrix * direction).normalize();
-    // A normal stays upright on what its plane becomes.
+    // A normal stays perpendicular to the image of its plane.
     let normal_of = |n: DVec3| (matrix.inverse().transpose() * n).normalize();
     assert!(lights.iter().all(|light| light.node.is_none()));
     assert_eq!(lights[0].kind, LightKind::Point { position: middle });
@@ -533,7 +533,7 @@ fn lights_go_with_their_nodes() {
         panic!("{:?}", lights[4]);
     };
     assert!(normal.distance(normal_of(direction)) < 1e-12);
-    // The area of an image is the determinant times the length of the normal's.
+    // The area of the image is the determinant times the length of the transformed normal.
     let factor = (matrix.inverse().transpose() * direction).length();
     assert!((radius * radius - 4.0 * factor).abs() < 1e-12);
     assert!(
@@ -542,7 +542,7 @@ fn lights_go_with_their_nodes() {
 }
 
 #[test]
-fn what_is_off_or_hidden_gives_no_light_and_keeps_its_place() {
+fn lights_off_or_hidden_are_black_and_keep_their_position() {
     let bright = Light {
         color: Vec3::ONE,
         visible: true,
@@ -652,7 +652,7 @@ fn overshooting_cubics_stay_in_range() {
 }
 
 #[test]
-fn bounds_are_those_of_what_nodes_carry() {
+fn bounds_include_objects_on_nodes() {
     let mut scene = scene(
         vec![Node {
             rotation: DQuat::from_rotation_z(FRAC_PI_2),
@@ -689,7 +689,7 @@ fn bounds_are_those_of_what_nodes_carry() {
 }
 
 #[test]
-fn tracks_take_values_of_their_kind_only() {
+fn tracks_accept_values_of_their_type_only() {
     let rotations = Values::Rotation(vec![DQuat::IDENTITY]);
     let vectors = Values::Vector(vec![DVec3::ONE]);
     let scalars = Values::Scalar(vec![1.0]);

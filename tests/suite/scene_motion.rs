@@ -1,4 +1,4 @@
-//! The frames of an open shutter: as many as it takes, and no more.
+//! Motion samples of an open shutter: as many as necessary, and no more.
 
 use crate::support::effort;
 use glam::{DQuat, DVec3, dvec3};
@@ -22,7 +22,7 @@ fn vectors(times: &[f64], values: &[DVec3]) -> Curve {
     curve(times, Values::Vector(values.to_vec()))
 }
 
-/// A scene of as many nodes, seen from ten units in front of the origin.
+/// A scene with these nodes, seen from ten units in front of the origin.
 fn scene(nodes: usize, tracks: Vec<(Target, Curve)>) -> Scene {
     Scene {
         materials: vec![Material::default()],
@@ -42,7 +42,7 @@ fn scene(nodes: usize, tracks: Vec<(Target, Curve)>) -> Scene {
     }
 }
 
-/// A wheel that turns as often in each second.
+/// A wheel with this many turns per second.
 fn wheel(turns: f64) -> Scene {
     let turn = Curve {
         beyond: Beyond::Repeat,
@@ -51,7 +51,7 @@ fn wheel(turns: f64) -> Scene {
     scene(1, vec![(Target::Node(0, NodeProperty::Angles), turn)])
 }
 
-/// Least k of frames that turn evenly by `angle` in all, each by at most `most`.
+/// The smallest k such that 2ᵏ even steps of `angle` in total turn by at most `most` each.
 fn doublings(angle: f64, most: f64) -> u32 {
     (0..8)
         .find(|k| angle / f64::from(1 << k) <= most)
@@ -59,7 +59,7 @@ fn doublings(angle: f64, most: f64) -> u32 {
 }
 
 #[test]
-fn what_stands_still_takes_one_frame() {
+fn a_static_scene_takes_one_frame() {
     let still = scene(3, vec![]);
     assert_eq!(still.motion_samples(0.0, 1.0), [still.frame(0.0)]);
     let wheel = wheel(1.0);
@@ -83,7 +83,7 @@ fn what_stands_still_takes_one_frame() {
 }
 
 #[test]
-fn a_straight_even_way_takes_two_frames() {
+fn linear_motion_takes_two_frames() {
     let slide = vectors(&[0.0, 2.0], &[DVec3::ZERO, dvec3(100.0, 3.0, 0.0)]);
     let scene = scene(1, vec![(Target::Node(0, NodeProperty::Translation), slide)]);
     let samples = scene.motion_samples(0.5, 1.0);
@@ -92,7 +92,7 @@ fn a_straight_even_way_takes_two_frames() {
 
 #[test]
 fn a_wheel_takes_as_many_frames_as_it_turns() {
-    // Whole turns too, which end where they started.
+    // Whole turns too, which end where they start.
     for turns in [0.01, 0.1, 0.5, 1.0, 2.0, 3.0] {
         let scene = wheel(turns);
         let samples = scene.motion_samples(0.0, 1.0);
@@ -103,7 +103,7 @@ fn a_wheel_takes_as_many_frames_as_it_turns() {
             let rim = frame.nodes[0].world_from_node.transform_point3(DVec3::X);
             assert!((rim.length() - 1.0).abs() < 1e-12);
             let (sin, cos) = (TAU * turns * t).sin_cos();
-            // The last one is that before the next round starts.
+            // The last frame is just before the next repetition.
             assert!(rim.distance(dvec3(cos, sin, 0.0)) < 1e-6, "{turns} at {t}");
         }
     }
@@ -111,7 +111,7 @@ fn a_wheel_takes_as_many_frames_as_it_turns() {
 }
 
 #[test]
-fn a_jump_inside_a_shot_takes_all_frames_and_one_at_its_end_none() {
+fn a_jump_takes_all_frames_and_one_at_the_end_takes_none() {
     let jump = Curve {
         interpolation: Interpolation::Step,
         ..vectors(&[0.0, 1.0], &[DVec3::ZERO, DVec3::X])
@@ -123,7 +123,7 @@ fn a_jump_inside_a_shot_takes_all_frames_and_one_at_its_end_none() {
 }
 
 #[test]
-fn rotations_that_come_back_between_the_ends_are_seen() {
+fn rotations_that_return_between_the_ends_are_detected() {
     let thirds = [0.0, 1.0, 2.0, 3.0].map(|i| DQuat::from_rotation_z(TAU * i / 3.0));
     let turn = curve(&[0.0, 1.0, 2.0, 3.0], Values::Rotation(thirds.to_vec()));
     let scene = scene(1, vec![(Target::Node(0, NodeProperty::Rotation), turn)]);
@@ -134,8 +134,8 @@ fn rotations_that_come_back_between_the_ends_are_seen() {
 }
 
 #[test]
-fn a_way_that_comes_back_between_the_ends_is_seen() {
-    // Out and back within a sixteenth of the samples, at no simple share of it.
+fn a_path_that_returns_between_the_ends_is_detected() {
+    // Out and back within a sixteenth of the interval, at no simple fraction of it.
     let times = [0.0, 0.30, 0.33, 0.36, 1.0];
     let values = [DVec3::ZERO, DVec3::ZERO, DVec3::X, DVec3::ZERO, DVec3::ZERO];
     let jerk = vectors(&times, &values);
@@ -147,7 +147,7 @@ fn a_way_that_comes_back_between_the_ends_is_seen() {
     assert!(furthest > 0.9, "{furthest} in {} frames", samples.len());
 }
 
-/// How far what is between two frames is off, in the worst case, for the origin of node 0.
+/// The largest interpolation error of node 0's origin between two frames.
 fn worst_chord(scene: &Scene, samples: &[Frame], open: f64, close: f64) -> f64 {
     let place = |frame: &Frame| frame.nodes[0].world_from_node.translation;
     let count = samples.len() - 1;
@@ -162,7 +162,7 @@ fn worst_chord(scene: &Scene, samples: &[Frame], open: f64, close: f64) -> f64 {
 }
 
 #[test]
-fn chords_of_a_bent_way_are_as_good_as_seen_from_the_camera() {
+fn chords_of_a_curved_path_meet_the_tolerance_of_the_camera() {
     let times = [0.0, 0.4, 1.0, 1.3];
     let values = [DVec3::ZERO, DVec3::X, dvec3(1.0, 1.0, 0.0), DVec3::Y];
     for interpolation in [Interpolation::Linear, Interpolation::CatmullRom] {
@@ -181,7 +181,7 @@ fn chords_of_a_bent_way_are_as_good_as_seen_from_the_camera() {
                 scene.cameras[0].look_from.z = distance;
                 let samples = scene.motion_samples(0.1, 1.2);
                 let worst = worst_chord(&scene, &samples, 0.1, 1.2);
-                // A little more than at the quarters, where it is measured.
+                // Slightly more than the tolerance, which is checked at the quarters only.
                 assert!(worst <= 1.3e-3 * distance, "{worst} from {distance}");
                 counts.push(samples.len());
             }
@@ -218,7 +218,7 @@ fn a_pan_of_the_camera_takes_small_steps() {
 }
 
 #[test]
-fn what_the_shutter_freezes_stays_as_it_opened() {
+fn frozen_properties_keep_their_state_at_the_opening() {
     let slide = vectors(&[0.0, 1.0], &[DVec3::ZERO, DVec3::X]);
     let switch = |values: [f64; 2]| Curve {
         interpolation: Interpolation::Step,
@@ -250,16 +250,16 @@ fn what_the_shutter_freezes_stays_as_it_opened() {
         assert_eq!(frame.lights, samples[0].lights);
         assert_eq!([1, 2].map(|i| frame.nodes[i].visible), [true, false]);
     }
-    // The pictures before and after do change.
+    // The frames before and after do differ.
     assert_ne!(scene.frame(0.75).materials, samples[0].materials);
     assert_ne!(scene.frame(0.75).lights, samples[0].lights);
-    // What the shutter freezes is no movement.
+    // Frozen properties do not count as motion.
     scene.tracks.remove(0);
     assert_eq!(scene.motion_samples(0.25, 0.75).len(), 1);
 }
 
 #[test]
-fn a_light_on_a_bent_way_takes_more_than_two_frames() {
+fn a_light_on_a_curved_path_takes_more_than_two_frames() {
     let bent = vectors(&[0.0, 0.5, 1.0], &[DVec3::ZERO, DVec3::ONE, DVec3::X]);
     let mut scene = scene(0, vec![(Target::Light(0, LightProperty::Position), bent)]);
     scene.lights = vec![Light {
@@ -280,7 +280,7 @@ fn ten_thousand_still_nodes_cost_little() {
 }
 
 #[test]
-fn shots_far_out_in_time_end() {
+fn intervals_at_extreme_times_terminate() {
     for beyond in [Beyond::Hold, Beyond::Repeat, Beyond::PingPong] {
         let mut scene = wheel(0.3);
         scene.tracks[0].curve.beyond = beyond;

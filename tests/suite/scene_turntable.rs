@@ -1,4 +1,4 @@
-//! The turntable: exact framing over the whole turn, a seamless loop, lights that go along.
+//! The turntable: exact framing over the whole turn, a seamless loop, lights attached to the camera.
 
 use crate::support::random::Random;
 use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3};
@@ -8,7 +8,7 @@ use glimray::scene::{
 };
 use std::f64::consts::{PI, TAU};
 
-/// A scene of these vertices.
+/// A scene with these vertices.
 fn scene(positions: Vec<Vec3>) -> Scene {
     Scene {
         materials: vec![Material::default()],
@@ -29,7 +29,7 @@ fn scene(positions: Vec<Vec3>) -> Scene {
     }
 }
 
-/// Where a point is in the picture: x and y, ±1 at its edges, and its depth.
+/// Image coordinates of a point: x and y, ±1 at the edges, and its depth.
 fn project(camera: &Camera, aspect: f64, p: DVec3) -> DVec3 {
     let forward = (camera.look_at - camera.look_from).normalize();
     let right = forward.cross(camera.up).normalize();
@@ -42,7 +42,7 @@ fn project(camera: &Camera, aspect: f64, p: DVec3) -> DVec3 {
     )
 }
 
-/// Reach of one point to the left, right, bottom and top at its best time near `time`.
+/// Extent of one point to the left, right, bottom and top, maximised near `time`.
 fn sharpened(scene: &Scene, options: &Turntable, p: DVec3, edge: usize, time: f64) -> f64 {
     let at = |t: f64| edges(&scene.frame(t).camera, options, p)[edge];
     let mut width = options.seconds / 360.0;
@@ -64,7 +64,7 @@ fn edges(camera: &Camera, options: &Turntable, p: DVec3) -> [f64; 4] {
     [-q.x, q.x, -q.y, q.y]
 }
 
-/// How far the points reach to the left, right, bottom and top over the whole turn.
+/// Extent of the points to the left, right, bottom and top over the whole turn.
 fn reach(scene: &Scene, options: &Turntable, points: &[DVec3]) -> [f64; 4] {
     let mut best = [(f64::NEG_INFINITY, 0.0, DVec3::ZERO); 4];
     for i in 0..360 {
@@ -81,7 +81,7 @@ fn reach(scene: &Scene, options: &Turntable, points: &[DVec3]) -> [f64; 4] {
     [0, 1, 2, 3].map(|edge| sharpened(scene, options, best[edge].2, edge, best[edge].1))
 }
 
-/// Both of one pair reach `most`, and none reaches further; above and below are alike.
+/// One pair of opposite extents equals `most`, none exceeds it; top and bottom are equal.
 fn check(name: &str, reach: [f64; 4], most: f64) {
     let touches = |edge: usize| (reach[edge] - most).abs() < 1e-6;
     let furthest = reach.into_iter().fold(0.0, f64::max);
@@ -175,8 +175,8 @@ fn a_ball_in_the_middle_just_touches_the_margin() {
 
 #[test]
 fn a_level_ring_is_framed_by_its_sides() {
-    // A ring of radius 1 seen level, in a square picture of 90°: the sides of the wedge touch it
-    // where they are tangent, √2 from the camera to the axis; its height takes none.
+    // A ring of radius 1 seen level, in a square image with a field of view of 90°: the sides of the
+    // frustum touch it when the camera is √2 from the axis; the height does not matter.
     let ring = (0..360).map(|i| {
         let (sin, cos) = (TAU * f64::from(i) / 360.0).sin_cos();
         dvec3(cos, 0.0, sin).as_vec3()
@@ -217,7 +217,7 @@ fn the_loop_closes_and_the_model_turns_counter_clockwise() {
 }
 
 #[test]
-fn lights_of_the_rig_go_with_the_camera() {
+fn the_three_lights_follow_the_camera() {
     let mut scene = scene(vec![Vec3::ZERO, Vec3::ONE, Vec3::X]);
     assert!(turntable(&mut scene, &Turntable::default()));
     assert_eq!(scene.lights.len(), 3);
@@ -243,7 +243,8 @@ fn lights_of_the_rig_go_with_the_camera() {
             assert!(a.distance(*b) < 1e-12);
         }
     }
-    // The key is right and above, the fill left, the rim behind what the camera looks at.
+    // The key light is on the right and above, the fill light on the left, the back light behind the
+    // camera's target.
     let distance = {
         let camera = scene.frame(0.0).camera;
         camera.look_from.distance(camera.look_at)
@@ -251,13 +252,13 @@ fn lights_of_the_rig_go_with_the_camera() {
     assert!(first[0][0].x > 0.0 && first[0][0].y > 0.0 && first[0][0].z < distance);
     assert!(first[1][0].x < 0.0 && first[1][0].z < distance);
     assert!(first[2][0].z > distance);
-    // Grey in full light is neither black nor blown out.
+    // A fully lit grey is neither black nor overexposed.
     let sum: Vec3 = scene.lights.iter().map(|light| light.color).sum();
     assert!(sum.max_element() * 0.5 + 0.06 < 1.0 && sum.min_element() * 0.5 > 0.3);
 }
 
 #[test]
-fn lights_of_the_file_stay_and_those_of_the_stage_go() {
+fn lights_of_the_file_are_kept_and_staged_ones_are_replaced() {
     let mut lit = scene(vec![Vec3::ZERO, Vec3::ONE]);
     lit.lights = vec![Light {
         color: Vec3::ONE,
@@ -278,7 +279,7 @@ fn lights_of_the_file_stay_and_those_of_the_stage_go() {
 }
 
 #[test]
-fn what_has_no_bounds_has_no_turntable() {
+fn a_scene_without_bounds_has_no_turntable() {
     let mut empty = scene(vec![]);
     let before = empty.clone();
     assert!(!turntable(&mut empty, &Turntable::default()));

@@ -1,4 +1,4 @@
-//! Videos: what a decoder that is not ours gets out of the file is what went in.
+//! Videos: independent decoders get the frames that were encoded.
 
 mod faults;
 mod gif;
@@ -12,7 +12,7 @@ use glimray::output::video::{self, FrameRate, Picture8, VideoFormat, VideoOption
 use std::fs;
 use std::path::Path;
 
-/// A picture of what `colour` says for each column and row.
+/// An image with the colour that `colour` gives for each column and row.
 fn picture(width: u32, height: u32, colour: impl Fn(u32, u32) -> [u8; 3]) -> Picture8 {
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     Picture8 {
@@ -22,7 +22,7 @@ fn picture(width: u32, height: u32, colour: impl Fn(u32, u32) -> [u8; 3]) -> Pic
     }
 }
 
-/// A gradient at rest in the upper half, a disc that moves over grey in the lower one.
+/// A static gradient in the upper half, a moving disc over grey in the lower half.
 fn scene(width: u32, height: u32, frame: usize) -> Picture8 {
     let (across, down) = (f64::from(width), f64::from(height));
     let centre = (0.2 * across + 0.02 * across * frame as f64, 0.75 * down);
@@ -46,7 +46,7 @@ fn options(rate: FrameRate) -> VideoOptions {
     }
 }
 
-/// The bytes of a video of these frames.
+/// The encoded video of these frames.
 fn encoded(format: VideoFormat, options: &VideoOptions, frames: &[Picture8]) -> Vec<u8> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("video");
@@ -76,7 +76,7 @@ fn psnr(a: &[u8], b: &[u8]) -> f64 {
 }
 
 #[test]
-fn endings_name_video_formats_in_either_case() {
+fn extensions_select_video_formats_in_either_case() {
     let format = |name: &str| VideoFormat::from_path(Path::new(name));
     assert_eq!(format("a.mp4"), Some(VideoFormat::Mp4));
     assert_eq!(format("x.y/a.GIF"), Some(VideoFormat::Gif));

@@ -3,7 +3,7 @@
 
 use crate::app::console;
 use crate::app::error::AppError;
-use crate::output::{self, Litter, OutputError};
+use crate::output::{self, OutputError, RemoveOnExit};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ pub struct Lock {
     path: PathBuf,
     /// `None` if the file system has no locks.
     file: Option<File>,
-    _litter: Litter,
+    _remove_on_exit: RemoveOnExit,
 }
 
 /// The lock file of `folder`.
@@ -64,12 +64,12 @@ impl Lock {
             // Another run may have ended meanwhile and removed the file that is locked now.
             let is_current = (file.as_ref()).map_or(Ok(true), |file| is_same(file, &path));
             if is_current.map_err(failed)? {
-                let listed = Litter::make(|| Ok(()), |()| path.clone());
-                let ((), litter) = listed.map_err(failed)?;
+                let listed = RemoveOnExit::make(|| Ok(()), |()| path.clone());
+                let ((), registered) = listed.map_err(failed)?;
                 return Ok(Self {
                     path,
                     file,
-                    _litter: litter,
+                    _remove_on_exit: registered,
                 });
             }
         }

@@ -234,7 +234,7 @@ fn format_of(path: &Path) -> Result<SequenceFormat, AppError> {
         .or_else(|| Format::from_path(path).map(SequenceFormat::Frames))
         .ok_or_else(|| {
             AppError::Usage(format!(
-                "cannot tell the format ({}): the name has none of the extensions {} of a video, or {} \
+                "cannot determine the format ({}): the name has none of the extensions {} of a video, or {} \
                  of frames. Choose one of them, or use --format.",
                 path.display(),
                 VideoFormat::ENDINGS,

@@ -1,4 +1,4 @@
-//! The extension that gives a light the extent of a rectangle.
+//! The extension that turns a light into a rectangle.
 
 use crate::import::error::ImportError;
 use crate::import::number;
@@ -6,26 +6,26 @@ use crate::import::source::{Source, Token};
 use crate::scene::{Light, LightKind};
 use glam::DVec3;
 
-/// Shadow rays for each point where `samples:` is left out.
+/// Shadow rays per point if `samples:` is missing.
 const SAMPLES: u32 = 16;
 
-/// What one object says about its extent.
+/// The extent that one object specifies.
 #[derive(Default)]
 pub(super) struct Area<'s> {
     /// Whether the object is a light.
     pub is_of_light: bool,
     /// `area_light:`.
     wanted: Option<bool>,
-    /// `area_u:` and where it stands.
+    /// `area_u:` and its position.
     side_u: Option<(DVec3, Token<'s>)>,
     side_v: Option<DVec3>,
     samples: Option<u32>,
-    /// Indices of all the keys met, as the importer lists them.
+    /// Indices of all keys that occurred, in the importer's list.
     found: Vec<usize>,
 }
 
 impl<'s> Area<'s> {
-    /// Reads the key with this index, `area_light:` being 1, and the words that follow it.
+    /// Reads the key with this index, `area_light:` being 1, and its words.
     pub fn read(
         &mut self,
         index: usize,
@@ -66,7 +66,7 @@ impl<'s> Area<'s> {
         Ok(())
     }
 
-    /// Makes a rectangle of a light that asks for it.
+    /// Turns a light into a rectangle if it has one.
     pub fn apply(
         self,
         light: &mut Light,
@@ -74,7 +74,7 @@ impl<'s> Area<'s> {
         unused: &mut [usize],
     ) -> Result<(), ImportError> {
         match (self.wanted, self.side_u, self.side_v, light.kind) {
-            // What is switched off is not missed.
+            // A disabled light needs no edges.
             (Some(false), ..) => Ok(()),
             (
                 Some(true),
@@ -106,7 +106,7 @@ impl<'s> Area<'s> {
         }
     }
 
-    /// Counts all that was said as without effect.
+    /// Counts all keys of the object as ineffective.
     pub fn count(&self, unused: &mut [usize]) {
         for &index in &self.found {
             unused[index] += 1;

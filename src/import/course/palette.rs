@@ -1,4 +1,4 @@
-//! Materials of a format that repeats them at every vertex, each kept once.
+//! Deduplicates the materials of a format that repeats them at every vertex.
 
 use crate::import::budget;
 use crate::scene::{Material, Mixing};
@@ -9,12 +9,12 @@ use std::collections::HashMap;
 #[derive(Default)]
 pub(super) struct Palette {
     materials: Vec<Material>,
-    /// By the bits of diffuse, specular and shininess.
+    /// Indices by the bits of diffuse, specular and shininess.
     indices: HashMap<[u32; 7], u32>,
 }
 
 impl Palette {
-    /// The index of the material with these coefficients, as the course's rules complete it.
+    /// The index of the material with these coefficients, completed by the rules of the course.
     pub fn index(&mut self, diffuse: Vec3, specular: Vec3, shininess: f32) -> u32 {
         let [[a, b, c], [d, e, f]] = [diffuse.to_array(), specular.to_array()];
         // Adding 0 turns -0 into 0.
@@ -34,9 +34,9 @@ impl Palette {
         })
     }
 
-    /// The memory that they take.
+    /// The memory that the palette takes.
     pub fn memory(&self) -> u64 {
-        // A number and its key are kept in a table with free places.
+        // An index and its key are stored in a hash table with spare capacity.
         budget::size::<(Material, [[u32; 8]; 2])>(self.materials.len())
     }
 

@@ -1,4 +1,4 @@
-//! The words of a course file: whatever stands between white space, comments left out.
+//! The words of a course file: separated by white space, without comments.
 
 use crate::import::source::Token;
 

@@ -1,4 +1,4 @@
-//! The animations of a native scene: whom they move, and whether that can be moved so.
+//! The animations of a native scene: their targets, and whether these accept them.
 
 mod curve;
 
@@ -20,17 +20,17 @@ use PropertyName as P;
 use std::collections::{HashMap, HashSet};
 use toml::Spanned;
 
-/// What animations may name.
+/// The targets that animations may name.
 pub(super) struct Found<'a> {
     pub nodes: &'a Nodes<'a>,
     pub cameras: &'a [Camera],
-    /// The colours of those whose intensity moves become what the intensity multiplies.
+    /// If the intensity of a light is animated, its colour becomes the colour before intensity.
     pub lights: &'a mut [NamedLight],
     /// Materials by name.
     pub materials: &'a HashMap<String, usize>,
 }
 
-/// The properties of one kind of thing, and what the host model calls them.
+/// The properties of one kind of target, and their host equivalents.
 type Properties<T> = &'static [(PropertyName, &'static str, T)];
 
 const OF_OBJECTS: Properties<NodeProperty> = &[
@@ -82,7 +82,7 @@ const OF_MATERIALS: Properties<MaterialProperty> = &[
     (P::Absorption, "absorption", MaterialProperty::Absorption),
 ];
 
-/// The tracks of all animations in `file`. Notes of what came of no use go to `notes`.
+/// The tracks of all animations in `file`. Notes about animations without effect go to `notes`.
 pub(super) fn tracks(
     file: &SceneFile,
     found: Found,
@@ -98,7 +98,7 @@ pub(super) fn tracks(
         notes,
     };
     for table in &file.animation {
-        reader.note(table)?;
+        reader.record(table)?;
     }
     for table in &file.animation {
         reader.track(table.get_ref())?;
@@ -106,31 +106,30 @@ pub(super) fn tracks(
     Ok(reader.made)
 }
 
-/// What an animation moves: "object", "camera", "light" or "material", and its name or names.
+/// The target of an animation: "object", "camera", "light" or "material", and its name or names.
 type Subject<'a> = (&'static str, Vec<&'a Spanned<String>>);
 
 struct Reader<'a> {
     file: &'a SceneFile,
     found: Found<'a>,
     texts: &'a Texts<'a>,
-    /// Every property that is animated.
+    /// Every animated property.
     given: HashSet<(&'static str, &'a str, PropertyName)>,
     made: Vec<Track>,
     notes: &'a mut Notes,
 }
 
 impl<'a> Reader<'a> {
-    /// Notes what `table` moves, which nothing else may.
-    fn note(&mut self, table: &'a Spanned<AnimationTable>) -> Result<(), ImportError> {
+    /// Records the target of `table`, which must not have another animation.
+    fn record(&mut self, table: &'a Spanned<AnimationTable>) -> Result<(), ImportError> {
         let subjects = subjects(table.get_ref());
         let [(kind, names)] = &subjects[..] else {
-            let why = "an animation moves one thing".to_owned();
-            let todo =
-                "Give it exactly one of `object`, `objects`, `camera`, `light` and `material`";
+            let why = "an animation needs exactly one target".to_owned();
+            let todo = "Give it one of `object`, `objects`, `camera`, `light` and `material`";
             return Err(self.texts.malformed(table.span(), why, todo));
         };
         let property = &table.get_ref().property;
-        // Several words for one property.
+        // Several keys for one property.
         let moved = match *property.get_ref() {
             P::Rotation | P::Angles => P::RotateDeg,
             P::FovY => P::FovYDeg,
@@ -140,7 +139,7 @@ impl<'a> Reader<'a> {
             if !self.given.insert((kind, name.get_ref(), moved)) {
                 let quoted = quote(name.get_ref().as_bytes());
                 let why = format!("a second animation of the same property of the {kind} {quoted}");
-                let todo = "Put all keys into one of them";
+                let todo = "Put all keys into one animation";
                 return Err(self.texts.malformed(property.span(), why, todo));
             }
         }
@@ -153,8 +152,8 @@ impl<'a> Reader<'a> {
             return Ok(());
         };
         let Some(&name) = names.first() else {
-            let why = "there is nothing in `objects`".to_owned();
-            let todo = "Name what moves";
+            let why = "`objects` is empty".to_owned();
+            let todo = "Name the objects that move";
             return Err(self.texts.malformed(table.property.span(), why, todo));
         };
         let targets = match kind {
@@ -174,8 +173,8 @@ impl<'a> Reader<'a> {
         };
         if targets.is_empty() {
             let quoted = quote(name.get_ref().as_bytes());
-            self.notes.add("animations left out", || {
-                format!("animation of {quoted} left out: it is in no part of the scene")
+            self.notes.add("skipped animations", || {
+                format!("animation of {quoted} skipped: the object is nowhere in the scene")
             });
             return Ok(());
         }
@@ -194,17 +193,17 @@ impl<'a> Reader<'a> {
         let camera = &self.found.cameras[index];
         let property = self.property(table, "camera", OF_CAMERAS)?;
         let refuse = |why: &str, todo| {
-            let why = format!("{why}, which {} has not", quote(camera.name.as_bytes()));
+            let why = format!("{why}, but {} has none", quote(camera.name.as_bytes()));
             Err(self.texts.malformed(table.property.span(), why, todo))
         };
         if property == CameraProperty::LookAt && camera.target.is_some() {
-            let why = "the camera looks at an object already".to_owned();
+            let why = "the camera already looks at an object".to_owned();
             let todo = "Animate that object, or give `look_at` a point";
             return Err(self.texts.malformed(table.property.span(), why, todo));
         }
         if property == CameraProperty::OrthographicHeight && camera.orthographic_height.is_none() {
-            let todo = "Give the camera a height as `orthographic`";
-            return refuse("this takes an orthographic camera's height", todo);
+            let todo = "Set the camera's `orthographic` to a height";
+            return refuse("this needs an orthographic height", todo);
         }
         let is_of_lens = matches!(
             property,
@@ -212,7 +211,7 @@ impl<'a> Reader<'a> {
         );
         let Some(lens) = &camera.lens else {
             return match is_of_lens {
-                true => refuse("this takes a lens", "Give the camera a `lens`"),
+                true => refuse("this needs a lens", "Give the camera a `lens`"),
                 false => Ok(vec![Target::Camera(index, property)]),
             };
         };
@@ -227,8 +226,8 @@ impl<'a> Reader<'a> {
             _ => false,
         };
         if is_bad {
-            let why = "the lens gets out of proportion: its radius can be 1e9, and a million times \
-                       its focus distance, at most";
+            let why = "the lens gets out of proportion: its radius must be at most 1e9, and at most \
+                       a million times its focus distance";
             let todo = "Make the lens smaller, or its focus distance greater";
             return Err(self
                 .texts
@@ -261,12 +260,12 @@ impl<'a> Reader<'a> {
             _ => false,
         };
         if is_without {
-            let why = "a light of this kind has no such property".to_owned();
-            let todo = "Animate what its own table has";
+            let why = "this kind of light has no such property".to_owned();
+            let todo = "Animate a key of its own table";
             return Err(self.texts.malformed(table.property.span(), why, todo));
         }
         match (&mut curve.values, property) {
-            // In place of what the light's own table multiplies the colour by.
+            // Replaces the factor in the light's own table.
             (Values::Scalar(values), LightProperty::Intensity) => {
                 light.light.color = light.color;
                 light.factor = values.iter().copied().fold(0.0, f64::max);
@@ -283,7 +282,7 @@ impl<'a> Reader<'a> {
         let radiance = kind.radiance().unwrap_or(1.0).max(1.0);
         if light.peak * light.factor * radiance > f64::from(f32::MAX) {
             let why =
-                "color times intensity gets out of range: at most 3.4e38 is allowed".to_owned();
+                "`color` times `intensity` gets out of range: at most 3.4e38 is allowed".to_owned();
             return Err(self
                 .texts
                 .malformed(table.keys.span(), why, "Lower one of them"));
@@ -300,7 +299,7 @@ impl<'a> Reader<'a> {
         let index = materials::named(self.found.materials, text, name.span(), self.texts)?;
         let property = self.property(table, "material", OF_MATERIALS)?;
         let mut targets = vec![Target::Material(index, property)];
-        // What a material without an own ambient colour shows is its diffuse one, always.
+        // A material without an ambient colour of its own uses its diffuse colour at all times.
         let own = self.file.materials.get(text);
         let has_own = own.is_some_and(|material| material.get_ref().phong.ambient.is_some());
         let is_animated = self.given.contains(&("material", text, P::Ambient));
@@ -322,12 +321,12 @@ impl<'a> Reader<'a> {
         found.filter(|_| !text.is_empty()).ok_or_else(|| {
             let known = names.filter(|name| !name.is_empty());
             let why = suggest::unknown(kind, text, known);
-            let todo = format!("Give a {kind} that `name`, or name one that has it");
+            let todo = format!("Add that `name` to a {kind}, or use an existing one");
             self.texts.malformed(name.span(), why, &todo)
         })
     }
 
-    /// What the host model calls the property that `table` moves.
+    /// The host equivalent of the property that `table` animates.
     fn property<T: Copy>(
         &self,
         table: &AnimationTable,
@@ -341,7 +340,7 @@ impl<'a> Reader<'a> {
             let names: Vec<_> = names.collect();
             let article = if kind == "object" { "an" } else { "a" };
             let why = format!("{article} {kind} has no such property");
-            let todo = format!("Known here: {}", names.join(", "));
+            let todo = format!("Allowed here: {}", names.join(", "));
             self.texts.malformed(table.property.span(), why, &todo)
         })
     }

@@ -1,10 +1,10 @@
-//! From the tables of a native scene to a [`Scene`]: names are looked up, objects placed, files
-//! read, and everything checked that takes more than one value to see.
+//! Builds a [`Scene`] from the tables of a native scene: resolves names, places objects, reads files, and
+//! checks everything that involves more than one value.
 
 mod surfaces;
 
 use super::file::{MaterialRef, OutputTable, SceneFile, in_order};
-use super::nodes::{Nodes, Place};
+use super::nodes::{NodePlacement, Nodes};
 use super::objects::{Object, Objects};
 use super::textures::Textures;
 use super::transforms::{chain, is_invertible};
@@ -25,7 +25,7 @@ use toml::Spanned;
 pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Scene, ImportError> {
     let objects = Objects::new(&file, texts, files)?;
     let mut builder = Builder::new(&file, &objects, texts, files)?;
-    builder.list(objects.roots.clone(), Place::default())?;
+    builder.list(objects.roots.clone(), NodePlacement::default())?;
     builder.finish_triangles();
     let background = builder.textures.background(&file.background)?;
     let (mut nodes, names) = (builder.nodes, builder.names);
@@ -68,21 +68,21 @@ struct Builder<'a> {
     pub files: &'a Files<'a>,
     objects: &'a Objects<'a>,
     pub nodes: Nodes<'a>,
-    /// Still without its textures, pictures, background and nodes.
+    /// Without its textures, images, background and nodes, which are added at the end.
     pub scene: Scene,
     pub textures: Textures<'a>,
     pub notes: Notes,
-    /// Of materials.
+    /// Indices of materials by name.
     names: HashMap<String, usize>,
-    /// The material of objects that name none, once there is one.
+    /// The material of objects that name none, once it exists.
     default_material: Option<usize>,
-    /// The materials that are written inside objects, by the object's index.
+    /// Materials that are written inside objects, by object index.
     inline_materials: HashMap<usize, usize>,
-    /// Meshes already read, by file and the material they were given.
+    /// Meshes already read, by file and replacement material.
     pub meshes: HashMap<MeshKey, PlacedMesh>,
-    /// The same by the object's index, so that copies look for no files.
+    /// Meshes by object index, so that copies do not resolve files again.
     pub meshes_of_objects: HashMap<usize, PlacedMesh>,
-    /// Those under [meshes].
+    /// Meshes under [meshes].
     pub named_meshes: HashMap<String, MeshPlace>,
     /// All single triangles, by the node that they are attached to.
     pub triangles: BTreeMap<Option<usize>, Triangles>,
@@ -136,7 +136,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Places a list of objects.
-    fn list(&mut self, list: Range<usize>, place: Place) -> Result<(), ImportError> {
+    fn list(&mut self, list: Range<usize>, place: NodePlacement) -> Result<(), ImportError> {
         let objects = self.objects;
         for index in list {
             let object = objects.get(index);
@@ -145,7 +145,7 @@ impl<'a> Builder<'a> {
                 None => place,
             };
             if object.is_shown() || object.has_node {
-                // At most as many as are allowed to be placed, or it is an empty group.
+                // At most the permitted number of copies, or an empty group.
                 for copy in 0..object.repeat.count() as u64 {
                     self.copy(index, object, copy, place)?;
                 }
@@ -160,7 +160,7 @@ impl<'a> Builder<'a> {
         index: usize,
         object: &Object,
         copy: u64,
-        place: Place,
+        place: NodePlacement,
     ) -> Result<(), ImportError> {
         let table = object.table.get_ref();
         let transform = table.transform.as_ref();
@@ -169,7 +169,7 @@ impl<'a> Builder<'a> {
             self.nodes.add(index, object, repeated, place)
         } else {
             let own = transform.map_or(DAffine3::IDENTITY, |t| t.get_ref().affine());
-            Place {
+            NodePlacement {
                 node_from_here: chain(repeated, own),
                 ..place
             }
@@ -180,8 +180,8 @@ impl<'a> Builder<'a> {
             span.unwrap_or(object.table.span())
         };
         if !is_invertible(inner.world_from_here().matrix3) {
-            let why = "nothing is left of the object, or all of it is out of range, after all scales on the way to it";
-            return Err(self.refuse(span(), why, "Check the scales of its groups"));
+            let why = "the object's scale, combined with those of its groups and nodes, is zero or out of range";
+            return Err(self.refuse(span(), why, "Check these scales"));
         }
         if !object.is_shown() {
             return Ok(());
@@ -197,8 +197,8 @@ impl<'a> Builder<'a> {
         if reached.flat_map(|p| p.to_array()).all(in_range) {
             return Ok(());
         }
-        let why = "the object reaches out of range: at most 3.4e38 is allowed";
-        let todo = "Make it smaller, or leave it nearer to the origin";
+        let why = "the object's coordinates are out of range: at most 3.4e38 is allowed";
+        let todo = "Make it smaller, or move it nearer to the origin";
         Err(self.refuse(span(), why, todo))
     }
 

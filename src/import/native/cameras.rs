@@ -10,11 +10,11 @@ use crate::scene::{Camera, Lens};
 use glam::DVec3;
 use toml::Spanned;
 
-/// What f32 can still do something with: the radius of a lens, and what it is to the focus distance.
+/// Limits of the lens radius and of its ratio to the focus distance, within the range of f32.
 pub(super) const MAX_RADIUS: f64 = 1e9;
 pub(super) const MAX_RATIO: f64 = 1e6;
 
-/// The cameras of `file`, of which there may be none, and the index of the default one.
+/// The cameras of `file`, possibly none, and the index of the default camera.
 pub(super) fn cameras(
     file: &SceneFile,
     nodes: &Nodes,
@@ -29,15 +29,12 @@ pub(super) fn cameras(
     for table in file.camera.iter().chain(&file.cameras) {
         let camera = camera(table.get_ref(), nodes, texts)?;
         if !camera.name.is_empty() && cameras.iter().any(|other| other.name == camera.name) {
-            let why = format!(
-                "a second camera is called {}",
-                quote(camera.name.as_bytes())
-            );
+            let why = format!("duplicate camera name {}", quote(camera.name.as_bytes()));
             return Err(texts.malformed(table.span(), why, "Rename one of them"));
         }
         if table.get_ref().default && default.replace(cameras.len()).is_some() {
-            let why = "a second camera is the default".to_owned();
-            return Err(texts.malformed(table.span(), why, "Take `default` from one of them"));
+            let why = "a second camera has `default`".to_owned();
+            return Err(texts.malformed(table.span(), why, "Remove one `default`"));
         }
         cameras.push(camera);
     }
@@ -93,7 +90,7 @@ fn camera(table: &CameraTable, nodes: &Nodes, texts: &Texts) -> Result<Camera, I
     })
 }
 
-/// The lens of a camera that looks to `look_at`.
+/// The lens of a camera that looks at `look_at`.
 fn lens(
     lens: &Spanned<LensTable>,
     camera: &CameraTable,
@@ -107,7 +104,7 @@ fn lens(
     let radius = match (table.radius, table.f_number) {
         (Some(radius), None) => {
             if let Some(height) = &table.sensor_height_mm {
-                let why = "`sensor_height_mm` is of no use beside `radius`";
+                let why = "`sensor_height_mm` has no effect with `radius`";
                 return refuse(height.span(), why, "Give `f_number` instead of `radius`");
             }
             radius.0
@@ -121,12 +118,8 @@ fn lens(
             focal_length_mm / (2.0 * f_number.0) / 1000.0
         }
         _ => {
-            let why = "a lens has one opening";
-            return refuse(
-                lens.span(),
-                why,
-                "Give it exactly one of `radius` and `f_number`",
-            );
+            let why = "a lens needs exactly one aperture";
+            return refuse(lens.span(), why, "Give it either `radius` or `f_number`");
         }
     };
     let focus_distance = match (table.focus_distance, &table.focus_on) {
@@ -136,7 +129,7 @@ fn lens(
             let distance = (point.get_ref().0 - look_from).dot(forward);
             if distance < f64::from(f32::MIN_POSITIVE) {
                 let why = "`focus_on` is not in front of the camera";
-                return refuse(point.span(), why, "Give a point that it looks towards");
+                return refuse(point.span(), why, "Give a point in front of it");
             }
             distance
         }
@@ -154,8 +147,8 @@ fn lens(
         (None, radians) => radians.map_or(0.0, |radians| radians.0),
     };
     if radius > MAX_RADIUS.min(focus_distance * MAX_RATIO) || !in_range(focus_distance) {
-        let why = "the lens is out of proportion: its radius can be 1e9, and a million times its \
-                   focus distance, at most";
+        let why = "the lens is out of proportion: its radius must be at most 1e9, and at most a \
+                   million times its focus distance";
         return refuse(lens.span(), why, "Make it smaller");
     }
     Ok(Lens {

@@ -1,5 +1,5 @@
-//! What a native scene may say. These types are the format: their docs are the JSON Schema's
-//! descriptions, so they speak to whoever writes a scene.
+//! The native format. The docs of these types are the descriptions in the JSON Schema, so they address
+//! authors of scenes.
 
 mod animation;
 mod cameras;
@@ -40,40 +40,38 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
 
-/// A glimray scene. Right-handed, +Y up; lengths in metres or any one unit; colours are linear
-/// `[r, g, b]` or sRGB `"#rrggbb"`.
+/// A glimray scene. Right-handed, +Y up; lengths in metres or any other unit; colours are linear `[r, g,
+/// b]` or sRGB `"#rrggbb"`.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "glimray scene")]
 pub(super) struct SceneFile {
-    /// The picture: its size, samples and tone. Flags of the command line win over it.
+    /// The image: size, samples and tone curve. Command-line flags override it.
     #[serde(default)]
     pub output: OutputTable,
-    /// What rays see that hit nothing: a colour, `{ bottom, top }` or `{ picture }`. Black if left
-    /// out.
+    /// The background: a colour, `{ bottom, top }` or `{ picture }`; default black.
     #[serde(default = "nothing")]
     #[schemars(with = "ColorOrBackground")]
     pub background: Spanned<ColorOrBackground>,
-    /// Light that is everywhere, multiplied by the ambient coefficient of a material. None if left
-    /// out.
+    /// Ambient light, multiplied by the ambient coefficient of materials; default none.
     #[serde(default = "black")]
     pub ambient: Color,
-    /// Whether what is transparent throws a full shadow (opaque, if left out), or light goes straight
-    /// through it (filtered).
+    /// How transparent surfaces affect shadows: they cast full shadows (opaque, the default), or light
+    /// passes straight through them (filtered).
     #[serde(default)]
     pub shadows: ShadowsName,
-    /// Whether lights, background and ambient light only show a bare model, so that a turntable puts
-    /// its own in their place; false if left out.
+    /// Whether lights, background and ambient light only show a bare model, so that a turntable replaces
+    /// them; default false.
     #[serde(default)]
     pub staged: bool,
-    /// The camera. If there is none at all, one is placed that sees everything.
+    /// The camera. If there is none at all, a camera is added that sees everything.
     #[schemars(with = "Option<CameraTable>")]
     pub camera: Option<Spanned<CameraTable>>,
-    /// Several cameras, chosen by `--camera NAME`; the first is the default.
+    /// Several cameras, chosen by `--camera NAME`; the first is the default camera.
     #[serde(default)]
     #[schemars(with = "Vec<CameraTable>")]
     pub cameras: Vec<Spanned<CameraTable>>,
-    /// Textures by name, for `{ texture = "NAME" }` in place of a colour of a material.
+    /// Textures by name, for `{ texture = "NAME" }` instead of a colour of a material.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, TextureTable>")]
     pub textures: BTreeMap<String, Spanned<TextureTable>>,
@@ -85,15 +83,16 @@ pub(super) struct SceneFile {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, MeshTable>")]
     pub meshes: BTreeMap<String, Spanned<MeshTable>>,
-    /// What carries objects, cameras and lights, by `carried_by`; each behind those that carry it.
+    /// Nodes that objects, cameras and lights are attached to by `carried_by`; parents before their
+    /// children.
     #[serde(default)]
     #[schemars(with = "Vec<NodeTable>")]
     pub nodes: Vec<Spanned<NodeTable>>,
-    /// Groups of objects by name, to be placed by `group = "NAME"` in place of a surface.
+    /// Groups of objects by name, placed by `group = "NAME"` instead of a surface.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Vec<ObjectTable>>")]
     pub groups: BTreeMap<String, Vec<Spanned<ObjectTable>>>,
-    /// The surfaces, and the groups that are placed.
+    /// The surfaces, and placements of groups.
     #[serde(default)]
     #[schemars(with = "Vec<ObjectTable>")]
     pub objects: Vec<Spanned<ObjectTable>>,
@@ -101,48 +100,48 @@ pub(super) struct SceneFile {
     #[serde(default)]
     #[schemars(with = "Vec<LightTable>")]
     pub lights: Vec<Spanned<LightTable>>,
-    /// What changes over time, one property each.
+    /// Animations, one property each.
     #[serde(default)]
     #[schemars(with = "Vec<AnimationTable>")]
     pub animation: Vec<Spanned<AnimationTable>>,
 }
 
-/// The picture.
+/// The image.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct OutputTable {
-    /// Width and height in pixels; [640, 480] if left out.
+    /// Width and height in pixels; default [640, 480].
     pub size: Size,
-    /// Samples per pixel; if left out 16 with a lens, a light with extent or an open shutter, else 1.
+    /// Samples per pixel; default 16 with a lens, an area light or an open shutter, otherwise 1.
     pub samples: Option<Count>,
-    /// Where samples lie: none (all at the centre), stratified, or adaptive, which spends up to
-    /// `samples` where there is noise. Stratified for more than one sample if left out.
+    /// Sample placement: none (all at the centre), stratified, or adaptive, which takes up to `samples`
+    /// where there is noise. Default stratified for more than one sample.
     pub antialias: Option<AntialiasName>,
-    /// Adaptive sampling goes on where the estimated error is more than this, on the square root of
-    /// luminance, on which 1 is white; 0.01 if left out.
+    /// Noise threshold of adaptive sampling: it continues where the estimated error is larger. Measured
+    /// on the square root of luminance, where 1 is white; default 0.01.
     pub noise: Noise,
-    /// Bounces after the first hit, 0 to 1000; 0 is local shading only. 5 if left out.
+    /// Bounces after the first hit, 0 to 1000; 0 is local shading only; default 5.
     pub max_depth: Bounces,
-    /// What samples round a pixel's centre are weighted by; box if left out.
+    /// The reconstruction filter; default box.
     pub filter: FilterName,
-    /// How far the filter reaches, in pixels; if left out 0.5 for box, 1 for tent, 2 for mitchell and
-    /// 1.5 for the others.
+    /// The filter's radius in pixels; default 0.5 for box, 1 for tent, 2 for mitchell and 1.5 for the
+    /// others.
     pub filter_radius: Option<Radius>,
-    /// Multiplies the samples of every area light; 1 if left out.
+    /// Factor on the samples of every area light; default 1.
     pub light_samples: Factor,
-    /// Exposure in stops, before the tone curve; 0 if left out.
+    /// Exposure in stops, before the tone curve; default 0.
     pub exposure_ev: Stops,
-    /// The tone curve; none if left out.
+    /// The tone curve; default none.
     pub tone: ToneName,
-    /// The transfer function of stored values; srgb if left out.
+    /// The transfer function of stored values; default srgb.
     pub transfer: TransferName,
-    /// Frames per second of an animation; 24 if left out.
+    /// Frames per second of an animation; default 24.
     pub fps: FrameRate,
-    /// How many seconds an animation lasts; if left out, until the last key and, there and back, for
-    /// what goes to and fro.
+    /// Duration of an animation in seconds; by default it ends at its last key, and ping-pong tracks
+    /// complete a cycle.
     pub duration: Option<Duration>,
-    /// How long the shutter is open while things move: a fraction of the time from frame to frame, an
-    /// angle such as "180deg", or [open, close] in frames. 0, without blur, if left out.
+    /// How long the shutter is open: a fraction of the frame interval, an angle such as "180deg", or
+    /// [open, close] in frames; default 0, without motion blur.
     pub shutter: ShutterTimes,
 }
 
@@ -167,7 +166,7 @@ impl Default for OutputTable {
     }
 }
 
-/// The entries of a table in the order in which the file has them, those of overrides last.
+/// The entries of a table in the order of the file, followed by those of overrides.
 pub(super) fn in_order<T>(table: &BTreeMap<String, Spanned<T>>) -> Vec<(&String, &Spanned<T>)> {
     let mut entries: Vec<_> = table.iter().collect();
     entries.sort_by_key(|(_, value)| value.span().start);

@@ -12,14 +12,14 @@ use std::collections::HashSet;
 use std::ops::Range;
 use toml::Spanned;
 
-/// A light that animations can find.
+/// A light that animations can refer to.
 pub(super) struct NamedLight {
     pub name: Option<String>,
     pub light: Light,
-    /// Its colour, and what that is multiplied by to be the light's.
+    /// Its colour, and the factor that turns it into the light's colour.
     pub color: Vec3,
     pub factor: f64,
-    /// The greatest channel that its colour ever has.
+    /// The largest channel that its colour ever has.
     pub peak: f64,
 }
 
@@ -37,7 +37,7 @@ pub(super) fn lights(
         if let Some(name) = &table.name {
             if !names.insert(name.get_ref()) {
                 let quoted = quote(name.get_ref().as_bytes());
-                let why = format!("a second light is called {quoted}");
+                let why = format!("duplicate light name {quoted}");
                 return Err(texts.malformed(name.span(), why, "Rename one of them"));
             }
             light.name = Some(name.get_ref().clone());
@@ -94,13 +94,13 @@ fn light(table: &Spanned<LightTable>, texts: &Texts) -> Result<NamedLight, Impor
     match <[NamedLight; 1]>::try_from(found) {
         Ok([light]) => Ok(light),
         Err(_) => Err(reader.refuse(
-            "a light is of one kind",
-            "Give it exactly one of `point`, `directional`, `spot`, `rectangle`, `disc` and `sphere`",
+            "a light needs exactly one kind",
+            "Give it one of `point`, `directional`, `spot`, `rectangle`, `disc` and `sphere`",
         )),
     }
 }
 
-/// How bright a light with extent is.
+/// The brightness of an area light.
 enum Brightness {
     Intensity(f32),
     Radiance(f32),
@@ -142,7 +142,7 @@ impl Reader<'_> {
         })
     }
 
-    /// A light with extent.
+    /// An area light.
     fn large(
         &self,
         kind: LightKind,
@@ -165,7 +165,7 @@ impl Reader<'_> {
         };
         let surface = color * radiance_of_one;
         if !color.as_vec3().is_finite() || !surface.as_vec3().is_finite() {
-            let why = "its surface is out of range: at most 3.4e38 is allowed in size and radiance";
+            let why = "its size or radiance is out of range: at most 3.4e38 is allowed";
             return Err(self.refuse(why, "Make it darker, or change its size"));
         }
         let light = Light {
@@ -190,7 +190,7 @@ impl Reader<'_> {
         if product.is_finite() {
             return Ok(product);
         }
-        let why = "color times intensity is out of range: at most 3.4e38 is allowed";
+        let why = "`color` times `intensity` is out of range: at most 3.4e38 is allowed";
         Err(self.refuse(why, "Lower one of them"))
     }
 
@@ -225,7 +225,7 @@ impl Reader<'_> {
             }
             (None, None, Some(look_at), Some(size)) => {
                 let normal = self.towards(center, look_at)?;
-                // A level side, and what completes it to u × v = normal.
+                // A level edge, and the edge that completes it to u × v = normal.
                 let level = DVec3::Y.cross(normal);
                 let u = if level.length() > 1e-6 {
                     level.normalize()
@@ -237,7 +237,7 @@ impl Reader<'_> {
             }
             _ => {
                 return Err(self.refuse(
-                    "a rectangle has two sides",
+                    "a rectangle needs its edges",
                     "Give it either `edge_u` and `edge_v`, or `look_at` and `size`",
                 ));
             }
@@ -255,8 +255,8 @@ impl Reader<'_> {
             (Some(look_at), None) => self.towards(center, look_at)?,
             (None, Some(normal)) => normal.0,
             _ => {
-                let todo = "Give it exactly one of `look_at` and `normal`";
-                return Err(self.refuse("a disc shines one way", todo));
+                let todo = "Give it either `look_at` or `normal`";
+                return Err(self.refuse("a disc needs exactly one direction", todo));
             }
         };
         Ok(LightKind::Disc {
@@ -270,14 +270,14 @@ impl Reader<'_> {
         (look_at.get_ref().0 - center)
             .try_normalize()
             .ok_or_else(|| {
-                let why = "`look_at` is the middle of the light itself".to_owned();
+                let why = "`look_at` is the centre of the light itself".to_owned();
                 let todo = "Move one of them";
                 self.texts.malformed(look_at.span(), why, todo)
             })
     }
 }
 
-/// Whether two edges span no area that is worth the name.
+/// Whether two edges are too nearly parallel to span an area.
 fn is_flat(u: DVec3, v: DVec3) -> bool {
     match (u.try_normalize(), v.try_normalize()) {
         (Some(u), Some(v)) => u.cross(v).length() < 1e-6,
@@ -292,14 +292,14 @@ fn cone(spot: &Spanned<SpotTable>, texts: &Texts) -> Result<LightKind, ImportErr
         (Some(look_at), None) => {
             let direction = (look_at.get_ref().0 - position).try_normalize();
             direction.ok_or_else(|| {
-                let why = "`look_at` is where the spot light itself is".to_owned();
+                let why = "`look_at` is the position of the spot light itself".to_owned();
                 texts.malformed(look_at.span(), why, "Move one of them")
             })?
         }
         (None, Some(direction)) => direction.0,
         _ => {
-            let why = "a spot light shines one way".to_owned();
-            let todo = "Give it exactly one of `look_at` and `direction`";
+            let why = "a spot light needs exactly one direction".to_owned();
+            let todo = "Give it either `look_at` or `direction`";
             return Err(texts.malformed(spot.span(), why, todo));
         }
     };

@@ -44,7 +44,7 @@ pub(super) fn material(
     };
     if let Some(optics) = &table.optics {
         if table.reflect.is_some() || table.refract.is_some() {
-            let why = "`optics` takes the place of `reflect` and `refract`";
+            let why = "`optics` replaces `reflect` and `refract`";
             return Err(textures.refuse(optics.span(), why, "Leave out the others"));
         }
         return with_optics(material, optics.get_ref(), textures);
@@ -102,7 +102,7 @@ fn with_optics(
     })
 }
 
-/// Refuses a material that asks for mirrored light in two ways, or makes light.
+/// Refuses a material that specifies reflection twice, or creates energy.
 fn check(
     table: &MaterialTable,
     refract: &Spanned<RefractTable>,
@@ -112,12 +112,12 @@ fn check(
     let is_split = Fresnel::from(refract.get_ref().fresnel) != Fresnel::None;
     let (why, todo) = if table.reflect.is_some() && is_split {
         (
-            "Fresnel's equations say already how much a refracting surface mirrors",
+            "Fresnel's equations already determine how much a refracting surface reflects",
             "Leave out `reflect`, or add `fresnel = \"none\"` to `refract`",
         )
     } else if mirrored + refract.get_ref().amount.0 > 1.0 {
         (
-            "`amount` and that of `reflect` are more than 1 together",
+            "the sum of `amount` and that of `reflect` exceeds 1",
             "Lower one of them",
         )
     } else {
@@ -126,7 +126,7 @@ fn check(
     Err(textures.refuse(refract.span(), why, todo))
 }
 
-/// The index of the material of this name.
+/// The index of the material `name`.
 pub(super) fn named(
     names: &HashMap<String, usize>,
     name: &str,
@@ -137,7 +137,7 @@ pub(super) fn named(
         let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
         known.sort_unstable();
         let why = suggest::unknown("material", name, known);
-        let todo = "Add it under [materials], or name one that is there";
+        let todo = "Add it under [materials], or use an existing one";
         texts.malformed(span, why, todo)
     })
 }

@@ -1,5 +1,5 @@
-//! The nodes of a native scene: those that it lists, and one for every copy of an object that moves, is
-//! looked at, or carries something.
+//! The nodes of a native scene: those that it lists, and one for every copy of an object that moves, is a
+//! camera's target, or has children.
 
 use super::Texts;
 use super::file::{NodeTable, SceneFile, TransformTable};
@@ -14,41 +14,41 @@ use std::collections::HashMap;
 use std::ops::Range;
 use toml::Spanned;
 
-/// Where objects are placed.
+/// The coordinate frame in which objects are placed.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Place {
-    /// The node that carries them; `None` is the world.
+pub(super) struct NodePlacement {
+    /// The parent node; `None` is the world.
     pub node: Option<usize>,
-    /// What stands still between them and the node.
+    /// The static transform from the frame to the node.
     pub node_from_here: DAffine3,
-    /// Where the node is at rest.
+    /// The node's transform to the world at rest.
     pub world_from_node: DAffine3,
 }
 
-impl Place {
-    /// At rest.
+impl NodePlacement {
+    /// From the frame to the world, at rest.
     pub fn world_from_here(&self) -> DAffine3 {
         self.world_from_node * self.node_from_here
     }
 }
 
-/// All nodes, and the objects that they are of.
+/// All nodes, and the objects that they belong to.
 pub(super) struct Nodes<'a> {
     objects: &'a Objects<'a>,
-    /// For the scene, once all are there.
+    /// The nodes for the scene.
     pub nodes: Vec<Node>,
-    /// At rest.
+    /// Their transforms to the world at rest.
     world_from_node: Vec<DAffine3>,
-    /// The nodes of an object's copies, by its index.
+    /// The nodes of an object's copies, by object index.
     of_objects: Vec<Vec<usize>>,
-    /// Those that the file lists, by name.
+    /// The listed nodes by name.
     declared: HashMap<&'a str, [usize; 1]>,
-    /// Which of those are where the world is, and stay there.
+    /// Whether each of them is static and coincides with the world.
     fixed: Vec<bool>,
 }
 
 impl<'a> Nodes<'a> {
-    /// Those that `file` lists.
+    /// Adds the nodes that `file` lists.
     pub fn new(
         objects: &'a Objects<'a>,
         file: &'a SceneFile,
@@ -76,7 +76,7 @@ impl<'a> Nodes<'a> {
         let table = spanned.get_ref();
         let place = match &table.carried_by {
             Some(name) => self.declared(name, texts)?,
-            None => Place::default(),
+            None => NodePlacement::default(),
         };
         for transform in table.transform.iter().chain(&table.placement) {
             check(transform, texts)?;
@@ -89,8 +89,9 @@ impl<'a> Nodes<'a> {
         let index = self.push(name.clone(), table.visible, transform, placement, place);
         let world_from_node = self.world_from_node[index];
         if !is_invertible(world_from_node.matrix3) {
-            let why = "nothing is left of what the node carries, or all of it is out of range";
-            let todo = "Check its scale, and those of the nodes that carry it";
+            let why =
+                "the node's scale, combined with those of its parents, is zero or out of range";
+            let todo = "Check these scales";
             return Err(texts.malformed(spanned.span(), why.to_owned(), todo));
         }
         self.declared.insert(name, [index]);
@@ -100,10 +101,14 @@ impl<'a> Nodes<'a> {
         Ok(())
     }
 
-    /// The place that the listed node of this name carries.
-    pub fn declared(&self, name: &Spanned<String>, texts: &Texts) -> Result<Place, ImportError> {
+    /// The frame of the listed node `name`.
+    pub fn declared(
+        &self,
+        name: &Spanned<String>,
+        texts: &Texts,
+    ) -> Result<NodePlacement, ImportError> {
         if let Some(&[node]) = self.declared.get(name.get_ref().as_str()) {
-            return Ok(Place {
+            return Ok(NodePlacement {
                 node: Some(node),
                 node_from_here: DAffine3::IDENTITY,
                 world_from_node: self.world_from_node[node],
@@ -112,24 +117,24 @@ impl<'a> Nodes<'a> {
         let mut known: Vec<&str> = self.declared.keys().copied().collect();
         known.sort_unstable();
         let why = suggest::unknown("node", name.get_ref(), known);
-        let todo = "Add it under [[nodes]], in front of the nodes that it carries";
+        let todo = "Add it under [[nodes]], before its children";
         Err(texts.malformed(name.span(), why, todo))
     }
 
-    /// Whether a node is one of those listed, is where the world is, and stays there.
+    /// Whether a node is listed, static, and coincides with the world.
     pub fn is_fixed(&self, node: usize) -> bool {
         self.fixed.get(node).copied().unwrap_or(false)
     }
 
-    /// Adds one for a copy of `object`, whose index this is. `placement` is all that stands still above
-    /// it. Returns the place inside it.
+    /// Adds a node for a copy of `object`, which has this index. `placement` is the static transform
+    /// above it. Returns the frame inside it.
     pub fn add(
         &mut self,
         index: usize,
         object: &Object,
         placement: DAffine3,
-        place: Place,
-    ) -> Place {
+        place: NodePlacement,
+    ) -> NodePlacement {
         let table = object.table.get_ref();
         let transform = table
             .transform
@@ -139,7 +144,7 @@ impl<'a> Nodes<'a> {
         let name = name.unwrap_or_default();
         let node = self.push(name, table.visible, transform, placement, place);
         self.of_objects[index].push(node);
-        Place {
+        NodePlacement {
             node: Some(node),
             node_from_here: DAffine3::IDENTITY,
             world_from_node: self.world_from_node[node],
@@ -152,7 +157,7 @@ impl<'a> Nodes<'a> {
         visible: bool,
         transform: Option<&TransformTable>,
         placement: DAffine3,
-        place: Place,
+        place: NodePlacement,
     ) -> usize {
         let mut node = Node {
             name,
@@ -162,13 +167,13 @@ impl<'a> Nodes<'a> {
             ..Node::default()
         };
         match transform {
-            // It stands still: animations know nothing of it.
+            // It is static: no animation refers to it.
             Some(table) if table.matrix.is_some() => {
                 node.placement = chain(placement, table.affine());
             }
             Some(table) => {
                 node.translation = table.translate.0;
-                node.rotation = table.turn();
+                node.rotation = table.orientation();
                 node.scale = table.scale.0;
             }
             None => {}
@@ -179,7 +184,7 @@ impl<'a> Nodes<'a> {
         self.nodes.len() - 1
     }
 
-    /// Those of all copies of the object of this name.
+    /// The nodes of all copies of the object `name`.
     pub fn all(
         &self,
         name: &str,
@@ -192,7 +197,7 @@ impl<'a> Nodes<'a> {
         Ok(&self.of_objects[self.objects.named(name, span, texts)?])
     }
 
-    /// That of the object of this name, which has no copies.
+    /// The node of the object `name`, which must not have copies.
     pub fn one(&self, name: &str, span: Range<usize>, texts: &Texts) -> Result<usize, ImportError> {
         let nodes = self.all(name, span.clone(), texts)?;
         if let &[node] = nodes {
@@ -201,20 +206,18 @@ impl<'a> Nodes<'a> {
         let quoted = quote(name.as_bytes());
         let (why, todo) = match nodes.len() {
             0 => (
-                format!(
-                    "{quoted} is in no part of the scene: its group is hidden, or placed nowhere"
-                ),
+                format!("{quoted} is nowhere in the scene: its group is hidden or never placed"),
                 "Place it, or name another object",
             ),
             count => (
                 format!("{quoted} is in the scene {count} times"),
-                "Name an object that is not repeated and in no group that is placed more than once",
+                "Name an object that is not repeated and not in a group that is placed more than once",
             ),
         };
         Err(texts.malformed(span, why, todo))
     }
 
-    /// Where a node is at rest; `None` is the world.
+    /// The transform of a node to the world at rest; `None` is the world.
     pub fn world_from(&self, node: Option<usize>) -> DAffine3 {
         node.map_or(DAffine3::IDENTITY, |node| self.world_from_node[node])
     }

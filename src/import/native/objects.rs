@@ -1,6 +1,5 @@
-//! The objects of a native scene before any of them is placed: their names, the groups that they are
-//! in, how many there will be, and which of them need a node because they move or something else
-//! hangs on them.
+//! The objects of a native scene before they are placed: their names, their groups, how many copies there
+//! will be, and which of them need a node because they are animated or have something attached to them.
 
 use super::Texts;
 use super::file::{LookAt, ObjectTable, PropertyName, SceneFile};
@@ -15,17 +14,17 @@ use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use toml::Spanned;
 
-/// How many surfaces, and how many groups, a scene may have once all are placed.
+/// Limits of the number of surfaces and of the number of groups, counting all copies.
 const MAX_PLACED: u128 = (1 << 20) - 1;
 
-/// How deep groups may lie in groups.
+/// Limit of the nesting depth of groups.
 const MAX_NESTING: usize = 64;
 
-/// An object or group that is placed.
+/// An object or a placement of a group.
 pub(super) struct Object<'a> {
     pub table: &'a Spanned<ObjectTable>,
     pub repeat: Repeat<'a>,
-    /// Index of the group whose members it places.
+    /// Index of the group that it places.
     pub group: Option<usize>,
     /// Whether each copy gets a node.
     pub has_node: bool,
@@ -43,7 +42,7 @@ impl Object<'_> {
 /// All objects of a scene file.
 pub(super) struct Objects<'a> {
     all: Vec<Object<'a>>,
-    /// Those that are in the scene itself; indices.
+    /// Indices of objects at the top level.
     pub roots: Range<usize>,
     groups: Vec<Group<'a>>,
     names: HashMap<&'a str, usize>,
@@ -53,13 +52,13 @@ pub(super) struct Objects<'a> {
 
 struct Group<'a> {
     name: &'a str,
-    /// Indices.
+    /// Indices of its members.
     members: Range<usize>,
-    /// How many groups lie in each other here, itself counted; 0 before that is known.
+    /// Height of the group in the hierarchy of groups, 1 for a group without groups; 0 if not yet known.
     height: usize,
 }
 
-/// How many there are once all is placed.
+/// Numbers of copies once everything is placed.
 #[derive(Clone, Copy, Default)]
 struct Count {
     surfaces: u128,
@@ -67,7 +66,7 @@ struct Count {
 }
 
 impl<'a> Objects<'a> {
-    /// The objects of `file`, whose groups are known to end.
+    /// The objects of `file`, whose groups are checked for cycles.
     pub fn new(file: &'a SceneFile, texts: &Texts, files: &Files) -> Result<Self, ImportError> {
         let numbers: BTreeMap<&str, usize> =
             file.groups.keys().map(String::as_str).zip(0..).collect();
@@ -91,8 +90,8 @@ impl<'a> Objects<'a> {
                 .iter()
                 .find_map(|table| table.get_ref().carried_by.as_ref());
             if let Some(node) = carried {
-                let why = "what is in a group is carried by the group".to_owned();
-                let todo = "Have the object that places the group carried";
+                let why = "a member of a group cannot have `carried_by`".to_owned();
+                let todo = "Use `carried_by` in the object that places the group";
                 return Err(texts.malformed(node.span(), why, todo));
             }
             objects.groups.push(Group {
@@ -105,7 +104,7 @@ impl<'a> Objects<'a> {
         let mut order = Vec::new();
         for group in 0..objects.groups.len() {
             if objects.groups[group].height == 0 {
-                objects.follow(group, &mut Vec::new(), &mut order, texts)?;
+                objects.visit(group, &mut Vec::new(), &mut order, texts)?;
             }
         }
         objects.count(&order, texts)?;
@@ -117,7 +116,7 @@ impl<'a> Objects<'a> {
         &self.all[index]
     }
 
-    /// How many tables of objects there are.
+    /// Number of object tables.
     pub fn len(&self) -> usize {
         self.all.len()
     }
@@ -127,7 +126,7 @@ impl<'a> Objects<'a> {
         self.nodes.get(node).copied().unwrap_or(false)
     }
 
-    /// The indices of what is in a group.
+    /// The indices of the members of a group.
     pub fn members(&self, group: usize) -> Range<usize> {
         self.groups[group].members.clone()
     }
@@ -147,7 +146,7 @@ impl<'a> Objects<'a> {
             texts.malformed(
                 span,
                 why,
-                "Give an object that `name`, or name one that has it",
+                "Add that `name` to an object, or use an existing one",
             )
         })
     }
@@ -172,7 +171,7 @@ impl<'a> Objects<'a> {
             let group = table.group.as_ref().map(|name| {
                 groups.get(name.get_ref().as_str()).copied().ok_or_else(|| {
                     let why = suggest::unknown("group", name.get_ref(), groups.keys().copied());
-                    let todo = "Add it under [groups], or name one that is there";
+                    let todo = "Add it under [groups], or use an existing one";
                     texts.malformed(name.span(), why, todo)
                 })
             });
@@ -187,7 +186,7 @@ impl<'a> Objects<'a> {
         Ok(first..self.all.len())
     }
 
-    /// Gives a node to whatever is animated, looked at, or carries something.
+    /// Gives a node to every object that is animated, a camera's target, or has children.
     fn mark(&mut self, file: &SceneFile, texts: &Texts) -> Result<(), ImportError> {
         for table in &file.animation {
             let table = table.get_ref();
@@ -223,9 +222,9 @@ impl<'a> Objects<'a> {
         Ok(())
     }
 
-    /// Follows the groups in `group`, which is in those of `path`, and adds each to `order` behind
-    /// those that are in it.
-    fn follow(
+    /// Visits the groups in `group`, which lies in those of `path`, and adds each to `order` after the
+    /// groups in it.
+    fn visit(
         &mut self,
         group: usize,
         path: &mut Vec<usize>,
@@ -245,16 +244,16 @@ impl<'a> Objects<'a> {
                 let chain: Vec<_> = chain
                     .map(|&group| quote(self.groups[group].name.as_bytes()))
                     .collect();
-                let why = format!("a group is in itself: {}", chain.join(" places "));
-                return Err(texts.malformed(span, why, "Take one out of the other"));
+                let why = format!("a group contains itself: {}", chain.join(" places "));
+                return Err(texts.malformed(span, why, "Remove one of them"));
             }
             if self.groups[inner].height == 0 && path.len() < MAX_NESTING {
-                self.follow(inner, path, order, texts)?;
+                self.visit(inner, path, order, texts)?;
             }
             height = height.max(self.groups[inner].height + 1);
             if self.groups[inner].height == 0 || height > MAX_NESTING {
-                let why = format!("groups lie in groups more than {MAX_NESTING} deep");
-                return Err(texts.malformed(span, why, "Put the inner objects further out"));
+                let why = format!("groups are nested more than {MAX_NESTING} deep");
+                return Err(texts.malformed(span, why, "Reduce the nesting"));
             }
         }
         path.pop();
@@ -263,7 +262,8 @@ impl<'a> Objects<'a> {
         Ok(())
     }
 
-    /// Refuses more than can be placed, before any is. `order` has every group behind those in it.
+    /// Refuses scenes with too many objects before any is placed. In `order`, every group follows those
+    /// in it.
     fn count(&self, order: &[usize], texts: &Texts) -> Result<(), ImportError> {
         let mut of_groups = vec![Count::default(); self.groups.len()];
         for &group in order {
@@ -296,13 +296,13 @@ impl<'a> Objects<'a> {
             total => total.to_string(),
         };
         let why = format!(
-            "the scene has {total} {what} with all their copies, but at most {MAX_PLACED} can be placed"
+            "the scene has {total} {what}, counting all copies, but at most {MAX_PLACED} are allowed"
         );
         let error = texts.malformed(span, why, "Repeat fewer of them");
         Err(ImportError::TooBig(error.into_fault()))
     }
 
-    /// What the object with this index comes to.
+    /// Numbers of surfaces and groups in the object with this index.
     fn copies(&self, index: usize, of_groups: &[Count]) -> Count {
         let object = &self.all[index];
         if !object.is_shown() && !object.has_node {
@@ -334,11 +334,11 @@ impl Count {
 
 fn second(name: &Spanned<String>, texts: &Texts) -> ImportError {
     let quoted = quote(name.get_ref().as_bytes());
-    let why = format!("a second object is called {quoted}");
+    let why = format!("duplicate object name {quoted}");
     texts.malformed(name.span(), why, "Rename one of them")
 }
 
-/// Refuses an object that is not exactly one thing.
+/// Refuses an object that does not have exactly one kind.
 fn check(object: &Spanned<ObjectTable>, texts: &Texts) -> Result<(), ImportError> {
     let table = object.get_ref();
     let others = [
@@ -348,8 +348,8 @@ fn check(object: &Spanned<ObjectTable>, texts: &Texts) -> Result<(), ImportError
     ];
     let others = others.into_iter().filter(|&given| given).count();
     if shapes::count(table) + others != 1 {
-        let why = "an object is one surface, or one group".to_owned();
-        let todo = "Give it exactly one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`";
+        let why = "an object needs exactly one surface or group".to_owned();
+        let todo = "Give it one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`";
         return Err(texts.malformed(object.span(), why, todo));
     }
     if let Some(transform) = &table.transform {

@@ -1,4 +1,4 @@
-//! Where the copies of a repeated object are.
+//! The transforms of repeated objects' copies.
 
 use super::Texts;
 use super::file::{GridTable, PointsTable, RepeatTable, RingTable, ScatterTable};
@@ -10,9 +10,9 @@ use glam::{DAffine3, DQuat, DVec3};
 use std::f64::consts::TAU;
 use toml::Spanned;
 
-/// Copies of an object, in the order of their indices.
+/// Copies of an object, by index.
 pub(super) enum Repeat<'a> {
-    /// The object itself.
+    /// The object itself, without repetition.
     Once,
     Grid(&'a GridTable),
     Ring(&'a RingTable),
@@ -44,21 +44,21 @@ impl<'a> Repeat<'a> {
                 let (min, max) = (scatter.min.0, scatter.max.get_ref().0);
                 let names = ["x", "y", "z"].into_iter().enumerate();
                 if let Some((_, name)) = names.into_iter().find(|&(i, _)| max[i] < min[i]) {
-                    let why = format!("{name} of `max` is less than that of `min`");
-                    let todo = "Exchange them";
+                    let why = format!("{name} of `max` is less than {name} of `min`");
+                    let todo = "Swap them";
                     return Err(texts.malformed(scatter.max.span(), why, todo));
                 }
                 Ok(Self::Scatter(scatter))
             }
             _ => {
-                let why = "copies are arranged in one way".to_owned();
-                let todo = "Give exactly one of `grid`, `ring`, `scatter` and `points`; groups can be repeated again";
+                let why = "a repetition needs exactly one arrangement".to_owned();
+                let todo = "Give one of `grid`, `ring`, `scatter` and `points`; to combine them, repeat a group";
                 Err(texts.malformed(table.span(), why, todo))
             }
         }
     }
 
-    /// How many copies there are.
+    /// Number of copies.
     pub fn count(&self) -> u128 {
         match self {
             Self::Once => 1,
@@ -69,7 +69,7 @@ impl<'a> Repeat<'a> {
         }
     }
 
-    /// What brings an object to the place of the copy with this index.
+    /// The transform of the copy with this index.
     pub fn placement(&self, index: u64) -> DAffine3 {
         match self {
             Self::Once => DAffine3::IDENTITY,
@@ -95,7 +95,7 @@ fn points<'a>(
     ply::places(&path, &bytes).map(Repeat::Points)
 }
 
-/// x runs fastest, then y.
+/// x varies fastest, then y.
 fn grid(table: &GridTable, index: u64) -> DAffine3 {
     let [x, y, z] = table.count.0;
     let steps = [index % x, index / x % y, index / x / y].map(|step| step as f64);
@@ -111,7 +111,7 @@ fn ring(table: &RingTable, index: u64) -> DAffine3 {
     let axis = table.axis.0;
     let (index, count) = (index as f64, table.count.0 as f64);
     let turn = match table.arc_deg {
-        // One alone stands at the beginning of its arc.
+        // A single copy is at the start of its arc.
         Some(arc) => index * arc.0.to_radians() / (count - 1.0).max(1.0),
         None => index * TAU / count,
     };
@@ -122,7 +122,7 @@ fn ring(table: &RingTable, index: u64) -> DAffine3 {
     DAffine3::from_rotation_translation(turn, moved)
 }
 
-/// Scaled first, then turned, then moved. Every copy has random numbers of its own.
+/// Scale, then rotation, then translation. Every copy has its own random numbers.
 fn scatter(table: &ScatterTable, index: u64) -> DAffine3 {
     const DRAWS: u64 = 7;
     let draw = |i: u64| random(table.seed.0, index * DRAWS + i);
@@ -139,8 +139,8 @@ fn scatter(table: &ScatterTable, index: u64) -> DAffine3 {
     transform.affine()
 }
 
-/// A number in [0, 1) for each seed and index: SplitMix64 (Steele, Lea and Flood 2014) of both, so
-/// that any one can be had without those before it.
+/// A random number in [0, 1) for each seed and index: SplitMix64 (Steele, Lea and Flood 2014) of both, so
+/// that each can be computed without those before it.
 fn random(seed: u64, index: u64) -> f64 {
     const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
     let mix = |z: u64| {

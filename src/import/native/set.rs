@@ -8,22 +8,22 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// One override, as if it stood behind the scene's text: that keeps the spans of its values apart
+/// One override, located as if it followed the scene's text: that keeps the spans of its values distinct
 /// from the file's.
 pub(super) struct Override {
     /// `KEY=VALUE`.
     source: Source,
-    /// Bytes in front of `source` in that imagined text.
+    /// Position of `source` in that combined text.
     start: usize,
     key: Vec<String>,
-    /// The value, placed in a TOML document so that its spans count from the scene's beginning.
+    /// The value in a TOML document, padded so that its spans refer to the combined text.
     document: String,
 }
 
 impl Override {
     /// The overrides in `texts`, behind a scene of `scene_length` bytes.
     pub fn parse_all(texts: &[String], scene_length: usize) -> Result<Vec<Self>, ImportError> {
-        // A byte between the texts, so that the end of one is not the beginning of the next.
+        // One byte between the texts, so that the end of one is not the start of the next.
         let mut start = scene_length + 1;
         let mut overrides = Vec::new();
         for text in texts {
@@ -47,7 +47,7 @@ impl Override {
             return Err(source.malformed(0..text.len(), why, todo));
         }
         let value_start = start + text.len() - value.len();
-        // `start` is at least 1 and the key and its `=` two bytes more: there is room for "v=".
+        // `start` is at least 1, and the key and its `=` take two more bytes: there is room for "v=".
         let document = format!("{}v={value}", " ".repeat(value_start - 2));
         Ok(Self {
             source,
@@ -80,7 +80,7 @@ impl Override {
         }
     }
 
-    /// Puts the value into the scene, making tables on the way where there are none.
+    /// Sets the value in the scene, creating tables on the path to it if necessary.
     pub fn apply<'s>(&'s self, root: &mut DeTable<'s>) -> Result<(), ImportError> {
         let [tables @ .., last] = &self.key[..] else {
             return Ok(());
@@ -121,7 +121,7 @@ impl Override {
             self.start..self.start + self.source.bytes.len(),
             Cow::Owned(last.clone()),
         );
-        // Removed first: a map keeps the old key, and with it the old key's span.
+        // Remove it first: otherwise the map keeps the old key with its span.
         table.remove(last.as_str());
         table.insert(key, value);
         Ok(())

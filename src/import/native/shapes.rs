@@ -11,10 +11,10 @@ use crate::scene::{CanonicalShape, Geometry};
 use glam::{DAffine3, DMat3, DVec3};
 use std::ops::Range;
 
-/// Edges are parallel where the sine of the angle between them is no more than this.
+/// Edges are parallel if the sine of the angle between them is at most this.
 const PARALLEL: f64 = 1e-9;
 
-/// How many analytic surfaces `table` gives.
+/// Number of analytic surfaces in `table`.
 pub(super) fn count(table: &ObjectTable) -> usize {
     let given = [
         table.sphere.is_some(),
@@ -30,8 +30,8 @@ pub(super) fn count(table: &ObjectTable) -> usize {
     given.into_iter().filter(|&given| given).count()
 }
 
-/// The analytic surface that `table` gives, brought into the world by `placed`. `textured` says
-/// whether its u and v show, and `moves` whether it is attached to a node.
+/// The analytic surface in `table`, transformed by `placed`. `textured` tells whether its u and v are
+/// used, and `moves` whether it is attached to a node.
 pub(super) fn geometry(
     table: &ObjectTable,
     placed: DAffine3,
@@ -62,7 +62,7 @@ pub(super) fn geometry(
     } else {
         return Ok(None);
     };
-    // Whatever the signs of its zeros: then the place is all that counts.
+    // Ignores the signs of zeros; then only the translation matters.
     let object_from_canonical = match object_from_canonical {
         same if same == DAffine3::IDENTITY => DAffine3::IDENTITY,
         other => other,
@@ -92,8 +92,8 @@ fn plane(plane: &PlaneTable, placed: DAffine3) -> Geometry {
     }
 }
 
-/// A sphere as long as its transform leaves it one; where a texture shows that it is or may be turned,
-/// or it is scaled unevenly, an ellipsoid.
+/// A sphere as long as the transform keeps it one. An ellipsoid if it is scaled unevenly, or if a texture
+/// would show a rotation.
 fn sphere(sphere: &SphereTable, placed: DAffine3, (textured, moves): (bool, bool)) -> Geometry {
     let (center, radius) = (sphere.center.0, sphere.radius.0);
     if placed == DAffine3::IDENTITY && !(textured && moves) {
@@ -105,7 +105,7 @@ fn sphere(sphere: &SphereTable, placed: DAffine3, (textured, moves): (bool, bool
         lengths.into_iter().fold(f64::INFINITY, f64::min),
         lengths.into_iter().fold(0.0, f64::max),
     );
-    // Where groups turn what they scale, axes do not stay perpendicular.
+    // If groups rotate scaled objects, axes do not stay perpendicular.
     let slant = [
         matrix.x_axis.dot(matrix.y_axis),
         matrix.y_axis.dot(matrix.z_axis),
@@ -185,13 +185,13 @@ fn rectangle(rectangle: &RectangleTable, texts: &Texts) -> Result<DAffine3, Impo
                 let normal = rectangle.normal.as_ref();
                 normal.map(|normal| normal.span())
             });
-            let why = "a rectangle has two edges, or a size".to_owned();
-            let todo = "Give it either `edge_u` and `edge_v`, or `size` and, if it does not face \
+            let why = "a rectangle needs two edges or a size".to_owned();
+            let todo = "Give it either `edge_u` and `edge_v`, or `size` and, unless it faces \
                         upwards, `normal`";
             return Err(texts.malformed(place.unwrap_or(rectangle.center.span()), why, todo));
         }
     };
-    // As high as wide, so that no direction is out of proportion.
+    // The height equals the width, so that the matrix is well conditioned.
     let height = u.length().max(v.length());
     let normal = u.normalize().cross(v.normalize()).normalize() * height;
     let axes = DMat3::from_cols(u, normal, -v) * 0.5;
@@ -205,7 +205,7 @@ fn cuboid(cuboid: &BoxTable, texts: &Texts) -> Result<DAffine3, ImportError> {
     let (min, max) = (cuboid.min.0, cuboid.max.get_ref().0);
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         if max[axis] <= min[axis] {
-            let why = format!("{name} of `max` is not greater than that of `min`");
+            let why = format!("{name} of `max` is not greater than {name} of `min`");
             let todo = "Give a box a width, a height and a depth, or use a rectangle";
             return Err(texts.malformed(cuboid.max.span(), why, todo));
         }
@@ -266,7 +266,7 @@ fn torus(torus: &TorusTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3)
     ))
 }
 
-/// Axes of a canonical shape of radius 1 whose y leads from `from` to `to`.
+/// Axes of a canonical shape of radius 1 whose y axis maps to the vector from `from` to `to`.
 fn around(
     from: DVec3,
     to: DVec3,
@@ -287,7 +287,7 @@ fn around(
     ))
 }
 
-/// The rotation that brings +y to `axis`, which has unit length, on the shortest way.
+/// The shortest rotation from +y to `axis`, which has unit length.
 fn turned_to(axis: DVec3) -> DMat3 {
     DMat3::from_quat(glam::DQuat::from_rotation_arc(DVec3::Y, axis))
 }

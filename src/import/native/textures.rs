@@ -1,4 +1,4 @@
-//! The textures, pictures and the background of a native scene.
+//! The textures, images and background of a native scene.
 
 use super::Texts;
 use super::file::{
@@ -15,10 +15,10 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 
-/// The largest value of a texel: the GPU keeps them as half floats.
+/// Largest value of a texel: the GPU stores texels as half floats.
 const LARGEST_TEXEL: f32 = 65504.0;
 
-/// All textures of a scene while it is read.
+/// All textures of a scene while it is built.
 pub(super) struct Textures<'a> {
     texts: &'a Texts<'a>,
     files: &'a Files<'a>,
@@ -28,7 +28,7 @@ pub(super) struct Textures<'a> {
 }
 
 impl<'a> Textures<'a> {
-    /// Those under `[textures]`.
+    /// The textures under `[textures]`.
     pub fn new(
         file: &SceneFile,
         texts: &'a Texts<'a>,
@@ -53,7 +53,7 @@ impl<'a> Textures<'a> {
         self.texts.malformed(span, why.to_owned(), todo)
     }
 
-    /// The constant colour of a material, and the texture that it is multiplied by.
+    /// The constant colour of a material, and the texture that multiplies it.
     pub fn color(
         &mut self,
         color: &Spanned<ColorOrTexture>,
@@ -64,23 +64,24 @@ impl<'a> Textures<'a> {
         };
         let pattern = table.pattern();
         let index = match &table.texture {
-            Some(name) if pattern.count() == 0 && !pattern.says_where() => self.named(name)?,
+            Some(name) if pattern.count() == 0 && !pattern.has_placement() => self.named(name)?,
             Some(name) => {
                 let todo = "Put them under [textures], or leave out `texture`";
-                let why = "a texture with a name brings its own pattern and place";
+                let why = "a named texture has its own pattern and transform";
                 return Err(self.texts.malformed(name.span(), why.to_owned(), todo));
             }
             None => self.texture(&pattern, color.span())?,
         };
         let factor = table.color.map_or(Vec3::ONE, |color| color.0);
         if !(factor * largest(&self.textures[index].pattern)).is_finite() {
-            let why = "color times texture is out of range: at most 3.4e38 is allowed".to_owned();
+            let why =
+                "`color` times the texture is out of range: at most 3.4e38 is allowed".to_owned();
             return Err(self.texts.malformed(color.span(), why, "Lower one of them"));
         }
         Ok((factor, Some(index)))
     }
 
-    /// What rays see that hit nothing.
+    /// The background.
     pub fn background(
         &mut self,
         background: &Spanned<ColorOrBackground>,
@@ -122,7 +123,7 @@ impl<'a> Textures<'a> {
                 })
             }
             _ => refuse(
-                "a background is a colour, a gradient or a picture",
+                "a background needs a colour, a gradient or a picture",
                 "Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`",
             ),
         }
@@ -132,7 +133,7 @@ impl<'a> Textures<'a> {
         self.names.get(name.get_ref()).copied().ok_or_else(|| {
             let known = self.names.keys().map(String::as_str);
             let why = suggest::unknown("texture", name.get_ref(), known);
-            let todo = "Add it under [textures], or name one that is there";
+            let todo = "Add it under [textures], or use an existing one";
             self.texts.malformed(name.span(), why, todo)
         })
     }
@@ -170,9 +171,8 @@ impl<'a> Textures<'a> {
             None
         };
         let Some(pattern) = pattern else {
-            let todo =
-                "Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`";
-            let why = "a texture has one pattern".to_owned();
+            let todo = "Give it one of `checker`, `stripes`, `gradient`, `noise` and `picture`";
+            let why = "a texture needs exactly one pattern".to_owned();
             return Err(self.texts.malformed(span, why, todo));
         };
         let space = match (tables.space, tables.picture) {
@@ -187,8 +187,7 @@ impl<'a> Textures<'a> {
         .affine();
         let pattern_from_space = match tables.pattern_from_space {
             Some(_) if tables.is_placed() => {
-                let why =
-                    "`pattern_from_space` takes the place of `scale`, `rotate_deg` and `translate`";
+                let why = "`pattern_from_space` replaces `scale`, `rotate_deg` and `translate`";
                 return Err(self.refuse(span, why, "Leave out the others"));
             }
             Some(matrix) => matrix.0,
@@ -211,7 +210,7 @@ impl<'a> Textures<'a> {
 }
 
 impl PatternTables<'_> {
-    /// How many patterns there are.
+    /// Number of patterns.
     fn count(&self) -> usize {
         let given = [
             self.checker.is_some(),
@@ -223,19 +222,19 @@ impl PatternTables<'_> {
         given.into_iter().filter(|&given| given).count()
     }
 
-    /// Whether it says by a scale, angles or a translation where the pattern is.
+    /// Whether it has a scale, angles or a translation.
     fn is_placed(&self) -> bool {
         let moved = self.rotate_deg.or(self.translate).is_some();
         moved || self.scale.is_some()
     }
 
-    /// Whether it says that, or over what the pattern is laid.
-    fn says_where(&self) -> bool {
+    /// Whether it has a transform or coordinates for the pattern.
+    fn has_placement(&self) -> bool {
         self.is_placed() || self.space.is_some() || self.pattern_from_space.is_some()
     }
 }
 
-/// The largest that each channel of a pattern can be.
+/// The largest value of each channel of a pattern.
 fn largest(pattern: &Pattern) -> Vec3 {
     match *pattern {
         Pattern::Checker { a, b }

@@ -1,4 +1,4 @@
-//! Arithmetic of transforms, and what all tables that hold one are checked for.
+//! Transform arithmetic, and checks for all tables with a transform.
 
 use super::Texts;
 use super::file::TransformTable;
@@ -7,17 +7,17 @@ use crate::import::number::in_range;
 use glam::{DAffine3, DMat3, DVec3};
 use toml::Spanned;
 
-/// Refuses a transform that says the same twice.
+/// Refuses a transform that specifies something twice.
 pub(super) fn check(transform: &Spanned<TransformTable>, texts: &Texts) -> Result<(), ImportError> {
     if !transform.get_ref().is_double() {
         return Ok(());
     }
-    let why = "`matrix` takes the place of all others, and `rotation` that of `rotate_deg`";
+    let why = "`matrix` replaces all others, and `rotation` replaces `rotate_deg`";
     Err(texts.malformed(transform.span(), why.to_owned(), "Leave out the others"))
 }
 
-/// What `outer` makes of what `inner` makes, with all digits, signs of zeros too, where one of them
-/// changes nothing.
+/// The product of `outer` and `inner`, exact, including the signs of zeros, if one of them is the
+/// identity.
 pub(super) fn chain(outer: DAffine3, inner: DAffine3) -> DAffine3 {
     let bits = |affine: DAffine3| affine.to_cols_array().map(f64::to_bits);
     if bits(outer) == bits(DAffine3::IDENTITY) {
@@ -31,8 +31,8 @@ pub(super) fn chain(outer: DAffine3, inner: DAffine3) -> DAffine3 {
     }
 }
 
-/// What normals are multiplied by where points are by `transform`: the inverse transpose, up to a
-/// positive factor, without the loss of a division by a small determinant.
+/// The matrix for normals if points are transformed by `transform`: the inverse transpose up to a
+/// positive factor, without dividing by a small determinant.
 pub(super) fn normal_matrix(transform: DAffine3) -> DMat3 {
     let [x, y, z] = [
         transform.matrix3.x_axis,
@@ -43,7 +43,7 @@ pub(super) fn normal_matrix(transform: DAffine3) -> DMat3 {
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
 }
 
-/// Whether an inverse of `matrix` means anything: its axes are in range and far from one plane.
+/// Whether `matrix` is safely invertible: its axes are in range and far from coplanar.
 pub(super) fn is_invertible(matrix: DMat3) -> bool {
     let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let is_good = |axis: &DVec3| {

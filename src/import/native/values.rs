@@ -1,5 +1,5 @@
-//! The single values of a native scene. Each checks itself when it is read, so that the parser
-//! knows where in the file a bad one stands, and describes itself for the JSON Schema.
+//! The value types of a native scene. Each checks itself when it is read, so that errors have a position,
+//! and describes itself for the JSON Schema.
 
 mod names;
 
@@ -88,7 +88,7 @@ pub(super) fn elements<'de, T: Deserialize<'de>, const N: usize, D: Deserializer
     deserializer.deserialize_seq(Elements(expected, PhantomData))
 }
 
-/// A value type: its docs, the type it is made from, its schema, and the check.
+/// Defines a value type from its docs, the type that it wraps, its schema, and the check.
 macro_rules! value {
     ($(#[doc = $doc:literal])* $name:ident($inner:ty), $schema:tt, $read:expr) => {
         $(#[doc = $doc])*
@@ -113,11 +113,11 @@ macro_rules! value {
     };
 }
 
-// Below the macro, which they use.
+// Below the macro, because they use it.
 mod moving;
 mod places;
 
-/// Reads a number that `holds`, or says that it `is not …`.
+/// Reads a number for which `holds` is true; otherwise an error "is not WANTED".
 fn number<'de, D: Deserializer<'de>>(
     deserializer: D,
     holds: fn(f64) -> bool,
@@ -132,12 +132,12 @@ fn number<'de, D: Deserializer<'de>>(
     }
 }
 
-/// Whether a length is 1 as far as f64 can tell after normalising, by its square.
+/// Whether a squared length is 1 within f64's rounding of a normalised vector.
 fn is_unit(length_squared: f64) -> bool {
     (length_squared - 1.0).abs() <= 8.0 * f64::EPSILON
 }
 
-/// A number in as few digits as tell it.
+/// A number in the fewest digits that identify it.
 fn shown(value: f64) -> String {
     if value == 0.0 || (1e-6..1e15).contains(&value.abs()) {
         value.to_string()
@@ -195,14 +195,14 @@ value! {
 }
 
 value! {
-    /// A share, 0 to 1.
+    /// A fraction, 0 to 1.
     Fraction(f32),
     { "type": "number", "minimum": 0, "maximum": 1 },
     |d| number(d, |x| (0.0..=1.0).contains(&x), "between 0 and 1").map(|x| x as f32)
 }
 
 value! {
-    /// An error that is allowed, above 0.
+    /// An error threshold, above 0.
     Noise(f32),
     { "type": "number", "minimum": 1e-6, "maximum": 1 },
     |d| number(d, |x| (1e-6..=1.0).contains(&x), "between 1e-6 and 1").map(|x| x as f32)
@@ -219,7 +219,7 @@ value! {
 }
 
 value! {
-    /// How much light a unit length swallows: three numbers [r, g, b], 0 or more.
+    /// Absorption per unit length: three numbers [r, g, b], 0 or more.
     Absorption(Vec3),
     { "type": "array", "items": { "type": "number", "minimum": 0, "maximum": 1e12 }, "minItems": 3, "maxItems": 3 },
     |d| {
@@ -232,7 +232,7 @@ value! {
 }
 
 value! {
-    /// A rank, a whole number from -100 to 100.
+    /// A priority, a whole number from -100 to 100.
     Priority(i32),
     { "type": "integer", "minimum": -100, "maximum": 100 },
     |d| {
@@ -249,14 +249,14 @@ value! {
 }
 
 value! {
-    /// A full angle of view in degrees.
+    /// A field of view in degrees.
     ViewAngle(f64),
     { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 180 },
     |d| number(d, |x| (1e-3..=179.999).contains(&x), "an angle between 0.001 and 179.999 degrees")
 }
 
 value! {
-    /// An angle off an axis in degrees.
+    /// An angle from an axis in degrees.
     AxisAngle(f64),
     { "type": "number", "minimum": 0, "maximum": 90 },
     |d| number(d, |x| (0.0..=90.0).contains(&x), "an angle between 0 and 90 degrees")
@@ -292,7 +292,7 @@ value! {
     { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 },
     |d| {
         let vector = Vector::deserialize(d)?.0;
-        // What was written with all its digits stays as it is.
+        // A direction that is already normalised keeps all its digits.
         if is_unit(vector.length_squared()) {
             return Ok(vector);
         }
@@ -351,7 +351,7 @@ value! {
     }
 }
 
-/// Reads three numbers, or one that stands for all three.
+/// Reads three numbers, or one for all three.
 pub(super) struct NumberOrVector;
 
 impl<'de> Visitor<'de> for NumberOrVector {

@@ -1,4 +1,4 @@
-//! The `p` and `pp` entities: polygons and patches, as triangles of one mesh.
+//! The entities `p` and `pp`: polygons and patches, as triangles of one mesh.
 
 use super::Reader;
 use crate::import::budget;
@@ -9,16 +9,16 @@ use crate::import::source::Token;
 use crate::scene::{Instance, Mesh, Scene};
 use glam::{DAffine3, DVec3, Vec3};
 
-/// How many corners one polygon may have.
+/// Limit of corners of one polygon.
 const MAX_CORNERS: f64 = 65_536.0;
 
-/// All polygons so far, and one that is being read.
+/// All polygons so far, and the current one.
 pub(super) struct Surface {
     /// Without positions.
     mesh: Mesh,
     positions: Vec<DVec3>,
     cutter: Cutter,
-    /// Corners of one polygon, and their normals if it is a patch.
+    /// Corners of the current polygon, and their normals if it is a patch.
     corners: Vec<DVec3>,
     normals: Vec<Vec3>,
     repeated_corners: usize,
@@ -40,7 +40,7 @@ impl Surface {
         }
     }
 
-    /// Adds a corner to the polygon, unless the last one was there too.
+    /// Adds a corner to the polygon, unless it equals the previous one.
     fn corner(&mut self, position: DVec3, normal: Option<Vec3>) {
         if self.corners.last() == Some(&position) {
             self.repeated_corners += 1;
@@ -50,7 +50,7 @@ impl Surface {
         self.normals.extend(normal);
     }
 
-    /// Cuts the polygon.
+    /// Triangulates the polygon.
     fn close(&mut self, announced: usize, material: u32) -> Result<(), Defect> {
         if self.corners.len() > 1 && self.corners.first() == self.corners.last() {
             self.repeated_corners += 1;
@@ -81,24 +81,24 @@ impl Surface {
         Ok(())
     }
 
-    /// The memory that all polygons take, with what will be made of them.
+    /// The memory that all polygons take, including later steps.
     pub fn memory(&self) -> u64 {
         budget::size::<(DVec3, [Vec3; 2], u32)>(self.positions.len())
             + budget::size::<[u32; 3]>(self.mesh.triangles.len())
     }
 
-    /// Adds the mesh to `scene`, and what there is to say about it.
+    /// Adds the mesh and the notes about it to `scene`.
     pub fn add_to(mut self, scene: &mut Scene) {
         let counts = [
             (
-                "corners of polygons repeated at once, and dropped",
+                "repeated corners of polygons dropped",
                 self.repeated_corners,
             ),
             (
-                "polygons of fewer than three corners left out",
+                "polygons with fewer than three corners skipped",
                 self.too_few_corners,
             ),
-            ("polygons without area left out", self.without_area),
+            ("polygons without area skipped", self.without_area),
         ];
         let counts = counts.iter().filter(|(_, count)| *count > 0);
         let notes = counts.map(|(what, count)| format!("{what}: {count}"));
@@ -130,7 +130,7 @@ impl<'s> Reader<'s> {
         let material = self.material_in_use(keyword)?;
         let (token, count) = self.number()?;
         if count.fract() != 0.0 || !(1.0..=MAX_CORNERS).contains(&count) {
-            let why = format!("{} is not a number of corners", token.quote());
+            let why = format!("{} is not a count of corners", token.quote());
             return Err(self.refuse(token, why, "Write a whole number from 3 to 65536"));
         }
         let count = count as usize;
@@ -148,12 +148,12 @@ impl<'s> Reader<'s> {
         match self.surface.close(count, material as u32) {
             Ok(()) | Err(Defect::NoArea) => Ok(()),
             Err(Defect::Crossing) => {
-                let why = format!("the {name} crosses itself");
-                Err(self.refuse(keyword, why, "List its corners in order round its edge"))
+                let why = format!("the {name} intersects itself");
+                Err(self.refuse(keyword, why, "List its corners in order along its boundary"))
             }
             Err(Defect::TooMuchWork) => {
                 let why = format!(
-                    "this {name}, with others before it, has too many corners without being convex"
+                    "this {name} and those before it have too many corners to be triangulated, because they are not convex"
                 );
                 let error = self.refuse(keyword, why, "Cut it into smaller ones");
                 Err(ImportError::TooBig(error.into_fault()))
@@ -161,7 +161,7 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// Three numbers of the corner `i`, of `count`.
+    /// Three numbers of corner `i` of `count`.
     fn corner_vector(&mut self, i: usize, count: usize) -> Result<DVec3, ImportError> {
         let mut vector = DVec3::ZERO;
         for value in vector.as_mut() {
@@ -171,7 +171,7 @@ impl<'s> Reader<'s> {
     }
 
     fn corner_number(&mut self, i: usize, count: usize) -> Result<f64, ImportError> {
-        // The text is for an error only: this is the inner loop of large files.
+        // Format the text for errors only: this is the inner loop for large files.
         match self.words.peek() {
             Some(token) if super::looks_like_number(token) => Ok(self.number()?.1),
             _ => Ok(self

@@ -1,4 +1,4 @@
-//! The `v` entity: camera and size of the picture.
+//! The `v` entity: camera and image size.
 
 use super::Reader;
 use crate::import::error::ImportError;
@@ -10,10 +10,10 @@ use glam::DVec3;
 /// The keys of a view, in the order of the specification.
 pub(super) const KEYS: [&str; 6] = ["from", "at", "up", "angle", "hither", "resolution"];
 
-/// What may be missing: only hidden-surface programs need the near plane.
+/// Optional keys: only hidden-surface programs need the near plane.
 const OPTIONAL: usize = 4;
 
-/// The largest side of a picture, in pixels.
+/// Limit of the image's width and height in pixels.
 const MAX_SIDE: f64 = 65_536.0;
 
 pub(super) fn is_key(token: Token) -> bool {
@@ -24,8 +24,8 @@ impl<'s> Reader<'s> {
     /// Reads the keys, in any order.
     pub(super) fn view(&mut self, keyword: Token<'s>) -> Result<(), ImportError> {
         if !self.scene.cameras.is_empty() {
-            let why = "a second view".to_owned();
-            return Err(self.refuse(keyword, why, "Leave one `v` in the file"));
+            let why = "duplicate view".to_owned();
+            return Err(self.refuse(keyword, why, "Keep one `v` in the file"));
         }
         let mut values: [Option<[f64; 3]>; 6] = Default::default();
         while let Some(token) = self.words.peek() {
@@ -35,7 +35,7 @@ impl<'s> Reader<'s> {
             self.words.next();
             if values[key].is_some() {
                 let why = format!("a second `{}` in a view", KEYS[key]);
-                return Err(self.refuse(token, why, "Leave one of them"));
+                return Err(self.refuse(token, why, "Keep one of them"));
             }
             values[key] = Some(self.view_values(key)?);
         }
@@ -48,9 +48,9 @@ impl<'s> Reader<'s> {
         let [from, at, up] = [from, at, up].map(DVec3::from);
         let forward = (at - from).normalize_or_zero();
         let why = if forward == DVec3::ZERO {
-            "`from` and `at` are one point"
+            "`from` and `at` are the same point"
         } else if forward.cross(up.normalize_or_zero()).length() < 1e-6 {
-            "`up` is zero or along the line of sight"
+            "`up` is zero or parallel to the viewing direction"
         } else {
             self.scene.cameras.push(Camera {
                 look_from: from,
@@ -62,7 +62,11 @@ impl<'s> Reader<'s> {
             self.scene.output.size = (resolution[0] as u32, resolution[1] as u32);
             return Ok(());
         };
-        Err(self.refuse(keyword, why.to_owned(), "Look at something, upright"))
+        Err(self.refuse(
+            keyword,
+            why.to_owned(),
+            "Choose distinct points and another `up`",
+        ))
     }
 
     fn view_values(&mut self, key: usize) -> Result<[f64; 3], ImportError> {
@@ -86,7 +90,7 @@ impl<'s> Reader<'s> {
         if side.fract() == 0.0 && (1.0..=MAX_SIDE).contains(&side) {
             return Ok(side);
         }
-        let why = format!("{} is not a number of pixels", token.quote());
+        let why = format!("{} is not a count of pixels", token.quote());
         Err(self.refuse(token, why, "Write a whole number from 1 to 65536"))
     }
 

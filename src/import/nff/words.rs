@@ -1,8 +1,8 @@
-//! The words of an NFF file: whatever stands between white space, comments left out.
+//! The words of an NFF file: separated by white space, without comments.
 
 use crate::import::source::Token;
 
-/// An iterator over the words that can look one ahead.
+/// An iterator over the words with one word of lookahead.
 pub(super) struct Words<'s> {
     bytes: &'s [u8],
     at: usize,
@@ -19,7 +19,7 @@ impl<'s> Words<'s> {
         Token { bytes: &[], at }
     }
 
-    /// The word that [`Self::next`] gives.
+    /// The word that [`Self::next`] will return.
     pub fn peek(&mut self) -> Option<Token<'s>> {
         loop {
             let rest = &self.bytes[self.at..];

@@ -5,22 +5,22 @@ use super::lines::Line;
 use crate::import::error::ImportError;
 use crate::import::source::{Source, Token};
 
-/// The normal of a corner that has none.
+/// The normal index of a corner without normal.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Marks indices of normals that were made and are not in the file.
+/// Marks indices of computed normals, which are not in the file.
 pub(super) const MADE: u32 = 1 << 31;
 
-/// Marks indices of faces of smoothing groups, whose normals are still to be made.
+/// Marks indices of faces in smoothing groups, whose normals are computed later.
 pub(super) const SMOOTH: u32 = 1 << 30;
 
-/// How many corners all faces may have together: indices are u32, and some are marked.
+/// Limit of corners of all faces: indices are u32, and some bits are marks.
 pub(super) const MAX_CORNERS: usize = MADE as usize - 1;
 
-/// How many corners one face may have.
+/// Limit of corners of one face.
 const MAX_FACE_CORNERS: usize = 65_536;
 
-/// The place in a texture of a corner that has none, or needs none.
+/// The texture coordinate index of a corner that has none or needs none.
 pub(super) const NO_UV: u32 = NONE;
 
 /// One corner of a face.
@@ -35,12 +35,12 @@ pub(super) struct Corner {
     pub uv: u32,
 }
 
-/// The index of the face that a corner's normal is made of, if it is.
+/// The face that a corner's computed normal belongs to, if any.
 pub(super) fn smooth_index(normal: u32) -> Option<usize> {
     (normal & MADE == 0 && normal & SMOOTH != 0).then_some((normal & !SMOOTH) as usize)
 }
 
-/// The corners in `line`, still without their material; `counts` are the numbers of positions, texture
+/// The corners in `line`, without their material; `counts` are the numbers of positions, texture
 /// coordinates and normals so far.
 pub(super) fn read(
     source: &Source,
@@ -52,7 +52,7 @@ pub(super) fn read(
     while let Some(word) = line.word() {
         if corners.len() == MAX_FACE_CORNERS {
             let why = format!("a face has more than {MAX_FACE_CORNERS} corners");
-            return Err(source.malformed(word.span(), why, "Split it"));
+            return Err(source.malformed(word.span(), why, "Split the face"));
         }
         corners.push(corner(source, word, counts)?);
     }
@@ -87,7 +87,7 @@ fn corner(source: &Source, word: Token, counts: [usize; 3]) -> Result<Corner, Im
     })
 }
 
-/// `part` as an index from 0 into `count` things called `name`.
+/// `part` as a zero-based index into `count` elements called `name`.
 fn index(source: &Source, part: Token, count: usize, name: &str) -> Result<u32, ImportError> {
     let text = std::str::from_utf8(part.bytes).ok();
     let Some(number) = text.and_then(|text| text.parse::<i64>().ok()) else {

@@ -8,7 +8,7 @@ pub(super) struct Lines<'s> {
     at: usize,
 }
 
-/// What is left of one line.
+/// The remainder of one line.
 pub(super) struct Line<'s> {
     bytes: &'s [u8],
     at: usize,
@@ -50,7 +50,7 @@ impl<'s> Iterator for Lines<'s> {
 }
 
 impl<'s> Line<'s> {
-    /// The next word, unless a comment begins first.
+    /// The next word, unless a comment starts first.
     pub fn word(&mut self) -> Option<Token<'s>> {
         self.skip_space();
         let is_part = |i: &usize| !self.is_space(*i);
@@ -69,7 +69,7 @@ impl<'s> Line<'s> {
         Some(token)
     }
 
-    /// Everything up to the end of the line, which the next [`Self::word`] still sees.
+    /// The rest of the line; does not consume it.
     pub fn rest(&self) -> Token<'s> {
         let rest = &self.bytes[self.at..self.end];
         let bytes = rest.trim_ascii_start();

@@ -1,4 +1,4 @@
-//! The materials of a model that are in use, from the libraries that it names, with their pictures.
+//! The materials that a model uses, from its material libraries, with their images.
 
 use super::lines::Line;
 use super::{Reader, mtl};
@@ -10,11 +10,11 @@ use crate::scene::{Material, Pattern, Space, Texture};
 use glam::DAffine3;
 use std::path::Path;
 
-/// The largest material file, in bytes.
+/// Size limit of a material file in bytes.
 const MAX_MTL_BYTES: u64 = 64 << 20;
 
 impl<'s> Reader<'s> {
-    /// The number of the material in use, which has one from the first face on that uses it.
+    /// The index of the current material, assigned when the first face uses it.
     pub(super) fn material_in_use(&mut self) -> u32 {
         let names = &mut self.material_names;
         let name = self.material;
@@ -24,7 +24,7 @@ impl<'s> Reader<'s> {
         })
     }
 
-    /// Reads the libraries that `line` names: one whose name may have spaces, else several.
+    /// Reads the libraries in `line`: one file name with spaces, or several names.
     pub(super) fn material_library(&mut self, line: &mut Line) -> Result<(), ImportError> {
         let whole = line.rest();
         if self.library_file(whole)? {
@@ -40,7 +40,7 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    /// Whether the library `name` exists. It is checked, and kept as the text that it is.
+    /// Whether the library `name` exists. Its text is validated and kept.
     fn library_file(&mut self, name: Token) -> Result<bool, ImportError> {
         let text = String::from_utf8_lossy(name.bytes);
         let path = match self.files.resolve(&text) {
@@ -64,12 +64,12 @@ impl<'s> Reader<'s> {
         Ok(true)
     }
 
-    /// The materials that corners use, by their numbers.
+    /// The materials that corners use, by index.
     pub(super) fn materials(&mut self) -> Result<Vec<Material>, ImportError> {
         let mut found: Vec<Option<Material>> = Vec::new();
         found.resize_with(self.material_names.len(), || None);
-        // Of two libraries the later one wins, but of two equal names in one the first is what viewers
-        // take.
+        // The last of several libraries wins, but within one library the first of two equal names, as in
+        // other viewers.
         for library in std::mem::take(&mut self.libraries).iter().rev() {
             let mut entries = Vec::new();
             let ids = &self.material_ids;
@@ -98,7 +98,7 @@ impl<'s> Reader<'s> {
                     if !name.is_empty() {
                         notes.add("undefined materials", || {
                             format!(
-                                "the material {} is not defined: the default takes its place",
+                                "the material {} is not defined: the default replaces it",
                                 quote(name)
                             )
                         });
@@ -122,20 +122,20 @@ impl<'s> Reader<'s> {
         }
         material.textures.diffuse = self.picture(maps.diffuse, file);
         material.textures.specular = self.picture(maps.specular, file);
-        // Few exporters write an ambient picture, and all mean the diffuse one.
+        // Few exporters write an ambient texture, and all use the diffuse one.
         material.textures.ambient = match maps.ambient {
             None => material.textures.diffuse,
             name => self.picture(name, file),
         };
     }
 
-    /// The texture that shows the picture called `name` in `file`; what cannot be read is left out.
+    /// The texture with the image `name` in `file`; unreadable images are skipped.
     fn picture(&mut self, name: Option<String>, file: &Path) -> Option<usize> {
         let picture = match self.pictures.read(&self.files.named_in(file), &name?) {
             Ok(picture) => picture,
             Err(refused) => {
-                self.notes.add("textures left out", || {
-                    format!("texture left out: {}", refused.into_note())
+                self.notes.add("skipped textures", || {
+                    format!("texture skipped: {}", refused.into_note())
                 });
                 return None;
             }

@@ -1,5 +1,5 @@
-//! Material libraries: `Kd`, `Ks`, `Ns` and `Ka` of MTL files, and pictures in their place. Colours
-//! are taken as linear.
+//! Material libraries: `Kd`, `Ks`, `Ns` and `Ka` of MTL files, and their textures. Colours are taken as
+//! linear.
 
 use super::lines::{Line, Lines};
 use crate::import::error::ImportError;
@@ -10,13 +10,13 @@ use crate::scene::Material;
 use glam::Vec3;
 use std::collections::BTreeMap;
 
-/// A material, still without its pictures.
+/// A material without its images.
 pub(super) struct Entry {
     pub material: Material,
     pub maps: Maps,
 }
 
-/// File names of pictures that colours are multiplied by.
+/// File names of the images that multiply the colours.
 #[derive(Default)]
 pub(super) struct Maps {
     pub diffuse: Option<String>,
@@ -24,7 +24,7 @@ pub(super) struct Maps {
     pub ambient: Option<String>,
 }
 
-/// A material while it is read. It takes no memory of its own: a library may have millions.
+/// A material while it is parsed. It owns no memory: a library may have millions.
 struct Draft<'s> {
     name: &'s [u8],
     diffuse: Option<Vec3>,
@@ -36,8 +36,8 @@ struct Draft<'s> {
     map_ambient: Option<&'s [u8]>,
 }
 
-/// Checks the library in `source` and gives those of its materials that `place` has a place for, by
-/// their names. Notes go to `notes`.
+/// Validates the library in `source` and returns those of its materials that `place` assigns an index to,
+/// by name. Notes go to `notes`.
 pub(super) fn read(
     source: &Source,
     notes: &mut Notes,
@@ -55,11 +55,11 @@ pub(super) fn read(
             continue;
         };
         if keyword.bytes == b"newmtl" {
-            close(draft.replace(begin(source, keyword, &line)?));
+            close(draft.replace(new_draft(source, keyword, &line)?));
             continue;
         }
         let Some(draft) = &mut draft else {
-            let why = format!("{} stands before the first `newmtl`", keyword.quote());
+            let why = format!("{} comes before the first `newmtl`", keyword.quote());
             return Err(source.malformed(keyword.span(), why, "Begin with `newmtl NAME`"));
         };
         match keyword.bytes {
@@ -79,7 +79,7 @@ pub(super) fn read(
             }
             b"map_Kd" | b"map_Ks" | b"map_Ka" => {
                 if skip_options(&mut line) {
-                    *left_out.entry("options of textures").or_default() += 1;
+                    *left_out.entry("texture options").or_default() += 1;
                 }
                 let name = line.rest().bytes;
                 let name = (!name.is_empty()).then_some(name);
@@ -97,14 +97,14 @@ pub(super) fn read(
     }
     close(draft);
     for (what, count) in left_out {
-        notes.add("material files with parts left out", || {
-            format!("{what} of materials left out: {count}")
+        notes.add("material files with skipped parts", || {
+            format!("{what} of materials skipped: {count}")
         });
     }
     Ok(())
 }
 
-/// Moves behind the options of a texture and says whether there were any.
+/// Skips the options of a texture and returns whether there were any.
 fn skip_options(line: &mut Line) -> bool {
     let mut found = false;
     while line.rest().bytes.starts_with(b"-") {
@@ -130,7 +130,7 @@ fn skip_options(line: &mut Line) -> bool {
 
 impl Draft<'_> {
     fn entry(self) -> Entry {
-        // A picture alone is shown as it is.
+        // An image without a colour is shown unchanged.
         let or_white = |color: Option<Vec3>, map: Option<&[u8]>, default: Vec3| {
             color.unwrap_or(if map.is_some() { Vec3::ONE } else { default })
         };
@@ -156,7 +156,11 @@ impl Draft<'_> {
     }
 }
 
-fn begin<'s>(source: &Source, keyword: Token, line: &Line<'s>) -> Result<Draft<'s>, ImportError> {
+fn new_draft<'s>(
+    source: &Source,
+    keyword: Token,
+    line: &Line<'s>,
+) -> Result<Draft<'s>, ImportError> {
     let name = line.rest().bytes;
     if name.is_empty() {
         let why = "a material has no name".to_owned();
@@ -174,7 +178,7 @@ fn begin<'s>(source: &Source, keyword: Token, line: &Line<'s>) -> Result<Draft<'
     })
 }
 
-/// `None` for colours that are given as spectra.
+/// `None` for spectral colours.
 fn color(source: &Source, keyword: Token, line: &mut Line) -> Result<Option<Vec3>, ImportError> {
     let first = line.word();
     if first.is_some_and(|word| matches!(word.bytes, b"spectral" | b"xyz")) {
@@ -193,7 +197,7 @@ fn color(source: &Source, keyword: Token, line: &mut Line) -> Result<Option<Vec3
 fn at_least_zero(source: &Source, keyword: Token, word: Option<Token>) -> Result<f32, ImportError> {
     let Some(word) = word else {
         let why = format!("{} lacks a number", keyword.quote());
-        return Err(source.malformed(keyword.span(), why, "Add it"));
+        return Err(source.malformed(keyword.span(), why, "Add the number"));
     };
     match number::parse(source, word)? {
         value if value >= 0.0 => Ok(value as f32),

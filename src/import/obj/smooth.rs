@@ -1,8 +1,9 @@
-//! Normals of corners that have none: those of flat faces, and smoothing groups.
+//! Normals of corners that have none: of flat faces and of smoothing groups.
 //!
-//! A face is flat unless an `s N` comes before it. In a smoothing group a corner gets the mean of the
-//! faces of the group round its vertex, weighted by area, of those at least that are turned from its
-//! own by at most the crease angle of 60°: a cube stays a cube, and a tube of seven sides is round.
+//! A face is flat unless an `s N` precedes it. In a smoothing group, the normal of a corner is the
+//! area-weighted mean over the faces of the group around its vertex, restricted to faces within the
+//! crease angle of 60° of the corner's own face: a cube keeps its edges, and a tube of seven sides is
+//! smooth.
 
 use super::Reader;
 use super::face::{self, Corner};
@@ -12,32 +13,32 @@ use glam::{DVec3, Vec3};
 /// The cosine of the crease angle.
 const CREASE: f64 = 0.5;
 
-/// Where more faces of a group than these meet in a vertex, all of them count: comparing each with
-/// each would take quadratic time.
+/// If more faces of a group meet in a vertex, all of them are averaged: comparing all pairs would take
+/// quadratic time.
 const MANY: usize = 64;
 
 /// A face of a smoothing group.
 pub(super) struct SmoothFace {
-    /// As long as its area: the whole face counts, so that it matters not how it is cut.
+    /// Area-weighted: the area of the whole polygon, independent of its triangulation.
     normal: DVec3,
     group: u32,
 }
 
-/// The smoothing group that an `s` statement begins; 0 is none.
+/// The smoothing group of an `s` statement; 0 for none.
 pub(super) fn group(word: Option<Token>) -> u32 {
     match word.map(|word| word.bytes) {
         None | Some(b"off" | b"0") => 0,
         Some(word) => {
             let number = std::str::from_utf8(word).ok();
-            // `s on` is what some exporters write.
+            // Some exporters write `s on`.
             number.and_then(|number| number.parse().ok()).unwrap_or(1)
         }
     }
 }
 
 impl Reader<'_> {
-    /// Sees to the corners of `face` that have no normals, where `normal` is the face's own, as long
-    /// as its area.
+    /// Gives normals to the corners of `face` that have none; `normal` is the face's own, weighted by its
+    /// area.
     pub(super) fn complete_normals(&mut self, face: &mut [Corner], normal: DVec3) {
         let is_bare = |corner: &Corner| corner.normal == face::NONE;
         if !face.iter().any(is_bare) {
@@ -55,8 +56,8 @@ impl Reader<'_> {
         }
     }
 
-    /// The index of a normal that the file does not have. Equal ones in a row are one, which lets
-    /// the faces of a plane share their vertices.
+    /// Adds a computed normal. Equal consecutive normals share an index, which lets the faces of a plane
+    /// share their vertices.
     fn made(&mut self, normal: Vec3) -> u32 {
         if self.made_normals.last() != Some(&normal) {
             self.made_normals.push(normal);
@@ -64,7 +65,7 @@ impl Reader<'_> {
         (self.made_normals.len() - 1) as u32
     }
 
-    /// Gives the corners of smoothing groups their normals.
+    /// Computes the normals of corners in smoothing groups.
     pub(super) fn smooth(&mut self) {
         let face_of = |corner: &Corner| face::smooth_index(corner.normal);
         let corners = &self.corners;
@@ -87,7 +88,7 @@ impl Reader<'_> {
                 };
                 let around = round.iter().map(|&other| face(other).normal).filter(near);
                 let mean = around.sum::<DVec3>().normalize_or_zero().as_vec3();
-                // All of a large round have the same.
+                // All corners at a vertex with many faces get the same normal.
                 let known = means[first..].iter().position(|known| *known == mean);
                 made[start + i] = (first + known.unwrap_or(means.len() - first)) as u32;
                 if known.is_none() {

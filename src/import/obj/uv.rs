@@ -1,4 +1,4 @@
-//! Texture coordinates: the `vt` statement, and which vertices have them.
+//! Texture coordinates: the `vt` statement, and which vertices keep them.
 
 use super::Reader;
 use super::face;
@@ -10,7 +10,7 @@ use crate::scene::Material;
 use glam::Vec2;
 
 impl Reader<'_> {
-    /// u and perhaps v; w, which only solid textures use, is passed over.
+    /// Reads u and optionally v; skips w, which only solid textures use.
     pub(super) fn texture_coordinates(
         &mut self,
         keyword: Token,
@@ -26,14 +26,13 @@ impl Reader<'_> {
             Some(word) => number::parse(self.source, word)?,
             None => 0.0,
         };
-        // Far beyond, where f32 has whole numbers only, all places in a texture are the same.
+        // Beyond this, f32 has whole numbers only, and all texture coordinates are equivalent.
         let place = |x: f64| x.clamp(-1e9, 1e9) as f32;
         self.uvs.push(Vec2::new(place(u), place(v)));
         Ok(())
     }
 
-    /// Takes u and v from the corners whose material has no use for them, so that they part no
-    /// vertices.
+    /// Removes u and v from corners whose material does not use them, so that they do not split vertices.
     pub(super) fn drop_unwanted_uvs(&mut self, materials: &[Material]) {
         for corner in &mut self.corners {
             let material = &materials[corner.material as usize];
@@ -43,7 +42,7 @@ impl Reader<'_> {
         }
     }
 
-    /// u and v of `vertices`: none at all if all have none. Says so where `materials` want some.
+    /// u and v of `vertices`; empty if none has any. Adds a note if `materials` use them.
     pub(super) fn uvs_of(&mut self, vertices: &[u32], materials: &[Material]) -> Vec<Vec2> {
         let uv = |&vertex: &u32| self.corners[vertex as usize].uv;
         if vertices.iter().any(|v| uv(v) != face::NO_UV) {
@@ -53,7 +52,7 @@ impl Reader<'_> {
         let own = || materials.iter().any(is_textured);
         if self.replaced.unwrap_or_else(own) {
             self.notes.add("meshes without texture coordinates", || {
-                "there are no texture coordinates: textures show one colour each".to_owned()
+                "no texture coordinates: each texture shows a single colour".to_owned()
             });
         }
         Vec::new()

@@ -1,10 +1,10 @@
-//! Corners of faces into vertices: equal corners become one.
+//! Welds equal corners of faces into vertices.
 
 use super::face::Corner;
 
-/// A corner of each vertex, and for each corner the index of its vertex.
+/// One corner for each vertex, and for each corner the index of its vertex.
 ///
-/// By sorting rather than hashing: it takes less memory, and no file can make it slow.
+/// Sorts instead of hashing: it takes less memory, and no input makes it slow.
 pub(super) fn weld(corners: &[Corner]) -> (Vec<u32>, Vec<u32>) {
     let corner = |i: u32| corners[i as usize];
     let mut order: Vec<u32> = (0..corners.len() as u32).collect();

@@ -1,14 +1,13 @@
-//! Whether a picture file can hold what its header announces: asked of its bytes before any memory is
-//! taken for them. Decoders fill the missing part of a truncated JPEG with grey, and allocate whatever
-//! a header claims.
+//! Checks whether an image file can contain what its header announces, before memory is allocated.
+//! Decoders fill the missing part of a truncated JPEG with grey, and allocate whatever a header claims.
 
 use image::ImageFormat;
 
-/// The message about a file that ends too early.
+/// The message for a file that ends too early.
 const CUT: &str = "is truncated: its end is missing";
 
-/// Texels that one byte of a PNG file can stand for: deflate shrinks 1032 bytes to one, and eight
-/// texels of one bit fit in a byte.
+/// Most texels that one byte of a PNG file can represent: deflate compresses 1032 bytes to one, and a
+/// byte holds eight texels of one bit.
 const PNG_TEXELS: u64 = 1032 * 8;
 
 /// The same for Radiance HDR, whose oldest encoding repeats a texel 65,535 times in eight bytes.
@@ -17,10 +16,10 @@ const HDR_TEXELS: u64 = 8192;
 /// The same for OpenEXR: deflate again, and at least three channels of two bytes each.
 const EXR_TEXELS: u64 = 1032 / 2;
 
-/// Checks that `bytes`, a picture of `texels`, are all there and can hold so many.
+/// Checks that `bytes`, an image of `texels` texels, are complete and can represent that many.
 ///
 /// # Errors
-/// What is wrong with it, as a clause.
+/// The problem as a clause.
 pub(super) fn check(format: ImageFormat, bytes: &[u8], texels: u64) -> Result<(), String> {
     let most = match format {
         ImageFormat::Jpeg => return jpeg(bytes),
@@ -49,7 +48,7 @@ fn png(bytes: &[u8]) -> Result<(), String> {
             return Err(CUT.to_owned());
         };
         let length = u32::from_be_bytes([head[0], head[1], head[2], head[3]]);
-        // Behind the data stands its checksum.
+        // A checksum follows the data.
         let Some(next) = body.get(length as usize..).and_then(|body| body.get(4..)) else {
             return Err(CUT.to_owned());
         };
@@ -61,7 +60,7 @@ fn png(bytes: &[u8]) -> Result<(), String> {
 }
 
 /// Follows the markers of a JPEG file (ITU-T T.81, annex B) to the end of the image, and compares the
-/// length of its scans with the number of blocks: each takes a bit at least, its mean.
+/// length of its scans with the number of blocks, each of which takes at least one bit for its mean.
 fn jpeg(bytes: &[u8]) -> Result<(), String> {
     let cut = || CUT.to_owned();
     let (mut at, mut scanned, mut blocks) = (2, 0, 0);
@@ -81,7 +80,7 @@ fn jpeg(bytes: &[u8]) -> Result<(), String> {
                 let length = bytes.get(at..at + 2).ok_or_else(cut)?;
                 let length = usize::from(u16::from_be_bytes([length[0], length[1]]));
                 let segment = bytes.get(at + 2..at + length.max(2)).ok_or_else(cut)?;
-                // Start of frame; 0xc4, 0xc8 and 0xcc are something else.
+                // Start of frame; 0xc4, 0xc8 and 0xcc have other meanings.
                 if matches!(marker, 0xc0..=0xcf) && !matches!(marker, 0xc4 | 0xc8 | 0xcc) {
                     blocks = frame_blocks(segment).max(blocks);
                 }
@@ -95,14 +94,14 @@ fn jpeg(bytes: &[u8]) -> Result<(), String> {
     }
 }
 
-/// The number of blocks of 8 × 8 values in all components of a frame; 0 if its header makes no sense,
-/// which is for the decoder to say.
+/// The number of 8 × 8 blocks in all components of a frame; 0 if the header is invalid, which the decoder
+/// reports.
 fn frame_blocks(segment: &[u8]) -> u64 {
     let Some((&[_, h1, h0, w1, w0, _], components)) = segment.split_first_chunk::<6>() else {
         return 0;
     };
     let (height, width) = (u16::from_be_bytes([h1, h0]), u16::from_be_bytes([w1, w0]));
-    // Of three bytes for each component the second has both sampling factors.
+    // Each component has three bytes, of which the second holds both sampling factors.
     let factors = || {
         components
             .as_chunks::<3>()

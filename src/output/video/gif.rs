@@ -1,5 +1,5 @@
-//! GIF: one palette for the whole video, and of each frame only the rectangle that changes, with
-//! the pixels in it that do not left transparent.
+//! GIF: one palette for the whole video. Each frame stores only the rectangle that changed, with
+//! unchanged pixels transparent.
 
 use super::palette::{Dither, MAX_COLOURS, Palette, Samples};
 use super::{FrameRate, Frames, Picture8, VideoFormat, VideoOptions, failed};
@@ -9,18 +9,18 @@ use std::borrow::Cow;
 use std::fmt::Display;
 use std::ops::Range;
 
-/// Frames that the palette is trained on.
+/// Number of frames that the palette is trained on.
 const TRAINED: usize = 32;
 
-/// The index of what stays as it was.
+/// The index of unchanged pixels.
 const UNCHANGED: u8 = MAX_COLOURS as u8;
 
-/// The bytes of the file.
+/// The contents of the file.
 pub(super) fn encode(mut frames: Frames, options: &VideoOptions) -> Result<Vec<u8>, OutputError> {
     let palette = palette(&mut frames)?;
     let side = |pixels: u32| u16::try_from(pixels).map_err(refused);
     let (width, height) = (side(frames.width)?, side(frames.height)?);
-    // In full, so that the table has the index of what is unchanged.
+    // Full size, so that the table includes the index of unchanged pixels.
     let mut colours = palette.colours.clone();
     colours.resize(usize::from(UNCHANGED) + 1, [0; 3]);
     let mut file =
@@ -42,15 +42,15 @@ fn palette(frames: &mut Frames) -> Result<Palette, OutputError> {
     let count = frames.count.min(TRAINED);
     let mut samples = Samples::new(count);
     for sample in 0..count {
-        // The first and the last, and others evenly between them.
+        // The first, the last, and others evenly spaced between them.
         let index = sample * (frames.count - 1) / (count - 1).max(1);
         samples.add(&frames.get(index)?);
     }
     Ok(samples.palette())
 }
 
-/// For how many hundredths of a second frame `index` shows: the end of each is rounded, so that no
-/// error adds up.
+/// The delay of frame `index` in hundredths of a second. The end times are rounded, so that errors do not
+/// accumulate.
 fn delay(rate: FrameRate, index: usize) -> u16 {
     let (frames, seconds) = rate.parts();
     let (frames, seconds) = (u128::from(frames), u128::from(seconds));
@@ -59,7 +59,7 @@ fn delay(rate: FrameRate, index: usize) -> u16 {
     u16::try_from(start(index + 1) - start(index)).unwrap_or(u16::MAX)
 }
 
-/// What a viewer has before it.
+/// The image that a viewer shows.
 struct Canvas<'a> {
     dither: Dither<'a>,
     width: usize,
@@ -78,7 +78,7 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// Makes the canvas show `picture`, and returns what that takes.
+    /// Draws `picture` on the canvas, and returns the update that does so.
     fn draw(&mut self, picture: Picture8, delay: u16) -> Frame<'static> {
         let is_first = self.shown.is_empty();
         let indices = self.indices(&picture);
@@ -113,7 +113,7 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// Only what differs from the last picture is worked out.
+    /// Only pixels that differ from the last frame are dithered.
     fn indices(&mut self, picture: &Picture8) -> Vec<u8> {
         let pixels = picture.pixels.iter().enumerate();
         pixels
@@ -128,7 +128,7 @@ impl<'a> Canvas<'a> {
     }
 }
 
-/// The columns and rows that hold what is drawn; one pixel where nothing is.
+/// The range of columns and rows that are drawn; one pixel if there are none.
 fn changed(drawn: &[u8], width: usize) -> (Range<usize>, Range<usize>) {
     let mut found: Option<(Range<usize>, Range<usize>)> = None;
     for (y, line) in drawn.chunks_exact(width).enumerate() {

@@ -1,6 +1,6 @@
-//! H.264 in MP4, so that browsers and QuickTime play it: constrained baseline profile, 4:2:0 of 8
-//! bits, `avc1` with the parameter sets in `avcC` only, the index before the frames, no edit list,
-//! and the colours named twice: in the stream (VUI) and in the file (`colr`).
+//! H.264 in MP4, playable in browsers and QuickTime: constrained baseline profile, 8-bit 4:2:0, `avc1`
+//! with the parameter sets in `avcC` only, the index before the frames, no edit list, and the colour
+//! space given twice: in the stream (VUI) and in the file (`colr`).
 
 use super::{Frames, Planes, VideoFormat, VideoOptions, failed};
 use crate::output::OutputError;
@@ -21,20 +21,20 @@ use shiguredo_mp4::{BoxSize, BoxType, TrackKind};
 use std::fmt::Display;
 use std::num::NonZeroU32;
 
-/// The quantisation parameters of quality 100 and 1. OpenH264 takes none below 12.
+/// The quantisation parameters of quality 100 and 1. OpenH264 accepts none below 12.
 const FINEST_QP: u8 = 12;
 const COARSEST_QP: u8 = 51;
 
-/// Between pictures that need no other: players jump to these.
+/// Distance of key frames, to which players can seek.
 const SECONDS_BETWEEN_KEYFRAMES: f64 = 2.0;
 
-/// Code points of ITU-T H.273: BT.709's primaries and matrix, but sRGB's transfer (13), because that
-/// is how frames are encoded; BT.709's (1) makes players that manage colour show them too bright.
+/// Code points of ITU-T H.273: BT.709's primaries and matrix, but sRGB's transfer function (13), because
+/// frames are sRGB-encoded; with BT.709's (1), colour-managed players show them too bright.
 const PRIMARIES: u16 = 1;
 const TRANSFER: u16 = 13;
 const MATRIX: u16 = 1;
 
-/// The bytes of the file.
+/// The contents of the file.
 pub(super) fn encode(mut frames: Frames, options: &VideoOptions) -> Result<Vec<u8>, OutputError> {
     let size = VideoFormat::Mp4.padded_size(frames.width, frames.height);
     let mut encoder = encoder(options).map_err(refused)?;
@@ -53,13 +53,13 @@ fn encoder(options: &VideoOptions) -> Result<Encoder, openh264::Error> {
     let qp = qp(options.quality);
     let vui = VuiConfig::bt709().transfer_characteristics(h264::TransferCharacteristics::Srgb);
     let config = EncoderConfig::new()
-        // Of the modes that skip no frame the only one that heeds the range: one parameter for all.
+        // The only mode without skipped frames that respects the range: a constant parameter.
         .rate_control_mode(RateControlMode::Bufferbased)
         .qp(QpRange::new(qp, qp))
         .skip_frames(false)
         .max_frame_rate(h264::FrameRate::from_hz(rate as f32))
         .intra_frame_period(IntraFramePeriod::from_num_frames(keyframes))
-        // These spend fewer bits where a camera's picture would hide it.
+        // These spend fewer bits on detail that camera footage would hide.
         .adaptive_quantization(false)
         .background_detection(false)
         .scene_change_detect(false)
@@ -68,7 +68,7 @@ fn encoder(options: &VideoOptions) -> Result<Encoder, openh264::Error> {
     Encoder::with_api_config(OpenH264API::from_source(), config)
 }
 
-/// Finer steps where the eye still sees them: the default quality is hard to tell from the source.
+/// Finer steps where differences are visible: the default quality is hard to distinguish from the source.
 fn qp(quality: u8) -> u8 {
     let loss = f64::from(100 - quality.clamp(1, 100)) / 99.0;
     let range = f64::from(COARSEST_QP - FINEST_QP);
@@ -98,11 +98,11 @@ impl YUVSource for Planes {
     }
 }
 
-/// An MP4 file with one track that grows by a frame at a time.
+/// An MP4 file with one track, written frame by frame.
 struct File {
     muxer: Mp4FileMuxer,
     bytes: Vec<u8>,
-    /// Ticks of a second and of a frame.
+    /// Ticks per second and per frame.
     timescale: NonZeroU32,
     duration: u32,
 }
@@ -111,7 +111,7 @@ impl File {
     fn new(count: usize, options: &VideoOptions) -> Result<Self, OutputError> {
         let (timescale, duration) = options.rate.parts();
         let muxer = Mp4FileMuxer::with_options(Mp4FileMuxerOptions {
-            // The index goes where room is left for it.
+            // Space is reserved for the index.
             reserved_moov_box_size: estimate_maximum_moov_box_size(&[count]),
             ..Mp4FileMuxerOptions::default()
         })
@@ -124,7 +124,7 @@ impl File {
         })
     }
 
-    /// Takes one frame as the encoder leaves it: NAL units after start codes.
+    /// Adds one frame in the encoder's format: NAL units after start codes.
     fn append(&mut self, stream: &[u8]) -> Result<(), OutputError> {
         let units = parse_annexb_nal_units(stream).map_err(refused)?;
         let keyframe = units
@@ -178,7 +178,7 @@ impl File {
     }
 }
 
-/// How to decode the frames, and what their colours are.
+/// The decoder configuration and the colour space.
 fn sample_entry(sps: &[Vec<u8>], pps: &[Vec<u8>]) -> Result<SampleEntry, OutputError> {
     let length_size = LengthSize::FourBytes;
     let config = H264SampleEntryConfig { length_size };
@@ -189,7 +189,7 @@ fn sample_entry(sps: &[Vec<u8>], pps: &[Vec<u8>]) -> Result<SampleEntry, OutputE
     for code in [PRIMARIES, TRANSFER, MATRIX] {
         payload.extend_from_slice(&code.to_be_bytes());
     }
-    // No full range.
+    // Limited range.
     payload.push(0);
     entry.unknown_boxes.push(UnknownBox {
         box_type,

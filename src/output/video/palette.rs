@@ -1,40 +1,40 @@
-//! A palette for all frames of a video, and dithering that depends on nothing but a pixel's place
-//! and colour: what stands still does not flicker.
+//! A palette for all frames of a video, and ordered dithering, which depends only on a pixel's position
+//! and colour: static areas do not flicker.
 
 use super::Picture8;
 use color_quant::NeuQuant;
 use std::collections::BTreeSet;
 
-/// Colours of a palette; the 256th index is left for what does not change.
+/// Colours of a palette; the 256th index is reserved for unchanged pixels.
 pub(super) const MAX_COLOURS: usize = 255;
 
-/// Pixels that a palette is trained on.
+/// Number of pixels that a palette is trained on.
 const SAMPLES: usize = 1 << 17;
 
-/// Bits of a channel in the table of nearest colours.
+/// Bits per channel in the table of nearest colours.
 const TABLE_BITS: u32 = 6;
 
-/// Colours that stand for one between them, and the order in which a 4×4 block takes them (Bayer,
-/// ICC 1973).
+/// Number of colours that represent one between them, and their order in a 4×4 block (Bayer, ICC 1973).
 const MIX: usize = 16;
 const BAYER: [[usize; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
 
-/// The next colour of a mix makes good one part in so many of its error, and so many levels at most: all of it
-/// would be exact and coarse, and far colours would come in where the palette does not reach.
+/// The next colour of a mix compensates this fraction of the error, limited to this many levels.
+/// Compensating all of it would be exact but coarse, and would use distant colours where the palette has
+/// gaps.
 const FEEDBACK_DIVISOR: i32 = 2;
 const MAX_FEEDBACK: i32 = 24;
 
-/// Entries of a cache of mixes, as a power of two.
+/// Entries of the cache of mixes, as a power of two.
 const CACHE_BITS: u32 = 16;
 
-/// Pixels taken evenly over all frames.
+/// Pixels sampled evenly over all frames.
 pub(super) struct Samples {
     frame_count: usize,
     pixels: Vec<[u8; 3]>,
 }
 
 impl Samples {
-    /// Of as many frames as [`Samples::add`] will see.
+    /// For the number of frames that [`Samples::add`] will see.
     pub(super) fn new(frame_count: usize) -> Self {
         Self {
             frame_count,
@@ -46,7 +46,7 @@ impl Samples {
         let wanted = (SAMPLES / self.frame_count).max(1);
         let width = picture.width as usize;
         let mut step = (picture.pixels.len() / wanted).max(1);
-        // So that no column is left out.
+        // So that every column is sampled.
         while step > 1 && gcd(step, width) > 1 {
             step += 1;
         }
@@ -58,8 +58,8 @@ impl Samples {
         if distinct.len() <= MAX_COLOURS {
             return Palette::new(distinct.into_iter().collect());
         }
-        // Training shrinks the range of colours, and no mix reaches beyond it: the outermost of each
-        // corner of the cube are kept as they are.
+        // Training shrinks the range of colours, which no mix can exceed: the extreme colour at each
+        // corner of the cube is kept unchanged.
         let corner = |signs: usize| {
             let outwards = |pixel: &&[u8; 3]| {
                 let along = |c: usize| match signs >> c & 1 {
@@ -87,15 +87,15 @@ fn gcd(a: usize, b: usize) -> usize {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
-/// Colours from dark to light.
+/// Colours sorted from dark to light.
 pub(super) struct Palette {
     pub(super) colours: Vec<[u8; 3]>,
-    /// The index of the nearest colour, for the middle of each cell of the colour cube.
+    /// The index of the nearest colour for the centre of each cell of the colour cube.
     table: Vec<u8>,
 }
 
 impl Palette {
-    /// Of 1 to 255 colours.
+    /// A palette of 1 to 255 colours.
     fn new(mut colours: Vec<[u8; 3]>) -> Self {
         colours.sort_by_key(|&[r, g, b]| {
             2126 * u32::from(r) + 7152 * u32::from(g) + 722 * u32::from(b)
@@ -114,8 +114,8 @@ impl Palette {
         self.table[r << (2 * TABLE_BITS) | g << TABLE_BITS | b]
     }
 
-    /// The indices whose colours add up to about 16 times `colour`, from dark to light (Knoll's
-    /// pattern dithering, US patent 6606166, lapsed).
+    /// The indices whose colours add up to about 16 times `colour`, from dark to light (Knoll's pattern
+    /// dithering, US patent 6606166, expired).
     fn mix(&self, colour: [u8; 3]) -> [u8; MIX] {
         let colour = colour.map(i32::from);
         let mut error = [0; 3];
@@ -135,7 +135,7 @@ impl Palette {
     }
 }
 
-/// Dithers; remembers the mixes of late, because the colours of a picture come again and again.
+/// Dithers, with a cache of recent mixes, because the colours of an image recur.
 pub(super) struct Dither<'a> {
     palette: &'a Palette,
     cache: Vec<([u8; 3], [u8; MIX])>,
@@ -150,7 +150,7 @@ impl<'a> Dither<'a> {
         }
     }
 
-    /// The index that stands for `colour` in column `x` of row `y`.
+    /// The palette index for `colour` in column `x` of row `y`.
     pub(super) fn index(&mut self, colour: [u8; 3], x: usize, y: usize) -> u8 {
         let [r, g, b] = colour;
         // Knuth's multiplicative hashing.

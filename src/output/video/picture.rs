@@ -1,4 +1,4 @@
-//! A frame: 8 bits a channel, from a file or from a developed picture.
+//! A frame of 8 bits per channel, from a file or from a developed image.
 
 use crate::image::Image;
 use crate::output::OutputError;
@@ -6,19 +6,19 @@ use crate::output::encode::level;
 use ::image::{DynamicImage, ImageReader};
 use std::path::Path;
 
-/// A picture of 8 bits a channel, sRGB-encoded.
+/// An image of 8 bits per channel, sRGB-encoded.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Picture8 {
     /// In pixels.
     pub width: u32,
     /// In pixels.
     pub height: u32,
-    /// Red, green and blue, row by row from the top-left; `width * height` of them.
+    /// Red, green and blue, row by row from the top left; `width * height` of them.
     pub pixels: Vec<[u8; 3]>,
 }
 
 impl From<&Image> for Picture8 {
-    /// Takes the values as display values in [0, 1], as PNG files do, and drops opacity.
+    /// Converts display values in [0, 1], like PNG files, and drops opacity.
     fn from(image: &Image) -> Self {
         let levels = |&[r, g, b, _]: &[f32; 4]| [r, g, b].map(level);
         Self {
@@ -29,11 +29,11 @@ impl From<&Image> for Picture8 {
     }
 }
 
-/// Reads one frame back from a PNG, JPEG, OpenEXR or Radiance HDR file. The linear light of the
-/// latter two is clamped to [0, 1] and sRGB-encoded; opacity is dropped.
+/// Reads a frame from a PNG, JPEG, OpenEXR or Radiance HDR file. Linear light of the latter two is
+/// clamped to [0, 1] and sRGB-encoded; opacity is dropped.
 ///
 /// # Errors
-/// A file that cannot be opened, is none of these, is damaged, or is huge beyond reason.
+/// The file cannot be opened, has another format, is damaged, or is unreasonably large.
 pub fn read_frame(path: &Path) -> Result<Picture8, OutputError> {
     let unreadable = |reason: String| OutputError::UnreadableFrame {
         path: path.into(),

@@ -7,7 +7,7 @@ use std::fmt;
 pub struct FrameRate {
     /// Frames, at least 1.
     pub numerator: u32,
-    /// In how many seconds, at least 1.
+    /// Per this many seconds, at least 1.
     pub denominator: u32,
 }
 
@@ -18,18 +18,18 @@ impl FrameRate {
         denominator: 1,
     };
 
-    /// NTSC's are 1000/1001 of these.
+    /// NTSC rates are 1000/1001 of these.
     const NTSC: [u32; 5] = [24, 30, 48, 60, 120];
 
-    /// Within this of an NTSC rate, in frames per second, that rate is meant: 23.98 and 29.97 are
-    /// how people write them.
+    /// A rate within this distance of an NTSC rate, in frames per second, is taken as that rate: 23.98
+    /// and 29.97 are common spellings.
     const NTSC_ROUNDING: f64 = 0.005;
 
     const MAX_DENOMINATOR: u32 = 1001;
 
-    /// The rate nearest to `rate` frames per second: an NTSC one where the decimals are its, else
-    /// the nearest fraction with a denominator of at most 1001. `None` for what is no rate: NaN,
-    /// below 1/1001, above 1000.
+    /// The rate nearest to `rate` frames per second: an NTSC rate if the decimals match, otherwise the
+    /// nearest fraction with a denominator of at most 1001. `None` for NaN and for rates below 1/1001 or
+    /// above 1000.
     pub fn from_f64(rate: f64) -> Option<Self> {
         if !(1.0 / f64::from(Self::MAX_DENOMINATOR)..=1000.0).contains(&rate) {
             return None;
@@ -47,7 +47,7 @@ impl FrameRate {
             denominator,
         };
         let error = |fraction: &Self| (fraction.as_f64() - rate).abs();
-        // The first of equals, so in lowest terms.
+        // The first of equal fractions has the lowest terms.
         (1..=Self::MAX_DENOMINATOR)
             .map(nearest)
             .min_by(|a, b| error(a).total_cmp(&error(b)))
@@ -59,7 +59,7 @@ impl FrameRate {
         f64::from(frames) / f64::from(seconds)
     }
 
-    /// Numerator and denominator, at least 1 whatever the fields hold.
+    /// Numerator and denominator; the denominator is at least 1 whatever the fields hold.
     pub(super) fn parts(self) -> (u32, u32) {
         (self.numerator.max(1), self.denominator.max(1))
     }

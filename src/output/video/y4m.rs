@@ -1,5 +1,5 @@
-//! YUV4MPEG2: a line of text, then each frame's planes after a word. Described at
-//! <https://wiki.multimedia.cx/index.php/YUV4MPEG2>. The format cannot name the matrix, which is
+//! YUV4MPEG2: a line of text, then each frame's planes after a keyword. Described at
+//! <https://wiki.multimedia.cx/index.php/YUV4MPEG2>. The format cannot specify the matrix, which is
 //! BT.709's here.
 
 use super::{FrameRate, Frames, Picture8, Planes};
@@ -7,8 +7,7 @@ use crate::output::OutputError;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Streams frames as Y4M to any writer, for pipes. Odd sizes are allowed: chroma then covers half a
-/// pixel more.
+/// Streams frames as Y4M to any writer, for pipes. Odd sizes are allowed: chroma is then rounded up.
 pub struct Y4mWriter<W: Write> {
     writer: W,
     width: u32,
@@ -55,7 +54,7 @@ impl<W: Write> Y4mWriter<W> {
         Ok(())
     }
 
-    /// Hands everything on.
+    /// Flushes the writer.
     ///
     /// # Errors
     /// Those of the writer.

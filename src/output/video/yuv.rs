@@ -1,15 +1,15 @@
-//! R′G′B′ → Y′CbCr 4:2:0 as ITU-R BT.709-6 has it, in 8 bits of limited range: luma 16 to 235,
-//! chroma 16 to 240 round 128. A chroma sample sits midway between two rows, at the left one of two
-//! columns: where MPEG-2 put it, and where H.264 and Y4M's `420mpeg2` expect it.
+//! R′G′B′ → Y′CbCr 4:2:0 according to ITU-R BT.709-6, 8 bits, limited range: luma 16 to 235, chroma 16 to
+//! 240 around 128. A chroma sample is located midway between two rows, at the left one of two columns: as
+//! in MPEG-2, H.264 and Y4M's `420mpeg2`.
 
 use super::Picture8;
 
-/// Three planes of samples, row by row from the top-left.
+/// Three planes of samples, row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Planes {
-    /// Of luma, in samples; chroma has half of it, rounded up.
+    /// Width of the luma plane; chroma has half of it, rounded up.
     pub width: usize,
-    /// Of luma, in samples; chroma has half of it, rounded up.
+    /// Height of the luma plane; chroma has half of it, rounded up.
     pub height: usize,
     /// Luma, Y′.
     pub y: Vec<u8>,
@@ -22,7 +22,7 @@ pub struct Planes {
 /// Weights of red, green and blue in luma.
 const LUMA: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-/// Steps of luma and of chroma for one level of 255.
+/// Steps of luma and of chroma per level of 255.
 const LUMA_STEP: f64 = 219.0 / 255.0;
 const CHROMA_STEP: f64 = 224.0 / 255.0;
 
@@ -31,7 +31,7 @@ const Y: [i32; 3] = fixed(LUMA, LUMA_STEP);
 const CB: [i32; 3] = difference(2);
 const CR: [i32; 3] = difference(0);
 
-/// `scale` times `weights` with `SHIFT` binary places.
+/// `scale` times `weights` in fixed point with `SHIFT` fractional bits.
 const fn fixed(weights: [f64; 3], scale: f64) -> [i32; 3] {
     let one = (1 << SHIFT) as f64 * scale;
     [
@@ -41,8 +41,8 @@ const fn fixed(weights: [f64; 3], scale: f64) -> [i32; 3] {
     ]
 }
 
-/// Of colour `own` less luma, so scaled that it reaches from -1/2 to 1/2. The three add up to
-/// nothing: greys have no chroma.
+/// Weights of the chroma of colour `own`: its value less luma, scaled to −1/2 to 1/2. The three weights
+/// sum to zero: greys have no chroma.
 const fn difference(own: usize) -> [i32; 3] {
     let mut weights = [-LUMA[0], -LUMA[1], -LUMA[2]];
     weights[own] += 1.0;
@@ -57,9 +57,8 @@ fn sample([r, g, b]: [i32; 3], weights: [i32; 3], shift: u32, zero: i32) -> u8 {
 }
 
 impl Planes {
-    /// The planes of `picture`, whose last column and row are repeated up to `width` and `height`
-    /// (in pixels, neither below the picture's). Rows that `picture` should have and has not are
-    /// black.
+    /// The planes of `picture`, whose last column and row are repeated up to `width` and `height` (in
+    /// pixels, not less than the image's). Missing rows are black.
     pub fn new(picture: &Picture8, (width, height): (u32, u32)) -> Self {
         let (width, height) = (width as usize, height as usize);
         let chroma_width = width.div_ceil(2);

@@ -129,7 +129,7 @@ fn bad_command_lines_exit_2_and_say_why() {
         ),
         (
             animate("--frames 0..3 -o f%d.jpg --size 65536x1"),
-            "JPEG holds at most",
+            "JPEG supports at most",
         ),
         (
             animate(&format!("{video} --quality 0")),
@@ -191,7 +191,10 @@ fn places_that_cannot_be_written_exit_4_before_any_rendering() {
         ),
         ("-o file/f_%d.png", "(file/"),
         ("-o v.y4m --frames-dir file", "(file/"),
-        ("-o old.y4m --no-clobber", "it exists and is to be kept"),
+        (
+            "-o old.y4m --no-clobber",
+            "it exists and must not be replaced",
+        ),
     ] {
         let run = workspace.animate(&format!("--frames 0..3 {flags}"), 4);
         run.says(why);

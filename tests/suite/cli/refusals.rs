@@ -79,10 +79,13 @@ fn bad_command_lines_exit_2_and_say_why() {
         ("--bogus", "unexpected argument '--bogus'"),
         (
             "-o picture.bmp",
-            "cannot tell the picture format (picture.bmp)",
+            "cannot determine the image format (picture.bmp)",
         ),
-        ("-o picture", "cannot tell the picture format (picture)"),
-        ("-o a.jpg --size 65536x1", "JPEG holds at most 65535×65535"),
+        ("-o picture", "cannot determine the image format (picture)"),
+        (
+            "-o a.jpg --size 65536x1",
+            "JPEG supports at most 65535×65535",
+        ),
         ("-o a.png --report a.png", "the picture goes there"),
     ] {
         let run = workspace.run(&format!("render a.scene {flags}")).expect(2);
@@ -138,7 +141,7 @@ fn outputs_that_cannot_be_written_exit_4_before_any_rendering() {
     };
     insta::assert_snapshot!(run("-o no/a.png"), @"error: cannot write the file (no/a.png): the folder no does not exist. Create it first.");
     insta::assert_snapshot!(run("-o ."), @"error: cannot write the file (.): it is a folder. Add a file name.");
-    insta::assert_snapshot!(run("-o old.png --no-clobber"), @"error: cannot write the file (old.png): it exists and is to be kept. Choose another name.");
+    insta::assert_snapshot!(run("-o old.png --no-clobber"), @"error: cannot write the file (old.png): it exists and must not be replaced. Choose another name.");
     insta::assert_snapshot!(run("--report no/a.json"), @"error: cannot write the file (no/a.json): the folder no does not exist. Create it first.");
     assert_eq!(fs::read(workspace.path("old.png")).expect("a file"), b"old");
     assert_eq!(workspace.made(), ["old.png"]);

@@ -1,4 +1,4 @@
-//! The scenes of the project: all of them load, and keep what [`Scene`] promises.
+//! The project's scenes: all of them load, and keep the guarantees of [`Scene`].
 
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
@@ -18,7 +18,7 @@ fn is_color(color: Vec3) -> bool {
     color.is_finite() && color.min_element() >= 0.0
 }
 
-/// Asserts what the docs of [`Scene`] say.
+/// Asserts the guarantees in the docs of [`Scene`].
 fn assert_promises(scene: &Scene) {
     assert!(scene.camera_index < scene.cameras.len() && !scene.materials.is_empty());
     assert!(is_color(scene.ambient));
@@ -112,8 +112,8 @@ fn assert_promises(scene: &Scene) {
     }
 }
 
-/// Asserts what the docs say of nodes, tracks and what hangs on them.
-fn assert_promises_of_movement(scene: &Scene) {
+/// Asserts the documented guarantees of nodes, tracks and objects attached to nodes.
+fn assert_guarantees_of_animation(scene: &Scene) {
     for (index, node) in scene.nodes.iter().enumerate() {
         assert!(node.parent.is_none_or(|parent| parent < index));
         assert!(node.rotation.is_normalized() && node.scale.abs().min_element() > 0.0);
@@ -163,7 +163,7 @@ fn every_scene_of_the_project_loads_whole() {
         }
         let scene = import::load(&path).unwrap_or_else(|error| panic!("{error}"));
         assert_promises(&scene);
-        assert_promises_of_movement(&scene);
+        assert_guarantees_of_animation(&scene);
         assert_eq!(scene.skipped, [""; 0], "{}", path.display());
         assert!(
             !scene.lights.is_empty() && scene.bounds().is_some(),

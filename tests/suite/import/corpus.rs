@@ -1,5 +1,5 @@
-//! Inputs that the fuzzer (`examples/fuzz.rs`) found, or that it starts from: each is read again, to a
-//! scene or one line of refusal.
+//! Inputs that the fuzzer (`examples/fuzz.rs`) found or starts from: each gives a scene or a one-line
+//! error.
 
 use super::message_in;
 use glimray::import::{self, Options};
@@ -18,7 +18,7 @@ fn what_the_fuzzer_found_is_read_or_refused_in_one_line() {
             .into_owned();
         let folder = super::folder(&[]);
         std::fs::copy(&path, folder.path().join(&name)).expect("a copy");
-        // What is no scene is named by one, as the fuzzer does it.
+        // Files that are not scenes are named by a scene, as in the fuzzer.
         let scene = match name.rsplit('.').next() {
             Some("toml" | "scene" | "nff" | "obj") => name.clone(),
             Some("mtl") => with(

@@ -1,4 +1,4 @@
-//! The course's format, to the letter and as found in the wild.
+//! The course's format, by its specification and as found in practice.
 
 use super::{messages, scene};
 use glam::{DVec3, Vec3};
@@ -52,7 +52,7 @@ fn a_plain_file_reads_as_written() {
             shininess: 50.0,
             ambient: Vec3::ONE,
             two_sided: false,
-            // Blended in with as much as the highlight, where mirrors are asked for.
+            // If mirrors are requested, reflection has the weight of the highlight.
             reflect: Vec3::splat(0.6),
             mixing: Mixing::Blend,
             ..Material::default()
@@ -74,7 +74,7 @@ fn a_plain_file_reads_as_written() {
 }
 
 #[test]
-fn the_picture_is_the_one_the_course_asks_for() {
+fn the_output_settings_are_those_of_the_course() {
     let scene = scene("a.scene", "0 amb: 0 0 0");
     assert_eq!(scene.cameras, [Camera::default()]);
     assert_eq!(scene.background, Background::Color(Vec3::ONE));
@@ -90,7 +90,7 @@ fn the_picture_is_the_one_the_course_asks_for() {
 }
 
 #[test]
-fn the_oddities_of_files_in_the_wild_change_nothing() {
+fn common_deviations_are_accepted() {
     let plain = scene("a.scene", PLAIN);
     let no_newline = PLAIN.trim_end().to_owned();
     let windows = format!("\u{feff}{}", PLAIN.replace('\n', "\r\n"));
@@ -117,7 +117,7 @@ fn a_wrong_count_is_reported_and_all_objects_are_read() {
         assert_eq!(scene.skipped.len(), 1);
     }
     let scene = scene("a.scene", PLAIN.replacen('2', "5", 1));
-    assert_snapshot!(scene.skipped.join("\n"), @"the file announces 5 objects, but has 2: all of them are read");
+    assert_snapshot!(scene.skipped.join("\n"), @"the file announces 5 objects, but contains 2: all of them are read");
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn the_students_extensions_are_read_and_reported() {
         light pos: 0 5 0 col: 1 1 1 area_light: true area_u: 1 0 0 area_v: 0 0 1 samples: 16";
     let scene = scene("a.scene", text);
     assert_eq!((scene.shapes.len(), scene.lights.len()), (2, 1));
-    assert_snapshot!(scene.skipped.join("\n"), @"`ref:` is not rendered yet (found 2 times)");
+    assert_snapshot!(scene.skipped.join("\n"), @"`ref:` is not supported (found 2 times)");
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn area_lights_of_students_are_rectangles_that_do_not_fade() {
 }
 
 #[test]
-fn what_an_area_light_lacks_is_reported() {
+fn missing_keys_of_area_lights_are_reported() {
     let light = "light pos: 0 5 0 col: 1 1 1";
     let text = format!(
         "4 amb: 0 0 0 samples: 3
@@ -228,8 +228,8 @@ fn flat_triangles_are_dropped_and_zero_normals_recomputed() {
     assert_eq!(scene.triangle_count(), 1);
     assert_eq!(&scene.meshes[0].normals[3..], [Vec3::Z; 3]);
     assert_snapshot!(scene.skipped.join("\n"), @r"
-1 triangle without area dropped
-3 normals without length recomputed
+dropped 1 triangle without area
+recomputed 3 normals of zero length
 ");
 
     let nothing = super::scene("a.scene", format!("1 amb: 0 0 0 {flat}"));
@@ -251,7 +251,7 @@ fn triangles_far_away_keep_their_shape() {
 }
 
 #[test]
-fn every_mistake_has_its_message() {
+fn every_error_has_a_message() {
     let sphere = "1\namb: 0 0 0\nsphere pos: 0 0 -3 rad: 1 dif: 1 1 1 spe: 0 0 0 shi: 1\n";
     let change = |from: &str, to: &str| sphere.replacen(from, to, 1);
     let texts = [
@@ -305,17 +305,17 @@ fn every_mistake_has_its_message() {
 bad scene (a.scene): the file is empty. Check that it was written completely.
 bad scene (a.scene:1:1): the file ends where the number of objects `N` should be. Check that it is complete.
 bad scene (a.scene:1:1): `many` is not a number. Write a decimal number such as -0.5 or 2e3.
-bad scene (a.scene:1:1): `-1` is not a number of objects. Write a whole number, 0 or more.
-bad scene (a.scene:1:1): `1.5` is not a number of objects. Write a whole number, 0 or more.
+bad scene (a.scene:1:1): `-1` is not a count of objects. Write a whole number, 0 or more.
+bad scene (a.scene:1:1): `1.5` is not a count of objects. Write a whole number, 0 or more.
 bad scene (a.scene:1:2): the file ends where `amb:` should be. Check that it is complete.
 bad scene (a.scene:1:3): expected `amb:`, found `sphere`. Begin the file with N and `amb: R G B`.
 bad scene (a.scene:1:11): the file ends where a number of `amb:` should be. Check that it is complete.
 bad scene (a.scene:2:8): `-1` in `amb:` is negative. Write 0 or more.
 bad scene (a.scene:3:1): unknown object `shpere`, did you mean `sphere`? Objects are `sphere`, `triangle` and `light`.
 bad scene (a.scene:3:1): unknown object `torus`. Objects are `sphere`, `triangle` and `light`.
-bad scene (a.scene:3:20): unknown key `rads:`, did you mean `rad:`? A sphere takes `pos:`, `rad:`, `dif:`, `spe:`, `shi:`, each once.
-bad scene (a.scene:3:20): unknown key `reflectivity:`. A sphere takes `pos:`, `rad:`, `dif:`, `spe:`, `shi:`, each once.
-bad scene (a.scene:3:20): a second `pos:` before `rad:`. A sphere takes `pos:`, `rad:`, `dif:`, `spe:`, `shi:`, each once.
+bad scene (a.scene:3:20): unknown key `rads:`, did you mean `rad:`? A sphere needs `pos:`, `rad:`, `dif:`, `spe:`, `shi:`, each once.
+bad scene (a.scene:3:20): unknown key `reflectivity:`. A sphere needs `pos:`, `rad:`, `dif:`, `spe:`, `shi:`, each once.
+bad scene (a.scene:3:20): a second `pos:` before `rad:`. A sphere needs `pos:`, `rad:`, `dif:`, `spe:`, `shi:`, each once.
 bad scene (a.scene:3:48): the file ends inside a sphere, before `rad:`. Check that it is complete.
 bad scene (a.scene:3:25): the radius `0` is not greater than 0. Write a positive number.
 bad scene (a.scene:3:25): the radius `-1` is not greater than 0. Write a positive number.
@@ -340,8 +340,8 @@ bad scene (a.scene:3:65): `2.5` is not a number of samples. Write a whole number
 bad scene (a.scene:6:1): `area_u:` and `area_v:` span no area. Give two sides that are not parallel.
 bad scene (a.scene:4:49): `area_u:` and `area_v:` span no area. Give two sides that are not parallel.
 bad scene (a.scene:4:1): unknown object `col:`. Objects are `sphere`, `triangle` and `light`.
-bad scene (a.scene:4:18): a new object begins, but the light before it has no `col:`. A light takes `pos:`, `col:`, each once.
+bad scene (a.scene:4:18): a new object begins, but the light before it has no `col:`. A light needs `pos:`, `col:`, each once.
 bad scene (a.scene:4:60): the file ends inside a triangle, before `pos:`. Check that it is complete.
-bad scene (a.scene:4:32): unknown key `rad:`. A vertex of a triangle takes `pos:`, `nor:`, `dif:`, `spe:`, `shi:`, each once.
+bad scene (a.scene:4:32): unknown key `rad:`. A vertex of a triangle needs `pos:`, `nor:`, `dif:`, `spe:`, `shi:`, each once.
 ");
 }

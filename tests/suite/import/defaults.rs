@@ -1,4 +1,4 @@
-//! What a scene gets where it says nothing: samples, and a word where there is no light.
+//! Defaults of scenes: samples per pixel, and the warning about scenes without light.
 
 use super::{folder, scene};
 use glimray::export;
@@ -11,7 +11,7 @@ fn native(text: &str) -> Scene {
     scene("a.toml", text)
 }
 
-/// Scenes whose pictures are noise with one sample for each pixel.
+/// Scenes that are noisy with one sample per pixel.
 const NOISY: [&str; 4] = [
     "[camera]\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\nlens = { radius = 0.1 }\n",
     "[[lights]]\nrectangle = { center = [0, 4, 0], look_at = [0, 0, 0], size = [1, 1] }\n",
@@ -26,12 +26,12 @@ fn a_lens_an_area_light_or_a_shutter_gets_sixteen_samples() {
         assert_eq!(native(text).output.samples, 16, "{text}");
     }
     assert_eq!(native(BALL).output.samples, 1);
-    // A shutter alone blurs nothing.
+    // A shutter alone does not blur.
     assert_eq!(native("output.shutter = 0.5").output.samples, 1);
 }
 
 #[test]
-fn samples_that_a_scene_says_win_and_survive_a_conversion() {
+fn explicit_samples_override_the_default_and_survive_conversion() {
     for text in NOISY {
         for samples in [None, Some(1), Some(4), Some(16)] {
             let text = match samples {
@@ -54,7 +54,7 @@ fn samples_that_a_scene_says_win_and_survive_a_conversion() {
 }
 
 #[test]
-fn a_scene_without_light_is_known() {
+fn a_scene_without_light_is_detected() {
     let dark = [
         BALL.to_owned(),
         format!("background = [1, 1, 1]\n{BALL}"),
@@ -81,12 +81,12 @@ fn a_scene_without_light_is_known() {
         format!(
             "background = {{ bottom = [0, 0, 0], top = [1, 1, 1] }}\n{BALL}material = {{ refract = {{ ior = 1.5 }} }}\n"
         ),
-        // Light that comes later.
+        // Light that is animated.
         format!(
             "[[lights]]\nname = 'l'\npoint = {{ position = [0, 3, 0] }}\n\
              [[animation]]\nlight = 'l'\nproperty = 'intensity'\nkeys = [[0, 0], [1, 1]]\n{BALL}"
         ),
-        // Nothing to be lit.
+        // No surface to light.
         "background = [1, 1, 1]".to_owned(),
     ];
     for text in lit {
@@ -95,7 +95,7 @@ fn a_scene_without_light_is_known() {
     assert!(!scene("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3").is_unlit());
 }
 
-/// The scenes that the manual prints.
+/// The scenes printed in the manual.
 #[test]
 fn the_scenes_in_the_readme_are_lit_and_sampled_well() {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");

@@ -1,4 +1,4 @@
-//! Which files may be read at all.
+//! Which files a scene may read.
 
 use super::{folder, message_in, messages, without_folder};
 use glimray::import::{self, Options};
@@ -7,7 +7,7 @@ use std::path::Path;
 
 const TRIANGLE: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-/// A native scene that names `file`, which holds no quotes.
+/// A native scene that refers to `file`, a name without quotes.
 fn naming(file: &str) -> String {
     format!(
         "[[objects]]\nmesh = {{ file = {} }}\n",
@@ -16,7 +16,7 @@ fn naming(file: &str) -> String {
 }
 
 #[test]
-fn names_that_lead_out_are_refused() {
+fn names_outside_the_folder_are_refused() {
     let names = [
         "../m.obj",
         "a/../../m.obj",
@@ -92,7 +92,7 @@ material file refused (a.obj:1:8): `.` is not a plain file. Name a plain file in
 }
 
 #[test]
-fn allowed_folders_are_open() {
+fn permitted_folders_are_accessible() {
     let elsewhere = folder(&[("m.obj", TRIANGLE)]);
     let dir = elsewhere.path().canonicalize().expect("a folder");
     let absolute = naming(&dir.join("m.obj").display().to_string());
@@ -161,9 +161,9 @@ fn files_that_are_no_scenes_have_their_messages() {
         .map(|name| message_in(&folder, name, &Options::default()))
         .collect();
     assert_snapshot!(lines.join("\n"), @r"
-unknown scene format (a.gltf): the ending `.gltf` is not known. Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file.
-unknown scene format (plain): the name has no ending. Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file.
-unknown scene format (odd.��): the ending `.\u{7}\n` is not known. Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file.
+unknown scene format (a.gltf): the extension `.gltf` is not supported. Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file.
+unknown scene format (plain): the name has no extension. Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file.
+unknown scene format (odd.��): the extension `.\u{7}\n` is not supported. Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file.
 cannot read the file (d.toml): it is a folder. Name a scene file.
 cannot read the file (gone.toml): no such file or folder. Check the path and its permissions.
 cannot read the file (gone.scene): no such file or folder. Check the path and its permissions.
@@ -172,7 +172,7 @@ cannot read the file (gone/a.obj): no such file or folder. Check the path and it
 }
 
 #[test]
-fn endings_may_be_in_capitals() {
+fn extensions_may_be_upper_case() {
     let folder = folder(&[
         ("A.SCENE", b"0 amb: 0 0 0"),
         ("B.Obj", TRIANGLE),

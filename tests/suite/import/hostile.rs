@@ -1,11 +1,11 @@
-//! Input made to hurt: it is refused in one line, soon, and in little memory.
+//! Hostile input: refused in one line, quickly, and in little memory.
 
 use super::{folder, load, messages};
 use crate::support::effort;
 use glimray::import::{self, Options};
 use insta::assert_snapshot;
 
-/// The message, which takes little work.
+/// The message, which must take little time.
 fn soon(name: &str, contents: impl AsRef<[u8]>) -> String {
     effort::within(10_000.0, || messages(name, &[contents]))
 }
@@ -22,7 +22,7 @@ fn utf16(text: &str, mark: &[u8], big_end: bool) -> Vec<u8> {
 }
 
 #[test]
-fn what_is_not_text_says_so() {
+fn files_that_are_not_text_are_reported() {
     let text = "1 amb: 0 0 0\n";
     let files = [
         utf16(text, &[0xff, 0xfe], false),
@@ -71,8 +71,8 @@ bad model (a.obj): the file is UTF-16. Save it as UTF-8.
 bad model (a.obj): the file is UTF-16. Save it as UTF-8.
 bad model (a.obj:1:10): a zero byte: the file is binary, not text. Name a text file.
 bad model (a.obj:1:8): a zero byte: the file is binary, not text. Name a text file.
-bad model (a.obj:1:1): `�PNG` is no statement of an OBJ file. Check that this is a Wavefront OBJ file.
-bad model (a.obj:1:1): `����` is no statement of an OBJ file. Check that this is a Wavefront OBJ file.
+bad model (a.obj:1:1): `�PNG` is not an OBJ statement. Check that this is a Wavefront OBJ file.
+bad model (a.obj:1:1): `����` is not an OBJ statement. Check that this is a Wavefront OBJ file.
 ");
 }
 
@@ -101,10 +101,10 @@ bad scene (a.toml:1:101): tables are nested more than 32 deep. Look for a missin
 bad scene (a.toml:1:66): tables are nested more than 32 deep. Look for a missing bracket.
 bad scene (a.toml:1:67): tables are nested more than 32 deep. Look for a missing bracket.
 bad scene (a.toml:1:71): tables are nested more than 32 deep. Look for a missing bracket.
-bad scene (a.toml:100001:1): a native scene cannot have so many keys and values. Keep geometry in OBJ files, and let fewer keys move it.
-bad scene (a.toml:125001:1): a native scene cannot have so many keys and values. Keep geometry in OBJ files, and let fewer keys move it.
-bad scene (a.toml:1:1000003): a native scene cannot have so many keys and values. Keep geometry in OBJ files, and let fewer keys move it.
-bad scene (a.toml:1:500001): a native scene cannot have so many keys and values. Keep geometry in OBJ files, and let fewer keys move it.
+bad scene (a.toml:100001:1): the scene has too many keys and values. Keep geometry in OBJ or PLY files, and use fewer keys.
+bad scene (a.toml:125001:1): the scene has too many keys and values. Keep geometry in OBJ or PLY files, and use fewer keys.
+bad scene (a.toml:1:1000003): the scene has too many keys and values. Keep geometry in OBJ or PLY files, and use fewer keys.
+bad scene (a.toml:1:500001): the scene has too many keys and values. Keep geometry in OBJ or PLY files, and use fewer keys.
 bad scene (a.toml:1:2000001): key with no value, expected `=`. See https://toml.io for the syntax.
 ");
 }
@@ -122,22 +122,22 @@ fn one_long_line_is_refused_and_not_shown_whole() {
     assert_snapshot!(soon("a.scene", "1/".repeat(LENGTH / 2)), @"bad scene (a.scene:1:1): `1/1/1/1/1/1/1/1/1/1/1/1/1/1/1/1/…` is not a number. Write a decimal number such as -0.5 or 2e3.");
     assert_snapshot!(soon("a.toml", &word), @"file too big (a.toml): 30000000 bytes, but at most 16777216 are read. Split the scene, or keep geometry in OBJ files.");
     assert_snapshot!(soon("a.toml", &word[..15_000_000]), @"bad scene (a.toml:1:15000001): key with no value, expected `=`. See https://toml.io for the syntax.");
-    assert_snapshot!(soon("a.obj", &word), @"bad model (a.obj:1:1): `aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…` is no statement of an OBJ file. Check that this is a Wavefront OBJ file.");
+    assert_snapshot!(soon("a.obj", &word), @"bad model (a.obj:1:1): `aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…` is not an OBJ statement. Check that this is a Wavefront OBJ file.");
     assert_snapshot!(soon("a.obj", format!("v {numbers}")), @"bad model (a.obj:1:17): a vertex has too many numbers. Write `v X Y Z`.");
-    assert_snapshot!(soon("a.obj", format!("v 0 0 0\nf {numbers}")), @"bad model (a.obj:2:131075): a face has more than 65536 corners. Split it.");
+    assert_snapshot!(soon("a.obj", format!("v 0 0 0\nf {numbers}")), @"bad model (a.obj:2:131075): a face has more than 65536 corners. Split the face.");
     assert_snapshot!(soon("a.obj", format!("mtllib {word}")), @"material file refused (a.obj:1:8): `aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…` is not a file name. Name a plain file in the scene folder.");
     assert_snapshot!(soon("a.obj", format!("v 0 0 {}", "9".repeat(LENGTH))), @"bad model (a.obj:1:7): `99999999999999999999999999999999…` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.");
     assert_snapshot!(soon("a.obj", "\\\n".repeat(LENGTH / 2)), @"no error");
     assert_snapshot!(soon("a.nff", &word), @"bad scene (a.nff:1:1): unknown entity `aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…`. Entities are `v`, `b`, `l`, `f`, `c`, `s`, `p` and `pp`.");
     assert_snapshot!(soon("a.nff", &spaces), @"bad scene (a.nff:1:1): the file has no view (`v`). A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`.");
     assert_snapshot!(soon("a.nff", "#".repeat(LENGTH)), @"bad scene (a.nff:1:30000001): the file has no view (`v`). A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`.");
-    assert_snapshot!(soon("a.nff", format!("f 1 1 1 1 0 1 0 1 p 60000 {numbers}")), @"bad scene (a.nff:1:360027): an entity should begin here, not `1`. Count the numbers before it.");
+    assert_snapshot!(soon("a.nff", format!("f 1 1 1 1 0 1 0 1 p 60000 {numbers}")), @"bad scene (a.nff:1:360027): expected an entity, found `1`. Count the numbers before it.");
     assert_snapshot!(soon("a.nff", format!("f 1 1 1 1 0 1 0 1 p 3 0 0 {}", "9".repeat(LENGTH))), @"bad scene (a.nff:1:27): `99999999999999999999999999999999…` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.");
-    assert_snapshot!(soon("a.nff", format!("l {numbers}")), @"bad scene (a.nff:1:15): an entity should begin here, not `1`. Count the numbers before it.");
+    assert_snapshot!(soon("a.nff", format!("l {numbers}")), @"bad scene (a.nff:1:15): expected an entity, found `1`. Count the numbers before it.");
 }
 
 #[test]
-fn many_equal_corners_take_no_quadratic_time() {
+fn many_equal_corners_do_not_take_quadratic_time() {
     let normals: String = "vn 0 0 1\n".repeat(100_000);
     let faces: String = (1..99_999)
         .map(|i| format!("f 1//{i} 2//{} 3//{}\n", i + 1, i + 2))
@@ -167,9 +167,9 @@ fn the_excerpt_is_a_short_window_of_the_line() {
     assert_eq!((position.line, position.column), (1, 223));
 }
 
-/// Every file in the folder of scenes, cut and garbled in ways that repeat.
+/// Every file in the folder of scenes, truncated and corrupted in reproducible ways.
 #[test]
-fn no_damage_to_a_good_file_brings_the_importers_down() {
+fn no_corruption_of_a_file_makes_an_importer_panic() {
     let mut bits = 0x2545_f491_u32;
     let mut random = |below: usize| {
         bits ^= bits << 13;

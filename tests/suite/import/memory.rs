@@ -1,4 +1,4 @@
-//! How much memory files take while they are read, and how much is said about them.
+//! Memory that files take while they are read, and the number of notes about them.
 
 use super::{folder, load, scene};
 use glimray::import::{self, ImportError};
@@ -9,12 +9,12 @@ const NFF: &str = "v\nfrom 0 0 9\nat 0 0 0\nup 0 1 0\nangle 40\nhither 0.1\nreso
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-/// What `glimray inspect` says of a file while the addresses that it may use are limited: those that it
-/// uses for a small file, and `bytes` more.
+/// The output of `glimray inspect` for a file with a limited address space: the size that a small file
+/// needs, and `bytes` more.
 #[cfg(target_os = "linux")]
 fn inspect_within(folder: &tempfile::TempDir, name: &str, bytes: u64) -> std::process::Output {
     use std::process::Command;
-    // Code, libraries, and the stacks of threads.
+    // Code, libraries and thread stacks.
     const PROGRAM: u64 = 400 << 20;
     let limit = (PROGRAM + bytes) >> 10;
     let program = env!("CARGO_BIN_EXE_glimray");
@@ -152,7 +152,7 @@ fn of_many_missing_files_the_first_few_are_named() {
         summed,
         [
             "and 19992 more missing material files",
-            "and 292 more textures left out",
+            "and 292 more skipped textures",
         ]
     );
 }

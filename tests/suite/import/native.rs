@@ -1,4 +1,4 @@
-//! The native format: what it means, and what it says to mistakes.
+//! The native format: its meaning, and its error messages.
 
 use super::{folder, message_in, messages, scene};
 use glam::{DVec3, Vec3};
@@ -30,7 +30,7 @@ fn sphere(scene: &Scene, index: usize) -> (DVec3, f64) {
 }
 
 #[test]
-fn what_is_left_out_has_its_default() {
+fn missing_keys_have_their_defaults() {
     let scene = scene("a.toml", "# nothing\n");
     assert_eq!(scene.output, OutputDefaults::default());
     assert_eq!(
@@ -176,7 +176,7 @@ fn transforms_scale_then_rotate_about_x_y_z_then_move() {
         triangle = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], normals = [[0, 0, 1], [0, 0, 1], [0, 0, 1]] }
         transform = { scale = [1, 1, -1], rotate_deg = [0, 0, 90], translate = [0, 0, 5] }";
     let scene = scene("a.toml", text);
-    // y, scaled to 2y, goes to 2z by the turn round x, then to 2x by the one round y.
+    // y, scaled to 2y, goes to 2z by the rotation about x, then to 2x by the one about y.
     let (center, radius) = sphere(&scene, 0);
     assert!(
         center.distance(DVec3::new(12.0, 0.0, 0.0)) < 1e-12,
@@ -225,7 +225,7 @@ fn triangles_are_flat_unless_they_have_normals_and_may_blend_materials() {
         [Vec3::new(0.0, -half, half); 3]
     );
     assert_eq!(scene.meshes[0].materials[..3], [0, 1, 0]);
-    assert_snapshot!(scene.skipped.join("\n"), @"1 triangle without area dropped");
+    assert_snapshot!(scene.skipped.join("\n"), @"dropped 1 triangle without area");
 }
 
 #[test]
@@ -300,7 +300,7 @@ fn overrides_replace_and_add_values() {
 }
 
 #[test]
-fn every_wrong_override_has_its_message() {
+fn every_invalid_override_has_a_message() {
     let text = "[camera]\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\n[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }";
     let overrides = [
         "",
@@ -336,13 +336,13 @@ override refused (override:1:18): invalid type: string "wide", expected a number
 override refused (override:1:18): `[` is not a TOML value. Write it as in a scene file, strings in quotes.
 override refused (override:1:18): `1\nambient=[1,1,1]` is not a TOML value. Write it as in a scene file, strings in quotes.
 override refused (override:1:20): invalid type: map, expected a number. See `glimray schema` for what is allowed.
-override refused (override:1:1): unknown key `fov`. Known here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `default`, `lens`.
+override refused (override:1:1): unknown key `fov`. Allowed here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `default`, `lens`.
 override refused (override:1:9): invalid type: integer `3`, expected a sequence. See `glimray schema` for what is allowed.
 override refused (override:1:1): `objects` is a list. See the scene for its keys.
 override refused (override:1:1): there is no `objects.1`: the list has 1, counted from 0. See the scene for its keys.
 override refused (override:1:1): there is no `objects.first`: the list has 1, counted from 0. See the scene for its keys.
 override refused (override:1:25): -3 is not greater than 0. See `glimray schema` for what is allowed.
-override refused (override:1:20): unknown material `gold`. Add it under [materials], or name one that is there.
+override refused (override:1:20): unknown material `gold`. Add it under [materials], or use an existing one.
 override refused (override:1:16): `look_at` is the same point as `look_from`. Move one of them.
 "#);
 
@@ -355,13 +355,13 @@ override refused (override:1:16): `look_at` is the same point as `look_from`. Mo
 }
 
 #[test]
-fn an_embedded_scene_reaches_no_files() {
+fn an_embedded_scene_cannot_read_files() {
     let error = with(&[], "objects = [{ mesh = { file = 'Cargo.toml' } }]").expect_err("refused");
     assert_snapshot!(error, @"mesh file refused (embedded.toml:1:30): `Cargo.toml`: a built-in scene has no folder. Name a plain file in the scene folder.");
 }
 
 #[test]
-fn every_mistake_in_a_value_has_its_message() {
+fn every_invalid_value_has_a_message() {
     let object = |surface: &str| format!("[[objects]]\n{surface}");
     let light = |light: &str| format!("[[lights]]\n{light}");
     let texts = [
@@ -436,27 +436,27 @@ bad scene (a.toml:1:21): invalid type: string "blue", expected a number. See `gl
 bad scene (a.toml:1:14): `blue` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `#12345` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): invalid type: floating point `0.5`, expected a colour ([r, g, b] or "#rrggbb"), a gradient or a picture. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:1): unknown key `backgruond`, did you mean `background`? Known here: `output`, `background`, `ambient`, `shadows`, `staged`, `camera`, `cameras`, `textures`, `materials`, `meshes`, `nodes`, `groups`, `objects`, `lights`, `animation`.
-bad scene (a.toml:1:1): unknown key `zebra`. Known here: `output`, `background`, `ambient`, `shadows`, `staged`, `camera`, `cameras`, `textures`, `materials`, `meshes`, `nodes`, `groups`, `objects`, `lights`, `animation`.
+bad scene (a.toml:1:1): unknown key `backgruond`, did you mean `background`? Allowed here: `output`, `background`, `ambient`, `shadows`, `staged`, `camera`, `cameras`, `textures`, `materials`, `meshes`, `nodes`, `groups`, `objects`, `lights`, `animation`.
+bad scene (a.toml:1:1): unknown key `zebra`. Allowed here: `output`, `background`, `ambient`, `shadows`, `staged`, `camera`, `cameras`, `textures`, `materials`, `meshes`, `nodes`, `groups`, `objects`, `lights`, `animation`.
 bad scene (a.toml:1:15): 0 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:15): 640.5 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:15): expected two numbers [width, height], found more. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:18): 0 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:18): 100000 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:22): 99 is not between -32 and 32. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:15): unknown value `filmic`. Known here: `none`, `aces`, `agx`, `reinhard`.
-bad scene (a.toml:1:19): unknown value `sRGB`, did you mean `srgb`? Known here: `srgb`, `linear`.
+bad scene (a.toml:1:15): unknown value `filmic`. Allowed here: `none`, `aces`, `agx`, `reinhard`.
+bad scene (a.toml:1:19): unknown value `sRGB`, did you mean `srgb`? Allowed here: `srgb`, `linear`.
 bad scene (a.toml:1:68): 180 is not an angle between 0.001 and 179.999 degrees. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:56): unknown key `fov`. Known here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `default`, `lens`.
+bad scene (a.toml:1:56): unknown key `fov`. Allowed here: `name`, `look_from`, `look_at`, `carried_by`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `default`, `lens`.
 bad scene (a.toml:1:10): the key `look_from` is missing. Add `look_from = …`.
 bad scene (a.toml:1:31): -1 is not 0 or more. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:19): unknown key `colour`. Known here: `diffuse`, `specular`, `shininess`, `ambient`.
+bad scene (a.toml:1:19): unknown key `colour`. Allowed here: `diffuse`, `specular`, `shininess`, `ambient`.
 bad scene (a.toml:1:25): invalid type: integer `1`, expected a boolean. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:13): invalid type: sequence, expected a map. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:41): 0 is not greater than 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:41): -2 is not greater than 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:41): invalid type: string "2", expected a number. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:12): unknown key `centre`, did you mean `center`? Known here: `center`, `radius`.
+bad scene (a.toml:2:12): unknown key `centre`, did you mean `center`? Allowed here: `center`, `radius`.
 bad scene (a.toml:2:10): the key `radius` is missing. Add `radius = …`.
 bad scene (a.toml:2:39): a direction cannot be [0, 0, 0]. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:25): expected three elements, one for each corner, found fewer. See `glimray schema` for what is allowed.
@@ -465,17 +465,17 @@ bad scene (a.toml:2:23): a scale cannot be 0. See `glimray schema` for what is a
 bad scene (a.toml:2:23): a scale cannot be 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:23): invalid type: boolean `true`, expected a number or [x, y, z]. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:12): invalid type: integer `3`, expected the name of a material, or a table. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:14): unknown key `fong`. Known here: `phong`, `reflect`, `refract`, `optics`, `emission`, `two_sided`.
+bad scene (a.toml:2:14): unknown key `fong`. Allowed here: `phong`, `reflect`, `refract`, `optics`, `emission`, `two_sided`.
 bad scene (a.toml:2:45): -1 is not 0 or more. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:33): unknown key `colour`, did you mean `color`? Known here: `position`, `color`, `intensity`, `attenuation`.
-bad scene (a.toml:2:47): unknown value `linear`. Known here: `none`, `inverse-square`.
+bad scene (a.toml:2:33): unknown key `colour`, did you mean `color`? Allowed here: `position`, `color`, `intensity`, `attenuation`.
+bad scene (a.toml:2:47): unknown value `linear`. Allowed here: `none`, `inverse-square`.
 bad scene (a.toml:2:29): a direction cannot be [0, 0, 0]. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:65): 91 is not an angle between 0 and 90 degrees. See `glimray schema` for what is allowed.
 "##);
 }
 
 #[test]
-fn every_mistake_between_values_has_its_message() {
+fn every_invalid_combination_has_a_message() {
     let camera = |rest: &str| format!("[camera]\nlook_from = [0, 1, 0]\n{rest}");
     let ball = "sphere = { center = [0, 0, 0], radius = 1 }";
     let triangle = "triangle = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]";
@@ -507,17 +507,17 @@ bad scene (a.toml:3:11): `look_at` is the same point as `look_from`. Move one of
 bad scene (a.toml:3:11): `up` is parallel to the viewing direction. Give the camera another `up`.
 bad scene (a.toml:4:6): `up` is parallel to the viewing direction. Give the camera another `up`.
 bad scene (a.toml:1:1): there are both `camera` and `cameras`. Use [[cameras]] for all of them.
-bad scene (a.toml:5:1): a second camera is called `a`. Rename one of them.
-bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
-bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
-bad scene (a.toml:4:12): unknown material `glod`, did you mean `gold`? Add it under [materials], or name one that is there.
-bad scene (a.toml:3:12): unknown material `gold`. Add it under [materials], or name one that is there.
-bad scene (a.toml:3:89): unknown material `old`, did you mean `gold`? Add it under [materials], or name one that is there.
-bad scene (a.toml:3:13): the object reaches out of range: at most 3.4e38 is allowed. Make it smaller, or leave it nearer to the origin.
-bad scene (a.toml:1:1): a light is of one kind. Give it exactly one of `point`, `directional`, `spot`, `rectangle`, `disc` and `sphere`.
-bad scene (a.toml:1:1): a light is of one kind. Give it exactly one of `point`, `directional`, `spot`, `rectangle`, `disc` and `sphere`.
-bad scene (a.toml:1:1): color times intensity is out of range: at most 3.4e38 is allowed. Lower one of them.
-bad scene (a.toml:2:42): `look_at` is where the spot light itself is. Move one of them.
+bad scene (a.toml:5:1): duplicate camera name `a`. Rename one of them.
+bad scene (a.toml:1:1): an object needs exactly one surface or group. Give it one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
+bad scene (a.toml:1:1): an object needs exactly one surface or group. Give it one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
+bad scene (a.toml:4:12): unknown material `glod`, did you mean `gold`? Add it under [materials], or use an existing one.
+bad scene (a.toml:3:12): unknown material `gold`. Add it under [materials], or use an existing one.
+bad scene (a.toml:3:89): unknown material `old`, did you mean `gold`? Add it under [materials], or use an existing one.
+bad scene (a.toml:3:13): the object's coordinates are out of range: at most 3.4e38 is allowed. Make it smaller, or move it nearer to the origin.
+bad scene (a.toml:1:1): a light needs exactly one kind. Give it one of `point`, `directional`, `spot`, `rectangle`, `disc` and `sphere`.
+bad scene (a.toml:1:1): a light needs exactly one kind. Give it one of `point`, `directional`, `spot`, `rectangle`, `disc` and `sphere`.
+bad scene (a.toml:1:1): `color` times `intensity` is out of range: at most 3.4e38 is allowed. Lower one of them.
+bad scene (a.toml:2:42): `look_at` is the position of the spot light itself. Move one of them.
 bad scene (a.toml:2:65): `inner_deg` is greater than `outer_deg`, which is 30. Give the inner cone the smaller angle.
 ");
 }
@@ -528,7 +528,7 @@ fn the_schema_knows_every_key() {
     let text = serde_json::to_string(&schema).expect("JSON");
     assert_eq!(schema["title"], "glimray scene");
     assert_eq!(schema["additionalProperties"], false);
-    // Serde lists the keys that it reads whenever it meets one that it does not.
+    // Serde lists the known keys in errors about unknown ones.
     let tables = [
         "?=1",
         "output.?=1",
@@ -572,7 +572,7 @@ fn the_schema_knows_every_key() {
             .expect_err("an unknown key")
             .to_string();
         let (_, known) = error
-            .split_once("Known here: ")
+            .split_once("Allowed here: ")
             .unwrap_or_else(|| panic!("{error}"));
         for key in known.split('`').skip(1).step_by(2) {
             assert!(

@@ -1,4 +1,4 @@
-//! Animations of the native format: the nodes and tracks that they become, and what is refused.
+//! Animations of the native format: the resulting nodes and tracks, and errors.
 
 use super::{folder, load, message_in, messages, scene};
 use crate::support::effort;
@@ -148,7 +148,7 @@ fn every_copy_of_an_animated_object_follows_one_track() {
 }
 
 #[test]
-fn meshes_and_triangles_hang_on_the_nodes_above_them() {
+fn meshes_and_triangles_are_attached_to_their_parent_nodes() {
     let native = "
         [[groups.flag]]
         triangle = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] }
@@ -207,7 +207,7 @@ fn meshes_and_triangles_hang_on_the_nodes_above_them() {
 }
 
 #[test]
-fn cameras_and_lights_are_carried_and_cameras_follow() {
+fn cameras_and_lights_are_attached_and_cameras_track_targets() {
     let text = format!(
         "[[objects]]
         name = 'car'
@@ -276,7 +276,7 @@ fn a_hidden_object_that_may_appear_is_there() {
 }
 
 #[test]
-fn every_property_and_word_is_heard() {
+fn every_property_and_keyword_has_an_effect() {
     let camera =
         "[camera]\nname = 'c'\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\nlens = { radius = 1 }";
     let lights = "
@@ -344,13 +344,13 @@ fn every_property_and_word_is_heard() {
         (camera(C::FocusDistance), Values::Scalar(vec![7.0])),
         (camera(C::LensRadius), Values::Scalar(vec![0.5])),
         (light(0, L::Position), Values::Vector(vec![point])),
-        // The intensity stays, unless it is animated as well.
+        // The intensity is kept unless it is animated too.
         (light(0, L::Color), Values::Vector(vec![DVec3::splat(4.0)])),
         (light(1, L::Color), Values::Vector(vec![DVec3::Z])),
         (light(1, L::Intensity), Values::Scalar(vec![5.0])),
         (light(2, L::Direction), Values::Vector(vec![DVec3::NEG_Z])),
         (light(2, L::On), Values::Scalar(vec![1.0, 0.0])),
-        // A material whose ambient colour is its diffuse one keeps it so.
+        // A material whose ambient colour defaults to its diffuse one keeps them equal.
         (
             vec![
                 Target::Material(0, M::Diffuse),
@@ -385,13 +385,13 @@ fn every_property_and_word_is_heard() {
         .map(|track| (track.targets.clone(), track.curve.values.clone()))
         .collect();
     assert_eq!(found, expected);
-    // What the animated intensity multiplies is the plain colour.
+    // An animated intensity multiplies the plain colour.
     assert_eq!(scene.lights[0].color, glam::Vec3::new(4.0, 2.0, 0.0));
     assert_eq!(scene.lights[1].color, glam::Vec3::new(1.0, 0.5, 0.0));
 }
 
 #[test]
-fn curves_are_as_the_file_says() {
+fn curves_match_the_file() {
     let curve = |property: &str, rest: &str| {
         let object = format!("[[objects]]\nname = 'a'\n{BALL}");
         scene("a.toml", object + &animated("object = 'a'", property, rest)).tracks[0]
@@ -462,7 +462,7 @@ fn curves_are_as_the_file_says() {
 }
 
 #[test]
-fn the_output_knows_frames_and_shutter() {
+fn the_output_has_frame_rate_and_shutter() {
     let output = |text: &str| scene("a.toml", format!("[output]\n{text}")).output;
     let shutter = |open, close| Shutter { open, close };
     let all = output("fps = 29.97\nduration = 4\nshutter = 0.5");
@@ -481,16 +481,16 @@ fn the_output_knows_frames_and_shutter() {
 }
 
 #[test]
-fn an_animation_of_what_is_nowhere_is_noted() {
+fn an_animation_of_an_unplaced_object_is_noted() {
     let text = format!("[[groups.a]]\nname = 'x'\n{BALL}")
         + &animated("object = 'x'", "scale", "keys = [[0, 2]]");
     let scene = scene("a.toml", text);
     assert!(scene.tracks.is_empty() && scene.nodes.is_empty());
-    assert_snapshot!(scene.skipped.join("\n"), @r#"animation of `x` left out: it is in no part of the scene"#);
+    assert_snapshot!(scene.skipped.join("\n"), @r#"animation of `x` skipped: the object is nowhere in the scene"#);
 }
 
 #[test]
-fn a_hundred_thousand_keys_load_soon_and_a_million_are_refused() {
+fn a_hundred_thousand_keys_load_quickly_and_a_million_are_refused() {
     let text = |count: usize| {
         let keys: String = (0..count).map(|i| format!("[{i},{}],", i % 7)).collect();
         "[materials.m]".to_owned()
@@ -500,12 +500,12 @@ fn a_hundred_thousand_keys_load_soon_and_a_million_are_refused() {
     let scene = effort::within(3000.0, || scene("a.toml", many));
     assert_eq!(scene.tracks[0].curve.times.len(), 100_000);
     let folder = folder(&[("a.toml", text(1_000_000).as_bytes())]);
-    assert_snapshot!(message_in(&folder, "a.toml", &Options::default()), @r#"bad scene (a.toml:5:1263851): a native scene cannot have so many keys and values. Keep geometry in OBJ files, and let fewer keys move it."#);
+    assert_snapshot!(message_in(&folder, "a.toml", &Options::default()), @r#"bad scene (a.toml:5:1263851): the scene has too many keys and values. Keep geometry in OBJ or PLY files, and use fewer keys."#);
     assert!(load("a.toml", text(2)).is_ok());
 }
 
 #[test]
-fn every_mistake_in_an_animation_has_its_message() {
+fn every_invalid_animation_has_a_message() {
     let things = format!(
         "[camera]\nname = 'c'\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\n[[lights]]\nname = 'l'\npoint = {{ position = [0, 0, 0] }}\n[materials.m]\n[[objects]]\nname = 'o'\n{BALL}"
     );
@@ -606,8 +606,8 @@ fn every_mistake_in_an_animation_has_its_message() {
         m("absorption", "[[0, [0, -1, 0]]]"),
     ];
     assert_snapshot!(messages("a.toml", &texts), @r##"
-bad scene (a.toml:15:8): an animation has at least one key. Add one, such as [0, VALUE].
-bad scene (a.toml:15:42): the time 1 is before that of the key in front of it, 2. Give every key a later time than the one before it.
+bad scene (a.toml:15:8): an animation needs at least one key. Add one, such as [0, VALUE].
+bad scene (a.toml:15:42): the time 1 is before that of the previous key, 2. Give every key a later time than the one before it.
 bad scene (a.toml:15:26): two keys have the same time, 0. Give every key a later time than the one before it.
 bad scene (a.toml:15:10): NaN is not a finite number. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:9): 10000000000 is not a time between -1e9 and 1e9 seconds. See `glimray schema` for what is allowed.
@@ -623,41 +623,41 @@ bad scene (a.toml:15:13): invalid type: string "#ffffff", expected three numbers
 bad scene (a.toml:15:9): a key is a time and a value: [time, value]. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:9): a key is a time and a value: [time, value]. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:9): the key `value` is missing. Add `value = …`.
-bad scene (a.toml:15:40): unknown key `tangent`. Known here: `time`, `value`, `in_tangent`, `out_tangent`.
+bad scene (a.toml:15:40): unknown key `tangent`. Allowed here: `time`, `value`, `in_tangent`, `out_tangent`.
 bad scene (a.toml:15:53): only hermite interpolation has tangents. Leave it out, or add `interpolation = "hermite"`.
 bad scene (a.toml:15:9): invalid type: integer `3`, expected a key: [time, value] or { time, value }. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:13): a rotation is a quaternion [x, y, z, w] of length 1, not 0.000. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:13): a rotation is a quaternion [x, y, z, w] of length 1, not 1.010. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:13): expected a quaternion [x, y, z, w], found fewer. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:13): a scale cannot be 0. See `glimray schema` for what is allowed.
-bad scene (a.toml:15:21): on the way from the key before, the scale would pass 0. Keep its signs, or use `interpolation = "step"`.
+bad scene (a.toml:15:21): between the previous key and this one, the scale would pass through 0. Keep the signs, or use `interpolation = "step"`.
 bad scene (a.toml:15:13): invalid type: floating point `1.0`, expected a boolean. See `glimray schema` for what is allowed.
-bad scene (a.toml:15:17): nothing is between true and false. Leave `interpolation` out, or make it "step".
-bad scene (a.toml:15:17): unknown value `bezier`. Known here: `step`, `linear`, `cubic`, `hermite`.
-bad scene (a.toml:16:10): only linear interpolation is paced. Leave `easing` out, or make the interpolation linear.
-bad scene (a.toml:15:10): unknown value `inn`, did you mean `in`? Known here: `none`, `in`, `out`, `in-out`.
+bad scene (a.toml:15:17): true and false cannot be interpolated. Leave `interpolation` out, or make it "step".
+bad scene (a.toml:15:17): unknown value `bezier`. Allowed here: `step`, `linear`, `cubic`, `hermite`.
+bad scene (a.toml:16:10): only linear interpolation has easing. Leave `easing` out, or make the interpolation linear.
+bad scene (a.toml:15:10): unknown value `inn`, did you mean `in`? Allowed here: `none`, `in`, `out`, `in-out`.
 bad scene (a.toml:15:10): x1 and x2 of an easing are between 0 and 1: time runs forward. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:10): y1 and y2 of an easing are between -10 and 10. See `glimray schema` for what is allowed.
-bad scene (a.toml:15:10): unknown value `loop`. Known here: `hold`, `repeat`, `ping-pong`.
-bad scene (a.toml:14:12): unknown value `translat`, did you mean `translate`? Known here: `translate`, `rotation`, `rotate_deg`, `angles`, `scale`, `visible`, `look_from`, `look_at`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `focus_distance`, `lens_radius`, `position`, `direction`, `color`, `intensity`, `on`, `diffuse`, `specular`, `shininess`, `ambient`, `emission`, `reflect`, `transmit`, `opacity`, `ior`, `absorption`.
-bad scene (a.toml:14:12): an object has no such property. Known here: `translate`, `rotation`, `rotate_deg`, `angles`, `scale`, `visible`.
-bad scene (a.toml:14:12): a camera has no such property. Known here: `look_from`, `look_at`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `focus_distance`, `lens_radius`.
-bad scene (a.toml:13:10): unknown object `p`, did you mean `o`? Give an object that `name`, or name one that has it.
-bad scene (a.toml:13:10): unknown camera `d`, did you mean `c`? Give a camera that `name`, or name one that has it.
-bad scene (a.toml:13:9): unknown light `k`, did you mean `l`? Give a light that `name`, or name one that has it.
-bad scene (a.toml:13:12): unknown material `n`, did you mean `m`? Add it under [materials], or name one that is there.
-bad scene (a.toml:12:1): an animation moves one thing. Give it exactly one of `object`, `objects`, `camera`, `light` and `material`.
-bad scene (a.toml:12:1): an animation moves one thing. Give it exactly one of `object`, `objects`, `camera`, `light` and `material`.
-bad scene (a.toml:19:12): a second animation of the same property of the object `o`. Put all keys into one of them.
-bad scene (a.toml:19:12): a second animation of the same property of the object `o`. Put all keys into one of them.
+bad scene (a.toml:15:10): unknown value `loop`. Allowed here: `hold`, `repeat`, `ping-pong`.
+bad scene (a.toml:14:12): unknown value `translat`, did you mean `translate`? Allowed here: `translate`, `rotation`, `rotate_deg`, `angles`, `scale`, `visible`, `look_from`, `look_at`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `focus_distance`, `lens_radius`, `position`, `direction`, `color`, `intensity`, `on`, `diffuse`, `specular`, `shininess`, `ambient`, `emission`, `reflect`, `transmit`, `opacity`, `ior`, `absorption`.
+bad scene (a.toml:14:12): an object has no such property. Allowed here: `translate`, `rotation`, `rotate_deg`, `angles`, `scale`, `visible`.
+bad scene (a.toml:14:12): a camera has no such property. Allowed here: `look_from`, `look_at`, `up`, `fov_y_deg`, `fov_y`, `orthographic`, `focus_distance`, `lens_radius`.
+bad scene (a.toml:13:10): unknown object `p`, did you mean `o`? Add that `name` to an object, or use an existing one.
+bad scene (a.toml:13:10): unknown camera `d`, did you mean `c`? Add that `name` to a camera, or use an existing one.
+bad scene (a.toml:13:9): unknown light `k`, did you mean `l`? Add that `name` to a light, or use an existing one.
+bad scene (a.toml:13:12): unknown material `n`, did you mean `m`? Add it under [materials], or use an existing one.
+bad scene (a.toml:12:1): an animation needs exactly one target. Give it one of `object`, `objects`, `camera`, `light` and `material`.
+bad scene (a.toml:12:1): an animation needs exactly one target. Give it one of `object`, `objects`, `camera`, `light` and `material`.
+bad scene (a.toml:19:12): a second animation of the same property of the object `o`. Put all keys into one animation.
+bad scene (a.toml:19:12): a second animation of the same property of the object `o`. Put all keys into one animation.
 bad scene (a.toml:15:13): 180 is not an angle between 0.001 and 179.999 degrees. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:13): a direction cannot be [0, 0, 0]. See `glimray schema` for what is allowed.
-bad scene (a.toml:15:29): the direction is opposite to that of the key before, which leaves the way open. Add a key in between, or use `interpolation = "step"`.
-bad scene (a.toml:14:12): this takes a lens, which `c` has not. Give the camera a `lens`.
+bad scene (a.toml:15:29): the direction is opposite to that of the previous key, so the path is ambiguous. Add a key in between, or use `interpolation = "step"`.
+bad scene (a.toml:14:12): this needs a lens, but `c` has none. Give the camera a `lens`.
 bad scene (a.toml:15:13): -1 in a colour is negative. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:13): `red` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:13): -1 is not 0 or more. See `glimray schema` for what is allowed.
-bad scene (a.toml:14:12): a light of this kind has no such property. Animate what its own table has.
+bad scene (a.toml:14:12): this kind of light has no such property. Animate a key of its own table.
 bad scene (a.toml:15:13): 1.5 is not between 0 and 1. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:13): 1.5 is not between 0 and 1. See `glimray schema` for what is allowed.
 bad scene (a.toml:15:13): 0 is not an index of refraction between 0.01 and 100. See `glimray schema` for what is allowed.
@@ -666,7 +666,7 @@ bad scene (a.toml:15:13): -1 in an absorption is not between 0 and 1e12. See `gl
 }
 
 #[test]
-fn every_mistake_round_what_moves_has_its_message() {
+fn every_invalid_use_of_a_moving_object_has_a_message() {
     let ball = format!("[[objects]]\nname = 'o'\n{BALL}\n");
     let pair = format!("{ball}repeat = {{ ring = {{ count = 2 }} }}\n");
     let camera = |look_at: &str, rest: &str| {
@@ -718,24 +718,24 @@ fn every_mistake_round_what_moves_has_its_message() {
         "output.shutter = true".to_owned(),
     ];
     assert_snapshot!(messages("a.toml", &texts), @r#"
-bad scene (a.toml:4:11): unknown object `x`, did you mean `o`? Give an object that `name`, or name one that has it.
-bad scene (a.toml:4:11): `o` is in the scene 2 times. Name an object that is not repeated and in no group that is placed more than once.
-bad scene (a.toml:4:11): `o` is in no part of the scene: its group is hidden, or placed nowhere. Place it, or name another object.
+bad scene (a.toml:4:11): unknown object `x`, did you mean `o`? Add that `name` to an object, or use an existing one.
+bad scene (a.toml:4:11): `o` is in the scene 2 times. Name an object that is not repeated and not in a group that is placed more than once.
+bad scene (a.toml:4:11): `o` is nowhere in the scene: its group is hidden or never placed. Place it, or name another object.
 bad scene (a.toml:4:11): `look_at` is the same point as `look_from`. Move one of them.
 bad scene (a.toml:4:11): `up` is parallel to the viewing direction. Give the camera another `up`.
 bad scene (a.toml:4:11): invalid type: integer `3`, expected a point [x, y, z], or the name of an object. See `glimray schema` for what is allowed.
-bad scene (a.toml:12:12): the camera looks at an object already. Animate that object, or give `look_at` a point.
-bad scene (a.toml:5:14): unknown object `p`, did you mean `o`? Give an object that `name`, or name one that has it.
-bad scene (a.toml:10:8): the lens gets out of proportion: its radius can be 1e9, and a million times its focus distance, at most. Make the lens smaller, or its focus distance greater.
-bad scene (a.toml:10:8): the lens gets out of proportion: its radius can be 1e9, and a million times its focus distance, at most. Make the lens smaller, or its focus distance greater.
-bad scene (a.toml:4:14): unknown object `x`. Give an object that `name`, or name one that has it.
-bad scene (a.toml:4:14): `o` is in the scene 2 times. Name an object that is not repeated and in no group that is placed more than once.
-bad scene (a.toml:6:8): a second light is called `l`. Rename one of them.
-bad scene (a.toml:14:8): color times intensity gets out of range: at most 3.4e38 is allowed. Lower one of them.
-bad scene (a.toml:7:8): color times intensity gets out of range: at most 3.4e38 is allowed. Lower one of them.
-bad scene (a.toml:6:12): a light of this kind has no such property. Animate what its own table has.
-bad scene (a.toml:1:1): a plane cannot move: it is endless. Take it out of what is animated, looked at, or carries something, or make it a large rectangle.
-bad scene (a.toml:1:1): a plane cannot move: it is endless. Take it out of what is animated, looked at, or carries something, or make it a large rectangle.
+bad scene (a.toml:12:12): the camera already looks at an object. Animate that object, or give `look_at` a point.
+bad scene (a.toml:5:14): unknown object `p`, did you mean `o`? Add that `name` to an object, or use an existing one.
+bad scene (a.toml:10:8): the lens gets out of proportion: its radius must be at most 1e9, and at most a million times its focus distance. Make the lens smaller, or its focus distance greater.
+bad scene (a.toml:10:8): the lens gets out of proportion: its radius must be at most 1e9, and at most a million times its focus distance. Make the lens smaller, or its focus distance greater.
+bad scene (a.toml:4:14): unknown object `x`. Add that `name` to an object, or use an existing one.
+bad scene (a.toml:4:14): `o` is in the scene 2 times. Name an object that is not repeated and not in a group that is placed more than once.
+bad scene (a.toml:6:8): duplicate light name `l`. Rename one of them.
+bad scene (a.toml:14:8): `color` times `intensity` gets out of range: at most 3.4e38 is allowed. Lower one of them.
+bad scene (a.toml:7:8): `color` times `intensity` gets out of range: at most 3.4e38 is allowed. Lower one of them.
+bad scene (a.toml:6:12): this kind of light has no such property. Animate a key of its own table.
+bad scene (a.toml:1:1): a plane is infinite and cannot move. Do not animate it, attach anything to it or look at it, or use a large rectangle.
+bad scene (a.toml:1:1): a plane is infinite and cannot move. Do not animate it, attach anything to it or look at it, or use a large rectangle.
 bad scene (a.toml:1:14): 0 is not between 0.001 and 1000. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): 1001 is not between 0.001 and 1000. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:19): 0 is not between 1e-6 and 1e9 seconds. See `glimray schema` for what is allowed.

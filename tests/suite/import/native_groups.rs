@@ -1,4 +1,4 @@
-//! Groups and copies of the native format: where they end up, and what is refused.
+//! Groups and copies of the native format: their placement, and errors.
 
 use super::{folder, load, message_in, messages, scene};
 use crate::support::effort;
@@ -103,7 +103,7 @@ fn copies_of_a_grid_are_a_step_apart() {
 }
 
 #[test]
-fn copies_of_a_ring_go_round_its_axis_counter_clockwise() {
+fn copies_of_a_ring_are_counter_clockwise_about_its_axis() {
     let ring = |ring: &str| {
         scene(
             "a.toml",
@@ -134,7 +134,7 @@ fn copies_of_a_ring_go_round_its_axis_counter_clockwise() {
 }
 
 #[test]
-fn a_ring_turns_its_copies_unless_told_not_to() {
+fn a_ring_turns_its_copies_by_default() {
     let sticks = |rest: &str| {
         let text = format!(
             "[[objects]]
@@ -192,7 +192,7 @@ fn scattered_copies_fill_their_box_evenly_and_the_same_every_time() {
     assert_eq!(copies[..100], scattered(100, 3), "more copies move none");
     assert_ne!(copies[0], scattered(1, 4)[0]);
 
-    // Of a uniform distribution over [0, 1]: mean 1/2 and variance 1/12; the mean of n is within
+    // Of a uniform distribution over [0, 1]: mean 1/2 and variance 1/12; the mean of n samples is within
     // five of its standard deviations.
     let evenly = |what: &str, values: Vec<f64>| {
         let count = values.len() as f64;
@@ -218,7 +218,7 @@ fn scattered_copies_fill_their_box_evenly_and_the_same_every_time() {
     };
     evenly("turn", each(turn));
     assert!(copies.iter().all(|copy| copy.translation.y == 5.0));
-    // Neither do neighbours in the list know of each other.
+    // Consecutive copies are uncorrelated too.
     let x = each(|copy| copy.translation.x / 2.0);
     let product = x.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>() / x.len() as f64;
     assert!(
@@ -265,7 +265,7 @@ fn a_material_inside_an_object_is_made_once_for_all_copies() {
 }
 
 #[test]
-fn what_is_hidden_is_left_out_with_all_that_is_in_it() {
+fn hidden_objects_and_groups_are_skipped() {
     let text = format!(
         "[[groups.pair]]
         {BALL}
@@ -284,7 +284,7 @@ fn what_is_hidden_is_left_out_with_all_that_is_in_it() {
 }
 
 #[test]
-fn a_sphere_in_a_slanted_group_is_an_ellipsoid() {
+fn a_sphere_in_a_sheared_group_is_an_ellipsoid() {
     let text = format!(
         "[[groups.a]]
         {BALL}
@@ -306,7 +306,7 @@ fn a_sphere_in_a_slanted_group_is_an_ellipsoid() {
     assert!(far.distance(DVec3::new(3.0, 0.0, 0.0)) < 1e-12, "{far}");
 }
 
-/// Ten groups in each other that place the next one ten times ten times, and at last `inside`.
+/// Ten nested groups, each placed a hundred times by the next, with `inside` in the innermost.
 fn nested(levels: usize, inside: &str) -> String {
     let mut text = format!("[[objects]]\ngroup = 'g0'\n[[groups.g{levels}]]\n{inside}\n");
     for level in 0..levels {
@@ -331,10 +331,10 @@ fn too_many_copies_are_counted_and_refused_before_any_is_made() {
         assert!(error.is_too_big(), "{error}");
     }
     assert_snapshot!(messages("a.toml", &texts), @r#"
-bad scene (a.toml:2:9): the scene has 10000000000 objects with all their copies, but at most 1048575 can be placed. Repeat fewer of them.
-bad scene (a.toml:2:9): the scene has more than 1e38 objects with all their copies, but at most 1048575 can be placed. Repeat fewer of them.
-bad scene (a.toml:2:9): the scene has 21111111111 groups with all their copies, but at most 1048575 can be placed. Repeat fewer of them.
-bad scene (a.toml:3:10): the scene has 1048576 objects with all their copies, but at most 1048575 can be placed. Repeat fewer of them.
+bad scene (a.toml:2:9): the scene has 10000000000 objects, counting all copies, but at most 1048575 are allowed. Repeat fewer of them.
+bad scene (a.toml:2:9): the scene has more than 1e38 objects, counting all copies, but at most 1048575 are allowed. Repeat fewer of them.
+bad scene (a.toml:2:9): the scene has 21111111111 groups, counting all copies, but at most 1048575 are allowed. Repeat fewer of them.
+bad scene (a.toml:3:10): the scene has 1048576 objects, counting all copies, but at most 1048575 are allowed. Repeat fewer of them.
 "#);
     let most =
         format!("[[objects]]\n{BALL}\nrepeat = {{ ring = {{ count = 1048575, radius = 9 }} }}");
@@ -342,12 +342,12 @@ bad scene (a.toml:3:10): the scene has 1048576 objects with all their copies, bu
 }
 
 #[test]
-fn deep_and_wide_groups_take_no_time() {
+fn deep_and_wide_groups_are_counted_quickly() {
     let chain: String = (0..30_000)
         .map(|i| format!("[[groups.g{i:05}]]\ngroup = 'g{:05}'\n", i + 1))
         .collect();
     let last = format!("[[groups.g30000]]\n{BALL}\n");
-    // Every group places all those after it: from the first to the last there are 2^58 ways.
+    // Every group places all those after it: from the first to the last there are 2^58 paths.
     let wide: String = (0..60)
         .flat_map(|i| (i + 1..60).map(move |j| format!("[[groups.g{i:02}]]\ngroup = 'g{j:02}'\n")))
         .collect();
@@ -357,12 +357,12 @@ fn deep_and_wide_groups_take_no_time() {
         ("b.toml", wide.as_bytes()),
     ]);
     let soon = |name| effort::within(2000.0, || message_in(&folder, name, &Options::default()));
-    assert_snapshot!(soon("a.toml"), @r#"bad scene (a.toml:128:9): groups lie in groups more than 64 deep. Put the inner objects further out."#);
-    assert_snapshot!(soon("b.toml"), @"bad scene (b.toml:3544:9): the scene has 288230376151711744 objects with all their copies, but at most 1048575 can be placed. Repeat fewer of them.");
+    assert_snapshot!(soon("a.toml"), @r#"bad scene (a.toml:128:9): groups are nested more than 64 deep. Reduce the nesting."#);
+    assert_snapshot!(soon("b.toml"), @"bad scene (b.toml:3544:9): the scene has 288230376151711744 objects, counting all copies, but at most 1048575 are allowed. Repeat fewer of them.");
 }
 
 #[test]
-fn every_mistake_in_groups_and_copies_has_its_message() {
+fn every_invalid_group_or_copy_has_a_message() {
     let object = |rest: &str| format!("[[objects]]\n{BALL}\n{rest}");
     let tiny = "1e-30";
     let texts = [
@@ -405,17 +405,17 @@ fn every_mistake_in_groups_and_copies_has_its_message() {
         ),
     ];
     assert_snapshot!(messages("a.toml", &texts), @r#"
-bad scene (a.toml:2:9): unknown group `wheel`. Add it under [groups], or name one that is there.
-bad scene (a.toml:4:9): unknown group `wheels`, did you mean `wheel`? Add it under [groups], or name one that is there.
-bad scene (a.toml:2:9): a group is in itself: `a` places `a`. Take one out of the other.
-bad scene (a.toml:6:9): a group is in itself: `b` places `c` places `b`. Take one out of the other.
-bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
+bad scene (a.toml:2:9): unknown group `wheel`. Add it under [groups], or use an existing one.
+bad scene (a.toml:4:9): unknown group `wheels`, did you mean `wheel`? Add it under [groups], or use an existing one.
+bad scene (a.toml:2:9): a group contains itself: `a` places `a`. Remove one of them.
+bad scene (a.toml:6:9): a group contains itself: `b` places `c` places `b`. Remove one of them.
+bad scene (a.toml:1:1): an object needs exactly one surface or group. Give it one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
 bad scene (a.toml:1:1): invalid type: map, expected a sequence. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
+bad scene (a.toml:1:1): an object needs exactly one surface or group. Give it one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
 bad scene (a.toml:6:12): a group has no material. Give one to each of its objects.
-bad scene (a.toml:6:8): a second object is called `x`. Rename one of them.
-bad scene (a.toml:3:10): copies are arranged in one way. Give exactly one of `grid`, `ring`, `scatter` and `points`; groups can be repeated again.
-bad scene (a.toml:3:10): copies are arranged in one way. Give exactly one of `grid`, `ring`, `scatter` and `points`; groups can be repeated again.
+bad scene (a.toml:6:8): duplicate object name `x`. Rename one of them.
+bad scene (a.toml:3:10): a repetition needs exactly one arrangement. Give one of `grid`, `ring`, `scatter` and `points`; to combine them, repeat a group.
+bad scene (a.toml:3:10): a repetition needs exactly one arrangement. Give one of `grid`, `ring`, `scatter` and `points`; to combine them, repeat a group.
 bad scene (a.toml:3:29): 0 is not a whole number from 1 to 1000000000. See `glimray schema` for what is allowed.
 bad scene (a.toml:3:29): expected three counts [x, y, z], found fewer. See `glimray schema` for what is allowed.
 bad scene (a.toml:3:29): invalid type: integer `3`, expected three counts [x, y, z]. See `glimray schema` for what is allowed.
@@ -425,13 +425,13 @@ bad scene (a.toml:3:29): 2000000000 is not a whole number from 1 to 1000000000. 
 bad scene (a.toml:3:41): -1 is not 0 or more. See `glimray schema` for what is allowed.
 bad scene (a.toml:3:39): a direction cannot be [0, 0, 0]. See `glimray schema` for what is allowed.
 bad scene (a.toml:3:19): the key `count` is missing. Add `count = …`.
-bad scene (a.toml:3:58): y of `max` is less than that of `min`. Exchange them.
+bad scene (a.toml:3:58): y of `max` is less than y of `min`. Swap them.
 bad scene (a.toml:3:42): -1 is not a whole number from 0 to 4294967295. See `glimray schema` for what is allowed.
-bad scene (a.toml:3:77): the least factor, 2, is more than the greatest, 1. See `glimray schema` for what is allowed.
+bad scene (a.toml:3:77): the smallest factor, 2, exceeds the largest, 1. See `glimray schema` for what is allowed.
 bad scene (a.toml:3:77): 0 is not greater than 0. See `glimray schema` for what is allowed.
-bad scene (a.toml:3:12): unknown key `spiral`. Known here: `grid`, `ring`, `scatter`, `points`.
-bad scene (a.toml:3:10): the object reaches out of range: at most 3.4e38 is allowed. Make it smaller, or leave it nearer to the origin.
-bad scene (a.toml:3:13): nothing is left of the object, or all of it is out of range, after all scales on the way to it. Check the scales of its groups.
-bad scene (a.toml:3:13): nothing is left of the object, or all of it is out of range, after all scales on the way to it. Check the scales of its groups.
+bad scene (a.toml:3:12): unknown key `spiral`. Allowed here: `grid`, `ring`, `scatter`, `points`.
+bad scene (a.toml:3:10): the object's coordinates are out of range: at most 3.4e38 is allowed. Make it smaller, or move it nearer to the origin.
+bad scene (a.toml:3:13): the object's scale, combined with those of its groups and nodes, is zero or out of range. Check these scales.
+bad scene (a.toml:3:13): the object's scale, combined with those of its groups and nodes, is zero or out of range. Check these scales.
 "#);
 }

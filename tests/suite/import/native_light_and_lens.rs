@@ -1,4 +1,4 @@
-//! The native format: lights with extent, lenses and filters.
+//! The native format: area lights, lenses and filters.
 
 use super::{messages, scene};
 use glam::{DVec3, Vec3};
@@ -17,7 +17,7 @@ fn lens(text: &str) -> Lens {
 }
 
 #[test]
-fn what_is_left_out_of_an_area_light_has_its_default() {
+fn missing_keys_of_area_lights_have_their_defaults() {
     let got = light("sphere = { center = [1, 2, 3], radius = 0.5 }");
     let kind = LightKind::Sphere {
         center: DVec3::new(1.0, 2.0, 3.0),
@@ -37,7 +37,7 @@ fn what_is_left_out_of_an_area_light_has_its_default() {
 }
 
 #[test]
-fn every_key_of_area_lights_is_heard() {
+fn every_key_of_area_lights_has_an_effect() {
     let got = light(
         "disc = { center = [0, 4, 0], normal = [0, -2, 0], radius = 2, color = [1, 0.5, 0], intensity = 3, \
          samples = 5, visible = false, attenuation = 'none' }",
@@ -99,7 +99,7 @@ fn radiance_is_that_of_the_surface() {
 }
 
 #[test]
-fn rectangles_look_where_they_should_and_lie_level() {
+fn rectangles_face_look_at_and_are_level() {
     for look_at in [
         [3.0, 1.0, -2.0],
         [0.0, -5.0, 0.0],
@@ -126,7 +126,7 @@ fn rectangles_look_where_they_should_and_lie_level() {
 }
 
 #[test]
-fn lenses_are_described_by_their_opening_and_their_focus() {
+fn lenses_have_an_aperture_and_a_focus() {
     let round = Lens {
         radius: 0.25,
         focus_distance: 4.0,
@@ -148,7 +148,7 @@ fn lenses_are_described_by_their_opening_and_their_focus() {
         (bladed.blade_count, bladed.blade_rotation),
         (6, -90_f64.to_radians())
     );
-    // 90° high on 24 mm is a focal length of 12 mm; f/2 then has an opening of 6 mm.
+    // A field of view of 90° on 24 mm is a focal length of 12 mm; f/2 then has an aperture of 6 mm.
     assert!((lens("f_number = 2").radius - 0.003).abs() < 1e-12);
     assert!((lens("f_number = 2, sensor_height_mm = 48").radius - 0.006).abs() < 1e-12);
 }
@@ -175,7 +175,7 @@ fn the_output_names_filter_and_light_samples() {
 }
 
 #[test]
-fn every_mistake_has_its_message() {
+fn every_error_has_a_message() {
     let light = |text: &str| format!("[[lights]]\n{text}");
     let lens = |text: &str| {
         format!("[camera]\nlook_from = [0, 0, 5]\nlook_at = [0, 0, 0]\nlens = {{ {text} }}")
@@ -231,47 +231,47 @@ fn every_mistake_has_its_message() {
         lens("radius = 1e-300"),
     ];
     assert_snapshot!(messages("a.toml", &texts), @r"
-bad scene (a.toml:1:1): a rectangle has two sides. Give it either `edge_u` and `edge_v`, or `look_at` and `size`.
-bad scene (a.toml:1:1): a rectangle has two sides. Give it either `edge_u` and `edge_v`, or `look_at` and `size`.
+bad scene (a.toml:1:1): a rectangle needs its edges. Give it either `edge_u` and `edge_v`, or `look_at` and `size`.
+bad scene (a.toml:1:1): a rectangle needs its edges. Give it either `edge_u` and `edge_v`, or `look_at` and `size`.
 bad scene (a.toml:2:44): `edge_u` and `edge_v` span no area. Give two edges that are not parallel.
 bad scene (a.toml:2:44): `edge_u` and `edge_v` span no area. Give two edges that are not parallel.
-bad scene (a.toml:1:1): a rectangle has two sides. Give it either `edge_u` and `edge_v`, or `look_at` and `size`.
-bad scene (a.toml:2:45): `look_at` is the middle of the light itself. Move one of them.
+bad scene (a.toml:1:1): a rectangle needs its edges. Give it either `edge_u` and `edge_v`, or `look_at` and `size`.
+bad scene (a.toml:2:45): `look_at` is the centre of the light itself. Move one of them.
 bad scene (a.toml:2:63): 0 is not greater than 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:63): invalid type: integer `1`, expected two numbers [width, height]. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:59): 0 is not greater than 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:39): a direction cannot be [0, 0, 0]. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:1): a disc shines one way. Give it exactly one of `look_at` and `normal`.
-bad scene (a.toml:1:1): a disc shines one way. Give it exactly one of `look_at` and `normal`.
-bad scene (a.toml:2:40): `look_at` is the middle of the light itself. Move one of them.
+bad scene (a.toml:1:1): a disc needs exactly one direction. Give it either `look_at` or `normal`.
+bad scene (a.toml:1:1): a disc needs exactly one direction. Give it either `look_at` or `normal`.
+bad scene (a.toml:2:40): `look_at` is the centre of the light itself. Move one of them.
 bad scene (a.toml:2:41): 0 is not greater than 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:10): the key `radius` is missing. Add `radius = …`.
 bad scene (a.toml:1:1): there are both `intensity` and `radiance`. Leave out one of them.
 bad scene (a.toml:2:55): -1 is not 0 or more. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:1): its surface is out of range: at most 3.4e38 is allowed in size and radiance. Make it darker, or change its size.
+bad scene (a.toml:1:1): its size or radiance is out of range: at most 3.4e38 is allowed. Make it darker, or change its size.
 bad scene (a.toml:2:54): 0 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:54): 2.5 is not a whole number from 1 to 65536. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:44): unknown key `two_sided`. Known here: `center`, `radius`, `color`, `intensity`, `radiance`, `samples`, `visible`, `attenuation`.
-bad scene (a.toml:1:1): a light is of one kind. Give it exactly one of `point`, `directional`, `spot`, `rectangle`, `disc` and `sphere`.
-bad scene (a.toml:4:8): a lens has one opening. Give it exactly one of `radius` and `f_number`.
+bad scene (a.toml:2:44): unknown key `two_sided`. Allowed here: `center`, `radius`, `color`, `intensity`, `radiance`, `samples`, `visible`, `attenuation`.
+bad scene (a.toml:1:1): a light needs exactly one kind. Give it one of `point`, `directional`, `spot`, `rectangle`, `disc` and `sphere`.
+bad scene (a.toml:4:8): a lens needs exactly one aperture. Give it either `radius` or `f_number`.
 bad scene (a.toml:4:19): 0 is not greater than 0. See `glimray schema` for what is allowed.
-bad scene (a.toml:4:8): a lens has one opening. Give it exactly one of `radius` and `f_number`.
+bad scene (a.toml:4:8): a lens needs exactly one aperture. Give it either `radius` or `f_number`.
 bad scene (a.toml:4:21): 0 is not greater than 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:4:21): -2 is not greater than 0. See `glimray schema` for what is allowed.
-bad scene (a.toml:4:41): `sensor_height_mm` is of no use beside `radius`. Give `f_number` instead of `radius`.
+bad scene (a.toml:4:41): `sensor_height_mm` has no effect with `radius`. Give `f_number` instead of `radius`.
 bad scene (a.toml:4:39): 0 is not greater than 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:4:39): -3 is not greater than 0. See `glimray schema` for what is allowed.
-bad scene (a.toml:4:33): `focus_on` is not in front of the camera. Give a point that it looks towards.
-bad scene (a.toml:4:33): `focus_on` is not in front of the camera. Give a point that it looks towards.
+bad scene (a.toml:4:33): `focus_on` is not in front of the camera. Give a point in front of it.
+bad scene (a.toml:4:33): `focus_on` is not in front of the camera. Give a point in front of it.
 bad scene (a.toml:4:33): there are both `focus_distance` and `focus_on`. Leave out one of them.
 bad scene (a.toml:4:31): 1 is not a whole number from 3 to 64. See `glimray schema` for what is allowed.
 bad scene (a.toml:4:31): 2 is not a whole number from 3 to 64. See `glimray schema` for what is allowed.
 bad scene (a.toml:4:31): 5.5 is not a whole number from 3 to 64. See `glimray schema` for what is allowed.
 bad scene (a.toml:4:31): 65 is not a whole number from 3 to 64. See `glimray schema` for what is allowed.
-bad scene (a.toml:4:8): the lens is out of proportion: its radius can be 1e9, and a million times its focus distance, at most. Make it smaller.
-bad scene (a.toml:4:8): the lens is out of proportion: its radius can be 1e9, and a million times its focus distance, at most. Make it smaller.
-bad scene (a.toml:4:10): unknown key `aperture`. Known here: `radius`, `f_number`, `sensor_height_mm`, `focus_distance`, `focus_on`, `blades`, `blade_rotation_deg`, `blade_rotation`.
-bad scene (a.toml:1:17): unknown value `lanczos`. Known here: `box`, `tent`, `gaussian`, `blackman-harris`, `mitchell`.
+bad scene (a.toml:4:8): the lens is out of proportion: its radius must be at most 1e9, and at most a million times its focus distance. Make it smaller.
+bad scene (a.toml:4:8): the lens is out of proportion: its radius must be at most 1e9, and at most a million times its focus distance. Make it smaller.
+bad scene (a.toml:4:10): unknown key `aperture`. Allowed here: `radius`, `f_number`, `sensor_height_mm`, `focus_distance`, `focus_on`, `blades`, `blade_rotation_deg`, `blade_rotation`.
+bad scene (a.toml:1:17): unknown value `lanczos`. Allowed here: `box`, `tent`, `gaussian`, `blackman-harris`, `mitchell`.
 bad scene (a.toml:1:24): 0 is not between 0.01 and 16. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:24): 100 is not between 0.01 and 16. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:24): 0 is not between 0.001 and 1000. See `glimray schema` for what is allowed.
@@ -295,7 +295,7 @@ fn the_schema_knows_every_key() {
     for table in tables {
         let error = messages("a.toml", &[table.replace('?', "qqqqqq")]);
         let (_, known) = error
-            .split_once("Known here: ")
+            .split_once("Allowed here: ")
             .unwrap_or_else(|| panic!("{error}"));
         for key in known.split('`').skip(1).step_by(2) {
             assert!(

@@ -1,4 +1,4 @@
-//! Haines' Neutral File Format, and the polygons that come with it.
+//! Haines' Neutral File Format and its polygons.
 
 mod polygons;
 mod spd;
@@ -17,7 +17,7 @@ const VIEW: &str =
 
 const MATERIAL: &str = "f 1 0.5 0.25 0.8 0.5 30 0 0\n";
 
-/// A file with a view and a material before `rest`.
+/// A file with a view and a material, followed by `rest`.
 fn file(rest: &str) -> String {
     format!("{VIEW}{MATERIAL}{rest}\n")
 }
@@ -71,7 +71,7 @@ fn a_plain_file_reads_as_written() {
 }
 
 #[test]
-fn highlight_and_mirror_are_white_and_the_diffuse_part_has_the_colour() {
+fn highlight_and_reflection_are_white_and_the_diffuse_part_is_coloured() {
     let scene = scene("a.nff", file("f 1 0.5 0 0.5 0.25 12 0.75 1.5 s 0 0 0 1"));
     assert_eq!(
         scene.materials[1],
@@ -115,7 +115,7 @@ fn lights_without_a_colour_share_one_over_the_root_of_their_number() {
 }
 
 #[test]
-fn the_oddities_of_files_in_the_wild_change_nothing() {
+fn common_deviations_are_accepted() {
     let plain = format!("{VIEW}b 0 0 1\nl 1 2 3\n{MATERIAL}s 0 0 0 1\np 3\n0 0 0\n1 0 0\n0 1 0\n");
     let expected = scene("a.nff", &plain);
     let windows = format!("\u{feff}{}", plain.replace('\n', "\r\n"));
@@ -205,7 +205,7 @@ fn the_rims_of_cones_are_round_and_where_the_file_has_them() {
 }
 
 #[test]
-fn what_is_repaired_is_reported() {
+fn repairs_are_reported() {
     let text = "b 1 1 1 b 0 0 0 s 0 0 0 -1 c 0 0 0 -1 0 0 1 -2
         p 5 0 0 0 0 0 0 1 0 0 0 1 0 0 0 0
         p 2 0 0 0 1 1 1  p 1 2 2 2
@@ -217,17 +217,17 @@ fn what_is_repaired_is_reported() {
     assert_eq!(scene.triangle_count(), 2);
     assert_eq!(scene.meshes[0].normals, [Vec3::Z; 6]);
     assert_snapshot!(scene.skipped.join("\n"), @r"
-2 backgrounds: the last of them counts
-shapes to be seen from inside only (negative radii), shown from both sides: 2
-corners of polygons repeated at once, and dropped: 4
-polygons of fewer than three corners left out: 2
-polygons without area left out: 2
-1 normal without length recomputed
+2 backgrounds: the last one is used
+shapes visible from inside only (negative radii), rendered two-sided: 2
+repeated corners of polygons dropped: 4
+polygons with fewer than three corners skipped: 2
+polygons without area skipped: 2
+recomputed 1 normal of zero length
 ");
 }
 
 #[test]
-fn every_mistake_has_its_message() {
+fn every_error_has_a_message() {
     let view = |from: &str, to: &str| VIEW.replacen(from, to, 1);
     let texts = [
         // The view.
@@ -312,68 +312,68 @@ bad scene (a.nff:3:1): the view before `b` has no `at`. A view is `v` with `from
 bad scene (a.nff:6:19): the file ends inside a view, before `at`. A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`.
 bad scene (a.nff:7:1): the view before `l` has no `resolution`. A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`.
 bad scene (a.nff:4:1): unknown key `upp`, did you mean `up`? A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`.
-bad scene (a.nff:5:1): `angle` begins something new inside a view. A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`.
+bad scene (a.nff:5:1): `angle` starts a new entity inside a view. A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`.
 bad scene (a.nff:4:10): the view before `2` has no `angle`. A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`.
-bad scene (a.nff:1:1): `up` is zero or along the line of sight. Look at something, upright.
-bad scene (a.nff:1:1): `up` is zero or along the line of sight. Look at something, upright.
-bad scene (a.nff:1:1): `from` and `at` are one point. Look at something, upright.
-bad scene (a.nff:3:10): a second `at` in a view. Leave one of them.
+bad scene (a.nff:1:1): `up` is zero or parallel to the viewing direction. Choose distinct points and another `up`.
+bad scene (a.nff:1:1): `up` is zero or parallel to the viewing direction. Choose distinct points and another `up`.
+bad scene (a.nff:1:1): `from` and `at` are the same point. Choose distinct points and another `up`.
+bad scene (a.nff:3:10): a second `at` in a view. Keep one of them.
 bad scene (a.nff:5:7): the angle `0` is out of range. Write degrees between 0 and 180.
 bad scene (a.nff:5:7): the angle `180` is out of range. Write degrees between 0 and 180.
 bad scene (a.nff:5:7): `wide` is not a number. Write a decimal number such as -0.5 or 2e3.
 bad scene (a.nff:6:8): `-1` in a view is negative. Write 0 or more.
-bad scene (a.nff:7:12): `0` is not a number of pixels. Write a whole number from 1 to 65536.
-bad scene (a.nff:7:12): `320.5` is not a number of pixels. Write a whole number from 1 to 65536.
-bad scene (a.nff:7:12): `1000000` is not a number of pixels. Write a whole number from 1 to 65536.
-bad scene (a.nff:8:1): a second view. Leave one `v` in the file.
-bad scene (a.nff:8:1): a second `angle` in a view. Leave one of them.
-bad scene (a.nff:9:1): `angle` stands outside a view. A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`.
+bad scene (a.nff:7:12): `0` is not a count of pixels. Write a whole number from 1 to 65536.
+bad scene (a.nff:7:12): `320.5` is not a count of pixels. Write a whole number from 1 to 65536.
+bad scene (a.nff:7:12): `1000000` is not a count of pixels. Write a whole number from 1 to 65536.
+bad scene (a.nff:8:1): duplicate view. Keep one `v` in the file.
+bad scene (a.nff:8:1): a second `angle` in a view. Keep one of them.
+bad scene (a.nff:9:1): `angle` is outside a view. A view is `v` with `from`, `at`, `up`, `angle`, `hither` and `resolution`.
 bad scene (a.nff:9:1): unknown entity `x`. Entities are `v`, `b`, `l`, `f`, `c`, `s`, `p` and `pp`.
 bad scene (a.nff:9:1): unknown entity `S`, did you mean `s`? Entities are `v`, `b`, `l`, `f`, `c`, `s`, `p` and `pp`.
 bad scene (a.nff:9:1): unknown entity `sphere`, did you mean `s`? Entities are `v`, `b`, `l`, `f`, `c`, `s`, `p` and `pp`.
 bad scene (a.nff:9:1): unknown entity `cylindr`, did you mean `c`? Entities are `v`, `b`, `l`, `f`, `c`, `s`, `p` and `pp`.
 bad scene (a.nff:9:1): unknown entity `tapestry`. Entities are `v`, `b`, `l`, `f`, `c`, `s`, `p` and `pp`.
-bad scene (a.nff:9:1): an entity should begin here, not `1`. Count the numbers before it.
+bad scene (a.nff:9:1): expected an entity, found `1`. Count the numbers before it.
 bad scene (a.nff:9:7): `-1` in a background is negative. Write 0 or more.
 bad scene (a.nff:9:6): the file ends inside a light. A light is `l X Y Z` or `l X Y Z R G B`.
 bad scene (a.nff:9:10): the file ends inside a light. A light is `l X Y Z` or `l X Y Z R G B`.
 bad scene (a.nff:9:13): `-6` in a light is negative. Write 0 or more.
 bad scene (a.nff:8:16): the file ends inside a material. A material is `f R G B Kd Ks SHINE T INDEX`.
-bad scene (a.nff:8:1): what lets light through needs an index of refraction. Write 1 or more as the last number.
+bad scene (a.nff:8:1): a transparent material needs an index of refraction. Write 1 or more as the last number.
 bad scene (a.nff:8:9): `-1` in a material is negative. Write 0 or more.
 bad scene (a.nff:8:1): the colour times Kd is out of range. Write colours from 0 to 1.
 bad scene (a.nff:8:1): no material (`f`) comes before this sphere. Begin objects with `f`.
 bad scene (a.nff:8:1): no material (`f`) comes before this polygon. Begin objects with `f`.
 bad scene (a.nff:9:8): the file ends inside a sphere. A sphere is `s X Y Z RADIUS`.
-bad scene (a.nff:9:9): `s` begins something new inside a sphere. A sphere is `s X Y Z RADIUS`.
+bad scene (a.nff:9:9): `s` starts a new entity inside a sphere. A sphere is `s X Y Z RADIUS`.
 bad scene (a.nff:9:9): the radius `0` is zero. Write a positive number.
-bad scene (a.nff:9:11): an entity should begin here, not `1`. Count the numbers before it.
+bad scene (a.nff:9:11): expected an entity, found `1`. Count the numbers before it.
 bad scene (a.nff:9:7): `nan` is not a finite number. Write a decimal number such as -0.5 or 2e3.
 bad scene (a.nff:9:7): `0x1` is hexadecimal, which is not accepted. Write a decimal number such as -0.5 or 2e3.
 bad scene (a.nff:9:9): `1e39` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.
 bad scene (a.nff:9:9): `1,5` is not a number. Write a decimal number such as -0.5 or 2e3.
 bad scene (a.nff:9:10): the file ends inside a cone. A cone is `c X Y Z RADIUS` and the same of its other end.
-bad scene (a.nff:9:1): both ends of a cone are one point. Place them apart.
+bad scene (a.nff:9:1): both ends of a cone are the same point. Place them apart.
 bad scene (a.nff:9:17): both radii of a cone are zero. Write one or two positive numbers.
 bad scene (a.nff:9:17): only one radius of a cone is negative. Write both positive, or both negative for a surface seen from inside.
 bad scene (a.nff:9:2): the file ends inside a polygon. A polygon is `p N` and N corners of 3 numbers.
-bad scene (a.nff:9:3): `0` is not a number of corners. Write a whole number from 3 to 65536.
-bad scene (a.nff:9:3): `-3` is not a number of corners. Write a whole number from 3 to 65536.
-bad scene (a.nff:9:3): `3.5` is not a number of corners. Write a whole number from 3 to 65536.
+bad scene (a.nff:9:3): `0` is not a count of corners. Write a whole number from 3 to 65536.
+bad scene (a.nff:9:3): `-3` is not a count of corners. Write a whole number from 3 to 65536.
+bad scene (a.nff:9:3): `3.5` is not a count of corners. Write a whole number from 3 to 65536.
 bad scene (a.nff:9:3): `many` is not a number. Write a decimal number such as -0.5 or 2e3.
-bad scene (a.nff:9:3): `1000000` is not a number of corners. Write a whole number from 3 to 65536.
+bad scene (a.nff:9:3): `1000000` is not a count of corners. Write a whole number from 3 to 65536.
 bad scene (a.nff:12:6): the file ends inside a polygon, after 3 of 4 corners. A polygon is `p N` and N corners of 3 numbers.
-bad scene (a.nff:13:1): `p` begins something new inside a polygon, after 3 of 4 corners. A polygon is `p N` and N corners of 3 numbers.
-bad scene (a.nff:13:1): an entity should begin here, not `0`. Count the numbers before it.
-bad scene (a.nff:13:1): `s` begins something new inside a patch, after 1 of 3 corners. A patch is `pp N` and N corners of 6 numbers.
+bad scene (a.nff:13:1): `p` starts a new entity inside a polygon, after 3 of 4 corners. A polygon is `p N` and N corners of 3 numbers.
+bad scene (a.nff:13:1): expected an entity, found `0`. Count the numbers before it.
+bad scene (a.nff:13:1): `s` starts a new entity inside a patch, after 1 of 3 corners. A patch is `pp N` and N corners of 6 numbers.
 bad scene (a.nff:11:3): `zero` is not a number. Write a decimal number such as -0.5 or 2e3.
-bad scene (a.nff:9:1): the polygon crosses itself. List its corners in order round its edge.
-bad scene (a.nff:9:1): the patch crosses itself. List its corners in order round its edge.
+bad scene (a.nff:9:1): the polygon intersects itself. List its corners in order along its boundary.
+bad scene (a.nff:9:1): the patch intersects itself. List its corners in order along its boundary.
 ");
 }
 
 #[test]
-fn a_scene_of_lights_alone_is_a_scene() {
+fn a_scene_may_consist_of_lights_alone() {
     let scene = scene("a.nff", format!("{VIEW}l 0 0 1\n"));
     assert_eq!((scene.shapes.len(), scene.meshes.len()), (0, 0));
     assert_eq!(scene.materials.len(), 1);

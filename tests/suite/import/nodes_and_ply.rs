@@ -1,5 +1,5 @@
-//! What written scenes need of the native format: nodes, PLY files, exact values; and which files a
-//! scene asked for.
+//! Features of the native format for exported scenes: nodes, PLY files, exact values; and the list of
+//! files that a scene depends on.
 
 use super::{folder, message_in, messages, scene};
 use glam::{DAffine3, DVec3, Vec3};
@@ -14,7 +14,7 @@ const PLY: &str = "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 4\npro
     0 0 0 0\n1 0 0 0\n1 1 0 1\n0 1 0 1\n3 0 1 2\n3 0 2 3\n";
 
 #[test]
-fn nodes_carry_objects_lights_and_cameras_and_move_them() {
+fn nodes_move_objects_lights_and_cameras() {
     let text = r#"
         camera = { look_from = [0, 0, 9], look_at = "hand", carried_by = "arm" }
         nodes = [
@@ -89,7 +89,7 @@ fn ply_files_are_read_as_text_and_binary_alike_with_materials_by_number() {
 }
 
 #[test]
-fn copies_stand_at_the_points_of_a_file() {
+fn copies_are_at_the_points_of_a_file() {
     let points = "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\n\
         property double z\nend_header\n1 2 3\n0.1 0 0\n";
     let text = format!(
@@ -110,7 +110,7 @@ fn copies_stand_at_the_points_of_a_file() {
 }
 
 #[test]
-fn values_can_be_said_directly() {
+fn values_can_be_given_exactly() {
     let text = r#"
         staged = true
         [[cameras]]
@@ -173,7 +173,7 @@ fn materials_and_textures_are_numbered_as_the_file_has_them() {
 }
 
 #[test]
-fn bad_nodes_and_double_values_are_refused_with_their_place() {
+fn invalid_nodes_and_duplicate_values_are_refused_with_their_position() {
     let text = |rest: &str| format!("{CAMERA}{rest}\n");
     let refused = messages(
         "a.toml",
@@ -205,15 +205,15 @@ fn bad_nodes_and_double_values_are_refused_with_their_place() {
     );
     let refused: Vec<_> = refused.lines().collect();
     for (line, part) in refused.iter().zip([
-        "a second object is called `a`",
+        "duplicate object name `a`",
         "unknown node `b`",
-        "nothing is left of what the node carries",
+        "the node's scale, combined with those of its parents, is zero",
         "the three axes of a matrix lie in one plane",
-        "`matrix` takes the place of all others",
-        "a second object is called `a`",
+        "`matrix` replaces all others",
+        "duplicate object name `a`",
         "unknown node `a`",
         "a plane cannot move",
-        "`optics` takes the place",
+        "`optics` replaces",
         "unknown mesh `m`",
         "there are both `outer_deg` and `outer`",
     ]) {
@@ -224,7 +224,7 @@ fn bad_nodes_and_double_values_are_refused_with_their_place() {
 }
 
 #[test]
-fn broken_ply_files_are_refused_in_one_line_each() {
+fn damaged_ply_files_are_refused_in_one_line_each() {
     let text = format!(
         "{CAMERA}materials = {{ a = {{}}, b = {{}} }}\nobjects = [{{ mesh = {{ file = 'm.ply', materials = ['a', 'b'] }} }}]"
     );
@@ -237,22 +237,28 @@ fn broken_ply_files_are_refused_in_one_line_each() {
         ),
         (
             number("vertex 4", "vertex 4000000000000"),
-            "ends before all",
+            "shorter than its header announces",
         ),
         (number("vertex 4", "vertex -1"), "line 4 of its header"),
         (number("float x", "real x"), "line 5 of its header"),
         (number("property float z\n", ""), "lack x, y or z"),
-        (number("3 0 2 3\n", "3 0 2 9\n"), "the vertex 9, of 4"),
+        (
+            number("3 0 2 3\n", "3 0 2 9\n"),
+            "the vertex index 9, but there are 4 vertices",
+        ),
         (
             number("3 0 2 3\n", "4 0 2 3 1\n"),
             "4 corners, but only triangles",
         ),
-        (number("3 0 2 3\n", "3 0 2"), "ends before all"),
+        (
+            number("3 0 2 3\n", "3 0 2"),
+            "shorter than its header announces",
+        ),
         (number("1 1 0 1\n", "1 nan 0 1\n"), "no finite number"),
-        (number("1 1 0 1\n", "1 x 0 1\n"), "`x` is no number"),
+        (number("1 1 0 1\n", "1 x 0 1\n"), "`x` is not a number"),
         (
             number("1 1 0 1\n", "1 1 0 2\n"),
-            "the material number 2, of 2",
+            "the material number 2, but there are 2 materials",
         ),
     ] {
         let folder = folder(&[("a.toml", text.as_bytes()), ("m.ply", ply.as_bytes())]);
@@ -265,7 +271,7 @@ fn broken_ply_files_are_refused_in_one_line_each() {
 }
 
 #[test]
-fn a_scene_tells_every_file_that_it_asked_for_whether_it_is_there_or_not() {
+fn a_scene_lists_every_file_it_depends_on_including_missing_ones() {
     let text = format!("{CAMERA}objects = [{{ mesh = {{ file = 'm.obj' }} }}]");
     let obj = "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
     let files: &[(&str, &[u8])] = &[

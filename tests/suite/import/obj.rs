@@ -6,7 +6,7 @@ use glimray::import;
 use glimray::scene::{Background, Material, Scene};
 use insta::assert_snapshot;
 
-/// The area of all triangles.
+/// The total area of all triangles.
 fn area(scene: &Scene) -> f32 {
     let mesh = &scene.meshes[0];
     let corner = |i: u32| mesh.positions[i as usize];
@@ -58,8 +58,8 @@ fn corners_may_be_written_in_every_way() {
 }
 
 #[test]
-fn concave_polygons_are_cut_along_their_inside() {
-    // An arrowhead, and a comb of five teeth, in a plane that is none of the coordinate planes.
+fn concave_polygons_are_triangulated_inside() {
+    // An arrowhead, and a comb of five teeth, in a plane that is not a coordinate plane.
     let arrow = "v 0 0 0\nv 2 0 2\nv 0.5 0.5 0.5\nv 0 2 0\nf 1 2 3 4\n";
     let area_of_arrow = 2.0 * 0.5 * 2_f32.sqrt();
     assert!((area(&scene("a.obj", arrow)) - area_of_arrow).abs() < 1e-6);
@@ -94,18 +94,18 @@ fn faces_of_many_corners_may_be_concave() {
         face += &format!(" {}", i + 1);
     }
     let scene = scene("a.obj", text + &face);
-    // Pairs of triangles from the middle, with 1 and 1/2 as sides.
+    // Pairs of triangles from the centre, with sides 1 and 1/2.
     let expected = 0.25 * COUNT as f64 * (std::f64::consts::TAU / COUNT as f64).sin();
     assert!((f64::from(area(&scene)) - expected).abs() < 1e-4);
     assert_eq!(scene.skipped, [""; 0]);
 }
 
 #[test]
-fn faces_that_cross_themselves_become_fans_and_are_reported() {
+fn self_intersecting_faces_become_fans_and_are_reported() {
     let text = "v 0 0 0\nv 3 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3 4\n";
     let scene = scene("a.obj", text);
     assert_eq!(scene.triangle_count(), 2);
-    let note = "faces that cross themselves or are too large, cut into fans: 1";
+    let note = "faces that intersect themselves or are too large, triangulated as fans: 1";
     assert_eq!(scene.skipped, [note]);
 }
 
@@ -152,12 +152,12 @@ fn faces_without_normals_are_flat_unless_smoothed() {
 }
 
 #[test]
-fn a_cube_looks_like_a_cube_smoothed_or_not() {
+fn a_cube_keeps_its_edges_with_and_without_smoothing() {
     for smoothing in ["", "s 1\n"] {
         let scene = scene("a.obj", smoothing.to_owned() + &prism(4));
         assert_eq!(scene.meshes[0].positions.len(), 24, "{smoothing:?}");
         for normal in &scene.meshes[0].normals {
-            // The sides look along the diagonals of x and z.
+            // The sides face along the diagonals of x and z.
             let is_side = normal.y.abs() < 1e-6 && (normal.x.abs() - normal.z.abs()).abs() < 1e-6;
             assert!(is_side || (normal.y.abs() - 1.0).abs() < 1e-6, "{normal}");
         }
@@ -196,7 +196,7 @@ fn faces_of_different_smoothing_groups_do_not_mix() {
         normals("s 1\nf 1 3 4 2\ns off\nf 2 6 5 1\n".to_owned()).len(),
         2
     );
-    // Materials part vertices, but not what they look like.
+    // Materials split vertices without changing their normals.
     let both = normals("s 1\nusemtl a\nf 1 3 4 2\nusemtl b\nf 2 6 5 1\n".to_owned());
     assert!(
         matches!(both[..], [n] if n.distance(Vec3::Y) < 1e-6),
@@ -237,7 +237,7 @@ fn normals_are_kept_where_given_and_computed_where_not() {
             .count()
     };
     assert_eq!((count(given), count(Vec3::Z)), (3, 3));
-    assert_snapshot!(scene.skipped.join("\n"), @"1 normal without length recomputed");
+    assert_snapshot!(scene.skipped.join("\n"), @"recomputed 1 normal of zero length");
 }
 
 #[test]
@@ -268,14 +268,14 @@ fn materials_come_from_the_library() {
     assert_eq!(red.ambient, Vec3::new(0.0, 0.0, 0.1));
     assert_eq!((green.diffuse, green.ambient), (Vec3::Y, Vec3::Y));
     assert_snapshot!(scene.skipped.join("\n"), @r"
-spectral colours of materials left out: 1
-transparency of materials left out: 1
-texture left out: `red.png` does not exist
+spectral colours of materials skipped: 1
+transparency of materials skipped: 1
+texture skipped: `red.png` does not exist
 ");
 }
 
 #[test]
-fn what_is_missing_or_not_rendered_is_reported() {
+fn missing_and_unsupported_features_are_reported() {
     let text = format!(
         "mtllib gone.mtl lost too.mtl\n{SQUARE}v 0 0 1 1 0 0\no part\ng a b\ns 1\nusemtl gold\nf 1 2 3\nf 1 2\nf 1 1 1\n\
          l 1 2\np 1\ncurv 0 1 1 2\nhologram 7\n"
@@ -286,14 +286,14 @@ fn what_is_missing_or_not_rendered_is_reported() {
 the material file `gone.mtl` does not exist
 the material file `lost` does not exist
 the material file `too.mtl` does not exist
-the material `gold` is not defined: the default takes its place
-faces of fewer than three corners left out: 1
-free-form statements left out: 1
-lines and points left out: 2
-unknown statements left out: 1
-vertex colours left out: 1
+the material `gold` is not defined: the default replaces it
+faces with fewer than three corners skipped: 1
+free-form statements skipped: 1
+lines and points skipped: 2
+unknown statements skipped: 1
+vertex colours skipped: 1
 the first unknown statement is `hologram`
-1 triangle without area dropped
+dropped 1 triangle without area
 ");
 }
 
@@ -316,7 +316,7 @@ fn models_far_away_keep_their_shape() {
 }
 
 #[test]
-fn every_mistake_has_its_message() {
+fn every_error_has_a_message() {
     let square = |rest: &str| format!("{SQUARE}{rest}");
     let texts = [
         String::new(),
@@ -344,8 +344,8 @@ fn every_mistake_has_its_message() {
     ];
     assert_snapshot!(messages("a.obj", &texts), @r"
 bad model (a.obj): the file is empty. Check that it was written completely.
-bad model (a.obj:1:1): `Dear` is no statement of an OBJ file. Check that this is a Wavefront OBJ file.
-bad model (a.obj:1:1): `\u{1}\u{2}` is no statement of an OBJ file. Check that this is a Wavefront OBJ file.
+bad model (a.obj:1:1): `Dear` is not an OBJ statement. Check that this is a Wavefront OBJ file.
+bad model (a.obj:1:1): `\u{1}\u{2}` is not an OBJ statement. Check that this is a Wavefront OBJ file.
 bad model (a.obj:1:1): `v` needs three numbers. Add the missing ones.
 bad model (a.obj:1:7): `x` is not a number. Write a decimal number such as -0.5 or 2e3.
 bad model (a.obj:1:7): `nan` is not a finite number. Write a decimal number such as -0.5 or 2e3.
@@ -364,12 +364,12 @@ bad model (a.obj:5:6): normal 1 does not exist: 0 come before this face. Count f
 bad model (a.obj:5:5): texture coordinate 1 does not exist: 0 come before this face. Count from 1, or backwards from -1.
 bad model (a.obj:5:3): `1//` is not a corner of a face. Write V, V/VT, V//VN or V/VT/VN.
 bad model (a.obj:5:3): `/` is not a corner of a face. Write V, V/VT, V//VN or V/VT/VN.
-bad model (a.obj:5:131075): a face has more than 65536 corners. Split it.
+bad model (a.obj:5:131075): a face has more than 65536 corners. Split the face.
 ");
 }
 
 #[test]
-fn every_mistake_in_a_library_has_its_message() {
+fn every_error_in_a_library_has_a_message() {
     let texts = [
         "Kd 1 0 0",
         "newmtl",
@@ -387,12 +387,12 @@ fn every_mistake_in_a_library_has_its_message() {
     };
     let lines: Vec<_> = texts.iter().map(message).collect();
     assert_snapshot!(lines.join("\n"), @r"
-bad material file (a.mtl:1:1): `Kd` stands before the first `newmtl`. Begin with `newmtl NAME`.
+bad material file (a.mtl:1:1): `Kd` comes before the first `newmtl`. Begin with `newmtl NAME`.
 bad material file (a.mtl:1:1): a material has no name. Write `newmtl NAME`.
-bad material file (a.mtl:2:1): `Kd` lacks a number. Add it.
+bad material file (a.mtl:2:1): `Kd` lacks a number. Add the number.
 bad material file (a.mtl:2:8): `-1` in `Kd` is negative. Write 0 or more.
 bad material file (a.mtl:2:4): `inf` is not a finite number. Write a decimal number such as -0.5 or 2e3.
-bad material file (a.mtl:2:1): `Ks` lacks a number. Add it.
+bad material file (a.mtl:2:1): `Ks` lacks a number. Add the number.
 bad material file (a.mtl:2:4): `-3` in `Ns` is negative. Write 0 or more.
 bad material file (a.mtl:2:4): `1e39` is out of range: at most 3.4e38 is allowed. Write a decimal number such as -0.5 or 2e3.
 bad material file (a.mtl:2:3): `much` is not a number. Write a decimal number such as -0.5 or 2e3.

@@ -10,7 +10,7 @@ fn material(text: &str) -> Material {
 }
 
 #[test]
-fn a_mirror_keeps_what_it_does_not_reflect() {
+fn a_mirror_shades_with_the_rest() {
     let plain = material("{ reflect = { amount = 0.5, color = [1, 0.5, 0] } }");
     assert_eq!(plain.reflect, Vec3::new(0.5, 0.25, 0.0));
     assert_eq!(
@@ -24,7 +24,7 @@ fn a_mirror_keeps_what_it_does_not_reflect() {
 }
 
 #[test]
-fn glass_mirrors_and_transmits_by_fresnel_unless_told_otherwise() {
+fn glass_reflects_and_transmits_by_fresnel_by_default() {
     let glass = material(
         "{ refract = { amount = 0.75, color = [1, 0, 0], absorption = [1, 2, 3], priority = 4 } }",
     );
@@ -48,7 +48,7 @@ fn glass_mirrors_and_transmits_by_fresnel_unless_told_otherwise() {
 }
 
 #[test]
-fn shadows_and_depth_are_the_scenes() {
+fn shadows_and_depth_come_from_the_scene() {
     let plain = scene("a.toml", "ambient = [1, 1, 1]");
     assert_eq!(
         (plain.shadows, plain.output.max_depth),
@@ -70,7 +70,7 @@ fn shadows_and_depth_are_the_scenes() {
 }
 
 #[test]
-fn every_mistake_has_its_message() {
+fn every_error_has_a_message() {
     let texts = [
         "{ refract = { ior = 0 } }",
         "{ refract = { ior = -1.5 } }",
@@ -103,13 +103,13 @@ bad scene (a.toml:1:42): -1 in an absorption is not between 0 and 1e12. See `gli
 bad scene (a.toml:1:42): expected three numbers [x, y, z], found fewer. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:38): 1.5 is not between 0 and 1. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:40): 0.5 is not a whole number from -100 to 100. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:39): unknown value `schlik`, did you mean `schlick`? Known here: `none`, `exact`, `schlick`.
+bad scene (a.toml:1:39): unknown value `schlik`, did you mean `schlick`? Allowed here: `none`, `exact`, `schlick`.
 bad scene (a.toml:1:38): -0.1 is not between 0 and 1. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:29): unknown key `colour`, did you mean `color`? Known here: `amount`, `color`, `fresnel`, `ior`.
-bad scene (a.toml:1:41): Fresnel's equations say already how much a refracting surface mirrors. Leave out `reflect`, or add `fresnel = "none"` to `refract`.
-bad scene (a.toml:1:55): `amount` and that of `reflect` are more than 1 together. Lower one of them.
+bad scene (a.toml:1:29): unknown key `colour`, did you mean `color`? Allowed here: `amount`, `color`, `fresnel`, `ior`.
+bad scene (a.toml:1:41): Fresnel's equations already determine how much a refracting surface reflects. Leave out `reflect`, or add `fresnel = "none"` to `refract`.
+bad scene (a.toml:1:55): the sum of `amount` and that of `reflect` exceeds 1. Lower one of them.
 bad scene (a.toml:1:28): -1 in a colour is negative. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:11): unknown value `soft`. Known here: `opaque`, `filtered`.
+bad scene (a.toml:1:11): unknown value `soft`. Allowed here: `opaque`, `filtered`.
 bad scene (a.toml:1:24): -1 is not a whole number from 0 to 1000. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:24): 1.5 is not a whole number from 0 to 1000. See `glimray schema` for what is allowed.
 "#);

@@ -1,4 +1,4 @@
-//! Pictures that scenes name: what their texels become, and what is wrong with those that are not.
+//! Images of scenes: their texels, and errors.
 
 use super::{folder, message_in};
 use glam::Vec3;
@@ -29,7 +29,7 @@ fn picture(name: &str, bytes: &[u8]) -> Picture {
     (*with_background(name, bytes).pictures[0]).clone()
 }
 
-/// IEC 61966-2-1, from its other side: the value whose code is `code` is found by halving.
+/// IEC 61966-2-1, inverted by bisection: the value with the code `code`.
 fn linear(code: f64) -> f64 {
     let encoded = |x: f64| match x {
         x if x <= 0.003_130_8 => 12.92 * x,
@@ -72,7 +72,7 @@ fn png_is_srgb_in_eight_and_sixteen_bits_from_the_top_left() {
 }
 
 #[test]
-fn grey_becomes_three_channels_and_transparency_is_left_out() {
+fn grey_becomes_three_channels_and_transparency_is_ignored() {
     let grey = ImageBuffer::from_pixel(1, 1, Luma([77u8]));
     let value = linear(77.0 / 255.0);
     let read = picture("a.png", &encode(grey, ImageFormat::Png));
@@ -83,7 +83,7 @@ fn grey_becomes_three_channels_and_transparency_is_left_out() {
 }
 
 #[test]
-fn jpeg_is_srgb_whatever_its_name_ends_in() {
+fn jpeg_is_srgb_whatever_its_extension() {
     let image = ImageBuffer::from_pixel(8, 8, Rgb([200u8, 100, 50]));
     let bytes = encode(image, ImageFormat::Jpeg);
     let expected = [200.0, 100.0, 50.0].map(|code| linear(code / 255.0));
@@ -93,8 +93,8 @@ fn jpeg_is_srgb_whatever_its_name_ends_in() {
 }
 
 #[test]
-fn hdr_and_exr_are_linear_as_they_are() {
-    // Radiance's format holds three mantissas of eight bits under one exponent: these exactly.
+fn hdr_and_exr_are_linear() {
+    // Radiance stores three 8-bit mantissas with one exponent: these values are exact.
     let values = [
         [0.5f32, 0.25, 1.0],
         [12.0, 3.0, 0.0],
@@ -118,13 +118,13 @@ fn hdr_and_exr_are_linear_as_they_are() {
     let image = ImageBuffer::from_fn(2, 1, |x, _| Rgb(values[x as usize]));
     let read = picture("a.exr", &encode(image, ImageFormat::OpenExr));
     assert_eq!(read.texels[0], Vec3::from(values[0]));
-    // Negative light and what is no number count as none.
+    // Negative values and NaN become 0.
     assert_eq!(read.texels[1].truncate(), glam::Vec2::ZERO);
     assert!(read.texels[1].z.is_finite());
 }
 
 #[test]
-fn a_picture_that_is_named_twice_is_read_once() {
+fn an_image_used_twice_is_read_once() {
     let image = ImageBuffer::from_pixel(3, 2, Rgb([9u8, 9, 9]));
     let bytes = encode(image, ImageFormat::Png);
     let text = b"
@@ -154,7 +154,7 @@ fn a_picture_that_is_named_twice_is_read_once() {
     assert_eq!((shows(0, true), shows(1, false)), (Space::Uv, Space::World));
 }
 
-/// The header of a PNG of this size, and nothing behind it.
+/// The header of a PNG of this size, without data.
 fn png_header(width: u32, height: u32) -> Vec<u8> {
     let mut chunk = b"IHDR".to_vec();
     chunk.extend(width.to_be_bytes());
@@ -169,13 +169,13 @@ fn png_header(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = b"\x89PNG\r\n\x1a\n\0\0\0\x0d".to_vec();
     bytes.extend(chunk);
     bytes.extend((!crc).to_be_bytes());
-    // Where the header ends: the first texels, none.
+    // The end of the header: the first texels are missing.
     bytes.extend(b"\0\0\0\0IDAT\x35\xaf\x06\x1e");
     bytes
 }
 
 #[test]
-fn every_picture_that_is_none_has_its_message() {
+fn every_invalid_image_has_a_message() {
     let good = encode(
         ImageBuffer::from_pixel(9, 9, Rgb([1u8, 2, 3])),
         ImageFormat::Png,
@@ -212,15 +212,15 @@ fn every_picture_that_is_none_has_its_message() {
         })
         .collect();
     assert_snapshot!(lines.join("\n"), @r"
-picture refused (a.toml:2:26): `empty.png` is not a picture that is known. Name a PNG, JPEG, HDR or EXR file.
-picture refused (a.toml:2:26): `text.png` is not a picture that is known. Name a PNG, JPEG, HDR or EXR file.
+picture refused (a.toml:2:26): `empty.png` is not a supported image. Name a PNG, JPEG, HDR or EXR file.
+picture refused (a.toml:2:26): `text.png` is not a supported image. Name a PNG, JPEG, HDR or EXR file.
 picture refused (a.toml:2:26): `cut.png` is truncated: its end is missing. Check that it was written completely.
-picture refused (a.toml:2:26): `wide.png` has 100000 × 100000, but at most 33554431 texels are read. Use a smaller picture.
+picture refused (a.toml:2:26): `wide.png` has 100000 × 100000, but the limit is 33554431 texels. Use a smaller picture.
 picture refused (a.toml:2:26): `huge.png` takes too much memory to decode. Use a smaller picture.
-picture refused (a.toml:2:26): `flat.png` is broken: Format error decoding Png: Invalid image dimensions. Check that it was written completely.
-picture refused (a.toml:2:26): `huge.hdr` has 60000 × 60000, but at most 33554431 texels are read. Use a smaller picture.
-picture refused (a.toml:2:26): `cut.exr` is broken: Format error decoding OpenExr: invalid: reference to missing bytes. Check that it was written completely.
-picture refused (a.toml:2:26): `a.gif` is a picture of a kind that is not read. Save it as PNG, JPEG, HDR or EXR.
+picture refused (a.toml:2:26): `flat.png` is damaged: Format error decoding Png: Invalid image dimensions. Check that it was written completely.
+picture refused (a.toml:2:26): `huge.hdr` has 60000 × 60000, but the limit is 33554431 texels. Use a smaller picture.
+picture refused (a.toml:2:26): `cut.exr` is damaged: Format error decoding OpenExr: invalid: reference to missing bytes. Check that it was written completely.
+picture refused (a.toml:2:26): `a.gif` is an image of an unsupported kind. Save it as PNG, JPEG, HDR or EXR.
 picture refused (a.toml:2:26): `gone.png` does not exist. Check the name and the folder.
 picture refused (a.toml:2:26): `sub` is not a plain file. Name a plain file in the scene folder.
 picture refused (a.toml:2:26): `../a.png` points outside the scene folder. Name a file in it, or permit the other folder.
@@ -230,7 +230,7 @@ picture refused (a.toml:2:26): `http://a.org/a.png` points outside the scene fol
 ");
 }
 
-/// Whole pictures of all formats, and the names of their files.
+/// Complete images of all formats, and their file names.
 fn whole_pictures() -> Vec<(&'static str, Vec<u8>)> {
     let color = ImageBuffer::from_fn(61, 47, |x, y| Rgb([(4 * x) as u8, (5 * y) as u8, 77u8]));
     let light = ImageBuffer::from_fn(61, 47, |x, y| Rgb([x as f32, y as f32 / 9.0, 0.5f32]));
@@ -247,7 +247,7 @@ fn whole_pictures() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// What becomes of a picture with these bytes.
+/// The result of reading an image with these bytes.
 fn read(folder: &tempfile::TempDir, bytes: &[u8]) -> Result<(), import::ImportError> {
     let path = folder.path().join("picture");
     std::fs::write(&path, bytes).expect("a file");
@@ -270,7 +270,7 @@ fn a_truncated_picture_is_refused_wherever_it_is_cut() {
 }
 
 #[test]
-fn bytes_behind_a_picture_do_no_harm() {
+fn bytes_after_an_image_are_ignored() {
     let folder = folder(&[]);
     for (name, mut whole) in whole_pictures().into_iter().take(3) {
         whole.extend(b"\0\0whatever");
@@ -295,7 +295,7 @@ fn a_picture_that_claims_more_than_its_bytes_can_hold_is_refused() {
         let error = read(&folder, &bytes).expect_err("refused");
         assert!(error.to_string().contains("cannot hold"), "{name}: {error}");
     }
-    // The same of a picture that is one colour all over, which no format stores in less.
+    // The same for an image of a single colour, the best case of every format.
     let header = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 5792 +X 5792\n";
     let error = read(&folder, header).expect_err("refused");
     assert!(error.to_string().contains("cannot hold"), "{error}");
@@ -327,9 +327,9 @@ fn an_embedded_scene_has_no_pictures() {
     assert_snapshot!(error, @"picture refused (a.toml:1:26): `a.png`: a built-in scene has no folder. Name a plain file in the scene folder.");
 }
 
-/// Good pictures of every kind, cut and garbled in ways that repeat.
+/// Valid images of every format, truncated and corrupted in reproducible ways.
 #[test]
-fn no_damage_to_a_picture_brings_the_importer_down() {
+fn no_corruption_of_an_image_makes_the_importer_panic() {
     let color = ImageBuffer::from_fn(13, 9, |x, y| Rgb([(x * 19) as u8, (y * 27) as u8, 77u8]));
     let light = ImageBuffer::from_fn(13, 9, |x, y| Rgb([x as f32, y as f32 / 9.0, 0.5f32]));
     let files = [

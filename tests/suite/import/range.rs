@@ -1,18 +1,18 @@
-//! Colours that are finite but whose products are not: they are lowered, which is said, and no sample
-//! is lost.
+//! Colours that are finite but whose products overflow: they are clamped and reported, and no sample is
+//! lost.
 
 use super::folder;
 use crate::reference::compare::{render, sized};
 use glimray::import;
 use glimray::scene::Scene;
 
-/// What a file with these contents loads as.
+/// The result of loading a file with these contents.
 fn read(name: &str, text: &str, others: &[(&str, &[u8])]) -> Scene {
     let folder = folder(&[&[(name, text.as_bytes())], others].concat());
     import::load(&folder.path().join(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Scenes in all formats, with `{}` where a colour stands.
+/// Scenes in all formats, with `{}` for a colour.
 const SCENES: [(&str, &str); 8] = [
     (
         "a.nff",
@@ -76,7 +76,7 @@ fn finite_colours_of_any_size_lose_no_samples() {
             let scene = read(name, &text, &[("a.mtl", library.as_bytes())]);
             let said = scene.skipped.join("; ");
             assert!(
-                said.contains("lowered"),
+                said.contains("clamped"),
                 "{name} with {size}: {said:?}\n{text}"
             );
             let (_, stats) = render(&scene, &sized(24, 24));
@@ -86,7 +86,7 @@ fn finite_colours_of_any_size_lose_no_samples() {
 }
 
 #[test]
-fn usual_colours_stay_as_they_are() {
+fn ordinary_colours_are_unchanged() {
     for (name, scene) in SCENES {
         let text = scene.replace("{}", "0.5");
         let library = "newmtl m\nKd 0.5 1 1\nKs 1 100 1\nKa 0.5 1 1\n";
@@ -101,10 +101,10 @@ fn usual_colours_stay_as_they_are() {
 }
 
 #[test]
-fn what_was_lowered_is_counted() {
+fn clamped_values_are_counted() {
     let text = "[[objects]]\nsphere = { center = [0, 0, 0], radius = 1 }\n\
                 material = { phong = { diffuse = [1e4, 0, 0], specular = [0, 2e3, 0] } }\n";
     let scene = read("a.toml", text, &[]);
-    assert_eq!(scene.skipped, ["coefficients above 1000 lowered to it: 3"]);
+    assert_eq!(scene.skipped, ["coefficients clamped to 1000: 3"]);
     assert_eq!(scene.materials[0].diffuse.to_array(), [1e3, 0.0, 0.0]);
 }

@@ -1,4 +1,4 @@
-//! Scenes that come from elsewhere than a folder: the same scene, the same picture, the same refusals.
+//! Scenes that do not come from a folder: the same scene, the same image, the same errors.
 
 use super::{folder, without_folder};
 use crate::reference::compare::{render, sized};
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 type Named = (&'static str, Vec<u8>);
 
-/// A scene with a model that has materials and a picture, a mesh, points, and a background.
+/// A scene with a model that has materials and a texture, a mesh, points, and a background.
 fn files() -> Vec<Named> {
     let scene = "background = { picture = 'sky.hdr' }\n\
         camera = { look_from = [0, 0, 5], look_at = [0, 0, 0] }\n\
@@ -57,7 +57,7 @@ fn from_memory(files: Vec<Named>, name: &str) -> Result<Scene, ImportError> {
 }
 
 #[test]
-fn a_scene_from_memory_is_that_from_a_folder_to_the_byte_of_its_picture() {
+fn a_scene_from_memory_gives_the_same_image_as_one_from_a_folder() {
     let files = files();
     let named: Vec<_> = files
         .iter()
@@ -77,7 +77,7 @@ fn a_scene_from_memory_is_that_from_a_folder_to_the_byte_of_its_picture() {
     assert!(bytes[0] == bytes[1], "the pictures differ");
 }
 
-/// Each file is asked for by the name that stands in another one, and by nothing else; once.
+/// Each file is requested once, under the name that another file gives it.
 #[test]
 fn every_file_comes_from_the_resolver_and_is_read_once() {
     struct Recorded(Memory, RefCell<Vec<PathBuf>>);
@@ -141,7 +141,7 @@ fn names_are_refused_in_memory_as_in_a_folder() {
 }
 
 #[test]
-fn a_scene_that_is_not_in_memory_has_its_message() {
+fn a_scene_missing_from_memory_has_a_message() {
     let files = || {
         vec![
             ("a.toml", b"ambient = 3".to_vec()),
@@ -158,14 +158,14 @@ fn a_scene_that_is_not_in_memory_has_its_message() {
     assert_snapshot!(lines.join("\n"), @r##"
 scene refused (gone.toml): `gone.toml` does not exist. Check the name and the folder.
 scene refused (../a.toml): `../a.toml` points outside the scene folder. Name a file in it, or permit the other folder.
-unknown scene format (a.gltf): the ending `.gltf` is not known. Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file.
+unknown scene format (a.gltf): the extension `.gltf` is not supported. Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file.
 bad scene (a.toml:1:11): invalid type: integer `3`, expected a colour: [r, g, b] or "#rrggbb". See `glimray schema` for what is allowed.
 bad model (sub/b.obj): the file is empty. Check that it was written completely.
 "##);
 }
 
 #[test]
-fn a_picture_comes_from_memory_alone() {
+fn an_image_can_be_read_from_memory() {
     let memory = Memory::from_iter(files());
     let picture = import::picture_from(&memory, "scenes/sky.hdr").expect("a picture");
     assert_eq!((picture.width, picture.height), (8, 4));
@@ -189,7 +189,7 @@ fn zipped(files: &[(&str, &[u8])]) -> Vec<u8> {
 }
 
 #[test]
-fn a_scene_from_an_archive_is_that_from_memory() {
+fn a_scene_from_an_archive_equals_the_one_from_memory() {
     let files = files();
     let named: Vec<_> = files
         .iter()
@@ -205,7 +205,7 @@ fn a_scene_from_an_archive_is_that_from_memory() {
 }
 
 #[test]
-fn an_archive_is_refused_where_it_leads_out_lies_or_is_damaged() {
+fn bad_archives_are_refused() {
     let long = vec![7; 100_000];
     let bytes = zipped(&[
         ("../outside.toml", b"a"),

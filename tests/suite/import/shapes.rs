@@ -1,4 +1,4 @@
-//! The analytic surfaces of native scenes: where they end up, and what mistakes are told.
+//! The analytic surfaces of native scenes: their placement, and error messages.
 
 use super::{messages, scene};
 use glam::{DAffine3, DVec3};
@@ -23,7 +23,7 @@ fn placed(object: &str) -> (CanonicalShape, DAffine3) {
     }
 }
 
-/// Asserts where points of the canonical shape are in the world.
+/// Asserts the world positions of points on the canonical shape.
 #[track_caller]
 fn assert_places(object: &str, canonical: CanonicalShape, points: &[([f64; 3], [f64; 3])]) {
     let (found, world_from_canonical) = placed(object);
@@ -93,7 +93,7 @@ fn discs_and_rectangles_face_their_normal() {
 }
 
 #[test]
-fn solids_are_where_they_are_put() {
+fn solids_are_at_their_positions() {
     assert_places(
         "box = { min = [0, 1, 2], max = [2, 2, 8] }",
         CanonicalShape::Box,
@@ -137,7 +137,7 @@ fn solids_are_where_they_are_put() {
 }
 
 #[test]
-fn transforms_work_on_every_form() {
+fn transforms_apply_to_every_shape() {
     let transform =
         "transform = { scale = [1, -2, 3], rotate_deg = [0, 0, 90], translate = [5, 0, 0] }";
     let objects = [
@@ -195,7 +195,7 @@ fn spheres_stay_spheres_while_they_are_round() {
 }
 
 #[test]
-fn every_mistake_in_a_shape_has_its_message() {
+fn every_invalid_shape_has_a_message() {
     let objects = [
         "disc = { center = [0, 0, 0], radius = 0 }",
         "disc = { center = [0, 0, 0], normal = [0, 0, 0], radius = 1 }",
@@ -233,18 +233,18 @@ bad scene (a.toml:2:39): 0 is not greater than 0. See `glimray schema` for what 
 bad scene (a.toml:2:39): a direction cannot be [0, 0, 0]. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:57): `inner_radius` is not less than `radius`, which is 1. Make the hole smaller.
 bad scene (a.toml:2:57): -0.1 is not 0 or more. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:42): unknown key `outer_radius`, did you mean `inner_radius`? Known here: `center`, `normal`, `radius`, `inner_radius`.
-bad scene (a.toml:2:24): a rectangle has two edges, or a size. Give it either `edge_u` and `edge_v`, or `size` and, if it does not face upwards, `normal`.
-bad scene (a.toml:2:44): a rectangle has two edges, or a size. Give it either `edge_u` and `edge_v`, or `size` and, if it does not face upwards, `normal`.
-bad scene (a.toml:2:59): a rectangle has two edges, or a size. Give it either `edge_u` and `edge_v`, or `size` and, if it does not face upwards, `normal`.
-bad scene (a.toml:2:44): a rectangle has two edges, or a size. Give it either `edge_u` and `edge_v`, or `size` and, if it does not face upwards, `normal`.
+bad scene (a.toml:2:42): unknown key `outer_radius`, did you mean `inner_radius`? Allowed here: `center`, `normal`, `radius`, `inner_radius`.
+bad scene (a.toml:2:24): a rectangle needs two edges or a size. Give it either `edge_u` and `edge_v`, or `size` and, unless it faces upwards, `normal`.
+bad scene (a.toml:2:44): a rectangle needs two edges or a size. Give it either `edge_u` and `edge_v`, or `size` and, unless it faces upwards, `normal`.
+bad scene (a.toml:2:59): a rectangle needs two edges or a size. Give it either `edge_u` and `edge_v`, or `size` and, unless it faces upwards, `normal`.
+bad scene (a.toml:2:44): a rectangle needs two edges or a size. Give it either `edge_u` and `edge_v`, or `size` and, unless it faces upwards, `normal`.
 bad scene (a.toml:2:64): an edge cannot be [0, 0, 0]. Give the whole edge, as [x, y, z].
 bad scene (a.toml:2:64): `edge_v` is parallel to `edge_u`. Turn one of them.
 bad scene (a.toml:2:42): 0 is not greater than 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:42): expected two numbers [width, height], found more. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:32): y of `max` is not greater than that of `min`. Give a box a width, a height and a depth, or use a rectangle.
-bad scene (a.toml:2:32): z of `max` is not greater than that of `min`. Give a box a width, a height and a depth, or use a rectangle.
-bad scene (a.toml:2:26): unknown key `size`. Known here: `min`, `max`.
+bad scene (a.toml:2:32): y of `max` is not greater than y of `min`. Give a box a width, a height and a depth, or use a rectangle.
+bad scene (a.toml:2:32): z of `max` is not greater than z of `min`. Give a box a width, a height and a depth, or use a rectangle.
+bad scene (a.toml:2:26): unknown key `size`. Allowed here: `min`, `max`.
 bad scene (a.toml:2:37): `to` is the same point as `from`. Move one of them.
 bad scene (a.toml:2:57): -1 is not greater than 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:12): the key `radius` is missing. Add `radius = …`.
@@ -256,7 +256,7 @@ bad scene (a.toml:2:8): the key `from_radius` is missing. Add `from_radius = …
 bad scene (a.toml:2:64): `minor_radius` is greater than `major_radius`, which is 1. Make the tube thinner.
 bad scene (a.toml:2:64): 0 is not greater than 0. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:38): a direction cannot be [0, 0, 0]. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:1): an object is one surface, or one group. Give it exactly one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
-bad scene (a.toml:3:13): the object reaches out of range: at most 3.4e38 is allowed. Make it smaller, or leave it nearer to the origin.
+bad scene (a.toml:1:1): an object needs exactly one surface or group. Give it one of `sphere`, `ellipsoid`, `plane`, `disc`, `rectangle`, `box`, `cylinder`, `cone`, `torus`, `triangle`, `mesh` and `group`.
+bad scene (a.toml:3:13): the object's coordinates are out of range: at most 3.4e38 is allowed. Make it smaller, or move it nearer to the origin.
 ");
 }

@@ -19,7 +19,7 @@ fn png() -> Vec<u8> {
 }
 
 #[test]
-fn textures_have_names_or_stand_in_place_of_a_colour() {
+fn textures_are_named_or_inline() {
     let text = r##"
         [textures.tiles]
         checker = { a = [1, 0, 0], b = [0, 1, 0] }
@@ -40,7 +40,7 @@ fn textures_have_names_or_stand_in_place_of_a_colour() {
         "##;
     let scene = scene("a.toml", text);
     let names: Vec<_> = scene.textures.iter().map(|t| t.pattern.clone()).collect();
-    // Those with names in the file's order, then the nameless.
+    // The named ones in the file's order, then the unnamed ones.
     let (white, black) = (Vec3::ONE, Vec3::ZERO);
     let expected = [
         Pattern::Checker {
@@ -99,7 +99,7 @@ fn a_background_may_be_a_gradient() {
 }
 
 #[test]
-fn every_mistake_in_a_texture_has_its_message() {
+fn every_invalid_texture_has_a_message() {
     let diffuse = |value: &str| format!("[materials.a]\nphong.diffuse = {value}");
     let texts = [
         diffuse("0.5"),
@@ -142,34 +142,34 @@ fn every_mistake_in_a_texture_has_its_message() {
 bad scene (a.toml:2:17): invalid type: floating point `0.5`, expected a colour ([r, g, b] or "#rrggbb") or a texture. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:17): `blue` is not a colour: write "#rrggbb" or [r, g, b]. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:17): expected three numbers [r, g, b], found fewer. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:17): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
-bad scene (a.toml:2:17): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
-bad scene (a.toml:2:17): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
-bad scene (a.toml:2:19): unknown key `cheker`, did you mean `checker`? Known here: `texture`, `color`, `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`, `pattern_from_space`.
-bad scene (a.toml:2:31): unknown key `c`, did you mean `a`? Known here: `a`, `b`.
+bad scene (a.toml:2:17): a texture needs exactly one pattern. Give it one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
+bad scene (a.toml:2:17): a texture needs exactly one pattern. Give it one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
+bad scene (a.toml:2:17): a texture needs exactly one pattern. Give it one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
+bad scene (a.toml:2:19): unknown key `cheker`, did you mean `checker`? Allowed here: `texture`, `color`, `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`, `pattern_from_space`.
+bad scene (a.toml:2:31): unknown key `c`, did you mean `a`? Allowed here: `a`, `b`.
 bad scene (a.toml:2:35): -1 in a colour is negative. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:39): 0 is not a whole number from 1 to 16. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:39): 17 is not a whole number from 1 to 16. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:39): 2.5 is not a whole number from 1 to 16. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:41): a scale cannot be 0. See `glimray schema` for what is allowed.
-bad scene (a.toml:2:41): unknown value `object`. Known here: `world`, `uv`.
+bad scene (a.toml:2:41): unknown value `object`. Allowed here: `world`, `uv`.
 picture refused (a.toml:2:29): `gone.png` does not exist. Check the name and the folder.
 bad scene (a.toml:2:29): invalid type: integer `3`, expected the name of a picture file, or a table. See `glimray schema` for what is allowed.
 bad scene (a.toml:2:29): the key `file` is missing. Add `file = …`.
 picture refused (a.toml:2:38): `gone.png` does not exist. Check the name and the folder.
-bad scene (a.toml:2:29): unknown texture `tile`, did you mean `tiles`? Add it under [textures], or name one that is there.
-bad scene (a.toml:2:29): unknown texture `tiles`. Add it under [textures], or name one that is there.
-bad scene (a.toml:2:29): a texture with a name brings its own pattern and place. Put them under [textures], or leave out `texture`.
-bad scene (a.toml:2:29): a texture with a name brings its own pattern and place. Put them under [textures], or leave out `texture`.
-bad scene (a.toml:2:17): color times texture is out of range: at most 3.4e38 is allowed. Lower one of them.
-bad scene (a.toml:1:1): a texture has one pattern. Give it exactly one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
-bad scene (a.toml:2:1): unknown key `texture`. Known here: `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`, `pattern_from_space`.
+bad scene (a.toml:2:29): unknown texture `tile`, did you mean `tiles`? Add it under [textures], or use an existing one.
+bad scene (a.toml:2:29): unknown texture `tiles`. Add it under [textures], or use an existing one.
+bad scene (a.toml:2:29): a named texture has its own pattern and transform. Put them under [textures], or leave out `texture`.
+bad scene (a.toml:2:29): a named texture has its own pattern and transform. Put them under [textures], or leave out `texture`.
+bad scene (a.toml:2:17): `color` times the texture is out of range: at most 3.4e38 is allowed. Lower one of them.
+bad scene (a.toml:1:1): a texture needs exactly one pattern. Give it one of `checker`, `stripes`, `gradient`, `noise` and `picture`.
+bad scene (a.toml:2:1): unknown key `texture`. Allowed here: `checker`, `stripes`, `gradient`, `noise`, `picture`, `space`, `scale`, `rotate_deg`, `translate`, `pattern_from_space`.
 bad scene (a.toml:1:12): invalid type: integer `3`, expected a map. See `glimray schema` for what is allowed.
-bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:14): a background is a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
-bad scene (a.toml:1:16): unknown key `up`. Known here: `bottom`, `top`, `picture`, `strength`, `rotation_deg`, `rotation`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:14): a background needs a colour, a gradient or a picture. Give it `bottom` and `top`, or `picture` with `strength` and `rotation_deg`.
+bad scene (a.toml:1:16): unknown key `up`. Allowed here: `bottom`, `top`, `picture`, `strength`, `rotation_deg`, `rotation`.
 picture refused (a.toml:1:26): `gone.hdr` does not exist. Check the name and the folder.
 bad scene (a.toml:1:49): -1 is not 0 or more. See `glimray schema` for what is allowed.
 bad scene (a.toml:1:14): `strength` is out of range: at most 5e33 is allowed. Lower it.
@@ -186,7 +186,7 @@ fn model(files: &[(&str, &[u8])]) -> Scene {
 }
 
 #[test]
-fn models_bring_their_pictures() {
+fn models_have_their_textures() {
     let text =
         format!("mtllib m/a.mtl\n{SQUARE}usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1/ 3/3/ 4/4/\n");
     let library = b"newmtl a\nKd 0.5 1 1\nmap_Kd -clamp on -s 2 2 1 my red.png\nmap_bump x.png\n\
@@ -205,7 +205,7 @@ fn models_bring_their_pictures() {
     assert_eq!(a.diffuse, Vec3::new(0.5, 1.0, 1.0));
     assert_eq!((a.textures.diffuse, a.textures.specular), (Some(0), None));
     assert_eq!(a.textures.ambient, Some(0));
-    // Colours that are not given are white where there is a picture.
+    // A colour that is not given is white if there is a texture.
     assert_eq!((b.diffuse, b.specular), (Vec3::ONE, Vec3::ONE));
     assert_eq!(b.textures.specular, Some(0));
     let mesh = &scene.meshes[0];
@@ -214,13 +214,13 @@ fn models_bring_their_pictures() {
         assert_eq!(p.truncate(), *uv, "here u is x and v is y");
     }
     assert_snapshot!(scene.skipped.join("\n"), @r"
-options of textures of materials left out: 2
-other textures of materials left out: 1
+other textures of materials skipped: 1
+texture options of materials skipped: 2
 ");
 }
 
 #[test]
-fn vertices_part_where_u_and_v_differ_only_if_a_picture_wants_them() {
+fn vertices_are_split_by_u_and_v_only_if_a_texture_uses_them() {
     let faces = "f 1/1 2/2 3/3\nf 1/4 3/2 4/1\n";
     let plain = model(&[("a.obj", format!("{SQUARE}{faces}").as_bytes())]);
     assert_eq!(plain.meshes[0].positions.len(), 4);
@@ -237,7 +237,7 @@ fn vertices_part_where_u_and_v_differ_only_if_a_picture_wants_them() {
     assert_eq!(shown.meshes[0].positions.len(), 6);
     assert!(shown.meshes[0].uvs.contains(&Vec2::Y));
 
-    // A native scene that gives the model another material decides anew.
+    // In a native scene, a replacement material decides whether vertices have u and v.
     for (space, vertices) in [("world", 4), ("uv", 6)] {
         let native = format!(
             "[[objects]]\nmesh = {{ file = 'a.obj' }}\nmaterial = {{ phong = {{ diffuse = {{ checker = {{}}, space = '{space}' }} }} }}"
@@ -254,7 +254,7 @@ fn vertices_part_where_u_and_v_differ_only_if_a_picture_wants_them() {
 }
 
 #[test]
-fn pictures_that_cannot_be_read_are_left_out_of_models() {
+fn unreadable_textures_of_models_are_skipped() {
     let text = format!(
         "mtllib a.mtl\n{SQUARE}usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/3 4/4\nusemtl c\nf 1/1 2/2 4/4\nusemtl d\nf 2/2 3/3 4/4\n"
     );
@@ -268,10 +268,10 @@ fn pictures_that_cannot_be_read_are_left_out_of_models() {
     assert_eq!(scene.triangle_count(), 4);
     assert!(scene.textures.is_empty() && scene.meshes[0].uvs.is_empty());
     assert_snapshot!(scene.skipped.join("\n"), @r"
-options of textures of materials left out: 1
-texture left out: `gone.png` does not exist
-texture left out: `C:\pictures\x.png` points outside the scene folder
-texture left out: `broken.png` is not a picture that is known
+texture options of materials skipped: 1
+texture skipped: `gone.png` does not exist
+texture skipped: `C:\pictures\x.png` points outside the scene folder
+texture skipped: `broken.png` is not a supported image
 ");
 }
 
@@ -294,7 +294,7 @@ no error
 }
 
 #[test]
-fn single_triangles_have_u_and_v_of_their_own_where_a_texture_wants_them() {
+fn single_triangles_have_their_own_u_and_v_if_a_texture_uses_them() {
     for (space, expected) in [("uv", &[Vec2::ZERO, Vec2::X, Vec2::Y][..]), ("world", &[])] {
         let text = format!(
             "[[objects]]\ntriangle = {{ vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] }}\n\
@@ -313,5 +313,5 @@ fn a_picture_on_a_model_without_texture_coordinates_is_reported() {
         ),
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3"),
     ];
-    assert_snapshot!(model(&files).skipped.join("\n"), @"`a.obj`: there are no texture coordinates: textures show one colour each");
+    assert_snapshot!(model(&files).skipped.join("\n"), @"`a.obj`: no texture coordinates: each texture shows a single colour");
 }

@@ -1,4 +1,4 @@
-//! What cannot be written is said in one line, and nothing is lost.
+//! Errors of videos are one line each, and nothing is lost.
 
 use super::{encode_to, options, picture, scene};
 use glimray::image::Image;
@@ -21,7 +21,7 @@ fn only_old_is_left(folder: &Path, context: impl std::fmt::Display) {
 }
 
 #[test]
-fn a_frame_of_another_size_is_named_and_the_old_file_kept() {
+fn a_frame_of_different_size_is_reported_and_the_old_file_kept() {
     let frames = [scene(20, 10, 0), scene(20, 10, 1), scene(20, 12, 2)];
     for format in FORMATS {
         let folder = folder();
@@ -31,14 +31,14 @@ fn a_frame_of_another_size_is_named_and_the_old_file_kept() {
         assert_eq!(
             error.expect_err("another size").to_string(),
             "cannot write the video (frame 2, counted from 0): it has 20×12 pixels, \
-             the first one 20×10. Render it again in that size."
+             the first one 20×10. Render it again at that size."
         );
         only_old_is_left(folder.path(), format);
     }
 }
 
 #[test]
-fn a_frame_that_cannot_be_fetched_ends_it_and_the_old_file_is_kept() {
+fn an_unreadable_frame_is_an_error_and_the_old_file_is_kept() {
     for format in FORMATS {
         let folder = folder();
         let path = folder.path().join("video");
@@ -82,7 +82,7 @@ fn no_frame_no_pixels_and_too_few_pixels_are_errors() {
 }
 
 #[test]
-fn limits_are_known_beforehand() {
+fn limits_are_checked_in_advance() {
     let folder = folder();
     let path = folder.path().join("video");
     let check = |format, width, height| {
@@ -108,7 +108,7 @@ fn limits_are_known_beforehand() {
         check(VideoFormat::Mp4, 4096, 2304)
             .expect_err("too large")
             .to_string(),
-        "cannot write the video (4096×2304 pixels): MP4 holds at most 3840×2160, or upright. \
+        "cannot write the video (4096×2304 pixels): MP4 supports at most 3840×2160, or the same in portrait. \
          Choose a smaller size or another format."
     );
 }
@@ -131,7 +131,7 @@ fn a_gif_cannot_be_faster_than_its_players() {
 }
 
 #[test]
-fn what_keeps_a_picture_from_being_written_keeps_a_video() {
+fn errors_of_image_files_apply_to_videos() {
     let folder = folder();
     let check = |path: &Path, clobber| {
         let options = VideoOptions {
@@ -154,7 +154,7 @@ fn what_keeps_a_picture_from_being_written_keeps_a_video() {
     only_old_is_left(folder.path(), "after checks");
 }
 
-/// A pipe of the file system is written to as it stands, frame by frame.
+/// A named pipe is written to directly, frame by frame.
 #[cfg(unix)]
 #[test]
 fn a_pipe_is_written_to_and_not_replaced() {

@@ -54,7 +54,7 @@ fn frames(width: u32, height: u32, count: usize) -> Vec<Picture8> {
         .collect()
 }
 
-/// The mean of each block of 4×4 pixels, which is what an eye sees of dithering.
+/// The mean of each block of 4×4 pixels, which averages the dithering.
 fn blocks(pixels: &[[u8; 3]], width: usize) -> Vec<u8> {
     let (columns, rows) = (width / 4, pixels.len() / width / 4);
     let mut means = Vec::new();
@@ -70,7 +70,7 @@ fn blocks(pixels: &[[u8; 3]], width: usize) -> Vec<u8> {
 }
 
 #[test]
-fn gradients_are_near_and_nearer_from_afar() {
+fn gradients_are_close_and_closer_when_averaged() {
     let frames = frames(160, 120, 8);
     let shown = show(&VideoOptions::default(), &frames);
     assert_eq!(shown.size, (160, 120));
@@ -83,7 +83,7 @@ fn gradients_are_near_and_nearer_from_afar() {
 }
 
 #[test]
-fn what_is_still_does_not_flicker() {
+fn static_areas_do_not_flicker() {
     let frames = frames(120, 90, 10);
     let shown = show(&VideoOptions::default(), &frames);
     let pairs = shown.frames.windows(2).zip(frames.windows(2));
@@ -149,7 +149,7 @@ fn delays_add_up_without_drift() {
 }
 
 #[test]
-fn it_starts_over_only_if_asked() {
+fn it_repeats_only_if_requested() {
     for (repeat, expected) in [(true, Repeat::Infinite), (false, Repeat::Finite(0))] {
         let options = VideoOptions {
             repeat,

@@ -31,8 +31,7 @@ impl Movie {
         found
     }
 
-    /// What is in the box at the end of this path; of a box with fields before its boxes these are
-    /// left out.
+    /// The contents of the box at the end of this path, without the fields that precede its boxes.
     fn find(&self, path: &[&str]) -> &[u8] {
         path.iter().fold(&self.file[..], |bytes, wanted| {
             let mut boxes = Self::boxes(bytes).into_iter();
@@ -54,7 +53,7 @@ impl Movie {
         self.find(&["moov", "trak", "mdia", "minf", "stbl", "stsd", "avc1", name])
     }
 
-    /// The frames as the decoder gets them: NAL units, each after its length.
+    /// The frames as the decoder gets them: length-prefixed NAL units.
     fn samples(&self) -> Vec<&[u8]> {
         let (sizes, offsets) = (self.table("stsz"), self.table("stco"));
         assert_eq!(be32(offsets, 4), 1, "one run of frames");
@@ -154,7 +153,7 @@ fn worst(movie: &Movie, frames: &[Picture8]) -> f64 {
 }
 
 #[test]
-fn decoded_frames_are_near_and_better_quality_is_larger_and_nearer() {
+fn decoded_frames_are_close_and_higher_quality_is_larger_and_closer() {
     let frames = frames(160, 120, 12);
     let of = |quality| {
         let movie = Movie::new(
@@ -249,9 +248,9 @@ fn players_can_jump_to_a_frame_every_two_seconds() {
     }
 }
 
-/// Constrained baseline is what every decoder of H.264 takes.
+/// Every H.264 decoder supports constrained baseline.
 #[test]
-fn the_profile_is_constrained_baseline_and_said_alike_everywhere() {
+fn the_profile_is_constrained_baseline_in_every_header() {
     let movie = Movie::new(&VideoOptions::default(), &frames(64, 48, 2));
     let avcc = movie.entry("avcC");
     let [sps, pps] = movie.parameter_sets();

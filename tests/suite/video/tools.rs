@@ -6,7 +6,7 @@ use glimray::output::video::{FrameRate, Picture8, Planes, VideoFormat};
 use std::path::Path;
 use std::process::Command;
 
-/// What a program of FFmpeg prints; `None`, and a line that says so, where there is none.
+/// The output of an FFmpeg program; `None`, with a line that says so, if it is not installed.
 fn tool(name: &str, arguments: &[&str], file: &Path) -> Option<Vec<u8>> {
     let position = arguments.iter().position(|argument| *argument == "FILE");
     let position = position.expect("a place for the file");
@@ -31,7 +31,7 @@ fn frames(width: u32, height: u32, count: usize) -> Vec<Picture8> {
         .collect()
 }
 
-/// The values of these fields of the one stream, as text.
+/// The values of these fields of the single stream, as text.
 fn probe(file: &Path, fields: &str) -> Option<String> {
     let entries = format!("stream={fields}");
     let arguments = [
@@ -97,7 +97,7 @@ fn ffmpeg_decodes_the_frames_that_went_in() {
     }
 }
 
-/// The way back to R′G′B′ by another's arithmetic: right matrix, range and siting.
+/// Converts back to R′G′B′ with independent arithmetic: the matrix, range and siting must agree.
 #[test]
 fn ffmpeg_shows_the_colours_that_went_in() {
     let folder = tempfile::tempdir().expect("a temporary folder");

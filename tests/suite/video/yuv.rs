@@ -50,7 +50,7 @@ fn colours_round_to_the_nearest_code() {
     verdict.close();
 }
 
-/// The filter keeps a ramp a ramp, so that its value shows where a sample sits.
+/// The filter preserves a linear ramp, so that its value shows the position of a sample.
 #[test]
 fn chroma_sits_at_the_left_column_and_between_the_rows() {
     let ramp = picture(32, 24, |x, y| [(5 * x) as u8, 60, (8 * y) as u8]);
@@ -81,7 +81,7 @@ fn odd_sides_are_padded_with_the_last_column_and_row() {
 }
 
 #[test]
-fn one_pixel_is_a_picture_too() {
+fn a_single_pixel_is_converted() {
     let one = Planes::new(&picture(1, 1, |_, _| [255, 0, 0]), (2, 2));
     let [y, cb, cr] = bt709([255.0, 0.0, 0.0]).map(|code| code.round() as u8);
     assert_eq!((one.y, one.u, one.v), (vec![y; 4], vec![cb], vec![cr]));

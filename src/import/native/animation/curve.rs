@@ -1,4 +1,4 @@
-//! The keys of an animation as a curve.
+//! The curve of an animation, from its keys.
 
 use crate::import::error::ImportError;
 use crate::import::native::Texts;
@@ -24,7 +24,7 @@ pub(super) fn curve(table: &AnimationTable, texts: &Texts) -> Result<Curve, Impo
     let easing = easing(table, interpolation, texts)?;
     let keys = table.keys.get_ref();
     if keys.is_empty() {
-        let why = "an animation has at least one key".to_owned();
+        let why = "an animation needs at least one key".to_owned();
         let todo = "Add one, such as [0, VALUE]";
         return Err(texts.malformed(table.keys.span(), why, todo));
     }
@@ -38,7 +38,7 @@ pub(super) fn curve(table: &AnimationTable, texts: &Texts) -> Result<Curve, Impo
             let why = match time == last {
                 true => format!("two keys have the same time, {time}"),
                 false => {
-                    format!("the time {time} is before that of the key in front of it, {last}")
+                    format!("the time {time} is before that of the previous key, {last}")
                 }
             };
             let todo = "Give every key a later time than the one before it";
@@ -74,7 +74,7 @@ pub(super) fn curve(table: &AnimationTable, texts: &Texts) -> Result<Curve, Impo
     })
 }
 
-/// One value of a curve, of the kind that the property has.
+/// A value of a curve, of the type of its property.
 #[derive(Clone, Copy)]
 enum Sample {
     Scalar(f64),
@@ -88,7 +88,7 @@ fn interpolation(table: &AnimationTable, texts: &Texts) -> Result<InterpolationN
         None if is_switch => Ok(InterpolationName::Step),
         None => Ok(InterpolationName::Linear),
         Some(name) if is_switch && *name.get_ref() != InterpolationName::Step => {
-            let why = "nothing is between true and false".to_owned();
+            let why = "true and false cannot be interpolated".to_owned();
             let todo = "Leave `interpolation` out, or make it \"step\"";
             Err(texts.malformed(name.span(), why, todo))
         }
@@ -104,7 +104,7 @@ fn easing(
     match &table.easing {
         None => Ok(Easing::None),
         Some(pace) if interpolation != InterpolationName::Linear => {
-            let why = "only linear interpolation is paced".to_owned();
+            let why = "only linear interpolation has easing".to_owned();
             let todo = "Leave `easing` out, or make the interpolation linear";
             Err(texts.malformed(pace.span(), why, todo))
         }
@@ -112,7 +112,7 @@ fn easing(
     }
 }
 
-/// What a key's value is for `property`, read as in the table that it takes the place of.
+/// The value of a key for `property`, read as in the table that it overrides.
 fn sample(property: P, from: &KeyValue) -> Result<Sample, value::Error> {
     use Sample::{Rotation, Scalar, Vector as Three};
     Ok(match property {
@@ -157,7 +157,7 @@ fn tangent(property: P, sample: Sample, from: &KeyValue) -> Result<Sample, value
     })
 }
 
-/// For each key the tangent in front of it, its value, and the tangent behind it.
+/// For each key, the incoming tangent, the value, and the outgoing tangent.
 fn with_tangents(
     property: P,
     keys: &[Key],
@@ -180,25 +180,25 @@ fn with_tangents(
     Ok(all)
 }
 
-/// Why there is no way from one value to the next, and what to do.
+/// Why there is no valid interpolation between two values, and what to do.
 fn obstacle(property: P, from: Sample, to: Sample) -> Option<(&'static str, &'static str)> {
     let (Sample::Vector(from), Sample::Vector(to)) = (from, to) else {
         return None;
     };
     match property {
         P::Scale if (from * to).min_element() < 0.0 => Some((
-            "on the way from the key before, the scale would pass 0",
-            "Keep its signs, or use `interpolation = \"step\"`",
+            "between the previous key and this one, the scale would pass through 0",
+            "Keep the signs, or use `interpolation = \"step\"`",
         )),
         P::Up | P::Direction if from.dot(to) < 1e-9 - 1.0 => Some((
-            "the direction is opposite to that of the key before, which leaves the way open",
+            "the direction is opposite to that of the previous key, so the path is ambiguous",
             "Add a key in between, or use `interpolation = \"step\"`",
         )),
         _ => None,
     }
 }
 
-/// Samples of one kind as a list of that kind.
+/// Samples of one type as a list of that type.
 fn values(samples: &[Sample]) -> Values {
     macro_rules! all {
         ($kind:ident) => {

@@ -1,10 +1,10 @@
-//! The surfaces of a native scene, each in the space of its node: analytic ones, single triangles and
-//! the meshes of files.
+//! The surfaces of a native scene, each in the space of its node: analytic shapes, single triangles, and
+//! meshes from files.
 
 use super::Builder;
 use crate::import::error::ImportError;
 use crate::import::native::file::{MeshOrName, MeshTable, ObjectTable, TriangleTable};
-use crate::import::native::nodes::Place;
+use crate::import::native::nodes::NodePlacement;
 use crate::import::native::shapes;
 use crate::import::native::transforms::{chain, normal_matrix};
 use crate::import::native::values::Vector;
@@ -18,21 +18,21 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::Spanned;
 
-/// A mesh file and the materials it was given in place of its own.
+/// A mesh file, and the materials that replace its own.
 pub(super) type MeshKey = (PathBuf, Vec<usize>);
 
-/// A mesh and where its own origin is; `None` when the file has no triangles.
+/// A mesh and the translation of its origin; `None` if the file has no triangles.
 pub(super) type PlacedMesh = Option<MeshPlace>;
 
 #[derive(Clone, Copy)]
 pub(super) struct MeshPlace {
     mesh: usize,
     offset: DVec3,
-    /// The largest coordinates, without signs.
+    /// The largest absolute coordinates.
     reach: DVec3,
 }
 
-/// Triangles that will be one mesh, still without its positions.
+/// Triangles that will become one mesh, without their positions.
 #[derive(Default)]
 pub(super) struct Triangles {
     mesh: Mesh,
@@ -40,19 +40,20 @@ pub(super) struct Triangles {
 }
 
 impl Builder<'_> {
-    /// Adds the surface of an object, and returns points that it reaches to, in the space of its node.
+    /// Adds the surface of an object, and returns points on its bounds, in the space of its node.
     pub fn surface(
         &mut self,
         index: usize,
-        place: Place,
+        place: NodePlacement,
         object: &Spanned<ObjectTable>,
     ) -> Result<Vec<DVec3>, ImportError> {
         let table = object.get_ref();
         if let (Some(_), Some(node)) = (&table.plane, place.node)
             && !self.nodes.is_fixed(node)
         {
-            let why = "a plane cannot move: it is endless";
-            let todo = "Take it out of what is animated, looked at, or carries something, or make it a large rectangle";
+            let why = "a plane is infinite and cannot move";
+            let todo =
+                "Do not animate it, attach anything to it or look at it, or use a large rectangle";
             return Err(self.refuse(object.span(), why, todo));
         }
         if let Some(triangle) = &table.triangle {
@@ -67,7 +68,7 @@ impl Builder<'_> {
     fn shape(
         &mut self,
         index: usize,
-        place: Place,
+        place: NodePlacement,
         table: &ObjectTable,
     ) -> Result<Vec<DVec3>, ImportError> {
         let material = self.material_of(index, table.material.as_ref())?;
@@ -93,7 +94,7 @@ impl Builder<'_> {
         &mut self,
         index: usize,
         triangle: &TriangleTable,
-        place: Place,
+        place: NodePlacement,
         table: &ObjectTable,
     ) -> Result<Vec<DVec3>, ImportError> {
         let placed = place.node_from_here;
@@ -129,7 +130,7 @@ impl Builder<'_> {
         &mut self,
         index: usize,
         mesh: &Spanned<MeshOrName>,
-        place: Place,
+        place: NodePlacement,
         table: &ObjectTable,
     ) -> Result<Vec<DVec3>, ImportError> {
         let read = match self.meshes_of_objects.get(&index) {
@@ -175,8 +176,8 @@ impl Builder<'_> {
         table: &ObjectTable,
     ) -> Result<MeshPlace, ImportError> {
         if let Some(material) = &table.material {
-            let why = "a mesh under [meshes] brings its materials";
-            let todo = "Give it others there, or name its file here";
+            let why = "a mesh under [meshes] has its own materials";
+            let todo = "Change them there, or name its file here";
             return Err(self.refuse(material.span(), why, todo));
         }
         self.named_meshes.get(name).copied().ok_or_else(|| {
@@ -188,7 +189,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Reads a mesh under [meshes], which is in the scene whether an object shows it or not.
+    /// Reads a mesh under [meshes], which becomes part of the scene whether or not an object uses it.
     pub fn named_mesh(&mut self, name: &str, table: &MeshTable) -> Result<(), ImportError> {
         let read = self.mesh_file(table, None)?;
         let place = read.unwrap_or_else(|| {
@@ -206,7 +207,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// The mesh in a file. `material`, if any, is that of all of it.
+    /// Reads the mesh in a file. `material`, if any, replaces all of its materials.
     fn mesh_file(
         &mut self,
         mesh: &MeshTable,
@@ -224,7 +225,7 @@ impl Builder<'_> {
         let mut materials = Vec::new();
         if let Some(names) = &mesh.materials {
             if !is_ply || material.is_some() {
-                let why = "`materials` are those of a PLY file, for a mesh that has no other";
+                let why = "`materials` apply only to a PLY file without another material";
                 return Err(self.refuse(mesh.file.span(), why, "Leave them out"));
             }
             for name in names {
@@ -314,14 +315,14 @@ impl Builder<'_> {
         Ok(self.add_mesh(model.mesh, model.offset))
     }
 
-    /// Whether a texture of the material with this index lies on u and v.
+    /// Whether a texture of the material with this index uses u and v.
     fn wants_uvs(&self, material: usize) -> bool {
         let textures = self.scene.materials[material].textures.all();
         let is_uv = |&index: &usize| self.textures.textures[index].space == Space::Uv;
         textures.iter().flatten().any(is_uv)
     }
 
-    /// Makes meshes of all single triangles: one for each node, unless it is a copy of another.
+    /// Builds meshes from all single triangles: one for each node, shared between copies.
     pub fn finish_triangles(&mut self) {
         let mut known: HashMap<Vec<u32>, usize> = HashMap::new();
         let mut all = Repairs::default();
@@ -330,7 +331,7 @@ impl Builder<'_> {
             mesh.positions = positions;
             let is_wanted = |&material: &u32| self.wants_uvs(material as usize);
             if mesh.materials.iter().any(is_wanted) {
-                // u goes from the first corner to the second, v to the third.
+                // u grows from the first corner to the second, v to the third.
                 let own = [Vec2::ZERO, Vec2::X, Vec2::Y];
                 mesh.uvs = own.repeat(mesh.triangles.len());
             }

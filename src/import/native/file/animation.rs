@@ -1,4 +1,4 @@
-//! How a native scene describes what changes over time.
+//! Animations in a native scene.
 
 use super::keys::Key;
 use crate::import::native::values::Pace;
@@ -7,16 +7,16 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// How one property of an object, camera, light or material changes over time, in place of the value
-/// that its own table gives.
+/// An animated property of an object, camera, light or material. It overrides the value in the target's
+/// own table.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct AnimationTable {
-    /// The name of an object, all of whose copies follow, or of a node. Exactly one of `object`,
+    /// The name of an object, including all of its copies, or of a node. Exactly one of `object`,
     /// `objects`, `camera`, `light` and `material`.
     #[schemars(with = "Option<String>")]
     pub object: Option<Spanned<String>>,
-    /// The names of several objects or nodes, in place of `object`.
+    /// The names of several objects or nodes, instead of `object`.
     #[schemars(with = "Option<Vec<String>>")]
     pub objects: Option<Vec<Spanned<String>>>,
     /// The name of a camera.
@@ -28,43 +28,42 @@ pub(in crate::import::native) struct AnimationTable {
     /// The name of a material under [materials].
     #[schemars(with = "Option<String>")]
     pub material: Option<Spanned<String>>,
-    /// What of it changes.
+    /// The property.
     #[schemars(with = "PropertyName")]
     pub property: Spanned<PropertyName>,
-    /// How values between two keys come about; linear if left out, but step for what is true or false.
+    /// How values between two keys are interpolated; default linear, or step for true and false.
     #[schemars(with = "Option<InterpolationName>")]
     pub interpolation: Option<Spanned<InterpolationName>>,
-    /// How the way from each key to the next is paced where the interpolation is linear; at constant
-    /// speed if left out.
+    /// Timing between two keys with linear interpolation; default constant speed.
     #[schemars(with = "Option<Pace>")]
     pub easing: Option<Spanned<Pace>>,
-    /// What holds before the first key and after the last one; hold if left out.
+    /// The value before the first and after the last key; default hold.
     #[serde(default)]
     pub beyond: BeyondName,
-    /// Values at certain times, in the order of time.
+    /// Values at given times, in ascending order of time.
     #[schemars(with = "Vec<Key>")]
     pub keys: Spanned<Vec<Key>>,
 }
 
-/// A property that changes.
+/// An animatable property.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(in crate::import::native) enum PropertyName {
-    /// Of an object, as in `transform`.
+    /// Of an object: as in `transform`.
     Translate,
-    /// Of an object: a quaternion [x, y, z, w], in place of `rotate_deg`.
+    /// Of an object: a quaternion [x, y, z, w], instead of `rotate_deg`.
     Rotation,
-    /// Of an object, as in `transform`; may be more than a turn.
+    /// Of an object: as in `transform`; may exceed a full turn.
     RotateDeg,
     /// The same in radians.
     Angles,
-    /// Of an object, as in `transform`.
+    /// Of an object: as in `transform`.
     Scale,
     /// Of an object: true or false.
     Visible,
     /// Of a camera.
     LookFrom,
-    /// Of a camera that does not look at an object.
+    /// Of a camera that looks at a point, not at an object.
     LookAt,
     /// Of a camera.
     Up,
@@ -78,13 +77,13 @@ pub(in crate::import::native) enum PropertyName {
     FocusDistance,
     /// Of a camera with a lens: its `radius`.
     LensRadius,
-    /// Of a light, unless it is directional: its `position` or `center`.
+    /// Of a light that is not directional: its `position` or `center`.
     Position,
-    /// Of a directional or spot light where it shines, of a disc its normal.
+    /// Of a directional or spot light: its direction; of a disc: its normal.
     Direction,
     /// Of a light.
     Color,
-    /// Of a light, in place of its `intensity` or `radiance`.
+    /// Of a light: replaces its `intensity` or `radiance`.
     Intensity,
     /// Of a light: true or false.
     On,
@@ -94,15 +93,15 @@ pub(in crate::import::native) enum PropertyName {
     Specular,
     /// Of a material.
     Shininess,
-    /// Of a material; it follows `diffuse` if its table gives none.
+    /// Of a material; follows `diffuse` if the material's table does not give it.
     Ambient,
     /// Of a material.
     Emission,
-    /// Of a material: the share of the light that it mirrors, `amount` times `color`.
+    /// Of a material: the fraction of light that it reflects, `amount` times `color`.
     Reflect,
-    /// Of a material: the share of the light that it lets through, `amount` times `color`.
+    /// Of a material: the fraction of light that it transmits, `amount` times `color`.
     Transmit,
-    /// Of a material: the share of ambient and diffuse light, which is 1 less `amount` of `refract`.
+    /// Of a material: the weight of ambient and diffuse light, 1 − `amount` of `refract`.
     Opacity,
     /// Of a material: the index of refraction.
     Ior,
@@ -110,17 +109,17 @@ pub(in crate::import::native) enum PropertyName {
     Absorption,
 }
 
-/// How values between two keys come about.
+/// How values between two keys are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(in crate::import::native) enum InterpolationName {
-    /// A key's value holds until the next.
+    /// Constant until the next key.
     Step,
-    /// The straight way; of rotations the shorter one, at constant speed.
+    /// Linear; for rotations along the shorter arc, at constant speed.
     Linear,
-    /// Smoothly through all keys (Catmull and Rom).
+    /// A smooth curve through all keys (Catmull and Rom).
     Cubic,
-    /// Smoothly, by the tangents of the keys.
+    /// A smooth curve with the tangents given at the keys.
     Hermite,
 }
 
@@ -135,16 +134,16 @@ impl From<InterpolationName> for Interpolation {
     }
 }
 
-/// What holds before the first key and after the last one.
+/// The value before the first and after the last key.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(in crate::import::native) enum BeyondName {
     /// The value of the nearest key.
     #[default]
     Hold,
-    /// The same over and over.
+    /// Repeats from the start.
     Repeat,
-    /// There and back, over and over.
+    /// Alternates between forward and backward.
     PingPong,
 }
 

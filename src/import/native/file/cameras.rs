@@ -1,4 +1,4 @@
-//! How a native scene describes cameras.
+//! Cameras in a native scene.
 
 use crate::import::native::values::{
     Corners, Direction, Number, Positive, Upwards, Vector, ViewAngle, ViewRadians,
@@ -9,38 +9,37 @@ use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use std::fmt;
 use toml::Spanned;
 
-/// A camera: a pinhole, or with a lens.
+/// A pinhole or thin-lens camera.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct CameraTable {
     /// The name for `--camera` and for animations.
     #[serde(default)]
     pub name: String,
-    /// Where it is.
+    /// Its position.
     pub look_from: Vector,
-    /// What is in the middle of the picture: a point, or the name of an object, whose own origin it
-    /// then follows.
+    /// The point at the centre of the image, or the name of an object whose origin the camera follows.
     #[schemars(with = "LookAt")]
     pub look_at: Spanned<LookAt>,
-    /// The name of an object that carries it: `look_from`, `look_at` and `up` are then as seen from
-    /// that object.
+    /// The name of an object or node that the camera is attached to: `look_from`, `look_at` and `up` are
+    /// then in its space.
     #[schemars(with = "Option<String>")]
     pub carried_by: Option<Spanned<String>>,
-    /// What is upwards in the picture; [0, 1, 0] if left out.
+    /// The up direction; default [0, 1, 0].
     #[schemars(with = "Option<Direction>")]
     pub up: Option<Spanned<Upwards>>,
-    /// The vertical angle of view in degrees; 60 if left out.
+    /// The vertical field of view in degrees; default 60.
     #[schemars(with = "Option<ViewAngle>")]
     pub fov_y_deg: Option<Spanned<ViewAngle>>,
-    /// The same in radians, in place of `fov_y_deg`.
+    /// The same in radians, instead of `fov_y_deg`.
     pub fov_y: Option<ViewRadians>,
-    /// The height of what is in the picture, in scene units, for a picture without perspective: an
-    /// orthographic one. What is behind `look_from` is then not in it, and `fov_y_deg` does not count.
+    /// The height of the visible region in scene units: makes the camera orthographic. Geometry behind
+    /// `look_from` is then not visible, and `fov_y_deg` has no effect.
     pub orthographic: Option<Positive>,
-    /// Whether it is the default of several cameras, which otherwise is the first; false if left out.
+    /// Whether it is the default camera, which is otherwise the first one; default false.
     #[serde(default)]
     pub default: bool,
-    /// What lets only one distance be sharp; all is sharp if left out.
+    /// The lens, for depth of field; everything is in focus without it.
     #[schemars(with = "Option<LensTable>")]
     pub lens: Option<Spanned<LensTable>>,
 }
@@ -54,7 +53,7 @@ pub(in crate::import::native) enum LookAt {
 }
 
 impl<'de> Deserialize<'de> for LookAt {
-    // By hand: serde's untagged enums lose the place of an error.
+    // By hand: serde's untagged enums lose the position of an error.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct PointOrName;
         impl<'de> Visitor<'de> for PointOrName {
@@ -74,38 +73,38 @@ impl<'de> Deserialize<'de> for LookAt {
     }
 }
 
-/// A thin lens. What lies nearer or farther than the focus is blurred.
+/// A thin lens. Points nearer or farther than the plane of focus are blurred.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct LensTable {
-    /// The radius of its opening, in scene units. Either this or `f_number`.
+    /// The radius of its aperture in scene units. Either this or `f_number`.
     pub radius: Option<Positive>,
-    /// The focal length over the diameter of the opening, as on a photographic lens; scene units are
-    /// then metres. The smaller, the more blur.
+    /// The focal length over the diameter of the aperture, as on a photographic lens, for scenes in
+    /// metres. Smaller values blur more.
     pub f_number: Option<Positive>,
-    /// The height of the film or sensor in millimetres, which with the angle of view gives the focal
-    /// length for `f_number`; 24 if left out, as in a 35 mm camera.
+    /// The height of the film or sensor in millimetres. Together with the field of view it determines the
+    /// focal length for `f_number`; default 24, as in a 35 mm camera.
     #[schemars(with = "Option<Positive>")]
     pub sensor_height_mm: Option<Spanned<Positive>>,
-    /// The distance of what is sharp, along the viewing direction. Either this or `focus_on`; without
-    /// both it is that of `look_at`, at first.
+    /// The distance of the plane of focus along the viewing direction. Either this or `focus_on`;
+    /// default: the distance of `look_at` at rest.
     pub focus_distance: Option<Positive>,
-    /// A point that is sharp.
+    /// A point in the plane of focus.
     #[schemars(with = "Option<Vector>")]
     pub focus_on: Option<Spanned<Vector>>,
-    /// The corners of its opening, 3 or more, which `radius` then reaches to; round if left out.
+    /// The number of corners of the aperture, 3 or more, at distance `radius` from its centre; default: a
+    /// circle.
     pub blades: Option<Corners>,
-    /// Degrees by which the opening is turned, counter-clockwise; 0, with a corner to the right, if
-    /// left out.
+    /// Rotation of the aperture in degrees, counter-clockwise; default 0, with a corner on the right.
     #[schemars(with = "Option<f64>")]
     pub blade_rotation_deg: Option<Spanned<Number>>,
-    /// The same in radians, in place of `blade_rotation_deg`.
+    /// The same in radians, instead of `blade_rotation_deg`.
     #[schemars(with = "Option<f64>")]
     pub blade_rotation: Option<Number>,
 }
 
 impl CameraTable {
-    /// The vertical angle of view in radians.
+    /// The vertical field of view in radians.
     pub fn angle_of_view(&self) -> f64 {
         let degrees = self
             .fov_y_deg

@@ -1,4 +1,4 @@
-//! How a native scene repeats what it places.
+//! Repetition in a native scene.
 
 use crate::import::native::values::{
     Copies, Direction, GridCount, NonNegative, Number, ScaleRange, Seed, Vector,
@@ -8,28 +8,28 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// Copies of an object or group, by exactly one of grid, ring, scatter and points. Each is placed by
-/// `transform` first, then brought to its place among the copies.
+/// Copies of an object or group, arranged by exactly one of grid, ring, scatter and points. Each copy is
+/// first transformed by `transform`, then moved to its place.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct RepeatTable {
     /// In rows, columns and layers.
     pub grid: Option<GridTable>,
-    /// Round an axis.
+    /// Around an axis.
     pub ring: Option<Box<RingTable>>,
-    /// At random places in a box.
+    /// At random positions in a box.
     pub scatter: Option<Box<ScatterTable>>,
     /// At the points of a file.
     pub points: Option<PointsTable>,
 }
 
-/// Copies at the points of a file, in their order.
+/// Copies at the points of a file, in the file's order.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct PointsTable {
-    /// The path of a PLY file, from the scene's folder downwards: each of its vertices moves a copy by
-    /// x, y and z. Where vertices have the nine properties xx, xy, xz, yx, yy, yz, zx, zy and zz, these
-    /// are where the copy's own x axis (xx, xy, xz), y axis and z axis go.
+    /// The path of a PLY file in the scene's folder or below: each vertex translates a copy by x, y and
+    /// z. If the vertices have the nine properties xx, xy, xz, yx, yy, yz, zx, zy and zz, these are the
+    /// images of the copy's x axis (xx, xy, xz), y axis and z axis.
     #[schemars(with = "String")]
     pub file: Spanned<String>,
 }
@@ -38,62 +38,60 @@ pub(in crate::import::native) struct PointsTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct GridTable {
-    /// How many along x, y and z, each 1 or more.
+    /// Number of copies along x, y and z, each 1 or more.
     pub count: GridCount,
-    /// How far it is from one to the next along x, y and z.
+    /// Distance between neighbours along x, y and z.
     pub step: Vector,
-    /// Whether the middle of the grid, instead of its first copy, is where the object would be (false
-    /// if left out).
+    /// Whether the grid is centred on the object's position instead of starting there; default false.
     #[serde(default)]
     pub centered: bool,
 }
 
-/// Copies round an axis through the origin.
+/// Copies around an axis through the origin.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct RingTable {
-    /// How many, 1 or more.
+    /// Number of copies, 1 or more.
     pub count: Copies,
-    /// How far each is moved away from the axis; 0, which leaves that to `transform`, if left out.
+    /// Distance of each copy from the axis; default 0, which leaves it to `transform`.
     #[serde(default = "none")]
     pub radius: NonNegative,
-    /// What they go round, counter-clockwise when it points at you; [0, 1, 0] if left out. The first
-    /// one lies towards +x, or -y with an axis along x.
+    /// The axis; the copies are arranged counter-clockwise when it points at you; default [0, 1, 0]. The
+    /// first copy lies towards +x, or -y for an axis along x.
     #[serde(default = "upwards")]
     pub axis: Direction,
-    /// Degrees by which the first one is moved on; 0 if left out.
+    /// Angle of the first copy in degrees; default 0.
     #[serde(default = "zero")]
     #[schemars(with = "f64")]
     pub start_deg: Number,
-    /// Degrees from the first to the last; a whole turn in equal parts if left out.
+    /// Degrees from the first to the last copy; default: evenly around a full turn.
     #[schemars(with = "Option<f64>")]
     pub arc_deg: Option<Number>,
-    /// Whether they are turned with the ring, so that all show the same side to the axis (true if
-    /// left out).
+    /// Whether copies turn with the ring, so that all show the same side to the axis; default true.
     #[serde(default = "yes")]
     pub turned: bool,
 }
 
-/// Copies at random places. The same seed gives the same places everywhere, and a greater count only
-/// adds to them.
+/// Copies at random positions. The same seed gives the same positions on every machine, and a larger
+/// count only adds copies.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct ScatterTable {
-    /// How many, 1 or more.
+    /// Number of copies, 1 or more.
     pub count: Copies,
-    /// A whole number that chooses among arrangements; 0 if left out.
+    /// The random seed, a whole number; default 0.
     #[serde(default = "first")]
     pub seed: Seed,
-    /// The corner with the least coordinates of the box that they are in.
+    /// The minimum corner of the box.
     pub min: Vector,
-    /// The corner with the greatest coordinates, none less than that of `min`.
+    /// The maximum corner of the box; no coordinate is less than that of `min`.
     #[schemars(with = "Vector")]
     pub max: Spanned<Vector>,
-    /// Degrees by which each is turned at most, either way, round the x, then the y, then the z axis;
-    /// not at all if left out.
+    /// Largest random rotation in degrees, in either direction, about the x, then the y, then the z axis;
+    /// default none.
     #[serde(default = "unturned")]
     pub turn_deg: Vector,
-    /// The least and the greatest factor by which each is scaled, above 0; 1 if left out.
+    /// Smallest and largest random scale factor, above 0; default 1.
     #[serde(default = "unscaled")]
     pub scale: ScaleRange,
 }

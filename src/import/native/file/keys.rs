@@ -1,5 +1,5 @@
-//! The keys of an animation: what they hold depends on the property, so that their values are
-//! checked later than those of other tables.
+//! The keys of an animation. Their value type depends on the property, so their values are checked later
+//! than those of other tables.
 
 use crate::import::native::values::{Number, Time};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -26,19 +26,19 @@ struct KeyTable {
     /// Seconds.
     #[schemars(with = "Time")]
     time: Spanned<Time>,
-    /// What the property is then.
+    /// The value of the property at that time.
     #[schemars(with = "KeyValue")]
     value: Spanned<KeyValue>,
-    /// With hermite, how much it changes per second on arrival; 0 if left out.
+    /// With hermite: the rate of change per second when arriving at the key; default 0.
     #[schemars(with = "Option<KeyValue>")]
     in_tangent: Option<Spanned<KeyValue>>,
-    /// With hermite, how much it changes per second from then on; 0 if left out.
+    /// With hermite: the rate of change per second when leaving the key; default 0.
     #[schemars(with = "Option<KeyValue>")]
     out_tangent: Option<Spanned<KeyValue>>,
 }
 
 impl<'de> Deserialize<'de> for Key {
-    // By hand: serde's untagged enums lose the place of an error.
+    // By hand: serde's untagged enums lose the position of an error.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct PairOrTable;
         impl<'de> Visitor<'de> for PairOrTable {
@@ -92,7 +92,7 @@ impl JsonSchema for Key {
     }
 }
 
-/// What a key may hold: a number, true or false, a list of three or four numbers, or a colour as
+/// The value of a key: a number, true or false, a list of three or four numbers, or a colour as
 /// "#rrggbb".
 #[derive(Clone, Debug)]
 pub(in crate::import::native) enum KeyValue {
@@ -147,7 +147,7 @@ impl JsonSchema for KeyValue {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": "As the property wants it: a number, true or false, three or four numbers, or a colour as \"#rrggbb\".",
+            "description": "Depending on the property: a number, true or false, three or four numbers, or a colour as \"#rrggbb\".",
             "oneOf": [
                 { "type": "number" },
                 { "type": "boolean" },
@@ -158,7 +158,7 @@ impl JsonSchema for KeyValue {
     }
 }
 
-/// Hands on what it holds, to be read by the type that a property wants.
+/// Passes its value on, to be read as the type of a property.
 impl<'de> Deserializer<'de> for &KeyValue {
     type Error = value::Error;
 

@@ -1,4 +1,4 @@
-//! How a native scene describes lights.
+//! Lights in a native scene.
 
 use crate::import::native::values::{
     AttenuationName, AxisAngle, AxisRadians, Color, Count, Direction, Extent, NonNegative,
@@ -9,29 +9,29 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// One light: exactly one of the kinds.
+/// A light of exactly one kind.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct LightTable {
-    /// The name by which animations find it. No other light has it.
+    /// A unique name, for animations.
     #[schemars(with = "Option<String>")]
     pub name: Option<Spanned<String>>,
-    /// The name of an object that carries it: its place and direction are then as seen from that
-    /// object.
+    /// The name of an object or node that the light is attached to: its position and direction are then
+    /// in that object's space.
     #[schemars(with = "Option<String>")]
     pub carried_by: Option<Spanned<String>>,
-    /// Shines from a point to all sides.
+    /// Shines in all directions from a point.
     pub point: Option<PointTable>,
-    /// Shines along one direction everywhere, like the sun.
+    /// Shines in one direction everywhere, like the sun.
     pub directional: Option<DirectionalTable>,
     /// Shines from a point into a cone.
     #[schemars(with = "Option<SpotTable>")]
     pub spot: Option<Spanned<SpotTable>>,
-    /// Shines from a rectangle or parallelogram, on one side.
+    /// Shines from one side of a rectangle or parallelogram.
     pub rectangle: Option<RectangleLightTable>,
-    /// Shines from a disc, on one side.
+    /// Shines from one side of a disc.
     pub disc: Option<DiscLightTable>,
-    /// Shines from a sphere to all sides.
+    /// Shines in all directions from a sphere.
     pub sphere: Option<SphereLightTable>,
 }
 
@@ -39,29 +39,29 @@ pub(in crate::import::native) struct LightTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct PointTable {
-    /// Where it is.
+    /// Its position.
     pub position: Vector,
-    /// Its colour; white if left out.
+    /// Its colour; default white.
     #[serde(default = "white")]
     pub color: Color,
-    /// What the colour is multiplied by; 1 if left out.
+    /// Factor on the colour; default 1.
     #[serde(default = "one")]
     pub intensity: NonNegative,
-    /// How it fades with distance; inverse-square if left out.
+    /// How it fades with distance; default inverse-square.
     #[serde(default)]
     pub attenuation: AttenuationName,
 }
 
-/// A light at infinity.
+/// A directional light.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct DirectionalTable {
-    /// Where its light goes.
+    /// The direction in which the light travels.
     pub direction: Direction,
-    /// Its colour; white if left out.
+    /// Its colour; default white.
     #[serde(default = "white")]
     pub color: Color,
-    /// What the colour is multiplied by; 1 if left out.
+    /// Factor on the colour; default 1.
     #[serde(default = "one")]
     pub intensity: NonNegative,
 }
@@ -70,129 +70,129 @@ pub(in crate::import::native) struct DirectionalTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct SpotTable {
-    /// Where it is.
+    /// Its position.
     pub position: Vector,
-    /// What its axis goes through. Either this or `direction`.
+    /// A point on its axis. Either this or `direction`.
     #[schemars(with = "Option<Vector>")]
     pub look_at: Option<Spanned<Vector>>,
-    /// Where its axis points.
+    /// The direction of its axis.
     pub direction: Option<Direction>,
-    /// Degrees off the axis up to which it has its full strength; 80 % of `outer_deg` if left out.
+    /// Angle from the axis in degrees up to which it has its full intensity; default 80 % of `outer_deg`.
     #[schemars(with = "Option<AxisAngle>")]
     pub inner_deg: Option<Spanned<AxisAngle>>,
-    /// Degrees off the axis from which on it is dark; 30 if left out.
+    /// Angle from the axis in degrees beyond which it is dark; default 30.
     pub outer_deg: Option<AxisAngle>,
-    /// The same as `inner_deg` in radians, in its place.
+    /// The same as `inner_deg` in radians, instead of it.
     #[schemars(with = "Option<AxisRadians>")]
     pub inner: Option<Spanned<AxisRadians>>,
-    /// The same as `outer_deg` in radians, in its place.
+    /// The same as `outer_deg` in radians, instead of it.
     #[schemars(with = "Option<AxisRadians>")]
     pub outer: Option<Spanned<AxisRadians>>,
-    /// Its colour; white if left out.
+    /// Its colour; default white.
     #[serde(default = "white")]
     pub color: Color,
-    /// What the colour is multiplied by; 1 if left out.
+    /// Factor on the colour; default 1.
     #[serde(default = "one")]
     pub intensity: NonNegative,
-    /// How it fades with distance; inverse-square if left out.
+    /// How it fades with distance; default inverse-square.
     #[serde(default)]
     pub attenuation: AttenuationName,
 }
 
-/// A light with the extent of a rectangle or parallelogram.
+/// An area light: a rectangle or parallelogram.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct RectangleLightTable {
-    /// Its middle.
+    /// Its centre.
     pub center: Vector,
-    /// From its middle to the middle of one side. It shines along edge_u × edge_v. Either both edges
-    /// or `look_at` and `size`.
+    /// From its centre to the middle of one edge. It shines along edge_u × edge_v. Either both edges or
+    /// `look_at` and `size`.
     #[schemars(with = "Option<Vector>")]
     pub edge_u: Option<Spanned<Vector>>,
-    /// From its middle to the middle of the other side.
+    /// From its centre to the middle of the other edge.
     pub edge_v: Option<Vector>,
-    /// What it shines at. It then lies level.
+    /// The point that it faces. It is then level.
     #[schemars(with = "Option<Vector>")]
     pub look_at: Option<Spanned<Vector>>,
-    /// Its width and its height.
+    /// Its width and height.
     pub size: Option<Extent>,
-    /// Its colour; white if left out.
+    /// Its colour; default white.
     #[serde(default = "white")]
     pub color: Color,
-    /// What the colour is multiplied by to be what a point light at its middle would give, seen from
-    /// far away along its normal; 1 if left out, unless there is `radiance`.
+    /// Factor on the colour, as for a point light at its centre seen from far away along the normal;
+    /// default 1, unless `radiance` is given.
     pub intensity: Option<NonNegative>,
-    /// What the colour is multiplied by to be the brightness of its surface.
+    /// Factor on the colour that gives the radiance of its surface.
     pub radiance: Option<NonNegative>,
-    /// Shadow rays for each shaded point; 16 if left out. With many samples per pixel fewer will do.
+    /// Shadow rays per shaded point; default 16. Fewer suffice with many samples per pixel.
     #[serde(default = "sixteen")]
     pub samples: Count,
-    /// Whether the light itself is seen; it is if left out.
+    /// Whether the light itself is visible; default true.
     #[serde(default = "yes")]
     pub visible: bool,
-    /// How it fades with distance; inverse-square if left out, which lets it weaken with the angle
-    /// off its normal too.
+    /// How it fades with distance; default inverse-square, which also weakens it with the angle to its
+    /// normal.
     #[serde(default)]
     pub attenuation: AttenuationName,
 }
 
-/// A light with the extent of a disc.
+/// An area light: a disc.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct DiscLightTable {
-    /// Its middle.
+    /// Its centre.
     pub center: Vector,
-    /// What it shines at. Either this or `normal`.
+    /// The point that it faces. Either this or `normal`.
     #[schemars(with = "Option<Vector>")]
     pub look_at: Option<Spanned<Vector>>,
     /// The direction in which it shines.
     pub normal: Option<Direction>,
     /// Its radius.
     pub radius: Positive,
-    /// Its colour; white if left out.
+    /// Its colour; default white.
     #[serde(default = "white")]
     pub color: Color,
-    /// What the colour is multiplied by to be what a point light at its middle would give, seen from
-    /// far away along its normal; 1 if left out, unless there is `radiance`.
+    /// Factor on the colour, as for a point light at its centre seen from far away along the normal;
+    /// default 1, unless `radiance` is given.
     pub intensity: Option<NonNegative>,
-    /// What the colour is multiplied by to be the brightness of its surface.
+    /// Factor on the colour that gives the radiance of its surface.
     pub radiance: Option<NonNegative>,
-    /// Shadow rays for each shaded point; 16 if left out. With many samples per pixel fewer will do.
+    /// Shadow rays per shaded point; default 16. Fewer suffice with many samples per pixel.
     #[serde(default = "sixteen")]
     pub samples: Count,
-    /// Whether the light itself is seen; it is if left out.
+    /// Whether the light itself is visible; default true.
     #[serde(default = "yes")]
     pub visible: bool,
-    /// How it fades with distance; inverse-square if left out, which lets it weaken with the angle
-    /// off its normal too.
+    /// How it fades with distance; default inverse-square, which also weakens it with the angle to its
+    /// normal.
     #[serde(default)]
     pub attenuation: AttenuationName,
 }
 
-/// A light with the extent of a sphere.
+/// An area light: a sphere.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct SphereLightTable {
-    /// Its middle.
+    /// Its centre.
     pub center: Vector,
     /// Its radius.
     pub radius: Positive,
-    /// Its colour; white if left out.
+    /// Its colour; default white.
     #[serde(default = "white")]
     pub color: Color,
-    /// What the colour is multiplied by to be what a point light at its middle would give, seen from
-    /// far away along its normal; 1 if left out, unless there is `radiance`.
+    /// Factor on the colour, as for a point light at its centre seen from far away; default 1, unless
+    /// `radiance` is given.
     pub intensity: Option<NonNegative>,
-    /// What the colour is multiplied by to be the brightness of its surface.
+    /// Factor on the colour that gives the radiance of its surface.
     pub radiance: Option<NonNegative>,
-    /// Shadow rays for each shaded point; 16 if left out. With many samples per pixel fewer will do.
+    /// Shadow rays per shaded point; default 16. Fewer suffice with many samples per pixel.
     #[serde(default = "sixteen")]
     pub samples: Count,
-    /// Whether the light itself is seen; it is if left out.
+    /// Whether the light itself is visible; default true.
     #[serde(default = "yes")]
     pub visible: bool,
-    /// How it fades with distance; inverse-square if left out, which lets it weaken with the angle
-    /// off its normal too.
+    /// How it fades with distance; default inverse-square, which also weakens it with the angle to its
+    /// normal.
     #[serde(default)]
     pub attenuation: AttenuationName,
 }

@@ -1,4 +1,4 @@
-//! How a native scene describes what surfaces look like.
+//! Materials in a native scene.
 
 use super::textures::{ColorOrTexture, plain};
 use crate::import::native::values::{
@@ -11,25 +11,25 @@ use serde::de::{self, Deserializer, MapAccess, Visitor};
 use std::fmt;
 use toml::Spanned;
 
-/// How a surface answers light.
+/// The appearance of a surface.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct MaterialTable {
     /// Phong coefficients.
     pub phong: PhongTable,
-    /// What it mirrors; nothing if left out.
+    /// Mirror reflection; default none.
     pub reflect: Option<ReflectTable>,
-    /// What it lets through, refracted; nothing if left out.
+    /// Refraction; default none.
     #[schemars(with = "Option<RefractTable>")]
     pub refract: Option<Spanned<RefractTable>>,
-    /// What it mirrors and lets through said directly, for what neither `reflect` nor `refract` can
-    /// say, in place of both.
+    /// Reflection and transmission specified directly, instead of `reflect` and `refract`, for
+    /// combinations that those cannot express.
     #[schemars(with = "Option<OpticsTable>")]
     pub optics: Option<Spanned<OpticsTable>>,
-    /// The light that it gives off by itself; none if left out.
+    /// The light that it emits; default none.
     #[schemars(with = "ColorOrTexture")]
     pub emission: Spanned<ColorOrTexture>,
-    /// Whether both sides are lit alike (true if left out), or only the one the normal points to.
+    /// Whether both sides are lit alike (the default), or only the side that the normal points to.
     pub two_sided: bool,
 }
 
@@ -46,19 +46,19 @@ impl Default for MaterialTable {
     }
 }
 
-/// What a surface mirrors. Ambient and diffuse light are weakened by as much.
+/// Mirror reflection. It weakens ambient and diffuse light by the reflected fraction.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct ReflectTable {
-    /// How much, 0 to 1; 1 if left out.
+    /// The reflected fraction, 0 to 1; default 1.
     pub amount: Fraction,
-    /// What mirrored light is multiplied by; white if left out.
+    /// Factor on reflected light; default white.
     #[schemars(with = "ColorOrTexture")]
     pub color: Spanned<ColorOrTexture>,
-    /// How much of it at which angle: none (all at every angle, as metals do; if left out), or exact
-    /// or schlick, as varnish does.
+    /// How reflection depends on the angle: none (constant, like metals; the default), or exact or
+    /// schlick, like varnish.
     pub fresnel: FresnelName,
-    /// The index of refraction of the varnish where `fresnel` is not none; 1.5 if left out.
+    /// The index of refraction of the varnish if `fresnel` is not none; default 1.5.
     pub ior: RefractiveIndex,
 }
 
@@ -73,25 +73,26 @@ impl Default for ReflectTable {
     }
 }
 
-/// What a surface lets through, and mirrors as the boundary of a transparent body, whose inside is
-/// where its normals point away from.
+/// Refraction, and the reflection at the boundary of a dielectric volume. Its inside is the side that the
+/// normals point away from.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct RefractTable {
-    /// How much goes in or is mirrored; the rest is ambient and diffuse light. 0 to 1; 1 if left out.
+    /// The fraction of light that is transmitted or reflected; ambient and diffuse light get the rest. 0
+    /// to 1; default 1.
     pub amount: Fraction,
-    /// The index of refraction inside; 1.5 if left out.
+    /// The index of refraction inside; default 1.5.
     pub ior: RefractiveIndex,
-    /// What light is multiplied by that goes through the surface; white if left out.
+    /// Factor on light that passes through the surface; default white.
     #[schemars(with = "ColorOrTexture")]
     pub color: Spanned<ColorOrTexture>,
-    /// How much a unit length swallows, for each channel: exp(-absorption * length) is left. None if
-    /// left out.
+    /// Absorption coefficient per unit length and channel: exp(-absorption * length) is transmitted.
+    /// Default none.
     pub absorption: Absorption,
-    /// How much is mirrored at which angle: exact (Fresnel's equations; if left out), schlick, or none.
+    /// How reflection depends on the angle: exact (Fresnel's equations; the default), schlick, or none.
     pub fresnel: FresnelName,
-    /// Where bodies overlap, the one of the highest priority counts, among equals the one entered
-    /// last; 0 if left out.
+    /// Among overlapping dielectric volumes the one of the highest priority counts; among equals the one
+    /// entered last. Default 0.
     pub priority: Priority,
 }
 
@@ -108,27 +109,27 @@ impl Default for RefractTable {
     }
 }
 
-/// What a surface mirrors and lets through, each by itself.
+/// Reflection and transmission, each specified by itself.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct OpticsTable {
-    /// What mirrored light is multiplied by, with `fresnel` at grazing angles; black if left out.
+    /// Factor on reflected light, with `fresnel` its value at grazing angles; default black.
     #[schemars(with = "ColorOrTexture")]
     pub reflect: Spanned<ColorOrTexture>,
-    /// What light is multiplied by that goes through; black if left out.
+    /// Factor on transmitted light; default black.
     #[schemars(with = "ColorOrTexture")]
     pub transmit: Spanned<ColorOrTexture>,
-    /// The share of ambient and diffuse light where `mixing` is layer, 0 to 1; 1 if left out.
+    /// The weight of ambient and diffuse light if `mixing` is layer, 0 to 1; default 1.
     pub opacity: Fraction,
-    /// The index of refraction inside, above 0; 1 if left out.
+    /// The index of refraction inside, above 0; default 1.
     pub ior: Positive,
-    /// How much a unit length swallows, as in `refract`.
+    /// The absorption coefficient, as in `refract`.
     pub absorption: Absorption,
-    /// How much is mirrored at which angle: none (if left out), exact or schlick.
+    /// How reflection depends on the angle: none (the default), exact or schlick.
     pub fresnel: FresnelName,
-    /// Which of bodies that overlap counts, as in `refract`.
+    /// The priority among overlapping dielectric volumes, as in `refract`.
     pub priority: Priority,
-    /// How local, mirrored and transmitted light are put together: layer (if left out), sum or blend.
+    /// How local, reflected and transmitted light are combined: layer (the default), sum or blend.
     pub mixing: MixingName,
 }
 
@@ -151,15 +152,15 @@ impl Default for OpticsTable {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct PhongTable {
-    /// The colour of the surface; light grey if left out.
+    /// The diffuse colour; default light grey.
     #[schemars(with = "ColorOrTexture")]
     pub diffuse: Spanned<ColorOrTexture>,
-    /// The colour of highlights; none if left out.
+    /// The colour of highlights; default none.
     #[schemars(with = "ColorOrTexture")]
     pub specular: Spanned<ColorOrTexture>,
-    /// The exponent of highlights: the higher, the smaller; 32 if left out.
+    /// The exponent of highlights; higher values make them smaller; default 32.
     pub shininess: NonNegative,
-    /// What the ambient light is multiplied by; the diffuse colour if left out.
+    /// Factor on ambient light; default: the diffuse colour.
     #[schemars(with = "Option<ColorOrTexture>")]
     pub ambient: Option<Spanned<ColorOrTexture>>,
 }
@@ -184,7 +185,7 @@ pub(in crate::import::native) enum MaterialRef {
 }
 
 impl<'de> Deserialize<'de> for MaterialRef {
-    // By hand: serde's untagged enums lose the place of an error.
+    // By hand: serde's untagged enums lose the position of an error.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct NameOrTable;
         impl<'de> Visitor<'de> for NameOrTable {

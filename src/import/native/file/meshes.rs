@@ -1,4 +1,4 @@
-//! How a native scene names meshes.
+//! Meshes in a native scene.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -6,15 +6,15 @@ use serde::de::{self, Deserializer, MapAccess, Visitor};
 use std::fmt;
 use toml::Spanned;
 
-/// The triangles of a file.
+/// The mesh in a file.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct MeshTable {
-    /// The path of an OBJ or PLY file, from the scene's folder downwards.
+    /// The path of an OBJ or PLY file in the scene's folder or below.
     #[schemars(with = "String")]
     pub file: Spanned<String>,
-    /// Names of the materials that the vertices of a PLY file count from 0 by their property
-    /// `material`; where they have none, the first is that of all.
+    /// Names of the materials that the property `material` of a PLY file's vertices refers to, counted
+    /// from 0. Without that property, the first applies to the whole mesh.
     #[schemars(with = "Option<Vec<String>>")]
     pub materials: Option<Vec<Spanned<String>>>,
 }
@@ -28,7 +28,7 @@ pub(in crate::import::native) enum MeshOrName {
 }
 
 impl<'de> Deserialize<'de> for MeshOrName {
-    // By hand: serde's untagged enums lose the place of an error.
+    // By hand: serde's untagged enums lose the position of an error.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct NameOrTable;
         impl<'de> Visitor<'de> for NameOrTable {

@@ -1,4 +1,4 @@
-//! How a native scene describes surfaces and where they are.
+//! Objects in a native scene: surfaces and their transforms.
 
 use super::groups::RepeatTable;
 use super::materials::MaterialRef;
@@ -11,12 +11,12 @@ use serde::Deserialize;
 use serde::de::Deserializer;
 use toml::Spanned;
 
-/// One surface, or a group of objects: exactly one of sphere, ellipsoid, plane, disc, rectangle, box,
+/// A surface or a group of objects: exactly one of sphere, ellipsoid, plane, disc, rectangle, box,
 /// cylinder, cone, torus, triangle, mesh and group.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct ObjectTable {
-    /// The name by which animations, cameras and lights find it. No other object has it.
+    /// A unique name, for animations, cameras and lights.
     #[schemars(with = "Option<String>")]
     pub name: Option<Spanned<String>>,
     /// A sphere.
@@ -29,12 +29,12 @@ pub(in crate::import::native) struct ObjectTable {
     pub disc: Option<Box<DiscTable>>,
     /// A rectangle or parallelogram.
     pub rectangle: Option<Box<RectangleTable>>,
-    /// A box along the axes, before its transform.
+    /// A box aligned with the axes, before its transform.
     #[serde(rename = "box")]
     pub cuboid: Option<Box<BoxTable>>,
     /// A cylinder.
     pub cylinder: Option<Box<CylinderTable>>,
-    /// A cone, or a frustum, which is a cone whose tip is cut off.
+    /// A cone, or a frustum (a truncated cone).
     pub cone: Option<Box<ConeTable>>,
     /// A torus.
     pub torus: Option<Box<TorusTable>>,
@@ -43,23 +43,24 @@ pub(in crate::import::native) struct ObjectTable {
     /// The triangles of an OBJ or PLY file, or the name of a mesh under [meshes].
     #[schemars(with = "Option<MeshOrName>")]
     pub mesh: Option<Spanned<MeshOrName>>,
-    /// The name of a group under [groups], whose objects it places.
+    /// The name of a group under [groups], whose objects are placed.
     #[schemars(with = "Option<String>")]
     pub group: Option<Spanned<String>>,
-    /// The name of a material, or a material; not for groups. Light grey if left out, or what the mesh file says.
+    /// A material or the name of one; not for groups. Default light grey, or the materials of the mesh
+    /// file.
     #[schemars(with = "Option<MaterialRef>")]
     pub material: Option<Spanned<MaterialRef>>,
-    /// Where to put it.
+    /// Its transform.
     #[schemars(with = "Option<TransformTable>")]
     pub transform: Option<Spanned<TransformTable>>,
-    /// The name of a node under [[nodes]] that carries it: it is placed as seen from there. Not for
-    /// members of groups, which their group carries.
+    /// The name of the parent node under [[nodes]]. Not for members of groups, which are attached to
+    /// their group.
     #[schemars(with = "Option<String>")]
     pub carried_by: Option<Spanned<String>>,
-    /// Copies of it, placed by `transform` each.
+    /// Copies of it; each is first transformed by `transform`.
     #[schemars(with = "Option<RepeatTable>")]
     pub repeat: Option<Spanned<RepeatTable>>,
-    /// Whether it is in the scene at all (true if left out), at first if that is animated.
+    /// Whether it is visible; default true. The state at rest if it is animated.
     #[serde(default = "yes")]
     pub visible: bool,
 }
@@ -74,13 +75,13 @@ pub(in crate::import::native) struct SphereTable {
     pub radius: Positive,
 }
 
-/// An ellipsoid along the axes, before its transform.
+/// An ellipsoid aligned with the axes, before its transform.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct EllipsoidTable {
-    /// Its centre; the origin if left out.
+    /// Its centre; default the origin.
     pub center: Vector,
-    /// How far it reaches along x, y and z, each greater than 0; 1 if left out.
+    /// Its radii along x, y and z, each greater than 0; default 1.
     #[serde(deserialize_with = "three_radii")]
     pub radii: [Positive; 3],
 }
@@ -100,7 +101,7 @@ impl Default for EllipsoidTable {
 pub(in crate::import::native) struct PlaneTable {
     /// Any point on it.
     pub point: Vector,
-    /// The direction it faces; [0, 1, 0] if left out.
+    /// The direction that it faces; default [0, 1, 0].
     #[serde(default = "upwards")]
     pub normal: Direction,
 }
@@ -111,46 +112,46 @@ pub(in crate::import::native) struct PlaneTable {
 pub(in crate::import::native) struct DiscTable {
     /// Its centre.
     pub center: Vector,
-    /// The direction it faces; [0, 1, 0] if left out.
+    /// The direction that it faces; default [0, 1, 0].
     #[serde(default = "upwards")]
     pub normal: Direction,
     /// Its radius, greater than 0.
     pub radius: Positive,
-    /// The radius of its hole, less than `radius`; no hole if left out.
+    /// The radius of its hole, less than `radius`; default no hole.
     #[schemars(with = "Option<Length>")]
     pub inner_radius: Option<Spanned<Length>>,
 }
 
-/// A rectangle: either two edges, or a size and where it faces.
+/// A rectangle: either two edges, or a size and a normal.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct RectangleTable {
     /// Its centre.
     #[schemars(with = "Vector")]
     pub center: Spanned<Vector>,
-    /// One whole edge, along which u grows; to be given together with `edge_v`.
+    /// One whole edge, along which u grows; together with `edge_v`.
     #[schemars(with = "Option<Direction>")]
     pub edge_u: Option<Spanned<Vector>>,
-    /// The other whole edge, along which v grows. The front is where the turn from `edge_u` to
-    /// `edge_v` is counter-clockwise. Edges that are not perpendicular make a parallelogram.
+    /// The other whole edge, along which v grows. On the front side, the turn from `edge_u` to `edge_v`
+    /// is counter-clockwise. Edges that are not perpendicular make a parallelogram.
     #[schemars(with = "Option<Direction>")]
     pub edge_v: Option<Spanned<Vector>>,
-    /// Width and height, each greater than 0, in place of the edges. Seen from the front, with +y
-    /// upwards, the width is level; where it lies rather flat, the width is along x.
+    /// Width and height, each greater than 0, instead of the edges. Seen from the front with +y upwards,
+    /// the width is level; for a rather flat rectangle it is along x.
     #[serde(default, deserialize_with = "maybe_two")]
     pub size: Option<[Positive; 2]>,
-    /// The direction it faces, together with `size`; [0, 1, 0] if left out.
+    /// The direction that it faces, together with `size`; default [0, 1, 0].
     #[schemars(with = "Option<Direction>")]
     pub normal: Option<Spanned<Direction>>,
 }
 
-/// A box along the axes, before its transform.
+/// A box aligned with the axes, before its transform.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct BoxTable {
-    /// The corner with the least coordinates.
+    /// The minimum corner.
     pub min: Vector,
-    /// The corner with the greatest coordinates, each greater than that of `min`.
+    /// The maximum corner; each coordinate is greater than that of `min`.
     #[schemars(with = "Vector")]
     pub max: Spanned<Vector>,
 }
@@ -159,14 +160,14 @@ pub(in crate::import::native) struct BoxTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct CylinderTable {
-    /// The middle of one end.
+    /// The centre of one end.
     pub from: Vector,
-    /// The middle of the other end.
+    /// The centre of the other end.
     #[schemars(with = "Vector")]
     pub to: Spanned<Vector>,
     /// Its radius, greater than 0.
     pub radius: Positive,
-    /// Whether its ends are open (false if left out).
+    /// Whether it has no caps; default false.
     #[serde(default)]
     pub open: bool,
 }
@@ -175,18 +176,18 @@ pub(in crate::import::native) struct CylinderTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct ConeTable {
-    /// The middle of one end.
+    /// The centre of one end.
     pub from: Vector,
-    /// The middle of the other end: the tip, unless `to_radius` is given.
+    /// The centre of the other end: the tip, unless `to_radius` is given.
     #[schemars(with = "Vector")]
     pub to: Spanned<Vector>,
     /// The radius at `from`, 0 or more.
     #[schemars(with = "Length")]
     pub from_radius: Spanned<Length>,
-    /// The radius at `to`, 0 or more; 0 if left out. One of the two radii is greater than 0.
+    /// The radius at `to`, 0 or more; default 0. At least one of the two radii is greater than 0.
     #[serde(default = "tip")]
     pub to_radius: Length,
-    /// Whether its ends are open (false if left out).
+    /// Whether it has no caps; default false.
     #[serde(default)]
     pub open: bool,
 }
@@ -197,10 +198,10 @@ pub(in crate::import::native) struct ConeTable {
 pub(in crate::import::native) struct TorusTable {
     /// Its centre.
     pub center: Vector,
-    /// The axis that it goes round; [0, 1, 0] if left out.
+    /// Its axis of rotation; default [0, 1, 0].
     #[serde(default = "upwards")]
     pub axis: Direction,
-    /// From the centre to the middle of the tube, greater than 0.
+    /// From the centre to the centre of the tube, greater than 0.
     pub major_radius: Positive,
     /// The radius of the tube, greater than 0 and at most `major_radius`.
     #[schemars(with = "Positive")]
@@ -214,16 +215,16 @@ pub(in crate::import::native) struct TriangleTable {
     /// Its three corners.
     #[serde(deserialize_with = "three")]
     pub vertices: [Vector; 3],
-    /// The normals at its corners, for smooth shading; flat if left out.
+    /// The normals at its corners, for smooth shading; default flat.
     #[serde(default, deserialize_with = "maybe_three")]
     pub normals: Option<[Direction; 3]>,
-    /// Names of the materials at its corners, which blend in between, in place of `material`.
+    /// Names of the materials at its corners, interpolated across the triangle, instead of `material`.
     #[serde(default, deserialize_with = "maybe_three")]
     #[schemars(with = "Option<[String; 3]>")]
     pub materials: Option<[Spanned<String>; 3]>,
 }
 
-// Serde's own arrays ignore elements beyond the last.
+// Serde's own arrays ignore surplus elements.
 fn three<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<[T; 3], D::Error> {
     elements(from, "three elements, one for each corner")
 }

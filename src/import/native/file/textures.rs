@@ -1,4 +1,4 @@
-//! How a native scene describes colours that vary, and what is behind everything.
+//! Textures and backgrounds in a native scene.
 
 use crate::import::native::values::{
     Angle, Color, Matrix, NonNegative, Number, Octaves, Scale, Vector,
@@ -10,7 +10,7 @@ use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 use toml::Spanned;
 
-/// A table with a pattern and its place in it, and what else is in front.
+/// Defines a table with a pattern and its transform, and additional keys.
 macro_rules! with_pattern {
     ($(#[$doc:meta])* $name:ident { $($more:tt)* }) => {
         $(#[$doc])*
@@ -18,35 +18,34 @@ macro_rules! with_pattern {
         #[serde(deny_unknown_fields, default)]
         pub(in crate::import::native) struct $name {
             $($more)*
-            /// Unit cubes of two colours by turns, `a` from [0, 0, 0] to [1, 1, 1].
+            /// A checkerboard of unit cubes; `a` from [0, 0, 0] to [1, 1, 1].
             pub checker: Option<PairTable>,
-            /// Layers of two colours along x: `a` over the first half of every unit, `b` over the
-            /// other.
+            /// Stripes along x: `a` over the first half of every unit, `b` over the second half.
             pub stripes: Option<PairTable>,
-            /// From `a` at x = 0 and below evenly to `b` at x = 1 and beyond.
+            /// Linear from `a` at x = 0 and below to `b` at x = 1 and beyond.
             pub gradient: Option<PairTable>,
-            /// Clouds between `a` and `b`, about one unit large.
+            /// Noise between `a` and `b`, with features of about one unit.
             pub noise: Option<NoiseTable>,
-            /// A picture, repeated over every unit of u and v.
+            /// An image, repeated over every unit of u and v.
             #[schemars(with = "Option<PictureOrFile>")]
             pub picture: Option<Spanned<PictureOrFile>>,
-            /// What the pattern is laid over; the surface's u and v for a picture, the world for all
-            /// others if left out.
+            /// The coordinates of the pattern; by default the surface's u and v for a picture, and world
+            /// coordinates for all others.
             pub space: Option<SpaceName>,
-            /// How large the pattern is: a factor for all axes, or one for each; not 0.
+            /// The scale of the pattern: a factor for all axes, or one for each; not 0.
             pub scale: Option<Scale>,
-            /// Degrees to turn the pattern round the x, then the y, then the z axis,
+            /// Rotation of the pattern in degrees about the x, then the y, then the z axis,
             /// counter-clockwise when the axis points at you.
             pub rotate_deg: Option<Vector>,
-            /// How far to move the pattern.
+            /// Translation of the pattern.
             pub translate: Option<Vector>,
-            /// In place of these three, the way back: where the x, the y and the z axis of what the
-            /// pattern is laid over are in the pattern as vectors, and its origin as a point.
+            /// Instead of these three, the inverse: the images in the pattern's space of the x, the y and
+            /// the z axis as vectors, and of the origin as a point.
             pub pattern_from_space: Option<Matrix>,
         }
 
         impl $name {
-            /// What says where the colours come from and go to.
+            /// The pattern and its transform.
             pub fn pattern(&self) -> PatternTables<'_> {
                 PatternTables {
                     checker: self.checker.as_ref(),
@@ -66,24 +65,24 @@ macro_rules! with_pattern {
 }
 
 with_pattern! {
-    /// A texture: exactly one of checker, stripes, gradient, noise and picture. It is scaled first,
-    /// then rotated, then moved.
+    /// A texture: exactly one of checker, stripes, gradient, noise and picture. It is scaled first, then
+    /// rotated, then translated.
     TextureTable {}
 }
 
 with_pattern! {
-    /// A colour that varies over the surface: a texture by its name, or exactly one of checker,
-    /// stripes, gradient, noise and picture.
+    /// A spatially varying colour: the name of a texture, or exactly one of checker, stripes, gradient,
+    /// noise and picture.
     ColorTable {
         /// The name of a texture under [textures].
         #[schemars(with = "Option<String>")]
         pub texture: Option<Spanned<String>>,
-        /// What the texture is multiplied by; white if left out.
+        /// Factor on the texture; default white.
         pub color: Option<Color>,
     }
 }
 
-/// The pattern of a table, and where it is.
+/// The pattern of a table, and its transform.
 pub(in crate::import::native) struct PatternTables<'a> {
     pub checker: Option<&'a PairTable>,
     pub stripes: Option<&'a PairTable>,
@@ -101,26 +100,26 @@ pub(in crate::import::native) struct PatternTables<'a> {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct PairTable {
-    /// One colour; white if left out.
+    /// First colour; default white.
     pub a: Color,
-    /// The other; black if left out.
+    /// Second colour; default black.
     pub b: Color,
 }
 
-/// Clouds.
+/// Noise.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct NoiseTable {
-    /// One colour; white if left out.
+    /// First colour; default white.
     pub a: Color,
-    /// The other; black if left out.
+    /// Second colour; default black.
     pub b: Color,
-    /// How many layers there are, each half as large and half as strong as the one before: 1 to 16;
-    /// 4 if left out.
+    /// Number of octaves, each with half the wavelength and half the amplitude of the one before, 1 to
+    /// 16; default 4.
     pub octaves: Octaves,
 }
 
-/// The path of a picture (PNG, JPEG, HDR or EXR) from the scene's folder downwards, or a table.
+/// The path of an image (PNG, JPEG, HDR or EXR) in the scene's folder or below, or a table.
 #[derive(Clone, Debug, JsonSchema)]
 #[schemars(untagged)]
 pub(in crate::import::native) enum PictureOrFile {
@@ -129,7 +128,7 @@ pub(in crate::import::native) enum PictureOrFile {
 }
 
 impl<'de> Deserialize<'de> for PictureOrFile {
-    // By hand: serde's untagged enums lose the place of an error.
+    // By hand: serde's untagged enums lose the position of an error.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct NameOrTable;
         impl<'de> Visitor<'de> for NameOrTable {
@@ -149,14 +148,14 @@ impl<'de> Deserialize<'de> for PictureOrFile {
     }
 }
 
-/// A picture file, and how it is looked up.
+/// An image file, and how it is sampled.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct PictureTable {
-    /// The path of a PNG, JPEG, HDR or EXR file, from the scene's folder downwards.
+    /// The path of a PNG, JPEG, HDR or EXR file in the scene's folder or below.
     #[schemars(with = "String")]
     pub file: Spanned<String>,
-    /// Whether texels have hard edges instead of blending; false if left out.
+    /// Whether texels are looked up without interpolation; default false.
     #[serde(default)]
     pub nearest: bool,
 }
@@ -181,40 +180,40 @@ impl Default for NoiseTable {
     }
 }
 
-/// What a pattern is laid over.
+/// The coordinates of a pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(in crate::import::native) enum SpaceName {
-    /// The point in the world: the pattern is carved out of a block.
+    /// World coordinates: a solid texture.
     World,
-    /// The surface's own u and v, as x and y: of a model as its file says, of a triangle from its
-    /// first corner to its second and third.
+    /// The surface's own u and v, as x and y: for a model from its file, for a triangle from its first
+    /// corner to its second and third.
     Uv,
 }
 
-/// What rays see that hit nothing: either `bottom` and `top`, or `picture`.
+/// The background: either `bottom` and `top`, or `picture`.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(in crate::import::native) struct BackgroundTable {
-    /// The colour straight down; towards `top` it changes evenly with height.
+    /// The colour straight down; it changes linearly with height towards `top`.
     pub bottom: Option<Color>,
     /// The colour straight up.
     pub top: Option<Color>,
-    /// The path of an equirectangular picture (PNG, JPEG, HDR or EXR), from the scene's folder
-    /// downwards. Its middle lies in the direction -z, +x to the right of it, its upper edge
-    /// straight up.
+    /// The path of an equirectangular image (PNG, JPEG, HDR or EXR) in the scene's folder or below, for
+    /// image-based backgrounds. Its centre lies in the direction -z, +x to the right of it, its upper
+    /// edge straight up.
     #[schemars(with = "Option<String>")]
     pub picture: Option<Spanned<String>>,
-    /// What the picture is multiplied by; 1 if left out.
+    /// Factor on the image; default 1.
     pub strength: Option<NonNegative>,
-    /// Degrees to turn the picture round the y axis, counter-clockwise from above; 0 if left out.
+    /// Rotation of the image in degrees about the y axis, counter-clockwise from above; default 0.
     pub rotation_deg: Option<Angle>,
-    /// The same in radians, in place of `rotation_deg`.
+    /// The same in radians, instead of `rotation_deg`.
     #[schemars(with = "Option<f64>")]
     pub rotation: Option<Number>,
 }
 
-/// A colour, or a table in its place.
+/// A colour, or a table instead of it.
 macro_rules! color_or {
     ($(#[$doc:meta])* $name:ident($table:ty), $expected:literal) => {
         $(#[$doc])*
@@ -226,7 +225,7 @@ macro_rules! color_or {
         }
 
         impl<'de> Deserialize<'de> for $name {
-            // By hand: serde's untagged enums lose the place of an error.
+            // By hand: serde's untagged enums lose the position of an error.
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 struct ColorOrTable;
                 impl<'de> Visitor<'de> for ColorOrTable {
@@ -259,12 +258,12 @@ color_or!(
 );
 
 color_or!(
-    /// One colour, a gradient from bottom to top, or a picture.
+    /// A colour, a gradient from bottom to top, or an image.
     ColorOrBackground(BackgroundTable),
     "a colour ([r, g, b] or \"#rrggbb\"), a gradient or a picture"
 );
 
-/// A colour that is not in the file.
+/// A default colour.
 pub(in crate::import::native) fn plain(color: Vec3) -> Spanned<ColorOrTexture> {
     Spanned::new(0..0, ColorOrTexture::Color(Color(color)))
 }

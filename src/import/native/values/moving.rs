@@ -1,4 +1,4 @@
-//! The single values of what is repeated or moves.
+//! Value types for repetition and animation.
 
 use super::{Color, Fraction, Number, Positive, elements, is_unit, number};
 use crate::import::source::quote;
@@ -9,7 +9,7 @@ use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, SeqAccess, Vi
 use std::borrow::Cow;
 use std::fmt;
 
-/// How far from its own time a frame's shutter may open or close, in frames.
+/// Limit of the shutter's times, in frames from the frame's own time.
 const MAX_FRAMES: f64 = 1000.0;
 
 value! {
@@ -40,13 +40,13 @@ value! {
 }
 
 value! {
-    /// The least and the greatest of a range of factors, each greater than 0.
+    /// The smallest and the largest factor of a range, each greater than 0.
     ScaleRange([f64; 2]),
     { "type": "array", "items": { "type": "number", "exclusiveMinimum": 0 }, "minItems": 2, "maxItems": 2 },
     |d| {
-        let [least, most] = elements::<Positive, 2, D>(d, "two factors [least, greatest]")?.map(|x| x.0);
+        let [least, most] = elements::<Positive, 2, D>(d, "two factors [smallest, largest]")?.map(|x| x.0);
         if least > most {
-            return Err(de::Error::custom(format!("the least factor, {least}, is more than the greatest, {most}")));
+            return Err(de::Error::custom(format!("the smallest factor, {least}, exceeds the largest, {most}")));
         }
         Ok([least, most])
     }
@@ -79,12 +79,12 @@ value! {
     { "type": "array", "items": { "type": "number", "minimum": -1.001, "maximum": 1.001 }, "minItems": 4, "maxItems": 4 },
     |d| {
         let quaternion = DQuat::from_array(elements::<Number, 4, D>(d, "a quaternion [x, y, z, w]")?.map(|x| x.0));
-        // What was written with all its digits stays as it is.
+        // A quaternion that is already normalised keeps all its digits.
         if is_unit(quaternion.length_squared()) {
             return Ok(quaternion);
         }
         let length = quaternion.length();
-        // Written with three digits it is meant to have length 1; if it is off by more, it is not.
+        // A quaternion with three digits is meant to have length 1; a larger deviation is an error.
         if (length - 1.0).abs() <= 1e-3 {
             return Ok(quaternion.normalize());
         }
@@ -93,7 +93,7 @@ value! {
 }
 
 value! {
-    /// A share of the light, 0 to 1, or one for each channel, as a colour.
+    /// A fraction of the light, 0 to 1, or one for each channel, as a colour.
     Share(Vec3),
     { "oneOf": [
         { "type": "number", "minimum": 0, "maximum": 1 },
@@ -104,9 +104,9 @@ value! {
 }
 
 value! {
-    /// How long the shutter is open, from the frame's own time on: a fraction of the time from frame to
-    /// frame, or an angle such as "180deg", of which 360 make a whole frame; or when it opens and when
-    /// it closes, in frames.
+    /// How long the shutter is open, from the frame's own time on: a fraction of the frame interval, or
+    /// an angle such as "180deg", of which 360 are a whole frame; or the times at which it opens and
+    /// closes, in frames.
     ShutterTimes([f64; 2]),
     { "oneOf": [
         { "type": "number", "minimum": 0, "maximum": 1000 },
@@ -117,8 +117,8 @@ value! {
 }
 
 value! {
-    /// How a change is paced: none (at constant speed), in (it starts slowly), out (it ends slowly),
-    /// in-out, or the x1, y1, x2, y2 of CSS's cubic-bezier.
+    /// Timing of a change: none (constant speed), in (slow start), out (slow end), in-out, or the x1, y1,
+    /// x2, y2 of CSS's cubic-bezier.
     Pace(Easing),
     { "oneOf": [
         { "enum": ["none", "in", "out", "in-out"] },
@@ -133,7 +133,7 @@ impl<'de> Visitor<'de> for ShareVisitor {
     type Value = Vec3;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a share between 0 and 1, or a colour")
+        f.write_str("a fraction between 0 and 1, or a colour")
     }
 
     fn visit_i64<E: de::Error>(self, value: i64) -> Result<Vec3, E> {
@@ -141,7 +141,7 @@ impl<'de> Visitor<'de> for ShareVisitor {
     }
 
     fn visit_f64<E: de::Error>(self, value: f64) -> Result<Vec3, E> {
-        Fraction::deserialize(value.into_deserializer()).map(|share| Vec3::splat(share.0))
+        Fraction::deserialize(value.into_deserializer()).map(|fraction| Vec3::splat(fraction.0))
     }
 
     fn visit_str<E: de::Error>(self, text: &str) -> Result<Vec3, E> {

@@ -1,17 +1,17 @@
-//! Words that a native scene chooses from.
+//! Enumerations of a native scene.
 
 use crate::scene::{Antialias, Attenuation, Filter, Fresnel, Mixing, Shadows, ToneCurve, Transfer};
 use schemars::JsonSchema;
 
-/// How local, mirrored and transmitted light are put together.
+/// How local, reflected and transmitted light are combined.
 #[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(in crate::import::native) enum MixingName {
-    /// What is mirrored or let through is taken from what is under it.
+    /// Reflected and transmitted light are subtracted from the layers below.
     Layer,
     /// All are added, as in Haines' NFF.
     Sum,
-    /// What is mirrored is taken from local light, as in the course's format.
+    /// Reflected light is subtracted from local light, as in the course's format.
     Blend,
 }
 
@@ -25,13 +25,13 @@ impl From<MixingName> for Mixing {
     }
 }
 
-/// How display-linear values become stored ones.
+/// The transfer function from display-linear to stored values.
 #[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(in crate::import::native) enum TransferName {
     /// The sRGB curve, IEC 61966-2-1.
     Srgb,
-    /// As they are.
+    /// Linear.
     Linear,
 }
 
@@ -44,15 +44,15 @@ impl From<TransferName> for Transfer {
     }
 }
 
-/// How scene-linear radiance becomes display-linear.
+/// The tone curve from scene-linear to display-linear values.
 #[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(in crate::import::native) enum ToneName {
-    /// Clamp.
+    /// Clamps only.
     None,
-    /// Filmic, contrasty: a fit of ACES.
+    /// Filmic, high contrast: a fit of ACES.
     Aces,
-    /// Filmic, soft, keeps hues: AgX.
+    /// Filmic, soft, preserves hues: AgX.
     Agx,
     /// x / (1 + x) on luminance.
     Reinhard,
@@ -69,15 +69,15 @@ impl From<ToneName> for ToneCurve {
     }
 }
 
-/// How much is mirrored at which angle.
+/// How reflection depends on the angle.
 #[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(in crate::import::native) enum FresnelName {
-    /// The same at every angle.
+    /// Constant.
     None,
-    /// By Fresnel's equations.
+    /// Fresnel's equations.
     Exact,
-    /// By Schlick's approximation of them.
+    /// Schlick's approximation of them.
     Schlick,
 }
 
@@ -91,14 +91,14 @@ impl From<FresnelName> for Fresnel {
     }
 }
 
-/// How shadow rays meet what is transparent.
+/// How transparent surfaces affect shadow rays.
 #[derive(Clone, Copy, Debug, Default, serde::Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(in crate::import::native) enum ShadowsName {
-    /// It throws a full shadow.
+    /// They cast full shadows.
     #[default]
     Opaque,
-    /// Light goes straight through, coloured and weakened.
+    /// Light passes straight through, coloured and attenuated.
     Filtered,
 }
 
@@ -111,15 +111,15 @@ impl From<ShadowsName> for Shadows {
     }
 }
 
-/// Where in a pixel its samples lie.
+/// Where samples lie within a pixel.
 #[derive(Clone, Copy, Debug, serde::Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(in crate::import::native) enum AntialiasName {
     /// All at the centre.
     None,
-    /// Well spread.
+    /// Stratified.
     Stratified,
-    /// Well spread, and only as many as the pixel needs.
+    /// Stratified, with as many samples as each pixel needs.
     Adaptive,
 }
 
@@ -133,18 +133,18 @@ impl From<AntialiasName> for Antialias {
     }
 }
 
-/// What samples round a pixel's centre are weighted by.
+/// The reconstruction filter.
 #[derive(Clone, Copy, Debug, Default, serde::Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(in crate::import::native) enum FilterName {
-    /// All alike.
+    /// Equal weights.
     #[default]
     Box,
-    /// Linearly down to nothing.
+    /// Linear falloff to zero.
     Tent,
-    /// A normal distribution with a standard deviation of half a pixel, cut.
+    /// A Gaussian with a standard deviation of half a pixel, truncated.
     Gaussian,
-    /// The window of Blackman and Harris: much like it, but ends in nothing.
+    /// The Blackman–Harris window: similar to a Gaussian, but reaches zero.
     BlackmanHarris,
     /// The cubic of Mitchell and Netravali, which sharpens.
     Mitchell,
@@ -162,13 +162,13 @@ impl From<FilterName> for Filter {
     }
 }
 
-/// How a light fades with the distance r to it.
+/// How a light fades with the distance r.
 #[derive(Clone, Copy, Debug, Default, serde::Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(in crate::import::native) enum AttenuationName {
-    /// Not at all.
+    /// No attenuation.
     None,
-    /// 1/r², as light does.
+    /// 1/r², the physical law.
     #[default]
     InverseSquare,
 }

@@ -1,5 +1,4 @@
-//! The single values that say exactly where things are: what other values cannot tell to the last
-//! digit.
+//! Value types that keep every bit of positions and angles.
 
 use super::{Vector, elements, number};
 use glam::{DAffine3, DMat3, DVec3};
@@ -15,7 +14,7 @@ value! {
 }
 
 value! {
-    /// A full angle of view in radians.
+    /// A field of view in radians.
     ViewRadians(f64),
     { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": std::f64::consts::PI },
     |d| {
@@ -25,7 +24,7 @@ value! {
 }
 
 value! {
-    /// An angle off an axis in radians.
+    /// An angle from an axis in radians.
     AxisRadians(f64),
     { "type": "number", "minimum": 0, "maximum": std::f64::consts::FRAC_PI_2 },
     |d| {
@@ -35,7 +34,7 @@ value! {
 }
 
 value! {
-    /// A direction of any length but 0, which is kept.
+    /// A direction of any length but 0; its length is kept.
     Upwards(DVec3),
     { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 },
     |d| {
@@ -48,15 +47,14 @@ value! {
 }
 
 value! {
-    /// A map of space: where it brings the x, the y and the z axis as vectors, and the origin as a
-    /// point.
+    /// An affine map: the images of the x, the y and the z axis as vectors, and of the origin as a point.
     Matrix(DAffine3),
     {
         "type": "array", "minItems": 4, "maxItems": 4,
         "items": { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 }
     },
     |d| {
-        let expected = "four vectors: where the x, y and z axis and the origin go";
+        let expected = "four vectors: the images of the x, y and z axis and of the origin";
         let [x, y, z, origin] = elements::<Vector, 4, D>(d, expected)?.map(|vector| vector.0);
         let axes = DMat3::from_cols(x, y, z);
         if axes.determinant() == 0.0 {

@@ -1,4 +1,4 @@
-//! Triangles of polygons: together they are the polygon, each lies in it, and none is turned over.
+//! Triangulated polygons: the triangles cover the polygon, lie inside it, and keep its orientation.
 
 use super::{file, scene, triangles};
 use crate::support::effort;
@@ -25,7 +25,7 @@ fn is_inside(outline: &[DVec2], p: DVec2) -> bool {
     (0..outline.len()).filter(|&i| crosses(i)).count() % 2 == 1
 }
 
-/// A file with the outline as a polygon in the plane of x and y of `turn`, through `center`.
+/// A file with the outline as a polygon in the xy plane of `turn`, through `center`.
 fn polygon(outline: &[DVec2], turn: DMat3, center: DVec3) -> String {
     let mut text = format!("p {}", outline.len());
     for p in outline {
@@ -35,7 +35,7 @@ fn polygon(outline: &[DVec2], turn: DMat3, center: DVec3) -> String {
     file(&text)
 }
 
-/// What is wrong with the triangles of the outline, if anything.
+/// Describes what is wrong with the triangles of the outline, if anything.
 fn fault(outline: &[DVec2], turn: DMat3, center: DVec3) -> Option<String> {
     let scene = scene("a.nff", polygon(outline, turn, center));
     let flat = |p: DVec3| (turn.transpose() * (p - center)).truncate();
@@ -44,7 +44,7 @@ fn fault(outline: &[DVec2], turn: DMat3, center: DVec3) -> Option<String> {
     for triangle in triangles(&scene) {
         let triangle = triangle.map(flat);
         let part = area(&triangle) * sign;
-        // Those too thin for f32 may be so by a rounding.
+        // Triangles too thin for f32 may be flipped by rounding.
         if part < -1e-6 * area(outline).abs() {
             return Some(format!("{triangle:?} is turned over"));
         }
@@ -63,7 +63,7 @@ fn fault(outline: &[DVec2], turn: DMat3, center: DVec3) -> Option<String> {
     (!scene.meshes[0].normals.iter().all(is_along)).then(|| "a normal is wrong".to_owned())
 }
 
-/// Round the origin, with this distance for each corner.
+/// Points around the origin at these distances.
 fn star(radii: impl ExactSizeIterator<Item = f64>) -> Vec<DVec2> {
     let count = radii.len() as f64;
     let corner = |(i, r)| DVec2::from_angle(TAU * i as f64 / count) * r;
@@ -93,7 +93,7 @@ fn comb(count: usize) -> Vec<DVec2> {
 }
 
 #[test]
-fn concave_polygons_are_cut_into_triangles_that_fill_them() {
+fn concave_polygons_are_triangulated_exactly() {
     let points = |list: &[(f64, f64)]| list.iter().map(|&p| DVec2::from(p)).collect::<Vec<_>>();
     let outlines = [
         ("triangle", points(&[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])),
@@ -166,9 +166,9 @@ fn concave_polygons_are_cut_into_triangles_that_fill_them() {
     assert_eq!(faults, [""; 0]);
 }
 
-/// Polygons that are star-shaped about their middle do not cross themselves, whatever the distances.
+/// Polygons that are star-shaped about their centre do not intersect themselves.
 #[test]
-fn any_polygon_round_a_point_is_filled() {
+fn any_star_shaped_polygon_is_covered() {
     let mut random = Random::new(30);
     let mut faults = Vec::new();
     for _ in 0..200 {
@@ -199,13 +199,13 @@ fn corners_of_patches_keep_their_normals() {
         assert!(normal.distance(expected.into()) < 1e-6, "{normal}");
     }
     assert_eq!(mesh.triangles.len(), 2);
-    // The notch is the third corner: both triangles end there.
+    // The notch is at the third corner: both triangles share it.
     assert!(mesh.triangles.iter().all(|triangle| triangle.contains(&2)));
 }
 
-/// Outlines that cross or cover themselves, with which ear clippers take cubic time.
+/// Self-intersecting outlines, on which ear clippers take cubic time.
 #[test]
-fn polygons_that_meet_themselves_are_refused_soon() {
+fn self_intersecting_polygons_are_refused_quickly() {
     const COUNT: usize = 16_000;
     let mut random = Random::new(7);
     let round = |step: usize| {
@@ -244,14 +244,14 @@ fn polygons_that_meet_themselves_are_refused_soon() {
     for (name, outline) in outlines {
         let text = polygon(&outline, DMat3::IDENTITY, DVec3::ZERO);
         let message = effort::within(5000.0, || super::messages("a.nff", &[text]));
-        let expected = "bad scene (a.nff:9:1): the polygon crosses itself. \
-            List its corners in order round its edge.";
+        let expected = "bad scene (a.nff:9:1): the polygon intersects itself. \
+            List its corners in order along its boundary.";
         assert_eq!(message, expected, "{name}");
     }
 }
 
 #[test]
-fn a_file_may_not_ask_for_endless_cutting() {
+fn total_triangulation_time_is_bounded() {
     let comb = polygon(&comb(16_001), DMat3::IDENTITY, DVec3::ZERO);
     let (head, one) = comb.split_once("\np ").expect("a polygon");
     let text = format!("{head}{}", format!("\np {one}").repeat(8));
@@ -263,7 +263,7 @@ fn a_file_may_not_ask_for_endless_cutting() {
 
     let large = star((0..20_000).map(|i| if i % 2 == 0 { 1.0 } else { 0.5 }));
     let message = super::messages("a.nff", &[polygon(&large, DMat3::IDENTITY, DVec3::ZERO)]);
-    let expected = "bad scene (a.nff:9:1): this polygon, with others before it, has too many \
-        corners without being convex. Cut it into smaller ones.";
+    let expected = "bad scene (a.nff:9:1): this polygon and those before it have too many \
+                    corners to be triangulated, because they are not convex. Cut it into smaller ones.";
     assert_eq!(message, expected);
 }

@@ -1,4 +1,4 @@
-//! What is in the scenes of the Standard Procedural Database.
+//! The contents of the scenes of the Standard Procedural Database.
 
 use super::triangles;
 use crate::reference::count;
@@ -6,9 +6,9 @@ use crate::reference::spd::{files, load};
 use glam::{DVec3, Vec3};
 use glimray::scene::{Background, CanonicalShape, Geometry};
 
-/// Counted line by line, without our reader: SPD begins every entity on a line of its own.
+/// Counted line by line without the importer: SPD starts every entity on a line of its own.
 #[test]
-fn every_entity_of_the_files_is_there() {
+fn every_entity_of_the_files_is_imported() {
     for name in files() {
         let (scene, text) = load(&name).expect("a file that was just listed");
         let lines = |key: &str| {
@@ -86,7 +86,7 @@ fn every_entity_of_the_files_is_there() {
     }
 }
 
-/// Areas by Newell's formula from the file's own numbers.
+/// Areas by Newell's formula from the numbers in the file.
 #[test]
 fn the_polygons_of_the_files_keep_their_area() {
     for name in files() {
@@ -139,10 +139,10 @@ fn rays_of_the_files() {
     }
 }
 
-/// POV-Ray 3.7.0 without antialiasing sends so many mirrored rays for the same scenes in its own
+/// Numbers of reflection rays of POV-Ray 3.7.0 without antialiasing, for the same scenes in its own
 /// format, 5 levels deep, at 512×512.
 #[test]
-fn balls_and_teapot_take_as_many_mirrored_rays_as_in_pov_ray() {
+fn balls_and_teapot_take_as_many_reflection_rays_as_in_pov_ray() {
     for (name, expected) in [("balls.nff", 186_818.0), ("teapot.nff", 228_365.0)] {
         let Some((scene, _)) = load(name) else {
             return;
