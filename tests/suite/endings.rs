@@ -215,7 +215,7 @@ fn what_does_not_fit_into_a_memory_limit_exits_7() {
             "error: too big for the memory",
         ),
         // That this file is read is not known beforehand.
-        (62_000, "inspect names.toml", "do not fit into the memory"),
+        (62_000, "inspect names.toml", "do not fit into memory"),
         // Nor how much it takes: the words are Rust's own.
         (80_000, "inspect names.toml", "memory allocation of"),
     ] {
