@@ -2,8 +2,7 @@
 //!
 //! Vertex properties read: `x y z`, `nx ny nz`, `s t` (also `u v` or `texture_u texture_v`), and
 //! glimray's own material number `material`. Face property read: the list `vertex_indices` (also
-//! `vertex_index`). All others are skipped. Single precision is kept as it is; of double precision the
-//! mesh's offset is kept.
+//! `vertex_index`). Others are skipped. Doubles become floats near the mesh's own origin.
 
 use super::budget::{self, Budget};
 use super::error::{ImportError, fault};
@@ -122,9 +121,7 @@ fn vertices(
         }
         let number = material.as_ref().map_or(0.0, |at| row[at[0]]);
         if !(0.0..material_count as f64).contains(&number) || number.fract() != 0.0 {
-            let why = format!(
-                "a vertex has the material number {number}, but there are {material_count} materials"
-            );
+            let why = format!("a vertex has material {number}, but only {material_count} exist");
             let todo = "List more `materials` in the mesh's table, or repair the file";
             return Err(reader.refuse(&why, todo));
         }
@@ -163,9 +160,7 @@ fn faces(reader: &mut Reader, element: &Element, mesh: &mut Mesh) -> Result<(), 
                 let index = reader.number(property.kind)?;
                 if !(0.0..mesh.positions.len() as f64).contains(&index) {
                     let count = mesh.positions.len();
-                    let why = format!(
-                        "a face has the vertex index {index}, but there are {count} vertices"
-                    );
+                    let why = format!("a face has vertex {index}, but only {count} exist");
                     return Err(reader.refuse(&why, AGAIN));
                 }
                 *corner = index as u32;

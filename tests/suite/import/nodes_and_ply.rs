@@ -212,7 +212,7 @@ fn invalid_nodes_and_duplicate_values_are_refused_with_their_position() {
         "`matrix` replaces all others",
         "duplicate object name `a`",
         "unknown node `a`",
-        "a plane cannot move",
+        "cannot move",
         "`optics` replaces",
         "unknown mesh `m`",
         "there are both `outer_deg` and `outer`",
@@ -244,7 +244,7 @@ fn damaged_ply_files_are_refused_in_one_line_each() {
         (number("property float z\n", ""), "lack x, y or z"),
         (
             number("3 0 2 3\n", "3 0 2 9\n"),
-            "the vertex index 9, but there are 4 vertices",
+            "vertex 9, but only 4 exist",
         ),
         (
             number("3 0 2 3\n", "4 0 2 3 1\n"),
@@ -254,11 +254,11 @@ fn damaged_ply_files_are_refused_in_one_line_each() {
             number("3 0 2 3\n", "3 0 2"),
             "shorter than its header announces",
         ),
-        (number("1 1 0 1\n", "1 nan 0 1\n"), "no finite number"),
+        (number("1 1 0 1\n", "1 nan 0 1\n"), "not a finite number"),
         (number("1 1 0 1\n", "1 x 0 1\n"), "`x` is not a number"),
         (
             number("1 1 0 1\n", "1 1 0 2\n"),
-            "the material number 2, but there are 2 materials",
+            "material 2, but only 2 exist",
         ),
     ] {
         let folder = folder(&[("a.toml", text.as_bytes()), ("m.ply", ply.as_bytes())]);

@@ -31,7 +31,7 @@ fn a_frame_of_different_size_is_reported_and_the_old_file_kept() {
         assert_eq!(
             error.expect_err("another size").to_string(),
             "cannot write the video (frame 2, counted from 0): it has 20×12 pixels, \
-             the first one 20×10. Render it again at that size."
+             but the first one 20×10. Render it again at that size."
         );
         only_old_is_left(folder.path(), format);
     }
@@ -124,7 +124,7 @@ fn a_gif_cannot_be_faster_than_its_players() {
     at(50.0).expect("two hundredths of a second");
     assert_eq!(
         at(60.0).expect_err("too fast").to_string(),
-        "cannot write the video (60 frames per second): GIF plays 0.01 to 50. \
+        "cannot write the video (60 frames per second): GIF supports 0.01 to 50. \
          Choose a rate between them or another format."
     );
     assert!(at(0.005).is_err());
