@@ -75,9 +75,9 @@ fn checksum(bytes: &[u8]) -> u32 {
     let length_end = length.iter().rposition(|byte| *byte != 0);
     let length = &length[..length_end.map_or(0, |last| last + 1)];
     let sum = bytes.iter().chain(length).fold(0_u32, |sum, byte| {
-        (0..8).fold(sum ^ u32::from(*byte) << 24, |sum, _| match sum >> 31 {
+        (0..8).fold(sum ^ (u32::from(*byte) << 24), |sum, _| match sum >> 31 {
             0 => sum << 1,
-            _ => sum << 1 ^ 0x04c1_1db7,
+            _ => (sum << 1) ^ 0x04c1_1db7,
         })
     });
     !sum
