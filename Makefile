@@ -26,13 +26,14 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench gallery build compiler display driver opengl lint features headless wasm
+.PHONY: help demo test bench gallery strips build compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png'
 	@echo 'make test      format, lints, documentation, all tests'
 	@echo 'make bench     measure speed on built-in scenes'
 	@echo 'make gallery   render the pictures of README.md again'
+	@echo 'make strips    render the strips of the book again'
 	@echo 'Where no Vulkan adapter is found, each first installs the Vulkan loader and the software'
 	@echo 'driver of Mesa (Debian and Ubuntu, with apt-get).'
 
@@ -55,6 +56,15 @@ gallery: build driver display
 		$(GLIMRAY) $$arguments --quiet || exit; \
 	done
 	$(CARGO) test $(FLAGS) --test suite -- --ignored pictures_of_the_window_for_the_readme
+
+# The strips of the book's page on failures: its commands render the panels.
+strips: build driver
+	@mkdir -p target/strips
+	@grep '^glimray render' docs/src/theory/failures.md | while read -r _ arguments; do \
+		echo "glimray $$arguments"; \
+		$(GLIMRAY) $$arguments --quiet </dev/null || exit; \
+	done
+	$(CARGO) run $(FLAGS) --example strips -- target/strips assets/gallery
 
 build: compiler
 	$(CARGO) build $(FLAGS)

@@ -248,6 +248,7 @@ pub fn picture_settings(scene: &OutputDefaults, picture: &PictureFlags) -> Rende
         light_samples: picture.light_samples.unwrap_or(scene.light_samples),
         integrator: picture.integrator.unwrap_or(defaults.integrator),
         triangle_test: picture.triangle_test.unwrap_or(defaults.triangle_test),
+        offset: picture.offset.unwrap_or(defaults.offset),
         brute_force: picture.no_bvh,
         seed: picture.seed,
         max_depth: picture.max_depth.unwrap_or(defaults.max_depth),

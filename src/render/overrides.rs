@@ -1,6 +1,10 @@
 //! What of the scene, the frame and the settings is compiled into a kernel: the overrides of `bindings.wesl`.
 
-use super::{layers, settings::TriangleTest, task::Task};
+use super::{
+    layers,
+    settings::{RayOffset, TriangleTest},
+    task::Task,
+};
 use crate::{
     gpu::Overrides,
     layout::{
@@ -25,6 +29,10 @@ pub fn of(task: Task) -> Overrides {
         TriangleTest::MollerTrumbore => TRIANGLE_TEST_MOLLER_TRUMBORE,
         TriangleTest::Watertight => TRIANGLE_TEST_WATERTIGHT,
     };
+    let fixed_offset = match settings.offset {
+        RayOffset::Bound => 0.0,
+        RayOffset::Fixed(distance) => distance,
+    };
     let filter = match settings.filter {
         Filter::Box => FILTER_BOX,
         Filter::Tent => FILTER_TENT,
@@ -43,6 +51,7 @@ pub fn of(task: Task) -> Overrides {
         ("HAS_PLANES", flag(scene.plane_count > 0)),
         ("MIXED_MATERIALS", flag(scene.features.mixed_materials)),
         ("BRUTE_FORCE", flag(settings.brute_force)),
+        ("FIXED_OFFSET", f64::from(fixed_offset)),
         ("STRATIFIED", flag(settings.antialias != Antialias::None)),
         ("COUNT_RAYS", flag(policy.count_rays)),
         ("COUNT_STEPS", flag(integrator.counts_steps)),

@@ -147,7 +147,7 @@ fn help_explains_every_promised_flag_with_an_example() {
     let device = "--adapter --backend --memory-limit";
     let log = "--report --count-rays --progress --quiet -q --verbose -v";
     let output = "-o --output --format --quality --no-clobber";
-    let picture = "--antialias --filter --filter-radius --light-samples --integrator --triangle-test --no-bvh --exposure --tone --transfer \
+    let picture = "--antialias --filter --filter-radius --light-samples --integrator --triangle-test --offset --no-bvh --exposure --tone --transfer \
         --seed --crop --camera --fov-y --orthographic --look-from --look-at --up --background";
     let reading = "--strict --set --allow-dir";
     let size = "--size --samples";
@@ -276,6 +276,15 @@ fn bad_command_lines_exit_2_and_say_why() {
         ),
         ("--filter-radius 0", "it must be a number from 0.01 to 16"),
         ("--filter-radius NaN", "it must be a number from 0.01 to 16"),
+        ("--offset near", "it must be bound or fixed:DISTANCE"),
+        ("--offset fixed:", "a finite number above 0, not ``"),
+        ("--offset fixed:0", "a finite number above 0, not `0`"),
+        (
+            "--offset fixed:-1e-4",
+            "a finite number above 0, not `-1e-4`",
+        ),
+        ("--offset fixed:inf", "a finite number above 0, not `inf`"),
+        ("--offset fixed:NaN", "a finite number above 0, not `NaN`"),
         (
             "--light-samples 0",
             "it must be a number from 0.001 to 1000",

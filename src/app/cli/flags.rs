@@ -7,7 +7,7 @@ use super::values::{
 use crate::gpu::{AdapterChoice, Backend};
 use crate::import;
 use crate::output::Format;
-use crate::render::{Antialias, Integrator, TriangleTest};
+use crate::render::{Antialias, Integrator, RayOffset, TriangleTest};
 use crate::scene::{Filter, ToneCurve, Transfer};
 use clap::Args;
 use glam::{DVec3, Vec3};
@@ -95,6 +95,11 @@ pub struct PictureFlags {
     /// How rays meet triangles [default: watertight]
     #[arg(long, value_parser = TRIANGLE_TESTS.parser())]
     pub triangle_test: Option<TriangleTest>,
+    /// Origin of reflected, refracted and shadow rays: bound, by the rounding error of the hit point, or
+    /// fixed:EPS, that far along the normal, to show shadow acne (EPS too small) and light leaks and missing
+    /// contact shadows (too large) [default: bound]
+    #[arg(long, value_name = "bound|fixed:EPS", allow_hyphen_values = true)]
+    pub offset: Option<RayOffset>,
     /// Try every primitive for every ray instead of searching a tree: the same picture, slowly
     #[arg(long)]
     pub no_bvh: bool,

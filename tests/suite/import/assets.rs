@@ -189,7 +189,17 @@ fn native_scenes_begin_with_what_they_show() {
 fn the_showcase_needs_no_files() {
     let text = std::fs::read_to_string(path("showcase.toml")).expect("text");
     let scene = import::parse("showcase.toml", &text, &Options::default()).expect("a scene");
-    assert!(scene.shapes.len() > 50 && scene.lights.len() >= 3);
+    assert!(scene.shapes.len() > 50);
+    // Soft shadows, depth of field, mirrors and glass.
+    assert!(
+        scene
+            .lights
+            .iter()
+            .any(|light| light.kind.radiance().is_some())
+    );
+    assert!(scene.cameras[0].lens.is_some());
+    let features = glimray::pack::scene(&scene).expect("packed").features;
+    assert!(features.reflection && features.refraction);
 }
 
 #[test]
