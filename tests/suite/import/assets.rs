@@ -151,11 +151,19 @@ fn assert_promises_of_movement(scene: &Scene) {
     }
 }
 
+/// Everything in the folder of scenes and in that of the book's failures.
+fn files() -> Vec<PathBuf> {
+    let folders = ["", "failures"].map(|name| path(name).read_dir().expect("a folder of scenes"));
+    let entries = folders.into_iter().flatten();
+    entries
+        .map(|entry| entry.expect("an entry").path())
+        .collect()
+}
+
 #[test]
 fn every_scene_of_the_project_loads_whole() {
     let mut count = 0;
-    for entry in path("").read_dir().expect("the folder of scenes") {
-        let path = entry.expect("an entry").path();
+    for path in files() {
         let ending = path.extension().and_then(|ending| ending.to_str());
         if !matches!(ending, Some("scene" | "toml" | "nff" | "obj")) {
             continue;
@@ -176,8 +184,7 @@ fn every_scene_of_the_project_loads_whole() {
 
 #[test]
 fn native_scenes_begin_with_what_they_show() {
-    for entry in path("").read_dir().expect("the folder of scenes") {
-        let path = entry.expect("an entry").path();
+    for path in files() {
         if path.extension().is_some_and(|ending| ending == "toml") {
             let text = std::fs::read_to_string(&path).expect("text");
             assert!(text.starts_with("# "), "{}", path.display());
