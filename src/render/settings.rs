@@ -170,7 +170,7 @@ impl RenderSettings {
         encoder.number(*seed);
         encoder.number(*max_depth);
         encoder.float(*min_throughput);
-        // Films from before there was a choice have the error bound.
+        // The error bound adds nothing, so films from before this setting keep their fingerprint.
         if let RayOffset::Fixed(distance) = offset {
             encoder.bytes(b"fixed offset");
             encoder.float(*distance);
