@@ -29,13 +29,14 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench gallery man size hand-in build shaders linker compiler display driver opengl lint features headless wasm
+.PHONY: help demo test bench gallery strips man size hand-in build shaders linker compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png (about 4 minutes the first time)'
 	@echo 'make test      format, lints, documentation, all tests (about 20 minutes the first time)'
 	@echo 'make bench     measure speed on built-in scenes'
 	@echo 'make gallery   render the pictures of README.md again'
+	@echo 'make strips    render the strips of the book again'
 	@echo 'make shaders   link the kernels again after a change in a shader; the others do so by themselves'
 	@echo 'make man       write the manual pages to $(TARGET)/man'
 	@echo 'make hand-in NAME=YourName'
@@ -70,6 +71,15 @@ gallery: build driver display
 man: build
 	mkdir -p $(TARGET)/man
 	$(GLIMRAY) man $(TARGET)/man
+
+# The strips of the book's page on failures: its commands render the panels.
+strips: build driver
+	@mkdir -p $(TARGET)/strips
+	@grep '^glimray render' docs/src/theory/failures.md | while read -r _ arguments; do \
+		echo "glimray $$arguments"; \
+		$(GLIMRAY) $$arguments --quiet </dev/null || exit; \
+	done
+	$(CARGO) run --release --locked --example strips -- target/strips assets/gallery
 
 # In bytes, of the program that users install.
 MOST_BYTES := 30000000

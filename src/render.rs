@@ -40,7 +40,7 @@ pub use integrator::{Integrator, IntegratorEntry, Shows, TABLE as INTEGRATORS};
 pub use layers::{Layer, LayerKind};
 pub use levels::{Levels, Quantity};
 pub use policy::{ExecutionPolicy, Fetch, Slicing};
-pub use settings::{MIN_THROUGHPUT, RenderSettings, TriangleTest};
+pub use settings::{MIN_THROUGHPUT, RayOffset, RenderSettings, TriangleTest};
 pub use show::Screen;
 pub use stats::{Rays, Stats, Uploads};
 pub use sums::SAMPLE_BLOCK;

@@ -2,7 +2,7 @@
 
 use super::error::AppError;
 use crate::render::{
-    Antialias, Integrator, Levels, Quantity, RenderSettings, Shows, Tone, TriangleTest,
+    Antialias, Integrator, Levels, Quantity, RayOffset, RenderSettings, Shows, Tone, TriangleTest,
 };
 use crate::scene::{
     Background, Camera, CameraProperty, Filter, OutputDefaults, Scene, Shutter, Target, ToneCurve,
@@ -50,6 +50,8 @@ pub struct PictureOverrides {
     pub integrator: Option<Integrator>,
     /// Ray–triangle intersection algorithm.
     pub triangle_test: Option<TriangleTest>,
+    /// How origins of secondary rays are moved off surfaces.
+    pub offset: Option<RayOffset>,
     /// Test every primitive instead of traversing a BVH.
     pub brute_force: bool,
     /// Random seed.
@@ -127,6 +129,7 @@ impl PictureOverrides {
             light_samples: self.light_samples.unwrap_or(scene.light_samples),
             integrator: self.integrator.unwrap_or(defaults.integrator),
             triangle_test: self.triangle_test.unwrap_or(defaults.triangle_test),
+            offset: self.offset.unwrap_or(defaults.offset),
             brute_force: self.brute_force,
             seed: self.seed,
             max_depth: self.max_depth.unwrap_or(defaults.max_depth),

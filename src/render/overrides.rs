@@ -1,7 +1,11 @@
 //! The overrides of `bindings.wesl`: properties of the scene, the frame and the settings that are compiled into
 //! a kernel.
 
-use super::{layers, settings::TriangleTest, task::Task};
+use super::{
+    layers,
+    settings::{RayOffset, TriangleTest},
+    task::Task,
+};
 use crate::{
     gpu::Overrides,
     layout::{
@@ -26,6 +30,10 @@ pub fn of(task: Task) -> Overrides {
         TriangleTest::MollerTrumbore => TRIANGLE_TEST_MOLLER_TRUMBORE,
         TriangleTest::Watertight => TRIANGLE_TEST_WATERTIGHT,
     };
+    let fixed_offset = match settings.offset {
+        RayOffset::Bound => 0.0,
+        RayOffset::Fixed(distance) => distance,
+    };
     let filter = match settings.filter {
         Filter::Box => FILTER_BOX,
         Filter::Tent => FILTER_TENT,
@@ -44,6 +52,7 @@ pub fn of(task: Task) -> Overrides {
         ("HAS_PLANES", flag(scene.plane_count > 0)),
         ("MIXED_MATERIALS", flag(scene.features.mixed_materials)),
         ("BRUTE_FORCE", flag(settings.brute_force)),
+        ("FIXED_OFFSET", f64::from(fixed_offset)),
         ("STRATIFIED", flag(settings.antialias != Antialias::None)),
         ("COUNT_RAYS", flag(policy.count_rays)),
         ("COUNT_STEPS", flag(integrator.counts_steps)),

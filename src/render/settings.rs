@@ -2,7 +2,7 @@
 
 use super::{Fingerprint, Integrator, fingerprint::Encoder};
 use crate::scene::{Antialias, Filter, OutputDefaults};
-use std::ops::Range;
+use std::{fmt, ops::Range, str::FromStr};
 
 /// The default minimum throughput of rays: half of the smallest 8-bit step.
 pub const MIN_THROUGHPUT: f32 = 1.0 / 512.0;
@@ -34,6 +34,8 @@ pub struct RenderSettings {
     pub integrator: Integrator,
     /// Ray–triangle intersection algorithm.
     pub triangle_test: TriangleTest,
+    /// How origins of secondary rays are moved off surfaces.
+    pub offset: RayOffset,
     /// Tests every primitive for every ray instead of traversing the BVH, to verify it.
     pub brute_force: bool,
     /// Seed of the random numbers.
@@ -59,6 +61,7 @@ impl Default for RenderSettings {
             light_samples: 1.0,
             integrator: Integrator::Whitted,
             triangle_test: TriangleTest::Watertight,
+            offset: RayOffset::Bound,
             brute_force: false,
             seed: 0,
             max_depth: 5,
@@ -129,6 +132,7 @@ impl RenderSettings {
             light_samples,
             integrator,
             triangle_test,
+            offset,
             brute_force,
             seed,
             max_depth,
@@ -166,6 +170,11 @@ impl RenderSettings {
         encoder.number(*seed);
         encoder.number(*max_depth);
         encoder.float(*min_throughput);
+        // The error bound adds nothing, so films from before this setting keep their fingerprint.
+        if let RayOffset::Fixed(distance) = offset {
+            encoder.bytes(b"fixed offset");
+            encoder.float(*distance);
+        }
         encoder.finish()
     }
 }
@@ -180,4 +189,48 @@ pub enum TriangleTest {
     /// Woop, Benthin and Wald 2013: no ray slips between neighbouring triangles.
     #[default]
     Watertight,
+}
+
+/// Where a reflected, refracted or shadow ray starts, so that it does not hit the surface it leaves. Its text form
+/// is `bound` or `fixed:DISTANCE`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum RayOffset {
+    /// As far from the surface as the hit point may be wrong: Pharr, Jakob, Humphreys, Physically Based
+    /// Rendering, 4th ed., 6.8.
+    #[default]
+    Bound,
+    /// This far along the geometric normal, in the scene's units, above 0. It is there to show the failures of
+    /// a fixed distance: shadow acne where it is below the rounding error, and light leaks and missing
+    /// contact shadows where it is longer than details of the scene.
+    Fixed(f32),
+}
+
+impl fmt::Display for RayOffset {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Bound => f.write_str("bound"),
+            Self::Fixed(distance) => write!(f, "fixed:{distance}"),
+        }
+    }
+}
+
+impl FromStr for RayOffset {
+    type Err = String;
+
+    /// # Errors
+    /// The text is neither `bound` nor `fixed:` and a finite number above 0.
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "bound" {
+            return Ok(Self::Bound);
+        }
+        let distance = (text.strip_prefix("fixed:")).ok_or_else(|| {
+            format!("it must be bound or fixed:DISTANCE, such as fixed:1e-4, not `{text}`")
+        })?;
+        match distance.trim().parse() {
+            Ok(number) if number > 0.0 && f32::is_finite(number) => Ok(Self::Fixed(number)),
+            _ => Err(format!(
+                "the distance must be a finite number above 0, not `{distance}`"
+            )),
+        }
+    }
 }

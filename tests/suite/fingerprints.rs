@@ -4,7 +4,7 @@ use crate::reference::scenes;
 use glam::dvec3;
 use glimray::pack;
 use glimray::render::{
-    Fingerprint, INTEGRATORS, Integrator, Levels, RenderSettings, Tone, TriangleTest,
+    Fingerprint, INTEGRATORS, Integrator, Levels, RayOffset, RenderSettings, Tone, TriangleTest,
 };
 use glimray::scene::{Antialias, Filter, Scene, ToneCurve, Transfer};
 use std::collections::{HashMap, HashSet};
@@ -46,6 +46,8 @@ fn every_setting_changes_the_fingerprint() {
         ("counts", |s| s.integrator = Integrator::Samples),
         ("plane", |s| s.triangle_test = TriangleTest::Plane),
         ("moller", |s| s.triangle_test = TriangleTest::MollerTrumbore),
+        ("offset", |s| s.offset = RayOffset::Fixed(1e-4)),
+        ("another offset", |s| s.offset = RayOffset::Fixed(2e-4)),
         ("brute force", |s| s.brute_force = true),
         ("seed", |s| s.seed = 1),
         ("depth of rays", |s| s.max_depth += 1),

@@ -39,6 +39,7 @@ mod pack;
 mod pack_again;
 mod pack_view;
 mod pictures;
+mod ray_offset;
 mod readme;
 mod reference;
 mod render;

@@ -171,6 +171,20 @@ fn offsets_follow_the_normal_to_the_side_of_the_ray() {
 }
 
 #[test]
+fn a_fixed_offset_has_its_length_on_the_side_of_the_ray() {
+    let up = [0f32, 1.0, 0.0];
+    let p = [1f32, 2.0, 3.0];
+    #[rustfmt::skip]
+    gpu().check("lib::offset::fixed_origin", Tolerance::Relative(1e-6), &[
+        ("up, for a ray that goes up", (p, up, [0.6f32, 0.8, 0.0], 0.25f32), [1.0, 2.25, 3.0]),
+        ("down, for a ray that goes down", (p, up, [0.6, -0.8, 0.0], 0.25), [1.0, 1.75, 3.0]),
+        ("the sign of the normal does not matter", (p, [0.0, -1.0, 0.0], [0.6, 0.8, 0.0], 0.25), [1.0, 2.25, 3.0]),
+        ("along a slanted normal", (p, [0.6, 0.0, 0.8], [0.0, 0.0, 1.0], 10.0), [7.0, 2.0, 11.0]),
+        ("a grazing ray goes to the back", (p, up, [1.0, 0.0, 0.0], 0.5), [1.0, 1.5, 3.0]),
+    ]);
+}
+
+#[test]
 fn a_reflected_ray_starts_on_the_path_of_the_incoming_ray() {
     let error = [0f32, 1e-3, 0.0];
     let (up, o) = ([0f32, 1.0, 0.0], [0f32; 3]);

@@ -7,7 +7,9 @@ use glimray::cli::view::picture;
 use glimray::import;
 use glimray::output;
 use glimray::pack;
-use glimray::render::{Antialias, Integrator, Levels, RenderSettings, Tone, TriangleTest};
+use glimray::render::{
+    Antialias, Integrator, Levels, RayOffset, RenderSettings, Tone, TriangleTest,
+};
 use glimray::scene::{
     Background, Beyond, Camera, CameraProperty, Curve, Easing, Filter, Interpolation, Lens, Node,
     OutputDefaults, Scene, Shutter, Target, ToneCurve, Track, Transfer, Values,
@@ -164,7 +166,7 @@ fn the_camera_of_a_line_packs_to_the_same_bits() {
 #[test]
 fn every_setting_that_a_pixel_depends_on_is_in_the_line() {
     type Change = fn(&mut Screen);
-    let rows: [(&str, Change); 26] = [
+    let rows: [(&str, Change); 27] = [
         ("--size 33x44", |s| s.settings.size = (33, 44)),
         ("--crop 1,2,30,40", |s| {
             s.settings.crop = Some([1, 2, 30, 40])
@@ -198,6 +200,9 @@ fn every_setting_that_a_pixel_depends_on_is_in_the_line() {
         }),
         ("--triangle-test plane", |s| {
             s.settings.triangle_test = TriangleTest::Plane
+        }),
+        ("--offset fixed:0.0003", |s| {
+            s.settings.offset = RayOffset::Fixed(3e-4)
         }),
         ("--no-bvh", |s| s.settings.brute_force = true),
         ("--no-bvh --seed 9", |s| {

@@ -6,7 +6,7 @@ use crate::app::words::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIAN
 use crate::gpu::{AdapterChoice, Backend};
 use crate::import;
 use crate::output::Format;
-use crate::render::{Antialias, Integrator, TriangleTest};
+use crate::render::{Antialias, Integrator, RayOffset, TriangleTest};
 use crate::scene::{Filter, ToneCurve, Transfer};
 use clap::Args;
 use glam::{DVec3, Vec3};
@@ -95,6 +95,13 @@ pub struct PictureFlags {
     /// Ray–triangle intersection algorithm [default: watertight]
     #[arg(long, value_parser = values::one_of(&TRIANGLE_TESTS))]
     pub triangle_test: Option<TriangleTest>,
+    /// Origin of reflected, refracted and shadow rays: bound or fixed:EPS
+    ///
+    /// bound moves it by the rounding error of the hit point. fixed:EPS moves it by EPS along the normal, which
+    /// shows shadow acne where EPS is too small, and light leaks and missing contact shadows where it is too
+    /// large [default: bound]
+    #[arg(long, value_name = "bound|fixed:EPS", allow_hyphen_values = true)]
+    pub offset: Option<RayOffset>,
     /// Test every primitive for every ray instead of traversing the BVH: the same picture, but slow
     #[arg(long)]
     pub no_bvh: bool,
@@ -226,6 +233,7 @@ impl PictureFlags {
             light_samples: self.light_samples,
             integrator: self.integrator,
             triangle_test: self.triangle_test,
+            offset: self.offset,
             brute_force: self.no_bvh,
             seed: self.seed,
             crop: self.crop,

@@ -70,6 +70,15 @@ fn bad_command_lines_exit_2_and_say_why() {
         ("--noise 0", "it must be a number from 0.000001 to 1"),
         ("--max-depth 1001", "1001 is not in 0..=1000"),
         ("--max-depth -1", "invalid value '-1'"),
+        ("--offset near", "it must be bound or fixed:DISTANCE"),
+        ("--offset fixed:", "a finite number above 0, not ``"),
+        ("--offset fixed:0", "a finite number above 0, not `0`"),
+        (
+            "--offset fixed:-1e-4",
+            "a finite number above 0, not `-1e-4`",
+        ),
+        ("--offset fixed:inf", "a finite number above 0, not `inf`"),
+        ("--offset fixed:NaN", "a finite number above 0, not `NaN`"),
         ("--min-throughput 2", "it must be a number from 0 to 1"),
         (
             "--format bmp",

@@ -152,11 +152,19 @@ fn assert_guarantees_of_animation(scene: &Scene) {
     }
 }
 
+/// Everything in the folder of scenes and in that of the book's failures.
+fn files() -> Vec<PathBuf> {
+    let folders = ["", "failures"].map(|name| path(name).read_dir().expect("a folder of scenes"));
+    let entries = folders.into_iter().flatten();
+    entries
+        .map(|entry| entry.expect("an entry").path())
+        .collect()
+}
+
 #[test]
 fn every_scene_of_the_project_loads_whole() {
     let mut count = 0;
-    for entry in path("").read_dir().expect("the folder of scenes") {
-        let path = entry.expect("an entry").path();
+    for path in files() {
         let ending = path.extension().and_then(|ending| ending.to_str());
         if !matches!(ending, Some("scene" | "toml" | "nff" | "obj")) {
             continue;
@@ -177,8 +185,7 @@ fn every_scene_of_the_project_loads_whole() {
 
 #[test]
 fn native_scenes_begin_with_what_they_show() {
-    for entry in path("").read_dir().expect("the folder of scenes") {
-        let path = entry.expect("an entry").path();
+    for path in files() {
         if path.extension().is_some_and(|ending| ending == "toml") {
             let text = std::fs::read_to_string(&path).expect("text");
             assert!(text.starts_with("# "), "{}", path.display());
@@ -190,7 +197,17 @@ fn native_scenes_begin_with_what_they_show() {
 fn the_showcase_needs_no_files() {
     let text = std::fs::read_to_string(path("showcase.toml")).expect("text");
     let scene = import::parse("showcase.toml", &text, &Options::default()).expect("a scene");
-    assert!(scene.shapes.len() > 50 && scene.lights.len() >= 3);
+    assert!(scene.shapes.len() > 50);
+    // Soft shadows, depth of field, mirrors and glass.
+    assert!(
+        scene
+            .lights
+            .iter()
+            .any(|light| light.kind.radiance().is_some())
+    );
+    assert!(scene.cameras[0].lens.is_some());
+    let features = glimray::pack::scene(&scene).expect("packed").features;
+    assert!(features.reflection && features.refraction);
 }
 
 #[test]

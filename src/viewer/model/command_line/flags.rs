@@ -156,6 +156,12 @@ fn settings(shown: &Shown, said: &Pasted) -> Vec<Check> {
             "--triangle-test",
             TRIANGLE_TESTS.word(&wanted.triangle_test).to_owned(),
         ),
+        one(
+            wanted.offset != said.offset,
+            "the ray offset",
+            "--offset",
+            wanted.offset.to_string(),
+        ),
         (
             wanted.brute_force != said.brute_force,
             "the search without a tree",
