@@ -32,6 +32,7 @@ help:
 	@echo 'make demo      render the showcase scene to glimray.png'
 	@echo 'make test      format, lints, documentation, all tests'
 	@echo 'make bench     measure speed on built-in scenes'
+	@echo 'make docs      build the manual with mdBook and check its links'
 	@echo 'make gallery   render the pictures of README.md again'
 	@echo 'Where no Vulkan adapter is found, each first installs the Vulkan loader and the software'
 	@echo 'driver of Mesa (Debian and Ubuntu, with apt-get).'
@@ -48,13 +49,31 @@ test: lint features headless wasm
 bench: build driver
 	$(GLIMRAY) bench
 
-# The commands are those that README.md shows beside each picture; the window's are taken of a real one.
+# The commands are those that README.md and the manual's gallery show with each picture; the pictures of the window
+# are taken of a real one.
 gallery: build driver display
-	@grep -o 'glimray [a-z]* [^`]*-o assets/gallery/[^` ]*' README.md | while read -r _ arguments; do \
+	@grep -oh 'glimray [a-z]* [^`]*-o assets/gallery/[^` ]*' README.md docs/src/guide/gallery.md | while read -r _ arguments; do \
 		echo "glimray $$arguments"; \
 		$(GLIMRAY) $$arguments --quiet || exit; \
 	done
 	$(CARGO) test $(FLAGS) --test suite -- --ignored pictures_of_the_window_for_the_readme
+
+# The pages lie as deep in the site as they do in the repository, and the folders that they link to beside them: a link
+# to a picture or a source works in both places. Tests check the links without mdBook.
+MDBOOK_VERSION := 0.5.4
+TOOLS := $(abspath $(or $(CARGO_TARGET_DIR),target)/tools)
+SITE := $(abspath $(or $(CARGO_TARGET_DIR),target)/site)
+LINKED := assets benches examples shaders src tests build.rs
+.PHONY: docs
+docs: compiler
+	@[ -x $(TOOLS)/bin/mdbook ] || $(CARGO) install mdbook --version $(MDBOOK_VERSION) --locked \
+		--no-default-features --features search --root $(TOOLS)
+	rm -rf $(SITE)
+	mkdir -p $(SITE)
+	$(TOOLS)/bin/mdbook build docs --dest-dir $(SITE)/docs/book
+	cp -R $(LINKED) $(SITE)
+	docs/check-links.sh $(SITE)/docs/book
+	@echo $(SITE)/docs/book/index.html
 
 build: compiler
 	$(CARGO) build $(FLAGS)
