@@ -1,8 +1,8 @@
 //! Bounding volume hierarchies over boxes, for four-way traversal.
 //!
-//! The builder knows boxes and the group that each belongs to, not what is in them: the caller
-//! arranges its primitives in the order that [`Bvh`] gives back. `obvhs` makes a binary tree
-//! (PLOC, then reinsertion), `wide` collapses it.
+//! The builder knows boxes and the group that each belongs to, but not the primitives in them: the caller
+//! reorders its primitives by the order in [`Bvh`]. `obvhs` builds a binary tree (PLOC, then
+//! reinsertion), and `wide` collapses it.
 
 mod binary;
 mod wide;
@@ -11,7 +11,7 @@ pub use wide::{Child, WideNode};
 
 use glam::Vec3;
 
-/// An axis-aligned box; `min` ≤ `max` in every component, both finite, but for [`Aabb::EMPTY`].
+/// An axis-aligned box; `min` ≤ `max` in every component, both finite, except for [`Aabb::EMPTY`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// Lower corner.
@@ -21,7 +21,7 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// The box round nothing, which adds nothing to a union.
+    /// The empty box, the identity of the union.
     pub const EMPTY: Self = Self {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
@@ -43,7 +43,7 @@ impl Aabb {
         }
     }
 
-    /// Half of the surface area; a ray's chance to meet the box is in proportion to it.
+    /// Half of the surface area, which is proportional to the probability that a ray hits the box.
     pub fn half_area(self) -> f32 {
         let d = self.max - self.min;
         d.x * d.y + d.y * d.z + d.z * d.x
@@ -57,16 +57,16 @@ pub struct Bvh {
     pub nodes: Vec<WideNode>,
     /// For each group, the indices of its boxes in leaf order.
     pub order: Vec<Vec<u32>>,
-    /// The most entries that a traversal's stack can hold at a time, children pushed far to near.
+    /// The largest number of entries on a traversal's stack when children are pushed far to near.
     pub stack_need: usize,
 }
 
-/// What the tree is to look like.
+/// Constraints on the tree.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// Most boxes in a leaf; all of them are of one group.
+    /// Largest number of boxes in a leaf; all of them belong to one group.
     pub leaf_size: u32,
-    /// Bound on [`Bvh::stack_need`]. A tree that would exceed it is built again, balanced.
+    /// Bound on [`Bvh::stack_need`]. A tree that exceeds it is rebuilt as a balanced tree.
     pub stack_size: usize,
 }
 

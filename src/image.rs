@@ -1,4 +1,4 @@
-//! A finished picture in memory.
+//! A finished image in memory.
 
 /// A rectangle of pixels, as [`crate::output`] writes it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -7,14 +7,14 @@ pub struct Image {
     pub width: u32,
     /// In pixels.
     pub height: u32,
-    /// Red, green, blue and opacity (1 is opaque), row by row from the top-left; `width * height`
-    /// of them. Scene-linear Rec. 709 radiance, or what exposure, tone curve and transfer made of
-    /// it: whoever developed the picture knows which.
+    /// Red, green, blue and opacity (1 is opaque), row by row from the top left; `width * height` of
+    /// them. Either scene-linear Rec. 709 radiance or display values after exposure, tone curve and
+    /// transfer function, depending on how the image was developed.
     pub pixels: Vec<[f32; 4]>,
 }
 
 impl Image {
-    /// A black, fully opaque picture.
+    /// A black, fully opaque image.
     pub fn new(width: u32, height: u32) -> Self {
         let pixels = vec![[0.0, 0.0, 0.0, 1.0]; width as usize * height as usize];
         Self {
@@ -24,7 +24,7 @@ impl Image {
         }
     }
 
-    /// The pixel in column `x` of row `y`, both from the top-left; `None` outside the picture.
+    /// The pixel in column `x` of row `y`, counted from the top left; `None` outside the image.
     pub fn pixel(&self, x: u32, y: u32) -> Option<[f32; 4]> {
         if x >= self.width || y >= self.height {
             return None;
@@ -33,7 +33,7 @@ impl Image {
         self.pixels.get(index).copied()
     }
 
-    /// Whether no pixel lets anything shine through.
+    /// Whether every pixel is opaque.
     pub fn is_opaque(&self) -> bool {
         self.pixels.iter().all(|pixel| pixel[3] >= 1.0)
     }

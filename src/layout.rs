@@ -1,5 +1,5 @@
-//! Every struct and tag that a shader also sees, as the GPU sees it: the same names, members and
-//! values as `shaders/types.wesl`. A test compares the two through naga.
+//! The structs and tags shared with shaders, as the GPU sees them: the same names, members and values as
+//! in `shaders/types.wesl`. A test compares the two through naga.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -7,17 +7,16 @@ mod tags;
 
 pub use tags::*;
 
-/// A node as the shader's `decode_node` reads it: four rows of four words.
+/// A BVH node in the encoding that the shader's `decode_node` reads: four rows of four words.
 pub type PackedNode = [u32; 16];
 
-/// The reference to a leaf of `count` (1 to 8) primitives from `first` (below 2²⁷), shapes or
-/// triangles.
+/// The reference to a leaf of `count` (1 to 8) primitives, shapes or triangles, from `first` (below 2²⁷).
 pub const fn leaf_reference(first: u32, count: u32, is_shape: bool) -> u32 {
     let kind = if is_shape { SHAPE } else { 0 };
     LEAF | kind | ((count - 1) << LEAF_COUNT_SHIFT) | first
 }
 
-/// Declares a struct as plain old data together with a table of its members for the layout test.
+/// Declares plain old data structs together with a table of their members for the layout test.
 macro_rules! packed {
     ($($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)* })*) => {
         $(
@@ -39,7 +38,7 @@ macro_rules! packed {
 }
 
 packed! {
-    /// Three corners in render space and the index of each one's [`PackedVertex`].
+    /// Three corners in render space, each with the index of its [`PackedVertex`].
     PackedTriangle {
         /// First corner.
         v0: [f32; 3],
@@ -54,53 +53,53 @@ packed! {
         /// Index of its [`PackedVertex`].
         i2: u32,
     }
-    /// What is known at a corner besides its position.
+    /// Attributes of a corner other than its position.
     PackedVertex {
         /// Unit shading normal.
         normal: [f32; 3],
         /// Index of a [`PackedMaterial`].
         material: u32,
     }
-    /// An analytic shape; `kind` says what its sizes mean. All but spheres and planes are canonical
-    /// surfaces in a space of their own, into which the rows lead. A globe is a huge sphere nearby.
+    /// An analytic shape; `kind` says which members apply and how. All shapes but spheres and planes are
+    /// canonical in a space of their own, to which the rows transform. A globe is a huge sphere nearby.
     PackedShape {
-        /// Sphere: its centre. Globe: its point nearest to the origin. Plane: a point on it. Others:
-        /// their space's origin. In render space.
+        /// Sphere: its centre. Globe: its point nearest to the origin. Plane: a point on it. Others: the
+        /// origin of their canonical space. In render space.
         position: [f32; 3],
         /// [`SHAPE_SPHERE`], [`SHAPE_PLANE`] and so on.
         kind: u32,
-        /// What a point less `position` is multiplied by for its x in the shape's space. Plane: what a
-        /// point is multiplied by for u, to which `size0` is added.
+        /// Dot product with a point less `position`: its x in the canonical space. Plane: dot product
+        /// with a point plus `size0`: u.
         row_x: [f32; 3],
-        /// Sphere: radius. Globe: reciprocal of the radius. Disc: radius of its hole. Cone: radius at
-        /// the bottom, the larger one is 1. Torus: small radius.
+        /// Sphere: radius. Globe: reciprocal of the radius. Disc: radius of its hole. Cone: radius at the
+        /// bottom, where the larger one is 1. Torus: small radius.
         size0: f32,
-        /// The same for y. Plane: its unit normal. Globe: that at `position`.
+        /// The same for y. Plane: its unit normal. Globe: its normal at `position`.
         row_y: [f32; 3],
         /// Cone: radius at the top.
         size1: f32,
-        /// The same for z. Plane: for v, to which `size1` is added.
+        /// The same for z. Plane: for v, with `size1`.
         row_z: [f32; 3],
         /// [`SHAPE_CAPPED`] or 0.
         flags: u32,
         /// Index of a [`PackedMaterial`].
         material: u32,
-        /// Index in [`crate::scene::Scene::shapes`], or of the lights behind them.
+        /// Index in [`crate::scene::Scene::shapes`], followed by those of visible lights.
         id: u32,
         #[doc(hidden)]
         _pad0: u32,
         #[doc(hidden)]
         _pad1: u32,
     }
-    /// A tree of its own, placed in render space by `linear` and `translation`.
+    /// An instance of a BLAS, placed in render space by `linear` and `translation`.
     PackedInstance {
-        /// Where its origin is.
+        /// Position of its origin.
         translation: [f32; 3],
-        /// Child reference to its root.
+        /// Child reference to the root of its BLAS.
         root: u32,
         /// Row of the inverse of `linear`.
         inverse_x: [f32; 3],
-        /// Its first primitive, with [`SHAPE`] for shapes.
+        /// Index of its first primitive, with [`SHAPE`] for shapes.
         first: u32,
         /// Row of the inverse of `linear`.
         inverse_y: [f32; 3],
@@ -108,7 +107,7 @@ packed! {
         count: u32,
         /// Row of the inverse of `linear`.
         inverse_z: [f32; 3],
-        /// More than 1 where it moves while the shutter is open.
+        /// Number of its [`PackedKey`]s: more than 1 if it moves while the shutter is open.
         key_count: u32,
         /// Row of the matrix from object to render space.
         linear_x: [f32; 3],
@@ -116,22 +115,22 @@ packed! {
         first_key: u32,
         /// Row of the matrix from object to render space.
         linear_y: [f32; 3],
-        /// Tells instances apart in pictures of ids.
+        /// Identifies the instance in the `ids` view.
         id: u32,
         /// Row of the matrix from object to render space.
         linear_z: [f32; 3],
         #[doc(hidden)]
         _pad: u32,
-        /// Affine row from object space to where patterns in space are looked up.
+        /// Affine row from object space to the space of solid textures.
         pattern_x: [f32; 4],
         /// The same for y.
         pattern_y: [f32; 4],
         /// The same for z.
         pattern_z: [f32; 4],
     }
-    /// Where a moving instance is at one time: stretched, rotated, translated.
+    /// The transform of a moving instance at one time: stretch, then rotation, then translation.
     PackedKey {
-        /// Into render space.
+        /// Translation into render space.
         translation: [f32; 3],
         #[doc(hidden)]
         _pad0: u32,
@@ -141,12 +140,12 @@ packed! {
         stretch: [f32; 3],
         #[doc(hidden)]
         _pad1: u32,
-        /// yz, xz and xy of it.
+        /// yz, xz and xy of the same matrix.
         shear: [f32; 3],
         #[doc(hidden)]
         _pad2: u32,
     }
-    /// How a surface answers light; colours per channel, 0 or more.
+    /// How a surface scatters light; colours per channel, 0 or more.
     PackedMaterial {
         /// k_d.
         diffuse: [f32; 3],
@@ -156,43 +155,43 @@ packed! {
         specular: [f32; 3],
         /// Bits such as [`MATERIAL_TWO_SIDED`].
         flags: u32,
-        /// Multiplies [`PackedFrame::ambient`].
+        /// Factor on [`PackedFrame::ambient`].
         ambient: [f32; 3],
         /// Fraction of the light that is not transmitted, in 0..=1.
         opacity: f32,
-        /// Fraction that is mirrored, before Fresnel's equations.
+        /// Fraction that is reflected, before Fresnel's equations.
         reflect: [f32; 3],
-        /// Index of refraction of what is inside, above 0.
+        /// Index of refraction of the inside, above 0.
         ior: f32,
         /// Fraction that is transmitted, before Fresnel's equations.
         transmit: [f32; 3],
-        /// Where media overlap, the higher one counts.
+        /// Among overlapping media, the one with the highest priority counts.
         priority: i32,
-        /// Of what is inside, per unit length.
+        /// Absorption coefficient of the inside, per unit length.
         absorption: [f32; 3],
         #[doc(hidden)]
         _pad0: f32,
-        /// Radiance of the surface itself.
+        /// Emitted radiance.
         emission: [f32; 3],
         #[doc(hidden)]
         _pad1: f32,
         /// 16-bit indices of [`PackedTexture`]s or [`NO_TEXTURE`]: diffuse and specular, reflect and
-        /// transmit, ambient and emission, the former in the lower half.
+        /// transmit, ambient and emission, the first of each pair in the lower half.
         textures: [u32; 3],
         #[doc(hidden)]
         _pad2: u32,
     }
-    /// A colour that varies over a surface, and multiplies one of a material.
+    /// A spatially varying colour that multiplies a colour of a material.
     PackedTexture {
-        /// One colour.
+        /// First colour.
         color_a: [f32; 3],
         /// [`PATTERN_CHECKER`] and so on.
         kind: u32,
-        /// The other.
+        /// Second colour.
         color_b: [f32; 3],
         /// [`TEXTURE_UV`] and [`TEXTURE_NEAREST`], or 0.
         flags: u32,
-        /// Affine row: (x, y, z, 1) in render space or (u, v, 0, 1) to x in the pattern's space.
+        /// Affine row: from (x, y, z, 1) in render space or (u, v, 0, 1) to x in the pattern's space.
         row_x: [f32; 4],
         /// The same for y.
         row_y: [f32; 4],
@@ -200,38 +199,37 @@ packed! {
         row_z: [f32; 4],
         /// Picture: index of its first texel.
         first_texel: u32,
-        /// Picture: in texels.
+        /// Picture: width in texels.
         width: u32,
-        /// Picture: in texels.
+        /// Picture: height in texels.
         height: u32,
         /// Noise: number of octaves, 1 to 16.
         octaves: u32,
     }
-    /// A light; `kind` says which members count.
+    /// A light; `kind` says which members apply.
     PackedLight {
-        /// Where it is, or its centre, in render space.
+        /// Its position or centre, in render space.
         position: [f32; 3],
         /// [`LIGHT_POINT`], [`LIGHT_DIRECTIONAL`] and so on.
         kind: u32,
-        /// Directional and spot: the unit direction in which the light travels. Rectangle and disc:
-        /// the unit normal.
+        /// Directional and spot: the unit direction in which the light travels. Rectangle and disc: the
+        /// unit normal.
         direction: [f32; 3],
-        /// [`ATTENUATION_NONE`], which directional lights always have, or
-        /// [`ATTENUATION_INVERSE_SQUARE`].
+        /// [`ATTENUATION_NONE`], always for directional lights, or [`ATTENUATION_INVERSE_SQUARE`].
         attenuation: u32,
-        /// Linear radiance, at distance 1 (of area lights along their normal) where it falls off.
+        /// Linear radiance, with attenuation at distance 1 (for area lights along the normal).
         color: [f32; 3],
-        /// Spot: cosine of the angle off the axis up to which it has its full strength.
+        /// Spot: cosine of the angle from the axis up to which the light has its full intensity.
         cos_inner: f32,
         /// Rectangle and disc: from the centre to the middle of an edge.
         edge_u: [f32; 3],
-        /// Spot: cosine of the angle off the axis beyond which it gives nothing.
+        /// Spot: cosine of the angle from the axis beyond which the light is zero.
         cos_outer: f32,
         /// Rectangle and disc: from the centre to the middle of the other edge.
         edge_v: [f32; 3],
         /// Sphere: its radius.
         radius: f32,
-        /// Shadow rays for each shaded point, at least 1.
+        /// Shadow rays per shaded point, at least 1.
         sample_count: u32,
         #[doc(hidden)]
         _pad0: u32,
@@ -240,30 +238,30 @@ packed! {
         #[doc(hidden)]
         _pad2: u32,
     }
-    /// `right` and `up` reach from the middle of the image plane to its edges.
+    /// A camera; `right` and `up` reach from the centre of the image plane to its edges.
     PackedCamera {
-        /// The pinhole, or the middle of the lens, in render space.
+        /// The pinhole or the centre of the lens, in render space.
         origin: [f32; 3],
         /// 0 for a pinhole.
         lens_radius: f32,
         /// Unit viewing direction.
         forward: [f32; 3],
-        /// Along `forward`, to what is sharp.
+        /// Distance to the plane of focus along `forward`.
         focus_distance: f32,
-        /// From the middle of the image plane to its right edge.
+        /// From the centre of the image plane to its right edge.
         right: [f32; 3],
-        /// Radians counter-clockwise of the first corner of the opening off `right`.
+        /// Angle in radians of the aperture's first corner from `right`, counter-clockwise.
         blade_rotation: f32,
-        /// From the middle of the image plane to its upper edge.
+        /// From the centre of the image plane to its upper edge.
         up: [f32; 3],
-        /// Corners of the opening; fewer than 3 make it round.
+        /// Corners of the aperture; fewer than 3 for a circle.
         blade_count: u32,
     }
-    /// The head of the frame buffer; [`PackedLight`]s follow it.
+    /// The head of the frame buffer; the [`PackedLight`]s follow it.
     PackedFrame {
-        /// The camera that the picture is seen by.
+        /// The camera in use.
         camera: PackedCamera,
-        /// Linear radiance of rays that hit nothing, or straight down, or the factor of a picture.
+        /// Linear radiance of rays that hit nothing; gradient: straight down; picture: its factor.
         background: [f32; 3],
         /// Number of lights, at least 1.
         light_count: u32,
@@ -271,41 +269,41 @@ packed! {
         ambient: [f32; 3],
         /// Number of triangles that are not instanced.
         triangle_count: u32,
-        /// Number of shapes in the tree, which come first among the shapes.
+        /// Number of shapes in the BVH, which come first among the shapes.
         shape_count: u32,
-        /// Number of planes, which follow them.
+        /// Number of planes, which follow those shapes.
         plane_count: u32,
-        /// Number of vertices, behind which their u and v follow.
+        /// Number of vertices; their u and v follow them.
         vertex_count: u32,
-        /// Number of materials, behind which the textures follow.
+        /// Number of materials; the textures follow them.
         material_count: u32,
         /// Gradient: linear radiance straight up.
         background_top: [f32; 3],
-        /// Picture: radians by which it is turned about +y.
+        /// Picture: rotation about +y in radians.
         background_rotation: f32,
         /// Picture: index of its first texel.
         background_first_texel: u32,
-        /// Picture: in texels.
+        /// Picture: width in texels.
         background_width: u32,
-        /// Picture: in texels.
+        /// Picture: height in texels.
         background_height: u32,
-        /// Reference to the first node of the tree.
+        /// Reference to the root node of the TLAS.
         root: u32,
-        /// Materials of the media round the camera, outermost first, then [`NONE`].
+        /// Materials of the media around the camera, outermost first, padded with [`NONE`].
         camera_media: [u32; 4],
-        /// Row of the first [`PackedInstance`] among those of the nodes.
+        /// Row of the first [`PackedInstance`] in the node buffer.
         instance_row: u32,
         /// Number of instances.
         instance_count: u32,
         /// Row of the first [`PackedKey`].
         key_row: u32,
-        /// Row of the first [`PackedCamera`] of a moving one.
+        /// Row of the first [`PackedCamera`] if the camera moves.
         camera_row: u32,
-        /// Of the camera, evenly spaced over the shot; more than 1 where it moves.
+        /// Keys of the camera, evenly spaced over the shutter interval; more than 1 if it moves.
         camera_key_count: u32,
-        /// Of the lights; more than 1 where one moves. Each key has all lights.
+        /// Keys of the lights; more than 1 if a light moves. Each key holds all lights.
         light_key_count: u32,
-        /// The first triangle that is not instanced.
+        /// Index of the first triangle that is not instanced.
         first_triangle: u32,
         #[doc(hidden)]
         _pad: u32,
@@ -354,7 +352,8 @@ packed! {
         nonfinite_samples: u32,
         /// Invocations in which a loop ended before its condition did.
         cut_off_paths: u32,
-        /// Samples whose ray tree outgrew its stack, had too many rays, or one inside too many bodies.
+        /// Samples whose ray tree overflowed its stack, had too many rays, or a ray inside too many
+        /// dielectric volumes.
         cut_off_trees: u32,
         /// Camera rays. This and the following are kept where override `COUNT_RAYS` is on.
         primary: u32,
@@ -373,7 +372,7 @@ packed! {
         /// Refracted rays that hit something.
         refraction_hits: u32,
     }
-    /// How sums become a picture: [`crate::render::Tone`].
+    /// How film sums become an image: [`crate::render::Tone`].
     PackedTone {
         /// Factor on linear radiance, above 0.
         exposure_scale: f32,
@@ -381,51 +380,52 @@ packed! {
         curve: u32,
         /// [`TRANSFER_SRGB`] or [`TRANSFER_LINEAR`].
         transfer: u32,
-        /// What the film holds: [`VIEW_DEPTH`] and [`VIEW_HEAT`] are quantities, all else is colours.
+        /// Contents of the film: quantities for [`VIEW_DEPTH`] and [`VIEW_HEAT`], colours for everything
+        /// else.
         view: u32,
-        /// The least and the greatest value of a quantity.
+        /// Smallest and largest value of the range in which a quantity is shown.
         range: [f32; 2],
-        /// Whether it is to be shown over that range, 0 or 1.
+        /// Whether that range is used, 0 or 1.
         has_range: u32,
-        /// Rows of the film for each pixel.
+        /// Rows of the film per pixel.
         film_rows: u32,
     }
-    /// A sample of which every ray is to be recorded, and what came of it.
+    /// A sample whose rays are recorded, and its results.
     PackedProbe {
-        /// Column in the picture, or [`NONE`] where there is no sample to take.
+        /// Column in the image, or [`NONE`] if there is no sample to trace.
         pixel_x: u32,
-        /// Row in the picture.
+        /// Row in the image.
         pixel_y: u32,
         /// Index of the sample.
         sample: u32,
         /// Row of 16 bytes of its first [`PackedRay`].
         first_row: u32,
-        /// Rays for which there is room.
+        /// Capacity for rays.
         ray_limit: u32,
-        /// Comes back: rays that were traced.
+        /// Result: number of rays traced.
         ray_count: u32,
-        /// Comes back: 1, or -1 where the filter is negative.
+        /// Result: 1, or -1 where the filter is negative.
         weight: f32,
-        /// Comes back: moment in the shot, 0 to 1.
+        /// Result: time of the sample in the shutter interval, 0 to 1.
         time: f32,
-        /// Comes back: what the sample adds to the film.
+        /// Result: the sample's contribution to the film.
         color: [f32; 3],
-        /// Comes back: whether the tree outgrew what a tree may have.
+        /// Result: whether the ray tree exceeded its limits.
         cut_off: u32,
     }
-    /// A ray that was traced, in render space; `shaders/types.wesl` says more.
+    /// A ray that was traced, in render space; see `shaders/types.wesl`.
     PackedRay {
-        /// Where it starts.
+        /// Its origin.
         origin: [f32; 3],
         /// [`RAY_PRIMARY`] and so on.
         kind: u32,
         /// Of unit length.
         direction: [f32; 3],
-        /// Distance to what it met.
+        /// Distance to the hit.
         t: f32,
-        /// Where that is.
+        /// Position of the hit.
         p: [f32; 3],
-        /// What it met, or [`NONE`].
+        /// The primitive that was hit, or [`NONE`].
         primitive: u32,
         /// Shading normal.
         n: [f32; 3],
@@ -435,41 +435,41 @@ packed! {
         ng: [f32; 3],
         /// Index of a [`PackedMaterial`], or [`NONE`].
         material: u32,
-        /// Throughput where it starts.
+        /// Throughput at its origin.
         throughput: [f32; 3],
-        /// Number of the ray that sent it, or [`NONE`].
+        /// Number of its parent ray, or [`NONE`].
         parent: u32,
-        /// Throughput where it ends.
+        /// Throughput at its end.
         arriving: [f32; 3],
         /// [`RAY_OUTSIDE`] and so on.
         flags: u32,
-        /// What it adds itself to the sample.
+        /// Its own contribution to the sample.
         contribution: [f32; 3],
-        /// Of a shadow ray: index of a light, else [`NONE`].
+        /// Shadow ray: index of its light; otherwise [`NONE`].
         light: u32,
-        /// Ambient part; of a shadow ray: what the light adds without a shadow.
+        /// Ambient part; shadow ray: the light's unshadowed contribution.
         ambient: [f32; 3],
-        /// Material of the medium that it travelled in, or [`NONE`].
+        /// Material of the medium that it travels in, or [`NONE`].
         medium: u32,
         /// Emitted part.
         emission: [f32; 3],
         /// Material of the medium behind the surface, or [`NONE`].
         medium_behind: u32,
-        /// Fraction that is mirrored.
+        /// Fraction that is reflected.
         reflect: [f32; 3],
-        /// Fresnel's.
+        /// Fresnel reflectance.
         reflectance: f32,
-        /// Fraction that is refracted; of a shadow ray: that came through.
+        /// Fraction that is refracted; shadow ray: fraction that passed through.
         transmit: [f32; 3],
         /// Index of refraction in front of the surface.
         ior: f32,
-        /// Materials of the media round its origin, outermost first, then [`NONE`].
+        /// Materials of the media around its origin, outermost first, padded with [`NONE`].
         media: [u32; 4],
         /// Index of refraction behind the surface.
         ior_behind: f32,
-        /// Of a shadow ray: distance to the light.
+        /// Shadow ray: distance to the light.
         t_max: f32,
-        /// Of a shadow ray: surfaces that it met.
+        /// Shadow ray: number of surfaces that it crossed.
         crossings: u32,
         #[doc(hidden)]
         _pad: u32,

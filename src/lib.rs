@@ -1,15 +1,15 @@
-//! A GPU ray tracer: scenes in, pictures out, all rays traced by compute shaders.
+//! A GPU ray tracer: it loads scenes and writes images. Compute shaders trace all rays.
 //!
-//! A scene file becomes a picture along one river. Each arrow is one function, each noun is a value
-//! that can be printed and tested alone, and no arrow points back:
+//! A scene file becomes an image through one pipeline. Each arrow is one function, each noun is a value
+//! that can be printed and tested on its own, and no arrow points back:
 //!
 //! ```text
 //! file ─import▶ Scene ─frame▶ Frame ─pack▶ PackedScene, PackedView ─Renderer▶ film ─develop▶ Image ─output▶ file
 //! ```
 //!
-//! For a moving picture the river runs from [`scene::Scene::frame`] on once for each frame, or from
-//! [`scene::Scene::shot`] on where the shutter is open for a while: [`render::Renderer::set_frame`] takes
-//! the next [`pack::PackedView`].
+//! For an animation the pipeline is repeated from [`scene::Scene::frame`] for each frame, or from
+//! [`scene::Scene::motion_samples`] if the shutter is open for some time: [`render::Renderer::set_frame`]
+//! accepts the next [`pack::PackedView`].
 //!
 //! ```
 //! use glimray::gpu::{AdapterChoice, Gpu};
@@ -35,37 +35,38 @@
 //!
 //! # Conventions
 //!
-//! * **Axes**: right-handed, +Y up; a camera without a transform looks along −Z. Pictures start at
-//!   the top left, x to the right, y down; pixel (0, 0) has its centre at (0.5, 0.5).
-//! * **Units**: metres, or whatever one unit a file uses; seconds; bytes. Angles are radians, and
-//!   degrees only in files and flags, where the name ends in `_deg` (or the help says so).
-//! * **Colours**: linear Rec. 709 radiance from the importer to the film. Only [`output`]'s PNG and
-//!   JPEG hold what exposure, tone curve and transfer made of it ([`render::Tone`]).
-//! * **Spaces**: a mesh is f32 in object space; instances, shapes, lights, cameras and the places of
-//!   textures are f64 in the space of the [`scene::Node`] that carries them, or in world space; shapes
-//!   other than spheres and planes are canonical in a space of their own ([`scene::Form`]). On the GPU
-//!   what instances place (what moves, and large meshes that stand in several places) is f32 in the
-//!   space of its own tree, and everything else f32 in render space, which is world space moved so that
-//!   the scene's render origin is at the origin ([`scene::Scene::render_origin`]).
-//! * **Movement**: a [`scene::Scene`] stands still; its [`scene::Track`]s say how nodes, cameras, lights
-//!   and materials change, and a [`scene::Frame`] is all of that at one moment. The GPU gets the frames of
-//!   a shot at equal distances of time, and every sample has a moment between the first and the last.
-//! * **Normals**: `n` is for shading, `ng` is the geometric one; a triangle's winding gives `ng` and
-//!   nothing else. Directions have unit length and point away from the surface.
-//! * **Bodies**: the inside of what is transparent is where its normals point away from.
-//!   [`scene::Material::ior`], `absorption` and `priority` are those of the inside.
+//! * **Axes**: right-handed, +Y up; a camera without a transform looks along −Z. Images start at the top
+//!   left, x to the right, y down; the centre of pixel (0, 0) is (0.5, 0.5).
+//! * **Units**: metres, or the file's unit; seconds; bytes. Angles are radians, and degrees only in files
+//!   and flags whose name ends in `_deg` (or whose help says so).
+//! * **Colours**: linear Rec. 709 radiance from the importer to the film. Only [`output`]'s PNG and JPEG
+//!   files contain display values, after exposure, tone curve and transfer function ([`render::Tone`]).
+//! * **Spaces**: a mesh is f32 in object space. Instances, shapes, lights, cameras and texture transforms
+//!   are f64 in the space of their parent [`scene::Node`], or in world space. Shapes other than spheres
+//!   and planes are canonical in a space of their own ([`scene::CanonicalShape`]). On the GPU, instanced
+//!   geometry (moving objects, and large meshes that are used several times) is f32 in the space of its
+//!   BLAS; everything else is f32 in render space, which is world space translated so that the scene's
+//!   render origin is at the origin ([`scene::Scene::render_origin`]).
+//! * **Motion**: a [`scene::Scene`] is static; its [`scene::Track`]s animate nodes, cameras, lights and
+//!   materials, and a [`scene::Frame`] is their state at one time. The GPU gets frames that are evenly
+//!   spaced over the shutter interval, and every sample has a time between the first and the last.
+//! * **Normals**: `n` is the shading normal, `ng` the geometric one; the winding of a triangle determines
+//!   `ng` only. Directions have unit length and point away from the surface.
+//! * **Dielectric volumes**: the inside of a transparent surface is the side that its normals point away
+//!   from. [`scene::Material::ior`], `absorption` and `priority` describe the inside.
 //! * **Absence** is `Option` on the host and [`layout::NONE`] on the GPU, never a NaN or an infinity.
-//! * **Ownership**: the caller owns the [`scene::Scene`]; the packed scene is shared, because a
-//!   [`render::Renderer`] uploads it again when a device is lost; the renderer owns the film, and the
-//!   device unless it was given one ([`gpu::Gpu::from_wgpu`]); an [`image::Image`] belongs to whoever
-//!   asked for it.
-//! * **Determinism**: a pixel is a function of scene, frame, settings, seed and sample index. How the
-//!   work is cut into steps does not show. Adaptive sampling ([`scene::Antialias::Adaptive`]) lets the
-//!   first samples of a pixel and its neighbours choose how many it gets.
-//! * **Limits are told**: what had to be left out of a picture is counted ([`render::Stats`]), what
-//!   had to be left out of a scene is named ([`scene::Scene::skipped`]).
-//! * **Errors**: one enum for each module that can fail, with what a user needs to know. Only
-//!   [`app`] prints, exits or names flags. There is no panic on a bad file, a missing GPU or a full disk.
+//! * **Ownership**: the caller owns the [`scene::Scene`]. The packed scene is shared, because a
+//!   [`render::Renderer`] uploads it again after a device is lost. The renderer owns the film, and the
+//!   device unless it was given one ([`gpu::Gpu::from_wgpu`]). The caller owns each [`image::Image`].
+//! * **Determinism**: a pixel is a function of scene, frame, settings, seed and sample index. It does not
+//!   depend on how the work is divided into submissions. With adaptive sampling
+//!   ([`scene::Antialias::Adaptive`]), the first samples of a pixel and its neighbours determine its
+//!   sample count.
+//! * **Limits are reported**: samples that had to be cut off are counted ([`render::Stats`]), and parts
+//!   of a scene that had to be skipped are listed ([`scene::Scene::skipped`]).
+//! * **Errors**: one enum for each module that can fail, with the information that a user needs. Only
+//!   [`app`] prints, exits or mentions flags. A bad file, a missing GPU or a full disk never causes a
+//!   panic.
 //!
 //! # Features
 //!
@@ -98,8 +99,8 @@
 //! | [`app`] | the command line | everything |
 //!
 //! The shaders are in `shaders/`: `types.wesl` (shared structs), `bindings.wesl` (all bindings and
-//! overrides), `lib/` (pure functions), `scene/` (what reads bindings), `kernels/` (entry points).
-//! `build.rs` links them to plain WGSL, which the binary carries.
+//! overrides), `lib/` (pure functions), `scene/` (functions that read bindings), `kernels/` (entry
+//! points). `build.rs` links them to plain WGSL, which is embedded in the binary.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]

@@ -1,13 +1,13 @@
-//! The host model: what a picture is made of, with every question settled.
+//! The host model: everything that defines an image, fully resolved.
 //!
-//! A [`Scene`] is resolved once, by [`crate::import`]. Whoever holds one may rely on this:
-//! * right-handed, +Y up, lengths in metres (or whatever unit the file used), angles in radians;
+//! A [`Scene`] is resolved once, by [`crate::import`]. Every scene guarantees:
+//! * right-handed, +Y up, lengths in metres (or the file's unit), angles in radians;
 //! * colours are linear Rec. 709, finite and not negative;
-//! * every index is in range, every number finite, every direction and normal of unit length;
+//! * every index is in range, every number is finite, every direction and normal has unit length;
 //! * there is at least one camera and one material.
 //!
-//! Placement (cameras, lights, instances, analytic shapes) is kept in f64 and mesh vertices in f32
-//! near their own origin, so that a scene far from the world's origin loses nothing.
+//! Placements (cameras, lights, instances, analytic shapes) are kept in f64 and mesh vertices in f32 near
+//! their own origin, so that a scene far from the world origin keeps its precision.
 
 mod animation;
 mod bounds;
@@ -17,11 +17,11 @@ mod light;
 mod lit;
 mod material;
 mod mesh;
+mod motion;
 mod node;
 mod object;
 mod output;
 mod shape;
-mod shot;
 mod texture;
 mod transform;
 mod turntable;
@@ -38,7 +38,7 @@ pub use mesh::{Mesh, Repairs};
 pub use node::Node;
 pub use object::ObjectRef;
 pub use output::{Antialias, Filter, OutputDefaults, Shutter, ToneCurve, Transfer};
-pub use shape::{Form, Geometry, Shape};
+pub use shape::{CanonicalShape, Geometry, Shape};
 pub use texture::{Pattern, Picture, Space, Texture, linear_from_srgb};
 pub use transform::{Transform, angles, rotation};
 pub use turntable::{MAX_ELEVATION, Turntable, turntable};
@@ -46,10 +46,10 @@ pub use turntable::{MAX_ELEVATION, Turntable, turntable};
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
-/// Everything that is in a picture, at rest. What moves leaves through [`Scene::frame`].
+/// The contents of a picture, at rest. [`Scene::frame`] evaluates the animation at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
-    /// Triangle meshes, each in its own object space; shared, so that a copy of a scene is cheap.
+    /// Triangle meshes, each in its own object space; shared, so that copying a scene is cheap.
     pub meshes: Vec<Arc<Mesh>>,
     /// Placements of meshes.
     pub instances: Vec<Instance>,
@@ -57,42 +57,44 @@ pub struct Scene {
     pub shapes: Vec<Shape>,
     /// At least one.
     pub materials: Vec<Material>,
-    /// Colours that vary over a surface.
+    /// Spatially varying colours.
     pub textures: Vec<Texture>,
-    /// What textures and the background show; shared as meshes are.
+    /// The images that textures and the background use; shared as meshes are.
     pub pictures: Vec<Arc<Picture>>,
     /// May be empty.
     pub lights: Vec<Light>,
     /// At least one.
     pub cameras: Vec<Camera>,
-    /// Index into `cameras` of the one to use unless told otherwise.
+    /// Index into `cameras` of the default camera.
     pub camera_index: usize,
-    /// Where f32 is finest when the scene is packed, in world space; `None` is where the default camera
-    /// is at rest. Importers set it to that place, and it stays there when another camera looks, so
-    /// that the same geometry is packed to the same bytes. A point at a distance d from it is kept to
-    /// about 6e-8 d: a camera far from it sees the difference if it looks at something close by.
+    /// The point in world space near which packed f32 coordinates are most precise; `None` is the rest
+    /// position of the default camera. Importers set it to that position and it stays there when another
+    /// camera is used, so that the same geometry is always packed to the same bytes. A point at distance
+    /// d from it is kept to about 6e-8 d: a camera far from it that looks at something close shows the
+    /// difference.
     pub render_origin: Option<DVec3>,
-    /// What rays see that hit nothing.
+    /// Radiance of rays that hit nothing.
     pub background: Background,
     /// Linear radiance of the ambient term, multiplied by [`Material::ambient`].
     pub ambient: Vec3,
-    /// Whether lights, background and ambient light are not the file's, whose format has none, but
-    /// such as show a bare model.
+    /// Whether lights, background and ambient light were added to show a bare model, because its file
+    /// format has none.
     pub staged: bool,
-    /// How shadow rays meet what is transparent.
+    /// How transparent surfaces affect shadow rays.
     pub shadows: Shadows,
-    /// What instances, shapes, lights and cameras may be attached to; parents before their children.
+    /// Coordinate frames that instances, shapes, lights and cameras may be attached to; parents before
+    /// their children.
     pub nodes: Vec<Node>,
-    /// What changes over time.
+    /// The animation.
     pub tracks: Vec<Track>,
-    /// What the file says about the picture; flags win over it.
+    /// The file's output settings; command-line flags override them.
     pub output: OutputDefaults,
-    /// What the importer left out or repaired: of each kind the first few, a sentence each, and how
-    /// many more there were.
+    /// What the importer skipped or repaired: the first few of each kind, a sentence each, and how many
+    /// more there were.
     pub skipped: Vec<String>,
 }
 
-/// One mesh in the world. Its triangles are in memory once, however many instances there are.
+/// A mesh placed in the world. All instances of a mesh share its triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instance {
     /// Index into [`Scene::meshes`].
@@ -103,26 +105,26 @@ pub struct Instance {
     pub node: Option<usize>,
 }
 
-/// What rays see that hit nothing, as linear radiance.
+/// Linear radiance of rays that hit nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Background {
-    /// The same everywhere.
+    /// A constant colour.
     Color(Vec3),
-    /// By the direction's y: from `bottom` straight down to `top` straight up, linearly.
+    /// Linear in the y of the ray's direction, from `bottom` straight down to `top` straight up.
     Gradient {
         /// Straight down.
         bottom: Vec3,
         /// Straight up.
         top: Vec3,
     },
-    /// An equirectangular picture: its middle lies in the direction −Z, its upper edge straight up,
-    /// +X to the right of the middle.
+    /// An equirectangular environment map: its centre lies in the direction −Z, its upper edge straight
+    /// up, and +X to the right of the centre.
     Picture {
         /// Index into [`Scene::pictures`].
         picture: usize,
-        /// Multiplies it, 0 or more.
+        /// Factor on its radiance, 0 or more.
         strength: f32,
-        /// Radians by which it is turned about +Y, counter-clockwise from above.
+        /// Rotation about +Y in radians, counter-clockwise seen from above.
         rotation: f64,
     },
 }
@@ -133,60 +135,60 @@ impl Default for Background {
     }
 }
 
-/// How shadow rays meet what is transparent.
+/// How transparent surfaces affect shadow rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shadows {
-    /// Everything throws a full shadow, as in the classical ray tracer.
+    /// Every surface casts a full shadow, as in Whitted's ray tracer.
     #[default]
     Opaque,
-    /// Light goes straight through, weakened by transmission, Fresnel's reflection and absorption.
+    /// Light passes straight through, attenuated by transmittance, Fresnel reflection and absorption.
     Filtered,
 }
 
-/// A camera with a pinhole, or with a thin lens. Its image plane is the near plane at distance 1,
-/// whose height the field of view sets; the aspect is the picture's width over its height.
+/// A pinhole or thin-lens camera. Its image plane is at distance 1; the vertical field of view sets the
+/// height of the plane, and the aspect ratio is the image's width over its height.
 ///
-/// Rays of an orthographic one are parallel and start on the plane through `look_from`: what lies
-/// behind that is not seen. Which bodies they start in is decided at `look_from` for all of them.
+/// The rays of an orthographic camera are parallel and start on the plane through `look_from`: geometry
+/// behind that plane is not visible. The dielectric volumes that contain `look_from` are taken to contain
+/// the origins of all rays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// Empty when the file gives none.
+    /// Empty if the file gives none.
     pub name: String,
-    /// The pinhole, in the space of `node`.
+    /// The pinhole or the centre of the lens, in the space of `node`.
     pub look_from: DVec3,
-    /// A point in the middle of the picture, in the space of `node`; differs from `look_from`.
+    /// The point at the centre of the image, in the space of `node`; differs from `look_from`.
     pub look_at: DVec3,
-    /// Upwards in the picture, of any length; not parallel to the viewing direction.
+    /// The up direction, of any length; not parallel to the viewing direction.
     pub up: DVec3,
     /// Vertical field of view in radians, in (0, π).
     pub fov_y: f64,
-    /// Of an orthographic camera: the height of what is in the picture, in scene units, above 0.
-    /// Absent for perspective; only then `fov_y` counts.
+    /// Height of the visible region in scene units, above 0, of an orthographic camera. `None` for a
+    /// perspective camera; `fov_y` is used only then.
     pub orthographic_height: Option<f64>,
-    /// Absent for a pinhole, to which everything is sharp.
+    /// `None` for a pinhole, which renders everything in focus.
     pub lens: Option<Lens>,
-    /// Index into [`Scene::nodes`] of what carries it; `None` is the world.
+    /// Index into [`Scene::nodes`] of the parent node; `None` is the world.
     pub node: Option<usize>,
-    /// Index into [`Scene::nodes`] of what it looks at, the origin of that node's space, in place of
-    /// `look_at`.
+    /// Index into [`Scene::nodes`] of a node whose origin the camera looks at, instead of `look_at`.
     pub target: Option<usize>,
 }
 
-/// The opening of a thin lens.
+/// The aperture of a thin lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
-    /// Above 0, in scene units; of a polygon the distance of its corners.
+    /// Above 0, in scene units; of a polygonal aperture its circumradius.
     pub radius: f64,
-    /// Distance along the viewing direction of what is sharp, above 0.
+    /// Distance to the plane of focus along the viewing direction, above 0.
     pub focus_distance: f64,
-    /// Corners of the opening, 3 or more; 0 for a round one.
+    /// Number of corners of the aperture, 3 or more; 0 for a circle.
     pub blade_count: u32,
-    /// Radians counter-clockwise of the first corner from the picture's right.
+    /// Angle in radians of the first corner, counter-clockwise from the image's right.
     pub blade_rotation: f64,
 }
 
 impl Default for Camera {
-    /// The course's camera: at the origin, looking to (0, 0, −1), up (0, 1, 0), 60° high.
+    /// The course's camera: at the origin, looking along −Z, up +Y, with a field of view of 60°.
     fn default() -> Self {
         Self {
             name: String::new(),
@@ -203,18 +205,18 @@ impl Default for Camera {
 }
 
 impl Scene {
-    /// Keeps the render origin where it is now, whatever becomes of the camera.
+    /// Fixes the render origin at its present position, so that it no longer follows the camera.
     pub fn pin_render_origin(&mut self) {
         let origin = self.render_origin_at(&self.frame(0.0));
         self.render_origin = Some(origin);
     }
 
-    /// [`Self::render_origin`], or the camera of the frame at time 0.
+    /// [`Self::render_origin`], or else the position of the camera in `rest`, the frame at time 0.
     pub fn render_origin_at(&self, rest: &Frame) -> DVec3 {
         self.render_origin.unwrap_or(rest.camera.look_from)
     }
 
-    /// Number of triangles in the world, instances counted each.
+    /// Number of triangles in the world; each instance counts.
     pub fn triangle_count(&self) -> usize {
         self.instances
             .iter()

@@ -139,7 +139,7 @@ fn render(
     let policy = job::policy(&arguments.device, count_rays);
     let packed = Arc::new(pack::scene_with(scene, workload.most_baked)?);
     let bvh = packed.build_seconds;
-    let view = packed.shot(&scene.shot(shot.0, shot.1))?;
+    let view = packed.view(&scene.motion_samples(shot.0, shot.1))?;
     let mut renderer = Renderer::new(gpu, packed, &view, settings, policy)?;
     while !renderer.is_done() {
         renderer.step()?;

@@ -18,7 +18,7 @@ pub fn renderer(
 ) -> Result<(Renderer, f64), AppError> {
     let packed = Arc::new(pack::scene(scene)?);
     let build_seconds = packed.build_seconds;
-    let view = packed.shot(&scene.shot(shot.0, shot.1))?;
+    let view = packed.view(&scene.motion_samples(shot.0, shot.1))?;
     let renderer = Renderer::new(gpu, packed, &view, settings, policy)?;
     Ok((renderer, build_seconds))
 }

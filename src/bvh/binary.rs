@@ -6,10 +6,10 @@ use obvhs::{
     Boundable, BvhBuildParams, bvh2::reinsertion::ReinsertionOptimizer, ploc::PlocBuilder,
 };
 
-/// Longer runs (see [`longest_run`]) are not left to PLOC.
+/// PLOC does not handle longer runs well; see [`longest_run`].
 const LONGEST_RUN: usize = 256;
 
-/// A node of a binary tree: a box and what is below it. Children come after their parent.
+/// A node of a binary tree: a box and the contents. Children come after their parent.
 #[derive(Clone, Copy, Debug)]
 pub struct BinaryNode {
     pub aabb: Aabb,
@@ -30,7 +30,7 @@ impl Boundable for Aabb {
     }
 }
 
-/// A tree of good quality: PLOC (Meister and Bittner 2018) with reinsertion (Meister and Bittner
+/// A tree of good quality: PLOC (Meister and Bittner 2018) followed by reinsertion (Meister and Bittner
 /// 2017), both by `obvhs`. Empty for no boxes; node 0 is the root.
 pub fn build(boxes: &[Aabb]) -> Vec<BinaryNode> {
     if boxes.is_empty() {
@@ -49,7 +49,7 @@ pub fn build(boxes: &[Aabb]) -> Vec<BinaryNode> {
     );
     ReinsertionOptimizer::default().run(&mut tree, params.reinsertion_batch_ratio, None);
 
-    // obvhs may leave nodes in any order; ours puts children after parents.
+    // obvhs may order nodes arbitrarily; here children come after parents.
     let mut nodes = Vec::with_capacity(tree.nodes.len());
     let mut open = vec![(0usize, None)];
     while let Some((source, parent)) = open.pop() {
@@ -73,10 +73,10 @@ pub fn build(boxes: &[Aabb]) -> Vec<BinaryNode> {
     nodes
 }
 
-/// The most neighbours in a row, along the Morton curve, whose joint boxes all have the same area,
-/// or each a larger (or smaller) one than the last. PLOC joins pairs that are nearest to each other,
-/// of which there is only one in such a run: it takes as many passes as the run is long, and ends
-/// with a chain. Equal boxes, boxes in a row and boxes in boxes are like that.
+/// Length of the longest sequence of neighbours along the Morton curve whose joint boxes all have the
+/// same area, or monotonically growing (or shrinking) areas. PLOC merges pairs that are each other's
+/// nearest neighbours, and such a sequence has only one: PLOC takes as many passes as the sequence is
+/// long and produces a chain. Equal boxes, boxes in a row and nested boxes cause this.
 fn longest_run(boxes: &[Aabb]) -> usize {
     let all = boxes[1..].iter().fold(boxes[0], |a, b| a.union(*b));
     let extent = (all.max - all.min).max(Vec3::splat(f32::MIN_POSITIVE));
@@ -104,7 +104,7 @@ fn longest_run(boxes: &[Aabb]) -> usize {
     longest
 }
 
-/// Ten bits, each three places from the next.
+/// Spreads ten bits out to every third bit.
 fn spread_bits(x: u32) -> u32 {
     let x = (x | x << 16) & 0x0300_00ff;
     let x = (x | x << 8) & 0x0300_f00f;
@@ -112,8 +112,8 @@ fn spread_bits(x: u32) -> u32 {
     (x | x << 2) & 0x0924_9249
 }
 
-/// A tree whose depth is the logarithm of the number of boxes, by halving along the longest axis
-/// of their centres. For inputs on which the good builder digs too deep.
+/// A tree of logarithmic depth, by halving along the longest axis of the boxes' centres. For inputs on
+/// which PLOC produces a tree that is too deep.
 pub fn build_balanced(boxes: &[Aabb]) -> Vec<BinaryNode> {
     let mut indices: Vec<u32> = (0..boxes.len() as u32).collect();
     let mut nodes = Vec::with_capacity(2 * boxes.len());
@@ -152,7 +152,7 @@ fn longest_axis_of_centers(boxes: impl Iterator<Item = Aabb>) -> usize {
     (max - min).max_position()
 }
 
-/// Tells the parent, if there is one, where its left (0) or right (1) child is.
+/// Records in the parent, if there is one, the index of its left (0) or right (1) child.
 fn attach(nodes: &mut [BinaryNode], parent: Option<(usize, u8)>, child: usize) {
     if let Some((parent, side)) = parent
         && let BinaryKind::Inner(left, right) = &mut nodes[parent].kind

@@ -1,50 +1,50 @@
-//! Collapse of a binary tree to nodes of up to four children.
+//! Collapses a binary tree to nodes of up to four children.
 
 use super::{
     Aabb, Bvh,
     binary::{BinaryKind, BinaryNode},
 };
 
-/// Price of visiting a node, in box areas times primitive tests: what a leaf may cost more before
-/// it is split. Four-way nodes share their price between several splits.
+/// Cost of visiting a node, in primitive tests: how much more a leaf may cost before it is split. A
+/// four-way node spreads this cost over several splits.
 const NODE_COST: f32 = 1.0;
 
 /// Up to four children with their boxes.
 #[derive(Clone, Debug, Default)]
 pub struct WideNode {
-    /// Each box holds all boxes below it.
+    /// Each box bounds all boxes below it.
     pub children: Vec<(Aabb, Child)>,
 }
 
-/// What lies below a [`WideNode`].
+/// A child of a [`WideNode`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Child {
     /// Index into [`Bvh::nodes`].
     Node(u32),
-    /// A run of boxes in their group's [`Bvh::order`].
+    /// A range of boxes in their group's [`Bvh::order`].
     Leaf {
         /// Index into [`Bvh::order`].
         group: u8,
-        /// Place of the first box in it.
+        /// Position of the first box in it.
         first: u32,
         /// Number of boxes, 1 to [`super::Limits::leaf_size`].
         count: u32,
     },
 }
 
-/// What a subtree looks like to the collapse.
+/// Summary of a subtree for the collapse.
 #[derive(Clone, Copy)]
 struct Summary {
     count: u32,
-    /// The one group of all its boxes, if there is one.
+    /// The common group of all its boxes, if there is one.
     group: Option<u8>,
-    /// Expected cost of a ray that meets it, times its area.
+    /// Expected cost of a ray that hits it, times its area.
     cost: f32,
     is_leaf: bool,
 }
 
-/// Opens the child with the largest area until there are four, and makes leaves of up to
-/// `leaf_size` boxes of one group where that costs no more than going on.
+/// Opens the child with the largest area until there are four, and makes leaves of up to `leaf_size`
+/// boxes of one group where that costs no more than a further split.
 pub fn collapse(tree: &[BinaryNode], groups: &[u8], group_count: usize, leaf_size: u32) -> Bvh {
     let mut bvh = Bvh {
         nodes: vec![WideNode::default()],
@@ -90,7 +90,7 @@ pub fn collapse(tree: &[BinaryNode], groups: &[u8], group_count: usize, leaf_siz
     bvh
 }
 
-/// Summaries of all subtrees. Children come after their parents, so one pass backwards does.
+/// Summaries of all subtrees. Children come after their parents, so a single backward pass suffices.
 fn summarize(tree: &[BinaryNode], groups: &[u8], leaf_size: u32) -> Vec<Summary> {
     let nothing = Summary {
         count: 0,
@@ -128,7 +128,7 @@ fn summarize(tree: &[BinaryNode], groups: &[u8], leaf_size: u32) -> Vec<Summary>
     summaries
 }
 
-/// The up to four subtrees that become the children of a wide node.
+/// The one to four subtrees that become the children of a wide node.
 fn gather(tree: &[BinaryNode], summaries: &[Summary], root: usize) -> Vec<usize> {
     let mut parts = vec![root];
     while parts.len() < 4 {
@@ -161,8 +161,8 @@ fn push_boxes(tree: &[BinaryNode], root: usize, order: &mut Vec<u32>) {
     }
 }
 
-/// Entries on the stack when every child of every node on the way is hit: a node with n children
-/// leaves n - 1 behind. One more for the entry that says the stack is empty.
+/// Stack entries when every child of every node on the path is hit: a node with n children leaves n − 1
+/// behind. Plus one for the entry that marks the empty stack.
 fn stack_need(nodes: &[WideNode]) -> usize {
     let mut need = vec![0usize; nodes.len()];
     for (i, node) in nodes.iter().enumerate().rev() {

@@ -5,7 +5,7 @@ use super::Writer;
 use super::exact::{is_same, settle, transform};
 use super::runs::{LEAST, runs};
 use super::text::{Table, number, string, vector};
-use crate::scene::{Form, Geometry, Shape};
+use crate::scene::{CanonicalShape, Geometry, Shape};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 impl Writer<'_> {
@@ -44,12 +44,12 @@ impl Writer<'_> {
 
 /// Whether one object with several places can stand for both.
 fn is_alike(a: &Shape, b: &Shape) -> bool {
-    let is_same_form = match (a.geometry, b.geometry) {
+    let is_same_shape = match (a.geometry, b.geometry) {
         (Geometry::Sphere { .. }, Geometry::Sphere { .. }) => true,
-        (Geometry::Placed { form: a, .. }, Geometry::Placed { form: b, .. }) => a == b,
+        (Geometry::Placed { canonical: a, .. }, Geometry::Placed { canonical: b, .. }) => a == b,
         _ => false,
     };
-    is_same_form && a.material == b.material && a.node == b.node
+    is_same_shape && a.material == b.material && a.node == b.node
 }
 
 /// What brings the canonical surface to where it is, if that keeps all digits.
@@ -68,20 +68,22 @@ fn canonical_place(shape: &Shape) -> Option<DAffine3> {
             is_kept.then_some(place)
         }
         Geometry::Placed {
-            world_from_form, ..
-        } => Some(normalized(shape.geometry).map_or(world_from_form, |(_, place)| place)),
+            world_from_canonical,
+            ..
+        } => Some(normalized(shape.geometry).map_or(world_from_canonical, |(_, place)| place)),
     }
 }
 
 /// A cone whose greater radius is 1, as files have them.
-fn normalized(geometry: Geometry) -> Option<(Form, DAffine3)> {
+fn normalized(geometry: Geometry) -> Option<(CanonicalShape, DAffine3)> {
     let Geometry::Placed {
-        form: Form::Cone {
-            bottom,
-            top,
-            capped,
-        },
-        world_from_form,
+        canonical:
+            CanonicalShape::Cone {
+                bottom,
+                top,
+                capped,
+            },
+        world_from_canonical,
     } = geometry
     else {
         return None;
@@ -90,19 +92,19 @@ fn normalized(geometry: Geometry) -> Option<(Form, DAffine3)> {
     if wide == 1.0 {
         return None;
     }
-    let form = Form::Cone {
+    let canonical = CanonicalShape::Cone {
         bottom: bottom / wide,
         top: top / wide,
         capped,
     };
     let axes = DAffine3::from_scale(DVec3::new(wide, 1.0, wide));
-    Some((form, world_from_form * axes))
+    Some((canonical, world_from_canonical * axes))
 }
 
 /// The key and table of a surface in canonical place, and where that is.
 fn in_place(geometry: Geometry) -> (&'static str, Table, DAffine3) {
     let mut table = Table::default();
-    let (form, place) = match geometry {
+    let (canonical, place) = match geometry {
         Geometry::Sphere { .. } => {
             table.put("center", vector(DVec3::ZERO));
             table.put("radius", "1");
@@ -116,30 +118,30 @@ fn in_place(geometry: Geometry) -> (&'static str, Table, DAffine3) {
             return ("plane", table, DAffine3::IDENTITY);
         }
         Geometry::Placed {
-            form,
-            world_from_form,
-        } => normalized(geometry).unwrap_or((form, world_from_form)),
+            canonical,
+            world_from_canonical,
+        } => normalized(geometry).unwrap_or((canonical, world_from_canonical)),
     };
     let center = || vector(DVec3::ZERO);
-    let key = match form {
-        Form::Disc { hole } => {
+    let key = match canonical {
+        CanonicalShape::Disc { hole } => {
             table.put("center", center());
             table.put("radius", "1");
             table.put_if(hole != 0.0, "inner_radius", number(hole));
             "disc"
         }
-        Form::Rectangle => {
+        CanonicalShape::Rectangle => {
             table.put("center", center());
             table.put("edge_u", "[2, 0, 0]");
             table.put("edge_v", "[0, 0, -2]");
             "rectangle"
         }
-        Form::Box => {
+        CanonicalShape::Box => {
             table.put("min", vector(DVec3::NEG_ONE));
             table.put("max", vector(DVec3::ONE));
             "box"
         }
-        Form::Cone {
+        CanonicalShape::Cone {
             bottom,
             top,
             capped,
@@ -150,13 +152,13 @@ fn in_place(geometry: Geometry) -> (&'static str, Table, DAffine3) {
             put_radii(&mut table, [bottom, top], capped);
             if is_cylinder { "cylinder" } else { "cone" }
         }
-        Form::Torus { minor } => {
+        CanonicalShape::Torus { minor } => {
             table.put("center", center());
             table.put("major_radius", "1");
             table.put("minor_radius", number(minor));
             "torus"
         }
-        Form::Ellipsoid => "ellipsoid",
+        CanonicalShape::Ellipsoid => "ellipsoid",
     };
     (key, table, place)
 }
@@ -183,24 +185,33 @@ fn told(geometry: Geometry) -> (&'static str, Table, DAffine3) {
         Geometry::Plane { .. } => None,
         // In canonical place files keep no signs of zeros but the transform's.
         Geometry::Placed {
-            world_from_form, ..
-        } if world_from_form == DAffine3::IDENTITY => None,
+            world_from_canonical,
+            ..
+        } if world_from_canonical == DAffine3::IDENTITY => None,
         Geometry::Placed {
-            form,
-            world_from_form,
-        } => match form {
-            Form::Box => cuboid(world_from_form).map(|table| ("box", table)),
-            Form::Ellipsoid => ellipsoid(world_from_form).map(|table| ("ellipsoid", table)),
-            Form::Rectangle => rectangle(world_from_form).map(|table| ("rectangle", table)),
-            Form::Disc { hole } => disc(hole, world_from_form).map(|table| ("disc", table)),
-            Form::Torus { minor } => torus(minor, world_from_form).map(|table| ("torus", table)),
-            Form::Cone {
+            canonical,
+            world_from_canonical,
+        } => match canonical {
+            CanonicalShape::Box => cuboid(world_from_canonical).map(|table| ("box", table)),
+            CanonicalShape::Ellipsoid => {
+                ellipsoid(world_from_canonical).map(|table| ("ellipsoid", table))
+            }
+            CanonicalShape::Rectangle => {
+                rectangle(world_from_canonical).map(|table| ("rectangle", table))
+            }
+            CanonicalShape::Disc { hole } => {
+                disc(hole, world_from_canonical).map(|table| ("disc", table))
+            }
+            CanonicalShape::Torus { minor } => {
+                torus(minor, world_from_canonical).map(|table| ("torus", table))
+            }
+            CanonicalShape::Cone {
                 bottom,
                 top,
                 capped,
             } => {
                 let is_cylinder = bottom == 1.0 && top == 1.0;
-                let table = cone([bottom, top], capped, world_from_form);
+                let table = cone([bottom, top], capped, world_from_canonical);
                 table.map(|table| (if is_cylinder { "cylinder" } else { "cone" }, table))
             }
         },

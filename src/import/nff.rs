@@ -29,8 +29,8 @@ use super::error::ImportError;
 use super::source::{Source, Token};
 use super::{number, suggest};
 use crate::scene::{
-    Background, Form, Fresnel, Geometry, Light, LightKind, Material, Mixing, OutputDefaults, Scene,
-    Shape, ToneCurve, Transfer,
+    Background, CanonicalShape, Fresnel, Geometry, Light, LightKind, Material, Mixing,
+    OutputDefaults, Scene, Shape, ToneCurve, Transfer,
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use mesh::Surface;
@@ -289,12 +289,12 @@ impl<'s> Reader<'s> {
         let wide = bottom.abs().max(top.abs());
         let turn = DMat3::from_cols(wide * right, axis, wide * right.cross(up));
         let geometry = Geometry::Placed {
-            form: Form::Cone {
+            canonical: CanonicalShape::Cone {
                 bottom: bottom.abs() / wide,
                 top: top.abs() / wide,
                 capped: false,
             },
-            world_from_form: DAffine3::from_mat3_translation(turn, base),
+            world_from_canonical: DAffine3::from_mat3_translation(turn, base),
         };
         self.scene.shapes.push(Shape {
             geometry,

@@ -1,13 +1,14 @@
-//! Tags, bits and counts that a shader also sees: the constants of `shaders/types.wesl`.
+//! Tags, bits and counts shared with shaders: the constants of `shaders/types.wesl`.
 
 /// "None" for any index.
 pub const NONE: u32 = u32::MAX;
 
 /// Marks a child reference as a leaf; see [`super::leaf_reference`].
 pub const LEAF: u32 = 0x8000_0000;
-/// Marks a leaf's or a primitive's index as a [`super::PackedShape`]'s; without it, it is a triangle's.
+/// Marks the index of a leaf or primitive as that of a [`super::PackedShape`]; without it, it refers to a
+/// triangle.
 pub const SHAPE: u32 = 0x4000_0000;
-/// Lowest bit of a leaf reference's count less one, which has three bits.
+/// Lowest of the three bits of a leaf reference that hold its count less one.
 pub const LEAF_COUNT_SHIFT: u32 = 27;
 /// One more primitive in a leaf reference.
 pub const LEAF_COUNT_ONE: u32 = 1 << LEAF_COUNT_SHIFT;
@@ -17,9 +18,9 @@ pub const LEAF_COUNT_MASK: u32 = 7 << LEAF_COUNT_SHIFT;
 pub const LEAF_FIRST_MASK: u32 = LEAF_COUNT_ONE - 1;
 /// Marks a child reference as an instance, whose index is in the bits of [`LEAF_FIRST_MASK`].
 pub const INSTANCE: u32 = LEAF | SHAPE | LEAF_COUNT_MASK;
-/// Marks the reference to a node that is followed by the same node at the end of the shot.
+/// Marks the reference to a node that is followed by the same node at the end of the shutter interval.
 pub const MOVING: u32 = 0x4000_0000;
-/// The instance of what stands in the world itself; the most instances there can be.
+/// The instance index of geometry that is not instanced; also the largest number of instances.
 pub const NO_INSTANCE: u32 = (1 << 20) - 1;
 /// Rows of 16 bytes of a [`super::PackedNode`].
 pub const NODE_ROWS: u32 = 4;
@@ -29,7 +30,7 @@ pub const INSTANCE_ROWS: u32 = 10;
 pub const KEY_ROWS: u32 = 4;
 /// Rows of 16 bytes of a [`super::PackedCamera`].
 pub const CAMERA_ROWS: u32 = 4;
-/// Entries of the traversal stack.
+/// Size of the traversal stack in entries.
 pub const STACK_SIZE: u32 = 96;
 /// Texels in a row of the geometry images, as a power of two.
 pub const IMAGE_WIDTH_LOG2: u32 = 12;
@@ -38,47 +39,47 @@ pub const IMAGE_WIDTH_LOG2: u32 = 12;
 pub const SHAPE_SPHERE: u32 = 0;
 /// [`super::PackedShape::kind`]: an infinite plane.
 pub const SHAPE_PLANE: u32 = 1;
-/// [`super::PackedShape::kind`]: [`crate::scene::Form::Disc`].
+/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Disc`].
 pub const SHAPE_DISC: u32 = 2;
-/// [`super::PackedShape::kind`]: [`crate::scene::Form::Rectangle`].
+/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Rectangle`].
 pub const SHAPE_RECTANGLE: u32 = 3;
-/// [`super::PackedShape::kind`]: [`crate::scene::Form::Box`].
+/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Box`].
 pub const SHAPE_BOX: u32 = 4;
-/// [`super::PackedShape::kind`]: [`crate::scene::Form::Cone`].
+/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Cone`].
 pub const SHAPE_CONE: u32 = 5;
-/// [`super::PackedShape::kind`]: [`crate::scene::Form::Torus`].
+/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Torus`].
 pub const SHAPE_TORUS: u32 = 6;
-/// [`super::PackedShape::kind`]: [`crate::scene::Form::Ellipsoid`].
+/// [`super::PackedShape::kind`]: [`crate::scene::CanonicalShape::Ellipsoid`].
 pub const SHAPE_ELLIPSOID: u32 = 7;
-/// [`super::PackedShape::kind`]: a sphere that is huge compared to its distance from the origin of
-/// render space.
+/// [`super::PackedShape::kind`]: a sphere that is huge compared to its distance from the origin of render
+/// space.
 pub const SHAPE_GLOBE: u32 = 8;
-/// Bit of [`super::PackedShape::flags`]: a cone has both of its caps.
+/// Bit of [`super::PackedShape::flags`]: the cone has both of its caps.
 pub const SHAPE_CAPPED: u32 = 1;
 
-/// [`super::PackedLight::kind`]: shines from a point, evenly all round.
+/// [`super::PackedLight::kind`]: shines evenly in all directions from a point.
 pub const LIGHT_POINT: u32 = 0;
-/// [`super::PackedLight::kind`]: shines along one direction, from infinitely far.
+/// [`super::PackedLight::kind`]: shines in one direction from infinitely far away.
 pub const LIGHT_DIRECTIONAL: u32 = 1;
 /// [`super::PackedLight::kind`]: shines from a point into a cone.
 pub const LIGHT_SPOT: u32 = 2;
-/// [`super::PackedLight::kind`]: a parallelogram that shines to the side of its normal.
+/// [`super::PackedLight::kind`]: a parallelogram that emits to the side of its normal.
 pub const LIGHT_RECTANGLE: u32 = 3;
-/// [`super::PackedLight::kind`]: a disc that shines to the side of its normal.
+/// [`super::PackedLight::kind`]: a disc that emits to the side of its normal.
 pub const LIGHT_DISC: u32 = 4;
 /// [`super::PackedLight::kind`]: a sphere.
 pub const LIGHT_SPHERE: u32 = 5;
 
-/// [`super::PackedLight::attenuation`]: the same at every distance.
+/// [`super::PackedLight::attenuation`]: none.
 pub const ATTENUATION_NONE: u32 = 0;
 /// [`super::PackedLight::attenuation`]: 1/r² at distance r.
 pub const ATTENUATION_INVERSE_SQUARE: u32 = 1;
 
-/// Bit of [`super::PackedMaterial::flags`]: the shading normal is turned to the side the ray comes from.
+/// Bit of [`super::PackedMaterial::flags`]: the shading normal is flipped to face the ray.
 pub const MATERIAL_TWO_SIDED: u32 = 1;
 /// Bit of [`super::PackedMaterial::flags`]: Fresnel's equations split reflected and transmitted light.
 pub const MATERIAL_FRESNEL: u32 = 2;
-/// Bit of [`super::PackedMaterial::flags`]: with [`MATERIAL_FRESNEL`], by Schlick's approximation.
+/// Bit of [`super::PackedMaterial::flags`]: with [`MATERIAL_FRESNEL`], Schlick's approximation is used.
 pub const MATERIAL_SCHLICK: u32 = 4;
 /// Bit of [`super::PackedMaterial::flags`]: [`crate::scene::Mixing::Sum`].
 pub const MATERIAL_SUM: u32 = 8;
@@ -88,22 +89,22 @@ pub const MATERIAL_BLEND: u32 = 16;
 pub const MATERIAL_ROWS: u32 = 8;
 /// Rows of 16 bytes of a [`super::PackedTexture`].
 pub const TEXTURE_ROWS: u32 = 6;
-/// No texture, in the 16 bits that a [`super::PackedMaterial`] has for each.
+/// No texture, in the 16 bits of a texture index in a [`super::PackedMaterial`].
 pub const NO_TEXTURE: u32 = 0xffff;
 
-/// [`super::PackedTexture::kind`]: cubes of two colours.
+/// [`super::PackedTexture::kind`]: checkerboard of cubes.
 pub const PATTERN_CHECKER: u32 = 0;
-/// [`super::PackedTexture::kind`]: layers of two colours along x.
+/// [`super::PackedTexture::kind`]: stripes along x.
 pub const PATTERN_STRIPES: u32 = 1;
-/// [`super::PackedTexture::kind`]: from one colour to another along x.
+/// [`super::PackedTexture::kind`]: gradient along x.
 pub const PATTERN_GRADIENT: u32 = 2;
-/// [`super::PackedTexture::kind`]: clouds of two colours.
+/// [`super::PackedTexture::kind`]: gradient noise.
 pub const PATTERN_NOISE: u32 = 3;
-/// [`super::PackedTexture::kind`]: a picture over u and v.
+/// [`super::PackedTexture::kind`]: an image over u and v.
 pub const PATTERN_PICTURE: u32 = 4;
-/// Bit of [`super::PackedTexture::flags`]: the pattern lies in u and v, not in space.
+/// Bit of [`super::PackedTexture::flags`]: the pattern is a function of u and v, not of position.
 pub const TEXTURE_UV: u32 = 1;
-/// Bit of [`super::PackedTexture::flags`]: texels have hard edges.
+/// Bit of [`super::PackedTexture::flags`]: texels are looked up without interpolation.
 pub const TEXTURE_NEAREST: u32 = 2;
 
 /// Override `BACKGROUND`: [`crate::scene::Background::Color`].
@@ -156,21 +157,21 @@ pub const TRANSFER_SRGB: u32 = 0;
 /// [`super::PackedTone::transfer`]: [`crate::scene::Transfer::Linear`].
 pub const TRANSFER_LINEAR: u32 = 1;
 
-/// [`super::PackedRay::kind`]: from the camera.
+/// [`super::PackedRay::kind`]: a camera ray.
 pub const RAY_PRIMARY: u32 = 0;
-/// [`super::PackedRay::kind`]: mirrored.
+/// [`super::PackedRay::kind`]: a reflected ray.
 pub const RAY_REFLECTION: u32 = 1;
-/// [`super::PackedRay::kind`]: refracted.
+/// [`super::PackedRay::kind`]: a refracted ray.
 pub const RAY_REFRACTION: u32 = 2;
-/// [`super::PackedRay::kind`]: to a light.
+/// [`super::PackedRay::kind`]: a shadow ray.
 pub const RAY_SHADOW: u32 = 3;
-/// Bit of [`super::PackedRay::flags`]: it came from the side that the unturned normal points to.
+/// Bit of [`super::PackedRay::flags`]: it hit the side that the unflipped normal points to.
 pub const RAY_OUTSIDE: u32 = 1;
-/// Bit of [`super::PackedRay::flags`]: the surface lets light through.
+/// Bit of [`super::PackedRay::flags`]: the surface is transparent.
 pub const RAY_TRANSPARENT: u32 = 2;
 /// Bit of [`super::PackedRay::flags`]: the media on the two sides of the surface differ.
 pub const RAY_BOUNDARY: u32 = 4;
-/// Bit of [`super::PackedRay::flags`]: beyond the critical angle.
+/// Bit of [`super::PackedRay::flags`]: total internal reflection.
 pub const RAY_TOTAL: u32 = 8;
 /// Rows of 16 bytes of a [`super::PackedProbe`].
 pub const PROBE_ROWS: u32 = 3;

@@ -47,21 +47,21 @@ pub struct PackedView {
 impl PackedScene {
     /// Packs a frame of the scene that this was made from.
     pub fn frame(&self, frame: &Frame) -> Result<PackedView, PackError> {
-        self.shot(slice::from_ref(frame))
+        self.view(slice::from_ref(frame))
     }
 
-    /// Packs what [`crate::scene::Scene::shot`] of the scene that this was made from gives: at least
+    /// Packs what [`crate::scene::Scene::motion_samples`] of the scene that this was made from gives: at least
     /// one frame, evenly spaced over the time in which the shutter is open.
-    pub fn shot(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
-        self.shot_from(None, frames)
+    pub fn view(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
+        self.view_from(None, frames)
     }
 
     /// The same, with the tree over the instances of another view of this scene or of the one that it was
     /// packed from, if it serves: where only camera, lights, materials or background differ.
     ///
     /// # Errors
-    /// As [`Self::shot`].
-    pub fn shot_from(
+    /// As [`Self::view`].
+    pub fn view_from(
         &self,
         previous: Option<&PackedView>,
         frames: &[Frame],

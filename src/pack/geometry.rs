@@ -7,7 +7,7 @@ use crate::{
         PackedShape, PackedTriangle, PackedVertex, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC,
         SHAPE_ELLIPSOID, SHAPE_GLOBE, SHAPE_PLANE, SHAPE_RECTANGLE, SHAPE_SPHERE, SHAPE_TORUS,
     },
-    scene::{Form, Geometry, Mesh},
+    scene::{CanonicalShape, Geometry, Mesh},
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
@@ -87,33 +87,33 @@ impl Flat {
                 return Ok(());
             }
             Geometry::Placed {
-                form,
-                world_from_form,
+                canonical,
+                world_from_canonical,
             } => {
-                let mut render_from_form = world_from_form.matrix3;
-                (packed.kind, packed.size0, packed.size1, packed.flags) = match form {
-                    Form::Disc { hole } => (SHAPE_DISC, hole as f32, 0.0, 0),
-                    Form::Rectangle => (SHAPE_RECTANGLE, 0.0, 0.0, 0),
-                    Form::Box => (SHAPE_BOX, 0.0, 0.0, 0),
-                    Form::Cone {
+                let mut render_from_canonical = world_from_canonical.matrix3;
+                (packed.kind, packed.size0, packed.size1, packed.flags) = match canonical {
+                    CanonicalShape::Disc { hole } => (SHAPE_DISC, hole as f32, 0.0, 0),
+                    CanonicalShape::Rectangle => (SHAPE_RECTANGLE, 0.0, 0.0, 0),
+                    CanonicalShape::Box => (SHAPE_BOX, 0.0, 0.0, 0),
+                    CanonicalShape::Cone {
                         bottom,
                         top,
                         capped,
                     } => {
                         // The shader wants cones as wide as they are high, where f32 is finest.
                         let wide = bottom.max(top);
-                        render_from_form.x_axis *= wide;
-                        render_from_form.z_axis *= wide;
+                        render_from_canonical.x_axis *= wide;
+                        render_from_canonical.z_axis *= wide;
                         let flags = if capped { SHAPE_CAPPED } else { 0 };
                         let radii = ((bottom / wide) as f32, (top / wide) as f32);
                         (SHAPE_CONE, radii.0, radii.1, flags)
                     }
-                    Form::Torus { minor } => (SHAPE_TORUS, minor as f32, 0.0, 0),
-                    Form::Ellipsoid => (SHAPE_ELLIPSOID, 0.0, 0.0, 0),
+                    CanonicalShape::Torus { minor } => (SHAPE_TORUS, minor as f32, 0.0, 0),
+                    CanonicalShape::Ellipsoid => (SHAPE_ELLIPSOID, 0.0, 0.0, 0),
                 };
-                packed.position = render_point(world_from_form.translation, origin)?.into();
-                let form_from_render = render_from_form.inverse();
-                let rows = [0, 1, 2].map(|i| form_from_render.row(i));
+                packed.position = render_point(world_from_canonical.translation, origin)?.into();
+                let canonical_from_render = render_from_canonical.inverse();
+                let rows = [0, 1, 2].map(|i| canonical_from_render.row(i));
                 for row in rows {
                     large_enough(row.length().recip())?;
                 }

@@ -1,6 +1,6 @@
 //! The surfaces of lights that rays can see.
 
-use crate::scene::{Form, Frame, Geometry, Light, LightKind, Material, Scene};
+use crate::scene::{CanonicalShape, Frame, Geometry, Light, LightKind, Material, Scene};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// Those lights' indices, in scene order.
@@ -55,9 +55,9 @@ pub fn surface(kind: &LightKind) -> Option<Geometry> {
         return Some(Geometry::Sphere { center, radius });
     }
     match unit_surface(kind)? {
-        Geometry::Placed { form, .. } => Some(Geometry::Placed {
-            form,
-            world_from_form: world_from_unit(kind)?,
+        Geometry::Placed { canonical, .. } => Some(Geometry::Placed {
+            canonical,
+            world_from_canonical: world_from_unit(kind)?,
         }),
         other => Some(other),
     }
@@ -65,12 +65,12 @@ pub fn surface(kind: &LightKind) -> Option<Geometry> {
 
 /// The surface of a light of this kind in a space of its own, from which [`world_from_unit`] leads.
 pub fn unit_surface(kind: &LightKind) -> Option<Geometry> {
-    let form = match kind {
+    let canonical = match kind {
         LightKind::Point { .. } | LightKind::Directional { .. } | LightKind::Spot { .. } => {
             return None;
         }
-        LightKind::Rectangle { .. } => Form::Rectangle,
-        LightKind::Disc { .. } => Form::Disc { hole: 0.0 },
+        LightKind::Rectangle { .. } => CanonicalShape::Rectangle,
+        LightKind::Disc { .. } => CanonicalShape::Disc { hole: 0.0 },
         LightKind::Sphere { .. } => {
             return Some(Geometry::Sphere {
                 center: DVec3::ZERO,
@@ -79,8 +79,8 @@ pub fn unit_surface(kind: &LightKind) -> Option<Geometry> {
         }
     };
     Some(Geometry::Placed {
-        form,
-        world_from_form: DAffine3::IDENTITY,
+        canonical,
+        world_from_canonical: DAffine3::IDENTITY,
     })
 }
 

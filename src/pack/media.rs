@@ -3,7 +3,7 @@
 use super::{PackError, light, material, mesh::CachedMesh, shell::Shell};
 use crate::{
     layout::NONE,
-    scene::{Form, Frame, Geometry, Scene},
+    scene::{CanonicalShape, Frame, Geometry, Scene},
 };
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
@@ -114,7 +114,9 @@ fn is_closed(geometry: &Geometry) -> bool {
     !matches!(
         geometry,
         Geometry::Placed {
-            form: Form::Disc { .. } | Form::Rectangle | Form::Cone { capped: false, .. },
+            canonical: CanonicalShape::Disc { .. }
+                | CanonicalShape::Rectangle
+                | CanonicalShape::Cone { capped: false, .. },
             ..
         }
     )
@@ -149,19 +151,19 @@ fn shape_contains(geometry: &Geometry, point: DVec3) -> bool {
             normal,
         } => normal.dot(point - foot) < 0.0,
         Geometry::Placed {
-            form,
-            world_from_form,
+            canonical,
+            world_from_canonical,
         } => {
-            let p = world_from_form.inverse().transform_point3(point);
+            let p = world_from_canonical.inverse().transform_point3(point);
             let off_axis = p.x.hypot(p.z);
-            match form {
-                Form::Box => p.abs().max_element() < 1.0,
-                Form::Ellipsoid => p.length() < 1.0,
-                Form::Torus { minor } => (off_axis - 1.0).hypot(p.y) < minor,
-                Form::Cone { bottom, top, .. } => {
+            match canonical {
+                CanonicalShape::Box => p.abs().max_element() < 1.0,
+                CanonicalShape::Ellipsoid => p.length() < 1.0,
+                CanonicalShape::Torus { minor } => (off_axis - 1.0).hypot(p.y) < minor,
+                CanonicalShape::Cone { bottom, top, .. } => {
                     0.0 < p.y && p.y < 1.0 && off_axis < bottom + (top - bottom) * p.y
                 }
-                Form::Disc { .. } | Form::Rectangle => false,
+                CanonicalShape::Disc { .. } | CanonicalShape::Rectangle => false,
             }
         }
     }

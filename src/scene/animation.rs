@@ -1,17 +1,17 @@
-//! What changes over time: curves, and the properties that they drive.
+//! Animation: curves and the properties that they drive.
 
 use glam::{DQuat, DVec3};
 
-/// A curve and the properties that follow it. A property has at most one track.
+/// A curve and the properties that it drives. A property has at most one track.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
-    /// At least one; all of the kind that the curve's values are of.
+    /// At least one; all of the type of the curve's values.
     pub targets: Vec<Target>,
-    /// What they follow.
+    /// The curve.
     pub curve: Curve,
 }
 
-/// A property that a track drives. Indices are those of the [`super::Scene`]'s lists.
+/// A property that a track drives. The numbers are indices into the [`super::Scene`]'s lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// Of a [`super::Node`].
@@ -24,23 +24,23 @@ pub enum Target {
     Material(usize, MaterialProperty),
 }
 
-/// What of a node can move.
+/// An animatable property of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NodeProperty {
     /// A vector.
     Translation,
     /// A rotation.
     Rotation,
-    /// A vector of radians to turn round x, then y, then z: unlike rotations these can make more
-    /// than half a turn between two keys.
+    /// A vector of radians about x, then y, then z. Unlike rotations, angles can turn by more than half a
+    /// turn between two keys.
     Angles,
     /// A vector; no component of a key is 0.
     Scale,
-    /// A scalar: visible from 0.5 upwards. While the shutter is open it keeps its first value.
+    /// A scalar: visible from 0.5 upwards. Constant while the shutter is open.
     Visible,
 }
 
-/// What of a camera can change.
+/// An animatable property of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CameraProperty {
     /// A vector.
@@ -51,32 +51,32 @@ pub enum CameraProperty {
     Up,
     /// A scalar, in radians.
     FovY,
-    /// A scalar; of no effect on cameras with perspective.
+    /// A scalar; ignored by perspective cameras.
     OrthographicHeight,
-    /// A scalar; of no effect on a pinhole.
+    /// A scalar; ignored by pinhole cameras.
     FocusDistance,
-    /// A scalar; of no effect on a pinhole.
+    /// A scalar; ignored by pinhole cameras.
     LensRadius,
 }
 
-/// What of a light can change.
+/// An animatable property of a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightProperty {
-    /// A vector: where it is, or its centre. Of no effect on directional lights.
+    /// A vector: the light's position or centre. Ignored by directional lights.
     Position,
-    /// A vector of any length but 0: where directional and spot lights shine, or the normal of a
-    /// disc. Of no effect on others.
+    /// A vector of any length but 0: the direction of directional and spot lights, or the normal of a
+    /// disc. Ignored by others.
     Direction,
-    /// A vector: linear Rec. 709, in place of [`super::Light::color`].
+    /// A vector: linear Rec. 709; replaces [`super::Light::color`].
     Color,
-    /// A scalar that multiplies its colour.
+    /// A scalar: factor on its colour.
     Intensity,
-    /// A scalar: on from 0.5 upwards. While the shutter is open it keeps its first value.
+    /// A scalar: on from 0.5 upwards. Constant while the shutter is open.
     On,
 }
 
-/// What of a material can change. Vectors but `Shininess`, `Opacity` and `Ior`, which are scalars.
-/// Materials stay the same while the shutter is open.
+/// An animatable property of a material. `Shininess`, `Opacity` and `Ior` are scalars, all others
+/// vectors. Materials are constant while the shutter is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "they are named after the members of Material")]
 pub enum MaterialProperty {
@@ -97,14 +97,14 @@ pub enum MaterialProperty {
 pub struct Curve {
     /// Seconds; finite, each greater than the one before; at least one.
     pub times: Vec<f64>,
-    /// One for each time; with [`Interpolation::Hermite`] three for each: the tangent by which it is
-    /// reached, the value, and the tangent by which it is left, per second.
+    /// One value per time. With [`Interpolation::Hermite`] three: the incoming tangent, the value, and
+    /// the outgoing tangent; tangents are per second.
     pub values: Values,
-    /// How values between two keys come about.
+    /// How values between two keys are interpolated.
     pub interpolation: Interpolation,
-    /// How the way from one key to the next is paced; of effect on [`Interpolation::Linear`].
+    /// Timing between two keys; used by [`Interpolation::Linear`] only.
     pub easing: Easing,
-    /// What holds before the first and after the last key.
+    /// The value before the first and after the last key.
     pub beyond: Beyond,
 }
 
@@ -113,36 +113,36 @@ pub struct Curve {
 pub enum Values {
     /// Numbers.
     Scalar(Vec<f64>),
-    /// Points, directions, sizes, angles or colours.
+    /// Positions, directions, sizes, angles or colours.
     Vector(Vec<DVec3>),
-    /// Of unit length, but for tangents.
+    /// Unit quaternions; tangents may have any length.
     Rotation(Vec<DQuat>),
 }
 
-/// How values between two keys come about.
+/// How values between two keys are interpolated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Interpolation {
-    /// The earlier key's value.
+    /// Constant: the earlier key's value.
     Step,
-    /// A straight way; for rotations the shorter arc at constant speed.
+    /// Linear; for rotations along the shorter arc at constant speed.
     #[default]
     Linear,
-    /// A cubic through the keys, whose tangents are those of the parabola through a key and its two
-    /// neighbours (Catmull and Rom 1974, for times at any distance). With [`Beyond::Repeat`] and
-    /// equal first and last values it goes on smoothly.
+    /// A cubic through the keys. Its tangent at a key is that of the parabola through the key and its two
+    /// neighbours (Catmull and Rom 1974, for unevenly spaced keys). With [`Beyond::Repeat`] and equal
+    /// first and last values it is smooth across the repetition.
     CatmullRom,
-    /// A cubic by given tangents, as glTF's CUBICSPLINE.
+    /// A cubic with given tangents, like glTF's CUBICSPLINE.
     Hermite,
 }
 
-/// How the way from one key to the next is paced.
+/// Timing between two keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Easing {
-    /// At constant speed.
+    /// Constant speed.
     #[default]
     None,
-    /// CSS's `cubic-bezier(x1, y1, x2, y2)`: the fraction of the way by the fraction of the time; x1 and
-    /// x2 in [0, 1].
+    /// CSS's `cubic-bezier(x1, y1, x2, y2)`: progress as a function of time, both as fractions; x1 and x2
+    /// in [0, 1].
     Bezier([f64; 4]),
 }
 
@@ -155,14 +155,14 @@ impl Easing {
     pub const IN_OUT: Self = Self::Bezier([0.42, 0.0, 0.58, 1.0]);
 }
 
-/// What holds before the first and after the last key.
+/// The value before the first and after the last key.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Beyond {
-    /// The value of the nearest key.
+    /// Hold: the value of the nearest key.
     #[default]
     Hold,
-    /// The same again.
+    /// Repeat from the start.
     Repeat,
-    /// There and back again.
+    /// Alternate between forward and backward.
     PingPong,
 }

@@ -1,4 +1,4 @@
-//! Boxes round what is in a scene.
+//! Bounding boxes of a scene's contents.
 
 use super::{Geometry, Mesh, ObjectRef, Scene};
 use glam::{DAffine3, DVec3};
@@ -13,7 +13,7 @@ impl Mesh {
         points.map(|p| (p, p)).reduce(union)
     }
 
-    /// The smallest axis-aligned box in the space that `space_from_object` leads to.
+    /// The smallest axis-aligned box in the target space of `space_from_object`.
     pub fn bounds_in(&self, space_from_object: DAffine3) -> Option<Bounds> {
         let points = self.positions.iter();
         let points = points.map(|p| space_from_object.transform_point3(p.as_dvec3()));
@@ -22,11 +22,11 @@ impl Mesh {
 }
 
 impl Scene {
-    /// The axis-aligned box (min, max) round everything bounded, visible or not, in world space, at
-    /// time 0; `None` when there is nothing bounded.
+    /// The bounding box (min, max) of all bounded geometry, visible or not, in world space at time 0;
+    /// `None` if there is none.
     ///
-    /// Only the instances whose own boxes reach out of what is known already have their vertices
-    /// looked at.
+    /// The vertices of an instance are only transformed if its own box extends beyond the bounds found so
+    /// far.
     pub fn bounds(&self) -> Option<Bounds> {
         let nodes = self.nodes_at(0.0, 0.0);
         let world_from = |node: Option<usize>| match node {
@@ -51,7 +51,8 @@ impl Scene {
                 ));
             }
         }
-        // First those that reach farthest each way, behind which most others stay.
+        // Start with the instances that reach farthest in each direction; most others lie within their
+        // bounds.
         for axis in 0..3 {
             for side in [1.0, -1.0] {
                 let reach = |(.., (min, max)): &(usize, DAffine3, Bounds)| {
@@ -69,7 +70,7 @@ impl Scene {
         all
     }
 
-    /// Widens `all` by an instance of a mesh that lies within `outer`.
+    /// Extends `all` by an instance of a mesh that lies within `outer`.
     fn reach(&self, all: &mut Option<Bounds>, mesh: usize, place: DAffine3, outer: Bounds) {
         let is_inside = |(min, max): Bounds| min.cmple(outer.0).all() && max.cmpge(outer.1).all();
         if all.is_some_and(is_inside) {
@@ -80,9 +81,8 @@ impl Scene {
         }
     }
 
-    /// The axis-aligned box (min, max) round one object in world space at `time` seconds; of lights
-    /// without extent it is their place. `None` for planes and directional lights, and meshes without
-    /// triangles.
+    /// The bounding box (min, max) of one object in world space at `time` seconds; for lights without
+    /// extent it is their position. `None` for planes, directional lights, and meshes without triangles.
     pub fn bounds_of(&self, object: ObjectRef, time: f64) -> Option<Bounds> {
         let nodes = self.nodes_at(time, time);
         let world_from = |node: Option<usize>| match node {
@@ -111,7 +111,7 @@ impl Scene {
 }
 
 impl super::LightKind {
-    /// The smallest axis-aligned box (min, max) in its own space; `None` for directional lights.
+    /// The smallest axis-aligned box (min, max) in the light's own space; `None` for directional lights.
     pub fn bounds(&self) -> Option<Bounds> {
         match *self {
             Self::Directional { .. } => None,
@@ -138,7 +138,7 @@ impl super::LightKind {
     }
 }
 
-/// A box that holds what `place` makes of another.
+/// A box that contains the image of another box under `place`.
 fn boxed((min, max): Bounds, place: DAffine3) -> Bounds {
     let corner = |i: u8| {
         let side = |bit: u8, axis: usize| if i & bit == 0 { min[axis] } else { max[axis] };

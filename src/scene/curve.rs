@@ -1,10 +1,10 @@
-//! What a curve is worth at a time.
+//! Evaluation of curves.
 
 use super::{Beyond, Curve, Easing, Interpolation, Values};
 use glam::{DQuat, DVec3};
 use std::ops::{Add, Mul, Sub};
 
-/// What a [`Curve`] is worth at one time.
+/// The value of a [`Curve`] at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
     /// Of [`Values::Scalar`].
@@ -16,12 +16,12 @@ pub enum Value {
 }
 
 impl Curve {
-    /// The value at `time` seconds, any finite number. At a key's time it is exactly that key's
-    /// value; what repeats has the first key's value where its last key is.
+    /// The value at `time` seconds, any finite number. At a key's time it is exactly that key's value. A
+    /// repeating curve has the first key's value at the time of its last key.
     ///
-    /// Cubics of rotations are cubics of the quaternions' components, normalised, as glTF 2.0
-    /// (section 3.11, appendix C.5) has them; [`Interpolation::CatmullRom`] first takes the sign of
-    /// each that is nearer to its neighbour's, so that it too goes the shorter way.
+    /// A cubic of rotations interpolates the quaternions' components and normalises the result, as in
+    /// glTF 2.0 (section 3.11, appendix C.5). [`Interpolation::CatmullRom`] first flips signs so that
+    /// each quaternion is near its neighbour, which makes it follow the shorter path.
     pub fn at(&self, time: f64) -> Value {
         match &self.values {
             Values::Scalar(values) => Value::Scalar(self.value(values, time)),
@@ -30,7 +30,7 @@ impl Curve {
         }
     }
 
-    /// The times of the first and of the last key.
+    /// The times of the first and the last key.
     pub fn span(&self) -> (f64, f64) {
         (self.times[0], self.times[self.times.len() - 1])
     }
@@ -53,7 +53,7 @@ impl Curve {
         }
     }
 
-    /// The time between the first and the last key at which the value at `time` is found.
+    /// The time between the first and the last key that corresponds to `time`.
     pub(super) fn clock(&self, time: f64) -> f64 {
         let (first, last) = self.span();
         let is_within = (first..last).contains(&time);
@@ -70,7 +70,7 @@ impl Curve {
                 first + there.min(2.0 * period - there)
             }
         };
-        // At times so far out that they have no meaning any more the remainder may be none.
+        // Very far from 0, times have lost all precision and the remainder may be NaN.
         if clock.is_nan() {
             first
         } else {
@@ -116,15 +116,15 @@ impl Curve {
         }
     }
 
-    /// The tangents at both ends of the way from key `index` to the next, whose values are `ends`.
+    /// The tangents at both ends of the piece from key `index` to the next, whose values are `ends`.
     fn parabolic_tangents<V: Blend>(&self, keys: &[V], index: usize, ends: [V; 2]) -> [V; 2] {
         let times = &self.times;
         let last = keys.len() - 1;
         let goes_on = self.beyond == Beyond::Repeat && keys[0].is_same(keys[last]);
         let length = times[index + 1] - times[index];
         let slope = (ends[1] - ends[0]) * (1.0 / length);
-        // The tangent at `end` of the parabola through it, its neighbour in this piece and the one
-        // beyond, `gap` away, to which the slope is `other`.
+        // The tangent at `end` of the parabola through `end`, its neighbour in this piece, and the key
+        // beyond, which is `gap` away and reached with slope `other`.
         let tangent = |gap: f64, other: V| {
             let blend = length / (length + gap);
             other * blend + slope * (1.0 - blend)
@@ -145,7 +145,7 @@ impl Curve {
             let gap = times[i] - times[i - 1];
             tangent(gap, (keys[i].near(ends[1]) - ends[1]) * (1.0 / gap))
         });
-        // Where there is no key beyond, the parabola of the other end goes on to this one.
+        // Without a key beyond, continue the parabola of the other end.
         match (before, after) {
             (Some(before), Some(after)) => [before, after],
             (Some(before), None) => [before, slope * 2.0 - before],
@@ -165,18 +165,19 @@ fn fraction(start: f64, end: f64, time: f64) -> f64 {
     }
 }
 
-/// Hermite's cubic by its ends and its tangents there, per length of the way.
+/// Cubic Hermite interpolation from the end points and the tangents there, in units of the piece's
+/// length.
 fn cubic<V: Blend>(from: V, leave: V, reach: V, to: V, fraction: f64) -> V {
     let s = fraction;
     let rest = 1.0 - s;
     let bend = leave * (s * rest * rest) - reach * (s * s * rest);
     let value = from + (to - from) * (s * s * (3.0 - 2.0 * s)) + bend;
-    // Tangents may be too large for numbers to tell.
+    // Large tangents may overflow.
     value.settled().unwrap_or_else(|| from.mix(to, fraction))
 }
 
 impl Easing {
-    /// The fraction of the way that is done after `fraction` of the time, which is in [0, 1].
+    /// Progress after `fraction` of the time, which is in [0, 1].
     pub fn way(self, fraction: f64) -> f64 {
         let Self::Bezier([x1, y1, x2, y2]) = self else {
             return fraction;
@@ -186,7 +187,7 @@ impl Easing {
             let rest = 1.0 - s;
             3.0 * rest * rest * s * a + 3.0 * rest * s * s * b + s * s * s
         };
-        // x never falls. Newton's steps, and halving where they leave what is known to hold it.
+        // x is monotonic. Newton's method, with bisection where a step leaves the bracket.
         let (mut low, mut high, mut s) = (0.0, 1.0, fraction);
         for _ in 0..100 {
             let error = at(x1, x2, s) - fraction;
@@ -211,24 +212,24 @@ impl Easing {
     }
 }
 
-/// What can be blended.
+/// Values that can be interpolated.
 trait Blend:
     Copy + PartialEq + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
 {
-    /// Linearly, or at constant speed along an arc; `fraction` may leave [0, 1].
+    /// Linear, or at constant speed along an arc; `fraction` may lie outside [0, 1].
     fn mix(self, to: Self, fraction: f64) -> Self;
 
-    /// Itself; of two that mean the same, the one nearer to `other`.
+    /// The value in the representation nearer to `other`, if there are two equivalent ones.
     fn near(self, _other: Self) -> Self {
         self
     }
 
-    /// Whether both mean the same.
+    /// Whether two values are equivalent.
     fn is_same(self, other: Self) -> bool {
         self == other
     }
 
-    /// Itself, if it means anything.
+    /// The value, if it is valid.
     fn settled(self) -> Option<Self>;
 }
 
@@ -236,7 +237,7 @@ impl Blend for f64 {
     fn mix(self, to: Self, fraction: f64) -> Self {
         let value = self + (to - self) * fraction;
         value.settled().unwrap_or_else(|| {
-            // Ends too far apart for their difference.
+            // The difference between the ends may overflow.
             (self * (1.0 - fraction) + to * fraction).clamp(f64::MIN, f64::MAX)
         })
     }
@@ -258,8 +259,8 @@ impl Blend for DVec3 {
 }
 
 impl Blend for DQuat {
-    /// Shoemake's slerp (1985) on the shorter arc, its angle by Kahan's formula, which is exact for
-    /// small ones too.
+    /// Shoemake's slerp (1985) along the shorter arc. Kahan's formula gives the angle accurately, also
+    /// when it is small.
     fn mix(self, to: Self, fraction: f64) -> Self {
         let to = to.near(self);
         let angle = 2.0 * (to - self).length().atan2((to + self).length());

@@ -1,4 +1,4 @@
-//! What moves: the state of a scene at one moment.
+//! The state of a scene at one moment.
 
 mod camera;
 mod light;
@@ -9,43 +9,45 @@ use super::{
 };
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 
-/// The moving part of a [`Scene`] at one time. Geometry stays in the scene, so that an animation
-/// uploads it once.
+/// The animated part of a [`Scene`] at one time. Geometry stays in the scene, so that an animation
+/// uploads it only once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// The camera that the picture is seen by, in world space.
+    /// The camera in use, in world space.
     pub camera: Camera,
-    /// One for each of the scene's, in world space; dark and invisible while it is off.
+    /// One for each of the scene's lights, in world space; black and invisible while switched off.
     pub lights: Vec<Light>,
-    /// What rays see that hit nothing.
+    /// Radiance of rays that hit nothing.
     pub background: Background,
     /// Linear radiance of the ambient term, multiplied by [`Material::ambient`].
     pub ambient: Vec3,
     /// One for each of the scene's nodes.
     pub nodes: Vec<NodeState>,
-    /// One for each of the scene's, if a track changes any; else empty, and the scene's count.
+    /// One for each of the scene's materials if a track animates any; otherwise empty, and the scene's
+    /// materials apply.
     pub materials: Vec<Material>,
 }
 
-/// Where a [`super::Node`] is at one time.
+/// The state of a [`super::Node`] at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeState {
     /// Invertible.
     pub world_from_node: DAffine3,
-    /// Whether it and all nodes above it are visible.
+    /// Whether the node and all of its ancestors are visible.
     pub visible: bool,
 }
 
 impl Scene {
     /// The scene at `time` seconds, seen by its default camera.
     ///
-    /// What cubics and Bézier curves overshoot stays in the range that the property's own
-    /// description gives. A track whose values are not of its target's kind is without effect.
+    /// Values that overshoot on cubic and Bézier curves are clamped to the documented range of the
+    /// property. A track whose values do not have the type of its target has no effect.
     pub fn frame(&self, time: f64) -> Frame {
         self.frame_while(time, time)
     }
 
-    /// The scene at `time` with what the shutter freezes as it is at `opened`.
+    /// The scene at `time`; properties that are frozen while the shutter is open have their state at
+    /// `opened`.
     pub(super) fn frame_while(&self, time: f64, opened: f64) -> Frame {
         let nodes = self.nodes_at(time, opened);
         Frame {
@@ -59,15 +61,15 @@ impl Scene {
     }
 
     pub(super) fn nodes_at(&self, time: f64, opened: f64) -> Vec<NodeState> {
-        let rig = Rig::new(self);
+        let hierarchy = Hierarchy::new(self);
         let mut states = Vec::with_capacity(self.nodes.len());
         for index in 0..self.nodes.len() {
-            states.push(rig.state(index, &states, time, opened));
+            states.push(hierarchy.state(index, &states, time, opened));
         }
         states
     }
 
-    /// For each node whether a track moves or hides it, or one above it.
+    /// For each node, whether a track moves or hides it or one of its ancestors.
     pub fn moving_nodes(&self) -> Vec<bool> {
         let mut moving = vec![false; self.nodes.len()];
         for target in self.tracks.iter().flat_map(|track| &track.targets) {
@@ -81,13 +83,13 @@ impl Scene {
         moving
     }
 
-    /// Whether anything changes, ever.
+    /// Whether any track changes a property over time.
     pub fn is_animated(&self) -> bool {
         self.tracks.iter().any(|track| !track.curve.is_constant())
     }
 
-    /// Seconds that the animation lasts: what the file says, else until the last key of any track, and
-    /// until what goes to and fro is back; 0 where that is nothing.
+    /// Duration of the animation in seconds: the file's, otherwise the time of the last key, extended to
+    /// a whole cycle for ping-pong tracks; 0 if there is none.
     pub fn duration(&self) -> f64 {
         let ends = self.tracks.iter().map(|track| {
             let (first, last) = track.curve.span();
@@ -100,14 +102,14 @@ impl Scene {
     }
 }
 
-/// Which curves drive which node, so that a few nodes can be evaluated without all others.
-pub(super) struct Rig<'a> {
+/// The curves of each node, for evaluating some nodes of the hierarchy without the others.
+pub(super) struct Hierarchy<'a> {
     scene: &'a Scene,
-    /// In the nodes' order.
+    /// Sorted by node.
     curves: Vec<(usize, NodeProperty, &'a Curve)>,
 }
 
-impl<'a> Rig<'a> {
+impl<'a> Hierarchy<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         let mut curves = Vec::new();
         for track in &scene.tracks {
@@ -128,7 +130,7 @@ impl<'a> Rig<'a> {
         &self.curves[start..start + count]
     }
 
-    /// The state of a node; those of the nodes above it are in `states`.
+    /// The state of a node; `states` holds at least those of its ancestors.
     pub fn state(&self, index: usize, states: &[NodeState], time: f64, opened: f64) -> NodeState {
         let rest = &self.scene.nodes[index];
         let (mut translation, mut rotation) = (rest.translation, rest.rotation);
@@ -160,15 +162,15 @@ impl<'a> Rig<'a> {
     }
 }
 
-/// Radians round x, then y, then z.
+/// The rotation by radians about x, then y, then z.
 pub(super) fn rotation_from(angles: DVec3) -> DQuat {
     DQuat::from_rotation_z(angles.z)
         * DQuat::from_rotation_y(angles.y)
         * DQuat::from_rotation_x(angles.x)
 }
 
-/// `scale`, whose components are kept from coming nearer to 0 than a millionth of those at `rest`,
-/// as they do on their way from a positive to a negative key.
+/// `scale`, with components kept at least a millionth of those at `rest` away from 0, which they would
+/// cross between a positive and a negative key.
 fn invertible(scale: DVec3, rest: DVec3) -> DVec3 {
     let least = 1e-6 * rest.abs();
     let kept = scale.abs().max(least);
@@ -180,7 +182,7 @@ fn is_on(curve: &Curve, opened: f64) -> bool {
     matches!(curve.at(opened), Value::Scalar(value) if value >= 0.5)
 }
 
-/// A colour as single floats, in range.
+/// A colour in f32, clamped to the valid range.
 fn color(value: DVec3) -> Vec3 {
     value
         .clamp(DVec3::ZERO, DVec3::splat(f64::from(f32::MAX)))
@@ -188,8 +190,8 @@ fn color(value: DVec3) -> Vec3 {
 }
 
 impl Target {
-    /// Whether a track with `values` can drive it.
-    pub fn takes(self, values: &Values) -> bool {
+    /// Whether a track with `values` can drive this target.
+    pub fn accepts(self, values: &Values) -> bool {
         use super::{
             CameraProperty as Camera, LightProperty as Light, MaterialProperty as Material,
         };

@@ -1,27 +1,27 @@
-//! What lights a scene.
+//! Light sources.
 
 use glam::{DVec3, Vec3};
 
-/// A light. Without extent it casts hard shadows and is itself invisible.
+/// A light. A light without extent casts hard shadows and is itself invisible.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
-    /// Where it is and which way it shines.
+    /// Kind, position and direction.
     pub kind: LightKind,
-    /// Linear radiance L of the Phong sum, at distance 1 where it falls off (of area lights: seen
-    /// from far away along the normal); 0 or more.
+    /// Linear radiance L of the Phong sum; 0 or more. With attenuation it applies at distance 1 (for area
+    /// lights seen from far away along the normal).
     pub color: Vec3,
-    /// How it fades.
+    /// How it fades with distance.
     pub attenuation: Attenuation,
-    /// Shadow rays for each shaded point, at least 1; more than 1 make sense for area lights only.
+    /// Shadow rays per shaded point, at least 1; more than 1 is useful for area lights only.
     pub samples: u32,
-    /// Whether rays see the light itself; makes sense for area lights only.
+    /// Whether rays hit the light itself; for area lights only.
     pub visible: bool,
-    /// Index into [`super::Scene::nodes`] of what carries it; `None` is the world.
+    /// Index into [`super::Scene::nodes`] of the parent node; `None` is the world.
     pub node: Option<usize>,
 }
 
 impl Default for Light {
-    /// A dark point.
+    /// A black point light.
     fn default() -> Self {
         Self {
             kind: LightKind::Point {
@@ -36,51 +36,51 @@ impl Default for Light {
     }
 }
 
-/// Place and direction of a [`Light`], in the space of its node.
+/// Kind, position and direction of a [`Light`], in the space of its node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightKind {
-    /// Shines evenly all round.
+    /// Shines evenly in all directions.
     Point {
-        /// Where it is.
+        /// Its position.
         position: DVec3,
     },
-    /// Shines from infinitely far.
+    /// Shines from infinitely far away.
     Directional {
         /// The unit direction in which the light travels.
         direction: DVec3,
     },
-    /// Shines into a cone: full strength inside `inner`, smoothly down to nothing at `outer`.
+    /// Shines into a cone: full intensity inside `inner`, falling smoothly to zero at `outer`.
     Spot {
-        /// Where it is.
+        /// Its position.
         position: DVec3,
         /// The unit direction of the cone's axis, in which the light travels.
         direction: DVec3,
-        /// Radians off the axis, in [0, `outer`].
+        /// Angle from the axis in radians, in [0, `outer`].
         inner: f64,
-        /// Radians off the axis, in [`inner`, π/2].
+        /// Angle from the axis in radians, in [`inner`, π/2].
         outer: f64,
     },
-    /// Shines from a parallelogram to the side of its normal, which is along edge_u × edge_v.
+    /// A parallelogram that emits to the side of its normal, edge_u × edge_v.
     Rectangle {
-        /// The middle.
+        /// The centre.
         center: DVec3,
-        /// From the centre to the middle of one side.
+        /// From the centre to the middle of one edge.
         edge_u: DVec3,
-        /// From the centre to the middle of the other; not parallel to `edge_u`.
+        /// From the centre to the middle of the other edge; not parallel to `edge_u`.
         edge_v: DVec3,
     },
-    /// Shines from a disc to the side of its normal.
+    /// A disc that emits to the side of its normal.
     Disc {
-        /// The middle.
+        /// The centre.
         center: DVec3,
         /// Of unit length.
         normal: DVec3,
         /// Above 0.
         radius: f64,
     },
-    /// Shines from a sphere to all sides.
+    /// A sphere that emits in all directions.
     Sphere {
-        /// The middle.
+        /// The centre.
         center: DVec3,
         /// Above 0.
         radius: f64,
@@ -88,9 +88,8 @@ pub enum LightKind {
 }
 
 impl LightKind {
-    /// What the surface of an area light of `color` 1 emits: its radiance in the sense that a
-    /// diffuse surface of k_d under the light shows k_d/π times its irradiance. `None` for a light
-    /// without extent.
+    /// The radiance that the surface of an area light of `color` 1 emits, in the convention that a
+    /// diffuse surface of k_d reflects k_d/π times its irradiance. `None` for a light without extent.
     pub fn radiance(&self) -> Option<f64> {
         use std::f64::consts::PI;
         match self {
@@ -105,12 +104,12 @@ impl LightKind {
     }
 }
 
-/// How a light fades with the distance r to it. A directional light never does.
+/// How a light fades with the distance r. A directional light never fades.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Attenuation {
-    /// Not at all.
+    /// No attenuation.
     #[default]
     None,
-    /// 1/r²; an area light then also weakens with the cosine off its normal, as a lamp does.
+    /// 1/r²; an area light also weakens with the cosine to its normal, as a Lambertian emitter does.
     InverseSquare,
 }

@@ -1,14 +1,14 @@
-//! What the lights and cameras of a scene ask of its picture.
+//! Default samples per pixel, and whether a scene has any light.
 
 use super::{Background, LightProperty, MaterialProperty, OutputDefaults, Scene, Target};
 use glam::Vec3;
 
-/// Samples per pixel of a picture that is noise with one.
+/// Samples per pixel for scenes that are noisy with one.
 const SAMPLES: u32 = 16;
 
 impl Scene {
-    /// Samples per pixel unless told otherwise: 16 where a lens, a light with extent or an open shutter
-    /// makes every ray of a pixel another one, else 1.
+    /// Default samples per pixel: 16 if a lens, an area light or an open shutter makes the rays of a
+    /// pixel random, otherwise 1.
     pub fn default_samples(&self) -> u32 {
         let has_lens = self.cameras.iter().any(|camera| camera.lens.is_some());
         let is_large = self
@@ -23,9 +23,9 @@ impl Scene {
         }
     }
 
-    /// Whether all surfaces are black for want of light: there is no light, no ambient light and no
-    /// emission, at any time, and nothing that a mirror or glass could show of the background. A scene
-    /// without surfaces wants no light.
+    /// Whether all surfaces are black because there is no light: no lights, no ambient light and no
+    /// emission at any time, and no mirror or glass that could show the background. False for a scene
+    /// without surfaces.
     pub fn is_unlit(&self) -> bool {
         let is_lit = |color: Vec3| color.max_element() > 0.0;
         let changes = |wanted: fn(&Target) -> bool| {

@@ -1,12 +1,12 @@
-//! How surfaces answer light.
+//! Materials.
 
 use glam::Vec3;
 
-/// How a surface answers light: Phong coefficients, per colour channel (Phong 1975), and what it
-/// mirrors and lets through (Whitted 1980).
+/// How a surface scatters light: Phong coefficients per colour channel (Phong 1975), mirror reflection
+/// and transmission (Whitted 1980).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// Empty when the file gives none.
+    /// Empty if the file gives none.
     pub name: String,
     /// k_d, 0 or more.
     pub diffuse: Vec3,
@@ -14,64 +14,65 @@ pub struct Material {
     pub specular: Vec3,
     /// The exponent α, 0 or more.
     pub shininess: f32,
-    /// Multiplies [`super::Scene::ambient`]. The course's format wants 1, others the diffuse colour.
+    /// Factor on [`super::Scene::ambient`]. 1 in the course's format, by default the diffuse colour in
+    /// others.
     pub ambient: Vec3,
-    /// Whether the shading normal is turned to the side that the ray comes from. The course's
-    /// format wants it left as given: a surface lit from behind gets the ambient term only.
+    /// Whether the shading normal is flipped to face the ray. Off in the course's format: a surface lit
+    /// from behind gets the ambient term only.
     pub two_sided: bool,
-    /// Radiance of the surface itself, 0 or more; from the back only if `two_sided`.
+    /// Radiance that the surface emits, 0 or more; from its back only if `two_sided`.
     pub emission: Vec3,
-    /// Fraction of the light that is mirrored, 0 or more; with `fresnel` that at grazing angles.
+    /// Fraction of the light that is reflected, 0 or more; with `fresnel` its value at grazing angles.
     pub reflect: Vec3,
-    /// Share of the light that is let through, 0 or more; with `fresnel` before reflection.
+    /// Fraction of the light that is transmitted, 0 or more; with `fresnel` before reflection is
+    /// subtracted.
     pub transmit: Vec3,
-    /// Share of the local shading where `mixing` is [`Mixing::Layer`], in 0..=1: what is not
-    /// let through.
+    /// Weight of the local shading if `mixing` is [`Mixing::Layer`], in 0..=1.
     pub opacity: f32,
-    /// Index of refraction of what the normal points away from, above 0.
+    /// Index of refraction on the inside, which is the side that the normal points away from; above 0.
     pub ior: f32,
-    /// How much of the light a unit length of it swallows: exp(−absorption · length) is left (Beer
-    /// and Lambert). 0 or more.
+    /// Absorption coefficient of the inside per unit length: exp(−absorption · length) is transmitted
+    /// (Beer and Lambert). 0 or more.
     pub absorption: Vec3,
-    /// Where bodies overlap, the one of the highest priority counts; among equals the one entered
-    /// last (Schmidt and Budge 2002).
+    /// Among overlapping dielectric volumes the one of the highest priority counts; among equals the one
+    /// entered last (Schmidt and Budge 2002).
     pub priority: i32,
-    /// How much is mirrored at which angle.
+    /// How reflection depends on the angle.
     pub fresnel: Fresnel,
-    /// How local, mirrored and transmitted light are put together.
+    /// How local, reflected and transmitted light are combined.
     pub mixing: Mixing,
-    /// What multiplies the colours.
+    /// Textures that multiply the colours.
     pub textures: Textures,
 }
 
-/// How much is mirrored at which angle.
+/// How reflection depends on the angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Fresnel {
-    /// The same at every angle.
+    /// Independent of the angle.
     #[default]
     None,
-    /// By Fresnel's equations for unpolarised light; all of it beyond the critical angle.
+    /// Fresnel's equations for unpolarised light, with total reflection beyond the critical angle.
     Exact,
-    /// By Schlick's approximation of them (1994).
+    /// Schlick's approximation of them (1994).
     Schlick,
 }
 
-/// How local, mirrored and transmitted light are put together, with R and T for `reflect` and
-/// `transmit` after Fresnel's split.
+/// How local, reflected and transmitted light are combined, with R and T for `reflect` and `transmit`
+/// after Fresnel's split.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mixing {
-    /// highlight + (1 − R) · opacity · (ambient + diffuse) + R · mirrored + T · transmitted, which
-    /// makes no light.
+    /// highlight + (1 − R) · opacity · (ambient + diffuse) + R · reflected + T · transmitted. Conserves
+    /// energy.
     #[default]
     Layer,
-    /// local + R · mirrored + T · transmitted, as in Haines' NFF.
+    /// local + R · reflected + T · transmitted, as in Haines' NFF.
     Sum,
-    /// (1 − R) · local + R · mirrored, as the course wants it; where no ray is sent, all is local.
+    /// (1 − R) · local + R · reflected, as in the course; where no reflection ray is sent, local alone.
     Blend,
 }
 
-/// For each colour of a [`Material`] an index into [`super::Scene::textures`], by which it is
-/// multiplied.
+/// For each colour of a [`Material`] the index in [`super::Scene::textures`] of the texture that
+/// multiplies it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Textures {
     /// Of [`Material::diffuse`].
@@ -89,7 +90,7 @@ pub struct Textures {
 }
 
 impl Textures {
-    /// Those of all colours.
+    /// The textures of all colours.
     pub fn all(&self) -> [Option<usize>; 6] {
         let Self {
             diffuse,
@@ -102,7 +103,7 @@ impl Textures {
         [diffuse, specular, ambient, emission, reflect, transmit]
     }
 
-    /// Adds `first` to every index, for textures that were put behind others.
+    /// Adds `first` to every index, for textures that are appended to others.
     pub fn shift(&mut self, first: usize) {
         let Self {
             diffuse,
@@ -119,7 +120,7 @@ impl Textures {
 }
 
 impl Default for Material {
-    /// A matte light grey, seen from both sides.
+    /// A matte light grey, two-sided.
     fn default() -> Self {
         Self {
             name: String::new(),

@@ -1,42 +1,41 @@
-//! Triangle meshes and the repairs that every mesh format needs.
+//! Triangle meshes, and the repairs that every mesh format needs.
 
 use glam::{DVec3, Vec2, Vec3};
 
-/// Triangles over shared vertices, in object space. Positions are in range, triangles have an area,
-/// normals have unit length: [`Mesh::repair`] sees to that, whatever the file said.
+/// Indexed triangles in object space. Positions are in range, triangles have an area, and normals have
+/// unit length: [`Mesh::repair`] ensures that for any file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// Empty when the file gives none.
+    /// Empty if the file gives none.
     pub name: String,
     /// The vertices, in object space.
     pub positions: Vec<Vec3>,
     /// One unit normal for each position.
     pub normals: Vec<Vec3>,
-    /// One (u, v) for each position, v upwards; empty when the file gives none.
+    /// One (u, v) for each position, v upwards; empty if the file gives none.
     pub uvs: Vec<Vec2>,
-    /// For each position, an index into [`super::Scene::materials`]. Where the three vertices of a
-    /// triangle differ, their coefficients are interpolated, and the first one's textures count.
+    /// For each position, an index into [`super::Scene::materials`]. Where the vertices of a triangle
+    /// differ, their coefficients are interpolated and the textures of the first one apply.
     pub materials: Vec<u32>,
-    /// Indices into the arrays above. Winding gives the geometric normal and nothing else.
+    /// Indices into the arrays above. The winding determines the geometric normal only.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// What [`Mesh::repair`] had to do.
+/// The repairs that [`Mesh::repair`] made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Repairs {
-    /// Triangles without area, which were dropped.
+    /// Degenerate triangles that were dropped.
     pub dropped_triangles: usize,
-    /// Normals of no usable length, which were computed from the triangles round the vertex.
+    /// Normals without a usable length, recomputed from the adjacent triangles.
     pub recomputed_normals: usize,
 }
 
 impl Mesh {
-    /// Drops triangles whose area is zero (or too small for f32 to tell), recomputes normals that
-    /// are missing or have no length as the area-weighted mean round their vertex, and normalises
-    /// the others.
+    /// Drops triangles whose area is zero (or below f32's precision), recomputes missing and zero normals
+    /// as the area-weighted mean of the adjacent triangles' normals, and normalises the others.
     ///
-    /// `normals` may be shorter than `positions`; the missing ones count as zero and are not
-    /// reported as repaired. Indices must be in range and positions finite.
+    /// `normals` may be shorter than `positions`; the missing ones count as zero and are not reported as
+    /// repaired. Indices must be in range and positions finite.
     pub fn repair(&mut self) -> Repairs {
         let given_normals = self.normals.len();
         self.normals.resize(self.positions.len(), Vec3::ZERO);
@@ -50,7 +49,7 @@ impl Mesh {
             let length = n.as_dvec3().length();
             length.is_finite() && length > 1e-30
         };
-        // Empty where every vertex has a normal, which saves most of the memory that this takes.
+        // Stays empty if every vertex has a normal, which saves most of the memory of this pass.
         let mut area_normals = Vec::new();
         if !self.normals.iter().all(has_direction) {
             area_normals.resize(self.positions.len(), None::<DVec3>);
@@ -65,7 +64,7 @@ impl Mesh {
         for (i, normal) in self.normals.iter_mut().enumerate() {
             let given = normal.as_dvec3();
             let length = given.length();
-            // As near to 1 as f32 can be: it stays as it is, so that nothing is repaired twice.
+            // As near to 1 as f32 allows: keep it, so that a second repair changes nothing.
             if (length - 1.0).abs() <= f64::from(f32::EPSILON) {
                 continue;
             }
@@ -84,8 +83,8 @@ impl Mesh {
         }
     }
 
-    /// Moves the vertices so that their box is centred on the origin and returns the translation
-    /// that brings them back. Of use to importers whose files place vertices far from the origin.
+    /// Centres the vertices on the origin and returns the translation that moves them back. For importers
+    /// whose files place vertices far from the origin.
     pub fn from_world_positions<'a, P>(positions: P) -> (Vec<Vec3>, DVec3)
     where
         P: IntoIterator<Item = &'a DVec3, IntoIter: Clone>,
@@ -98,7 +97,7 @@ impl Mesh {
         else {
             return (Vec::new(), DVec3::ZERO);
         };
-        // Only worth it when the offset costs f32 precision; else the file's numbers stay as they are.
+        // Only if the offset costs f32 precision; otherwise the file's numbers are kept.
         let center = (min + max) / 2.0;
         let offset = if center.abs().max_element() > 4.0 * (max - min).max_element() {
             center
@@ -110,7 +109,7 @@ impl Mesh {
     }
 }
 
-/// The triangle's normal, as long as twice its area; `None` where f32 cannot tell that from nothing.
+/// The triangle's normal, of twice its area in length; `None` if that is below f32's precision.
 fn area_normal(positions: &[Vec3], triangle: &[u32; 3]) -> Option<DVec3> {
     let [a, b, c] = triangle.map(|i| positions[i as usize].as_dvec3());
     let normal = (b - a).cross(c - a);
@@ -120,6 +119,6 @@ fn area_normal(positions: &[Vec3], triangle: &[u32; 3]) -> Option<DVec3> {
         c.distance_squared(a),
     ];
     let longest = edges.into_iter().fold(0.0, f64::max);
-    // Below one f32 rounding of the longest edge the height is noise, not area.
+    // Below one f32 rounding error of the longest edge, the height is noise.
     (normal.length() > longest * f64::from(f32::EPSILON) * 0.5).then_some(normal)
 }

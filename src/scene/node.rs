@@ -1,16 +1,16 @@
-//! Frames of reference, which may move and carry what is attached to them.
+//! Nodes of the transform hierarchy.
 
 use glam::{DAffine3, DQuat, DVec3};
 
-/// A frame of reference. Points in it are scaled, rotated and translated, then placed in the space
-/// of its parent. Tracks replace the first three.
+/// A coordinate frame. Points in it are scaled, rotated and translated, then placed in the space of the
+/// parent node. Tracks override scale, rotation and translation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// Empty when the file gives none.
+    /// Empty if the file gives none.
     pub name: String,
-    /// Index into [`super::Scene::nodes`] of an earlier node; `None` is the world.
+    /// Index into [`super::Scene::nodes`] of the parent, which comes earlier; `None` is the world.
     pub parent: Option<usize>,
-    /// What stands still between this node and its parent; invertible.
+    /// The static transform between this node and its parent; invertible.
     pub placement: DAffine3,
     /// At rest.
     pub translation: DVec3,
@@ -18,12 +18,12 @@ pub struct Node {
     pub rotation: DQuat,
     /// At rest; no component is 0, negative ones mirror.
     pub scale: DVec3,
-    /// Whether what is attached to it, or to nodes below it, is there at rest.
+    /// Whether objects attached to it or to its descendants are visible at rest.
     pub visible: bool,
 }
 
 impl Default for Node {
-    /// The world's own frame.
+    /// The identity, attached to the world.
     fn default() -> Self {
         Self {
             name: String::new(),

@@ -1,9 +1,9 @@
-//! Things in a scene that rays can hit.
+//! References to objects that rays can hit.
 
 use super::Scene;
 use serde::Serialize;
 
-/// Something in a [`Scene`] that rays can hit, by its place in its list.
+/// An object in a [`Scene`] that rays can hit, by its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(tag = "kind", content = "index", rename_all = "lowercase")]
 pub enum ObjectRef {
@@ -11,13 +11,13 @@ pub enum ObjectRef {
     Instance(usize),
     /// Index into [`Scene::shapes`].
     Shape(usize),
-    /// Index into [`Scene::lights`]: the surface of a lamp.
+    /// Index into [`Scene::lights`]: the surface of an area light.
     Light(usize),
 }
 
 impl Scene {
-    /// The name of an object: that of the nearest named node that carries it, else that of its mesh, else
-    /// empty; for an index that is out of range too.
+    /// The name of an object: that of the nearest named ancestor node, otherwise that of its mesh,
+    /// otherwise empty. Also empty if the index is out of range.
     pub fn object_name(&self, object: ObjectRef) -> &str {
         let (node, mesh) = match object {
             ObjectRef::Instance(index) => match self.instances.get(index) {

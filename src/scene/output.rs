@@ -1,40 +1,40 @@
-//! How a scene wants its picture.
+//! A scene's output settings.
 
-/// How a scene wants its picture, where no flag says otherwise.
+/// The output settings in a scene file. Command-line flags override them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputDefaults {
     /// Width and height in pixels.
     pub size: (u32, u32),
     /// Samples per pixel, at least 1.
     pub samples: u32,
-    /// Where they lie; `None`: at the centre if it is one, else stratified.
+    /// Sample placement; `None`: at the pixel's centre for one sample, otherwise stratified.
     pub antialias: Option<Antialias>,
-    /// What they are weighted by.
+    /// Reconstruction filter.
     pub filter: Filter,
-    /// In pixels; `None`: the filter's own.
+    /// Filter radius in pixels; `None`: the filter's default.
     pub filter_radius: Option<f32>,
-    /// The noise that adaptive sampling stops at; see [`Antialias::Adaptive`].
+    /// Noise threshold of adaptive sampling; see [`Antialias::Adaptive`].
     pub noise: f32,
-    /// Factor on the samples of every area light, above 0.
+    /// Factor on the number of shadow rays of every area light, above 0.
     pub light_samples: f32,
     /// Bounces after the first hit; 0 is local shading only.
     pub max_depth: u32,
-    /// Stops; each doubles the brightness.
+    /// Exposure in stops; each doubles the brightness.
     pub exposure_ev: f32,
-    /// Applied after the exposure.
+    /// Tone curve, applied after the exposure.
     pub tone: ToneCurve,
-    /// Applied last.
+    /// Transfer function, applied last.
     pub transfer: Transfer,
     /// Frames per second of an animation, above 0.
     pub fps: f64,
-    /// Seconds that an animation lasts, above 0; `None`: see [`super::Scene::duration`].
+    /// Duration of an animation in seconds, above 0; `None`: see [`super::Scene::duration`].
     pub duration: Option<f64>,
     /// When the shutter is open.
     pub shutter: Shutter,
 }
 
-/// When the shutter is open, counted from a frame's own time, in frames: `open` ≤ `close`. Equal
-/// ones freeze all movement.
+/// The shutter interval in frames, relative to the frame's own time: `open` ≤ `close`. Equal times freeze
+/// all motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shutter {
     /// When it opens.
@@ -67,12 +67,12 @@ impl Default for OutputDefaults {
 /// From scene-linear radiance to display-linear [0, 1].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ToneCurve {
-    /// Clamp.
+    /// Clamp only.
     #[default]
     None,
     /// Narkowicz' fit of the ACES filmic curve (2015).
     Aces,
-    /// Sobotka's AgX, Wrensch's polynomial fit (2023).
+    /// Sobotka's AgX in Wrensch's polynomial fit (2023).
     Agx,
     /// x / (1 + x) on luminance (Reinhard et al. 2002).
     Reinhard,
@@ -84,43 +84,42 @@ pub enum Transfer {
     /// IEC 61966-2-1.
     #[default]
     Srgb,
-    /// As is, which the course's format wants.
+    /// Linear, as in the course's format.
     Linear,
 }
 
-/// Where in a pixel its samples lie.
+/// Where samples lie within a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Antialias {
-    /// All at the centre, as the course's pictures want it.
+    /// All at the centre, as in the course's pictures.
     #[default]
     None,
-    /// Well spread over the filter's support.
+    /// Stratified over the filter's support.
     Stratified,
-    /// The same, but only as many as the pixel needs: after a few, pixels go on whose estimated
-    /// error or whose difference from a neighbour exceeds the noise that is allowed, both measured
-    /// on the square root of luminance, on which 1 is white.
+    /// Stratified, with as many samples as each pixel needs: after the first few, sampling continues in
+    /// pixels whose estimated error or difference from a neighbour exceeds the noise threshold. Both are
+    /// measured on the square root of luminance, where 1 is white.
     Adaptive,
 }
 
-/// The reconstruction filter: what samples round a pixel's centre are weighted by. Separable, and
-/// zero beyond its radius.
+/// The reconstruction filter. Separable, and zero beyond its radius.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Filter {
-    /// All alike.
+    /// Equal weights.
     #[default]
     Box,
-    /// Linearly down to 0.
+    /// Linear falloff to 0.
     Tent,
     /// A normal distribution of standard deviation 0.5 pixels, cut at the radius.
     Gaussian,
-    /// The four-term window of Blackman and Harris.
+    /// The four-term Blackman–Harris window.
     BlackmanHarris,
-    /// Mitchell and Netravali's cubic with B = C = 1/3, which sharpens: it is negative in places.
+    /// Mitchell and Netravali's cubic with B = C = 1/3, which sharpens: it has negative lobes.
     Mitchell,
 }
 
 impl Filter {
-    /// The radius in pixels that it is used with unless told otherwise.
+    /// Default radius in pixels.
     pub fn default_radius(self) -> f32 {
         match self {
             Self::Box => 0.5,

@@ -5,18 +5,19 @@ use glam::{DAffine3, DVec3};
 /// An analytic surface with one material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// Where it is and how large.
+    /// Position, size and kind.
     pub geometry: Geometry,
     /// Index into [`super::Scene::materials`].
     pub material: usize,
-    /// Index into [`super::Scene::nodes`] of what carries it; `None` is the world. Planes stand still.
+    /// Index into [`super::Scene::nodes`] of the parent node; `None` is the world. Planes are always
+    /// static.
     pub node: Option<usize>,
 }
 
 /// The surface of a [`Shape`], in the space of its node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Geometry {
-    /// All points at one distance from a centre. u and v are those of [`Form::Ellipsoid`].
+    /// A sphere. u and v are those of [`CanonicalShape::Ellipsoid`].
     Sphere {
         /// The centre.
         center: DVec3,
@@ -25,24 +26,24 @@ pub enum Geometry {
     },
     /// An infinite plane.
     Plane {
-        /// Any point on it; where u and v are 0.
+        /// Any point on the plane; u and v are 0 there.
         point: DVec3,
         /// Of unit length.
         normal: DVec3,
     },
-    /// A surface of canonical size and place, brought into the world.
+    /// A canonical shape placed by a transform.
     Placed {
-        /// Which one.
-        form: Form,
+        /// The shape in its canonical space.
+        canonical: CanonicalShape,
         /// Invertible; may scale unevenly or mirror.
-        world_from_form: DAffine3,
+        world_from_canonical: DAffine3,
     },
 }
 
-/// A surface of canonical size and place. Its axis, where it has one, is y. u and v are in [0, 1]; the
-/// longitude goes from −z by −x, +z and +x.
+/// A shape of canonical size and position; its axis, if it has one, is y. u and v are in [0, 1]; the
+/// longitude runs from −z through −x, +z and +x.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Form {
+pub enum CanonicalShape {
     /// x² + z² ≤ 1 at y = 0, facing +y, less a hole. u grows along x, v along −z.
     Disc {
         /// Radius of the hole, in [0, 1).
@@ -50,68 +51,66 @@ pub enum Form {
     },
     /// |x| ≤ 1, |z| ≤ 1 at y = 0, facing +y. u grows along x, v along −z.
     Rectangle,
-    /// |x|, |y|, |z| ≤ 1. On each side u grows to the right and v up for one who looks at it from
-    /// outside, where up is y, on top −z and at the bottom z.
+    /// |x|, |y|, |z| ≤ 1. On each side, seen from outside, u grows to the right and v upwards. Up is y; on the top it is −z, on the bottom z.
     Box,
-    /// A cylinder, cone or frustum for 0 ≤ y ≤ 1. On its side u is the longitude and v is y; its ends
-    /// are like the top and bottom of a box.
+    /// A cylinder, cone or frustum for 0 ≤ y ≤ 1. On its side u is the longitude and v is y; its caps are
+    /// mapped like the top and bottom of a box.
     Cone {
         /// Radius at y = 0, 0 or more.
         bottom: f64,
         /// Radius at y = 1, 0 or more; not 0 where `bottom` is.
         top: f64,
-        /// Whether it is closed by discs.
+        /// Whether it is closed by two discs.
         capped: bool,
     },
-    /// A tube round the circle of radius 1 at y = 0. u is the longitude; v goes round the tube, from
-    /// the inner equator by the lower side, the outer equator and the upper side.
+    /// A tube around the circle of radius 1 at y = 0. u is the longitude; v runs around the tube, from
+    /// the inner equator through the lower side, the outer equator and the upper side.
     Torus {
         /// Radius of the tube, in (0, 1].
         minor: f64,
     },
-    /// The unit sphere. u is the longitude; v is the latitude, 0 at −y and 1 at y.
+    /// The unit sphere. u is the longitude; v is the latitude, 0 at −y and 1 at +y.
     Ellipsoid,
 }
 
 impl Geometry {
-    /// The smallest axis-aligned box (min, max) in its own space; `None` for planes.
+    /// The smallest axis-aligned box (min, max) in the space of the geometry; `None` for planes.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         match *self {
             Self::Sphere { center, radius } => Some((center - radius, center + radius)),
             Self::Plane { .. } => None,
             Self::Placed {
-                form,
-                world_from_form,
-            } => Some(placed_bounds(form, world_from_form)),
+                canonical,
+                world_from_canonical,
+            } => Some(placed_bounds(canonical, world_from_canonical)),
         }
     }
 
-    /// The same surface in the space that `space_from_node` leads to; a sphere becomes an ellipsoid.
-    /// Planes stand still.
+    /// The same surface transformed by `space_from_node`; a sphere becomes an ellipsoid. Planes are
+    /// static and stay as they are.
     pub fn placed(&self, space_from_node: DAffine3) -> Self {
-        let (form, world_from_form) = match *self {
+        let (canonical, world_from_canonical) = match *self {
             Self::Sphere { center, radius } => {
                 let place = DAffine3::from_translation(center);
                 (
-                    Form::Ellipsoid,
+                    CanonicalShape::Ellipsoid,
                     place * DAffine3::from_scale(DVec3::splat(radius)),
                 )
             }
             Self::Plane { .. } => return *self,
             Self::Placed {
-                form,
-                world_from_form,
-            } => (form, world_from_form),
+                canonical,
+                world_from_canonical,
+            } => (canonical, world_from_canonical),
         };
         Self::Placed {
-            form,
-            world_from_form: space_from_node * world_from_form,
+            canonical,
+            world_from_canonical: space_from_node * world_from_canonical,
         }
     }
 
-    /// The unit vectors along which u and v of a plane grow with the distance from its point: to the
-    /// right and up for one who looks at its front with +Y upwards. Where it is rather level, seen
-    /// from above −Z is upwards instead, and seen from below +Z.
+    /// The unit vectors along which u and v of a plane increase: to the right and up, seen from its front
+    /// with +Y upwards. For a rather level plane, up is −Z seen from above and +Z seen from below.
     pub fn plane_axes(normal: DVec3) -> (DVec3, DVec3) {
         let is_level = normal.y.abs() > std::f64::consts::FRAC_1_SQRT_2;
         let up = if is_level {
@@ -124,23 +123,23 @@ impl Geometry {
     }
 }
 
-fn placed_bounds(form: Form, world_from_form: DAffine3) -> (DVec3, DVec3) {
-    let columns = world_from_form.matrix3;
+fn placed_bounds(canonical: CanonicalShape, world_from_canonical: DAffine3) -> (DVec3, DVec3) {
+    let columns = world_from_canonical.matrix3;
     let [x, y, z] = [columns.x_axis, columns.y_axis, columns.z_axis];
     let squared = |v: DVec3| v * v;
     let root = |v: DVec3| DVec3::new(v.x.sqrt(), v.y.sqrt(), v.z.sqrt());
-    // How far the unit circle at y = 0 and the unit sphere reach along each axis.
+    // Half extent of the unit circle at y = 0 and of the unit sphere along each axis.
     let circle = root(squared(x) + squared(z));
     let sphere = root(squared(x) + squared(y) + squared(z));
     let around = |center: DVec3, reach: DVec3| (center - reach, center + reach);
-    let center = world_from_form.translation;
-    match form {
-        Form::Disc { .. } => around(center, circle),
-        Form::Rectangle => around(center, x.abs() + z.abs()),
-        Form::Box => around(center, x.abs() + y.abs() + z.abs()),
-        Form::Ellipsoid => around(center, sphere),
-        Form::Torus { minor } => around(center, circle + minor * sphere),
-        Form::Cone { bottom, top, .. } => {
+    let center = world_from_canonical.translation;
+    match canonical {
+        CanonicalShape::Disc { .. } => around(center, circle),
+        CanonicalShape::Rectangle => around(center, x.abs() + z.abs()),
+        CanonicalShape::Box => around(center, x.abs() + y.abs() + z.abs()),
+        CanonicalShape::Ellipsoid => around(center, sphere),
+        CanonicalShape::Torus { minor } => around(center, circle + minor * sphere),
+        CanonicalShape::Cone { bottom, top, .. } => {
             let (low, high) = around(center, bottom * circle);
             let (other_low, other_high) = around(center + y, top * circle);
             (low.min(other_low), high.max(other_high))

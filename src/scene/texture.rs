@@ -1,19 +1,19 @@
-//! Colours that vary over a surface.
+//! Spatially varying colours.
 
 use glam::{DAffine3, Vec3};
 
-/// A colour for every point of a surface. It multiplies a colour of a [`super::Material`].
+/// A colour for every point of a surface, multiplied with a colour of a [`super::Material`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// In its own space.
+    /// The pattern, in its own space.
     pub pattern: Pattern,
-    /// What is taken there.
+    /// The coordinates that the pattern is evaluated at.
     pub space: Space,
-    /// From `space` to the pattern's.
+    /// Transform from `space` to the pattern's space.
     pub pattern_from_space: DAffine3,
 }
 
-/// What a [`Texture`] is looked up by.
+/// The coordinates that a [`Texture`] is evaluated at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Space {
     /// The point in world space.
@@ -23,45 +23,46 @@ pub enum Space {
     Uv,
 }
 
-/// Colours over a space.
+/// A function from points to colours.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
-    /// Unit cubes of two colours by turns, `a` from (0, 0, 0) to (1, 1, 1).
+    /// Checkerboard of unit cubes; `a` from (0, 0, 0) to (1, 1, 1).
     Checker {
         /// One colour, 0 or more.
         a: Vec3,
         /// The other.
         b: Vec3,
     },
-    /// Layers of two colours along x: `a` over the first half of every unit, `b` over the other.
+    /// Stripes along x: `a` over the first half of every unit, `b` over the second half.
     Stripes {
         /// One colour, 0 or more.
         a: Vec3,
         /// The other.
         b: Vec3,
     },
-    /// From `a` at x = 0 and below linearly to `b` at x = 1 and beyond.
+    /// Linear from `a` at x ≤ 0 to `b` at x ≥ 1.
     Gradient {
         /// One colour, 0 or more.
         a: Vec3,
         /// The other.
         b: Vec3,
     },
-    /// Clouds: from `a` to `b` by gradient noise n of unit wavelength (Perlin 2002), each octave
-    /// half as large and half as strong. The weight of `b` is (1 + Σ n(2ᵏ p) / 2ᵏ) / 2, clamped.
+    /// Gradient noise n of unit wavelength (Perlin 2002) between `a` and `b`; each octave has half the
+    /// wavelength and half the amplitude of the one before. The weight of `b` is (1 + Σ n(2ᵏ p) / 2ᵏ) /
+    /// 2, clamped.
     Noise {
         /// One colour, 0 or more.
         a: Vec3,
         /// The other.
         b: Vec3,
-        /// 1 to 16.
+        /// Number of octaves, 1 to 16.
         octaves: u32,
     },
-    /// A picture over [0, 1]², repeated, v upwards.
+    /// An image over [0, 1]², repeated, v upwards.
     Picture {
         /// Index into [`super::Scene::pictures`].
         picture: usize,
-        /// Whether texels have hard edges instead of blending.
+        /// Whether texels are looked up without interpolation.
         nearest: bool,
     },
 }
@@ -75,7 +76,7 @@ pub fn linear_from_srgb(value: f64) -> f64 {
     }
 }
 
-/// Texels in memory: linear Rec. 709, row by row from the top left.
+/// An image in memory: linear Rec. 709, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// In texels, at least 1.

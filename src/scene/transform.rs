@@ -1,22 +1,22 @@
-//! Transforms as people give them: a scale, angles and a translation.
+//! Transforms in the terms of files and input fields: scale, angles and translation.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// A transform in the terms of files and of numbers on a screen: scales first, then turns round x, y
-/// and z, then moves.
+/// A transform in the terms of files and input fields: scales first, then rotates about x, y and z, then
+/// translates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
-    /// How far it moves.
+    /// The translation.
     pub translate: DVec3,
-    /// Degrees round the x, then the y, then the z axis, counter-clockwise when the axis points at
-    /// one.
+    /// Degrees about the x, then the y, then the z axis, counter-clockwise when the axis points at the
+    /// viewer.
     pub rotate_deg: DVec3,
-    /// Factors along the axes; not 0, negative ones mirror.
+    /// Scale factors along the axes; not 0, negative ones mirror.
     pub scale: DVec3,
 }
 
 impl Default for Transform {
-    /// Nothing moves.
+    /// The identity.
     fn default() -> Self {
         Self {
             translate: DVec3::ZERO,
@@ -27,15 +27,14 @@ impl Default for Transform {
 }
 
 impl Transform {
-    /// The map that it describes.
+    /// The affine map.
     pub fn affine(&self) -> DAffine3 {
         let rotation = rotation(self.rotate_deg);
         DAffine3::from_scale_rotation_translation(self.scale, rotation, self.translate)
     }
 
-    /// The nearest one to an invertible map, and whether it is the map itself, up to rounding: what
-    /// is slanted cannot be told by a scale and angles. A map that mirrors gets a negative scale
-    /// along x.
+    /// The nearest transform to an invertible map, and whether it equals the map up to rounding: scale
+    /// and angles cannot represent shear. A map that mirrors gets a negative scale along x.
     pub fn of(affine: DAffine3) -> (Self, bool) {
         let columns = affine.matrix3;
         let lengths = [columns.x_axis, columns.y_axis, columns.z_axis].map(DVec3::length);
@@ -60,14 +59,14 @@ impl Transform {
     }
 }
 
-/// Turns by degrees round x, then y, then z.
+/// Rotation by degrees about x, then y, then z.
 pub fn rotation(rotate_deg: DVec3) -> DQuat {
     let [x, y, z] = rotate_deg.to_array().map(f64::to_radians);
     DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x)
 }
 
-/// The radians round x, then y, then z by which a rotation turns; where y is a right angle, x and z
-/// turn about the same axis, and z is 0.
+/// The angles in radians about x, then y, then z of a rotation. Where y is a right angle, x and z turn
+/// about the same axis, and z is 0.
 pub fn angles(rotation: DMat3) -> DVec3 {
     let [x, y, z] = [rotation.x_axis, rotation.y_axis, rotation.z_axis];
     let flat = x.x.hypot(x.y);

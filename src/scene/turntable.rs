@@ -1,4 +1,4 @@
-//! A camera that goes once round what is in a scene, and lights that go with it.
+//! A camera that orbits a scene once, with lights attached to it.
 
 mod framing;
 
@@ -10,32 +10,31 @@ use framing::Swept;
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 use std::f64::consts::TAU;
 
-/// How far from level the camera of a turntable may be, in radians: it must not look along the axis.
+/// Largest elevation of a turntable's camera, in radians: it must not look along the axis.
 pub const MAX_ELEVATION: f64 = 89.0 * std::f64::consts::PI / 180.0;
 
-/// How [`turntable`] shows a scene.
+/// Options of [`turntable`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Turntable {
-    /// What the scene turns about, through the middle of its bounds, and upwards in the picture; of
-    /// any length but 0.
+    /// Axis of the turntable through the centre of the scene's bounds, pointing upwards in the image; any
+    /// length but 0.
     pub axis: DVec3,
-    /// Radians by which the camera is above the level of what it looks at; kept within
-    /// ±[`MAX_ELEVATION`].
+    /// Elevation of the camera in radians; clamped to ±[`MAX_ELEVATION`].
     pub elevation: f64,
-    /// What a turn takes, above 0.
+    /// Duration of a turn, above 0.
     pub seconds: f64,
     /// Vertical field of view in radians, in (0, π).
     pub fov_y: f64,
-    /// The picture's width over its height, above 0.
+    /// Aspect ratio of the image, above 0.
     pub aspect: f64,
-    /// Share of half the picture's width and height that is left free at its edges, in [0, 1).
+    /// Margin as a fraction of half the image's width and height, in [0, 1).
     pub margin: f64,
     /// Whether the scene appears to turn clockwise, seen from the tip of the axis.
     pub clockwise: bool,
 }
 
 impl Default for Turntable {
-    /// Counter-clockwise about +Y in eight seconds, seen from a little above in a picture of 4:3.
+    /// Counter-clockwise about +Y in eight seconds, seen from slightly above, with aspect ratio 4:3.
     fn default() -> Self {
         Self {
             axis: DVec3::Y,
@@ -49,14 +48,14 @@ impl Default for Turntable {
     }
 }
 
-/// Gives `scene` a camera, in place of its own, that goes round it once in [`Turntable::seconds`]
-/// and again, so near that over the whole turn everything bounded stays in the picture and just
-/// reaches the margin above and below, or left and right. The camera starts in front, to +Z if the
-/// axis is +Y. `false` if nothing is bounded; then the scene stays as it is.
+/// Replaces the cameras of `scene` with one that orbits it once every [`Turntable::seconds`], at the
+/// smallest distance that keeps all bounded geometry in frame for the whole turn: it just touches the
+/// margin above and below, or left and right. The camera starts in front of the scene, at +Z if the axis
+/// is +Y. Returns `false` and leaves the scene as it is if nothing is bounded.
 ///
-/// It is in the picture as it stands at time 0; what moves by itself may leave it. Where the scene
-/// has no lights, or those of [`Scene::staged`], it gets three soft ones, which go with the camera as
-/// if the scene turned on a table before it, and a grey background if its own is black or staged.
+/// The scene is framed as it is at time 0; animated objects may leave the frame. A scene without lights,
+/// or with those of [`Scene::staged`], gets a soft three-light rig attached to the camera, as if the
+/// scene turned on a table in front of it, and a grey background if its own is black or staged.
 pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
     let Some((min, max)) = scene.bounds() else {
         return false;
@@ -80,7 +79,7 @@ pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
         track.targets.retain(|target| !is_camera(target));
     }
     scene.tracks.retain(|track| !track.targets.is_empty());
-    // The scene turns against the camera.
+    // The scene turns in the opposite direction to the camera.
     let turn = if options.clockwise { TAU } else { -TAU };
     scene.tracks.push(Track {
         targets: vec![Target::Node(node, NodeProperty::Angles)],
@@ -93,7 +92,7 @@ pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
         },
     });
     let look_at = DVec3::Y * view.height;
-    // Never 0, not even for a single point far out.
+    // Never 0, not even for a single point far from the origin.
     let radius = swept.radius(view.height);
     let radius = radius.max(1e-6 * center.abs().max_element().max(1e-6));
     let (sin, cos) = elevation.sin_cos();
@@ -113,10 +112,10 @@ pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
     true
 }
 
-/// Soft light from the front right above, from the front left and from behind, for what lies within
-/// `radius` round `center`, which is in the space of `node`.
+/// A soft key light from the front right above, a fill light from the front left and a back light, for
+/// geometry within `radius` of `center`, which is in the space of `node`.
 fn light(scene: &mut Scene, node: usize, center: DVec3, radius: f64, axis: DVec3) {
-    // They do not fade, so that large and small models get the same.
+    // No attenuation, so that large and small models are lit alike.
     let soft = |towards: DVec3, size: f64, color: Vec3| {
         let normal = -towards.normalize();
         Light {
@@ -141,7 +140,7 @@ fn light(scene: &mut Scene, node: usize, center: DVec3, radius: f64, axis: DVec3
         scene.ambient = Vec3::splat(0.12);
     }
     if scene.staged || scene.background == Background::default() {
-        // A gradient goes by the world's y, and would rock about any other axis.
+        // A gradient follows the world's y and would tilt with any other axis.
         scene.background = if axis.x.hypot(axis.z) < 1e-9 {
             Background::Gradient {
                 bottom: Vec3::splat(0.1),

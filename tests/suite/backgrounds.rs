@@ -28,11 +28,11 @@ fn check(name: &str, scene: &Scene) -> Vec<Result<(), String>> {
     let own = scene.background.clone();
     let mut outcomes = Vec::new();
     for (what, background) in [("colour", COLOR), ("gradient", GRADIENT), ("own", own)] {
-        let mut frames = scene.shot(0.0, 0.0);
+        let mut frames = scene.motion_samples(0.0, 0.0);
         for frame in &mut frames {
             frame.background = background.clone();
         }
-        let view = packed.shot(&frames).expect("a view");
+        let view = packed.view(&frames).expect("a view");
         renderer.set_frame(&view).expect("another frame");
         while !renderer.is_done() {
             renderer.step().expect("a step");

@@ -5,7 +5,7 @@ use crate::reference::scenes::{self, Build};
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::render::RenderSettings;
-use glimray::scene::{Form, Geometry, Material, Mesh, Scene, Shape};
+use glimray::scene::{CanonicalShape, Geometry, Material, Mesh, Scene, Shape};
 
 /// Sharp edges in all directions.
 fn tetrahedron() -> Mesh {
@@ -65,19 +65,19 @@ fn no_mirrored_ray_gets_out_of_a_closed_body() {
         scene.add_mesh(mesh, DAffine3::from_scale(DVec3::splat(scale)));
         scene
     };
-    let with_form = |form: Form| {
+    let with_canonical = |canonical: CanonicalShape| {
         let mut scene = mirrors(inside);
         scene.shapes.push(Shape {
             geometry: Geometry::Placed {
-                form,
-                world_from_form: DAffine3::IDENTITY,
+                canonical,
+                world_from_canonical: DAffine3::IDENTITY,
             },
             material: 0,
             node: None,
         });
         scene
     };
-    let cone = Form::Cone {
+    let cone = CanonicalShape::Cone {
         bottom: 1.0,
         top: 0.0,
         capped: true,
@@ -87,8 +87,8 @@ fn no_mirrored_ray_gets_out_of_a_closed_body() {
         ("tetrahedron", with_mesh(tetrahedron(), 1.0)),
         ("large tetrahedron", with_mesh(tetrahedron(), 1e4)),
         ("spiky ball", with_mesh(spiky(), 1.0)),
-        ("box", with_form(Form::Box)),
-        ("cone", with_form(cone)),
+        ("box", with_canonical(CanonicalShape::Box)),
+        ("cone", with_canonical(cone)),
     ] {
         let settings = RenderSettings {
             max_depth: 200,

@@ -13,8 +13,8 @@ use glimray::{
     image::Image,
     render::RenderSettings,
     scene::{
-        Background, Camera, Form, Fresnel, Geometry, Instance, Material, Node, NodeProperty, Scene,
-        Shape, Target, Values,
+        Background, Camera, CanonicalShape, Fresnel, Geometry, Instance, Material, Node,
+        NodeProperty, Scene, Shape, Target, Values,
     },
 };
 use std::sync::Arc;
@@ -70,14 +70,14 @@ fn picture(scene: &Scene) -> Image {
 }
 
 fn add_box(scene: &mut Scene, [min, max]: [DVec3; 2]) {
-    let world_from_form = DAffine3::from_scale_rotation_translation(
+    let world_from_canonical = DAffine3::from_scale_rotation_translation(
         (max - min) / 2.0,
         DQuat::IDENTITY,
         (min + max) / 2.0,
     );
     let geometry = Geometry::Placed {
-        form: Form::Box,
-        world_from_form,
+        canonical: CanonicalShape::Box,
+        world_from_canonical,
     };
     scene.shapes.push(Shape {
         geometry,

@@ -52,8 +52,8 @@ fn project_scenes() -> Vec<(String, Scene)> {
 fn renderer(scene: &Scene, settings: &impl Wanted) -> Renderer {
     let packed = Arc::new(pack::scene(scene).expect("packed"));
     let (shutter, fps) = (scene.output.shutter, scene.output.fps);
-    let frames = scene.shot(shutter.open / fps, shutter.close / fps);
-    let view = packed.shot(&frames).expect("a view");
+    let frames = scene.motion_samples(shutter.open / fps, shutter.close / fps);
+    let view = packed.view(&frames).expect("a view");
     start_packed(packed, &view, settings)
 }
 

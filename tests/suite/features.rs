@@ -1,7 +1,7 @@
 //! What a scene does not have is compiled out of its kernel: that must never take away what it has.
 
 use crate::{
-    instances::{packed, shot},
+    instances::{packed, rendered},
     motion_blur::track,
     reference::{
         compare::{assert_none, check_alike, counting, render, sized, start_packed},
@@ -15,9 +15,9 @@ use glimray::{
     pack,
     render::{Antialias, Filter, RenderSettings, Tone},
     scene::{
-        Attenuation, Background, Camera, Form, Fresnel, Geometry, Instance, Lens, Light, LightKind,
-        Material, Mesh, Mixing, Node, NodeProperty, Pattern, Picture, Scene, Shadows, Shape, Space,
-        Target, Texture, Values,
+        Attenuation, Background, Camera, CanonicalShape, Fresnel, Geometry, Instance, Lens, Light,
+        LightKind, Material, Mesh, Mixing, Node, NodeProperty, Pattern, Picture, Scene, Shadows,
+        Shape, Space, Target, Texture, Values,
     },
 };
 use std::sync::Arc;
@@ -56,15 +56,15 @@ fn clear(ior: f32) -> Material {
 }
 
 fn add_box(scene: &mut Scene, min: DVec3, max: DVec3) {
-    let world_from_form = DAffine3::from_scale_rotation_translation(
+    let world_from_canonical = DAffine3::from_scale_rotation_translation(
         (max - min) / 2.0,
         DQuat::IDENTITY,
         (min + max) / 2.0,
     );
     scene.shapes.push(Shape {
         geometry: Geometry::Placed {
-            form: Form::Box,
-            world_from_form,
+            canonical: CanonicalShape::Box,
+            world_from_canonical,
         },
         material: 0,
         node: None,
@@ -307,11 +307,11 @@ fn random_scene(random: &mut Random, only: Option<usize>) -> Scene {
         let scale = DVec3::from_array([0.0; 3].map(|_| random.between(0.4, 0.8)));
         let turn = DQuat::from_axis_angle(random.direction(), random.between(0.0, 6.0));
         let place = random.in_cube() * dvec3(1.5, 0.5, 1.0) + DVec3::Y;
-        let form = [
-            Form::Box,
-            Form::Ellipsoid,
-            Form::Torus { minor: 0.4 },
-            Form::Cone {
+        let canonical = [
+            CanonicalShape::Box,
+            CanonicalShape::Ellipsoid,
+            CanonicalShape::Torus { minor: 0.4 },
+            CanonicalShape::Cone {
                 bottom: 1.0,
                 top: 0.3,
                 capped: true,
@@ -319,8 +319,8 @@ fn random_scene(random: &mut Random, only: Option<usize>) -> Scene {
         ][random.below(4)];
         scene.shapes.push(Shape {
             geometry: Geometry::Placed {
-                form,
-                world_from_form: DAffine3::from_scale_rotation_translation(scale, turn, place),
+                canonical,
+                world_from_canonical: DAffine3::from_scale_rotation_translation(scale, turn, place),
             },
             material: random.below(count),
             node: None,
@@ -443,7 +443,7 @@ fn with_everything_compiled_in(scene: &Scene, settings: &RenderSettings) -> Imag
     }
     assert!(features.instances);
     let mut view = packed
-        .shot(&full.shot(0.0, 1.0))
+        .view(&full.motion_samples(0.0, 1.0))
         .expect("frames that can be packed");
     (view.has_lights, view.has_area_lights) = (true, true);
     let mut renderer = start_packed(Arc::new(packed), &view, settings);
@@ -459,7 +459,7 @@ fn without(scene: &Scene, feature: fn(&mut pack::Features) -> &mut bool) -> Imag
     let is_on = feature(&mut packed.features);
     assert!(*is_on);
     *is_on = false;
-    shot(&Arc::new(packed), &[scene.frame(0.0)], &sized(32, 24)).0
+    rendered(&Arc::new(packed), &[scene.frame(0.0)], &sized(32, 24)).0
 }
 
 #[test]
@@ -499,7 +499,7 @@ fn what_is_compiled_out_of_a_kernel_is_not_missing_in_the_picture() {
         let everything = with_everything_compiled_in(&scene, &settings);
         let most_baked = [0, pack::MOST_BAKED][random.below(2)];
         let packed = packed(&scene, most_baked);
-        let (specialised, _) = shot(&packed, &scene.shot(0.0, 1.0), &settings);
+        let (specialised, _) = rendered(&packed, &scene.motion_samples(0.0, 1.0), &settings);
         // Where roundings move a ray over an edge it sees something else.
         check_alike(
             &format!("seed {seed}"),

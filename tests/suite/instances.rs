@@ -24,8 +24,12 @@ use glimray::{
 use std::{fmt::Write, fs, process::Command, sync::Arc};
 
 /// A picture of packed frames of a scene, linear, and what it cost.
-pub fn shot(packed: &Arc<PackedScene>, frames: &[Frame], wanted: &impl Wanted) -> (Image, Stats) {
-    let view = packed.shot(frames).expect("frames that can be packed");
+pub fn rendered(
+    packed: &Arc<PackedScene>,
+    frames: &[Frame],
+    wanted: &impl Wanted,
+) -> (Image, Stats) {
+    let view = packed.view(frames).expect("frames that can be packed");
     let (settings, policy) = wanted.parts();
     let mut renderer =
         Renderer::new(open_gpu(), packed.clone(), &view, settings, policy).expect("a renderer");
@@ -121,8 +125,8 @@ fn instances_give_the_picture_of_copies_laid_out() {
         let instanced = packed(&scene, 0);
         assert_eq!(laid_out.instance_count(), 0, "{name}");
         assert_eq!(instanced.instance_count(), 40, "{name}");
-        let (expected, _) = shot(&laid_out, &frame, &settings);
-        let (actual, _) = shot(&instanced, &frame, &settings);
+        let (expected, _) = rendered(&laid_out, &frame, &settings);
+        let (actual, _) = rendered(&instanced, &frame, &settings);
         check_alike(name, &expected, &actual, 2.0, 0.004)?;
 
         if name == "mirrors" || name == "glass" {
@@ -133,7 +137,7 @@ fn instances_give_the_picture_of_copies_laid_out() {
             brute_force: true,
             ..settings.0.clone()
         };
-        let (exhaustive, _) = shot(&instanced, &frame, &brute_force);
+        let (exhaustive, _) = rendered(&instanced, &frame, &brute_force);
         check_same_bits(&format!("{name}, every primitive"), &exhaustive, &actual)
     }));
 }
@@ -182,8 +186,8 @@ fn rays_that_leave_a_triangle_hit_the_same_one_of_another_instance() {
     scene.add_point_light(dvec3(0.1, 8.0, 0.2), 1.0);
     let frame = [scene.frame(0.0)];
     let settings = sized(64, 48);
-    let (laid_out, _) = shot(&packed(&scene, usize::MAX), &frame, &settings);
-    let (instanced, _) = shot(&packed(&scene, 0), &frame, &settings);
+    let (laid_out, _) = rendered(&packed(&scene, usize::MAX), &frame, &settings);
+    let (instanced, _) = rendered(&packed(&scene, 0), &frame, &settings);
     assert_eq!(differing(&laid_out, &instanced, 1.0), 0);
     let dark = |image: &Image| image.pixels.iter().filter(|p| p[..3] == [0.0; 3]).count();
     assert!(
@@ -205,7 +209,7 @@ fn an_empty_crowd_and_a_hidden_one_are_background() {
         };
         3
     ];
-    let (image, _) = shot(&packed(&scene, 0), &[scene.frame(0.0)], &sized(8, 8));
+    let (image, _) = rendered(&packed(&scene, 0), &[scene.frame(0.0)], &sized(8, 8));
     let background = [0.2_f32, 0.4, 0.6];
     assert!(image.pixels.iter().all(|pixel| pixel[..3] == background));
 }
@@ -252,7 +256,7 @@ fn a_lamp_throws_no_shadow_of_itself_on_instances() {
             ..Light::default()
         });
         let settings = counting(&sized(160, 120));
-        let (_, stats) = shot(&packed(&scene, 0), &[scene.frame(0.0)], &settings);
+        let (_, stats) = rendered(&packed(&scene, 0), &[scene.frame(0.0)], &settings);
         let rays = stats.rays.expect("rays are counted");
         assert!(rays.shadow > 400, "{kind:?}: {rays:?}");
         assert_eq!(rays.shadow_blocked, 0, "{kind:?}: {rays:?}");
@@ -316,8 +320,8 @@ fn patterns_stay_in_the_world_on_what_stands_still_while_others_move() {
     }
     let frame = [scene.frame(0.0)];
     let settings = sized(160, 120);
-    let (expected, _) = shot(&packed(&scene, usize::MAX), &frame, &settings);
-    let (actual, _) = shot(&packed(&scene, 0), &frame, &settings);
+    let (expected, _) = rendered(&packed(&scene, usize::MAX), &frame, &settings);
+    let (actual, _) = rendered(&packed(&scene, 0), &frame, &settings);
     assert_none([check_alike("patterns", &expected, &actual, 2.0, 0.004)]);
 }
 
@@ -339,8 +343,12 @@ fn jumping_spheres(count: usize) -> Scene {
 fn a_later_frame_is_held_against_the_memory_limit_as_the_first_one_is() {
     let scene = jumping_spheres(100);
     let packed = packed(&scene, 0);
-    let still = packed.shot(&scene.shot(0.0, 0.1)).expect("a frame");
-    let moving = packed.shot(&scene.shot(0.0, 1.0)).expect("a frame");
+    let still = packed
+        .view(&scene.motion_samples(0.0, 0.1))
+        .expect("a frame");
+    let moving = packed
+        .view(&scene.motion_samples(0.0, 1.0))
+        .expect("a frame");
     let (settings, policy) = sized(16, 16).parts();
     let mut renderer = Renderer::new(open_gpu(), packed.clone(), &still, settings.clone(), policy)
         .expect("a renderer");
@@ -367,8 +375,12 @@ fn a_later_frame_is_held_against_the_memory_limit_as_the_first_one_is() {
 fn a_frame_that_outgrows_the_limits_of_the_device_gets_another_device_or_is_too_big() {
     let scene = jumping_spheres(6600);
     let packed = packed(&scene, 0);
-    let still = packed.shot(&scene.shot(0.0, 0.1)).expect("a frame");
-    let moving = packed.shot(&scene.shot(0.0, 1.0)).expect("a frame");
+    let still = packed
+        .view(&scene.motion_samples(0.0, 0.1))
+        .expect("a frame");
+    let moving = packed
+        .view(&scene.motion_samples(0.0, 1.0))
+        .expect("a frame");
     let picture = |fetch, views: &[&PackedView]| {
         let (settings, policy) = fetched(&sized(16, 12), fetch);
         let mut renderer = Renderer::new(open_gpu(), packed.clone(), views[0], settings, policy)?;

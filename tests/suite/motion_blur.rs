@@ -1,7 +1,7 @@
 //! What moves while the shutter is open, against what integrals over its time say.
 
 use crate::{
-    instances::shot,
+    instances::rendered,
     reference::{
         compare::{check_same_bits, sized},
         scenes::{self, Build},
@@ -13,9 +13,9 @@ use glimray::{
     pack,
     render::{Antialias, RenderSettings},
     scene::{
-        Background, Beyond, Camera, CameraProperty, Curve, Easing, Form, Geometry, Interpolation,
-        Light, LightKind, LightProperty, Material, Node, NodeProperty, Scene, Shape, Target, Track,
-        Values,
+        Background, Beyond, Camera, CameraProperty, CanonicalShape, Curve, Easing, Geometry,
+        Interpolation, Light, LightKind, LightProperty, Material, Node, NodeProperty, Scene, Shape,
+        Target, Track, Values,
     },
 };
 use std::{f64::consts::PI, sync::Arc};
@@ -87,7 +87,7 @@ pub fn blurred(samples: u32) -> RenderSettings {
 /// The picture of everything that happens from time 0 to 1.
 pub fn exposed(scene: &Scene, settings: &RenderSettings) -> Image {
     let packed = Arc::new(pack::scene(scene).expect("a scene that can be packed"));
-    shot(&packed, &scene.shot(0.0, 1.0), settings).0
+    rendered(&packed, &scene.motion_samples(0.0, 1.0), settings).0
 }
 
 /// Mean of the red channel of some pixels.
@@ -148,8 +148,8 @@ fn a_sphere_that_crosses_the_picture_covers_it_as_its_profile_says() {
 fn a_disc_that_turns_about_a_point_beside_it_is_an_annulus_and_does_not_shrink() {
     let (arm, radius) = (0.6, 0.15);
     let mut scene = carried(Geometry::Placed {
-        form: Form::Disc { hole: 0.0 },
-        world_from_form: DAffine3::from_scale_rotation_translation(
+        canonical: CanonicalShape::Disc { hole: 0.0 },
+        world_from_canonical: DAffine3::from_scale_rotation_translation(
             DVec3::splat(radius),
             DQuat::from_rotation_x(PI / 2.0),
             dvec3(arm, 0.0, 0.0),
@@ -188,8 +188,8 @@ fn a_disc_that_turns_about_a_point_beside_it_is_an_annulus_and_does_not_shrink()
 #[test]
 fn a_camera_that_moves_blurs_as_an_object_that_moves_the_other_way() {
     let shape = Geometry::Placed {
-        form: Form::Box,
-        world_from_form: DAffine3::from_scale_rotation_translation(
+        canonical: CanonicalShape::Box,
+        world_from_canonical: DAffine3::from_scale_rotation_translation(
             dvec3(0.3, 0.2, 0.1),
             DQuat::from_euler(glam::EulerRot::XYZ, 0.4, 0.5, 0.6),
             DVec3::ZERO,
@@ -279,8 +279,8 @@ fn a_scene_in_which_nothing_moves_is_the_same_bit_for_bit_with_an_open_shutter()
     let target = Target::Node(0, NodeProperty::Scale);
     scene.tracks.push(track(target, values));
     let packed = Arc::new(pack::scene(&scene).expect("a scene that can be packed"));
-    let (still, _) = shot(&packed, &[scene.frame(0.0)], &settings);
-    let (open, _) = shot(&packed, &scene.shot(0.0, 1.0), &settings);
+    let (still, _) = rendered(&packed, &[scene.frame(0.0)], &settings);
+    let (open, _) = rendered(&packed, &scene.motion_samples(0.0, 1.0), &settings);
     check_same_bits("open shutter", &still, &open).unwrap_or_else(|problem| panic!("{problem}"));
 }
 
@@ -315,12 +315,12 @@ fn boxes_that_follow_the_movement_lose_nothing() {
         } else {
             scene.shapes.push(Shape {
                 geometry: Geometry::Placed {
-                    form: Form::Cone {
+                    canonical: CanonicalShape::Cone {
                         bottom: 0.8,
                         top: 0.2,
                         capped: true,
                     },
-                    world_from_form: placement,
+                    world_from_canonical: placement,
                 },
                 material,
                 node,
@@ -342,7 +342,7 @@ fn boxes_that_follow_the_movement_lose_nothing() {
     scene.add_plane(dvec3(0.0, -0.5, 0.0), DVec3::Y, 0);
     scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.7);
     let packed = Arc::new(pack::scene(&scene).expect("a scene that can be packed"));
-    let frames = scene.shot(0.0, 1.0);
+    let frames = scene.motion_samples(0.0, 1.0);
     let settings = RenderSettings {
         samples: 8,
         antialias: Antialias::Stratified,
@@ -352,16 +352,16 @@ fn boxes_that_follow_the_movement_lose_nothing() {
         brute_force: true,
         ..settings.clone()
     };
-    let (tree, _) = shot(&packed, &frames, &settings);
-    let (every, _) = shot(&packed, &frames, &brute_force);
+    let (tree, _) = rendered(&packed, &frames, &settings);
+    let (every, _) = rendered(&packed, &frames, &brute_force);
     check_same_bits("moving tree", &every, &tree).unwrap_or_else(|problem| panic!("{problem}"));
 }
 
 #[test]
 fn a_box_that_makes_half_a_turn_at_once_is_met_on_all_its_way() {
     let cube = Geometry::Placed {
-        form: Form::Box,
-        world_from_form: DAffine3::from_scale(DVec3::splat(0.6)),
+        canonical: CanonicalShape::Box,
+        world_from_canonical: DAffine3::from_scale(DVec3::splat(0.6)),
     };
     let mut scene = carried(cube);
     let half = DQuat::from_rotation_z(PI);
@@ -374,8 +374,8 @@ fn a_box_that_makes_half_a_turn_at_once_is_met_on_all_its_way() {
         brute_force: true,
         ..settings.clone()
     };
-    let (tree, _) = shot(&packed, &frames, &settings);
-    let (every, _) = shot(&packed, &frames, &brute_force);
+    let (tree, _) = rendered(&packed, &frames, &settings);
+    let (every, _) = rendered(&packed, &frames, &brute_force);
     check_same_bits("half a turn", &every, &tree).unwrap_or_else(|problem| panic!("{problem}"));
     // Its corners reach √2 as far as its sides, where without the turn there is nothing.
     let (corner, ..) = (0..SIDE)

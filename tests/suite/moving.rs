@@ -1,7 +1,7 @@
 //! What can move, one by one: closed forms, and scenes that stand still as it should be by then.
 
 use crate::{
-    instances::{packed, shot},
+    instances::{packed, rendered},
     motion_blur::{DISTANCE, HALF, SIDE, blurred, carried, exposed, mean, place, stage, track},
     reference::{
         compare::{differing, render, sized, start_packed},
@@ -14,8 +14,8 @@ use glimray::{
     pack,
     render::{Integrator, RenderSettings, Tone},
     scene::{
-        Attenuation, Background, Beyond, Curve, Easing, Form, Fresnel, Geometry, Instance,
-        Interpolation, Light, LightKind, LightProperty, Material, MaterialProperty, Node,
+        Attenuation, Background, Beyond, CanonicalShape, Curve, Easing, Fresnel, Geometry,
+        Instance, Interpolation, Light, LightKind, LightProperty, Material, MaterialProperty, Node,
         NodeProperty, Pattern, Scene, Shape, Space, Target, Texture, Textures, Track, Values,
     },
 };
@@ -95,8 +95,8 @@ fn a_pattern_travels_with_what_carries_it() {
     let steps = (11_u32, 5_u32);
     let way = dvec3(f64::from(steps.0), -f64::from(steps.1), 0.0) * pixel;
     let shape = Geometry::Placed {
-        form: Form::Rectangle,
-        world_from_form: facing(),
+        canonical: CanonicalShape::Rectangle,
+        world_from_canonical: facing(),
     };
     let mut as_shape = carried(shape);
     as_shape.textures.push(Texture {
@@ -187,8 +187,8 @@ fn a_pattern_on_what_stands_still_stands_still_whatever_else_moves() {
     scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.7);
     let settings = sized(96, 72);
     let frame = [scene.frame(0.5)];
-    let (laid_out, _) = shot(&packed(&scene, usize::MAX), &frame, &settings);
-    let (placed, _) = shot(&packed(&scene, 0), &frame, &settings);
+    let (laid_out, _) = rendered(&packed(&scene, usize::MAX), &frame, &settings);
+    let (placed, _) = rendered(&packed(&scene, 0), &frame, &settings);
     assert!(differing(&laid_out, &placed, 2.0) <= 10);
 }
 
@@ -566,13 +566,13 @@ fn a_ball_that_flies_under_a_still_light_keeps_its_light() {
 #[test]
 fn uneven_and_mirrored_sizes_give_the_picture_of_what_they_make() {
     // A cone's placement by keys, against cones that were placed so from the start.
-    let cone = |world_from_form| Geometry::Placed {
-        form: Form::Cone {
+    let cone = |world_from_canonical| Geometry::Placed {
+        canonical: CanonicalShape::Cone {
             bottom: 0.5,
             top: 0.1,
             capped: true,
         },
-        world_from_form,
+        world_from_canonical,
     };
     let own = DAffine3::from_rotation_z(0.5);
     let build = |geometry| {
@@ -698,8 +698,8 @@ fn the_shadow_of_what_moves_is_blurred_as_its_profile_says() {
 #[test]
 fn depths_and_normals_are_those_of_the_moment() {
     let mut scene = carried(Geometry::Placed {
-        form: Form::Rectangle,
-        world_from_form: facing(),
+        canonical: CanonicalShape::Rectangle,
+        world_from_canonical: facing(),
     });
     // Towards the camera, while it turns about the vertical.
     let way = vec![DVec3::ZERO, dvec3(0.0, 0.0, 20.0)];

@@ -2,7 +2,7 @@
 //! against themselves made in other ways.
 
 use crate::{
-    instances::{crowd, glass, mirror, packed, shot},
+    instances::{crowd, glass, mirror, packed, rendered},
     motion_blur::track,
     reference::{
         compare::{
@@ -20,9 +20,9 @@ use glimray::{
     pack::{self, PackedScene},
     render::{Antialias, Fetch, Integrator, RenderSettings, Tone},
     scene::{
-        Attenuation, Background, Camera, CameraProperty, Form, Fresnel, Geometry, Instance, Lens,
-        Light, LightKind, LightProperty, Material, Node, NodeProperty, Pattern, Scene, Shape,
-        Space, Target, Texture, Values,
+        Attenuation, Background, Camera, CameraProperty, CanonicalShape, Fresnel, Geometry,
+        Instance, Lens, Light, LightKind, LightProperty, Material, Node, NodeProperty, Pattern,
+        Scene, Shape, Space, Target, Texture, Values,
     },
 };
 use std::{f64::consts::TAU, sync::Arc};
@@ -154,12 +154,12 @@ fn fair() -> Scene {
     };
     shape(&mut scene, sphere, cloudy, flier);
     let cone = Geometry::Placed {
-        form: Form::Cone {
+        canonical: CanonicalShape::Cone {
             bottom: 0.4,
             top: 0.0,
             capped: true,
         },
-        world_from_form: DAffine3::from_translation(dvec3(0.0, 0.4, 0.0)),
+        world_from_canonical: DAffine3::from_translation(dvec3(0.0, 0.4, 0.0)),
     };
     shape(&mut scene, cone, striped, flier);
     let crate_node = node(&mut scene, Node::default());
@@ -176,8 +176,8 @@ fn fair() -> Scene {
         &[DVec3::splat(0.3), dvec3(0.5, 0.2, 0.3)],
     );
     let cube = Geometry::Placed {
-        form: Form::Box,
-        world_from_form: DAffine3::IDENTITY,
+        canonical: CanonicalShape::Box,
+        world_from_canonical: DAffine3::IDENTITY,
     };
     shape(&mut scene, cube, checkered, crate_node);
     scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.6);
@@ -329,7 +329,7 @@ fn moments_of_moving_scenes_match_an_independent_tracer() {
         assert!(packed.instance_count() > 0, "{name}");
         [0.0, 0.37, 1.0].map(|time| {
             let expected = trace_at(&scene, time, settings.size).image;
-            let (actual, _) = shot(&packed, &[scene.frame(time)], &settings);
+            let (actual, _) = rendered(&packed, &[scene.frame(time)], &settings);
             // Small pictures have their share of pixels on edges.
             check_alike(&format!("{name} at {time}"), &expected, &actual, 2.0, 0.002)
         })
@@ -415,8 +415,8 @@ fn an_open_shutter_gives_the_mean_of_its_moments() {
             light.samples = 4;
         }
         let packed = Arc::new(pack::scene(&scene).expect("a scene that can be packed"));
-        let frames = scene.shot(0.0, 1.0);
-        let (blurred, stats) = shot(&packed, &frames, &stratified(256, size));
+        let frames = scene.motion_samples(0.0, 1.0);
+        let (blurred, stats) = rendered(&packed, &frames, &stratified(256, size));
         assert_eq!(stats.nonfinite_samples, 0, "{name}");
         let other = RenderSettings {
             seed: 5,
@@ -432,7 +432,7 @@ fn an_open_shutter_gives_the_mean_of_its_moments() {
             "{name}: bias {bias}, RMSE {rmse}"
         );
         // A moment alone is another picture.
-        let (sharp, _) = shot(&packed, &[scene.frame(0.0)], &stratified(16, size));
+        let (sharp, _) = rendered(&packed, &[scene.frame(0.0)], &stratified(16, size));
         let sharp = difference(&sharp, &expected).1 / strength;
         assert!(sharp > 3.0 * rmse, "{name}: RMSE {rmse} and {sharp}");
     }
@@ -457,7 +457,7 @@ fn busy() -> (Arc<PackedScene>, Vec<glimray::scene::Frame>) {
     let target = Target::Light(1, LightProperty::Position);
     let way = vec![dvec3(2.2, 2.0, 0.5), dvec3(-2.0, 1.9, 1.2)];
     scene.tracks.push(track(target, Values::Vector(way)));
-    let frames = scene.shot(0.2, 0.6);
+    let frames = scene.motion_samples(0.2, 0.6);
     (Arc::new(pack::scene(&scene).expect("packed")), frames)
 }
 
@@ -465,18 +465,18 @@ fn busy() -> (Arc<PackedScene>, Vec<glimray::scene::Frame>) {
 fn the_cut_of_the_work_does_not_show_in_blurred_pictures() {
     let (packed, frames) = busy();
     let base = stratified(6, (37, 27));
-    let (expected, stats) = shot(&packed, &frames, &counting(&base));
+    let (expected, stats) = rendered(&packed, &frames, &counting(&base));
     let other = RenderSettings {
         seed: 1,
         ..base.clone()
     };
     assert!(
-        shot(&packed, &frames, &other).0 != expected,
+        rendered(&packed, &frames, &other).0 != expected,
         "nothing is drawn"
     );
     // Every other one: each means a shader to be compiled.
     assert_none(slicings().into_iter().step_by(2).map(|(name, slicing)| {
-        let (actual, cut) = shot(&packed, &frames, &sliced(&base, slicing));
+        let (actual, cut) = rendered(&packed, &frames, &sliced(&base, slicing));
         assert_eq!(cut.rays, stats.rays, "{name}");
         check_same_bits(name, &expected, &actual)
     }));
@@ -487,14 +487,14 @@ fn two_runs_images_buffers_and_crops_give_the_same_blur() {
     let (packed, frames) = busy();
     let base = stratified(4, (48, 36));
     let with = |fetch| fetched(&base, fetch);
-    let (expected, _) = shot(&packed, &frames, &with(Fetch::Image));
-    let (again, _) = shot(&packed, &frames, &with(Fetch::Image));
-    let (buffers, _) = shot(&packed, &frames, &with(Fetch::Buffer));
+    let (expected, _) = rendered(&packed, &frames, &with(Fetch::Image));
+    let (again, _) = rendered(&packed, &frames, &with(Fetch::Image));
+    let (buffers, _) = rendered(&packed, &frames, &with(Fetch::Buffer));
     let crop = RenderSettings {
         crop: Some([11, 5, 40, 30]),
         ..base.clone()
     };
-    let (part, _) = shot(&packed, &frames, &crop);
+    let (part, _) = rendered(&packed, &frames, &crop);
     let mut cut = Image::new(29, 25);
     for (i, pixel) in cut.pixels.iter_mut().enumerate() {
         *pixel = expected.pixels[(5 + i / 29) * 48 + 11 + i % 29];
@@ -533,15 +533,15 @@ fn adaptive_sampling_spends_more_on_blur_and_comes_near_the_converged_picture() 
     scene.add_sphere(dvec3(1.6, 0.5, 0.0), 0.5, 0);
     scene.add_point_light(dvec3(3.0, 5.0, 4.0), 0.7);
     let packed = Arc::new(pack::scene(&scene).expect("packed"));
-    let frames = scene.shot(0.0, 1.0);
+    let frames = scene.motion_samples(0.0, 1.0);
     let size = (64, 48);
-    let (converged, _) = shot(&packed, &frames, &stratified(512, size));
+    let (converged, _) = rendered(&packed, &frames, &stratified(512, size));
     let adaptive = RenderSettings {
         antialias: Antialias::Adaptive,
         noise: 0.01,
         ..stratified(256, size)
     };
-    let (picture, stats) = shot(&packed, &frames, &adaptive);
+    let (picture, stats) = rendered(&packed, &frames, &adaptive);
     let (bias, rmse) = difference(&picture, &converged);
     assert!(bias.abs() < 0.01 && rmse < 0.02, "bias {bias}, RMSE {rmse}");
     assert_eq!(stats.nonfinite_samples, 0);
@@ -549,7 +549,7 @@ fn adaptive_sampling_spends_more_on_blur_and_comes_near_the_converged_picture() 
         integrator: Integrator::Samples,
         ..adaptive
     };
-    let (spent, _) = shot(&packed, &frames, &spent);
+    let (spent, _) = rendered(&packed, &frames, &spent);
     // Along its way, and in the sky above the other.
     let share = |columns: std::ops::Range<usize>, rows: std::ops::Range<usize>| {
         let pixels = rows.flat_map(|y| columns.clone().map(move |x| y * 64 + x));
@@ -574,7 +574,7 @@ fn trees_of_rays_are_counted_alike_through_instances() {
         });
         let frame = [scene.frame(0.0)];
         let [laid_out, instanced] = [usize::MAX, 0].map(|most| {
-            let (_, stats) = shot(&packed(&scene, most), &frame, &settings);
+            let (_, stats) = rendered(&packed(&scene, most), &frame, &settings);
             let rays = stats.rays.expect("counted");
             [
                 rays.primary,
@@ -611,7 +611,7 @@ fn normals_and_depths_are_the_same_through_instances() {
             ..sized(96, 72)
         };
         let [laid_out, instanced] =
-            [usize::MAX, 0].map(|most| shot(&packed(&scene, most), &frame, &settings).0);
+            [usize::MAX, 0].map(|most| rendered(&packed(&scene, most), &frame, &settings).0);
         let pairs = laid_out.pixels.iter().zip(&instanced.pixels);
         let off = pairs
             .filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 1e-3))
@@ -664,7 +664,7 @@ fn a_wheel_of_glass_does_not_show_in_a_furnace() {
         max_depth: 8,
         ..stratified(16, (48, 36))
     };
-    let (image, stats) = shot(&packed, &scene.shot(0.0, 1.0), &settings);
+    let (image, stats) = rendered(&packed, &scene.motion_samples(0.0, 1.0), &settings);
     assert_eq!(stats.cut_off_trees, 0);
     let off = |pixel: &[f32; 4]| (pixel[1] - 1.0).abs();
     let worst = image.pixels.iter().map(off).fold(0.0, f32::max);

@@ -9,9 +9,9 @@ use glimray::layout::NONE;
 use glimray::pack::PackError;
 use glimray::render::{ExecutionPolicy, Fetch, Rays, RenderSettings, Slicing};
 use glimray::scene::{
-    Background, Beyond, Camera, Curve, Easing, Form, Fresnel, Geometry, Instance, Interpolation,
-    Light, LightKind, Material, MaterialProperty, Mixing, Node, NodeProperty, Scene, Shadows,
-    Shape, Target, Track, Values,
+    Background, Beyond, Camera, CanonicalShape, Curve, Easing, Fresnel, Geometry, Instance,
+    Interpolation, Light, LightKind, Material, MaterialProperty, Mixing, Node, NodeProperty, Scene,
+    Shadows, Shape, Target, Track, Values,
 };
 use glimray::{import, pack};
 
@@ -43,8 +43,8 @@ fn add(scene: &mut Scene, geometry: Geometry, material: Material) {
 
 fn cuboid(min: DVec3, max: DVec3) -> Geometry {
     Geometry::Placed {
-        form: Form::Box,
-        world_from_form: DAffine3::from_scale_rotation_translation(
+        canonical: CanonicalShape::Box,
+        world_from_canonical: DAffine3::from_scale_rotation_translation(
             (max - min) / 2.0,
             DQuat::IDENTITY,
             (min + max) / 2.0,

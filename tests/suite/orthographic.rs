@@ -295,7 +295,9 @@ fn the_height_goes_with_time_and_with_what_carries_the_camera() {
     assert_eq!(height(&scene, 0.5), Some(3.0));
     assert_eq!(height(&scene, 9.0), Some(6.0));
     let packed = pack::scene(&scene).expect("a scene");
-    let view = packed.shot(&scene.shot(0.0, 1.0)).expect("a shot");
+    let view = packed
+        .view(&scene.motion_samples(0.0, 1.0))
+        .expect("a view");
     assert!(view.cameras.len() > 1, "it moves while the shutter is open");
     scene.nodes.push(Node {
         placement: DAffine3::from_scale(DVec3::splat(2.5)),
@@ -323,7 +325,9 @@ fn a_zoom_while_the_shutter_is_open_shows_the_mean() {
         },
     }];
     let packed = std::sync::Arc::new(pack::scene(&scene).expect("a scene"));
-    let view = packed.shot(&scene.shot(0.0, 1.0)).expect("a shot");
+    let view = packed
+        .view(&scene.motion_samples(0.0, 1.0))
+        .expect("a view");
     let settings = RenderSettings {
         samples: 256,
         antialias: Antialias::Stratified,

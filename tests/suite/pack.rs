@@ -7,7 +7,9 @@ use glimray::layout::{
     SHAPE_RECTANGLE, SHAPE_SPHERE,
 };
 use glimray::pack::{self, PackError, PackedScene};
-use glimray::scene::{Attenuation, Form, Geometry, Light, LightKind, Material, Scene, Shape};
+use glimray::scene::{
+    Attenuation, CanonicalShape, Geometry, Light, LightKind, Material, Scene, Shape,
+};
 
 fn packed(scene: &Scene) -> PackedScene {
     pack::scene(scene).expect("a scene that can be packed")
@@ -341,12 +343,12 @@ fn cones_are_packed_as_wide_as_they_are_high() {
     let mut scene = scenes::empty();
     scene.shapes.push(Shape {
         geometry: Geometry::Placed {
-            form: Form::Cone {
+            canonical: CanonicalShape::Cone {
                 bottom: 0.5,
                 top: 0.125,
                 capped: true,
             },
-            world_from_form: DAffine3::from_scale(dvec3(2.0, 3.0, 4.0)),
+            world_from_canonical: DAffine3::from_scale(dvec3(2.0, 3.0, 4.0)),
         },
         material: 0,
         node: None,
@@ -363,8 +365,8 @@ fn a_shape_too_thin_for_f32_is_refused() {
     let mut scene = scenes::empty();
     scene.shapes.push(Shape {
         geometry: Geometry::Placed {
-            form: Form::Ellipsoid,
-            world_from_form: DAffine3::from_scale(dvec3(1.0, 1e-16, 1.0)),
+            canonical: CanonicalShape::Ellipsoid,
+            world_from_canonical: DAffine3::from_scale(dvec3(1.0, 1e-16, 1.0)),
         },
         material: 0,
         node: None,

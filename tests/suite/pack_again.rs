@@ -41,14 +41,14 @@ type Edit = fn(&mut Scene);
 
 /// Whether both are the same to the GPU, and name things alike.
 fn is_same(scene: &Scene, a: &PackedScene, b: &PackedScene) -> bool {
-    let frames = scene.shot(0.0, 0.0);
+    let frames = scene.motion_samples(0.0, 0.0);
     let names = |packed: &PackedScene| (packed.material_name(0).map(str::to_owned), packed.origin);
     a.parts().concat() == b.parts().concat()
         && a.features == b.features
         && a.pictures == b.pictures
         && (a.plane_count, a.baked_shape_count) == (b.plane_count, b.baked_shape_count)
         && names(a) == names(b)
-        && a.shot(&frames).expect("a view") == b.shot(&frames).expect("a view")
+        && a.view(&frames).expect("a view") == b.view(&frames).expect("a view")
 }
 
 #[test]
@@ -256,17 +256,19 @@ fn moving_gallery() -> Scene {
 fn the_tree_over_instances_is_kept_as_long_as_nothing_moves() {
     let was = moving_gallery();
     let packed = packed(&was);
-    let view = packed.shot(&was.shot(0.2, 0.4)).expect("a view");
+    let view = packed.view(&was.motion_samples(0.2, 0.4)).expect("a view");
     let from = |packed: &PackedScene, scene: &Scene, (open, close)| {
         let again = packed
-            .shot_from(Some(&view), &scene.shot(open, close))
+            .view_from(Some(&view), &scene.motion_samples(open, close))
             .expect("a view");
-        let whole = packed.shot(&scene.shot(open, close)).expect("a view");
+        let whole = packed
+            .view(&scene.motion_samples(open, close))
+            .expect("a view");
         assert!(again == whole, "other bytes");
         again.shares_tlas(&view)
     };
     assert!(from(&packed, &was, (0.2, 0.4)));
-    assert!(!from(&packed, &was, (0.2, 0.5)), "another shot");
+    assert!(!from(&packed, &was, (0.2, 0.5)), "another shutter interval");
     let mut verdict = Verdict::on("edits beside what moves");
     for (name, work, edit) in EDITS {
         let mut scene = was.clone();
@@ -313,7 +315,7 @@ fn only_what_differs_is_uploaded_and_the_picture_is_that_of_a_new_renderer() {
             edit(&mut scene);
             let again = Arc::new(pack::scene_from(&packed, &scene).expect("packed"));
             let frame = scene.frame(0.3);
-            let next = again.shot_from(Some(&view), &[frame]).expect("a view");
+            let next = again.view_from(Some(&view), &[frame]).expect("a view");
             let before = renderer.stats().uploads;
             renderer
                 .restart(again.clone(), &next, settings.clone(), policy)

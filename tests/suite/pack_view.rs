@@ -11,7 +11,7 @@ use glimray::{
     layout::{INSTANCE, LEAF, MOVING, PackedInstance, PackedKey, PackedNode, STACK_SIZE},
     pack::{self, PackedScene, PackedView},
     scene::{
-        Beyond, Curve, Easing, Form, Geometry, Instance, Interpolation, Light, LightKind,
+        Beyond, CanonicalShape, Curve, Easing, Geometry, Instance, Interpolation, Light, LightKind,
         LightProperty, Mesh, Node, NodeProperty, Scene, Shape, Target, Track, Values,
     },
 };
@@ -68,7 +68,7 @@ fn children(node: &PackedNode) -> Vec<(Box, u32)> {
 }
 
 impl Behind {
-    /// The children of a node at this share of the shot.
+    /// The children of a node at this fraction of the shutter interval.
     fn children_at(&self, reference: u32, time: f64) -> Vec<(Box, u32)> {
         let index = ((reference & !MOVING) - self.first_node) as usize;
         let open = children(&self.nodes[index]);
@@ -111,7 +111,7 @@ impl Behind {
         (found, others)
     }
 
-    /// Where an instance is at this share of the shot, from its keys.
+    /// Where an instance is at this fraction of the shutter interval, from its keys.
     fn space_at(&self, instance: &PackedInstance, time: f64) -> DAffine3 {
         let vector = |v: [f32; 3]| DVec3::from(v.map(f64::from));
         if instance.key_count == 1 {
@@ -219,8 +219,8 @@ fn flock(random: &mut Random) -> (Scene, Vec<Vec<DVec3>>) {
                 placement.transform_point3(dvec3(side(0), side(1), side(2)))
             });
             let geometry = Geometry::Placed {
-                form: Form::Box,
-                world_from_form: placement,
+                canonical: CanonicalShape::Box,
+                world_from_canonical: placement,
             };
             (geometry, corners.collect())
         };
@@ -244,8 +244,8 @@ fn boxes_hold_what_moves_at_every_moment() {
         let packed = pack::scene(&scene).expect("packed");
         // From a sliver of the animation to all of it.
         let (open, close) = [(0.3, 0.31), (0.2, 0.4), (0.0, 1.0)][round % 3];
-        let frames = scene.shot(open, close);
-        let view = packed.shot(&frames).expect("a shot");
+        let frames = scene.motion_samples(open, close);
+        let view = packed.view(&frames).expect("a view");
         let behind = behind(&packed, &view);
         assert_eq!(behind.instances.len(), points.len());
         assert!(view.has_moving_instances());
@@ -292,7 +292,9 @@ fn keys_lead_where_the_scene_says_at_every_moment() {
     let packed = pack::scene(&scene).expect("packed");
     // Between keys of the scene: at one that bends the way sharply, the most frames may be too few.
     let (open, close) = (0.35, 0.48);
-    let view = packed.shot(&scene.shot(open, close)).expect("a shot");
+    let view = packed
+        .view(&scene.motion_samples(open, close))
+        .expect("a view");
     let behind = behind(&packed, &view);
     let mut verdict = Verdict::on("keys of a view");
     for _ in 0..200 {
@@ -306,7 +308,7 @@ fn keys_lead_where_the_scene_says_at_every_moment() {
             };
             let world = frame.nodes[node.expect("a node")].world_from_node * placement;
             let space = behind.space_at(instance, share);
-            // What frames of a shot are close enough for: a thousandth of the distance for places,
+            // What motion samples are close enough for: a thousandth of the distance for places,
             // and what a turn of 0.1 makes of the object's size.
             let worst = (points[object].iter())
                 .map(|p| {
@@ -361,7 +363,9 @@ fn any_transform_is_what_its_key_puts_together_again() {
         });
     }
     let packed = pack::scene(&scene).expect("packed");
-    let view = packed.shot(&scene.shot(0.0, 1.0)).expect("a shot");
+    let view = packed
+        .view(&scene.motion_samples(0.0, 1.0))
+        .expect("a view");
     let behind = behind(&packed, &view);
     let mut verdict = Verdict::on("keys");
     for (instance, matrix) in behind.instances.iter().zip(&transforms) {
@@ -402,7 +406,9 @@ fn keys_go_the_short_way_round() {
     let turn = vec![DVec3::ZERO, dvec3(0.0, 3.0 * std::f64::consts::TAU, 0.0)];
     scene.tracks.push(track(0, NodeProperty::Angles, turn));
     let packed = pack::scene(&scene).expect("packed");
-    let view = packed.shot(&scene.shot(0.0, 1.0)).expect("a shot");
+    let view = packed
+        .view(&scene.motion_samples(0.0, 1.0))
+        .expect("a view");
     let keys = behind(&packed, &view).keys;
     assert!(keys.len() > 180, "{} keys", keys.len());
     for pair in keys.windows(2) {
@@ -470,14 +476,17 @@ fn the_same_frames_are_packed_to_the_same_bytes() {
     };
     let ((scene, packed), (_, again)) = (pack(), pack());
     assert!(packed.parts() == again.parts());
-    let shot =
-        |packed: &PackedScene, open, close| packed.shot(&scene.shot(open, close)).expect("a shot");
-    let first = shot(&packed, 0.2, 0.4);
+    let view_of = |packed: &PackedScene, open, close| {
+        packed
+            .view(&scene.motion_samples(open, close))
+            .expect("a view")
+    };
+    let first = view_of(&packed, 0.2, 0.4);
     // Others in between leave no trace.
-    let other = shot(&packed, 0.5, 0.6);
+    let other = view_of(&packed, 0.5, 0.6);
     assert!(first.parts() != other.parts());
-    assert!(first.parts() == shot(&packed, 0.2, 0.4).parts());
-    assert!(first.parts() == shot(&again, 0.2, 0.4).parts());
+    assert!(first.parts() == view_of(&packed, 0.2, 0.4).parts());
+    assert!(first.parts() == view_of(&again, 0.2, 0.4).parts());
     let still = |packed: &PackedScene| packed.frame(&scene.frame(0.7)).expect("a frame");
     assert!(still(&packed).parts() == still(&again).parts());
 }

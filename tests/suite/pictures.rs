@@ -113,7 +113,7 @@ fn every_form_alone_is_what_it_is_among_others() {
 }
 
 #[test]
-fn the_tree_finds_the_forms_that_brute_force_finds() {
+fn the_tree_finds_the_shapes_that_brute_force_finds() {
     let scene = scenes::solids();
     let brute = RenderSettings {
         brute_force: true,

@@ -16,7 +16,7 @@ use glam::{DAffine3, DVec2, DVec3};
 use glimray::image::Image;
 use glimray::render::{RayKind, Rays};
 use glimray::scene::{
-    Attenuation, Camera, Form, Geometry, Light, LightKind, Material, Scene, Shape,
+    Attenuation, Camera, CanonicalShape, Geometry, Light, LightKind, Material, Scene, Shape,
 };
 use moment::Carriers;
 use optics::Place;
@@ -305,13 +305,13 @@ impl<'a> Tracer<'a> {
                 Geometry::Plane { .. } if is_left => None,
                 Geometry::Plane { point, normal } => hit_plane(point, normal, ray),
                 Geometry::Placed {
-                    form: Form::Disc { .. } | Form::Rectangle,
+                    canonical: CanonicalShape::Disc { .. } | CanonicalShape::Rectangle,
                     ..
                 } if is_left => None,
                 Geometry::Placed {
-                    form,
-                    world_from_form,
-                } => hit_placed(form, world_from_form, ray),
+                    canonical,
+                    world_from_canonical,
+                } => hit_placed(canonical, world_from_canonical, ray),
             };
             if let Some(t) = t.filter(|t| *t < t_max) {
                 t_max = t;
@@ -333,9 +333,9 @@ impl<'a> Tracer<'a> {
             Geometry::Sphere { center, radius } => (p - center) / radius,
             Geometry::Plane { normal, .. } => normal,
             Geometry::Placed {
-                form,
-                world_from_form,
-            } => shapes::normal(form, world_from_form, p),
+                canonical,
+                world_from_canonical,
+            } => shapes::normal(canonical, world_from_canonical, p),
         }
     }
 
@@ -480,8 +480,8 @@ fn hit_sphere(center: DVec3, radius: f64, ray: Ray) -> Option<f64> {
         .find(|&t| t > ray.t_min && t < ray.t_max)
 }
 
-fn hit_placed(form: Form, world_from_form: DAffine3, ray: Ray) -> Option<f64> {
-    shapes::crossings(form, world_from_form, ray.origin, ray.direction)
+fn hit_placed(canonical: CanonicalShape, world_from_canonical: DAffine3, ray: Ray) -> Option<f64> {
+    shapes::crossings(canonical, world_from_canonical, ray.origin, ray.direction)
         .into_iter()
         .find(|&t| t > ray.t_min && t < ray.t_max)
 }

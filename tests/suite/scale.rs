@@ -22,13 +22,13 @@ fn placed(scene: &Scene, scale: f64, offset: DVec3) -> Scene {
                 normal,
             },
             Geometry::Placed {
-                form,
-                world_from_form,
+                canonical,
+                world_from_canonical,
             } => Geometry::Placed {
-                form,
-                world_from_form: DAffine3::from_translation(offset)
+                canonical,
+                world_from_canonical: DAffine3::from_translation(offset)
                     * DAffine3::from_scale(DVec3::splat(scale))
-                    * world_from_form,
+                    * world_from_canonical,
             },
         };
     }

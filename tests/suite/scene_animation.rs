@@ -717,7 +717,7 @@ fn tracks_take_values_of_their_kind_only() {
         ),
     ];
     for (target, expected) in rows {
-        let takes = [&rotations, &vectors, &scalars].map(|values| target.takes(values));
+        let takes = [&rotations, &vectors, &scalars].map(|values| target.accepts(values));
         assert_eq!(takes, expected, "{target:?}");
     }
     let wrong = rotation_of_wrong_kind();

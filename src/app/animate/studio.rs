@@ -79,7 +79,7 @@ impl<'a> Studio<'a> {
         let (open, close) = self.sequence.timeline.clock.frame(number);
         Ok(self
             .scene
-            .shot(&self.sequence.job.scene.shot(open, close))?)
+            .view(&self.sequence.job.scene.motion_samples(open, close))?)
     }
 
     /// What a frame with this view depends on.

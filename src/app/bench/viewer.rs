@@ -115,8 +115,8 @@ fn rest_seconds(arguments: &BenchArgs, scene: &Scene) -> Result<f64, AppError> {
     let settings = settings(scene);
     let packed = Arc::new(pack::scene(scene)?);
     let mut rig = Rig::new(&scene.frame(0.0).camera, scene.bounds());
-    let mut frames = scene.shot(0.0, 0.0);
-    let mut view = packed.shot(&frames)?;
+    let mut frames = scene.motion_samples(0.0, 0.0);
+    let mut view = packed.view(&frames)?;
     let policy = job::policy(&arguments.device, false);
     let mut renderer = Renderer::new(gpu, packed.clone(), &view, settings.clone(), policy)?;
     let mut seconds = Vec::new();
@@ -125,7 +125,7 @@ fn rest_seconds(arguments: &BenchArgs, scene: &Scene) -> Result<f64, AppError> {
         rig.advance(10.0);
         let started = Instant::now();
         frames[0].camera = rig.camera();
-        view = packed.shot_from(Some(&view), &frames)?;
+        view = packed.view_from(Some(&view), &frames)?;
         renderer.restart(packed.clone(), &view, settings.clone(), policy)?;
         seconds.push(started.elapsed().as_secs_f64());
         renderer.step()?;

@@ -189,7 +189,7 @@ impl Canvas {
         if is_other_scene || self.packed.is_none() {
             self.pack(order)?;
         } else if is_other_shot {
-            self.frames = order.scene.shot(order.shot.0, order.shot.1);
+            self.frames = order.scene.motion_samples(order.shot.0, order.shot.1);
         }
         // A picture at rest begins coarse too, so that there is something to see at once.
         self.begin(true)
@@ -229,7 +229,7 @@ impl Canvas {
         self.trees_built += packed.work.total();
         self.packed = Some(Arc::new(packed));
         // The scene's own, with its own camera and background: see `view`.
-        self.frames = order.scene.shot(order.shot.0, order.shot.1);
+        self.frames = order.scene.motion_samples(order.shot.0, order.shot.1);
         Ok(())
     }
 

@@ -1,7 +1,7 @@
 //! What is in a scene as a list of lines, indented as what carries what.
 
 use super::objects::{self, Id};
-use crate::scene::{Form, Geometry, LightKind, ObjectRef, Scene};
+use crate::scene::{CanonicalShape, Geometry, LightKind, ObjectRef, Scene};
 use std::collections::BTreeMap;
 
 /// A line of an [`Outline`].
@@ -227,14 +227,14 @@ fn kind_of(geometry: &Geometry) -> &'static str {
     match geometry {
         Geometry::Sphere { .. } => "sphere",
         Geometry::Plane { .. } => "plane",
-        Geometry::Placed { form, .. } => match *form {
-            Form::Disc { .. } => "disc",
-            Form::Rectangle => "rectangle",
-            Form::Box => "box",
-            Form::Cone { bottom, top, .. } if bottom == top => "cylinder",
-            Form::Cone { .. } => "cone",
-            Form::Torus { .. } => "torus",
-            Form::Ellipsoid => "ellipsoid",
+        Geometry::Placed { canonical, .. } => match *canonical {
+            CanonicalShape::Disc { .. } => "disc",
+            CanonicalShape::Rectangle => "rectangle",
+            CanonicalShape::Box => "box",
+            CanonicalShape::Cone { bottom, top, .. } if bottom == top => "cylinder",
+            CanonicalShape::Cone { .. } => "cone",
+            CanonicalShape::Torus { .. } => "torus",
+            CanonicalShape::Ellipsoid => "ellipsoid",
         },
     }
 }

@@ -7,7 +7,7 @@ use super::file::{
 };
 use super::transforms::{chain, normal_matrix};
 use crate::import::error::ImportError;
-use crate::scene::{Form, Geometry};
+use crate::scene::{CanonicalShape, Geometry};
 use glam::{DAffine3, DMat3, DVec3};
 use std::ops::Range;
 
@@ -38,8 +38,8 @@ pub(super) fn geometry(
     (textured, moves): (bool, bool),
     texts: &Texts,
 ) -> Result<Option<Geometry>, ImportError> {
-    let (form, object_from_form) = if let Some(ellipsoid) = &table.ellipsoid {
-        (Form::Ellipsoid, self::ellipsoid(ellipsoid))
+    let (canonical, object_from_canonical) = if let Some(ellipsoid) = &table.ellipsoid {
+        (CanonicalShape::Ellipsoid, self::ellipsoid(ellipsoid))
     } else if let Some(plane) = &table.plane {
         return Ok(Some(self::plane(plane, placed)));
     } else if let Some(sphere) = &table.sphere {
@@ -47,9 +47,12 @@ pub(super) fn geometry(
     } else if let Some(disc) = &table.disc {
         self::disc(disc, texts)?
     } else if let Some(rectangle) = &table.rectangle {
-        (Form::Rectangle, self::rectangle(rectangle, texts)?)
+        (
+            CanonicalShape::Rectangle,
+            self::rectangle(rectangle, texts)?,
+        )
     } else if let Some(cuboid) = &table.cuboid {
-        (Form::Box, self::cuboid(cuboid, texts)?)
+        (CanonicalShape::Box, self::cuboid(cuboid, texts)?)
     } else if let Some(cylinder) = &table.cylinder {
         self::cylinder(cylinder, texts)?
     } else if let Some(cone) = &table.cone {
@@ -60,13 +63,13 @@ pub(super) fn geometry(
         return Ok(None);
     };
     // Whatever the signs of its zeros: then the place is all that counts.
-    let object_from_form = match object_from_form {
+    let object_from_canonical = match object_from_canonical {
         same if same == DAffine3::IDENTITY => DAffine3::IDENTITY,
         other => other,
     };
     Ok(Some(Geometry::Placed {
-        form,
-        world_from_form: chain(placed, object_from_form),
+        canonical,
+        world_from_canonical: chain(placed, object_from_canonical),
     }))
 }
 
@@ -117,15 +120,15 @@ fn sphere(sphere: &SphereTable, placed: DAffine3, (textured, moves): (bool, bool
             radius: lengths[0] * radius,
         };
     }
-    let object_from_form =
+    let object_from_canonical =
         DAffine3::from_scale_rotation_translation(DVec3::splat(radius), Default::default(), center);
     Geometry::Placed {
-        form: Form::Ellipsoid,
-        world_from_form: chain(placed, object_from_form),
+        canonical: CanonicalShape::Ellipsoid,
+        world_from_canonical: chain(placed, object_from_canonical),
     }
 }
 
-fn disc(disc: &DiscTable, texts: &Texts) -> Result<(Form, DAffine3), ImportError> {
+fn disc(disc: &DiscTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), ImportError> {
     let radius = disc.radius.0;
     let hole = match &disc.inner_radius {
         Some(inner) if inner.get_ref().0 >= radius => {
@@ -137,8 +140,8 @@ fn disc(disc: &DiscTable, texts: &Texts) -> Result<(Form, DAffine3), ImportError
     };
     let (u, v) = Geometry::plane_axes(disc.normal.0);
     let axes = DMat3::from_cols(radius * u, radius * disc.normal.0, -radius * v);
-    let object_from_form = DAffine3::from_mat3_translation(axes, disc.center.0);
-    Ok((Form::Disc { hole }, object_from_form))
+    let object_from_canonical = DAffine3::from_mat3_translation(axes, disc.center.0);
+    Ok((CanonicalShape::Disc { hole }, object_from_canonical))
 }
 
 fn rectangle(rectangle: &RectangleTable, texts: &Texts) -> Result<DAffine3, ImportError> {
@@ -214,18 +217,21 @@ fn cuboid(cuboid: &BoxTable, texts: &Texts) -> Result<DAffine3, ImportError> {
     ))
 }
 
-fn cylinder(cylinder: &CylinderTable, texts: &Texts) -> Result<(Form, DAffine3), ImportError> {
-    let form = Form::Cone {
+fn cylinder(
+    cylinder: &CylinderTable,
+    texts: &Texts,
+) -> Result<(CanonicalShape, DAffine3), ImportError> {
+    let canonical = CanonicalShape::Cone {
         bottom: 1.0,
         top: 1.0,
         capped: !cylinder.open,
     };
     let (from, to) = (cylinder.from.0, cylinder.to.get_ref().0);
     let axes = around(from, to, cylinder.radius.0, cylinder.to.span(), texts)?;
-    Ok((form, DAffine3::from_mat3_translation(axes, from)))
+    Ok((canonical, DAffine3::from_mat3_translation(axes, from)))
 }
 
-fn cone(cone: &ConeTable, texts: &Texts) -> Result<(Form, DAffine3), ImportError> {
+fn cone(cone: &ConeTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), ImportError> {
     let [bottom, top] = [cone.from_radius.get_ref().0, cone.to_radius.0];
     let wide = bottom.max(top);
     if wide < f64::from(f32::MIN_POSITIVE) {
@@ -233,31 +239,34 @@ fn cone(cone: &ConeTable, texts: &Texts) -> Result<(Form, DAffine3), ImportError
         let todo = "Make one of them greater than 0";
         return Err(texts.malformed(cone.from_radius.span(), why, todo));
     }
-    let form = Form::Cone {
+    let canonical = CanonicalShape::Cone {
         bottom: bottom / wide,
         top: top / wide,
         capped: !cone.open,
     };
     let (from, to) = (cone.from.0, cone.to.get_ref().0);
     let axes = around(from, to, wide, cone.to.span(), texts)?;
-    Ok((form, DAffine3::from_mat3_translation(axes, from)))
+    Ok((canonical, DAffine3::from_mat3_translation(axes, from)))
 }
 
-fn torus(torus: &TorusTable, texts: &Texts) -> Result<(Form, DAffine3), ImportError> {
+fn torus(torus: &TorusTable, texts: &Texts) -> Result<(CanonicalShape, DAffine3), ImportError> {
     let (major, minor) = (torus.major_radius.0, torus.minor_radius.get_ref().0);
     if minor > major {
         let why = format!("`minor_radius` is greater than `major_radius`, which is {major}");
         let todo = "Make the tube thinner";
         return Err(texts.malformed(torus.minor_radius.span(), why, todo));
     }
-    let form = Form::Torus {
+    let canonical = CanonicalShape::Torus {
         minor: minor / major,
     };
     let axes = turned_to(torus.axis.0) * major;
-    Ok((form, DAffine3::from_mat3_translation(axes, torus.center.0)))
+    Ok((
+        canonical,
+        DAffine3::from_mat3_translation(axes, torus.center.0),
+    ))
 }
 
-/// Axes of a form of radius 1 whose y leads from `from` to `to`.
+/// Axes of a canonical shape of radius 1 whose y leads from `from` to `to`.
 fn around(
     from: DVec3,
     to: DVec3,

@@ -5,16 +5,16 @@ use crate::scene::{Camera, CameraProperty, Scene, Target, Value};
 use glam::{DAffine3, DVec3};
 use std::f64::consts::PI;
 
-/// How near to 0 and π the field of view may come.
+/// Distance that the field of view keeps from 0 and π.
 const MIN_FOV: f64 = 1e-6;
 
-/// The sine of the least angle between the viewing direction and upwards.
+/// Sine of the smallest angle between the viewing direction and the up vector.
 const MIN_TILT: f64 = 1e-9;
 
 impl Scene {
-    /// The default camera in world space. A camera that is carried by a node sees what lies in the
-    /// node's space as it would see it there, unless the node scales unevenly: its viewing direction
-    /// and its upwards go along, its field of view stays.
+    /// The default camera in world space. A camera attached to a node sees the node's space as it would
+    /// without the transform, unless the node scales unevenly: then its viewing direction and up vector
+    /// are transformed, and its field of view stays.
     pub(in crate::scene) fn camera_at(&self, time: f64, nodes: &[NodeState]) -> Camera {
         let rest = &self.cameras[self.camera_index];
         let mut camera = rest.clone();
@@ -35,7 +35,7 @@ impl Scene {
             before = world_from_node.transform_vector3(before);
         }
         if let Some(node) = camera.target.take() {
-            // Where the target is where the camera is, the camera's own direction remains.
+            // If the target coincides with the camera, keep the camera's own direction.
             before = camera.look_at - camera.look_from;
             camera.look_at = nodes[node].world_from_node.translation;
         }
@@ -73,9 +73,9 @@ fn change(camera: &mut Camera, rest: &Camera, property: CameraProperty, value: V
     }
 }
 
-/// Brings a camera into the space that `world_from_node` leads to. What was sharp stays sharp, and
-/// the opening keeps its share of the scene's size: the mean of its width and height. So does what an
-/// orthographic camera sees.
+/// Transforms a camera by `world_from_node`. The plane of focus, the aperture and the height of an
+/// orthographic view keep their proportion to the scene; aperture and height scale by the geometric mean
+/// of the horizontal and the vertical scale.
 fn place(camera: &mut Camera, world_from_node: DAffine3) {
     let vector = |v: DVec3| world_from_node.transform_vector3(v);
     let forward = (camera.look_at - camera.look_from).normalize_or(DVec3::NEG_Z);
@@ -94,8 +94,8 @@ fn place(camera: &mut Camera, world_from_node: DAffine3) {
     camera.up = vector(camera.up);
 }
 
-/// Gives a camera a direction and an upwards where movement left it without, as if it had just come
-/// from looking along `before`.
+/// Restores a valid viewing direction and up vector if motion made them degenerate, as if the camera had
+/// just turned away from `before`.
 fn straighten(camera: &mut Camera, before: DVec3) {
     let size = camera
         .look_from
@@ -107,7 +107,7 @@ fn straighten(camera: &mut Camera, before: DVec3) {
         forward.normalize_or(DVec3::NEG_Z)
     } else {
         let forward = before.normalize_or(DVec3::NEG_Z);
-        // Far enough away for the sum to tell.
+        // Far enough away for the sum not to round to the position.
         camera.look_at = camera.look_from + forward * size.max(1.0);
         forward
     };
@@ -116,8 +116,8 @@ fn straighten(camera: &mut Camera, before: DVec3) {
     if is_clear(up) {
         return;
     }
-    // A camera that tilts down until it looks straight down has upwards in the picture what it
-    // looked at before; one that tilts up has it downwards.
+    // For a camera that tilts down until it looks straight down, the up vector becomes the previous
+    // viewing direction; for one that tilts up, the opposite direction.
     let level = before.normalize_or_zero() * -forward.dot(up);
     camera.up = [level, DVec3::Y, DVec3::Z]
         .into_iter()

@@ -5,7 +5,7 @@ use crate::scene::{Light, LightKind, LightProperty, Scene, Target, Value};
 use glam::{DAffine3, DVec3, Vec3};
 
 impl Scene {
-    /// All lights in world space; those that are off, or carried by what is invisible, are dark.
+    /// All lights in world space; lights that are off or attached to an invisible node are black.
     pub(in crate::scene) fn lights_at(
         &self,
         time: f64,
@@ -61,7 +61,7 @@ fn move_to(light: &mut Light, place: DVec3) {
     }
 }
 
-/// On its way from one direction to the opposite one there may be none; then it keeps its own.
+/// Directions interpolated between opposite keys may vanish; then the light keeps its own.
 fn turn_to(light: &mut Light, towards: DVec3) {
     match &mut light.kind {
         LightKind::Directional { direction } | LightKind::Spot { direction, .. } => {
@@ -72,11 +72,10 @@ fn turn_to(light: &mut Light, towards: DVec3) {
     }
 }
 
-/// Brings a light into the space that `world_from_node` leads to. Places and the directions in which
-/// light travels go along as points and vectors do. Rectangles become what the map makes of them
-/// and go on shining to the side that their normal is mapped to. Discs and spheres stay round: a
-/// disc keeps its plane and has the area of the ellipse, a sphere the volume of the ellipsoid. A
-/// cone keeps its angles, and every light its colour.
+/// Transforms a light by `world_from_node`. Positions and directions transform as points and vectors. A
+/// rectangle becomes its image and still emits to the side that its normal is mapped to. Discs and
+/// spheres stay round: a disc keeps its plane and gets the area of the ellipse, a sphere gets the volume
+/// of the ellipsoid. Cone angles and colours stay as they are.
 fn place(kind: &mut LightKind, world_from_node: DAffine3) {
     let matrix = world_from_node.matrix3;
     let point = |p: &mut DVec3| *p = world_from_node.transform_point3(*p);
@@ -108,7 +107,7 @@ fn place(kind: &mut LightKind, world_from_node: DAffine3) {
         } => {
             point(center);
             let (u, v) = normal.any_orthonormal_pair();
-            // u × v is the normal; a mirroring turns the product of what they become round.
+            // u × v is the normal; a mirroring flips the product of the transformed edges.
             let area = (matrix * u).cross(matrix * v) * matrix.determinant().signum();
             *normal = area.normalize_or(*normal);
             *radius *= area.length().sqrt();

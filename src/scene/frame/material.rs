@@ -3,11 +3,11 @@
 use super::color;
 use crate::scene::{Material, MaterialProperty, Scene, Target, Value};
 
-/// The least index of refraction that a curve may overshoot to.
+/// Smallest index of refraction that an overshooting curve may give.
 const MIN_IOR: f64 = 1e-3;
 
 impl Scene {
-    /// All materials, if a track changes any; else none.
+    /// All materials if a track animates any; otherwise none.
     pub(super) fn materials_at(&self, time: f64) -> Vec<Material> {
         let mut materials = Vec::new();
         for track in &self.tracks {

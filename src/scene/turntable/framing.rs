@@ -1,51 +1,49 @@
-//! How near a camera may come that goes round an axis.
+//! The smallest distance of a camera that orbits an axis.
 //!
-//! While the camera goes round, a point at height h and distance ρ from the axis sweeps a circle in
-//! the camera's eyes. The camera looks at height s of the axis from a distance d, at an elevation e.
-//! With α going round, the point is
+//! While the camera orbits, a point at height h and distance ρ from the axis describes a circle in camera
+//! space. The camera looks at height s on the axis from a distance d, at an elevation e. With α as the
+//! orbit angle, the point is
 //!
 //! * x = ρ cos α to the right,
 //! * y = (h − s) cos e − ρ sin α sin e upwards,
 //! * z = d − (h − s) sin e − ρ sin α cos e away
 //!
-//! from it. It is below the upper edge of a picture whose tangent is t if y ≤ t z for all α, that is,
-//! with the largest value that a cos α + b sin α takes, √(a² + b²), if
+//! from it. It is below the upper edge of an image whose half height has the tangent t if y ≤ t z for all
+//! α. The largest value of a cos α + b sin α is √(a² + b²), so this holds if
 //!
-//! * t d + s (cos e + t sin e) ≥ h (cos e + t sin e) + ρ |t cos e − sin e|, likewise above the lower
-//!   edge if
-//! * t d − s (cos e − t sin e) ≥ −h (cos e − t sin e) + ρ |t cos e + sin e|, and between the sides,
-//!   whose tangent is w, if
+//! * t d + s (cos e + t sin e) ≥ h (cos e + t sin e) + ρ |t cos e − sin e|; it is above the lower edge if
+//! * t d − s (cos e − t sin e) ≥ −h (cos e − t sin e) + ρ |t cos e + sin e|; and between the left and
+//!   right edges, whose tangent is w, if
 //! * w d + s w sin e ≥ h w sin e + ρ √(1 + (w cos e)²).
 //!
-//! These are linear in d and s, and so only the largest right-hand side among all points counts. A
-//! sphere of radius r adds r √(1 + t²), or r √(1 + w²), its distance from a plane. The middle of the
-//! picture is chosen such that above and below the same is left free: both first conditions hold with
-//! equality for one t, which is the picture's unless the sides want a larger d; then it is the t for
-//! which they too hold with equality.
+//! These inequalities are linear in d and s, so only the largest right-hand side over all points matters.
+//! A sphere of radius r adds r √(1 + t²), or r √(1 + w²). s is chosen so that the margins above and below
+//! are equal: both of the first conditions hold with equality for the same t. That is the image's t
+//! unless the width requires a larger d; then it is the t for which the third holds with equality too.
 
 use super::Turntable;
-use crate::scene::{Form, Geometry, Scene};
+use crate::scene::{CanonicalShape, Geometry, Scene};
 use glam::{DAffine3, DVec3};
 
-/// What goes round the axis, which is y.
+/// The geometry to be framed, around an axis along y.
 pub(super) struct Swept {
-    /// Distance from the axis and height: the convex hull, as far as it matters.
+    /// Distance from the axis and height of points: the relevant part of the convex hull.
     points: Vec<[f64; 2]>,
-    /// The same of centres, and the radius.
+    /// The same of spheres' centres, and their radii.
     spheres: Vec<[f64; 3]>,
 }
 
-/// Where the camera is.
+/// The camera's position.
 pub(super) struct View {
-    /// From what it looks at.
+    /// Distance of the camera from its target.
     pub distance: f64,
-    /// Of what it looks at.
+    /// Height of the target on the axis.
     pub height: f64,
 }
 
 impl Swept {
-    /// All that is bounded in `scene`, visible or not, at time 0: vertices, spheres, and the corners
-    /// of boxes round other shapes.
+    /// All bounded geometry in `scene`, visible or not, at time 0: vertices, spheres, and the corners of
+    /// other shapes' boxes.
     pub fn new(scene: &Scene, pivot_from_world: DAffine3) -> Self {
         let nodes = scene.nodes_at(0.0, 0.0);
         let pivot_from = |node: Option<usize>| match node {
@@ -74,21 +72,21 @@ impl Swept {
 
     fn add(&mut self, geometry: Geometry) {
         let Geometry::Placed {
-            form,
-            world_from_form: place,
+            canonical,
+            world_from_canonical: place,
         } = geometry
         else {
             return;
         };
-        if let (Form::Ellipsoid, Some(radius)) = (form, even_scale(place)) {
+        if let (CanonicalShape::Ellipsoid, Some(radius)) = (canonical, even_scale(place)) {
             let center = place.translation;
             self.spheres
                 .push([center.x.hypot(center.z), center.y, radius]);
             return;
         }
         let at_home = Geometry::Placed {
-            form,
-            world_from_form: DAffine3::IDENTITY,
+            canonical,
+            world_from_canonical: DAffine3::IDENTITY,
         };
         if let Some((min, max)) = at_home.bounds() {
             self.points.extend((0..8).map(|i| {
@@ -113,14 +111,14 @@ impl Swept {
         points.chain(spheres).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// How far anything is from the point of the axis at `height`.
+    /// The largest distance of the geometry from the point of the axis at `height`.
     pub fn radius(&self, height: f64) -> f64 {
         let points = (self.points.iter()).map(|[rho, h]| rho.hypot(h - height));
         let spheres = (self.spheres.iter()).map(|[rho, h, r]| rho.hypot(h - height) + r);
         points.chain(spheres).fold(0.0, f64::max)
     }
 
-    /// The nearest view with as much free above as below.
+    /// The nearest view with equal margins above and below.
     pub fn view(&self, elevation: f64, options: &Turntable) -> View {
         let (sin, cos) = elevation.sin_cos();
         let tangent = (options.fov_y / 2.0).tan() * (1.0 - options.margin);
@@ -161,7 +159,7 @@ impl Swept {
     }
 }
 
-/// The factor of a map that scales evenly.
+/// The factor of a map that scales uniformly; `None` for others.
 fn even_scale(map: DAffine3) -> Option<f64> {
     let [x, y, z] = [map.matrix3.x_axis, map.matrix3.y_axis, map.matrix3.z_axis];
     let square = x.length_squared();
@@ -176,14 +174,15 @@ fn even_scale(map: DAffine3) -> Option<f64> {
     is_even.then(|| square.sqrt())
 }
 
-/// The points of the convex hull between the lowest and the highest on the side that is away from the
-/// axis (Andrew's monotone chain, 1979): all that can be largest in a direction away from it.
+/// The points of the convex hull between the lowest and the highest, on the side away from the axis
+/// (Andrew's monotone chain, 1979): the only points that can be extreme in a direction away from the
+/// axis.
 fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_unstable_by(|a, b| a[1].total_cmp(&b[1]).then(a[0].total_cmp(&b[0])));
     let mut kept: Vec<[f64; 2]> = Vec::new();
     for point in points {
         while let [.., a, b] = kept[..] {
-            // Whether b is outside of the way from a to the point.
+            // Whether b lies outside of the line from a to the point.
             let is_outside = (b[0] - a[0]) * (point[1] - a[1]) > (point[0] - a[0]) * (b[1] - a[1]);
             if is_outside {
                 break;

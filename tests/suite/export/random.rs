@@ -197,36 +197,36 @@ fn mesh(random: &mut Random, materials: usize) -> Mesh {
 }
 
 fn geometry(random: &mut Random) -> Geometry {
-    let form = match random.below(8) {
+    let canonical = match random.below(8) {
         0 => {
             return Geometry::Sphere {
                 center: vector(random),
                 radius: random.between(0.1, 3.0),
             };
         }
-        1 => Form::Disc {
+        1 => CanonicalShape::Disc {
             hole: pick(random, &[0.0, 0.5, 0.123_456_789]),
         },
-        2 => Form::Rectangle,
-        3 => Form::Box,
-        4 => Form::Cone {
+        2 => CanonicalShape::Rectangle,
+        3 => CanonicalShape::Box,
+        4 => CanonicalShape::Cone {
             bottom: 1.0,
             top: pick(random, &[1.0, 0.0, 0.3]),
             capped: random.below(2) == 0,
         },
-        5 => Form::Cone {
+        5 => CanonicalShape::Cone {
             bottom: random.between(0.0, 1.0),
             top: 1.0,
             capped: random.below(2) == 0,
         },
-        6 => Form::Torus {
+        6 => CanonicalShape::Torus {
             minor: random.between(0.01, 1.0),
         },
-        _ => Form::Ellipsoid,
+        _ => CanonicalShape::Ellipsoid,
     };
     Geometry::Placed {
-        form,
-        world_from_form: placement(random),
+        canonical,
+        world_from_canonical: placement(random),
     }
 }
 

@@ -4,7 +4,9 @@ use super::write;
 use glam::{DAffine3, DVec3, Vec3};
 use glimray::export::{self, ExportError};
 use glimray::import;
-use glimray::scene::{Camera, Form, Geometry, Instance, Material, Mesh, Picture, Scene, Shape};
+use glimray::scene::{
+    Camera, CanonicalShape, Geometry, Instance, Material, Mesh, Picture, Scene, Shape,
+};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -130,10 +132,10 @@ fn too_many_different_things_are_refused_with_a_number() {
     scene.shapes = (0..60_000_u32)
         .map(|i| Shape {
             geometry: Geometry::Placed {
-                form: Form::Torus {
+                canonical: CanonicalShape::Torus {
                     minor: 0.1 + 1e-6 * f64::from(i),
                 },
-                world_from_form: DAffine3::IDENTITY,
+                world_from_canonical: DAffine3::IDENTITY,
             },
             material: 0,
             node: None,

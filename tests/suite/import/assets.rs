@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
 use glimray::scene::{
-    Background, Form, Geometry, Interpolation, LightKind, Scene, Target, Track, Values,
+    Background, CanonicalShape, Geometry, Interpolation, LightKind, Scene, Target, Track, Values,
 };
 use std::path::{Path, PathBuf};
 
@@ -63,19 +63,20 @@ fn assert_promises(scene: &Scene) {
                 assert!(point.is_finite() && normal.is_normalized())
             }
             Geometry::Placed {
-                form,
-                world_from_form,
+                canonical,
+                world_from_canonical,
             } => {
-                match form {
-                    Form::Disc { hole } => assert!((0.0..1.0).contains(&hole)),
-                    Form::Cone { bottom, top, .. } => {
+                match canonical {
+                    CanonicalShape::Disc { hole } => assert!((0.0..1.0).contains(&hole)),
+                    CanonicalShape::Cone { bottom, top, .. } => {
                         assert!(bottom >= 0.0 && top >= 0.0 && bottom + top > 0.0);
                     }
-                    Form::Torus { minor } => assert!(minor > 0.0 && minor <= 1.0),
-                    Form::Rectangle | Form::Box | Form::Ellipsoid => {}
+                    CanonicalShape::Torus { minor } => assert!(minor > 0.0 && minor <= 1.0),
+                    CanonicalShape::Rectangle | CanonicalShape::Box | CanonicalShape::Ellipsoid => {
+                    }
                 }
-                assert!(world_from_form.is_finite());
-                assert_ne!(world_from_form.matrix3.determinant(), 0.0);
+                assert!(world_from_canonical.is_finite());
+                assert_ne!(world_from_canonical.matrix3.determinant(), 0.0);
             }
         }
     }

@@ -4,7 +4,7 @@ use super::{folder, load, message_in, messages, scene};
 use crate::support::effort;
 use glam::{DAffine3, DVec3};
 use glimray::import::{self, Options};
-use glimray::scene::{Form, Geometry, Scene};
+use glimray::scene::{CanonicalShape, Geometry, Scene};
 use insta::assert_snapshot;
 use std::f64::consts::TAU;
 
@@ -14,8 +14,9 @@ fn centers(scene: &Scene) -> Vec<DVec3> {
     let center = |geometry: &Geometry| match *geometry {
         Geometry::Sphere { center, .. } => center,
         Geometry::Placed {
-            world_from_form, ..
-        } => world_from_form.translation,
+            world_from_canonical,
+            ..
+        } => world_from_canonical.translation,
         Geometry::Plane { point, .. } => point,
     };
     scene
@@ -144,9 +145,9 @@ fn a_ring_turns_its_copies_unless_told_not_to() {
         let scene = scene("a.toml", text);
         let axes = scene.shapes.iter().map(|shape| match shape.geometry {
             Geometry::Placed {
-                form: Form::Box,
-                world_from_form,
-            } => world_from_form,
+                canonical: CanonicalShape::Box,
+                world_from_canonical,
+            } => world_from_canonical,
             _ => panic!("a box"),
         });
         axes.collect::<Vec<DAffine3>>()
@@ -176,8 +177,9 @@ fn scattered(count: usize, seed: u32) -> Vec<DAffine3> {
     let scene = scene("a.toml", text);
     let axes = scene.shapes.iter().map(|shape| match shape.geometry {
         Geometry::Placed {
-            world_from_form, ..
-        } => world_from_form,
+            world_from_canonical,
+            ..
+        } => world_from_canonical,
         _ => panic!("a box"),
     });
     axes.collect()
@@ -293,14 +295,14 @@ fn a_sphere_in_a_slanted_group_is_an_ellipsoid() {
     );
     let scene = scene("a.toml", text);
     let Geometry::Placed {
-        form: Form::Ellipsoid,
-        world_from_form,
+        canonical: CanonicalShape::Ellipsoid,
+        world_from_canonical,
     } = scene.shapes[0].geometry
     else {
         panic!("an ellipsoid");
     };
     // Both turned axes get the same length, but are no longer perpendicular.
-    let far = world_from_form.transform_point3(DVec3::new(1.0, -1.0, 0.0).normalize());
+    let far = world_from_canonical.transform_point3(DVec3::new(1.0, -1.0, 0.0).normalize());
     assert!(far.distance(DVec3::new(3.0, 0.0, 0.0)) < 1e-12, "{far}");
 }
 

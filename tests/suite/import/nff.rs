@@ -7,8 +7,8 @@ use super::{messages, scene};
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
 use glimray::scene::{
-    Background, Camera, Form, Fresnel, Geometry, Light, LightKind, Material, Mixing, Scene, Shape,
-    ToneCurve, Transfer,
+    Background, Camera, CanonicalShape, Fresnel, Geometry, Light, LightKind, Material, Mixing,
+    Scene, Shape, ToneCurve, Transfer,
 };
 use insta::assert_snapshot;
 
@@ -135,15 +135,15 @@ fn the_oddities_of_files_in_the_wild_change_nothing() {
     assert_eq!(parsed, expected);
 }
 
-/// Points of a cone's rims, found from the file's numbers alone, must be on the placed form.
+/// Points of a cone's rims, found from the file's numbers alone, must be on the placed shape.
 fn assert_cone(text: &str, base: DVec3, bottom: f64, apex: DVec3, top: f64) {
     let scene = scene("a.nff", file(text));
     let [
         Shape {
             geometry:
                 Geometry::Placed {
-                    form,
-                    world_from_form,
+                    canonical,
+                    world_from_canonical,
                 },
             ..
         },
@@ -152,14 +152,14 @@ fn assert_cone(text: &str, base: DVec3, bottom: f64, apex: DVec3, top: f64) {
         panic!("{text}: {:?}", scene.shapes);
     };
     let wide = bottom.max(top);
-    let expected = Form::Cone {
+    let expected = CanonicalShape::Cone {
         bottom: bottom / wide,
         top: top / wide,
         capped: false,
     };
-    assert_eq!(form, expected, "{text}");
+    assert_eq!(canonical, expected, "{text}");
     assert!(
-        world_from_form.matrix3.determinant() > 0.0,
+        world_from_canonical.matrix3.determinant() > 0.0,
         "{text}: mirrored"
     );
     let axis = (apex - base).normalize();
@@ -168,7 +168,7 @@ fn assert_cone(text: &str, base: DVec3, bottom: f64, apex: DVec3, top: f64) {
         for (center, radius, y) in [(base, bottom, 0.0), (apex, top, 1.0)] {
             let share = radius / wide;
             let rim = DVec3::new(share * angle.cos(), y, share * angle.sin());
-            let rim = world_from_form.transform_point3(rim);
+            let rim = world_from_canonical.transform_point3(rim);
             let tolerance = 1e-12 * (1.0 + center.length() + radius);
             assert!((rim.distance(center) - radius).abs() < tolerance, "{text}");
             assert!((rim - center).dot(axis).abs() < tolerance, "{text}");

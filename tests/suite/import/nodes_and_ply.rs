@@ -153,8 +153,8 @@ fn values_can_be_said_directly() {
     };
     assert_eq!(scene.lights[0].kind, spot);
     let placed = Geometry::Placed {
-        form: glimray::scene::Form::Ellipsoid,
-        world_from_form: DAffine3::from_translation(DVec3::new(1.0, 2.0, 3.0)),
+        canonical: glimray::scene::CanonicalShape::Ellipsoid,
+        world_from_canonical: DAffine3::from_translation(DVec3::new(1.0, 2.0, 3.0)),
     };
     assert_eq!(scene.shapes[0].geometry, placed);
 }

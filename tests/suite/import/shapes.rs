@@ -2,34 +2,34 @@
 
 use super::{messages, scene};
 use glam::{DAffine3, DVec3};
-use glimray::scene::{Form, Geometry, Scene};
+use glimray::scene::{CanonicalShape, Geometry, Scene};
 use insta::assert_snapshot;
 
 /// The only shape of a scene with one object.
-fn placed(object: &str) -> (Form, DAffine3) {
+fn placed(object: &str) -> (CanonicalShape, DAffine3) {
     let scene = scene("a.toml", format!("[[objects]]\n{object}"));
     match scene.shapes[..] {
         [
             glimray::scene::Shape {
                 geometry:
                     Geometry::Placed {
-                        form,
-                        world_from_form,
+                        canonical,
+                        world_from_canonical,
                     },
                 ..
             },
-        ] => (form, world_from_form),
+        ] => (canonical, world_from_canonical),
         _ => panic!("{:?}", scene.shapes),
     }
 }
 
-/// Asserts where points of the form are in the world.
+/// Asserts where points of the canonical shape are in the world.
 #[track_caller]
-fn assert_places(object: &str, form: Form, points: &[([f64; 3], [f64; 3])]) {
-    let (found, world_from_form) = placed(object);
-    assert_eq!(found, form);
+fn assert_places(object: &str, canonical: CanonicalShape, points: &[([f64; 3], [f64; 3])]) {
+    let (found, world_from_canonical) = placed(object);
+    assert_eq!(found, canonical);
     for (local, world) in points {
-        let got = world_from_form.transform_point3(DVec3::from(*local));
+        let got = world_from_canonical.transform_point3(DVec3::from(*local));
         assert!(
             got.distance(DVec3::from(*world)) < 1e-9,
             "{local:?} is at {got}, not at {world:?}"
@@ -37,7 +37,7 @@ fn assert_places(object: &str, form: Form, points: &[([f64; 3], [f64; 3])]) {
     }
 }
 
-const OPEN: Form = Form::Cone {
+const OPEN: CanonicalShape = CanonicalShape::Cone {
     bottom: 1.0,
     top: 1.0,
     capped: false,
@@ -47,7 +47,7 @@ const OPEN: Form = Form::Cone {
 fn discs_and_rectangles_face_their_normal() {
     assert_places(
         "disc = { center = [1, 2, 3], radius = 2 }",
-        Form::Disc { hole: 0.0 },
+        CanonicalShape::Disc { hole: 0.0 },
         &[
             ([1., 0., 0.], [3., 2., 3.]),
             ([0., 1., 0.], [1., 4., 3.]),
@@ -56,7 +56,7 @@ fn discs_and_rectangles_face_their_normal() {
     );
     assert_places(
         "disc = { center = [0, 0, 0], normal = [0, 0, 9], radius = 2, inner_radius = 0.5 }",
-        Form::Disc { hole: 0.25 },
+        CanonicalShape::Disc { hole: 0.25 },
         &[
             ([1., 0., 0.], [2., 0., 0.]),
             ([0., 1., 0.], [0., 0., 2.]),
@@ -65,7 +65,7 @@ fn discs_and_rectangles_face_their_normal() {
     );
     assert_places(
         "rectangle = { center = [1, 1, 1], edge_u = [4, 0, 0], edge_v = [0, 2, 0] }",
-        Form::Rectangle,
+        CanonicalShape::Rectangle,
         &[
             ([1., 0., -1.], [3., 2., 1.]),
             ([-1., 0., 1.], [-1., 0., 1.]),
@@ -74,7 +74,7 @@ fn discs_and_rectangles_face_their_normal() {
     );
     assert_places(
         "rectangle = { center = [0, 0, 0], size = [4, 2] }",
-        Form::Rectangle,
+        CanonicalShape::Rectangle,
         &[
             ([1., 0., 0.], [2., 0., 0.]),
             ([0., 0., -1.], [0., 0., -1.]),
@@ -83,7 +83,7 @@ fn discs_and_rectangles_face_their_normal() {
     );
     assert_places(
         "rectangle = { center = [0, 0, 0], size = [4, 2], normal = [1, 0, 0] }",
-        Form::Rectangle,
+        CanonicalShape::Rectangle,
         &[
             ([1., 0., 0.], [0., 0., -2.]),
             ([0., 0., -1.], [0., 1., 0.]),
@@ -96,7 +96,7 @@ fn discs_and_rectangles_face_their_normal() {
 fn solids_are_where_they_are_put() {
     assert_places(
         "box = { min = [0, 1, 2], max = [2, 2, 8] }",
-        Form::Box,
+        CanonicalShape::Box,
         &[
             ([-1., -1., -1.], [0., 1., 2.]),
             ([1., 1., 1.], [2., 2., 8.]),
@@ -113,7 +113,7 @@ fn solids_are_where_they_are_put() {
     );
     assert_places(
         "cone = { from = [0, 0, 0], to = [0, 3, 0], from_radius = 2 }",
-        Form::Cone {
+        CanonicalShape::Cone {
             bottom: 1.0,
             top: 0.0,
             capped: true,
@@ -122,7 +122,7 @@ fn solids_are_where_they_are_put() {
     );
     assert_places(
         "cone = { from = [0, 3, 0], to = [0, 0, 0], from_radius = 0.5, to_radius = 2 }",
-        Form::Cone {
+        CanonicalShape::Cone {
             bottom: 0.25,
             top: 1.0,
             capped: true,
@@ -131,7 +131,7 @@ fn solids_are_where_they_are_put() {
     );
     assert_places(
         "torus = { center = [0, 1, 0], axis = [0, 0, 2], major_radius = 2, minor_radius = 0.5 }",
-        Form::Torus { minor: 0.25 },
+        CanonicalShape::Torus { minor: 0.25 },
         &[([0., 1., 0.], [0., 1., 2.]), ([1., 0., 0.], [2., 1., 0.])],
     );
 }
@@ -149,11 +149,11 @@ fn transforms_work_on_every_form() {
         "cylinder = { from = [0, 0, 0], to = [0, 1, 0], radius = 1 }",
     ];
     for object in objects {
-        let (form, _) = placed(object_or_ellipsoid(object));
+        let (canonical, _) = placed(object_or_ellipsoid(object));
         // x goes to y; y is mirrored, doubled and goes to -x, z grows.
         assert_places(
             &format!("{object}\n{transform}"),
-            form,
+            canonical,
             &[
                 ([1., 0., 0.], [5., 1., 0.]),
                 ([0., 0., 1.], [5., 0., 3.]),
@@ -184,13 +184,13 @@ fn spheres_stay_spheres_while_they_are_round() {
     let round = scene("scale = [-3, 3, 3], rotate_deg = [10, 20, 30]").shapes[0].geometry;
     assert!(matches!(round, Geometry::Sphere { radius, .. } if (radius - 6.0).abs() < 1e-12));
     let Geometry::Placed {
-        form: Form::Ellipsoid,
-        world_from_form,
+        canonical: CanonicalShape::Ellipsoid,
+        world_from_canonical,
     } = scene("scale = [1, 2, 1]").shapes[0].geometry
     else {
         panic!("not an ellipsoid");
     };
-    let top = world_from_form.transform_point3(DVec3::Y);
+    let top = world_from_canonical.transform_point3(DVec3::Y);
     assert!(top.distance(DVec3::new(1.0, 4.0, 0.0)) < 1e-12, "{top}");
 }
 

@@ -4,7 +4,9 @@
 
 use glam::{DAffine3, DVec2, DVec3};
 use glimray::image::Image;
-use glimray::scene::{Attenuation, Background, Form, Geometry, Light, LightKind, Material};
+use glimray::scene::{
+    Attenuation, Background, CanonicalShape, Geometry, Light, LightKind, Material,
+};
 use glimray::scene::{Fresnel, Mixing, Scene};
 use std::ops::AddAssign;
 
@@ -141,7 +143,7 @@ enum Surface {
     Cone {
         bottom: f64,
         slope: f64,
-        form_from_world: DAffine3,
+        canonical_from_world: DAffine3,
     },
     Triangle {
         corners: [DVec3; 3],
@@ -335,10 +337,10 @@ impl Surface {
             Self::Cone {
                 bottom,
                 slope,
-                form_from_world,
+                canonical_from_world,
             } => {
-                let o = form_from_world.transform_point3(ray.origin);
-                let d = form_from_world.transform_vector3(ray.direction);
+                let o = canonical_from_world.transform_point3(ray.origin);
+                let d = canonical_from_world.transform_vector3(ray.direction);
                 let radius = bottom + slope * o.y;
                 let a = d.x * d.x + d.z * d.z - slope * slope * d.y * d.y;
                 let b = o.x * d.x + o.z * d.z - slope * radius * d.y;
@@ -371,11 +373,11 @@ impl Surface {
             Self::Cone {
                 bottom,
                 slope,
-                form_from_world,
+                canonical_from_world,
             } => {
-                let q = form_from_world.transform_point3(p);
+                let q = canonical_from_world.transform_point3(p);
                 let gradient = DVec3::new(q.x, -slope * (bottom + slope * q.y), q.z);
-                let n = (form_from_world.matrix3.transpose() * gradient).normalize();
+                let n = (canonical_from_world.matrix3.transpose() * gradient).normalize();
                 (n, n)
             }
             Self::Triangle {
@@ -403,17 +405,17 @@ fn primitives(scene: &Scene) -> Vec<Primitive> {
         let surface = match shape.geometry {
             Geometry::Sphere { center, radius } => Surface::Sphere { center, radius },
             Geometry::Placed {
-                form:
-                    Form::Cone {
+                canonical:
+                    CanonicalShape::Cone {
                         bottom,
                         top,
                         capped: false,
                     },
-                world_from_form,
+                world_from_canonical,
             } => Surface::Cone {
                 bottom,
                 slope: top - bottom,
-                form_from_world: world_from_form.inverse(),
+                canonical_from_world: world_from_canonical.inverse(),
             },
             _ => panic!("only spheres and open cones are known here"),
         };
@@ -583,12 +585,12 @@ fn the_counter_sees_open_cones_from_both_sides() {
     scene.cameras[0].fov_y = 2.0 * 2.5e-6_f64.atan();
     for (bottom, top) in [(2.0, 1.0), (1.0, 2.0)] {
         scene.shapes[0].geometry = Geometry::Placed {
-            form: Form::Cone {
+            canonical: CanonicalShape::Cone {
                 bottom,
                 top,
                 capped: false,
             },
-            world_from_form: DAffine3::from_scale_rotation_translation(
+            world_from_canonical: DAffine3::from_scale_rotation_translation(
                 DVec3::new(1.0, 2.0, 1.0),
                 glam::DQuat::from_rotation_y(1.0),
                 DVec3::NEG_Y,

@@ -1,7 +1,7 @@
 //! A moving scene at one time: the same with nothing in it that moves or is carried.
 
 use glam::{DAffine3, DVec3};
-use glimray::scene::{Form, Geometry, LightKind, Material, NodeState, Scene, Shape};
+use glimray::scene::{CanonicalShape, Geometry, LightKind, Material, NodeState, Scene, Shape};
 
 /// Where patterns in space are looked up for a point in the world: what carries a thing carries its
 /// patterns along. `None` is the world itself.
@@ -110,20 +110,20 @@ fn moving(scene: &Scene) -> Vec<bool> {
 }
 
 fn carried(geometry: Geometry, world_from_node: DAffine3) -> Geometry {
-    let (form, place) = match geometry {
+    let (canonical, place) = match geometry {
         Geometry::Sphere { center, radius } => (
-            Form::Ellipsoid,
+            CanonicalShape::Ellipsoid,
             DAffine3::from_translation(center) * DAffine3::from_scale(DVec3::splat(radius)),
         ),
         Geometry::Placed {
-            form,
-            world_from_form,
-        } => (form, world_from_form),
+            canonical,
+            world_from_canonical,
+        } => (canonical, world_from_canonical),
         Geometry::Plane { .. } => unreachable!("planes stand still"),
     };
     Geometry::Placed {
-        form,
-        world_from_form: world_from_node * place,
+        canonical,
+        world_from_canonical: world_from_node * place,
     }
 }
 
@@ -131,12 +131,12 @@ fn carried(geometry: Geometry, world_from_node: DAffine3) -> Geometry {
 /// c at distance 1 along the normal is π c / A over the area A, and a sphere counts as its disc.
 fn lamp(kind: LightKind) -> (Geometry, f64) {
     use std::f64::consts::PI;
-    let flat = |form, u: DVec3, normal: DVec3, v: DVec3, center, area: f64| {
+    let flat = |canonical, u: DVec3, normal: DVec3, v: DVec3, center, area: f64| {
         let matrix = glam::DMat3::from_cols(u, normal, v);
-        let world_from_form = DAffine3::from_mat3_translation(matrix, center);
+        let world_from_canonical = DAffine3::from_mat3_translation(matrix, center);
         let geometry = Geometry::Placed {
-            form,
-            world_from_form,
+            canonical,
+            world_from_canonical,
         };
         (geometry, PI / area)
     };
@@ -149,7 +149,7 @@ fn lamp(kind: LightKind) -> (Geometry, f64) {
             let cross = edge_u.cross(edge_v);
             let normal = cross.normalize();
             flat(
-                Form::Rectangle,
+                CanonicalShape::Rectangle,
                 edge_u,
                 normal,
                 edge_v,
@@ -165,7 +165,7 @@ fn lamp(kind: LightKind) -> (Geometry, f64) {
             let u = normal.any_orthonormal_vector() * radius;
             let v = normal.cross(u);
             flat(
-                Form::Disc { hole: 0.0 },
+                CanonicalShape::Disc { hole: 0.0 },
                 u,
                 normal,
                 v,

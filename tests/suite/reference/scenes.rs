@@ -2,8 +2,8 @@
 
 use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3, dvec3, vec3};
 use glimray::scene::{
-    Attenuation, Background, Camera, Form, Fresnel, Geometry, Instance, Light, LightKind, Material,
-    Mesh, Scene, Shape,
+    Attenuation, Background, Camera, CanonicalShape, Fresnel, Geometry, Instance, Light, LightKind,
+    Material, Mesh, Scene, Shape,
 };
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -194,42 +194,42 @@ pub fn mirrors_and_glass() -> Scene {
     scene
 }
 
-/// Every form, turned and scaled unevenly, over a floor.
+/// Every canonical shape, turned and scaled unevenly, over a floor.
 pub fn solids() -> Scene {
     let mut scene = empty();
     scene.add_plane(dvec3(0.0, -0.2, 0.0), DVec3::Y, 0);
-    let cone = |bottom, top, capped| Form::Cone {
+    let cone = |bottom, top, capped| CanonicalShape::Cone {
         bottom,
         top,
         capped,
     };
     let rows = [
-        (Form::Disc { hole: 0.0 }, [0.7, 0.2, 0.3]),
-        (Form::Disc { hole: 0.6 }, [0.8, 1.0, 0.5]),
-        (Form::Rectangle, [0.6, 1.0, 0.3]),
-        (Form::Box, [0.3, 0.5, 0.4]),
-        (Form::Ellipsoid, [0.6, 0.3, 0.4]),
-        (Form::Torus { minor: 0.3 }, [0.5, 0.7, 0.5]),
-        (Form::Torus { minor: 1.0 }, [0.3, 0.3, 0.2]),
+        (CanonicalShape::Disc { hole: 0.0 }, [0.7, 0.2, 0.3]),
+        (CanonicalShape::Disc { hole: 0.6 }, [0.8, 1.0, 0.5]),
+        (CanonicalShape::Rectangle, [0.6, 1.0, 0.3]),
+        (CanonicalShape::Box, [0.3, 0.5, 0.4]),
+        (CanonicalShape::Ellipsoid, [0.6, 0.3, 0.4]),
+        (CanonicalShape::Torus { minor: 0.3 }, [0.5, 0.7, 0.5]),
+        (CanonicalShape::Torus { minor: 1.0 }, [0.3, 0.3, 0.2]),
         (cone(1.0, 1.0, true), [0.4, 0.8, 0.3]),
         (cone(1.0, 1.0, false), [0.4, 0.6, 0.4]),
         (cone(0.5, 0.0, true), [0.9, 0.9, -0.9]),
         (cone(0.2, 0.5, false), [1.0, 0.7, 1.0]),
         (cone(0.5, 0.2, true), [-1.0, 0.8, 1.0]),
     ];
-    for (i, (form, scale)) in rows.into_iter().enumerate() {
+    for (i, (canonical, scale)) in rows.into_iter().enumerate() {
         let (column, row) = ((i % 4) as f64, (i / 4) as f64);
         let hue = i as f64 * 2.4;
         let color = dvec3(hue.sin(), (hue + 2.1).sin(), (hue + 4.2).sin()) * 0.4 + 0.5;
         let material = scene.add_material(shiny(color.as_vec3()));
         let turn = DQuat::from_scaled_axis(dvec3(0.5 + 0.1 * column, 0.7 * column, 0.3 * row));
         let place = dvec3(1.5 * column - 2.2, 1.0 * row + 0.2, 0.6 - 0.8 * row);
-        let world_from_form =
+        let world_from_canonical =
             DAffine3::from_scale_rotation_translation(DVec3::from(scale), turn, place);
         scene.shapes.push(Shape {
             geometry: Geometry::Placed {
-                form,
-                world_from_form,
+                canonical,
+                world_from_canonical,
             },
             material,
             node: None,

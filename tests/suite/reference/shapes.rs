@@ -2,38 +2,38 @@
 //! ray, and differences of them for normals.
 
 use glam::{DAffine3, DVec3};
-use glimray::scene::Form;
+use glimray::scene::CanonicalShape;
 
 /// Steps in which a torus is looked for along a ray.
 const STEPS: usize = 160;
 
-/// All distances at which the ray meets the placed form, in ascending order. Flat forms edge-on are
+/// All distances at which the ray meets the placed shape, in ascending order. Flat shapes edge-on are
 /// missed.
 pub fn crossings(
-    form: Form,
-    world_from_form: DAffine3,
+    canonical: CanonicalShape,
+    world_from_canonical: DAffine3,
     origin: DVec3,
     direction: DVec3,
 ) -> Vec<f64> {
-    let form_from_world = world_from_form.inverse();
-    let o = form_from_world.transform_point3(origin);
-    let d = form_from_world.transform_vector3(direction);
-    form_crossings(form, o, d)
+    let canonical_from_world = world_from_canonical.inverse();
+    let o = canonical_from_world.transform_point3(origin);
+    let d = canonical_from_world.transform_vector3(direction);
+    canonical_crossings(canonical, o, d)
 }
 
-/// The same in the form's own space.
-pub fn form_crossings(form: Form, o: DVec3, d: DVec3) -> Vec<f64> {
+/// The same in the canonical space.
+pub fn canonical_crossings(canonical: CanonicalShape, o: DVec3, d: DVec3) -> Vec<f64> {
     let at = |t: f64| o + t * d;
-    let mut found: Vec<f64> = match form {
-        Form::Disc { hole } => level(o, d, 0.0)
+    let mut found: Vec<f64> = match canonical {
+        CanonicalShape::Disc { hole } => level(o, d, 0.0)
             .into_iter()
             .filter(|&t| (hole..=1.0).contains(&off_axis(at(t))))
             .collect(),
-        Form::Rectangle => level(o, d, 0.0)
+        CanonicalShape::Rectangle => level(o, d, 0.0)
             .into_iter()
             .filter(|&t| at(t).x.abs() <= 1.0 && at(t).z.abs() <= 1.0)
             .collect(),
-        Form::Box => (0..3)
+        CanonicalShape::Box => (0..3)
             .flat_map(|axis| [-1.0, 1.0].map(|side| (axis, side)))
             .map(|(axis, side)| (axis, (side - o[axis]) / d[axis]))
             .filter(|&(axis, t)| {
@@ -41,8 +41,10 @@ pub fn form_crossings(form: Form, o: DVec3, d: DVec3) -> Vec<f64> {
             })
             .map(|(_, t)| t)
             .collect(),
-        Form::Ellipsoid => quadratic(d.length_squared(), o.dot(d), o.length_squared() - 1.0),
-        Form::Cone {
+        CanonicalShape::Ellipsoid => {
+            quadratic(d.length_squared(), o.dot(d), o.length_squared() - 1.0)
+        }
+        CanonicalShape::Cone {
             bottom,
             top,
             capped,
@@ -61,21 +63,21 @@ pub fn form_crossings(form: Form, o: DVec3, d: DVec3) -> Vec<f64> {
             });
             side.chain(ends.filter(|_| capped)).collect()
         }
-        Form::Torus { minor } => torus(minor, o, d),
+        CanonicalShape::Torus { minor } => torus(minor, o, d),
     };
     found.sort_by(f64::total_cmp);
     found
 }
 
-/// The unit normal at a point of the placed form, away from its inside; of flat ones towards +y.
-pub fn normal(form: Form, world_from_form: DAffine3, p: DVec3) -> DVec3 {
-    let local = world_from_form.inverse().transform_point3(p);
-    let turn = world_from_form.matrix3.inverse().transpose();
-    (turn * form_normal(form, local)).normalize()
+/// The unit normal at a point of the placed shape, away from its inside; of flat ones towards +y.
+pub fn normal(canonical: CanonicalShape, world_from_canonical: DAffine3, p: DVec3) -> DVec3 {
+    let local = world_from_canonical.inverse().transform_point3(p);
+    let turn = world_from_canonical.matrix3.inverse().transpose();
+    (turn * canonical_normal(canonical, local)).normalize()
 }
 
-/// The same in the form's own space, not of unit length.
-pub fn form_normal(form: Form, p: DVec3) -> DVec3 {
+/// The same in the canonical space, not of unit length.
+pub fn canonical_normal(canonical: CanonicalShape, p: DVec3) -> DVec3 {
     let nearest_face = || {
         let size = p.abs();
         let axis = (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b]));
@@ -83,11 +85,11 @@ pub fn form_normal(form: Form, p: DVec3) -> DVec3 {
         n[axis.unwrap_or(0)] = p[axis.unwrap_or(0)].signum();
         n
     };
-    match form {
-        Form::Disc { .. } | Form::Rectangle => DVec3::Y,
-        Form::Box => nearest_face(),
-        Form::Ellipsoid => p,
-        Form::Cone {
+    match canonical {
+        CanonicalShape::Disc { .. } | CanonicalShape::Rectangle => DVec3::Y,
+        CanonicalShape::Box => nearest_face(),
+        CanonicalShape::Ellipsoid => p,
+        CanonicalShape::Cone {
             bottom,
             top,
             capped,
@@ -99,7 +101,7 @@ pub fn form_normal(form: Form, p: DVec3) -> DVec3 {
             }
             slope_of(side, p)
         }
-        Form::Torus { minor } => slope_of(|p| tube(minor, p), p),
+        CanonicalShape::Torus { minor } => slope_of(|p| tube(minor, p), p),
     }
 }
 

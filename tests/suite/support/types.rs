@@ -87,15 +87,15 @@ pub struct Space {
     pub inverse: [[f32; 3]; 3],
 }
 
-/// A point on a canonical surface: see `shaders/lib/form.wesl`.
+/// A point on a canonical surface: see `shaders/lib/canonical.wesl`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FormPoint {
+pub struct CanonicalPoint {
     pub p: [f32; 3],
     pub n: [f32; 3],
     pub uv: [f32; 2],
 }
 
-shader_struct!(FormPoint = "package::lib::form::FormPoint" { p: [f32; 3], n: [f32; 3], uv: [f32; 2], });
+shader_struct!(CanonicalPoint = "package::lib::canonical::CanonicalPoint" { p: [f32; 3], n: [f32; 3], uv: [f32; 2], });
 shader_struct!(Moment = "package::lib::motion::Moment" { key: u32, fraction: f32, });
 shader_struct!(Space = "package::lib::motion::Space" {
     translation: [f32; 3],

@@ -12,7 +12,7 @@ pub fn view(
     order: &Order,
 ) -> Result<PackedView, pack::PackError> {
     if order.camera.is_none() && order.background.is_none() {
-        return packed.shot_from(previous, frames);
+        return packed.view_from(previous, frames);
     }
     let mut frames = frames.to_vec();
     for frame in &mut frames {
@@ -23,5 +23,5 @@ pub fn view(
             frame.background = background.clone();
         }
     }
-    packed.shot_from(previous, &frames)
+    packed.view_from(previous, &frames)
 }

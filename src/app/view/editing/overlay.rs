@@ -307,9 +307,9 @@ fn edges(session: &mut Session, scene: &Scene, id: Id, time: f64) -> Vec<[DVec3;
                 Geometry::Plane { .. } => {
                     Some((DVec3::new(-1.0, 0.0, -1.0), DVec3::new(1.0, 0.0, 1.0)))
                 }
-                Geometry::Placed { form, .. } => Geometry::Placed {
-                    form,
-                    world_from_form: DAffine3::IDENTITY,
+                Geometry::Placed { canonical, .. } => Geometry::Placed {
+                    canonical,
+                    world_from_canonical: DAffine3::IDENTITY,
                 }
                 .bounds(),
             };

@@ -1,10 +1,10 @@
 //! The frames of reference of shapes and lights: their own origin, axes and size as one map.
 
-use crate::scene::{Form, Geometry, LightKind};
+use crate::scene::{CanonicalShape, Geometry, LightKind};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 /// What brings the canonical surface into place: a unit sphere, a plane y = 0 that faces +y, or the
-/// [`Form`] itself.
+/// [`CanonicalShape`] itself.
 pub fn of_geometry(geometry: &Geometry) -> DAffine3 {
     match *geometry {
         Geometry::Sphere { center, radius } => {
@@ -15,8 +15,9 @@ pub fn of_geometry(geometry: &Geometry) -> DAffine3 {
             DAffine3::from_mat3_translation(DMat3::from_cols(u, normal, -v), point)
         }
         Geometry::Placed {
-            world_from_form, ..
-        } => world_from_form,
+            world_from_canonical,
+            ..
+        } => world_from_canonical,
     }
 }
 
@@ -32,17 +33,17 @@ pub(super) fn geometry_in(geometry: &Geometry, place: DAffine3) -> Geometry {
                 return Geometry::Sphere { center, radius };
             }
             Geometry::Placed {
-                form: Form::Ellipsoid,
-                world_from_form: place,
+                canonical: CanonicalShape::Ellipsoid,
+                world_from_canonical: place,
             }
         }
         Geometry::Plane { normal, .. } => Geometry::Plane {
             point: place.translation,
             normal: place.matrix3.y_axis.normalize_or(normal),
         },
-        Geometry::Placed { form, .. } => Geometry::Placed {
-            form,
-            world_from_form: place,
+        Geometry::Placed { canonical, .. } => Geometry::Placed {
+            canonical,
+            world_from_canonical: place,
         },
     }
 }

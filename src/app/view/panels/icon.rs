@@ -1,7 +1,7 @@
 //! Small signs for kinds of things, painted, so that no font has to have them; and names of widgets.
 
 use super::super::objects::Id;
-use crate::scene::{Form, Geometry, LightKind, ObjectRef, Scene};
+use crate::scene::{CanonicalShape, Geometry, LightKind, ObjectRef, Scene};
 use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke, vec2};
 use glam::Vec3;
 
@@ -44,20 +44,21 @@ pub fn draw(ui: &egui::Ui, rect: Rect, scene: &Scene, id: Id, visible: bool) {
         Id::Object(ObjectRef::Shape(index)) => match scene.shapes.get(index).map(|s| s.geometry) {
             Some(Geometry::Plane { .. })
             | Some(Geometry::Placed {
-                form: Form::Rectangle | Form::Disc { .. },
+                canonical: CanonicalShape::Rectangle | CanonicalShape::Disc { .. },
                 ..
             }) => polygon(&[(-1.0, 0.5), (-0.3, -0.5), (1.0, -0.5), (0.3, 0.5)]),
             Some(Geometry::Placed {
-                form: Form::Box, ..
+                canonical: CanonicalShape::Box,
+                ..
             }) => {
                 polygon(&[(-0.85, -0.85), (0.85, -0.85), (0.85, 0.85), (-0.85, 0.85)]);
             }
             Some(Geometry::Placed {
-                form: Form::Cone { .. },
+                canonical: CanonicalShape::Cone { .. },
                 ..
             }) => polygon(&[(-0.5, -0.9), (0.5, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
             Some(Geometry::Placed {
-                form: Form::Torus { .. },
+                canonical: CanonicalShape::Torus { .. },
                 ..
             }) => {
                 painter.circle(center, radius, fill, stroke);

@@ -4,7 +4,7 @@ use super::triangles;
 use crate::reference::count;
 use crate::reference::spd::{files, load};
 use glam::{DVec3, Vec3};
-use glimray::scene::{Background, Form, Geometry};
+use glimray::scene::{Background, CanonicalShape, Geometry};
 
 /// Counted line by line, without our reader: SPD begins every entity on a line of its own.
 #[test]
@@ -80,7 +80,7 @@ fn every_entity_of_the_files_is_there() {
             "{name}"
         );
         assert!(scene.shapes.iter().all(|shape| match shape.geometry {
-            Geometry::Placed { form, .. } => matches!(form, Form::Cone { .. }),
+            Geometry::Placed { canonical, .. } => matches!(canonical, CanonicalShape::Cone { .. }),
             _ => true,
         }));
     }

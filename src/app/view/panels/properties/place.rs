@@ -2,7 +2,7 @@
 
 use super::super::super::objects::{self, Id, Scaling};
 use super::fields::{Fields, Limits};
-use crate::scene::{Form, Geometry, ObjectRef, Transform};
+use crate::scene::{CanonicalShape, Geometry, ObjectRef, Transform};
 use glam::DVec3;
 
 /// Place, angles and scale in the world.
@@ -110,8 +110,8 @@ pub fn shape(fields: &mut Fields, object: ObjectRef) {
                 },
             );
         }
-        Geometry::Placed { form, .. } => match form {
-            Form::Disc { hole } => {
+        Geometry::Placed { canonical, .. } => match canonical {
+            CanonicalShape::Disc { hole } => {
                 let tip = "Radius of the hole as a share of the disc's, from 0 to below 1.";
                 form_number(
                     fields,
@@ -120,14 +120,14 @@ pub fn shape(fields: &mut Fields, object: ObjectRef) {
                     tip,
                     hole,
                     Limits::between(0.0, 0.999),
-                    |form, to| {
-                        if let Form::Disc { hole } = form {
+                    |canonical, to| {
+                        if let CanonicalShape::Disc { hole } = canonical {
                             *hole = to;
                         }
                     },
                 );
             }
-            Form::Torus { minor } => {
+            CanonicalShape::Torus { minor } => {
                 let tip = "Radius of the tube as a share of the ring's, above 0 and up to 1.";
                 form_number(
                     fields,
@@ -136,34 +136,42 @@ pub fn shape(fields: &mut Fields, object: ObjectRef) {
                     tip,
                     minor,
                     Limits::between(1e-3, 1.0),
-                    |form, to| {
-                        if let Form::Torus { minor } = form {
+                    |canonical, to| {
+                        if let CanonicalShape::Torus { minor } = canonical {
                             *minor = to;
                         }
                     },
                 );
             }
-            Form::Cone {
+            CanonicalShape::Cone {
                 bottom,
                 top,
                 capped,
             } => {
                 let tip = "Radius at the lower end, as a share of the width; not 0 where the upper one is.";
-                form_number(fields, index, "Bottom", tip, bottom, share, |form, to| {
-                    if let Form::Cone { bottom, top, .. } = form {
-                        *bottom = if *top == 0.0 { to.max(1e-3) } else { to };
-                    }
-                });
+                form_number(
+                    fields,
+                    index,
+                    "Bottom",
+                    tip,
+                    bottom,
+                    share,
+                    |canonical, to| {
+                        if let CanonicalShape::Cone { bottom, top, .. } = canonical {
+                            *bottom = if *top == 0.0 { to.max(1e-3) } else { to };
+                        }
+                    },
+                );
                 let tip = "Radius at the upper end, as a share of the width; not 0 where the lower one is.";
-                form_number(fields, index, "Top", tip, top, share, |form, to| {
-                    if let Form::Cone { bottom, top, .. } = form {
+                form_number(fields, index, "Top", tip, top, share, |canonical, to| {
+                    if let CanonicalShape::Cone { bottom, top, .. } = canonical {
                         *top = if *bottom == 0.0 { to.max(1e-3) } else { to };
                     }
                 });
                 let tip = "Whether discs close its ends.";
                 fields.toggle("Capped", tip, capped, move |scene, to| {
                     if let Geometry::Placed {
-                        form: Form::Cone { capped, .. },
+                        canonical: CanonicalShape::Cone { capped, .. },
                         ..
                     } = &mut scene.shapes[index].geometry
                     {
@@ -171,7 +179,7 @@ pub fn shape(fields: &mut Fields, object: ObjectRef) {
                     }
                 });
             }
-            Form::Rectangle | Form::Box | Form::Ellipsoid => {}
+            CanonicalShape::Rectangle | CanonicalShape::Box | CanonicalShape::Ellipsoid => {}
         },
     }
 }
@@ -183,11 +191,11 @@ fn form_number(
     tip: &str,
     value: f64,
     limits: Limits,
-    set: fn(&mut Form, f64),
+    set: fn(&mut CanonicalShape, f64),
 ) {
     fields.number(label, tip, value, limits, None, move |scene, to| {
-        if let Geometry::Placed { form, .. } = &mut scene.shapes[index].geometry {
-            set(form, to);
+        if let Geometry::Placed { canonical, .. } = &mut scene.shapes[index].geometry {
+            set(canonical, to);
         }
     });
 }

@@ -1,10 +1,10 @@
 //! Level 2: the canonical shapes of `lib/intersect/`, against the f64 ones of `reference/shapes.rs`.
 
-use crate::reference::shapes::{form_crossings, form_normal, tube};
+use crate::reference::shapes::{canonical_crossings, canonical_normal, tube};
 use crate::support::{
     harness::gpu,
     random::Random,
-    types::{Candidate, FormPoint, Ray, ray},
+    types::{Candidate, CanonicalPoint, Ray, ray},
     verdict::{Tolerance, Verdict},
 };
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
@@ -12,14 +12,14 @@ use glimray::layout::{
     PackedShape, SHAPE_BOX, SHAPE_CONE, SHAPE_DISC, SHAPE_ELLIPSOID, SHAPE_RECTANGLE, SHAPE_TORUS,
 };
 use glimray::pack;
-use glimray::scene::{Form, Geometry, Scene, Shape};
+use glimray::scene::{CanonicalShape, Geometry, Scene, Shape};
 use std::f64::consts::{PI, TAU};
 
 /// Half an f32 step at 1.
 const ROUNDING: f64 = 1.0 / (1 << 24) as f64;
 
-const fn cone(bottom: f64, top: f64, capped: bool) -> Form {
-    Form::Cone {
+const fn cone(bottom: f64, top: f64, capped: bool) -> CanonicalShape {
+    CanonicalShape::Cone {
         bottom,
         top,
         capped,
@@ -27,12 +27,12 @@ const fn cone(bottom: f64, top: f64, capped: bool) -> Form {
 }
 
 /// Sizes are exact in f32.
-const FORMS: [Form; 15] = [
-    Form::Disc { hole: 0.0 },
-    Form::Disc { hole: 0.5 },
-    Form::Rectangle,
-    Form::Box,
-    Form::Ellipsoid,
+const CANONICAL_SHAPES: [CanonicalShape; 15] = [
+    CanonicalShape::Disc { hole: 0.0 },
+    CanonicalShape::Disc { hole: 0.5 },
+    CanonicalShape::Rectangle,
+    CanonicalShape::Box,
+    CanonicalShape::Ellipsoid,
     cone(1.0, 1.0, true),
     cone(1.0, 1.0, false),
     cone(1.0, 0.0, true),
@@ -40,15 +40,15 @@ const FORMS: [Form; 15] = [
     cone(0.0, 1.0, true),
     cone(0.25, 1.0, false),
     cone(1.0, 0.5, true),
-    Form::Torus { minor: 0.25 },
-    Form::Torus { minor: 1.0 },
-    Form::Torus { minor: 0.03125 },
+    CanonicalShape::Torus { minor: 0.25 },
+    CanonicalShape::Torus { minor: 1.0 },
+    CanonicalShape::Torus { minor: 0.03125 },
 ];
 
-/// Wraps the shader functions of all forms: `test` and `point`.
-const FORM: &str = "
+/// Wraps the shader functions of all canonical shapes: `test` and `point`.
+const CANONICAL: &str = "
     import package::types::{Candidate, NONE, NO_INSTANCE, PackedShape, Ray, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_TORUS};
-    import package::lib::form::{FormPoint, PlacedPoint, form_ray, form_vector, placed_point};
+    import package::lib::canonical::{CanonicalPoint, PlacedPoint, canonical_ray, canonical_vector, placed_point};
     import package::lib::offset::offset_origin;
     import package::lib::intersect::box::{box_point, intersect_box};
     import package::lib::intersect::cone::{cone_point, intersect_cone};
@@ -64,7 +64,7 @@ const FORM: &str = "
         if (kind == SHAPE_TORUS) { return intersect_torus(ray, sizes.x); }
         return intersect_ellipsoid(ray);
     }
-    fn point(p: vec3f, kind: u32, sizes: vec3f, part: f32) -> FormPoint {
+    fn point(p: vec3f, kind: u32, sizes: vec3f, part: f32) -> CanonicalPoint {
         if (kind == SHAPE_DISC) { return disc_point(p); }
         if (kind == SHAPE_RECTANGLE) { return rectangle_point(p); }
         if (kind == SHAPE_BOX) { return box_point(p, part); }
@@ -77,18 +77,18 @@ const FORM: &str = "
     }
     fn placed(ray: Ray, shape: PackedShape, hit: Candidate) -> PlacedPoint {
         let reached = ray.origin + hit.t * ray.direction;
-        let p = form_vector(shape, reached - shape.position);
+        let p = canonical_vector(shape, reached - shape.position);
         return placed_point(shape, reached, point(p, shape.kind, sizes_of(shape), hit.b1));
     }
 ";
 
-fn kind_and_sizes(form: Form) -> (u32, [f32; 3]) {
-    match form {
-        Form::Disc { hole } => (SHAPE_DISC, [hole as f32, 0.0, 0.0]),
-        Form::Rectangle => (SHAPE_RECTANGLE, [0.0; 3]),
-        Form::Box => (SHAPE_BOX, [0.0; 3]),
-        Form::Ellipsoid => (SHAPE_ELLIPSOID, [0.0; 3]),
-        Form::Cone {
+fn kind_and_sizes(canonical: CanonicalShape) -> (u32, [f32; 3]) {
+    match canonical {
+        CanonicalShape::Disc { hole } => (SHAPE_DISC, [hole as f32, 0.0, 0.0]),
+        CanonicalShape::Rectangle => (SHAPE_RECTANGLE, [0.0; 3]),
+        CanonicalShape::Box => (SHAPE_BOX, [0.0; 3]),
+        CanonicalShape::Ellipsoid => (SHAPE_ELLIPSOID, [0.0; 3]),
+        CanonicalShape::Cone {
             bottom,
             top,
             capped,
@@ -96,34 +96,34 @@ fn kind_and_sizes(form: Form) -> (u32, [f32; 3]) {
             let sizes = [bottom as f32, top as f32, f32::from(u8::from(capped))];
             (SHAPE_CONE, sizes)
         }
-        Form::Torus { minor } => (SHAPE_TORUS, [minor as f32, 0.0, 0.0]),
+        CanonicalShape::Torus { minor } => (SHAPE_TORUS, [minor as f32, 0.0, 0.0]),
     }
 }
 
-fn hits(form: Form, rays: &[Ray]) -> Vec<Candidate> {
-    let (kind, sizes) = kind_and_sizes(form);
+fn hits(canonical: CanonicalShape, rays: &[Ray]) -> Vec<Candidate> {
+    let (kind, sizes) = kind_and_sizes(canonical);
     let inputs: Vec<_> = rays.iter().map(|&ray| (ray, kind, sizes)).collect();
     let source = format!(
-        "{FORM} fn probe(ray: Ray, kind: u32, sizes: vec3f) -> Candidate {{ return test(ray, kind, sizes); }}"
+        "{CANONICAL} fn probe(ray: Ray, kind: u32, sizes: vec3f) -> Candidate {{ return test(ray, kind, sizes); }}"
     );
     gpu().map_source(&source, &inputs)
 }
 
 /// A point of the surface.
-fn on_surface(form: Form, random: &mut Random) -> DVec3 {
+fn on_surface(canonical: CanonicalShape, random: &mut Random) -> DVec3 {
     let angle = random.between(0.0, TAU);
     let turned = |r: f64, y: f64| DVec3::new(r * angle.sin(), y, r * angle.cos());
-    match form {
-        Form::Disc { hole } => turned(random.between(hole, 1.0), 0.0),
-        Form::Rectangle => random.in_cube() * DVec3::new(1.0, 0.0, 1.0),
-        Form::Box => {
+    match canonical {
+        CanonicalShape::Disc { hole } => turned(random.between(hole, 1.0), 0.0),
+        CanonicalShape::Rectangle => random.in_cube() * DVec3::new(1.0, 0.0, 1.0),
+        CanonicalShape::Box => {
             let mut p = random.in_cube();
             let axis = random.below(3);
             p[axis] = p[axis].signum();
             p
         }
-        Form::Ellipsoid => random.direction(),
-        Form::Cone {
+        CanonicalShape::Ellipsoid => random.direction(),
+        CanonicalShape::Cone {
             bottom,
             top,
             capped,
@@ -136,7 +136,7 @@ fn on_surface(form: Form, random: &mut Random) -> DVec3 {
                 turned(bottom + (top - bottom) * y, y)
             }
         },
-        Form::Torus { minor } => {
+        CanonicalShape::Torus { minor } => {
             let (sin, cos) = random.between(0.0, TAU).sin_cos();
             turned(1.0 + minor * cos, minor * sin)
         }
@@ -144,20 +144,20 @@ fn on_surface(form: Form, random: &mut Random) -> DVec3 {
 }
 
 /// How far a point is from the surface.
-fn off_surface(form: Form, p: DVec3) -> f64 {
+fn off_surface(canonical: CanonicalShape, p: DVec3) -> f64 {
     let off_axis = p.x.hypot(p.z);
     let beyond = |x: f64, most: f64| (x - most).max(0.0);
-    match form {
-        Form::Disc { hole } => {
+    match canonical {
+        CanonicalShape::Disc { hole } => {
             p.y.abs()
                 .max(beyond(off_axis, 1.0))
                 .max(beyond(hole, off_axis))
         }
-        Form::Rectangle => p.y.abs().max(beyond(p.abs().max_element(), 1.0)),
-        Form::Box => (p.abs().max_element() - 1.0).abs(),
-        Form::Ellipsoid => (p.length() - 1.0).abs(),
-        Form::Torus { minor } => tube(minor, p).abs(),
-        Form::Cone {
+        CanonicalShape::Rectangle => p.y.abs().max(beyond(p.abs().max_element(), 1.0)),
+        CanonicalShape::Box => (p.abs().max_element() - 1.0).abs(),
+        CanonicalShape::Ellipsoid => (p.length() - 1.0).abs(),
+        CanonicalShape::Torus { minor } => tube(minor, p).abs(),
+        CanonicalShape::Cone {
             bottom,
             top,
             capped,
@@ -184,15 +184,15 @@ fn double(v: [f32; 3]) -> DVec3 {
     DVec3::from(v.map(f64::from))
 }
 
-/// Rays of all kinds at a form: from far and near, from inside, along axes, through edges, grazing.
+/// Rays of all kinds at a shape: from far and near, from inside, along axes, through edges, grazing.
 /// Directions have any length.
-fn rays_at(form: Form, count: usize, random: &mut Random) -> Vec<Ray> {
-    let middle = if matches!(form, Form::Cone { .. }) {
+fn rays_at(canonical: CanonicalShape, count: usize, random: &mut Random) -> Vec<Ray> {
+    let middle = if matches!(canonical, CanonicalShape::Cone { .. }) {
         DVec3::new(0.0, 0.5, 0.0)
     } else {
         DVec3::ZERO
     };
-    let reach = if let Form::Torus { minor } = form {
+    let reach = if let CanonicalShape::Torus { minor } = canonical {
         1.0 + minor
     } else {
         1.0
@@ -202,7 +202,7 @@ fn rays_at(form: Form, count: usize, random: &mut Random) -> Vec<Ray> {
     while rays.len() < count {
         let target = match random.below(3) {
             0 => within(random),
-            _ => on_surface(form, random),
+            _ => on_surface(canonical, random),
         };
         let from = middle + random.direction() * 10f64.powf(random.between(0.3, 3.0));
         let mut axis = DVec3::ZERO;
@@ -213,7 +213,7 @@ fn rays_at(form: Form, count: usize, random: &mut Random) -> Vec<Ray> {
             2 => (target + 3.0 * axis, -axis),
             3 => {
                 // A hair, or more, beside a tangent.
-                let n = form_normal(form, target).normalize_or(DVec3::Y);
+                let n = canonical_normal(canonical, target).normalize_or(DVec3::Y);
                 let aside = n.cross(random.direction()).normalize();
                 let lift =
                     n * 10f64.powf(random.between(-6.0, -1.0)) * [-1.0, 1.0][random.below(2)];
@@ -232,9 +232,9 @@ fn rays_at(form: Form, count: usize, random: &mut Random) -> Vec<Ray> {
     rays
 }
 
-/// Distances, in the form's lengths, of what is met first by the ray and by others that are off by
+/// Distances, in canonical space, of what is met first by the ray and by others that are off by
 /// `tolerance` beside it; `None` for a miss.
-fn answers(form: Form, ray: &Ray, tolerance: f64, around: bool) -> Vec<Option<f64>> {
+fn answers(canonical: CanonicalShape, ray: &Ray, tolerance: f64, around: bool) -> Vec<Option<f64>> {
     let (o, d) = (double(ray.origin), double(ray.direction));
     let length = d.length();
     let d = d / length;
@@ -249,17 +249,17 @@ fn answers(form: Form, ray: &Ray, tolerance: f64, around: bool) -> Vec<Option<f6
         offsets.extend([d, -d]);
     }
     let first = |offset: DVec3| {
-        let crossings = form_crossings(form, o + tolerance * offset, d);
+        let crossings = canonical_crossings(canonical, o + tolerance * offset, d);
         crossings.into_iter().find(|&t| t > 0.0)
     };
     offsets.into_iter().map(first).collect()
 }
 
-fn check_hits(form: Form) {
-    let rays = rays_at(form, 6000, &mut Random::new(11));
-    let mut verdict = Verdict::on(format!("{form:?}"));
+fn check_hits(canonical: CanonicalShape) {
+    let rays = rays_at(canonical, 6000, &mut Random::new(11));
+    let mut verdict = Verdict::on(format!("{canonical:?}"));
     let mut hit_count = 0;
-    for (i, (ray, got)) in rays.iter().zip(hits(form, &rays)).enumerate() {
+    for (i, (ray, got)) in rays.iter().zip(hits(canonical, &rays)).enumerate() {
         let (o, d) = (double(ray.origin), double(ray.direction));
         let tolerance = 12.0 * ROUNDING * (2.0 + o.length());
         let s = f64::from(got.t) * d.length();
@@ -275,18 +275,20 @@ fn check_hits(form: Form) {
                 tangent
             }
         };
-        let plain = answers(form, ray, tolerance, false);
-        let fine = fits(&plain) || fits(&answers(form, ray, tolerance, true));
+        let plain = answers(canonical, ray, tolerance, false);
+        let fine = fits(&plain) || fits(&answers(canonical, ray, tolerance, true));
         hit_count += usize::from(got.hit);
         verdict.that(format!("ray {i}"), fine, || {
             format!("{ray:?}\n    {got:?} at {s}, expected {plain:?} within {tolerance}")
         });
         if got.hit {
             let p = o + f64::from(got.t) * d;
-            let off = off_surface(form, p);
+            let off = off_surface(canonical, p);
             // f32 cannot tell a line along a cone's side from one beside its tip.
-            let tip = match form {
-                Form::Cone { bottom, top, .. } if bottom.min(top) == 0.0 => p.x.hypot(p.z) < 0.01,
+            let tip = match canonical {
+                CanonicalShape::Cone { bottom, top, .. } if bottom.min(top) == 0.0 => {
+                    p.x.hypot(p.z) < 0.01
+                }
                 _ => false,
             };
             let most = if tip { 1e-3 } else { 2.0 * tolerance };
@@ -301,183 +303,191 @@ fn check_hits(form: Form) {
 
 #[test]
 fn discs_and_rectangles_are_hit_where_f64_says() {
-    FORMS[..3].iter().for_each(|&form| check_hits(form));
+    CANONICAL_SHAPES[..3]
+        .iter()
+        .for_each(|&canonical| check_hits(canonical));
 }
 
 #[test]
 fn boxes_and_ellipsoids_are_hit_where_f64_says() {
-    FORMS[3..5].iter().for_each(|&form| check_hits(form));
+    CANONICAL_SHAPES[3..5]
+        .iter()
+        .for_each(|&canonical| check_hits(canonical));
 }
 
 #[test]
 fn cylinders_cones_and_frusta_are_hit_where_f64_says() {
-    FORMS[5..12].iter().for_each(|&form| check_hits(form));
+    CANONICAL_SHAPES[5..12]
+        .iter()
+        .for_each(|&canonical| check_hits(canonical));
 }
 
 #[test]
 fn tori_are_hit_where_f64_says() {
-    FORMS[12..].iter().for_each(|&form| check_hits(form));
+    CANONICAL_SHAPES[12..]
+        .iter()
+        .for_each(|&canonical| check_hits(canonical));
 }
 
 #[test]
-fn forms_are_hit_at_distances_known_in_closed_form() {
+fn shapes_are_hit_at_distances_known_in_closed_form() {
     let half = 0.5f64.sqrt();
     let o = [0f32, 0.0, 0.0];
-    let rows: [(&str, Form, Ray, Option<f64>); 25] = [
+    let rows: [(&str, CanonicalShape, Ray, Option<f64>); 25] = [
         (
             "a disc from above",
-            FORMS[0],
+            CANONICAL_SHAPES[0],
             ray([0.5, 3.0, 0.0], [0.0, -1.0, 0.0]),
             Some(3.0),
         ),
         (
             "a disc beside its edge",
-            FORMS[0],
+            CANONICAL_SHAPES[0],
             ray([0.8, 3.0, 0.8], [0.0, -1.0, 0.0]),
             None,
         ),
         (
             "a disc edge-on",
-            FORMS[0],
+            CANONICAL_SHAPES[0],
             ray([-3.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
             None,
         ),
         (
             "a ring through its hole",
-            FORMS[1],
+            CANONICAL_SHAPES[1],
             ray([0.3, 3.0, 0.3], [0.0, -1.0, 0.0]),
             None,
         ),
         (
             "a ring from below",
-            FORMS[1],
+            CANONICAL_SHAPES[1],
             ray([0.0, -2.0, 0.6], [0.0, 2.0, 0.0]),
             Some(1.0),
         ),
         (
             "a corner of a rectangle",
-            FORMS[2],
+            CANONICAL_SHAPES[2],
             ray([1.0, 1.0, 1.0], [0.0, -1.0, 0.0]),
             Some(1.0),
         ),
         (
             "a box head on",
-            FORMS[3],
+            CANONICAL_SHAPES[3],
             ray([0.0, 0.0, 4.0], [0.0, 0.0, -1.0]),
             Some(3.0),
         ),
         (
             "a box from its middle",
-            FORMS[3],
+            CANONICAL_SHAPES[3],
             ray(o, [0.0, 0.5, 0.0]),
             Some(2.0),
         ),
         (
             "a box behind",
-            FORMS[3],
+            CANONICAL_SHAPES[3],
             ray([0.0, 0.0, 4.0], [0.0, 0.0, 1.0]),
             None,
         ),
         (
             "a box from 10^18 away",
-            FORMS[3],
+            CANONICAL_SHAPES[3],
             ray([0.0, 0.0, 1e18], [0.0, 0.0, -1.0]),
             Some(1e18),
         ),
         (
             "the unit sphere from a million away",
-            FORMS[4],
+            CANONICAL_SHAPES[4],
             ray([0.0, 0.0, 1e6], [0.0, 0.0, -1.0]),
             Some(999_999.0),
         ),
         (
             "the unit sphere from its middle",
-            FORMS[4],
+            CANONICAL_SHAPES[4],
             ray(o, [0.0, 0.0, -1.0]),
             Some(1.0),
         ),
         (
             "a cylinder through both ends",
-            FORMS[5],
+            CANONICAL_SHAPES[5],
             ray([0.5, 3.0, 0.0], [0.0, -1.0, 0.0]),
             Some(2.0),
         ),
         (
             "an open one lets it through",
-            FORMS[6],
+            CANONICAL_SHAPES[6],
             ray([0.5, 3.0, 0.0], [0.0, -1.0, 0.0]),
             None,
         ),
         (
             "an open one from within",
-            FORMS[6],
+            CANONICAL_SHAPES[6],
             ray([0.0, 0.5, 0.0], [0.0, 0.0, 1.0]),
             Some(1.0),
         ),
         (
             "an open one from above, on its inside",
-            FORMS[6],
+            CANONICAL_SHAPES[6],
             ray([0.0, 1.5, 0.0], [1.0, -1.0, 0.0]),
             Some(1.0),
         ),
         (
             "a cone at half its height",
-            FORMS[7],
+            CANONICAL_SHAPES[7],
             ray([3.0, 0.5, 0.0], [-1.0, 0.0, 0.0]),
             Some(2.5),
         ),
         (
             "a cone on its tip",
-            FORMS[7],
+            CANONICAL_SHAPES[7],
             ray([0.0, 3.0, 0.0], [0.0, -1.0, 0.0]),
             Some(2.0),
         ),
         (
             "a cone parallel to its side",
-            FORMS[7],
+            CANONICAL_SHAPES[7],
             ray([1.5, -1.0, 0.0], [-1.0, 1.0, 0.0]),
             Some(1.0),
         ),
         (
             "an open one parallel to its side",
-            FORMS[8],
+            CANONICAL_SHAPES[8],
             ray([1.5, -1.0, 0.0], [-1.0, 1.0, 0.0]),
             Some(1.75),
         ),
         (
             "the other half of the double cone is not there",
-            FORMS[7],
+            CANONICAL_SHAPES[7],
             ray([3.0, 1.5, 0.0], [-1.0, 0.0, 0.0]),
             None,
         ),
         (
             "a torus from outside",
-            FORMS[12],
+            CANONICAL_SHAPES[12],
             ray([3.0, 0.0, 0.0], [-1.0, 0.0, 0.0]),
             Some(1.75),
         ),
         (
             "a torus from the middle of its hole",
-            FORMS[12],
+            CANONICAL_SHAPES[12],
             ray(o, [0.0, 0.0, 1.0]),
             Some(0.75),
         ),
         (
             "a torus along its axis",
-            FORMS[12],
+            CANONICAL_SHAPES[12],
             ray([0.0, 3.0, 0.0], [0.0, -1.0, 0.0]),
             None,
         ),
         (
             "a torus from within its tube",
-            FORMS[12],
+            CANONICAL_SHAPES[12],
             ray([1.0, 0.0, 0.0], [half as f32, half as f32, 0.0]),
             Some(0.25 / (half as f32 as f64 * 2f64.sqrt())),
         ),
     ];
-    let mut verdict = Verdict::on("forms");
-    for (name, form, ray, expected) in rows {
-        let got = hits(form, &[ray]);
+    let mut verdict = Verdict::on("canonical shapes");
+    for (name, canonical, ray, expected) in rows {
+        let got = hits(canonical, &[ray]);
         verdict.near(name, &got[0], &expected, Tolerance::Ulps(4.0));
     }
     verdict.close();
@@ -485,10 +495,10 @@ fn forms_are_hit_at_distances_known_in_closed_form() {
 
 #[test]
 fn surfaces_have_the_normal_of_their_slope_and_u_and_v_from_0_to_1() {
-    for form in FORMS {
-        let (kind, sizes) = kind_and_sizes(form);
-        let rays = rays_at(form, 3000, &mut Random::new(12));
-        let found = hits(form, &rays);
+    for canonical in CANONICAL_SHAPES {
+        let (kind, sizes) = kind_and_sizes(canonical);
+        let rays = rays_at(canonical, 3000, &mut Random::new(12));
+        let found = hits(canonical, &rays);
         let hit = rays.iter().zip(&found).filter(|(_, got)| got.hit);
         let at = |(ray, got): (&Ray, &Candidate)| {
             let p = double(ray.origin) + f64::from(got.t) * double(ray.direction);
@@ -496,27 +506,34 @@ fn surfaces_have_the_normal_of_their_slope_and_u_and_v_from_0_to_1() {
         };
         let inputs: Vec<_> = hit.map(at).collect();
         let source = format!(
-            "{FORM} fn probe(p: vec3f, kind: u32, sizes: vec3f, part: f32) -> FormPoint {{ return point(p, kind, sizes, part); }}"
+            "{CANONICAL} fn probe(p: vec3f, kind: u32, sizes: vec3f, part: f32) -> CanonicalPoint {{ return point(p, kind, sizes, part); }}"
         );
-        let points: Vec<FormPoint> = gpu().map_source(&source, &inputs);
-        let mut verdict = Verdict::on(format!("{form:?}"));
+        let points: Vec<CanonicalPoint> = gpu().map_source(&source, &inputs);
+        let mut verdict = Verdict::on(format!("{canonical:?}"));
         for ((reached, _, _, part), got) in inputs.iter().zip(&points) {
             let (p, n, reached) = (double(got.p), double(got.n), double(*reached));
             let show = || format!("{got:?}, reached {reached}, part {part}");
             let in_unit = got.uv.iter().all(|x| (0.0..=1.0).contains(x));
             verdict.that("u and v are in 0..=1", in_unit, show);
             // Discs and rectangles keep what was reached beside their edges.
-            let most = if matches!(form, Form::Disc { .. } | Form::Rectangle | Form::Box) {
+            let most = if matches!(
+                canonical,
+                CanonicalShape::Disc { .. } | CanonicalShape::Rectangle | CanonicalShape::Box
+            ) {
                 1e-3
             } else {
                 4.0 * ROUNDING
             };
-            verdict.that("it lies on the surface", off_surface(form, p) <= most, show);
+            verdict.that(
+                "it lies on the surface",
+                off_surface(canonical, p) <= most,
+                show,
+            );
             verdict.that("it is near", p.distance(reached) < 2e-3, show);
-            let n_ref = form_normal(form, p).normalize();
+            let n_ref = canonical_normal(canonical, p).normalize();
             // Beside a rim or a tip the reference may be on the other part.
-            let rim = match form {
-                Form::Cone { bottom, top, .. } => {
+            let rim = match canonical {
+                CanonicalShape::Cone { bottom, top, .. } => {
                     let off_axis = p.x.hypot(p.z);
                     p.y.min(1.0 - p.y).abs() < 2e-5
                         && [(0.0, bottom), (1.0, top)]
@@ -524,11 +541,11 @@ fn surfaces_have_the_normal_of_their_slope_and_u_and_v_from_0_to_1() {
                             .any(|&(y, r)| (p.y - y).abs() < 0.5 && (off_axis - r).abs() < 2e-5)
                         || off_axis < 1e-4
                 }
-                Form::Box => {
+                CanonicalShape::Box => {
                     let size = p.abs();
                     size.to_array().iter().filter(|&&x| x > 1.0 - 2e-3).count() > 1
                 }
-                Form::Torus { minor } => minor == 1.0 && p.length() < 1e-2,
+                CanonicalShape::Torus { minor } => minor == 1.0 && p.length() < 1e-2,
                 _ => false,
             };
             verdict.that(
@@ -541,14 +558,14 @@ fn surfaces_have_the_normal_of_their_slope_and_u_and_v_from_0_to_1() {
     }
 }
 
-/// u and v of points of a form in the part of this number.
-fn uvs(form: Form, points: &[(DVec3, f32)]) -> Vec<[f32; 2]> {
-    let (kind, sizes) = kind_and_sizes(form);
+/// u and v of points of a canonical shape in the part of this number.
+fn uvs(canonical: CanonicalShape, points: &[(DVec3, f32)]) -> Vec<[f32; 2]> {
+    let (kind, sizes) = kind_and_sizes(canonical);
     let inputs: Vec<_> = (points.iter())
         .map(|&(p, part)| (single(p), kind, sizes, part))
         .collect();
     let source = format!(
-        "{FORM} fn probe(p: vec3f, kind: u32, sizes: vec3f, part: f32) -> vec2f {{ return point(p, kind, sizes, part).uv; }}"
+        "{CANONICAL} fn probe(p: vec3f, kind: u32, sizes: vec3f, part: f32) -> vec2f {{ return point(p, kind, sizes, part).uv; }}"
     );
     gpu().map_source(&source, &inputs)
 }
@@ -558,37 +575,37 @@ fn u_and_v_are_where_the_docs_say() {
     let at = DVec3::new;
     let half = 0.5f64.sqrt();
     #[rustfmt::skip]
-    let rows: [(&str, Form, DVec3, f32, [f64; 2]); 26] = [
-        ("a disc's right edge", FORMS[0], at(1.0, 0.0, 0.0), 0.0, [1.0, 0.5]),
-        ("a disc's far edge", FORMS[0], at(0.0, 0.0, -1.0), 0.0, [0.5, 1.0]),
-        ("a rectangle's near left corner", FORMS[2], at(-1.0, 0.0, 1.0), 0.0, [0.0, 0.0]),
-        ("a rectangle's far right corner", FORMS[2], at(1.0, 0.0, -1.0), 0.0, [1.0, 1.0]),
-        ("a box's front, upper right", FORMS[3], at(1.0, 1.0, 1.0), 5.0, [1.0, 1.0]),
-        ("a box's back, seen from there: upper left", FORMS[3], at(1.0, 1.0, -1.0), 2.0, [0.0, 1.0]),
-        ("a box's right side: upper left", FORMS[3], at(1.0, 1.0, 1.0), 3.0, [0.0, 1.0]),
-        ("a box's left side: upper right", FORMS[3], at(-1.0, 1.0, 1.0), 0.0, [1.0, 1.0]),
-        ("a box's top: near right", FORMS[3], at(1.0, 1.0, 1.0), 4.0, [1.0, 0.0]),
-        ("a box's bottom: near right", FORMS[3], at(1.0, -1.0, 1.0), 1.0, [1.0, 1.0]),
-        ("the sphere's front", FORMS[4], at(0.0, 0.0, 1.0), 0.0, [0.5, 0.5]),
-        ("the sphere's right", FORMS[4], at(1.0, 0.0, 0.0), 0.0, [0.75, 0.5]),
-        ("the sphere's left", FORMS[4], at(-1.0, 0.0, 0.0), 0.0, [0.25, 0.5]),
-        ("the sphere's north pole", FORMS[4], at(0.0, 1.0, 0.0), 0.0, [0.5, 1.0]),
-        ("the sphere's south pole", FORMS[4], at(0.0, -1.0, 0.0), 0.0, [0.5, 0.0]),
-        ("the sphere at 45° north", FORMS[4], at(half, half, 0.0), 0.0, [0.75, 0.75]),
-        ("just east of the seam", FORMS[4], at(-1e-4, 0.0, -1.0), 0.0, [1e-4 / TAU, 0.5]),
-        ("a cylinder's front, half way up", FORMS[5], at(0.0, 0.5, 1.0), 0.0, [0.5, 0.5]),
-        ("a cylinder's right, at the top", FORMS[5], at(1.0, 1.0, 0.0), 0.0, [0.75, 1.0]),
-        ("its top end: far edge", FORMS[5], at(0.0, 1.0, -1.0), 2.0, [0.5, 1.0]),
-        ("its bottom end: far edge", FORMS[5], at(0.0, 0.0, -1.0), 1.0, [0.5, 0.0]),
-        ("a frustum's smaller end: right edge", FORMS[11], at(0.5, 1.0, 0.0), 2.0, [1.0, 0.5]),
-        ("a torus' outer equator in front", FORMS[12], at(0.0, 0.0, 1.25), 0.0, [0.5, 0.5]),
-        ("a torus' top on the right", FORMS[12], at(1.0, 0.25, 0.0), 0.0, [0.75, 0.75]),
-        ("a torus' underside", FORMS[12], at(1.0, -0.25, 0.0), 0.0, [0.75, 0.25]),
-        ("just above its inner equator", FORMS[12], at(0.75, 1e-5, 0.0), 0.0, [0.75, 1.0]),
+    let rows: [(&str, CanonicalShape, DVec3, f32, [f64; 2]); 26] = [
+        ("a disc's right edge", CANONICAL_SHAPES[0], at(1.0, 0.0, 0.0), 0.0, [1.0, 0.5]),
+        ("a disc's far edge", CANONICAL_SHAPES[0], at(0.0, 0.0, -1.0), 0.0, [0.5, 1.0]),
+        ("a rectangle's near left corner", CANONICAL_SHAPES[2], at(-1.0, 0.0, 1.0), 0.0, [0.0, 0.0]),
+        ("a rectangle's far right corner", CANONICAL_SHAPES[2], at(1.0, 0.0, -1.0), 0.0, [1.0, 1.0]),
+        ("a box's front, upper right", CANONICAL_SHAPES[3], at(1.0, 1.0, 1.0), 5.0, [1.0, 1.0]),
+        ("a box's back, seen from there: upper left", CANONICAL_SHAPES[3], at(1.0, 1.0, -1.0), 2.0, [0.0, 1.0]),
+        ("a box's right side: upper left", CANONICAL_SHAPES[3], at(1.0, 1.0, 1.0), 3.0, [0.0, 1.0]),
+        ("a box's left side: upper right", CANONICAL_SHAPES[3], at(-1.0, 1.0, 1.0), 0.0, [1.0, 1.0]),
+        ("a box's top: near right", CANONICAL_SHAPES[3], at(1.0, 1.0, 1.0), 4.0, [1.0, 0.0]),
+        ("a box's bottom: near right", CANONICAL_SHAPES[3], at(1.0, -1.0, 1.0), 1.0, [1.0, 1.0]),
+        ("the sphere's front", CANONICAL_SHAPES[4], at(0.0, 0.0, 1.0), 0.0, [0.5, 0.5]),
+        ("the sphere's right", CANONICAL_SHAPES[4], at(1.0, 0.0, 0.0), 0.0, [0.75, 0.5]),
+        ("the sphere's left", CANONICAL_SHAPES[4], at(-1.0, 0.0, 0.0), 0.0, [0.25, 0.5]),
+        ("the sphere's north pole", CANONICAL_SHAPES[4], at(0.0, 1.0, 0.0), 0.0, [0.5, 1.0]),
+        ("the sphere's south pole", CANONICAL_SHAPES[4], at(0.0, -1.0, 0.0), 0.0, [0.5, 0.0]),
+        ("the sphere at 45° north", CANONICAL_SHAPES[4], at(half, half, 0.0), 0.0, [0.75, 0.75]),
+        ("just east of the seam", CANONICAL_SHAPES[4], at(-1e-4, 0.0, -1.0), 0.0, [1e-4 / TAU, 0.5]),
+        ("a cylinder's front, half way up", CANONICAL_SHAPES[5], at(0.0, 0.5, 1.0), 0.0, [0.5, 0.5]),
+        ("a cylinder's right, at the top", CANONICAL_SHAPES[5], at(1.0, 1.0, 0.0), 0.0, [0.75, 1.0]),
+        ("its top end: far edge", CANONICAL_SHAPES[5], at(0.0, 1.0, -1.0), 2.0, [0.5, 1.0]),
+        ("its bottom end: far edge", CANONICAL_SHAPES[5], at(0.0, 0.0, -1.0), 1.0, [0.5, 0.0]),
+        ("a frustum's smaller end: right edge", CANONICAL_SHAPES[11], at(0.5, 1.0, 0.0), 2.0, [1.0, 0.5]),
+        ("a torus' outer equator in front", CANONICAL_SHAPES[12], at(0.0, 0.0, 1.25), 0.0, [0.5, 0.5]),
+        ("a torus' top on the right", CANONICAL_SHAPES[12], at(1.0, 0.25, 0.0), 0.0, [0.75, 0.75]),
+        ("a torus' underside", CANONICAL_SHAPES[12], at(1.0, -0.25, 0.0), 0.0, [0.75, 0.25]),
+        ("just above its inner equator", CANONICAL_SHAPES[12], at(0.75, 1e-5, 0.0), 0.0, [0.75, 1.0]),
     ];
     let mut verdict = Verdict::on("u and v");
-    for (name, form, p, part, expected) in rows {
-        let got = uvs(form, &[(p, part)]);
+    for (name, canonical, p, part, expected) in rows {
+        let got = uvs(canonical, &[(p, part)]);
         verdict.near(name, &got[0], &expected, Tolerance::Absolute(1e-5));
     }
     verdict.close();
@@ -596,34 +613,34 @@ fn u_and_v_are_where_the_docs_say() {
 
 #[test]
 fn u_and_v_have_no_jumps_but_at_seams() {
-    for form in FORMS {
+    for canonical in CANONICAL_SHAPES {
         let mut random = Random::new(13);
         let mut points = Vec::new();
         let mut gaps = Vec::new();
         for _ in 0..1000 {
-            let p = on_surface(form, &mut random);
+            let p = on_surface(canonical, &mut random);
             let q = p + 1e-3 * random.direction();
-            let n = form_normal(form, p);
-            let part = match form {
-                Form::Box => {
+            let n = canonical_normal(canonical, p);
+            let part = match canonical {
+                CanonicalShape::Box => {
                     let axis = n.abs().max_position() as f32;
                     axis + if n.max_element() > 0.5 { 3.0 } else { 0.0 }
                 }
-                Form::Cone { capped: true, .. } if n.y < -0.999 => 1.0,
-                Form::Cone { capped: true, .. } if n.y > 0.999 => 2.0,
+                CanonicalShape::Cone { capped: true, .. } if n.y < -0.999 => 1.0,
+                CanonicalShape::Cone { capped: true, .. } if n.y > 0.999 => 2.0,
                 _ => 0.0,
             };
             points.extend([(p, part), (q, part)]);
             gaps.push((p, p.x.hypot(p.z)));
         }
-        let mut verdict = Verdict::on(format!("{form:?}"));
-        for (pair, (p, off_axis)) in uvs(form, &points).chunks(2).zip(gaps) {
+        let mut verdict = Verdict::on(format!("{canonical:?}"));
+        for (pair, (p, off_axis)) in uvs(canonical, &points).chunks(2).zip(gaps) {
             let [a, b] = [pair[0], pair[1]].map(|uv| DVec2::from(uv.map(f64::from)));
             // Once round is back where it began.
             let way = (a - b).abs();
             let way = way.min(DVec2::ONE - way);
-            let tube = match form {
-                Form::Torus { minor } => minor,
+            let tube = match canonical {
+                CanonicalShape::Torus { minor } => minor,
                 _ => 1.0,
             };
             let most = 1e-3 * (0.6 + 0.2 / off_axis.max(1e-6) + 0.2 / tube);
@@ -635,10 +652,10 @@ fn u_and_v_have_no_jumps_but_at_seams() {
 }
 
 /// A shape as the renderer packs it, seen from the origin.
-fn packed(form: Form, world_from_form: DAffine3) -> PackedShape {
+fn packed(canonical: CanonicalShape, world_from_canonical: DAffine3) -> PackedShape {
     let geometry = Geometry::Placed {
-        form,
-        world_from_form,
+        canonical,
+        world_from_canonical,
     };
     let scene = Scene {
         cameras: vec![Default::default()],
@@ -653,7 +670,7 @@ fn packed(form: Form, world_from_form: DAffine3) -> PackedShape {
     pack::scene(&scene).expect("a scene").shapes[0]
 }
 
-/// A form somewhere, of any size, turned, scaled unevenly and perhaps mirrored.
+/// A canonical shape somewhere, of any size, turned, scaled unevenly and perhaps mirrored.
 fn placement(random: &mut Random) -> DAffine3 {
     let size = 10f64.powf(random.between(-6.0, 6.0));
     let mut scale = DVec3::splat(size);
@@ -665,49 +682,49 @@ fn placement(random: &mut Random) -> DAffine3 {
     DAffine3::from_scale_rotation_translation(scale, turn, place)
 }
 
-/// Whether an outward ray from here can only get away: true of convex forms and of the outer half of
+/// Whether an outward ray from here can only get away: true of convex shapes and of the outer half of
 /// a torus.
-fn is_convex_at(form: Form, p: DVec3) -> bool {
-    match form {
-        Form::Torus { .. } => p.x.hypot(p.z) > 1.0,
-        Form::Cone { capped, .. } => capped,
-        Form::Disc { .. } | Form::Rectangle => false,
+fn is_convex_at(canonical: CanonicalShape, p: DVec3) -> bool {
+    match canonical {
+        CanonicalShape::Torus { .. } => p.x.hypot(p.z) > 1.0,
+        CanonicalShape::Cone { capped, .. } => capped,
+        CanonicalShape::Disc { .. } | CanonicalShape::Rectangle => false,
         _ => true,
     }
 }
 
 #[test]
-fn a_ray_that_leaves_a_form_does_not_hit_it_again_at_any_scale() {
+fn a_ray_that_leaves_a_shape_does_not_hit_it_again_at_any_scale() {
     // (hit at all, hit again)
     const LEAVE: &str = "
         fn probe(shape: PackedShape, ray: Ray, aside: vec3f, cosine: f32) -> vec2u {
-            let hit = test(form_ray(ray, shape), shape.kind, sizes_of(shape));
+            let hit = test(canonical_ray(ray, shape), shape.kind, sizes_of(shape));
             let at = placed(ray, shape, hit);
             let tangent = normalize(aside - dot(aside, at.ng) * at.ng);
             let direction = normalize(tangent * sqrt(1.0 - cosine * cosine) + cosine * at.ng);
             let origin = offset_origin(at.p, at.error, at.ng, direction);
-            let again = test(form_ray(Ray(origin, 3e38, direction, NONE, NO_INSTANCE), shape), shape.kind, sizes_of(shape));
+            let again = test(canonical_ray(Ray(origin, 3e38, direction, NONE, NO_INSTANCE), shape), shape.kind, sizes_of(shape));
             // Rounding may turn a ray that grazes to the other side.
             return vec2u(u32(hit.hit & (dot(at.ng, direction) > 0.0)), u32(again.hit));
         }
     ";
-    for form in FORMS {
+    for canonical in CANONICAL_SHAPES {
         let mut random = Random::new(14);
         let mut inputs = Vec::new();
         while inputs.len() < 20_000 {
-            let world_from_form = placement(&mut random);
-            let shape = packed(form, world_from_form);
+            let world_from_canonical = placement(&mut random);
+            let shape = packed(canonical, world_from_canonical);
             for i in 0..40 {
-                let local = on_surface(form, &mut random);
-                if !is_convex_at(form, local) {
+                let local = on_surface(canonical, &mut random);
+                if !is_convex_at(canonical, local) {
                     continue;
                 }
-                let p = world_from_form.transform_point3(local);
-                let turn = world_from_form.matrix3.inverse().transpose();
-                let n = (turn * form_normal(form, local)).normalize();
+                let p = world_from_canonical.transform_point3(local);
+                let turn = world_from_canonical.matrix3.inverse().transpose();
+                let n = (turn * canonical_normal(canonical, local)).normalize();
                 let away = (n + 0.8 * random.direction()).normalize();
-                let distance =
-                    world_from_form.matrix3.x_axis.length() * 10f64.powf(random.between(-1.0, 2.0));
+                let distance = world_from_canonical.matrix3.x_axis.length()
+                    * 10f64.powf(random.between(-1.0, 2.0));
                 let ray = ray(single(p + distance * away), single(-away));
                 let cosine = if i % 10 == 0 {
                     1e-6
@@ -717,8 +734,10 @@ fn a_ray_that_leaves_a_form_does_not_hit_it_again_at_any_scale() {
                 inputs.push((shape, ray, single(random.direction()), cosine as f32));
             }
             if matches!(
-                form,
-                Form::Cone { capped: false, .. } | Form::Disc { .. } | Form::Rectangle
+                canonical,
+                CanonicalShape::Cone { capped: false, .. }
+                    | CanonicalShape::Disc { .. }
+                    | CanonicalShape::Rectangle
             ) {
                 break;
             }
@@ -726,8 +745,8 @@ fn a_ray_that_leaves_a_form_does_not_hit_it_again_at_any_scale() {
         if inputs.is_empty() {
             continue;
         }
-        let results: Vec<[u32; 2]> = gpu().map_source(&format!("{FORM}{LEAVE}"), &inputs);
-        let mut verdict = Verdict::on(format!("{form:?}"));
+        let results: Vec<[u32; 2]> = gpu().map_source(&format!("{CANONICAL}{LEAVE}"), &inputs);
+        let mut verdict = Verdict::on(format!("{canonical:?}"));
         let count = results.iter().filter(|[hit, _]| *hit == 1).count();
         verdict.that("most rays hit", count > inputs.len() * 8 / 10, || count);
         for ((shape, ray, _, cosine), [hit, again]) in inputs.iter().zip(&results) {
@@ -743,37 +762,40 @@ fn a_ray_that_leaves_a_form_does_not_hit_it_again_at_any_scale() {
 fn a_ray_into_a_body_comes_out_of_it() {
     const ENTER: &str = "
         fn probe(shape: PackedShape, ray: Ray, aside: vec3f, cosine: f32) -> vec2u {
-            let hit = test(form_ray(ray, shape), shape.kind, sizes_of(shape));
+            let hit = test(canonical_ray(ray, shape), shape.kind, sizes_of(shape));
             let at = placed(ray, shape, hit);
             let tangent = normalize(aside - dot(aside, at.ng) * at.ng);
             let direction = normalize(tangent * sqrt(1.0 - cosine * cosine) - cosine * at.ng);
             let origin = offset_origin(at.p, at.error, at.ng, direction);
-            let out = test(form_ray(Ray(origin, 3e38, direction, NONE, NO_INSTANCE), shape), shape.kind, sizes_of(shape));
+            let out = test(canonical_ray(Ray(origin, 3e38, direction, NONE, NO_INSTANCE), shape), shape.kind, sizes_of(shape));
             return vec2u(u32(hit.hit), u32(out.hit));
         }
     ";
-    for form in FORMS {
+    for canonical in CANONICAL_SHAPES {
         if !matches!(
-            form,
-            Form::Box | Form::Ellipsoid | Form::Torus { .. } | Form::Cone { capped: true, .. }
+            canonical,
+            CanonicalShape::Box
+                | CanonicalShape::Ellipsoid
+                | CanonicalShape::Torus { .. }
+                | CanonicalShape::Cone { capped: true, .. }
         ) {
             continue;
         }
         let mut random = Random::new(15);
         let mut inputs = Vec::new();
         while inputs.len() < 10_000 {
-            let world_from_form = placement(&mut random);
-            let shape = packed(form, world_from_form);
+            let world_from_canonical = placement(&mut random);
+            let shape = packed(canonical, world_from_canonical);
             for _ in 0..40 {
-                let p = world_from_form.transform_point3(on_surface(form, &mut random));
+                let p = world_from_canonical.transform_point3(on_surface(canonical, &mut random));
                 let away = random.direction();
-                let distance = world_from_form.matrix3.x_axis.length() * 10.0;
+                let distance = world_from_canonical.matrix3.x_axis.length() * 10.0;
                 let ray = ray(single(p + distance * away), single(-away));
                 let cosine = 10f64.powf(random.between(-3.0, 0.0)) as f32;
                 inputs.push((shape, ray, single(random.direction()), cosine));
             }
         }
-        let results: Vec<[u32; 2]> = gpu().map_source(&format!("{FORM}{ENTER}"), &inputs);
+        let results: Vec<[u32; 2]> = gpu().map_source(&format!("{CANONICAL}{ENTER}"), &inputs);
         // A point within its error of an edge may lie outside the other face.
         let lost = results
             .iter()
@@ -781,7 +803,7 @@ fn a_ray_into_a_body_comes_out_of_it() {
             .count();
         assert!(
             lost <= inputs.len() / 1000,
-            "{form:?}: {lost} of {}",
+            "{canonical:?}: {lost} of {}",
             inputs.len()
         );
     }
@@ -792,38 +814,38 @@ fn the_point_of_a_hit_is_within_its_error_of_the_surface() {
     // p, ng, error, each a row.
     const WHERE: &str = "
         fn probe(shape: PackedShape, ray: Ray, row: u32) -> vec3f {
-            let hit = test(form_ray(ray, shape), shape.kind, sizes_of(shape));
+            let hit = test(canonical_ray(ray, shape), shape.kind, sizes_of(shape));
             let at = placed(ray, shape, hit);
             return select(select(select(at.error, at.ng, row == 1u), at.p, row == 0u), vec3f(f32(hit.hit)), row == 3u);
         }
     ";
-    for form in FORMS {
+    for canonical in CANONICAL_SHAPES {
         let mut random = Random::new(16);
         let mut inputs = Vec::new();
         let mut placements = Vec::new();
         for _ in 0..100 {
-            let world_from_form = placement(&mut random);
-            let shape = packed(form, world_from_form);
+            let world_from_canonical = placement(&mut random);
+            let shape = packed(canonical, world_from_canonical);
             for _ in 0..20 {
-                let p = world_from_form.transform_point3(on_surface(form, &mut random));
+                let p = world_from_canonical.transform_point3(on_surface(canonical, &mut random));
                 let away = random.direction();
-                let distance =
-                    world_from_form.matrix3.x_axis.length() * 10f64.powf(random.between(-1.0, 3.0));
+                let distance = world_from_canonical.matrix3.x_axis.length()
+                    * 10f64.powf(random.between(-1.0, 3.0));
                 let ray = ray(single(p + distance * away), single(-away));
                 inputs.extend([0u32, 1, 2, 3].map(|row| (shape, ray, row)));
-                placements.push(world_from_form);
+                placements.push(world_from_canonical);
             }
         }
-        let results: Vec<[f32; 3]> = gpu().map_source(&format!("{FORM}{WHERE}"), &inputs);
-        let mut verdict = Verdict::on(format!("{form:?}"));
-        for ((got, world_from_form), input) in
+        let results: Vec<[f32; 3]> = gpu().map_source(&format!("{CANONICAL}{WHERE}"), &inputs);
+        let mut verdict = Verdict::on(format!("{canonical:?}"));
+        for ((got, world_from_canonical), input) in
             results.chunks(4).zip(&placements).zip(inputs.chunks(4))
         {
             let [p, ng, error, hit] = [got[0], got[1], got[2], got[3]].map(double);
             if hit.x == 0.0 {
                 continue;
             }
-            // The form that the shader knows: its position and rows are rounded.
+            // The canonical shape that the shader knows: its position and rows are rounded.
             let shape = &input[0].0;
             let rows = DMat3::from_cols(
                 double(shape.row_x),
@@ -832,8 +854,8 @@ fn the_point_of_a_hit_is_within_its_error_of_the_surface() {
             )
             .transpose();
             let local = rows * (p - double(shape.position));
-            let local_ref = match form {
-                Form::Cone {
+            let local_ref = match canonical {
+                CanonicalShape::Cone {
                     bottom,
                     top,
                     capped,
@@ -841,18 +863,19 @@ fn the_point_of_a_hit_is_within_its_error_of_the_surface() {
                     let wide = bottom.max(top);
                     cone(bottom / wide, top / wide, capped)
                 }
-                form => form,
+                canonical => canonical,
             };
             let off = off_surface(local_ref, local);
             // Along the normal, in render space.
-            let slope = (rows.transpose() * form_normal(local_ref, local).normalize()).length();
+            let slope =
+                (rows.transpose() * canonical_normal(local_ref, local).normalize()).length();
             let allowed = ng.abs().dot(error);
             verdict.that(
                 "on the surface",
                 off / slope <= allowed || off > 0.5e-3,
                 || {
                     format!(
-                        "{p} is off by {} of {allowed}, placed by {world_from_form:?}",
+                        "{p} is off by {} of {allowed}, placed by {world_from_canonical:?}",
                         off / slope
                     )
                 },
@@ -864,32 +887,32 @@ fn the_point_of_a_hit_is_within_its_error_of_the_surface() {
 }
 
 #[test]
-fn forms_fill_their_bounds_and_keep_within_them() {
+fn shapes_fill_their_bounds_and_keep_within_them() {
     let mut verdict = Verdict::on("Geometry::bounds");
-    for form in FORMS {
+    for canonical in CANONICAL_SHAPES {
         let mut random = Random::new(18);
         for _ in 0..20 {
-            let world_from_form = placement(&mut random);
+            let world_from_canonical = placement(&mut random);
             let geometry = Geometry::Placed {
-                form,
-                world_from_form,
+                canonical,
+                world_from_canonical,
             };
             let (min, max) = geometry.bounds().expect("bounds");
             let size = (max - min).max_element();
             let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
             for _ in 0..4000 {
-                let p = world_from_form.transform_point3(on_surface(form, &mut random));
+                let p = world_from_canonical.transform_point3(on_surface(canonical, &mut random));
                 (low, high) = (low.min(p), high.max(p));
             }
             let slack = 1e-12 * (size + max.abs().max_element());
             let within =
                 (low - min).min_element() >= -slack && (max - high).min_element() >= -slack;
-            verdict.that(format!("{form:?} keeps within"), within, || {
+            verdict.that(format!("{canonical:?} keeps within"), within, || {
                 format!("{low} to {high} in {min} to {max}")
             });
             let filled = (low - min).max(max - high) / (max - min).max(DVec3::splat(1e-300));
             verdict.that(
-                format!("{form:?} fills"),
+                format!("{canonical:?} fills"),
                 filled.max_element() < 0.1,
                 || format!("{low} to {high} in {min} to {max}"),
             );

@@ -1,50 +1,52 @@
-//! The scene while the shutter is open: how many frames it takes to tell what moves.
+//! The scene while the shutter is open: how many frames represent its motion.
 //!
-//! What lies between two frames is interpolated linearly, so the frames must be close enough for the
-//! chord between two states to stand for the way. A curve that comes back to where it was shows
-//! nothing of that in any two states; that is why turning is measured along the curves, from key
-//! to key, and why states are compared at the keys too.
+//! The renderer interpolates linearly between two frames, so frames must be close enough for the chord
+//! between two states to approximate the true path. Comparing states misses a curve that returns to its
+//! starting point in between. Rotation is therefore measured along the curves, from key to key, and
+//! states are also compared at the keys.
 
-use super::frame::{Rig, rotation_from};
+use super::frame::{Hierarchy, rotation_from};
 use super::{
     Beyond, Camera, Curve, Easing, Frame, Interpolation, Light, LightKind, LightProperty,
     NodeProperty, NodeState, Scene, Target, Value,
 };
 use glam::DVec3;
 
-/// A shot has at most 2 to this intervals.
+/// The shutter interval is divided into at most 2 to the power of this many intervals.
 const MAX_DOUBLINGS: u32 = 8;
 
-/// Radians by which a node may turn from one frame to the next.
+/// Largest rotation of a node between two frames, in radians.
 const MAX_TURN: f64 = 0.1;
 
-/// Radians by which the camera may turn from one frame to the next.
+/// Largest rotation of the camera between two frames, in radians.
 const MAX_CAMERA_TURN: f64 = 0.02;
 
-/// How far off a chord may be, as a fraction of the distance that it is seen from.
+/// Largest deviation of a chord, as a fraction of the distance from the camera.
 const TOLERANCE: f64 = 1e-3;
 
-/// How many keys in a shot are looked at one by one; more get all frames that there can be.
+/// Number of keys in the shutter interval that are examined one by one. With more, the largest number of
+/// frames is used.
 const MAX_KEYS: usize = 1024;
 
 impl Scene {
-    /// The scene while the shutter is open, from `open` to `close` in seconds: frames at equal
-    /// distances of time, the first at `open` and the last at `close`, so close together that what
-    /// lies between two may be interpolated; a single one where nothing moves. What is visible,
-    /// which lights are on, and materials are in all frames as they are when the shutter opens.
+    /// The scene while the shutter is open, from `open` to `close` in seconds: frames evenly spaced in
+    /// time, the first at `open` and the last at `close`, close enough for linear interpolation. A single
+    /// frame if nothing moves. Visibility, the lights' switches and materials keep the state they have
+    /// when the shutter opens.
     ///
-    /// There are 2ᵏ + 1 with the least k ≤ 8 for which, from one frame to the next, no node turns by
-    /// more than 0.1 radians and the camera by no more than 0.02, were they always as fast as they
-    /// ever are meanwhile, and no chord is off by more than
-    /// * 10⁻³ of their distance from the camera for the places of nodes and lights, where a node that
-    ///   is nearer than a tenth of what the camera looks at counts as being there;
-    /// * what a turn by 0.1 radians makes of them for the axes of nodes and of lights;
-    /// * 10⁻³ of the distance to what it looks at for the camera's place;
-    /// * 10⁻³ of their size for the field of view, the lens, and the colours of lights.
+    /// There are 2ᵏ + 1 frames, with the smallest k ≤ 8 such that between two frames no node turns by
+    /// more than 0.1 radians and the camera by no more than 0.02, assuming their highest speed in the
+    /// interval throughout, and no chord deviates by more than
+    /// * 10⁻³ of the distance from the camera for positions of nodes and lights, where nodes nearer than
+    ///   a tenth of the camera's distance to its target count as that far away;
+    /// * the sagitta of a turn by 0.1 radians for the axes of nodes and lights;
+    /// * 10⁻³ of the camera's distance to its target for the camera's position;
+    /// * 10⁻³ of their value for the field of view, the lens, and the colours of lights.
     ///
-    /// A jump cannot be told by interpolation: it takes all frames, and is spread over the distance
-    /// of two. What jumps at the very moment when the shutter closes has not done so yet.
-    pub fn shot(&self, open: f64, close: f64) -> Vec<Frame> {
+    /// Linear interpolation cannot represent a jump: a jump takes the largest number of frames and is
+    /// spread over one interval. A jump at the very moment at which the shutter closes has not happened
+    /// yet.
+    pub fn motion_samples(&self, open: f64, close: f64) -> Vec<Frame> {
         let first = self.frame(open);
         let mut frames = vec![first];
         if close <= open {
@@ -73,26 +75,26 @@ fn moment(open: f64, close: f64, index: u32, count: u32) -> f64 {
     }
 }
 
-/// A number or vector of a state, and how far interpolation may be off it.
+/// A number or vector of a state, and the permitted interpolation error.
 struct Probe {
     value: DVec3,
     tolerance: f64,
 }
 
-/// What moves in a shot.
+/// Everything that moves while the shutter is open.
 struct Motion<'a> {
     scene: &'a Scene,
-    rig: Rig<'a>,
+    hierarchy: Hierarchy<'a>,
     open: f64,
     close: f64,
     /// The nodes that move, parents first.
     nodes: Vec<usize>,
     camera: bool,
-    /// The lights that move by themselves.
+    /// The lights that tracks animate.
     lights: Vec<usize>,
-    /// All nodes when the shutter opens.
+    /// The states of all nodes, initially those at the time when the shutter opens.
     states: Vec<NodeState>,
-    /// The curves that make it move.
+    /// The curves that cause the motion.
     curves: Vec<&'a Curve>,
 }
 
@@ -103,7 +105,7 @@ impl<'a> Motion<'a> {
             let is_held = curve.beyond == Beyond::Hold && (close <= start || open >= end);
             !is_held && !curve.is_constant()
         };
-        let rig = Rig::new(scene);
+        let hierarchy = Hierarchy::new(scene);
         let mut moving = vec![false; scene.nodes.len()];
         let mut lights = Vec::new();
         let mut camera = false;
@@ -145,7 +147,7 @@ impl<'a> Motion<'a> {
         let jumps = (curves.iter()).any(|curve| curve.jumps_within(close - just, close + just));
         Self {
             scene,
-            rig,
+            hierarchy,
             open,
             close: if jumps { close - just } else { close },
             nodes: (0..moving.len()).filter(|&node| moving[node]).collect(),
@@ -156,7 +158,7 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// How often the time must be halved; `None` where nothing moves.
+    /// How often the interval must be halved; `None` if nothing moves.
     fn doublings(mut self) -> Option<u32> {
         if self.curves.is_empty() {
             return None;
@@ -168,13 +170,13 @@ impl<'a> Motion<'a> {
         while doublings < MAX_DOUBLINGS && f64::from(1_u32 << doublings) < intervals {
             doublings += 1;
         }
-        while doublings < MAX_DOUBLINGS && !self.is_told_by(1 << doublings, &stops) {
+        while doublings < MAX_DOUBLINGS && !self.is_approximated_by(1 << doublings, &stops) {
             doublings += 1;
         }
         (doublings > 0 || self.differs(&stops)).then_some(doublings)
     }
 
-    /// When any curve has a key, in order.
+    /// The times of all curves' keys, in ascending order; `None` if there are too many.
     fn stops(&self) -> Option<Vec<f64>> {
         let mut stops = Vec::new();
         for curve in &self.curves {
@@ -188,8 +190,8 @@ impl<'a> Motion<'a> {
         Some(stops)
     }
 
-    /// How many intervals turning takes by itself: the most that a node and those above it turn in
-    /// the time of the shot, were they always as fast as they ever are.
+    /// Number of intervals that rotation requires: the largest turn of a node, including its ancestors'
+    /// turns, over the shutter interval, assuming each one's highest speed throughout.
     fn intervals_by_turning(&self) -> Option<f64> {
         let mut turns = vec![0.0; self.scene.nodes.len()];
         for &index in &self.nodes {
@@ -197,7 +199,7 @@ impl<'a> Motion<'a> {
                 .parent
                 .map_or(0.0, |parent| turns[parent]);
             let mut own = 0.0_f64;
-            for (_, property, curve) in self.rig.curves_of(index) {
+            for (_, property, curve) in self.hierarchy.curves_of(index) {
                 if matches!(property, NodeProperty::Rotation | NodeProperty::Angles) {
                     own = own.max(curve.fastest_turn(self.open, self.close)?);
                 }
@@ -207,13 +209,13 @@ impl<'a> Motion<'a> {
         let camera = &self.scene.cameras[self.scene.camera_index];
         let camera_turn = camera.node.map_or(0.0, |node| turns[node]);
         let node_turn = turns.into_iter().fold(0.0, f64::max);
-        // Less what rounding may have added to a turn that fits exactly.
+        // Subtract what rounding may have added to a turn that fits exactly.
         Some((node_turn / MAX_TURN).max(camera_turn / MAX_CAMERA_TURN) * (1.0 - 1e-9))
     }
 
-    /// Whether chords over `count` equal intervals stay where they should. States are compared at
-    /// each quarter of an interval and at the keys in it.
-    fn is_told_by(&mut self, count: u32, stops: &[f64]) -> bool {
+    /// Whether the chords over `count` equal intervals stay within their tolerances. States are compared
+    /// at each quarter of an interval and at the keys in it.
+    fn is_approximated_by(&mut self, count: u32, stops: &[f64]) -> bool {
         let mut from = self.probes(self.open);
         let mut start = self.open;
         for i in 1..=count {
@@ -230,7 +232,7 @@ impl<'a> Motion<'a> {
                 for (probe, (from, to)) in self.probes(time).iter().zip(from.iter().zip(&to)) {
                     let chord = from.value + (to.value - from.value) * fraction;
                     let rounding = 1e-12 * probe.value.length();
-                    // False too for what is no number, which no chord tells.
+                    // Also false for NaN, which no chord can approximate.
                     let is_near = chord.distance(probe.value) <= probe.tolerance + rounding;
                     if !is_near {
                         return false;
@@ -242,7 +244,7 @@ impl<'a> Motion<'a> {
         true
     }
 
-    /// Whether anything is different at any time of the shot from what it is when it starts.
+    /// Whether any state while the shutter is open differs from the first one.
     fn differs(&mut self, stops: &[f64]) -> bool {
         let (open, close) = (self.open, self.close);
         let first = self.probes(open);
@@ -253,10 +255,10 @@ impl<'a> Motion<'a> {
         })
     }
 
-    /// All that moves, at one time.
+    /// Probes of everything that moves, at one time.
     fn probes(&mut self, time: f64) -> Vec<Probe> {
         for &index in &self.nodes {
-            self.states[index] = self.rig.state(index, &self.states, time, self.open);
+            self.states[index] = self.hierarchy.state(index, &self.states, time, self.open);
         }
         let camera = self.scene.camera_at(time, &self.states);
         let reach = camera.look_from.distance(camera.look_at);
@@ -292,13 +294,13 @@ impl Probe {
         Self { value, tolerance }
     }
 
-    /// Which may be off by as much as the chord of an arc of `turn`.
+    /// A probe that may deviate by the sagitta of an arc of `turn` radians.
     fn axis(value: DVec3, turn: f64) -> Self {
         let sagitta = 1.0 - (turn / 2.0).cos();
         Self::new(value, sagitta * value.length())
     }
 
-    /// Which may be off by a fraction of itself.
+    /// A probe that may deviate by a fraction of its own length.
     fn size(value: DVec3) -> Self {
         Self::new(value, TOLERANCE * value.length())
     }
@@ -341,7 +343,7 @@ fn light_probes(light: &Light, from_camera: impl Fn(DVec3) -> f64, probes: &mut 
 }
 
 impl Curve {
-    /// Whether its course between two keys is straight and even, or none.
+    /// Whether the curve has constant velocity between two keys, possibly 0.
     fn is_even(&self) -> bool {
         match self.interpolation {
             Interpolation::Step => true,
@@ -350,14 +352,14 @@ impl Curve {
         }
     }
 
-    /// Whether it may jump between `open` and `close`.
+    /// Whether the curve may jump between `open` and `close`.
     fn jumps_within(&self, open: f64, close: f64) -> bool {
         (self.interpolation == Interpolation::Step || self.beyond == Beyond::Repeat)
             && (self.keys_within(open, close)).is_some_and(|keys| !keys.is_empty())
     }
 
-    /// The times in (`open`, `close`) at which it passes a key, in any order; `None` if they are too
-    /// many to look at.
+    /// The times in (`open`, `close`) at which the curve passes a key, in any order; `None` if there are
+    /// too many to examine.
     fn keys_within(&self, open: f64, close: f64) -> Option<Vec<f64>> {
         let (first, last) = self.span();
         let period = last - first;
@@ -375,7 +377,7 @@ impl Curve {
         for i in 0..=(high - low) as u32 {
             let start = first + (low + f64::from(i)) * period;
             let is_back = self.beyond == Beyond::PingPong && (low + f64::from(i)) % 2.0 != 0.0;
-            // From the curve's own times to these.
+            // From the curve's own times to times of this run.
             let at = |key: f64| start + if is_back { last - key } else { key - first };
             let from_run = |time: f64| {
                 if is_back {
@@ -396,10 +398,10 @@ impl Curve {
         Some(found)
     }
 
-    /// The most radians per second that a curve of rotations or angles turns by between `open` and
-    /// `close`, jumps at keys aside.
+    /// The highest speed, in radians per second, of a curve of rotations or angles between `open` and
+    /// `close`, ignoring jumps at keys.
     fn fastest_turn(&self, open: f64, close: f64) -> Option<f64> {
-        /// Pieces that the way between two keys is looked at in where it is not even.
+        /// Number of samples between two keys if the speed varies.
         const PIECES: u32 = 16;
         let mut stops = self.keys_within(open, close)?;
         stops.extend([open, close]);
@@ -412,7 +414,7 @@ impl Curve {
                     moment(pair[0], pair[1], i, count),
                     moment(pair[0], pair[1], i + 1, count),
                 );
-                // A little inside, as there may be a jump at the end.
+                // Slightly inside, because the curve may jump at the end.
                 let inset = (b - a) / 4096.0;
                 let (a, b) = (a + inset, b - inset);
                 let turn = match (self.at(a), self.at(b)) {
@@ -430,14 +432,14 @@ impl Curve {
     }
 }
 
-/// Radians of the shorter way from one rotation to the other.
+/// The smaller angle between two rotations, in radians.
 fn angle_between(a: glam::DQuat, b: glam::DQuat) -> f64 {
     let b = if a.dot(b) < 0.0 { -b } else { b };
     4.0 * (a - b).length().atan2((a + b).length())
 }
 
-/// Radians of the way from one triple of angles to the other, which may be several turns: about one
-/// axis exactly, else at most. The shorter way cannot be less.
+/// Upper bound of the angle in radians between two triples of angles, which may be several turns; exact
+/// for a turn about one axis. It is never less than the smaller angle between the two rotations.
 fn turn_between(a: DVec3, b: DVec3) -> f64 {
     let way = b - a;
     let sum = way.abs().element_sum();

@@ -61,25 +61,33 @@ fn doublings(angle: f64, most: f64) -> u32 {
 #[test]
 fn what_stands_still_takes_one_frame() {
     let still = scene(3, vec![]);
-    assert_eq!(still.shot(0.0, 1.0), [still.frame(0.0)]);
+    assert_eq!(still.motion_samples(0.0, 1.0), [still.frame(0.0)]);
     let wheel = wheel(1.0);
-    assert_eq!(wheel.shot(0.3, 0.3), [wheel.frame(0.3)]);
+    assert_eq!(wheel.motion_samples(0.3, 0.3), [wheel.frame(0.3)]);
     let slide = vectors(&[1.0, 2.0], &[DVec3::ZERO, DVec3::X]);
     let late = scene(1, vec![(Target::Node(0, NodeProperty::Translation), slide)]);
-    assert_eq!(late.shot(0.0, 1.0).len(), 1, "before its first key");
-    assert_eq!(late.shot(2.0, 3.0).len(), 1, "after its last key");
-    assert_eq!(late.shot(0.5, 1.5).len() % 2, 1);
+    assert_eq!(
+        late.motion_samples(0.0, 1.0).len(),
+        1,
+        "before its first key"
+    );
+    assert_eq!(late.motion_samples(2.0, 3.0).len(), 1, "after its last key");
+    assert_eq!(late.motion_samples(0.5, 1.5).len() % 2, 1);
     let rest = vectors(&[0.0, 1.0, 2.0], &[DVec3::X, DVec3::X, DVec3::Y]);
     let rests = scene(1, vec![(Target::Node(0, NodeProperty::Translation), rest)]);
-    assert_eq!(rests.shot(0.2, 0.8).len(), 1, "between equal keys");
+    assert_eq!(
+        rests.motion_samples(0.2, 0.8).len(),
+        1,
+        "between equal keys"
+    );
 }
 
 #[test]
 fn a_straight_even_way_takes_two_frames() {
     let slide = vectors(&[0.0, 2.0], &[DVec3::ZERO, dvec3(100.0, 3.0, 0.0)]);
     let scene = scene(1, vec![(Target::Node(0, NodeProperty::Translation), slide)]);
-    let shot = scene.shot(0.5, 1.0);
-    assert_eq!(shot, [scene.frame(0.5), scene.frame(1.0)]);
+    let samples = scene.motion_samples(0.5, 1.0);
+    assert_eq!(samples, [scene.frame(0.5), scene.frame(1.0)]);
 }
 
 #[test]
@@ -87,10 +95,10 @@ fn a_wheel_takes_as_many_frames_as_it_turns() {
     // Whole turns too, which end where they started.
     for turns in [0.01, 0.1, 0.5, 1.0, 2.0, 3.0] {
         let scene = wheel(turns);
-        let shot = scene.shot(0.0, 1.0);
+        let samples = scene.motion_samples(0.0, 1.0);
         let expected = (1 << doublings(TAU * turns, 0.1)) + 1;
-        assert_eq!(shot.len(), expected, "{turns} turns");
-        for (i, frame) in shot.iter().enumerate() {
+        assert_eq!(samples.len(), expected, "{turns} turns");
+        for (i, frame) in samples.iter().enumerate() {
             let t = i as f64 / (expected - 1) as f64;
             let rim = frame.nodes[0].world_from_node.transform_point3(DVec3::X);
             assert!((rim.length() - 1.0).abs() < 1e-12);
@@ -99,7 +107,7 @@ fn a_wheel_takes_as_many_frames_as_it_turns() {
             assert!(rim.distance(dvec3(cos, sin, 0.0)) < 1e-6, "{turns} at {t}");
         }
     }
-    assert_eq!(wheel(1000.0).shot(0.0, 1.0).len(), 257);
+    assert_eq!(wheel(1000.0).motion_samples(0.0, 1.0).len(), 257);
 }
 
 #[test]
@@ -109,9 +117,9 @@ fn a_jump_inside_a_shot_takes_all_frames_and_one_at_its_end_none() {
         ..vectors(&[0.0, 1.0], &[DVec3::ZERO, DVec3::X])
     };
     let scene = scene(1, vec![(Target::Node(0, NodeProperty::Translation), jump)]);
-    assert_eq!(scene.shot(0.5, 1.5).len(), 257);
-    assert_eq!(scene.shot(0.5, 1.0), [scene.frame(0.5)]);
-    assert_eq!(scene.shot(1.0, 1.5), [scene.frame(1.0)]);
+    assert_eq!(scene.motion_samples(0.5, 1.5).len(), 257);
+    assert_eq!(scene.motion_samples(0.5, 1.0), [scene.frame(0.5)]);
+    assert_eq!(scene.motion_samples(1.0, 1.5), [scene.frame(1.0)]);
 }
 
 #[test]
@@ -119,31 +127,34 @@ fn rotations_that_come_back_between_the_ends_are_seen() {
     let thirds = [0.0, 1.0, 2.0, 3.0].map(|i| DQuat::from_rotation_z(TAU * i / 3.0));
     let turn = curve(&[0.0, 1.0, 2.0, 3.0], Values::Rotation(thirds.to_vec()));
     let scene = scene(1, vec![(Target::Node(0, NodeProperty::Rotation), turn)]);
-    assert_eq!(scene.shot(0.0, 3.0).len(), (1 << doublings(TAU, 0.1)) + 1);
+    assert_eq!(
+        scene.motion_samples(0.0, 3.0).len(),
+        (1 << doublings(TAU, 0.1)) + 1
+    );
 }
 
 #[test]
 fn a_way_that_comes_back_between_the_ends_is_seen() {
-    // Out and back within a sixteenth of the shot, at no simple share of it.
+    // Out and back within a sixteenth of the samples, at no simple share of it.
     let times = [0.0, 0.30, 0.33, 0.36, 1.0];
     let values = [DVec3::ZERO, DVec3::ZERO, DVec3::X, DVec3::ZERO, DVec3::ZERO];
     let jerk = vectors(&times, &values);
     let scene = scene(1, vec![(Target::Node(0, NodeProperty::Translation), jerk)]);
-    let shot = scene.shot(0.0, 1.0);
-    let furthest = (shot.iter())
+    let samples = scene.motion_samples(0.0, 1.0);
+    let furthest = (samples.iter())
         .map(|frame| frame.nodes[0].world_from_node.translation.x)
         .fold(0.0, f64::max);
-    assert!(furthest > 0.9, "{furthest} in {} frames", shot.len());
+    assert!(furthest > 0.9, "{furthest} in {} frames", samples.len());
 }
 
 /// How far what is between two frames is off, in the worst case, for the origin of node 0.
-fn worst_chord(scene: &Scene, shot: &[Frame], open: f64, close: f64) -> f64 {
+fn worst_chord(scene: &Scene, samples: &[Frame], open: f64, close: f64) -> f64 {
     let place = |frame: &Frame| frame.nodes[0].world_from_node.translation;
-    let count = shot.len() - 1;
+    let count = samples.len() - 1;
     let mut worst = 0.0_f64;
     for i in 0..count * 32 {
         let t = i as f64 / 32.0;
-        let (a, b) = (place(&shot[i / 32]), place(&shot[i / 32 + 1]));
+        let (a, b) = (place(&samples[i / 32]), place(&samples[i / 32 + 1]));
         let time = open + (close - open) * t / count as f64;
         worst = worst.max(a.lerp(b, t.fract()).distance(place(&scene.frame(time))));
     }
@@ -168,11 +179,11 @@ fn chords_of_a_bent_way_are_as_good_as_seen_from_the_camera() {
                     vec![(Target::Node(0, NodeProperty::Translation), bent.clone())],
                 );
                 scene.cameras[0].look_from.z = distance;
-                let shot = scene.shot(0.1, 1.2);
-                let worst = worst_chord(&scene, &shot, 0.1, 1.2);
+                let samples = scene.motion_samples(0.1, 1.2);
+                let worst = worst_chord(&scene, &samples, 0.1, 1.2);
                 // A little more than at the quarters, where it is measured.
                 assert!(worst <= 1.3e-3 * distance, "{worst} from {distance}");
-                counts.push(shot.len());
+                counts.push(samples.len());
             }
             assert!(counts[1] < counts[0], "{counts:?}");
         }
@@ -184,10 +195,10 @@ fn a_camera_on_a_turning_node_takes_small_steps() {
     let turn = vectors(&[0.0, 1.0], &[DVec3::ZERO, dvec3(0.0, 1.0, 0.0)]);
     let mut scene = scene(1, vec![(Target::Node(0, NodeProperty::Angles), turn)]);
     scene.cameras[0].node = Some(0);
-    let shot = scene.shot(0.0, 1.0);
-    assert_eq!(shot.len(), (1 << doublings(1.0, 0.02)) + 1);
+    let samples = scene.motion_samples(0.0, 1.0);
+    assert_eq!(samples.len(), (1 << doublings(1.0, 0.02)) + 1);
     let forward = |frame: &Frame| (frame.camera.look_at - frame.camera.look_from).normalize();
-    for pair in shot.windows(2) {
+    for pair in samples.windows(2) {
         let turn = forward(&pair[0]).angle_between(forward(&pair[1]));
         assert!(turn <= 0.02, "{turn}");
     }
@@ -197,13 +208,13 @@ fn a_camera_on_a_turning_node_takes_small_steps() {
 fn a_pan_of_the_camera_takes_small_steps() {
     let pan = vectors(&[0.0, 1.0], &[dvec3(-3.0, 0.0, 0.0), dvec3(3.0, 0.0, 0.0)]);
     let scene = scene(0, vec![(Target::Camera(0, CameraProperty::LookAt), pan)]);
-    let shot = scene.shot(0.0, 1.0);
+    let samples = scene.motion_samples(0.0, 1.0);
     let forward = |frame: &Frame| (frame.camera.look_at - frame.camera.look_from).normalize();
-    let most = (shot.windows(2))
+    let most = (samples.windows(2))
         .map(|pair| forward(&pair[0]).angle_between(forward(&pair[1])))
         .fold(0.0, f64::max);
     assert!(most <= 0.0201, "{most}");
-    assert!(shot.len() <= 65, "{}", shot.len());
+    assert!(samples.len() <= 65, "{}", samples.len());
 }
 
 #[test]
@@ -232,19 +243,19 @@ fn what_the_shutter_freezes_stays_as_it_opened() {
         };
         2
     ];
-    let shot = scene.shot(0.25, 0.75);
-    assert!(shot.len() > 1);
-    for frame in &shot {
-        assert_eq!(frame.materials, shot[0].materials);
-        assert_eq!(frame.lights, shot[0].lights);
+    let samples = scene.motion_samples(0.25, 0.75);
+    assert!(samples.len() > 1);
+    for frame in &samples {
+        assert_eq!(frame.materials, samples[0].materials);
+        assert_eq!(frame.lights, samples[0].lights);
         assert_eq!([1, 2].map(|i| frame.nodes[i].visible), [true, false]);
     }
     // The pictures before and after do change.
-    assert_ne!(scene.frame(0.75).materials, shot[0].materials);
-    assert_ne!(scene.frame(0.75).lights, shot[0].lights);
+    assert_ne!(scene.frame(0.75).materials, samples[0].materials);
+    assert_ne!(scene.frame(0.75).lights, samples[0].lights);
     // What the shutter freezes is no movement.
     scene.tracks.remove(0);
-    assert_eq!(scene.shot(0.25, 0.75).len(), 1);
+    assert_eq!(scene.motion_samples(0.25, 0.75).len(), 1);
 }
 
 #[test]
@@ -257,15 +268,15 @@ fn a_light_on_a_bent_way_takes_more_than_two_frames() {
         },
         ..Light::default()
     }];
-    assert_eq!(scene.shot(0.0, 1.0).len(), 3);
+    assert_eq!(scene.motion_samples(0.0, 1.0).len(), 3);
 }
 
 #[test]
 fn ten_thousand_still_nodes_cost_little() {
     let mut scene = wheel(0.3);
     scene.nodes.extend(vec![Node::default(); 10_000]);
-    let shot = effort::within(1000.0, || scene.shot(0.0, 1.0));
-    assert_eq!(shot.len(), 33);
+    let samples = effort::within(1000.0, || scene.motion_samples(0.0, 1.0));
+    assert_eq!(samples.len(), 33);
 }
 
 #[test]
@@ -274,9 +285,9 @@ fn shots_far_out_in_time_end() {
         let mut scene = wheel(0.3);
         scene.tracks[0].curve.beyond = beyond;
         for (open, close) in [(1e17, 1.1e17), (1e300, f64::MAX), (-1e300, 1e300)] {
-            let shot = scene.shot(open, close);
-            assert!(shot.len() <= 257);
-            for frame in shot {
+            let samples = scene.motion_samples(open, close);
+            assert!(samples.len() <= 257);
+            for frame in samples {
                 assert!(frame.nodes[0].world_from_node.is_finite());
             }
         }
