@@ -26,7 +26,7 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench gallery build compiler display driver opengl lint features headless wasm
+.PHONY: help demo test bench docs gallery build compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png'
@@ -64,8 +64,7 @@ MDBOOK_VERSION := 0.5.4
 TOOLS := $(abspath $(or $(CARGO_TARGET_DIR),target)/tools)
 SITE := $(abspath $(or $(CARGO_TARGET_DIR),target)/site)
 LINKED := assets benches examples shaders src tests build.rs
-.PHONY: docs
-docs: compiler
+docs:
 	@[ -x $(TOOLS)/bin/mdbook ] || $(CARGO) install mdbook --version $(MDBOOK_VERSION) --locked \
 		--no-default-features --features search --root $(TOOLS)
 	rm -rf $(SITE)

@@ -4,7 +4,7 @@ use super::native_reference;
 use super::pages::Page;
 use std::fs;
 
-const BEGIN: &str = "<!-- generated: UPDATE=1 cargo test --release --test suite manual -->\n";
+const BEGIN: &str = "<!-- generated: UPDATE=1 cargo test --profile ci --test suite manual -->\n";
 const END: &str = "<!-- end of what is generated -->";
 
 fn check(path: &str, expected: &str) {
@@ -19,7 +19,7 @@ fn check(path: &str, expected: &str) {
     }
     assert!(
         found == expected,
-        "{path} is stale. Run\n  UPDATE=1 cargo test --release --test suite manual"
+        "{path} is stale. Run\n  UPDATE=1 cargo test --profile ci --test suite manual"
     );
 }
 

@@ -124,3 +124,47 @@ fn files_and_tests_that_the_manual_names_are_there() {
     }
     verdict.close();
 }
+
+/// Whether `name` may be of a function, a type or a constant.
+fn is_identifier(name: &str) -> bool {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let is_word = name.chars().all(is_part) && name.starts_with(|c: char| c.is_ascii_alphabetic());
+    let is_placeholder = name.chars().all(|c| c.is_ascii_uppercase());
+    is_word && !is_placeholder && name.contains(|c: char| c == '_' || c.is_ascii_uppercase())
+}
+
+#[test]
+fn names_in_internals_and_recipes_are_in_the_code() {
+    let mut code = String::new();
+    let mut open = vec!["src".into(), "shaders".into(), "tests/suite".into()];
+    while let Some(path) = open.pop() {
+        let path: std::path::PathBuf = path;
+        if path.is_dir() {
+            let entries = fs::read_dir(&path).expect("a folder");
+            open.extend(entries.map(|entry| entry.expect("an entry").path()));
+        } else {
+            code.push_str(&fs::read_to_string(&path).unwrap_or_default());
+        }
+    }
+    let words: BTreeSet<_> = code
+        .split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+        .collect();
+    let mut verdict = Verdict::on("names in internals and recipes");
+    for page in book() {
+        if !["/internals/", "/contributing/"]
+            .iter()
+            .any(|part| page.path.contains(part))
+        {
+            continue;
+        }
+        for quoted in page.quoted() {
+            let name = quoted.trim_end_matches(['!', '(', ')']);
+            let name = name.rsplit("::").next().unwrap_or_default();
+            if is_identifier(name) && !name.contains("NAME") {
+                let row = format!("{}: {quoted}", page.path);
+                verdict.that(row, words.contains(name), || "is nowhere in the code");
+            }
+        }
+    }
+    verdict.close();
+}

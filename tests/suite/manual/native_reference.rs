@@ -38,6 +38,9 @@ struct Reference<'s> {
 
 /// "area light" for `AreaLightTable`.
 fn title(name: &str) -> String {
+    if name == "ColorTable" {
+        return "textured colour".to_owned();
+    }
     let name = name.trim_end_matches("Table").trim_end_matches("Name");
     let mut title = String::new();
     for c in name.chars() {
@@ -126,7 +129,7 @@ impl Reference<'_> {
             Some("array") => self.list(schema),
             Some("object") => {
                 let of = self.kind(&schema["additionalProperties"]);
-                format!("by name: {of}")
+                format!("table of named entries: {of}")
             }
             _ => "any".to_owned(),
         }
@@ -156,16 +159,26 @@ impl Reference<'_> {
             items => self.kind(items),
         };
         let limit = |key: &str| schema[key].as_u64();
+        let of = if of.contains([' ', '×']) && !of.starts_with('[') {
+            format!("({of})")
+        } else {
+            of
+        };
         match (limit("minItems"), limit("maxItems")) {
-            (Some(least), Some(most)) if least == most => format!("list of {least}: {of}"),
-            (Some(least), Some(most)) => format!("list of {least} to {most}: {of}"),
-            _ => format!("list: {of}"),
+            (Some(least), Some(most)) if least == most => format!("{least} × {of}"),
+            (Some(least), Some(most)) => format!("{least} to {most} × {of}"),
+            _ => format!("list of {of}"),
         }
     }
 }
 
 fn range(schema: &Value) -> String {
-    let limit = |key: &str| schema[key].as_f64();
+    let number = |value: f64| match value {
+        std::f64::consts::PI => "π".to_owned(),
+        std::f64::consts::FRAC_PI_2 => "π/2".to_owned(),
+        _ => value.to_string(),
+    };
+    let limit = |key: &str| schema[key].as_f64().map(number);
     let least = limit("minimum").map(|least| format!(" ≥ {least}"));
     let least = least.or(limit("exclusiveMinimum").map(|least| format!(" > {least}")));
     let most = limit("maximum").map(|most| format!(" ≤ {most}"));
@@ -185,7 +198,7 @@ fn values_are_told_with_their_ranges() {
         ),
         (
             r#"{"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}"#,
-            "list of 3: number",
+            "3 × number",
         ),
         (
             r#"{"anyOf": [{"type": "string"}, {"type": "null"}]}"#,
