@@ -1,9 +1,12 @@
-# For a fresh Debian or Ubuntu with Rust: `make demo` makes a picture, `make test` runs every check.
+# For a fresh Debian or Ubuntu with Rust: `make demo` renders a picture, `make test` runs every check.
 
 CARGO ?= cargo
-# One profile throughout, so that demo, tests, lints and docs share what they compile.
-FLAGS := --release --locked
-GLIMRAY := $(or $(CARGO_TARGET_DIR),target)/release/glimray
+TARGET := $(or $(CARGO_TARGET_DIR),target)
+# The demo, tests, lints and documentation share what they compile: a profile that builds quickly.
+FLAGS := --profile ci --locked
+# The program that targets run.
+GLIMRAY = $(TARGET)/release/glimray
+demo test: GLIMRAY = $(TARGET)/ci/glimray
 
 # Mesa's device-select layer complains on machines without a desktop session (see src/app/mesa.rs).
 export NODEVICE_SELECT := 1
@@ -12,7 +15,7 @@ export NODEVICE_SELECT := 1
 # `make test` builds, or installs with apt-get, and FFmpeg where it is installed; it would double what is downloaded.
 comma := ,
 ifneq ($(shell command -v apt-get),)
-GLIMRAY_REQUIRE ?= examples,gl,xvfb$(if $(shell command -v ffmpeg >/dev/null && command -v ffprobe),$(comma)ffmpeg)
+GLIMRAY_REQUIRE ?= examples,gl,xvfb$(if $(wildcard .git),$(comma)git)$(if $(shell command -v ffmpeg >/dev/null && command -v ffprobe),$(comma)ffmpeg)
 export GLIMRAY_REQUIRE
 endif
 
@@ -26,24 +29,32 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench docs gallery build compiler display driver opengl lint features headless wasm
+.PHONY: help demo test bench docs gallery man size hand-in build shaders linker compiler display driver opengl lint features headless wasm
 
 help:
-	@echo 'make demo      render the showcase scene to glimray.png'
-	@echo 'make test      format, lints, documentation, all tests'
+	@echo 'make demo      render the showcase scene to glimray.png (about 4 minutes the first time)'
+	@echo 'make test      format, lints, documentation, all tests (about 20 minutes the first time)'
 	@echo 'make bench     measure speed on built-in scenes'
 	@echo 'make docs      build the manual with mdBook and check its links'
-	@echo 'make gallery   render the pictures of README.md again'
-	@echo 'Where no Vulkan adapter is found, each first installs the Vulkan loader and the software'
-	@echo 'driver of Mesa (Debian and Ubuntu, with apt-get).'
+	@echo 'make gallery   render the pictures of the manual again'
+	@echo 'make shaders   link the kernels again after a change in a shader; the others do so by themselves'
+	@echo 'make man       write the manual pages to $(TARGET)/man'
+	@echo 'make hand-in NAME=YourName'
+	@echo '               pack the exercise: code, readme, JPEG frames and video, in Exercise4-YourName.zip'
+	@echo 'The times are for 2 cores. Where no Vulkan adapter is found, each first installs the Vulkan loader'
+	@echo 'and the software driver of Mesa (Debian and Ubuntu, with apt-get).'
 
-demo: build driver
+# The renderer and its commands, without the window, videos and FLIP: a third of all crates, and no C++.
+demo: linker shaders
+	@[ -e $(GLIMRAY) ] || echo 'Building glimray. On 2 cores this takes about 4 minutes, only the first time.'
+	$(CARGO) build $(FLAGS) --no-default-features --features cli
+	@$(MAKE) --no-print-directory driver GLIMRAY=$(GLIMRAY)
 	$(GLIMRAY) demo -o glimray.png
 
 # Tests are built first, the program with them: `driver` needs it.
 test: lint features headless wasm
 	$(CARGO) test $(FLAGS) --no-run
-	@$(MAKE) --no-print-directory driver opengl display
+	@$(MAKE) --no-print-directory driver opengl display GLIMRAY=$(GLIMRAY)
 	$(CARGO) test $(FLAGS)
 
 bench: build driver
@@ -61,10 +72,10 @@ gallery: build driver display
 # The pages lie as deep in the site as they do in the repository, and the folders that they link to beside them: a link
 # to a picture or a source works in both places. Tests check the links without mdBook.
 MDBOOK_VERSION := 0.5.4
-TOOLS := $(abspath $(or $(CARGO_TARGET_DIR),target)/tools)
-SITE := $(abspath $(or $(CARGO_TARGET_DIR),target)/site)
+TOOLS := $(abspath $(TARGET)/tools)
+SITE := $(abspath $(TARGET)/site)
 LINKED := assets benches examples shaders src tests build.rs
-docs:
+docs: linker
 	@[ -x $(TOOLS)/bin/mdbook ] || $(CARGO) install mdbook --version $(MDBOOK_VERSION) --locked \
 		--no-default-features --features search --root $(TOOLS)
 	rm -rf $(SITE)
@@ -74,11 +85,47 @@ docs:
 	docs/check-links.sh $(SITE)/docs/book
 	@echo $(SITE)/docs/book/index.html
 
-build: compiler
-	$(CARGO) build $(FLAGS)
+man: build
+	mkdir -p $(TARGET)/man
+	$(GLIMRAY) man $(TARGET)/man
 
-# FLIP, by which `compare` judges pictures, is C++.
-compiler:
+# In bytes, of the program that users install.
+MOST_BYTES := 30000000
+size: build
+	@bytes=$$(wc -c < $(GLIMRAY)); echo "$(GLIMRAY): $$bytes bytes, $(MOST_BYTES) allowed"; \
+		[ "$$bytes" -le $(MOST_BYTES) ]
+
+# All files of the working tree that Git does not ignore; the frames and the video again, on top.
+HAND_IN_FOLDER ?= .
+export NAME
+hand-in:
+	$(if $(NAME),,$(error hand-in: NAME is missing. Use `make hand-in NAME=YourName`))
+	@case "$$NAME" in *[!A-Za-z0-9_-]*) \
+		echo 'hand-in: NAME may have letters, digits, - and _ only.' >&2; exit 2;; esac
+	@index=$$(mktemp) && trap 'rm -f "$$index"' EXIT && \
+	cp "$$(git rev-parse --git-path index)" "$$index" && export GIT_INDEX_FILE="$$index" && \
+	git add --all && files=$$(git write-tree) && \
+	git archive --format=zip --output="$(HAND_IN_FOLDER)/Exercise4-$$NAME.zip" \
+		--prefix="Exercise4-$$NAME/frames/" $(patsubst %,--add-file=%,$(wildcard assets/gallery/carousel_*.jpg)) \
+		--prefix="Exercise4-$$NAME/" --add-file=assets/gallery/carousel.mp4 "$$files" && \
+	echo "$(HAND_IN_FOLDER)/Exercise4-$$NAME.zip"
+
+build: compiler shaders
+	$(CARGO) build --release --locked
+
+# Links the kernels again where a shader has changed since. Sums are compared, not times: a fresh
+# checkout has none to go by.
+shaders: linker
+	@cd shaders && find * -name '*.wesl' | LC_ALL=C sort | xargs cksum | cmp -s - linked/sources.txt || { \
+		cd .. && echo 'A shader has changed: linking the kernels again.' && \
+		$(CARGO) check $(FLAGS) --lib --no-default-features --features link; }
+
+# Rust links with it.
+linker:
+	@command -v cc >/dev/null || { $(install) gcc libc6-dev; }
+
+# FLIP, by which `compare` judges pictures, and the H.264 encoder are C++.
+compiler: linker
 	@command -v c++ >/dev/null || { $(install) g++; }
 
 # Exit code 5 of `doctor`: there is no usable adapter.
@@ -100,7 +147,7 @@ display:
 	@if [ "$$(uname -s)" = Linux ] && command -v apt-get >/dev/null && \
 		! { command -v Xvfb && command -v xdotool; } >/dev/null; then $(install) xvfb xdotool; fi
 
-lint: compiler
+lint: compiler shaders
 	@$(CARGO) fmt --version >/dev/null && $(CARGO) clippy --version >/dev/null || \
 		rustup component add rustfmt clippy
 	$(CARGO) fmt --check
@@ -109,19 +156,22 @@ lint: compiler
 
 # The library alone, and with each feature by itself: what they share is built once.
 features: compiler
-	@for feature in '' archive cli gl parallel video viewer; do \
+	@for feature in '' archive cli flip gl link parallel video viewer; do \
 		echo "without default features, with: $${feature:-none}"; \
 		$(CARGO) clippy --quiet $(FLAGS) --lib --bins --no-default-features --features "$$feature" \
 			-- --deny warnings || exit; \
 	done
 
-# Without default features there is nothing of a window system, of the program, or of C and C++.
+# The library alone and the demo have nothing of a window system, or of C and C++; the library nothing of
+# the program either.
 headless:
-	@if $(CARGO) tree --locked --no-default-features --edges normal --prefix none | \
-		grep -E '^(winit|softbuffer|smithay|wayland|x11|xcb|xkb|sdl|glfw|gtk|egui|minifb)'; \
-	then echo 'The crates above need a window system.' >&2; exit 1; fi
+	@for features in '' cli; do \
+		if $(CARGO) tree --locked --no-default-features --features "$$features" --edges normal,build --prefix none | \
+			grep -E '^(winit|softbuffer|smithay|wayland|x11|xcb|xkb|sdl|glfw|gtk|egui|minifb|cc|cmake|nv-flip|openh264) '; \
+		then echo "With the features '$$features' the crates above have no place." >&2; exit 1; fi; \
+	done
 	@if $(CARGO) tree --locked --no-default-features --edges normal,build --prefix none | \
-		grep -E '^(clap|miette|indicatif|console|signal-hook|terminal_size|nv-flip|openh264|rayon|cc) '; \
+		grep -E '^(clap|indicatif|console|signal-hook|terminal_size|rayon) '; \
 	then echo 'The crates above have no place in the library alone.' >&2; exit 1; fi
 
 # The library alone in a browser. Rust's own target if it is there or can be had, else the compiler and
@@ -140,7 +190,7 @@ wasm:
 	if ! has_debian_rustc && command -v apt-get >/dev/null; then $(install) rustc-web rust-web-src; fi; \
 	if has_debian_rustc; then \
 		RUSTC_BOOTSTRAP=1 RUSTC=$(DEBIAN_RUSTC) $(CARGO) $(WASM) -Z build-std=std,panic_abort \
-			--target-dir $(or $(CARGO_TARGET_DIR),target)/wasm; exit; \
+			--target-dir $(TARGET)/wasm; exit; \
 	fi; \
 	echo 'skipped: there is no compiler for wasm32-unknown-unknown (wasm)' >&2; \
 	case ",$$GLIMRAY_REQUIRE," in *,wasm,*) exit 1;; esac

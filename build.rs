@@ -1,11 +1,19 @@
-//! Links every kernel under `shaders/` to plain WGSL, once for each way of fetching geometry, so that the
-//! binary carries its shaders and a broken import stops the build. `explain` is the kernel `whitted` with the feature `record`.
+//! Embeds the kernels as plain WGSL from `shaders/linked`, once for each way of fetching geometry; `explain`
+//! is the kernel `whitted` with the feature `record`. The build fails if a source has changed since they
+//! were linked; with the feature `link` it links them first.
 
-use std::{error::Error, path::Path, process::ExitCode};
+#[cfg(feature = "link")]
+#[path = "shaders/link.rs"]
+mod link;
+
+use std::{error::Error, fs, path::Path, process::ExitCode};
+
+/// The sources that were linked: checksum, length and name, as `cksum` prints them in `shaders`.
+const SOURCES: &str = "shaders/linked/sources.txt";
 
 fn main() -> ExitCode {
     println!("cargo::rerun-if-changed=shaders");
-    match link_kernels() {
+    match run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -14,23 +22,73 @@ fn main() -> ExitCode {
     }
 }
 
-fn link_kernels() -> Result<(), Box<dyn Error>> {
-    let out = std::env::var("OUT_DIR")?;
-    for (kernel, module) in [
-        ("whitted", "whitted"),
-        ("debug_view", "debug_view"),
-        ("develop", "develop"),
-        ("show", "show"),
-        ("explain", "whitted"),
-    ] {
-        for (variant, image_fetch) in [("image", true), ("buffer", false)] {
-            let mut compiler = wesl::Wesl::new("shaders");
-            compiler.set_feature("image_fetch", image_fetch);
-            compiler.set_feature("record", kernel != module);
-            let linked = compiler.compile(&format!("package::kernels::{module}").parse()?)?;
-            let path = Path::new(&out).join(format!("{kernel}_{variant}.wgsl"));
-            std::fs::write(path, linked.to_string())?;
+fn run() -> Result<(), Box<dyn Error>> {
+    let mut sources = Vec::new();
+    list(Path::new("shaders"), &mut sources)?;
+    sources.sort();
+    #[cfg(feature = "link")]
+    {
+        for (name, text) in link::kernels()? {
+            write(&format!("shaders/linked/{name}"), &text)?;
+        }
+        let lines = sources.iter().map(|(name, sum)| format!("{sum} {name}\n"));
+        write(SOURCES, &lines.collect::<String>())?;
+    }
+    let linked = fs::read_to_string(SOURCES)?;
+    let linked = linked.lines().filter_map(|line| line.rsplit_once(' '));
+    let mut linked: Vec<_> = linked
+        .map(|(sum, name)| (name.into(), sum.into()))
+        .collect();
+    linked.sort();
+    let is_new = |source: &&(String, String)| !linked.contains(source);
+    let is_gone = |source: &&(String, String)| !sources.contains(source);
+    let changed = sources.iter().find(is_new);
+    match changed.or_else(|| linked.iter().find(is_gone)) {
+        Some((name, _)) => Err(format!(
+            "shaders/{name} has changed since the kernels were linked. Link them with `make shaders`, or \
+             `cargo check --no-default-features --features link`."
+        )
+        .into()),
+        None => Ok(()),
+    }
+}
+
+/// Names of the sources below `folder`, and their checksums.
+fn list(folder: &Path, sources: &mut Vec<(String, String)>) -> Result<(), Box<dyn Error>> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            list(&path, sources)?;
+        } else if path.extension().is_some_and(|ending| ending == "wesl") {
+            let name = path.strip_prefix("shaders")?.to_string_lossy();
+            let bytes = fs::read(&path)?;
+            let sum = format!("{} {}", checksum(&bytes), bytes.len());
+            sources.push((name.replace('\\', "/"), sum));
         }
     }
     Ok(())
+}
+
+/// The CRC of POSIX's `cksum`, which takes the length in after the bytes.
+fn checksum(bytes: &[u8]) -> u32 {
+    let length = bytes.len().to_le_bytes();
+    let length_end = length.iter().rposition(|byte| *byte != 0);
+    let length = &length[..length_end.map_or(0, |last| last + 1)];
+    let sum = bytes.iter().chain(length).fold(0_u32, |sum, byte| {
+        (0..8).fold(sum ^ u32::from(*byte) << 24, |sum, _| match sum >> 31 {
+            0 => sum << 1,
+            _ => sum << 1 ^ 0x04c1_1db7,
+        })
+    });
+    !sum
+}
+
+/// Writes what differs, so that an unchanged file keeps its time.
+#[cfg(feature = "link")]
+fn write(path: &str, text: &str) -> Result<(), Box<dyn Error>> {
+    if fs::read_to_string(path).is_ok_and(|old| old == text) {
+        return Ok(());
+    }
+    fs::create_dir_all("shaders/linked")?;
+    Ok(fs::write(path, text)?)
 }

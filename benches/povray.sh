@@ -1,21 +1,21 @@
 #!/usr/bin/env bash
 # Renders scenes of the Standard Procedural Database with POV-Ray, from the .pov files, and with
-# glimray, from the .nff files, and lays the pictures beside each other.
+# glimray, from the .nff files, and compares the pictures.
 #
 #   benches/povray.sh SPD_FOLDER OUT_FOLDER [SCENE…]        scenes: balls teapot
 #
-# OUT_FOLDER gets SCENE.pov.png, SCENE.glimray.png and SCENE.difference.png (8 times amplified where
-# ImageMagick is there, else scaled up to white), with ImageMagick also SCENE.beside.png, and of both
-# programs what they printed. POV-Ray (Debian: povray) is installed when missing. Environment:
+# The script writes SCENE.pov.png, SCENE.glimray.png and SCENE.difference.png (amplified 8 times with
+# ImageMagick, otherwise scaled to white), with ImageMagick also SCENE.beside.png, and the output of
+# both programs to OUT_FOLDER. It installs POV-Ray (Debian: povray) if it is missing. Environment:
 # GLIMRAY, the program (target/release/glimray); SIZE, the side in pixels (512); ONLY=pov for
-# POV-Ray's pictures alone; AMBIENT=1 to leave the ambient terms in its files; LEVEL, its
+# POV-Ray's pictures alone; AMBIENT=1 to keep the ambient terms in its files; LEVEL, its
 # max_trace_level (6).
 #
-# The files differ in one thing: `balls.pov` gives the floor an ambient term, which NFF does not know,
-# so it is set to 0 unless AMBIENT=1. Lights (white, 1/√n), colours, diffuse, highlight (white) and
-# mirror are alike. POV-Ray 3.7 takes such old files without gamma, as glimray takes NFF. Its trace
-# level counts the first ray, so that 6 are our 5 bounces; it also counts, without following them,
-# the mirrored rays of the level after the last (LEVEL=5 for those that we send).
+# The files differ in one respect: `balls.pov` gives the floor an ambient term, which NFF lacks, so it
+# is set to 0 unless AMBIENT=1. Lights (white, 1/√n), colours, diffuse, highlight (white) and
+# reflection are the same. POV-Ray 3.7 reads such old files without gamma, as glimray reads NFF. Its
+# trace level counts the camera ray, so that 6 equals our 5 bounces; it also counts, without tracing
+# them, the reflected rays of the level after the last (LEVEL=5 for those that we trace).
 set -euo pipefail
 
 if [ $# -lt 2 ]; then
@@ -49,7 +49,7 @@ seconds() { # COMMAND…: runs it and prints the wall-clock seconds it took
 }
 
 for scene; do
-	# POV-Ray may read and write below /tmp and the current folder only, so it works on a copy.
+	# POV-Ray can read and write only below /tmp and the current folder, so it works on a copy.
 	work=$(mktemp -d)
 	trap 'rm -rf "$work"' EXIT
 	if [ "${AMBIENT:-}" = 1 ]; then keep=1; else keep=0; fi
@@ -74,7 +74,7 @@ for scene; do
 	}
 	echo "$scene: glimray $took s"
 	grep -E '"(primary|shadow|reflection|refraction)[a-z_]*":' "$out/$scene.glimray.json"
-	# For the figures: any share of the pixels may differ.
+	# For the statistics: any fraction of the pixels may differ.
 	"$glimray" compare "$out/$scene.pov.png" "$out/$scene.glimray.png" --tolerance 3 \
 		--max-share 100 --diff "$out/$scene.difference.png"
 	if command -v convert >/dev/null; then

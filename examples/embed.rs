@@ -1,6 +1,6 @@
-//! glimray inside another program: a plain winit and wgpu window whose device renders the picture. Nothing
-//! here waits for the GPU: each frame of the window asks how far the renderer is, hands it more work, and
-//! draws the texture that it leaves.
+//! glimray embedded in another program: a plain winit and wgpu window whose device renders the picture. Nothing
+//! here waits for the GPU: each frame of the window polls the renderer, submits more work, and draws its
+//! texture.
 //!
 //! ```text
 //! cargo run --release --example embed -- assets/scenes/showcase.toml [--until-done]
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 struct Program {
     scene: String,
-    /// Closes the window once the picture has all its samples.
+    /// Closes the window once every pixel has all its samples.
     until_done: bool,
     view: Option<View>,
     failure: Option<Box<dyn Error>>,
@@ -91,7 +91,7 @@ impl View {
             .with_inner_size(PhysicalSize::new(width, height));
         let window = Arc::new(events.create_window(attributes)?);
 
-        // What every wgpu program has.
+        // The set-up of any wgpu program.
         let descriptor = wgpu::InstanceDescriptor::new_with_display_handle(Box::new(
             events.owned_display_handle(),
         ));
@@ -106,16 +106,16 @@ impl View {
         let mut configuration = surface
             .get_default_config(&adapter, width, height)
             .ok_or("the adapter cannot draw on this window")?;
-        // The picture is encoded already.
+        // The picture is already encoded for display.
         configuration.format = configuration.format.remove_srgb_suffix();
         surface.configure(&device, &configuration);
 
-        // What glimray adds.
+        // The set-up of glimray.
         let packed = Arc::new(pack::scene(&scene)?);
         let frame = packed.frame(&scene.frame(0.0))?;
         let gpu = Gpu::from_wgpu(instance, adapter, device.clone(), queue.clone());
         let settings = RenderSettings::from(&scene.output);
-        // The film stays on the GPU, where it can be shown at once.
+        // Keep the film on the GPU, where it can be displayed directly.
         let policy = ExecutionPolicy {
             host_copy: false,
             ..ExecutionPolicy::default()
@@ -143,7 +143,7 @@ impl View {
         self.window.request_redraw();
     }
 
-    /// One frame of the window: takes what the GPU has finished, gives it more to do, draws the picture.
+    /// One frame of the window: collects finished work, submits more, and draws the picture.
     fn draw(&mut self) -> Result<Status, Box<dyn Error>> {
         let status = self.renderer.poll()?;
         if status != Status::Working {
@@ -162,7 +162,7 @@ impl View {
                 self.queue.present(frame);
             }
             Outdated => self.surface.configure(&self.device, &self.configuration),
-            // Not to be seen just now.
+            // The window is not visible.
             _ => {}
         }
         Ok(status)

@@ -1,11 +1,11 @@
-//! Damages good files at random and reads them: `cargo run --release --example fuzz -- [CASES] [SEED]`
+//! Fuzzes the importers with mutations of valid files: `cargo run --release --example fuzz -- [CASES] [SEED]`
 //!
-//! Scenes in all formats, models with their materials, meshes and pictures are cut, spliced and garbled;
-//! their numbers are replaced by others. A case is found when the importer panics, says something on
-//! several lines, gives a scene that breaks what `Scene` promises, or takes more than ten seconds or more
-//! memory than it should. What is found goes to `target/fuzz`, with the seed of the case in its name;
-//! `target/fuzz/current` is what is being read, should it never end. Small finds that are mended belong in
-//! `tests/corpus`, which the tests read again.
+//! Scenes in all formats, models with their materials, meshes and pictures are truncated, spliced and
+//! corrupted, and their numbers replaced. A case fails if the importer panics, reports an error of several
+//! lines, returns a scene that violates the invariants of `Scene`, or takes more than ten seconds or more
+//! memory than allowed. Failures are written to `target/fuzz`, with the seed of the case in the name;
+//! `target/fuzz/current` is the file being read, in case the importer hangs. Small fixed failures belong in
+//! `tests/corpus`, which the tests read.
 
 use glimray::image::Image;
 use glimray::scene::{Background, Scene};
@@ -16,21 +16,21 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The longest that reading one file may take: all of them are small.
+/// Time limit for reading one file; all files are small.
 const MOST_TIME: Duration = Duration::from_secs(10);
 
-/// A mesh as text, with all that is read.
+/// A text mesh that uses every property that is read.
 const PLY: &str = "ply\nformat ascii 1.0\ncomment a square\nelement vertex 4\nproperty float x\n\
     property float y\nproperty double z\nproperty float nx\nproperty float ny\nproperty float nz\n\
     property float u\nproperty float v\nelement face 2\nproperty list uchar int vertex_indices\n\
     end_header\n0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n1 1 0 0 0 1 1 1\n0 1 0.5 0 0 1 0 1\n3 0 1 2\n3 0 2 3\n";
 
-/// A file to begin with, and the scene that names it if it is none itself.
+/// A seed file, and the scene that references it if it is not a scene itself.
 struct Seed {
     name: String,
     bytes: Vec<u8>,
     scene: PathBuf,
-    /// Bytes that reading it may take, besides eight times its size.
+    /// Memory limit for reading it, in bytes, in addition to eight times its size.
     memory: u64,
 }
 
@@ -94,7 +94,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
-/// Puts all that the seeds need into `folder`.
+/// Copies the files that the seeds reference to `folder`.
 fn seeds(folder: &Path) -> Result<Vec<Seed>, Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
@@ -126,7 +126,7 @@ fn seeds(folder: &Path) -> Result<Vec<Seed>, Box<dyn Error>> {
     for (name, bytes) in files {
         fs::write(folder.join(&name), &bytes)?;
         let (scene, memory) = match name.rsplit('.').next() {
-            // The TOML parser takes up to 800 bytes for each value, of which there may be many.
+            // The TOML parser needs up to 800 bytes for each value, and there may be many.
             Some("toml") => (name.clone(), 512),
             Some("scene" | "nff" | "obj") => (name.clone(), 128),
             Some("mtl") => ("lighthouse.obj".into(), 128),
@@ -150,7 +150,7 @@ fn seeds(folder: &Path) -> Result<Vec<Seed>, Box<dyn Error>> {
     Ok(seeds)
 }
 
-/// A scene that names a file.
+/// A scene that references a file.
 fn naming(folder: &Path, name: &str, text: &str) -> Result<String, Box<dyn Error>> {
     let scene = format!("names_{}.toml", name.replace('.', "_"));
     fs::write(folder.join(&scene), text.replace('%', name))?;
@@ -223,10 +223,10 @@ fn damaged(from: &Seed, seeds: &[Seed], random: &mut Random) -> Vec<u8> {
     bytes
 }
 
-/// Whether the file was read, or refused as it should be.
+/// Whether the file was read, or rejected correctly.
 fn judge(seed: &Seed, length: usize) -> Result<bool, String> {
     let before = memory("VmRSS:");
-    // Makes Linux forget the peak so far.
+    // Resets the peak memory of the process on Linux.
     let _ = fs::write("/proc/self/clear_refs", "5");
     let started = Instant::now();
     let outcome = catch_unwind(AssertUnwindSafe(|| import::load(&seed.scene)));
@@ -252,7 +252,7 @@ fn judge(seed: &Seed, length: usize) -> Result<bool, String> {
     }
 }
 
-/// A figure of this process in bytes; 0 where the system does not tell.
+/// A memory statistic of this process in bytes; 0 if the system does not provide it.
 fn memory(what: &str) -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix(what));
@@ -260,7 +260,7 @@ fn memory(what: &str) -> u64 {
     number.unwrap_or_default() << 10
 }
 
-/// What `scene` breaks of its promises.
+/// The invariants that `scene` violates.
 fn broken(scene: &Scene) -> Option<String> {
     let is_color = |c: &glam::Vec3| c.is_finite() && c.min_element() >= 0.0;
     for material in &scene.materials {

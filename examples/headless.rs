@@ -1,4 +1,5 @@
-//! A scene file → a picture, without a window: `cargo run --release --example headless -- SCENE OUT.png`
+//! Renders a scene file to a picture without a window: `cargo run --release --example headless -- SCENE
+//! OUT.png`
 
 use glimray::gpu::{AdapterChoice, Gpu};
 use glimray::render::{ExecutionPolicy, RenderSettings, Renderer, Tone};

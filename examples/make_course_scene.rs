@@ -6,12 +6,12 @@
 
 use std::fmt::Write;
 
-/// Half the width of the terrain, and how far it reaches from and to in front of the camera.
+/// Half the width of the terrain, and its nearest and farthest distance from the camera.
 const HALF_WIDTH: f64 = 9.0;
 const NEAR: f64 = -2.5;
 const FAR: f64 = -20.0;
 
-/// Position and colour of the lights, the first of them first.
+/// Position and colour of the lights, in order of use.
 const LIGHTS: [([f64; 3], [f64; 3]); 6] = [
     ([-9.0, 6.0, -4.0], [1.0, 0.84, 0.6]),
     ([8.0, 5.0, -14.0], [0.24, 0.32, 0.5]),
@@ -37,7 +37,7 @@ fn main() {
     print!("{}", scene(triangles, lights));
 }
 
-/// The text of a scene of exactly so many triangles and lights.
+/// The text of a scene with exactly this many triangles and lights.
 fn scene(triangles: usize, lights: usize) -> String {
     let mut text = format!("{}\namb: 0.08 0.09 0.11\n", triangles + lights);
     for (position, color) in &LIGHTS[..lights] {
@@ -48,7 +48,7 @@ fn scene(triangles: usize, lights: usize) -> String {
             numbers(color)
         );
     }
-    // Cells twice as many across as deep; the last row may be cut short.
+    // Twice as many cells across as deep; the last row may be incomplete.
     let columns = ((triangles as f64).sqrt().round() as usize).max(1);
     let rows = triangles.div_ceil(2 * columns).max(1);
     let corner = |column: usize, row: usize| {
@@ -105,7 +105,7 @@ fn height(x: f64, z: f64) -> f64 {
     -2.1 + 2.4 * depth + waves * (0.25 + 0.85 * depth)
 }
 
-/// `values` with at most three decimals, parted by spaces.
+/// `values` with at most three decimals, separated by spaces.
 fn numbers(values: &[f64]) -> String {
     let number = |value: &f64| {
         let text = format!("{value:.3}");

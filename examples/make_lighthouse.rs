@@ -1,13 +1,13 @@
 //! Writes the lighthouse to standard output:
 //! `cargo run --example make_lighthouse > assets/scenes/lighthouse.obj`
 //!
-//! Outlines turned on a lathe, in quads and two polygons. Parts do not share vertices, so that
-//! computed normals are smooth within a part and break between them; the rock is flat (`s off`).
+//! Surfaces of revolution made of quads and two polygons. Parts do not share vertices, so computed
+//! normals are smooth within a part and have creases between parts; the rock is flat (`s off`).
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// Sides of everything round.
+/// Number of sides of round parts.
 const SIDES: usize = 24;
 
 /// One part: name, material, whether it is smooth, and its outline of (radius, height) upwards.
@@ -147,7 +147,7 @@ fn lathe(text: &mut String, rough: bool, outline: &[(f64, f64)]) {
     }
 }
 
-/// A level disc that faces up: one polygon.
+/// A horizontal disc that faces up: one polygon.
 fn disc(text: &mut String, name: &str, material: &str, radius: f64, height: f64) {
     let _ = writeln!(text, "o {name}\nusemtl {material}\ns off");
     for side in 0..SIDES {
@@ -160,7 +160,7 @@ fn disc(text: &mut String, name: &str, material: &str, radius: f64, height: f64)
     text.push('\n');
 }
 
-/// Posts round the gallery and a rail on them.
+/// Posts around the gallery and a rail on them.
 fn railing(text: &mut String) {
     let _ = writeln!(text, "o railing\nusemtl iron\ns off");
     for side in (0..SIDES).step_by(2) {
@@ -185,7 +185,7 @@ fn railing(text: &mut String) {
     );
 }
 
-/// A door with a round top: a prism over a polygon that is not convex at its step.
+/// A door with a round top: a prism over a polygon that is concave at its step.
 fn door(text: &mut String) {
     let _ = writeln!(text, "o door\nusemtl wood\ns off");
     let mut outline = vec![
@@ -218,7 +218,7 @@ fn door(text: &mut String) {
     }
 }
 
-/// A box between two corners, without its floor.
+/// An axis-aligned box between two corners, without a floor.
 fn cuboid(text: &mut String, min: [f64; 3], max: [f64; 3]) {
     for (x, y, z) in [
         (min[0], min[1], min[2]),
@@ -236,7 +236,7 @@ fn cuboid(text: &mut String, min: [f64; 3], max: [f64; 3]) {
 }
 
 fn vertex(text: &mut String, radius: f64, height: f64, side: usize) {
-    // Clockwise seen from above, so that faces written upwards look outwards.
+    // Clockwise seen from above, so that faces listed upwards face outwards.
     let angle = -TAU * side as f64 / SIDES as f64;
     let (x, z) = (radius * angle.cos(), radius * angle.sin());
     let _ = writeln!(text, "v {x:.3} {height:.3} {z:.3}");

@@ -4,7 +4,7 @@
 //! cargo run --release --example make_tile assets/scenes/tile.png
 //! ```
 //!
-//! Its edges meet on all sides when it is repeated.
+//! It tiles seamlessly.
 
 use glimray::image::Image;
 use glimray::output;

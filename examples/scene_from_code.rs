@@ -1,6 +1,6 @@
-//! A scene that is in no file: `cargo run --release --example scene_from_code -- OUT.png`
+//! Builds a scene in code and renders it: `cargo run --release --example scene_from_code -- OUT.png`
 //!
-//! A glass ball and a mesh of one triangle stand on a floor, before a sky.
+//! A glass ball and a mesh of one triangle stand on a floor in front of a sky.
 
 use glam::{DAffine3, DVec3, Vec3, dvec3, vec3};
 use glimray::gpu::{AdapterChoice, Gpu};

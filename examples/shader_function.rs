@@ -1,7 +1,7 @@
-//! A function of the shader library in a kernel of one's own: what share of light a glass surface
-//! mirrors at each angle, by `lib::fresnel`. `cargo run --release --example shader_function`
+//! Uses a function of the shader library in a custom kernel: the fraction of light that glass reflects at
+//! each angle, by `lib::fresnel`. `cargo run --release --example shader_function`
 //!
-//! The kernel imports the function, `wesl` links both into plain WGSL, and wgpu runs it. The tests of the
+//! The kernel imports the function, `wesl` links both to plain WGSL, and wgpu runs it. The tests of the
 //! library do the same for tables of inputs: see `map` in `tests/suite/support/harness.rs`.
 
 use std::error::Error;
@@ -13,7 +13,7 @@ const KERNEL: &str = "
 
     @group(0) @binding(0) var<storage, read_write> values: array<f32>;
 
-    // The cosine of the angle of incidence becomes the reflectance of glass in air.
+    // Replaces the cosine of the angle of incidence by the reflectance of glass in air.
     @compute @workgroup_size(64)
     fn main(@builtin(global_invocation_id) id: vec3u) {
         if (id.x < arrayLength(&values)) {
@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The kernel and what it imports, as plain WGSL.
+/// The kernel and its imports, linked to plain WGSL.
 fn linked() -> Result<String, Box<dyn Error>> {
     let shaders = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
     let path: wesl::ModulePath = "package::kernel".parse()?;
@@ -47,7 +47,7 @@ fn linked() -> Result<String, Box<dyn Error>> {
     Ok(linked.map_err(|error| error.to_string())?.to_string())
 }
 
-/// What the kernel makes of `values`.
+/// Runs the kernel on `values`.
 fn run(wgsl: &str, values: &[f32]) -> Result<Vec<f32>, Box<dyn Error>> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;

@@ -1,4 +1,4 @@
-//! The clock by which the library measures its own work. Browsers have one of their own.
+//! The clock that the library uses to measure its own work. Browsers have a different one.
 
 #[cfg(not(target_arch = "wasm32"))]
 pub use std::time::Instant;

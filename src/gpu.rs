@@ -1,8 +1,8 @@
-//! The device: finding an adapter, opening it, noticing when it is lost, and every way it can fail
-//! turned into a [`GpuError`].
+//! The GPU device: choosing an adapter, opening the device, detecting its loss. Every failure becomes a
+//! [`GpuError`].
 //!
-//! wgpu reports the loss of a device through a callback and panics in `poll` after it; see
-//! `Gpu::wait`. Allocation and pipeline creation run inside error scopes.
+//! wgpu reports the loss of a device through a callback, and `poll` panics after it; see `Gpu::wait`.
+//! Allocation and pipeline creation run inside error scopes.
 
 mod adapter;
 mod buffer;
@@ -29,12 +29,11 @@ use std::{
     time::Duration,
 };
 
-/// How long one wait for the device may take, and how many of them are tried before the device
-/// counts as lost.
+/// Time limit of one wait for the device, and the number of waits before the device counts as lost.
 const WAIT: Duration = Duration::from_secs(10);
 const WAITS: u32 = 3;
 
-/// An open device with its queue. A clone is the same device.
+/// An open device with its queue. A clone refers to the same device.
 #[derive(Clone)]
 pub struct Gpu {
     choice: AdapterChoice,
@@ -43,40 +42,40 @@ pub struct Gpu {
     pub(crate) adapter: wgpu::Adapter,
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
-    /// Whether it was opened here. Another's device is not replaced when it is lost.
+    /// Whether it was opened here. The device of another program is not replaced when it is lost.
     is_own: bool,
     lost: Arc<AtomicBool>,
-    /// The first error that no scope caught.
+    /// The first error outside of any error scope.
     stray_error: Arc<Mutex<Option<String>>>,
-    /// What was compiled so far: the next renderer on this device may need the same.
+    /// Compiled pipelines, kept because the next renderer on this device may need the same ones.
     pipelines: Arc<Mutex<shader::Pipelines>>,
 }
 
-/// Sizes that may exceed WebGPU's default limits, in bytes and texels.
+/// Required limits that may exceed the defaults of WebGPU.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Needs {
-    /// The largest buffer that a shader reads or writes as a whole.
+    /// The largest buffer that a shader binds as a whole, in bytes.
     pub binding_bytes: u64,
-    /// The longest side of a texture.
+    /// The longest side of a texture, in texels.
     pub texture_side: u32,
 }
 
 impl Gpu {
-    /// Opens the adapter that `choice` names, or the fastest kind there is. It asks for no feature
-    /// and for no more than WebGPU's default limits.
+    /// Opens the adapter that `choice` names, or the fastest kind available. The device requires no optional
+    /// features and only the default limits of WebGPU.
     pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
         Self::open(choice, Needs::default())
     }
 
-    /// Opens an adapter with limits that serve `needs`.
+    /// Opens an adapter with limits that meet `needs`.
     pub(crate) fn open(choice: &AdapterChoice, needs: Needs) -> Result<Self, GpuError> {
         let found = adapter::choose(choice)?;
         let required_limits = limits_for(needs, &found.adapter.limits())?;
         Self::request(found, choice, required_limits)
     }
 
-    /// Opens an adapter with limits that serve whatever it can serve at all. For a device that is
-    /// shared, and so cannot give way to one with higher limits.
+    /// Opens an adapter with its maximum buffer and texture limits, for a device that is shared with other code
+    /// and therefore cannot be replaced by one with higher limits.
     pub fn with_all_limits(choice: &AdapterChoice) -> Result<Self, GpuError> {
         let found = adapter::choose(choice)?;
         let most = found.adapter.limits();
@@ -108,7 +107,7 @@ impl Gpu {
             .map_err(|error| no_device(&report.name, &error.to_string()))?;
         let lost = Arc::new(AtomicBool::new(false));
         let on_loss = lost.clone();
-        // The callback may run with locks held, so it only sets a flag.
+        // The callback may run while locks are held, so it only sets a flag.
         device.set_device_lost_callback(move |_, _| on_loss.store(true, Ordering::Release));
         let stray_error = Arc::new(Mutex::new(None));
         let slot = stray_error.clone();
@@ -131,9 +130,10 @@ impl Gpu {
         })
     }
 
-    /// A device that a program has already, with what it came from. It stays the program's: its limits
-    /// decide what can be rendered, its callbacks are not touched, and when it is lost the program opens
-    /// another one ([`GpuError::Lost`]). At least WebGPU's default limits are needed.
+    /// Wraps a device that another program opened, with its instance, adapter and queue. It needs at least the
+    /// default limits of WebGPU. The program keeps control of it: its limits decide which scenes can be
+    /// rendered, its callbacks are not touched, and if it is lost the program has to open another one
+    /// ([`GpuError::Lost`]).
     pub fn from_wgpu(
         instance: wgpu::Instance,
         adapter: wgpu::Adapter,
@@ -154,22 +154,21 @@ impl Gpu {
         }
     }
 
-    /// Whether it was opened here, and not given by [`Gpu::from_wgpu`].
+    /// Whether the device was opened here, not passed to [`Gpu::from_wgpu`].
     pub fn is_own(&self) -> bool {
         self.is_own
     }
 
-    /// This device if it serves `needs`, else one on the same adapter with higher limits.
-    pub(crate) fn serving(self, needs: Needs) -> Result<Self, GpuError> {
-        if self.serves(needs) {
+    /// This device if it meets `needs`, otherwise a new one on the same adapter with higher limits.
+    pub(crate) fn with_limits_for(self, needs: Needs) -> Result<Self, GpuError> {
+        if self.meets(needs) {
             return Ok(self);
         }
         self.check_limits(needs)?;
         Self::open(&self.choice, needs)
     }
 
-    /// Whether a device on this adapter could have limits that serve `needs`; another's device has those
-    /// that it has.
+    /// Checks that a device on this adapter can meet `needs`. The device of another program has fixed limits.
     pub(crate) fn check_limits(&self, needs: Needs) -> Result<(), GpuError> {
         if self.is_own {
             return limits_for(needs, &self.adapter.limits()).map(drop);
@@ -191,15 +190,15 @@ impl Gpu {
         }
     }
 
-    /// Whether this device's limits allow for `needs`.
-    pub(crate) fn serves(&self, needs: Needs) -> bool {
+    /// Whether the limits of this device meet `needs`.
+    pub(crate) fn meets(&self, needs: Needs) -> bool {
         let limits = self.device.limits();
         needs.binding_bytes <= limits.max_storage_buffer_binding_size
             && needs.binding_bytes <= limits.max_buffer_size
             && needs.texture_side <= limits.max_texture_dimension_2d
     }
 
-    /// The device with what it came from, for others who draw with it.
+    /// The wgpu handles of the device, for other code that draws with it.
     pub fn handles(&self) -> (wgpu::Instance, wgpu::Adapter, wgpu::Device, wgpu::Queue) {
         (
             self.instance.clone(),
@@ -209,7 +208,7 @@ impl Gpu {
         )
     }
 
-    /// What this device was asked for by.
+    /// The choice with which this device was opened.
     pub(crate) fn choice(&self) -> &AdapterChoice {
         &self.choice
     }
@@ -224,9 +223,9 @@ impl Gpu {
         self.report.device_type == "cpu"
     }
 
-    /// Loses the device, as a driver reset would. For rehearsing what happens then.
+    /// Loses the device, as a driver reset would, to test recovery.
     pub fn lose(&self) {
-        // wgpu tells of a driver's reset at once, of a device that is given up only when it is idle.
+        // wgpu reports a driver reset at once, but a destroyed device only once it is idle.
         self.lost.store(true, Ordering::Release);
         self.device.destroy();
     }
@@ -236,14 +235,14 @@ impl Gpu {
         self.lost.load(Ordering::Acquire)
     }
 
-    /// Workgroups along x of a dispatch that is to have `columns`: one less where a driver that cuts
-    /// it short is rehearsed.
-    pub(crate) fn dispatched(&self, columns: u32) -> u32 {
-        columns - u32::from(fault::strikes(fault::Site::Dispatch))
+    /// Workgroups along x of a dispatch with this many `columns`: one fewer if a fault injection simulates a
+    /// driver that cuts the dispatch short.
+    pub(crate) fn dispatch_columns(&self, columns: u32) -> u32 {
+        columns - u32::from(fault::should_fail(fault::Site::Dispatch))
     }
 
-    /// Submits and waits until the work is done. A device that is lost, or does not answer within
-    /// half a minute, is [`GpuError::Lost`].
+    /// Submits and waits for completion. A device that is lost, or does not respond within half a minute, gives
+    /// [`GpuError::Lost`].
     pub(crate) fn submit(&self, commands: wgpu::CommandBuffer) -> Result<(), GpuError> {
         let index = self.enqueue(commands)?;
         self.wait(index)
@@ -254,10 +253,10 @@ impl Gpu {
         &self,
         commands: wgpu::CommandBuffer,
     ) -> Result<wgpu::SubmissionIndex, GpuError> {
-        if fault::strikes(fault::Site::Device) {
+        if fault::should_fail(fault::Site::Device) {
             self.lose();
         }
-        guard::quiet(|| self.queue.submit([commands])).map_err(|()| GpuError::Lost)
+        guard::catch(|| self.queue.submit([commands])).map_err(|()| GpuError::Lost)
     }
 
     fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), GpuError> {
@@ -266,7 +265,7 @@ impl Gpu {
                 submission_index: Some(index.clone()),
                 timeout: Some(WAIT),
             };
-            let polled = guard::quiet(|| self.device.poll(poll)).map_err(|_| GpuError::Lost)?;
+            let polled = guard::catch(|| self.device.poll(poll)).map_err(|_| GpuError::Lost)?;
             self.check()?;
             match polled {
                 Ok(_) => return Ok(()),
@@ -277,7 +276,7 @@ impl Gpu {
         Err(GpuError::Lost)
     }
 
-    /// Whether anything went wrong that was not reported where it happened.
+    /// Returns any error that was not reported where it occurred.
     fn check(&self) -> Result<(), GpuError> {
         if self.is_lost() {
             return Err(GpuError::Lost);
@@ -293,14 +292,14 @@ impl Gpu {
         }
     }
 
-    /// Whether this is another program's device and lost, of which the callback tells that program alone.
-    /// wgpu makes buffers on a lost device without a word, and then finds them invalid.
+    /// Whether this device belongs to another program and is lost. The loss callback informs only that program.
+    /// wgpu silently creates buffers on a lost device and then reports them as invalid.
     fn is_others_and_lost(&self) -> bool {
         if self.is_own {
             return false;
         }
         let scope = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let tried = guard::quiet(|| {
+        let tried = guard::catch(|| {
             let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("probe"),
                 size: 4,
@@ -314,11 +313,11 @@ impl Gpu {
         is_lost
     }
 
-    /// Runs `make` inside error scopes and turns what they catch into an error.
+    /// Runs `make` inside error scopes and converts caught errors.
     fn scoped<T>(&self, what: &str, make: impl FnOnce() -> T) -> Result<T, GpuError> {
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let made = guard::quiet(make);
+        let made = guard::catch(make);
         let invalid = pollster::block_on(validation.pop());
         let exhausted = pollster::block_on(memory.pop());
         if self.is_lost() {
@@ -339,7 +338,7 @@ impl Gpu {
     }
 }
 
-/// What it means that a driver refuses to open the adapter. wgpu tells that it lacks memory in words only.
+/// The error of a driver that fails to open the adapter. wgpu reports a lack of memory only in the text.
 fn no_device(adapter: &str, why: &str) -> GpuError {
     match why.contains("Not enough memory") {
         true => GpuError::OutOfMemory {
@@ -383,8 +382,8 @@ fn limits_for(needs: Needs, adapter: &wgpu::Limits) -> Result<wgpu::Limits, GpuE
         defaults.max_texture_dimension_2d.into(),
         adapter.max_texture_dimension_2d.into(),
     )?;
-    // What an adapter cannot give at all (a GL driver below WebGPU's floor) is not asked for; a
-    // shader that needs it is refused when its pipeline is made.
+    // Limits that an adapter cannot meet (a GL driver below the WebGPU minimum) are not requested; creating the
+    // pipeline of a shader that needs them fails.
     let floor = defaults.or_worse_values_from(adapter);
     Ok(wgpu::Limits {
         max_storage_buffer_binding_size: binding,

@@ -308,37 +308,38 @@ packed! {
         #[doc(hidden)]
         _pad: u32,
     }
-    /// What one submission is to do, and from `tiles_done` on what came of it.
-    PackedSlice {
-        /// In pixels.
+    /// The parameters of one dispatch: which workgroups of which film tile, which samples. `counters` is its
+    /// result.
+    PackedDispatch {
+        /// Width of the picture in pixels.
         picture_width: u32,
-        /// In pixels.
+        /// Height of the picture in pixels.
         picture_height: u32,
-        /// Left edge of the window in the picture, in pixels.
-        window_x: u32,
-        /// Upper edge of the window in the picture, in pixels.
-        window_y: u32,
-        /// In pixels.
-        window_width: u32,
-        /// In pixels.
-        window_height: u32,
-        /// Tiles in a row of the window.
-        tile_columns: u32,
-        /// Tiles in the window, at most 65,536.
-        tile_count: u32,
-        /// Step from one visited tile to the next, modulo `tile_count` and coprime to it.
-        tile_stride: u32,
-        /// Place of the first tile in the order of visits.
-        first_tile: u32,
-        /// One beyond the place of the last tile.
-        end_tile: u32,
-        /// Workgroups along x; a workgroup is a tile.
+        /// Left edge of the film tile in the picture, in pixels.
+        tile_x: u32,
+        /// Upper edge of the film tile in the picture, in pixels.
+        tile_y: u32,
+        /// Width of the film tile in pixels.
+        tile_width: u32,
+        /// Height of the film tile in pixels.
+        tile_height: u32,
+        /// Workgroups in a row of the film tile; each has 8x8 pixels.
+        group_columns: u32,
+        /// Workgroups in the film tile, at most 65,536.
+        group_count: u32,
+        /// Step from one workgroup's pixels to the next one's, modulo `group_count` and coprime to it.
+        group_stride: u32,
+        /// Index of the first workgroup of this dispatch, in dispatch order.
+        first_group: u32,
+        /// One beyond the index of its last workgroup.
+        end_group: u32,
+        /// Workgroups along x.
         grid_width: u32,
         /// Index of each pixel's first sample.
         first_sample: u32,
         /// One beyond the index of each pixel's last sample.
         end_sample: u32,
-        /// Of the random numbers.
+        /// Seed of the random numbers.
         seed: u32,
         /// Bounces after the first hit.
         max_depth: u32,
@@ -346,8 +347,13 @@ packed! {
         min_throughput: f32,
         /// Factor on [`PackedLight::sample_count`].
         light_samples: f32,
+        /// Counts of what the dispatch did; zero before it.
+        counters: PackedCounters,
+    }
+    /// What a dispatch counted.
+    PackedCounters {
         /// Workgroups that ran to their end.
-        tiles_done: u32,
+        groups_done: u32,
         /// Samples that were dropped: with them a sum would be infinite or not a number.
         nonfinite_samples: u32,
         /// Invocations in which a loop ended before its condition did.

@@ -65,7 +65,7 @@
 //! * **Limits are reported**: samples that had to be cut off are counted ([`render::Stats`]), and parts
 //!   of a scene that had to be skipped are listed ([`scene::Scene::skipped`]).
 //! * **Errors**: one enum for each module that can fail, with the information that a user needs. Only
-//!   [`app`] prints, exits or mentions flags. A bad file, a missing GPU or a full disk never causes a
+//!   [`app`] and [`cli`] print, exit or mention flags. A bad file, a missing GPU or a full disk never causes a
 //!   panic.
 //!
 //! # Features
@@ -76,7 +76,7 @@
 //!
 //! | feature | adds |
 //! |---|---|
-//! | `cli` | [`app`], the program |
+//! | `cli` | [`cli`], the program |
 //! | `viewer` | the window of `glimray view`; brings `cli` |
 //! | `video` | MP4 and GIF |
 //! | `gl` | OpenGL, where there is no Vulkan, Metal or DirectX 12 |
@@ -96,11 +96,13 @@
 //! | [`export`] | `Scene` → native scene file | `scene` |
 //! | [`image`](mod@image) | a finished picture in memory | |
 //! | [`output`] | `Image` → file, frames → video, complete or absent | `image` |
-//! | [`app`] | the command line | everything |
+//! | [`app`] | what the command line and the window share | everything above |
+//! | [`cli`] | the commands | `app` and everything above |
+//! | [`viewer`] | the window of `glimray view` | `app` and everything above |
 //!
 //! The shaders are in `shaders/`: `types.wesl` (shared structs), `bindings.wesl` (all bindings and
 //! overrides), `lib/` (pure functions), `scene/` (functions that read bindings), `kernels/` (entry
-//! points). `build.rs` links them to plain WGSL, which is embedded in the binary.
+//! points). The binary embeds them linked to plain WGSL (`shaders/linked`), which `make shaders` updates.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -108,6 +110,8 @@
 #[cfg(feature = "cli")]
 pub mod app;
 pub mod bvh;
+#[cfg(feature = "cli")]
+pub mod cli;
 mod clock;
 pub mod export;
 pub mod gpu;
@@ -119,3 +123,5 @@ pub mod output;
 pub mod pack;
 pub mod render;
 pub mod scene;
+#[cfg(feature = "viewer")]
+pub mod viewer;

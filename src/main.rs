@@ -1,4 +1,4 @@
-//! The `glimray` program: hands its arguments to [`glimray::app`].
+//! The `glimray` program: hands its arguments, and its window if it has one, to [`glimray::cli`].
 
 #![forbid(unsafe_code)]
 
@@ -7,7 +7,11 @@ use std::time::Instant;
 
 fn main() -> ExitCode {
     let started = Instant::now();
-    glimray::app::mesa::silence_device_select();
-    glimray::app::exit::install_panic_hook();
-    glimray::app::run(std::env::args_os(), started)
+    glimray::cli::mesa::silence_device_select();
+    glimray::cli::exit::install_panic_hook();
+    #[cfg(feature = "viewer")]
+    let window = Some(&glimray::viewer::WINDOW);
+    #[cfg(not(feature = "viewer"))]
+    let window = None;
+    glimray::cli::run(std::env::args_os(), started, window)
 }

@@ -1,5 +1,5 @@
-//! From the host model to the arrays that the GPU reads. Pure: no device is involved, the same
-//! scene gives the same bytes.
+//! Packs the scene into the arrays that the GPU reads. Packing is pure: it uses no device, and the same scene
+//! gives the same bytes.
 
 mod blas;
 mod frame;
@@ -19,7 +19,7 @@ mod tlas;
 mod trees;
 
 pub use frame::PackedView;
-pub use instance::MOST_BAKED;
+pub use instance::MAX_BAKED;
 pub use segments::Segments;
 pub use trees::TreeWork;
 
@@ -39,115 +39,114 @@ use material::PackedPicture;
 use mesh::CachedMesh;
 use object::Origins;
 use std::sync::Arc;
-use surfaces::Changing;
+use surfaces::AnimatedMaterials;
 use tlas::TlasSource;
 use trees::Trees;
 
-/// A scene as the GPU wants it.
+/// A packed scene.
 ///
-/// Its arrays consist of runs that [`scene_from`] shares between scenes: of each tree its own nodes,
-/// triangles and vertices, in the order of the scene, first those of trees that are instanced, then of
-/// those that are baked into the world, then of the one that shapes and small meshes share. What
-/// changes most lies last.
+/// Its arrays consist of segments that [`scene_from`] shares between scenes: the nodes, triangles and vertices
+/// of each BLAS, in scene order. Instanced BLASes come first, then those baked into the world, then the joint
+/// BLAS of shapes and small meshes: data that changes most often comes last.
 #[derive(Clone, Debug)]
 pub struct PackedScene {
-    /// Four-way nodes with boxes of 8 bits a plane. Node 0 is the root of all that is baked, if nothing
-    /// is instanced; the nodes between it and the baked trees lie behind those of all trees.
+    /// 4-wide nodes with 8-bit box planes. Node 0 is the root of all baked geometry if nothing is instanced;
+    /// the nodes between it and the baked BLASes follow the nodes of all BLASes.
     pub nodes: Segments<PackedNode>,
-    /// In leaf order, tree by tree. Those of baked meshes that are hidden are all 0.
+    /// In leaf order, BLAS by BLAS. Triangles of hidden baked meshes are all 0.
     pub triangles: Segments<PackedTriangle>,
-    /// The first triangle that is in render space; those before it are in a space of their own.
+    /// The first triangle in render space; those before it are in the space of an instanced BLAS.
     pub first_baked_triangle: u32,
-    /// Triangles in render space.
+    /// Number of triangles in render space.
     pub baked_triangle_count: u32,
-    /// Bounded shapes that are baked in leaf order, then `plane_count` planes, then those that are
-    /// instanced.
+    /// Baked bounded shapes in leaf order, then `plane_count` planes, then instanced shapes.
     pub shapes: Segments<PackedShape>,
-    /// Bounded shapes that are baked.
+    /// Number of baked bounded shapes.
     pub baked_shape_count: u32,
-    /// Shapes behind them that are in no tree.
+    /// Number of planes, which follow the baked shapes and are in no BVH.
     pub plane_count: u32,
-    /// Tree by tree, mesh by mesh.
+    /// BLAS by BLAS, mesh by mesh.
     pub vertices: Segments<PackedVertex>,
-    /// (u, v, 0, 0) of each vertex, zeros in meshes without; empty where no mesh has any.
+    /// (u, v, 0, 0) of each vertex, zeros for meshes without texture coordinates; empty if no mesh has any.
     pub uvs: Segments<[f32; 4]>,
-    /// In scene order, then those of visible lights.
+    /// In scene order, then the materials of visible lights.
     pub materials: Arc<[PackedMaterial]>,
     /// In scene order.
     pub textures: Arc<[PackedTexture]>,
-    /// Linear texels of all pictures, one after the other, as half floats; the fourth is 1.
+    /// Linear texels of all pictures, concatenated, as half floats; the fourth channel is 1.
     pub texels: Segments<[u16; 4]>,
-    /// For each of the scene's pictures its first texel, width and height.
+    /// The first texel, width and height of each picture.
     pub pictures: Vec<[u32; 3]>,
-    /// What the scene has, so that all else is compiled out.
+    /// The features that the scene uses; all others are compiled out.
     pub features: Features,
-    /// Bodies that are transparent at some time, which the camera may be inside of.
-    bodies: Vec<media::Body>,
+    /// Dielectric volumes that are transparent at some time, which the camera may be inside of.
+    volumes: Vec<media::Volume>,
     meshes: Vec<Arc<CachedMesh>>,
     trees: Trees,
     tlas_source: Arc<TlasSource>,
     packed_pictures: Vec<PackedPicture>,
-    /// The scene's materials where its visible lights or a track may change some.
-    changing: Option<Changing>,
-    /// What everything is in the scene.
+    /// The scene's materials if visible lights or a track may change some.
+    animated_materials: Option<AnimatedMaterials>,
+    /// Maps packed primitives back to scene objects.
     origins: Origins,
-    /// Where render space has its origin, in world space: [`Scene::render_origin`].
+    /// The origin of render space, in world space: [`Scene::render_origin`].
     pub origin: DVec3,
-    /// Seconds that building and refitting trees took.
+    /// Time spent on building and refitting BVHs, in seconds.
     pub build_seconds: f64,
-    /// What had to be built.
+    /// Counts of the BVHs that were built.
     pub work: TreeWork,
 }
 
-/// What is in a scene that a kernel needs code for.
+/// The features of a scene that a kernel needs code for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Features {
-    /// Bit k: there is a bounded shape of kind k.
+    /// Bit k is set if there is a bounded shape of kind k.
     pub shape_kinds: u32,
-    /// Some triangle's corners differ in material.
+    /// The corners of some triangle differ in material.
     pub mixed_materials: bool,
-    /// Something mirrors, be it only by total reflection, or shows only part of its local light.
+    /// Some material reflects, possibly only by total internal reflection, or has partly weighted local
+    /// shading.
     pub reflection: bool,
-    /// Something is transparent.
+    /// Some material is transparent.
     pub refraction: bool,
-    /// A transparent body may touch or overlap another body.
+    /// A dielectric volume may touch or overlap another object.
     pub contact: bool,
-    /// Shadow rays go on through what is transparent.
+    /// Transparent surfaces filter shadow rays.
     pub filtered_shadows: bool,
-    /// Some colour varies over a surface.
+    /// There are textures.
     pub textures: bool,
-    /// Something shines that rays can see.
+    /// There is an emissive surface.
     pub emission: bool,
     /// There are instances.
     pub instances: bool,
 }
 
-/// Why a scene cannot be packed: it is too big for the formats the GPU reads.
+/// A scene that exceeds the limits of the packed formats.
 #[derive(Debug, thiserror::Error)]
 pub enum PackError {
-    /// An index does not fit into its bits.
+    /// An index does not fit its bits.
     #[error(
-        "scene too big (after instancing): it has {count} {what}, the tree can address {limit}. Use fewer or simpler objects."
+        "scene too big (after instancing): it has {count} {what}, at most {limit} are possible. Use fewer or simpler objects."
     )]
     TooMany {
-        /// What is counted, in the plural.
+        /// The counted objects, in the plural.
         what: &'static str,
-        /// How many there are, instances counted each.
+        /// Their number, with each instance counted.
         count: usize,
-        /// The most that can be told apart.
+        /// The maximum number.
         limit: usize,
     },
-    /// A coordinate or radius whose square f32 cannot hold.
+    /// A coordinate or radius whose square overflows f32.
     #[error(
         "scene too spread out (object coordinates): {value:e} units from the camera is beyond the range of f32 arithmetic, at most {limit:e}. Scale the scene down."
     )]
     OutOfRange {
-        /// Its magnitude in scene units, seen from the render origin.
+        /// Its magnitude in scene units, relative to the render origin.
         value: f64,
         /// The largest allowed.
         limit: f64,
     },
-    /// A shape that is thinner than f32 can resolve.
+    /// A shape that is too thin for f32.
     #[error(
         "object too small (scaled size): {size:e} units in one direction is below the range of f32 arithmetic, at least {limit:e}. Make it larger, or scale the scene up."
     )]
@@ -157,39 +156,38 @@ pub enum PackError {
         /// The smallest allowed.
         limit: f64,
     },
-    /// The trees of what is placed and the one above them need more of a stack than shaders have.
+    /// The TLAS and the BLASes together need a deeper traversal stack than shaders have.
     #[error(
-        "scene too deep (tree over instances): walking it takes a stack of {need} entries, at most {limit} are possible. Use fewer objects, or spread them more evenly."
+        "scene too deep (BVH over instances): traversal needs {need} stack entries, at most {limit} are available. Use fewer objects, or spread them more evenly."
     )]
     TooDeep {
         /// Entries needed.
         need: usize,
-        /// Entries there are.
+        /// Entries available.
         limit: usize,
     },
 }
 
-/// Packs a scene and builds its trees.
+/// Packs a scene and builds its BVHs.
 ///
 /// # Errors
-/// It is too big for the formats the GPU reads.
+/// The scene exceeds the limits of the packed formats.
 pub fn scene(scene: &Scene) -> Result<PackedScene, PackError> {
-    pack(None, scene, MOST_BAKED)
+    pack(None, scene, MAX_BAKED)
 }
 
-/// The same, bit by bit, with all that `previous` has of it: trees of meshes that are the same objects
-/// at the same places, and pictures. An object that is added, moved, hidden or changed takes its own
-/// tree at most, and the one above. Where one in the middle is removed, those behind it are moved up
-/// in the arrays.
+/// Packs a scene with the same result as [`scene`], reusing parts of `previous`: the BLASes of unchanged meshes
+/// at unchanged positions, and pictures. An object that is added, moved, hidden or changed requires at most its
+/// own BLAS and the tree above. After the removal of an object, later ones move up in the arrays.
 ///
 /// # Errors
 /// As [`scene`].
 pub fn scene_from(previous: &PackedScene, scene: &Scene) -> Result<PackedScene, PackError> {
-    pack(Some(previous), scene, MOST_BAKED)
+    pack(Some(previous), scene, MAX_BAKED)
 }
 
-/// The same as [`scene`], where static meshes in several places are baked into the world if their
-/// copies have at most this many triangles, and else are one tree with many instances.
+/// Like [`scene`], with a limit on baking: a static mesh with several instances is baked if its copies have at
+/// most `most_baked` triangles in total, and otherwise becomes one BLAS with many instances.
 ///
 /// # Errors
 /// As [`scene`].
@@ -217,7 +215,7 @@ fn pack(
     let (shapes, blas_of_shapes) = instanced_shapes(scene, &plan, first_instanced)?;
     let instanced_shapes: Arc<[_]> = shapes.into();
     let first_baked_triangle = (trees.baked.first())
-        .map_or(joint.place, |t| t.blas.place)
+        .map_or(joint.offsets, |t| t.blas.offsets)
         .triangle;
     let end = joint.end();
     let shape_count = joint.shapes.len() + instanced_shapes.len();
@@ -259,7 +257,7 @@ fn pack(
         ..material::features(scene)
     };
     let has_uvs = scene.meshes.iter().any(|mesh| !mesh.uvs.is_empty());
-    let (materials, changing) = surfaces::materials(scene, &rest);
+    let (materials, animated_materials) = surfaces::materials(scene, &rest);
     Ok(PackedScene {
         nodes,
         triangles: trees.triangles(&plan),
@@ -281,20 +279,20 @@ fn pack(
         texels: (packed_pictures.iter().map(|(_, texels)| texels.clone())).collect(),
         pictures,
         features,
-        bodies: media::bodies(scene, &meshes),
+        volumes: media::volumes(scene, &meshes),
         origins: Origins::new(scene, &plan, &trees),
         work: trees.work,
         meshes,
         trees,
         tlas_source,
         packed_pictures,
-        changing,
+        animated_materials,
         origin,
         build_seconds,
     })
 }
 
-/// Shapes that move, each a tree of its own, the first of which has the number `first`.
+/// Moving shapes, each with its own BLAS. Their indices start at `first`.
 fn instanced_shapes(
     scene: &Scene,
     plan: &Plan,
@@ -328,7 +326,7 @@ fn instanced_shapes(
     Ok((shapes.collect(), blas))
 }
 
-/// All instances: of meshes, then of shapes and lamps, whose trees follow those of `mesh_count` meshes.
+/// All instances: of meshes, then of shapes and lamps, whose BLASes follow those of `mesh_count` meshes.
 fn instances(plan: &Plan, mesh_count: usize) -> Vec<Instance> {
     let meshes = (plan.instances.iter()).map(|&(_, blas, source)| Instance { blas, source });
     let nodes = (plan.shapes.iter())
@@ -340,14 +338,13 @@ fn instances(plan: &Plan, mesh_count: usize) -> Vec<Instance> {
     meshes.chain(own_trees).collect()
 }
 
-/// Index of the first node of a view of a scene with so many nodes: at the beginning of a row of an
-/// image.
+/// Index of the first node of a view, for a scene with this many nodes: at the start of an image row.
 fn first_view_node(node_count: usize) -> u32 {
     (node_count as u32).next_multiple_of((1 << IMAGE_WIDTH_LOG2) / NODE_ROWS)
 }
 
 impl PackedScene {
-    /// Every byte that a picture depends on but for the view: what a fingerprint is made of.
+    /// All bytes of the scene that a picture depends on, without the view; input of fingerprints.
     pub fn parts(&self) -> Vec<&[u8]> {
         let mut parts: Vec<_> = (self.nodes.bytes().chain(self.triangles.bytes()))
             .chain(self.shapes.bytes())
@@ -359,18 +356,17 @@ impl PackedScene {
         parts
     }
 
-    /// Number of shapes in all trees.
+    /// Number of shapes in all BVHs.
     pub fn bounded_shape_count(&self) -> u32 {
         self.shapes.len() as u32 - self.plane_count
     }
 
-    /// Number of instances that a view can have.
+    /// Maximum number of instances of a view.
     pub fn instance_count(&self) -> usize {
         self.tlas_source.instances.len()
     }
 
-    /// Index of the first node of a view: behind all of the scene's, at the beginning of a row of an
-    /// image.
+    /// Index of the first node of a view: after all nodes of the scene, at the start of an image row.
     pub fn first_view_node(&self) -> u32 {
         self.tlas_source.first_node
     }

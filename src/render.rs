@@ -1,5 +1,5 @@
-//! The renderer: takes a packed scene and a frame, adds samples to the film step by step, and
-//! develops the picture. Every front end runs this same loop.
+//! The renderer: takes a packed scene and a frame, adds samples to the film step by step, and develops the
+//! picture. All front ends run this loop.
 
 mod adaptive;
 mod arrays;
@@ -10,6 +10,8 @@ mod effort;
 mod error;
 mod explain;
 mod film;
+mod film_tile;
+mod film_tiles;
 mod fingerprint;
 mod integrator;
 mod layers;
@@ -25,8 +27,6 @@ mod slice;
 mod stats;
 mod sums;
 mod task;
-mod window;
-mod windows;
 mod work;
 
 pub use crate::scene::{Antialias, Filter};
@@ -51,54 +51,52 @@ use crate::{
     pack::{PackedScene, PackedView},
 };
 use device::Device;
+use film_tiles::FilmTiles;
 use losses::or_replacement;
 use slice::Planner;
 use std::{ops::Range, sync::Arc};
 use task::Task;
-use windows::Windows;
 use work::Work;
 
-/// Renders one frame after another of one scene.
+/// Renders frames of a scene, one after another.
 pub struct Renderer {
     scene: Arc<PackedScene>,
     settings: RenderSettings,
     policy: ExecutionPolicy,
     view: PackedView,
     device: Device,
-    windows: Windows,
+    tiles: FilmTiles,
     planner: Planner,
     cursor: Cursor,
-    /// The slice that is under way.
+    /// The current slice.
     work: Option<Work>,
     stats: Stats,
-    /// Losses before the picture that is under way.
+    /// Device losses before the current picture.
     earlier_losses: u32,
 }
 
-/// How far the render is: the tile and the samples of the sweep that is under way.
+/// The position of the render: film tile, sweep and workgroup. A sweep visits all workgroups of a tile once,
+/// with the same samples.
 #[derive(Clone, Copy, Debug, Default)]
 struct Cursor {
-    window: usize,
-    tile: u32,
+    tile: usize,
+    group: u32,
     sample: u32,
     sweep_samples: u32,
 }
 
 impl Cursor {
-    fn at_start(windows: &Windows) -> Self {
+    fn at_start(tiles: &FilmTiles) -> Self {
         Self {
-            sample: windows
-                .list
-                .first()
-                .map_or(0, |window| window.samples.start),
+            sample: tiles.list.first().map_or(0, |tile| tile.samples.start),
             ..Self::default()
         }
     }
 }
 
 impl Renderer {
-    /// Checks the limits of memory and of work, uploads the scene and compiles the kernels. The settings' sizes and
-    /// counts must be in the ranges they document.
+    /// Checks the limits on memory and work, uploads the scene and compiles the kernels. Sizes and counts of
+    /// the settings must be in their documented ranges.
     pub fn new(
         gpu: Gpu,
         scene: Arc<PackedScene>,
@@ -108,9 +106,9 @@ impl Renderer {
     ) -> Result<Self, RenderError> {
         effort::check(view, &settings)?;
         let view = view.with_aspect(settings.size.0, settings.size.1);
-        let windows = Windows::new(&settings, policy.slicing.window_side);
+        let tiles = FilmTiles::new(&settings, policy.slicing.tile_side);
         let mut stats = Stats {
-            gpu_bytes: planned_bytes(&scene, &view, settings.region(), &policy, &windows)?,
+            gpu_bytes: planned_bytes(&scene, &view, settings.region(), &policy, &tiles)?,
             rays: policy.count_rays.then(Rays::default),
             ..Default::default()
         };
@@ -119,14 +117,14 @@ impl Renderer {
             view: &view,
             settings: &settings,
             policy: &policy,
-            film_rows: windows.largest(),
+            film_rows: tiles.largest(),
         };
         let fetch = bindings::choose_fetch(policy.fetch, &gpu, &scene, &view);
-        let gpu = gpu.serving(bindings::needs(&scene, &view, fetch, task.film_rows))?;
+        let gpu = gpu.with_limits_for(bindings::needs(&scene, &view, fetch, task.film_rows))?;
         let (choice, is_own) = (gpu.choice().clone(), gpu.is_own());
         let device = Device::new(gpu, fetch, task, &mut stats);
         let device = match device {
-            // Others draw with this device, and cannot with another.
+            // Other code draws with this device and cannot switch to another one.
             Err(GpuError::Lost) if !policy.host_copy || !is_own => {
                 return Err(GpuError::Lost.into());
             }
@@ -134,7 +132,7 @@ impl Renderer {
                 device::reopen(&choice, fetch, task, stats)
             })?,
         };
-        let cursor = Cursor::at_start(&windows);
+        let cursor = Cursor::at_start(&tiles);
         Ok(Self {
             planner: Planner::new(policy.slicing, effort::shadow_rays(&view, &settings)),
             scene,
@@ -142,7 +140,7 @@ impl Renderer {
             policy,
             view,
             device,
-            windows,
+            tiles,
             cursor,
             work: None,
             stats,
@@ -150,19 +148,19 @@ impl Renderer {
         })
     }
 
-    /// Starts over with another frame of the same scene.
+    /// Restarts with another frame of the same scene.
     ///
     /// # Errors
-    /// The device failed, or the frame places more than the memory limit or the adapter allows.
+    /// The device failed, or the frame exceeds the memory limit or the limits of the adapter.
     pub fn set_frame(&mut self, view: &PackedView) -> Result<(), RenderError> {
         self.restart(self.scene.clone(), view, self.settings.clone(), self.policy)
     }
 
-    /// Starts over with another scene, frame or other settings. Kernels that are compiled, and what
-    /// is on the device and still serves, are kept.
+    /// Restarts with another scene, frame or other settings. Compiled kernels and unchanged data on the device
+    /// are reused.
     ///
     /// # Errors
-    /// Those of [`Renderer::new`]; the renderer can be restarted again after them.
+    /// As [`Renderer::new`]; the renderer can be restarted again afterwards.
     pub fn restart(
         &mut self,
         scene: Arc<PackedScene>,
@@ -173,8 +171,8 @@ impl Renderer {
         effort::check(view, &settings)?;
         self.work = None;
         let view = view.with_aspect(settings.size.0, settings.size.1);
-        let windows = Windows::new(&settings, policy.slicing.window_side);
-        let bytes = planned_bytes(&scene, &view, settings.region(), &policy, &windows)?;
+        let tiles = FilmTiles::new(&settings, policy.slicing.tile_side);
+        let bytes = planned_bytes(&scene, &view, settings.region(), &policy, &tiles)?;
         self.stats.gpu_bytes = self.stats.gpu_bytes.max(bytes);
         self.earlier_losses = self.stats.device_losses;
         if policy.count_rays {
@@ -186,54 +184,54 @@ impl Renderer {
         }
         let is_other_scene = !Arc::ptr_eq(&scene, &self.scene);
         (self.scene, self.view, self.settings, self.policy) = (scene, view, settings, policy);
-        self.cursor = Cursor::at_start(&windows);
-        self.windows = windows;
+        self.cursor = Cursor::at_start(&tiles);
+        self.tiles = tiles;
         let spare = self.policy.memory_limit_bytes.saturating_sub(bytes);
         self.prepare_device(is_other_scene, spare)
     }
 
-    /// Goes on to another number of samples with those that there are: sample `i` of a pixel is the same,
-    /// however many follow. Whether that is possible; if not, nothing changes. It is not where sampling
-    /// plans ahead (adaptive), where windows take turns, or where there are as many already.
+    /// Changes the number of samples and keeps those already taken: sample `i` of a pixel does not depend on
+    /// their total. Returns whether that is possible; if not, nothing changes. It is impossible with adaptive
+    /// sampling, with several film tiles, or if at least this many samples have been started.
     pub fn continue_to(&mut self, samples: u32) -> bool {
         let Cursor {
-            tile,
+            group,
             sample,
             sweep_samples,
             ..
         } = self.cursor;
-        let begun = if tile > 0 {
+        let started = if group > 0 {
             sample + sweep_samples
         } else {
             sample
         };
         let is_done = self.is_done();
-        if !self.windows.is_one_rectangle() || samples <= begun {
+        if !self.tiles.is_one_rectangle() || samples <= started {
             return false;
         }
-        let window = &mut self.windows.list[0];
+        let tile = &mut self.tiles.list[0];
         if is_done {
-            // As between any two sweeps, see `advance`; the sums are on the host.
+            // As between two sweeps (see `advance`); the sums are on the host.
             if sample.is_multiple_of(SAMPLE_BLOCK) {
-                window.close_block();
-                self.device.loaded_window = None;
+                tile.close_block();
+                self.device.loaded_tile = None;
             }
-            (self.cursor.window, self.cursor.tile) = (0, 0);
+            (self.cursor.tile, self.cursor.group) = (0, 0);
         }
-        window.samples.end = samples;
+        tile.samples.end = samples;
         self.settings.samples = samples;
         true
     }
 
-    /// Brings the device to what is to be rendered. `spare` bytes may be allocated beyond what is needed.
+    /// Updates the device for the current task. Up to `spare` bytes may be allocated beyond what is needed.
     fn prepare_device(&mut self, is_other_scene: bool, spare: u64) -> Result<(), RenderError> {
         let (gpu, scene, view) = (&self.device.gpu, &self.scene, &self.view);
         let fetch = match is_other_scene {
             true => bindings::choose_fetch(self.policy.fetch, gpu, scene, view),
             false => self.device.fetch,
         };
-        let needs = bindings::needs(scene, view, fetch, self.windows.largest());
-        if !gpu.serves(needs) {
+        let needs = bindings::needs(scene, view, fetch, self.tiles.largest());
+        if !gpu.meets(needs) {
             gpu.check_limits(needs)?;
             let fetch = bindings::choose_fetch(self.policy.fetch, gpu, scene, view);
             return self.replace_device(fetch);
@@ -244,7 +242,7 @@ impl Renderer {
                 view: &renderer.view,
                 settings: &renderer.settings,
                 policy: &renderer.policy,
-                film_rows: renderer.windows.largest(),
+                film_rows: renderer.tiles.largest(),
             };
             let (device, stats) = (&mut renderer.device, &mut renderer.stats);
             if fetch != device.fetch {
@@ -255,25 +253,25 @@ impl Renderer {
         })
     }
 
-    /// Whether every pixel has its samples.
+    /// Whether every pixel has all its samples.
     pub fn is_done(&self) -> bool {
-        self.cursor.window >= self.windows.list.len()
+        self.cursor.tile >= self.tiles.list.len()
     }
 
-    /// Fraction of the work that is done, in 0..=1.
+    /// Completed fraction of the work, in 0..=1.
     pub fn progress(&self) -> f64 {
-        let Some(window) = self.windows.list.get(self.cursor.window) else {
+        let Some(tile) = self.tiles.list.get(self.cursor.tile) else {
             return 1.0;
         };
-        let sweep = f64::from(self.cursor.sweep_samples) * f64::from(self.cursor.tile)
-            / f64::from(window.tile_count());
-        let Range { start, end } = window.samples;
+        let sweep = f64::from(self.cursor.sweep_samples) * f64::from(self.cursor.group)
+            / f64::from(tile.group_count());
+        let Range { start, end } = tile.samples;
         let within = (f64::from(self.cursor.sample - start) + sweep) / f64::from(end - start);
-        let fraction = (self.cursor.window as f64 + within) / self.windows.list.len() as f64;
-        self.windows.progress(fraction)
+        let fraction = (self.cursor.tile as f64 + within) / self.tiles.list.len() as f64;
+        self.tiles.progress(fraction)
     }
 
-    /// What the render has cost so far.
+    /// Statistics of the render so far.
     pub fn stats(&self) -> &Stats {
         &self.stats
     }
@@ -284,20 +282,20 @@ impl Renderer {
     }
 }
 
-/// What a frame will take, in bytes.
+/// The memory needed for a frame, in bytes.
 ///
 /// # Errors
-/// It is more than the policy allows.
+/// It exceeds the memory limit of the policy.
 fn planned_bytes(
     scene: &PackedScene,
     view: &PackedView,
     [.., width, height]: [u32; 4],
     policy: &ExecutionPolicy,
-    windows: &Windows,
+    tiles: &FilmTiles,
 ) -> Result<u64, GpuError> {
     let pixels = u64::from(width) * u64::from(height);
-    let mut ledger = bindings::ledger(scene, view, windows.largest(), pixels);
-    if windows.has_totals() {
+    let mut ledger = bindings::ledger(scene, view, tiles.largest(), pixels);
+    if tiles.has_totals() {
         ledger.plan("totals of the film", pixels * size_of::<[i128; 4]>() as u64);
     }
     ledger.check(policy.memory_limit_bytes)?;

@@ -1,6 +1,6 @@
 //! When a frame is taken, and how long an animation lasts.
 
-use super::cli::{MomentFlags, MotionFlags};
+use super::overrides::{Moment, TimingOverrides};
 use crate::scene::{OutputDefaults, Scene, Shutter};
 
 /// Turns frames into times.
@@ -8,23 +8,29 @@ use crate::scene::{OutputDefaults, Scene, Shutter};
 pub struct Clock {
     /// Frames per second, above 0.
     pub fps: f64,
+    /// When the shutter is open, in frames.
     pub shutter: Shutter,
 }
 
 impl Clock {
-    /// Flags win over the scene.
-    pub fn new(output: &OutputDefaults, flags: &MotionFlags) -> Self {
+    /// The scene's timing, where `overrides` do not set it.
+    pub fn new(output: &OutputDefaults, overrides: &TimingOverrides) -> Self {
         Self {
-            fps: flags.fps.unwrap_or(output.fps),
-            shutter: flags.shutter.unwrap_or(output.shutter),
+            fps: overrides.fps.unwrap_or(output.fps),
+            shutter: overrides.shutter.unwrap_or(output.shutter),
         }
     }
 
-    /// When the shutter opens and closes for the picture that the flags ask for, in seconds.
-    pub fn moment(&self, flags: &MomentFlags) -> (f64, f64) {
-        match flags.frame {
-            Some(frame) => self.frame(frame),
-            None => self.shot(flags.time.unwrap_or(0.0)),
+    /// When the shutter opens and closes for a picture of `moment`, in seconds.
+    pub fn moment(&self, moment: &Moment) -> (f64, f64) {
+        self.shot(self.time(moment))
+    }
+
+    /// The time of `moment`, in seconds.
+    pub fn time(&self, moment: &Moment) -> f64 {
+        match moment.frame {
+            Some(frame) => f64::from(frame) / self.fps,
+            None => moment.time.unwrap_or(0.0),
         }
     }
 

@@ -3,7 +3,6 @@
 //!
 //! With `--progress json` a program reads the standard error: then each line is a JSON object.
 
-use super::cli::LogFlags;
 use super::error::AppError;
 use serde_json::{Value, json};
 use std::fmt::Display;
@@ -26,11 +25,9 @@ pub struct Console {
 }
 
 impl Console {
-    pub fn new(flags: &LogFlags) -> Self {
-        Self {
-            quiet: flags.quiet,
-            verbose: flags.verbose,
-        }
+    /// `quiet` leaves out status lines, `verbose` adds details.
+    pub fn new(quiet: bool, verbose: bool) -> Self {
+        Self { quiet, verbose }
     }
 
     /// A line for everybody who did not ask for quiet.
@@ -101,6 +98,15 @@ fn line(label: &str, color: &str, text: &str) {
         text.replace_range(..label.len(), &format!("{color}{label}{PLAIN}"));
     }
     let _ = writeln!(stderr().lock(), "{text}");
+}
+
+/// The escape sequences that begin and end red text on the standard error, which is a terminal; empty
+/// where colour is unwanted.
+pub fn red() -> (&'static str, &'static str) {
+    match shows_color() {
+        true => (RED, PLAIN),
+        false => ("", ""),
+    }
 }
 
 /// Whether the person wants colour, and the terminal is known to have it.

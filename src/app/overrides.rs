@@ -1,50 +1,253 @@
-//! Flags win over the scene file: what they change in a scene.
+//! What a user asks for in place of what a scene says. The command line and the window fill these in.
 
-use super::cli::CameraFlags;
 use super::error::AppError;
-use crate::scene::{Background, Camera, CameraProperty, Scene, Target};
+use crate::render::{
+    Antialias, Integrator, Levels, Quantity, RenderSettings, Shows, Tone, TriangleTest,
+};
+use crate::scene::{
+    Background, Camera, CameraProperty, Filter, OutputDefaults, Scene, Shutter, Target, ToneCurve,
+    Transfer,
+};
+use glam::{DVec3, Vec3};
 
-/// Chooses and changes the scene's camera and background as the flags say.
-///
-/// # Errors
-/// There is no camera of that name, or the changed one looks nowhere.
-pub fn apply(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
-    if let Some(name) = &flags.camera {
-        scene.camera_index = camera_index(&scene.cameras, name)?;
-    }
-    if let Some(background) = flags.background {
-        scene.background = Background::Color(background);
-    }
-    let moved = flags.look_from.or(flags.look_at).or(flags.up).is_some();
-    if moved {
-        let carried = scene.cameras[scene.camera_index].node.is_some();
-        for (property, flag) in [
-            (CameraProperty::LookFrom, flags.look_from),
-            (CameraProperty::LookAt, flags.look_at),
-            (CameraProperty::Up, flags.up),
-        ] {
-            // What a carried camera's tracks say is in the space of what carries it.
-            if carried || flag.is_some() {
-                stop(scene, property);
-            }
-        }
-        place(scene, flags)?;
-    }
-    if let Some(fov_y) = flags.fov_y {
-        stop(scene, CameraProperty::FovY);
-        let camera = &mut scene.cameras[scene.camera_index];
-        camera.fov_y = fov_y.to_radians();
-        camera.orthographic_height = None;
-    }
-    if let Some(height) = flags.orthographic {
-        stop(scene, CameraProperty::OrthographicHeight);
-        scene.cameras[scene.camera_index].orthographic_height = Some(height);
-    }
-    Ok(())
+/// Everything that a user may ask for. Values that are `None` are the scene's.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RenderOverrides {
+    /// How the picture is traced.
+    pub picture: PictureOverrides,
+    /// How it is developed.
+    pub tone: ToneOverrides,
+    /// From where.
+    pub camera: CameraOverrides,
+    /// When.
+    pub moment: Moment,
+    /// Frame rate and shutter.
+    pub timing: TimingOverrides,
 }
 
-/// Makes `camera`, in the world, the one that the scene is seen by, as the flags for all of it would.
-/// Its lens stays the scene's where that changes over time.
+/// How a picture is traced.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PictureOverrides {
+    /// Width and height in pixels.
+    pub size: Option<(u32, u32)>,
+    /// Samples per pixel.
+    pub samples: Option<u32>,
+    /// Where samples lie in a pixel.
+    pub antialias: Option<Antialias>,
+    /// Threshold of adaptive sampling.
+    pub noise: Option<f32>,
+    /// Bounces after the first hit.
+    pub max_depth: Option<u32>,
+    /// Rays with less throughput are not traced.
+    pub min_throughput: Option<f32>,
+    /// Reconstruction filter.
+    pub filter: Option<Filter>,
+    /// Its radius in pixels.
+    pub filter_radius: Option<f32>,
+    /// Multiplies the samples of every area light.
+    pub light_samples: Option<f32>,
+    /// Integrator.
+    pub integrator: Option<Integrator>,
+    /// Ray–triangle intersection algorithm.
+    pub triangle_test: Option<TriangleTest>,
+    /// Test every primitive instead of traversing a BVH.
+    pub brute_force: bool,
+    /// Random seed.
+    pub seed: u32,
+    /// Columns x0 to x1 − 1 and rows y0 to y1 − 1.
+    pub crop: Option<[u32; 4]>,
+}
+
+/// How a picture is developed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ToneOverrides {
+    /// Exposure in stops.
+    pub exposure_ev: Option<f32>,
+    /// Tone curve.
+    pub curve: Option<ToneCurve>,
+    /// Transfer function.
+    pub transfer: Option<Transfer>,
+}
+
+/// Which camera sees the scene, and what of it is changed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CameraOverrides {
+    /// A camera of the scene, by name or index.
+    pub name: Option<String>,
+    /// Vertical field of view in degrees; makes the camera a perspective one.
+    pub fov_y_deg: Option<f64>,
+    /// Height of the picture in scene units; makes the camera an orthographic one.
+    pub orthographic_height: Option<f64>,
+    /// Position in world space.
+    pub look_from: Option<DVec3>,
+    /// The point in the centre of the picture, in world space.
+    pub look_at: Option<DVec3>,
+    /// The direction that is up in the picture.
+    pub up: Option<DVec3>,
+    /// Linear radiance of rays that hit nothing.
+    pub background: Option<Vec3>,
+}
+
+/// A moment of an animation: a frame wins over a time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Moment {
+    /// Frame number.
+    pub frame: Option<u32>,
+    /// In seconds.
+    pub time: Option<f64>,
+}
+
+/// Frame rate and shutter.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TimingOverrides {
+    /// Frames per second, above 0.
+    pub fps: Option<f64>,
+    /// When the shutter is open, in frames.
+    pub shutter: Option<Shutter>,
+}
+
+impl PictureOverrides {
+    /// The settings of a picture, where `scene` says everything that is not overridden.
+    pub fn settings(&self, scene: &OutputDefaults) -> RenderSettings {
+        let output = OutputDefaults {
+            samples: self.samples.unwrap_or(scene.samples),
+            antialias: self.antialias.or(scene.antialias),
+            ..scene.clone()
+        };
+        let filter = self.filter.unwrap_or(scene.filter);
+        // A radius of the scene goes with the filter of the scene.
+        let scene_radius = scene.filter_radius.filter(|_| filter == scene.filter);
+        let defaults = RenderSettings::from(&output);
+        RenderSettings {
+            size: self.size.unwrap_or(scene.size),
+            crop: self.crop,
+            noise: self.noise.unwrap_or(defaults.noise),
+            filter,
+            filter_radius: (self.filter_radius.or(scene_radius)).unwrap_or(filter.default_radius()),
+            light_samples: self.light_samples.unwrap_or(scene.light_samples),
+            integrator: self.integrator.unwrap_or(defaults.integrator),
+            triangle_test: self.triangle_test.unwrap_or(defaults.triangle_test),
+            brute_force: self.brute_force,
+            seed: self.seed,
+            max_depth: self.max_depth.unwrap_or(defaults.max_depth),
+            min_throughput: self.min_throughput.unwrap_or(defaults.min_throughput),
+            ..defaults
+        }
+    }
+}
+
+/// Width and height of what is written: the crop's where there is one.
+pub fn picture_size(settings: &RenderSettings) -> Result<(u32, u32), AppError> {
+    let (width, height) = settings.size;
+    match settings.crop {
+        None => Ok((width, height)),
+        Some([x0, y0, x1, y1]) if x1 <= width && y1 <= height => Ok((x1 - x0, y1 - y0)),
+        Some([.., x1, y1]) => Err(AppError::Usage(format!(
+            "cannot crop (--crop): it ends at {x1},{y1}, outside of {width}×{height} pixels. \
+             Move its corner inside."
+        ))),
+    }
+}
+
+/// Steps of the tree walk that the heat view shows in white with `--exposure 0`.
+const FULL_HEAT: f32 = 128.0;
+
+impl ToneOverrides {
+    /// How a picture of `integrator` is developed. Without overrides linear formats store radiance as it
+    /// was traced, pictures are developed as the scene says, quantities are shown over the range found
+    /// in them, and other debug views are stored as they are.
+    pub fn tone(
+        &self,
+        scene: &OutputDefaults,
+        integrator: Integrator,
+        linear_format: bool,
+    ) -> Tone {
+        let shows = integrator.entry().shows;
+        let default = if linear_format || shows != Shows::Radiance {
+            (0.0, ToneCurve::None, Transfer::Linear)
+        } else {
+            (scene.exposure_ev, scene.tone, scene.transfer)
+        };
+        let tone = Tone {
+            exposure_ev: self.exposure_ev.unwrap_or(default.0),
+            curve: self.curve.unwrap_or(default.1),
+            transfer: self.transfer.unwrap_or(default.2),
+            levels: Levels::Raw,
+        };
+        match (shows, self.exposure_ev) {
+            _ if linear_format => tone,
+            (Shows::Quantity(_), None) => Tone {
+                levels: Levels::Found,
+                ..tone
+            },
+            // The exposure scales the steps, not their colours.
+            (Shows::Quantity(Quantity::Work), Some(exposure_ev)) => Tone {
+                exposure_ev: 0.0,
+                levels: Levels::Fixed([0.0, FULL_HEAT * (-exposure_ev).exp2()]),
+                ..tone
+            },
+            _ => tone,
+        }
+    }
+}
+
+impl CameraOverrides {
+    /// Chooses and changes the scene's camera and background.
+    ///
+    /// # Errors
+    /// There is no camera of that name, or the changed camera has no direction.
+    pub fn apply(&self, scene: &mut Scene) -> Result<(), AppError> {
+        if let Some(name) = &self.name {
+            scene.camera_index = camera_index(&scene.cameras, name)?;
+        }
+        if let Some(background) = self.background {
+            scene.background = Background::Color(background);
+        }
+        let moved = self.look_from.or(self.look_at).or(self.up).is_some();
+        if moved {
+            let carried = scene.cameras[scene.camera_index].node.is_some();
+            for (property, flag) in [
+                (CameraProperty::LookFrom, self.look_from),
+                (CameraProperty::LookAt, self.look_at),
+                (CameraProperty::Up, self.up),
+            ] {
+                // What a carried camera's tracks say is in the space of what carries it.
+                if carried || flag.is_some() {
+                    stop(scene, property);
+                }
+            }
+            self.place(scene)?;
+        }
+        if let Some(degrees) = self.fov_y_deg {
+            stop(scene, CameraProperty::FovY);
+            let camera = &mut scene.cameras[scene.camera_index];
+            camera.fov_y = degrees.to_radians();
+            camera.orthographic_height = None;
+        }
+        if let Some(height) = self.orthographic_height {
+            stop(scene, CameraProperty::OrthographicHeight);
+            scene.cameras[scene.camera_index].orthographic_height = Some(height);
+        }
+        Ok(())
+    }
+
+    /// Places the camera in world space, detached from any node.
+    fn place(&self, scene: &mut Scene) -> Result<(), AppError> {
+        let start = scene.frame(0.0).camera;
+        let camera = &mut scene.cameras[scene.camera_index];
+        camera.look_from = self.look_from.unwrap_or(start.look_from);
+        camera.look_at = self.look_at.unwrap_or(start.look_at);
+        camera.up = self.up.unwrap_or(start.up);
+        camera.node = None;
+        if self.look_at.is_some() {
+            camera.target = None;
+        }
+        check(camera)
+    }
+}
+
+/// Makes `camera`, in world space, the scene's camera, as overrides of all its properties would. A lens
+/// that is animated stays.
 #[cfg(feature = "viewer")]
 pub fn see_by(scene: &mut Scene, camera: &Camera) {
     for property in [
@@ -74,20 +277,6 @@ pub fn see_by(scene: &mut Scene, camera: &Camera) {
         target: None,
         ..camera.clone()
     };
-}
-
-/// Puts the camera where the flags say, in the world: whatever carried it goes on without it.
-fn place(scene: &mut Scene, flags: &CameraFlags) -> Result<(), AppError> {
-    let start = scene.frame(0.0).camera;
-    let camera = &mut scene.cameras[scene.camera_index];
-    camera.look_from = flags.look_from.unwrap_or(start.look_from);
-    camera.look_at = flags.look_at.unwrap_or(start.look_at);
-    camera.up = flags.up.unwrap_or(start.up);
-    camera.node = None;
-    if flags.look_at.is_some() {
-        camera.target = None;
-    }
-    check(camera)
 }
 
 /// Takes away the track that drives this property of the camera in use.

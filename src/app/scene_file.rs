@@ -1,43 +1,11 @@
-//! Scene files on the disk: reading one with what it names, and saving one with those beside it.
+//! Saving a scene as a native file, with its meshes and pictures beside it.
 
-use super::cli::SceneFlags;
 use super::error::AppError;
-use super::inputs::Inputs;
-use super::memory;
 use crate::export;
-use crate::import;
 use crate::output;
 use crate::scene::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// Reads a scene; `--strict` refuses one of which anything had to be skipped. What the scene names is
-/// known as far as it was read, whether it could be or not.
-pub fn load(path: &Path, flags: &SceneFlags) -> (Result<Scene, AppError>, Inputs) {
-    if let Err(error) = memory::check_file(path) {
-        return (Err(error), Inputs::new([path]));
-    }
-    let (scene, files) = import::load_watched(path, &flags.import_options());
-    let scene = scene.map_err(AppError::from);
-    (
-        scene.and_then(|scene| strict(path, flags, scene)),
-        Inputs::new(files),
-    )
-}
-
-fn strict(path: &Path, flags: &SceneFlags, scene: Scene) -> Result<Scene, AppError> {
-    match scene.skipped.first() {
-        Some(first) if flags.strict => Err(AppError::Refused(format!(
-            "refusing the scene ({}): {first}{}. Repair it or leave out --strict.",
-            path.display(),
-            match scene.skipped.len() - 1 {
-                0 => String::new(),
-                more => format!(" (and {more} more)"),
-            }
-        ))),
-        _ => Ok(scene),
-    }
-}
 
 /// Writes `scene` to `path`, which should end in `.toml`, and what belongs to it beside it, and returns
 /// all paths, that of the scene last. Files beside it are never replaced: what is there with the same

@@ -1,11 +1,11 @@
-//! Which adapters there are, and which one to use.
+//! Lists the adapters and chooses one.
 
 use super::{GpuError, guard};
 
 /// A graphics API that wgpu can drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Backend {
-    /// Vulkan, which Mesa's software renderer speaks too.
+    /// Vulkan, also supported by Mesa's software renderer.
     Vulkan,
     /// Metal, on Apple's systems.
     Metal,
@@ -16,7 +16,8 @@ pub enum Backend {
 }
 
 impl Backend {
-    /// Why it is not to be had here, whatever is installed, as a clause; `None` where it may be.
+    /// Why this backend is unavailable on this platform whatever is installed, as a clause; `None` if it may be
+    /// available.
     pub fn absence(self) -> Option<&'static str> {
         let is_apple = cfg!(target_vendor = "apple");
         match self {
@@ -41,21 +42,21 @@ impl Backend {
     }
 }
 
-/// What the user wants; the default leaves it to us.
+/// The choice of an adapter; the default chooses automatically.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AdapterChoice {
-    /// The only backend to look at.
+    /// The backend to use; all if `None`.
     pub backend: Option<Backend>,
-    /// An index into [`adapters`], or part of a name in either case.
+    /// An index into [`adapters`], or part of a name, case-insensitive.
     pub adapter: Option<String>,
 }
 
-/// An adapter and what it can do.
+/// An adapter and its capabilities.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdapterReport {
-    /// Place in [`adapters`].
+    /// Index in [`adapters`].
     pub index: usize,
-    /// As the driver gives it.
+    /// The name that the driver reports.
     pub name: String,
     /// "vulkan", "metal", "dx12" or "gl".
     pub backend: String,
@@ -63,13 +64,13 @@ pub struct AdapterReport {
     pub driver: String,
     /// "discrete_gpu", "integrated_gpu", "virtual_gpu", "cpu" or "other".
     pub device_type: String,
-    /// Largest buffer.
+    /// Maximum size of a buffer, in bytes.
     pub max_buffer_bytes: u64,
-    /// Most of a storage buffer that a shader can see at a time.
+    /// Maximum size of a storage buffer binding, in bytes.
     pub max_binding_bytes: u64,
-    /// Longest side of a 2-D texture, in texels.
+    /// Maximum side of a 2-D texture, in texels.
     pub max_texture_2d: u32,
-    /// Most storage buffers that a compute shader can see at a time.
+    /// Maximum number of storage buffers in a compute shader.
     pub storage_buffers_per_stage: u32,
 }
 
@@ -82,7 +83,7 @@ pub(super) struct Found {
 
 /// All adapters that can run compute shaders, in the order of their indices.
 pub fn adapters(choice: &AdapterChoice) -> Vec<AdapterReport> {
-    enumerate(everything(choice))
+    enumerate(allowed_backends(choice))
         .1
         .iter()
         .enumerate()
@@ -90,19 +91,19 @@ pub fn adapters(choice: &AdapterChoice) -> Vec<AdapterReport> {
         .collect()
 }
 
-/// The adapter asked for, else the first of the best kind: a card of its own, one in the processor,
-/// a virtual one, a software renderer; among equals a modern API before GL.
+/// The requested adapter, otherwise the first of the best kind: discrete, integrated, virtual, software; among
+/// equals a modern API before GL.
 pub(super) fn choose(choice: &AdapterChoice) -> Result<Found, GpuError> {
     if let Some((backend, why)) = choice.backend.and_then(|b| Some((b.name(), b.absence()?))) {
         return Err(GpuError::NoBackend { backend, why });
     }
-    // Looking for GL devices takes as long as a small picture, so it is done only when it must.
+    // Enumerating GL devices takes as long as rendering a small picture, so it happens only if necessary.
     let mut enumerated = match (choice.backend, &choice.adapter) {
         (None, None) => enumerate(wgpu::Backends::PRIMARY),
         _ => (None, Vec::new()),
     };
     if enumerated.1.is_empty() {
-        enumerated = enumerate(everything(choice));
+        enumerated = enumerate(allowed_backends(choice));
     }
     let (instance, mut found) = enumerated;
     let reports: Vec<_> = found
@@ -166,7 +167,7 @@ fn preference(report: &AdapterReport) -> (usize, bool, usize) {
 }
 
 /// The backends that a choice allows.
-fn everything(choice: &AdapterChoice) -> wgpu::Backends {
+fn allowed_backends(choice: &AdapterChoice) -> wgpu::Backends {
     match choice.backend {
         None => wgpu::Backends::PRIMARY | wgpu::Backends::GL,
         Some(Backend::Vulkan) => wgpu::Backends::VULKAN,
@@ -176,11 +177,11 @@ fn everything(choice: &AdapterChoice) -> wgpu::Backends {
     }
 }
 
-/// The adapters that can run compute shaders, and what they belong to.
+/// The adapters that can run compute shaders, and their instance.
 fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Adapter>) {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = backends;
-    // Nothing is dispatched indirectly, so the check of such calls only costs start-up time.
+    // There are no indirect dispatches, so validating them would only cost start-up time.
     descriptor
         .flags
         .remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
@@ -188,7 +189,7 @@ fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Ada
         for_resource_creation: Some(90),
         for_device_loss: Some(97),
     };
-    let found = guard::quiet(|| {
+    let found = guard::catch(|| {
         let instance = wgpu::Instance::new(descriptor);
         let adapters = pollster::block_on(instance.enumerate_adapters(backends));
         (Some(instance), adapters)
@@ -201,7 +202,7 @@ fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Ada
     (instance, found.into_iter().filter(has_compute).collect())
 }
 
-/// What there is to say about an adapter that is at this place among all.
+/// The report of an adapter with this index.
 pub(super) fn report(index: usize, adapter: &wgpu::Adapter) -> AdapterReport {
     let info = adapter.get_info();
     let limits = adapter.limits();

@@ -1,29 +1,29 @@
-//! Allocation, with a ledger: some drivers never say that memory has run out, so the sum is kept
-//! here and held against a limit before anything is allocated.
+//! Allocation with a memory budget: some drivers never report that memory has run out, so the planned total is
+//! checked against a limit before anything is allocated.
 
 use super::{Gpu, GpuError, fault};
 
-/// The memory limit unless the user sets one, in bytes.
+/// The default memory limit, in bytes.
 pub const MEMORY_LIMIT_BYTES: u64 = 4 << 30;
 
-/// What is planned to be allocated, by name.
+/// The planned allocations, by name.
 #[derive(Clone, Debug, Default)]
 pub struct Ledger {
     entries: Vec<(&'static str, u64)>,
 }
 
 impl Ledger {
-    /// Plans `bytes` for `what`.
+    /// Adds `bytes` for `what`.
     pub fn plan(&mut self, what: &'static str, bytes: u64) {
         self.entries.push((what, bytes));
     }
 
-    /// All that is planned, in bytes.
+    /// The planned total, in bytes.
     pub fn total(&self) -> u64 {
         self.entries.iter().map(|(_, bytes)| bytes).sum()
     }
 
-    /// Refuses a plan beyond `limit` bytes, naming its largest part.
+    /// Rejects a total above `limit` bytes, naming the largest entry.
     pub fn check(&self, limit: u64) -> Result<(), GpuError> {
         let need = self.total();
         if need <= limit {
@@ -45,7 +45,7 @@ impl Gpu {
         bytes: u64,
         usage: wgpu::BufferUsages,
     ) -> Result<wgpu::Buffer, GpuError> {
-        if fault::strikes(fault::Site::Allocation) {
+        if fault::should_fail(fault::Site::Allocation) {
             return Err(GpuError::OutOfMemory { what: what.into() });
         }
         self.scoped(what, || {
@@ -58,20 +58,20 @@ impl Gpu {
         })
     }
 
-    /// A storage buffer with `contents`, which may be empty: a shader sees zeros then.
+    /// A storage buffer with `contents`; if they are empty, shaders read zeros.
     pub(crate) fn upload(
         &self,
         what: &'static str,
         contents: &[u8],
     ) -> Result<wgpu::Buffer, GpuError> {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
-        // WebGPU wants a binding to hold at least one element; 256 bytes hold any of ours.
+        // WebGPU requires a binding to hold at least one element; 256 bytes hold any of our structs.
         let buffer = self.allocate(what, (contents.len() as u64).max(256), usage)?;
         self.write(&buffer, 0, contents)?;
         Ok(buffer)
     }
 
-    /// Writes into a buffer, in parts so that no staging copy grows beyond 64 MiB.
+    /// Writes to a buffer in chunks, so that no staging copy exceeds 64 MiB.
     pub(crate) fn write(
         &self,
         buffer: &wgpu::Buffer,
@@ -90,8 +90,8 @@ impl Gpu {
         })
     }
 
-    /// A read-only image in rows of `width` texels with room for so many bytes, all zero: a storage image
-    /// of unsigned integers, or a texture of floats.
+    /// A read-only image with rows of `width` texels and room for `bytes`, zero-initialised: a storage image
+    /// for unsigned integers, a texture for floats.
     pub(crate) fn allocate_image(
         &self,
         what: &'static str,
@@ -99,7 +99,7 @@ impl Gpu {
         width: u32,
         format: wgpu::TextureFormat,
     ) -> Result<wgpu::TextureView, GpuError> {
-        if fault::strikes(fault::Site::Allocation) {
+        if fault::should_fail(fault::Site::Allocation) {
             return Err(GpuError::OutOfMemory { what: what.into() });
         }
         let binding = match format {
@@ -122,14 +122,14 @@ impl Gpu {
         Ok(texture.create_view(&Default::default()))
     }
 
-    /// A texture that shaders write and sample, all zero.
+    /// A texture that shaders write and sample, zero-initialised.
     pub(crate) fn allocate_screen(
         &self,
         width: u32,
         height: u32,
         format: wgpu::TextureFormat,
     ) -> Result<wgpu::TextureView, GpuError> {
-        if fault::strikes(fault::Site::Allocation) {
+        if fault::should_fail(fault::Site::Allocation) {
             return Err(GpuError::OutOfMemory {
                 what: "screen".into(),
             });
@@ -152,7 +152,7 @@ impl Gpu {
         Ok(texture.create_view(&Default::default()))
     }
 
-    /// Writes whole texels of an image from number `first` on, row by row.
+    /// Writes whole texels of an image, row by row, starting at texel index `first`.
     pub(crate) fn write_image(
         &self,
         image: &wgpu::TextureView,
@@ -170,7 +170,7 @@ impl Gpu {
         let mut rest = contents;
         self.scoped("write", || {
             while !rest.is_empty() {
-                // What is left of a row, then whole rows, then the beginning of one.
+                // The rest of a row, then whole rows, then the start of a row.
                 let texels = (rest.len() / texel) as u32;
                 let (columns, rows) = match (x, texels / width) {
                     (0, 0) => (texels, 1),

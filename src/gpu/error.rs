@@ -1,4 +1,4 @@
-//! What can go wrong between here and the GPU.
+//! Errors of the device and its driver.
 
 /// An error of the device or its driver.
 #[derive(Debug, thiserror::Error)]
@@ -9,55 +9,55 @@ pub enum GpuError {
         Self::INSTALL
     )]
     NoAdapter {
-        /// The backend that was asked for, or that it was all of them.
+        /// The requested backend, or "every backend".
         tried: String,
     },
-    /// The backend that was asked for is not to be had here, whatever is installed.
+    /// The requested backend is unavailable on this platform, whatever is installed.
     #[error("no usable GPU ({backend}): {why}. Choose another backend.")]
     NoBackend {
         /// The backend.
         backend: &'static str,
-        /// Why it is not there, as a clause.
+        /// Why it is unavailable, as a clause.
         why: &'static str,
     },
-    /// There are adapters, but not the one that was asked for.
+    /// There are adapters, but not the requested one.
     #[error(
         "no such adapter ({wanted}): there are {present}. Name one of them, or part of its name."
     )]
     NoSuchAdapter {
-        /// What was asked for: [`super::AdapterChoice::adapter`].
+        /// The request: [`super::AdapterChoice::adapter`].
         wanted: String,
-        /// Index, name and backend of each adapter there is.
+        /// Index, name and backend of each available adapter.
         present: String,
     },
-    /// The driver refuses to open the adapter.
+    /// The driver failed to open the adapter.
     #[error("the adapter cannot be opened ({adapter}): {why}.")]
     NoDevice {
         /// The adapter's name.
         adapter: String,
-        /// The driver's words.
+        /// The driver's message.
         why: String,
     },
-    /// The device is gone; what was on it is lost. A [`crate::render::Renderer`] opens another one.
+    /// The device is lost, with all data on it. A [`crate::render::Renderer`] opens another one.
     #[error("the GPU was lost (driver reset or time-out): its work is gone. Try again.")]
     Lost,
-    /// Devices were lost, or stopped work half-way, too often for one picture.
+    /// Devices were lost, or did not complete their work, too often for one picture.
     #[error("the GPU failed {count} times (driver resets): it cannot finish this picture.")]
     KeptFailing {
-        /// How often.
+        /// The number of failures.
         count: u32,
     },
-    /// The scene or picture needs more than a limit of the adapter.
+    /// The scene or picture exceeds a limit of the adapter.
     #[error("too big for this adapter ({name}): {need} needed, {limit} allowed.")]
     Limit {
         /// The limit, with its unit.
         name: &'static str,
-        /// What is needed, in that unit.
+        /// The required value, in that unit.
         need: u64,
-        /// The most that the adapter can give.
+        /// The maximum of the adapter.
         limit: u64,
     },
-    /// All allocations together would exceed [`crate::render::ExecutionPolicy::memory_limit_bytes`].
+    /// The total of all allocations would exceed [`crate::render::ExecutionPolicy::memory_limit_bytes`].
     #[error("too big for the memory limit ({what}): {need} bytes needed in all, {limit} allowed.")]
     Budget {
         /// The largest allocation and its size.
@@ -72,19 +72,19 @@ pub enum GpuError {
         "the GPU is out of memory ({what}): the driver refused to allocate. Use a smaller scene or picture, or end other programs that use its memory."
     )]
     OutOfMemory {
-        /// What was to be allocated or made.
+        /// The allocation or operation that failed.
         what: String,
     },
-    /// The driver reports misuse of its interface, refuses a shader or leaves work undone.
+    /// The driver reports an API error, rejects a shader or leaves work undone.
     #[error("internal fault (GPU): {what}.")]
     Internal {
-        /// What happened, in the driver's words if it had any.
+        /// What happened, in the driver's words if available.
         what: String,
     },
 }
 
 impl GpuError {
-    /// How to get a first adapter on this system.
+    /// How to install a driver on this system.
     const INSTALL: &str = if cfg!(target_os = "linux") {
         "Install the driver of your GPU, or Mesa's software driver (Debian and Ubuntu: apt-get install \
          libvulkan1 mesa-vulkan-drivers)."

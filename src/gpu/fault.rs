@@ -1,6 +1,6 @@
-//! Faults on demand, to rehearse what a user would meet: `GLIMRAY_FAULT=device@3` loses the device
-//! at the third submission, `device@3,7` at the seventh as well, `allocation@2` refuses the second allocation, `dispatch@2` leaves out a
-//! part of the second dispatch that traces, `device@*` fails always.
+//! Fault injection for testing recovery: `GLIMRAY_FAULT=device@3` loses the device at the third submission,
+//! `device@3,7` also at the seventh; `allocation@2` fails the second allocation; `dispatch@2` omits part of the
+//! second dispatch that traces rays; `device@*` fails every time.
 
 use std::sync::{
     OnceLock,
@@ -16,13 +16,13 @@ pub(super) enum Site {
 
 struct Plan {
     site: Site,
-    /// The occasions that fail, counted from 1; `None` is every one.
+    /// The occurrences that fail, counted from 1; `None` for all.
     at: Option<Vec<u32>>,
     seen: AtomicU32,
 }
 
-/// Whether this occasion is one that is to fail.
-pub(super) fn strikes(site: Site) -> bool {
+/// Whether this occurrence should fail.
+pub(super) fn should_fail(site: Site) -> bool {
     static PLAN: OnceLock<Option<Plan>> = OnceLock::new();
     let plan = PLAN.get_or_init(|| parse(&std::env::var("GLIMRAY_FAULT").ok()?));
     let Some(plan) = plan.as_ref().filter(|plan| plan.site == site) else {

@@ -1,5 +1,5 @@
-//! Catches panics that a lost device is the cause of: `poll` and `submit` of wgpu 30 panic then, and so
-//! does who draws with the device, as egui does.
+//! Catches panics caused by a lost device: `poll` and `submit` of wgpu 30 panic then, and so does code that
+//! draws with the device, such as egui.
 
 use super::{Gpu, GpuError};
 use std::{
@@ -12,17 +12,15 @@ thread_local! {
     static DRAWS_WITH: RefCell<Option<Gpu>> = const { RefCell::new(None) };
 }
 
-/// Whether a panic of this thread would be caught and dealt with, so that a panic hook can keep
-/// silent about it.
+/// Whether a panic of this thread would be caught and handled, so that a panic hook can stay silent.
 pub fn is_guarded() -> bool {
     GUARDED.get() || DRAWS_WITH.with_borrow(|gpu| gpu.as_ref().is_some_and(Gpu::is_lost))
 }
 
-/// What `draw` returns, which draws with the device of `gpu` on this thread and knows nothing of its
-/// loss.
+/// Runs `draw`, which draws with the device of `gpu` on this thread and does not handle its loss.
 ///
 /// # Errors
-/// [`GpuError::Lost`] if it panicked when the device was lost. Any other panic goes on.
+/// [`GpuError::Lost`] if it panicked and the device is lost. Any other panic is resumed.
 pub fn surviving_loss<T>(gpu: &Gpu, draw: impl FnOnce() -> T) -> Result<T, GpuError> {
     let before = DRAWS_WITH.replace(Some(gpu.clone()));
     let result = catch_unwind(AssertUnwindSafe(draw));
@@ -33,10 +31,10 @@ pub fn surviving_loss<T>(gpu: &Gpu, draw: impl FnOnce() -> T) -> Result<T, GpuEr
     })
 }
 
-/// What `run` returns, or `Err` if it panicked.
-pub(super) fn quiet<T>(run: impl FnOnce() -> T) -> Result<T, ()> {
+/// Runs `run`; `Err` if it panicked.
+pub(super) fn catch<T>(run: impl FnOnce() -> T) -> Result<T, ()> {
     let before = GUARDED.replace(true);
-    // What a panic leaves half done is the device's state, and that is thrown away with it.
+    // A panic leaves only the state of the device inconsistent, and that is discarded with it.
     let result = catch_unwind(AssertUnwindSafe(run)).map_err(|_| ());
     GUARDED.set(before);
     result

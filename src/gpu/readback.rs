@@ -1,27 +1,27 @@
-//! The only way back from the GPU.
+//! Readback from the GPU; all of it happens here.
 
 use super::{Gpu, GpuError, guard};
 use std::sync::{Arc, Mutex};
 
-/// A part of a buffer to be read.
+/// A range of a buffer to read back.
 pub(crate) struct Source<'a> {
     pub buffer: &'a wgpu::Buffer,
     pub offset: u64,
     pub bytes: u64,
 }
 
-/// Work that was submitted, and what is to be read of it. Dropping it gives the result up; the work
-/// itself still runs.
+/// Submitted work whose results will be read back. Dropping it discards the results; the work itself still
+/// runs.
 pub(crate) struct Reading {
     staging: wgpu::Buffer,
     bytes: u64,
     submission: wgpu::SubmissionIndex,
-    /// Set by wgpu once the staging buffer can be read.
+    /// Set by wgpu once the staging buffer is mapped.
     mapped: Arc<Mutex<Option<Result<(), wgpu::BufferAsyncError>>>>,
 }
 
 impl Reading {
-    /// Whether the bytes are there.
+    /// The result of the mapping, once it has completed.
     fn outcome(&self) -> Option<Result<(), GpuError>> {
         let mapped = self.mapped.lock().ok()?;
         let outcome = mapped.as_ref()?;
@@ -31,14 +31,15 @@ impl Reading {
 
 impl Drop for Reading {
     fn drop(&mut self) {
-        // Also takes back a request that was not answered yet: a mapped buffer takes no copies.
-        let _ = guard::quiet(|| self.staging.unmap());
+        // This also cancels a pending request: copies to a mapped buffer are not allowed.
+        let _ = guard::catch(|| self.staging.unmap());
     }
 }
 
 impl Gpu {
-    /// Submits `encoder` and asks for what is in `sources` when it is done, one after the other. Does not
-    /// wait. `staging` must be mappable for reading, hold them all, and belong to no other reading.
+    /// Submits `encoder`, followed by copies of `sources`, one after the other, to `staging`, and requests its
+    /// mapping. Does not wait. `staging` must be mappable for reading, large enough, and not used by another
+    /// reading.
     pub(crate) fn submit_reading(
         &self,
         mut encoder: wgpu::CommandEncoder,
@@ -56,11 +57,11 @@ impl Gpu {
             );
             bytes += source.bytes;
         }
-        let commands = guard::quiet(|| encoder.finish()).map_err(|()| GpuError::Lost)?;
+        let commands = guard::catch(|| encoder.finish()).map_err(|()| GpuError::Lost)?;
         let submission = self.enqueue(commands)?;
         let mapped = Arc::new(Mutex::new(None));
         let on_mapped = mapped.clone();
-        guard::quiet(|| {
+        guard::catch(|| {
             staging.map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
                 if let Ok(mut outcome) = on_mapped.lock() {
                     *outcome = Some(result);
@@ -76,9 +77,9 @@ impl Gpu {
         })
     }
 
-    /// Whether the work is done and its results can be read. Does not wait.
+    /// Whether the results can be read. Does not wait.
     pub(crate) fn is_readable(&self, reading: &Reading) -> Result<bool, GpuError> {
-        let polled = guard::quiet(|| self.device.poll(wgpu::PollType::Poll));
+        let polled = guard::catch(|| self.device.poll(wgpu::PollType::Poll));
         polled
             .map_err(|()| GpuError::Lost)?
             .map_err(|_| GpuError::Lost)?;
@@ -88,14 +89,14 @@ impl Gpu {
             .map_or(Ok(false), |read| read.map(|()| true))
     }
 
-    /// Waits until the work is done and hands `read` its results.
+    /// Waits for completion and passes the results to `read`.
     pub(crate) fn read<T>(
         &self,
         reading: Reading,
         read: impl FnOnce(&[u8]) -> T,
     ) -> Result<T, GpuError> {
         self.wait(reading.submission.clone())?;
-        // The driver may be done before wgpu has said so.
+        // The driver may have finished before wgpu reports it.
         if reading.outcome().is_none() && !self.is_readable(&reading)? {
             return Err(GpuError::Lost);
         }
@@ -106,7 +107,7 @@ impl Gpu {
             .map_err(|_| GpuError::Lost)
     }
 
-    /// The three in one.
+    /// Submits, waits and reads.
     pub(crate) fn submit_and_read<T>(
         &self,
         encoder: wgpu::CommandEncoder,

@@ -1,19 +1,19 @@
-//! The linked kernels and the pipelines made of them.
+//! The linked kernels, and the cache of their pipelines.
 
 use super::{Gpu, GpuError, specialize::specialize};
 use std::{borrow::Cow, collections::VecDeque};
 
-/// How many pipelines of a device are kept: each may be a megabyte of machine code.
-const MOST_PIPELINES: usize = 64;
+/// Maximum number of cached pipelines of a device: each may be a megabyte of machine code.
+const MAX_PIPELINES: usize = 64;
 
-/// Pipelines by what they are made of, the newest first.
+/// Pipelines by their key, the newest first.
 #[derive(Default)]
-pub(super) struct Pipelines(VecDeque<(Ingredients, wgpu::ComputePipeline)>);
+pub(super) struct Pipelines(VecDeque<(PipelineKey, wgpu::ComputePipeline)>);
 
-/// What a pipeline is made of. The bind groups are not among it: they follow from the kernel and its
+/// The key of a pipeline. It does not include the bind group layouts, which follow from the kernel and its
 /// variant.
 #[derive(PartialEq)]
-struct Ingredients {
+struct PipelineKey {
     kernel: &'static str,
     from_images: bool,
     overrides: Overrides,
@@ -22,19 +22,19 @@ struct Ingredients {
 /// Values for overrides of `bindings.wesl`, by their names.
 pub type Overrides = Vec<(&'static str, f64)>;
 
-/// A pipeline, and whether it had to be compiled.
+/// A pipeline, and whether it was compiled just now.
 pub(crate) struct Compiled {
     pub pipeline: wgpu::ComputePipeline,
     pub is_new: bool,
 }
 
-/// A compute kernel: WGSL linked by `build.rs`, and its entry point.
+/// A compute kernel: linked WGSL from `shaders/linked`, and its entry point.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
-    /// Also the entry point's, and its file's in `shaders/kernels/`; `explain` is `whitted` that keeps
-    /// records.
+    /// The name of the kernel, its entry point and its file in `shaders/kernels/`; `explain` is `whitted` with
+    /// recording.
     pub name: &'static str,
-    /// Its variants, by name: geometry is read from images or from buffers.
+    /// Its variants by name: geometry is fetched from images or from buffers.
     pub sources: [(&'static str, &'static str); 2],
 }
 
@@ -43,8 +43,8 @@ macro_rules! kernels {
         $($(#[$doc])* pub const $constant: Kernel = Kernel {
             name: $name,
             sources: [
-                ("image", include_str!(concat!(env!("OUT_DIR"), "/", $name, "_image.wgsl"))),
-                ("buffer", include_str!(concat!(env!("OUT_DIR"), "/", $name, "_buffer.wgsl"))),
+                ("image", include_str!(concat!("../../shaders/linked/", $name, "_image.wgsl"))),
+                ("buffer", include_str!(concat!("../../shaders/linked/", $name, "_buffer.wgsl"))),
             ],
         };)*
         /// All kernels.
@@ -60,15 +60,15 @@ impl Kernel {
         DEBUG_VIEW "debug_view"
         /// Records all rays of single samples of [`crate::render::Integrator::Whitted`].
         EXPLAIN "explain"
-        /// Turns the film into a picture.
+        /// Develops the film to a picture.
         DEVELOP "develop"
-        /// Turns the film into a picture on the screen.
+        /// Develops the film to a texture for display.
         SHOW "show"
     }
 
-    /// The module of the variant that reads geometry from images or from buffers, specialised by these
-    /// overrides of `bindings.wesl`, by name. The error names an override that there is not, or is naga's with
-    /// the lines of the linked source.
+    /// The module of the variant that fetches geometry from images or from buffers, specialised by overrides of
+    /// `bindings.wesl`, by name. The error names an unknown override, or is naga's with the lines of the linked
+    /// source.
     pub fn specialized(
         &self,
         from_images: bool,
@@ -83,9 +83,9 @@ impl Kernel {
 }
 
 impl Gpu {
-    /// A kernel for these bind groups specialised by these overrides, compiled unless that was done before. A shader that the
-    /// driver refuses is our fault: the error carries the driver's words, and the linked text lies in the
-    /// folder for temporary files.
+    /// A pipeline of a kernel, specialised by `overrides`, for these bind group layouts; compiled unless it is
+    /// cached. A shader that the driver rejects is an internal error: it contains the driver's message, and the
+    /// linked source is written to the folder for temporary files.
     pub(crate) fn pipeline(
         &self,
         kernel: &Kernel,
@@ -93,7 +93,7 @@ impl Gpu {
         groups: &[Option<&wgpu::BindGroupLayout>],
         overrides: Overrides,
     ) -> Result<Compiled, GpuError> {
-        let wanted = Ingredients {
+        let wanted = PipelineKey {
             kernel: kernel.name,
             from_images,
             overrides,
@@ -108,7 +108,7 @@ impl Gpu {
         }
         let pipeline = self.compile(kernel, from_images, groups, &wanted.overrides)?;
         if let Ok(mut kept) = self.pipelines.lock() {
-            kept.0.truncate(MOST_PIPELINES - 1);
+            kept.0.truncate(MAX_PIPELINES - 1);
             kept.0.push_front((wanted, pipeline.clone()));
         }
         let is_new = true;
@@ -124,7 +124,7 @@ impl Gpu {
     ) -> Result<wgpu::ComputePipeline, GpuError> {
         let name = kernel.name;
         let refused = |what: String| GpuError::Internal {
-            what: dumped(name, kernel.source(from_images), &what),
+            what: with_dump(name, kernel.source(from_images), &what),
         };
         let module = kernel
             .specialized(from_images, overrides)
@@ -160,9 +160,9 @@ impl Gpu {
     }
 }
 
-/// An error about a kernel, with the file that its linked text was written to. There are no files in a
+/// An error message about a kernel, with the path of a dump of its linked source. There are no files in a
 /// browser.
-fn dumped(name: &str, source: &str, what: &str) -> String {
+fn with_dump(name: &str, source: &str, what: &str) -> String {
     if cfg!(target_arch = "wasm32") {
         return what.to_owned();
     }

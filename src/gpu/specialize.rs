@@ -1,6 +1,6 @@
-//! Kernels specialised before the driver sees them: overrides become constants, branches on constants
-//! are folded, and what nothing reaches any more is dropped. A driver reads, inlines and simplifies a
-//! whole module before it drops the code that overrides switch off, and no disk cache saves that time.
+//! Specialises kernels before the driver sees them: overrides become constants, branches on constants are
+//! folded, and unreachable code is removed. A driver would parse, inline and simplify a whole module before
+//! removing the code that overrides disable, and no disk cache saves that time.
 
 use naga::{
     Arena, Block, Expression, Handle, Literal, LocalVariable, Module, Statement, UnaryOperator,
@@ -8,22 +8,20 @@ use naga::{
 };
 use std::collections::HashMap;
 
-/// Where overrides are declared, `override NAME: TYPE = DEFAULT;`. Linked kernels lack those that they do not
-/// use.
+/// Declares the overrides as `override NAME: TYPE = DEFAULT;`. Linked kernels lack those that they do not use.
 const BINDINGS: &str = include_str!("../../shaders/bindings.wesl");
 
-/// What the linker puts before the names of `bindings.wesl`.
+/// The prefix that the linker adds to the names of `bindings.wesl`.
 const PREFIX: &str = "package_bindings_";
 
-/// The module of a linked kernel with these values for its overrides, by their names; an override that
-/// is not named keeps its default.
+/// The module of a linked kernel with values for its overrides, by name. Other overrides keep their defaults.
 ///
 /// # Errors
-/// No override has one of the names, or naga refuses the source; its message shows the lines.
+/// An override does not exist, or naga rejects the source; its message shows the lines.
 pub fn specialize(source: &str, overrides: &[(&str, f64)]) -> Result<Module, String> {
     let is_declared = |name: &str| BINDINGS.contains(&format!("\noverride {name}: "));
     if let Some((name, _)) = overrides.iter().find(|(name, _)| !is_declared(name)) {
-        return Err(format!("no override is called {name}"));
+        return Err(format!("there is no override {name}"));
     }
     let source = with_constants(source, overrides);
     let mut module =
@@ -42,8 +40,8 @@ pub fn specialize(source: &str, overrides: &[(&str, f64)]) -> Result<Module, Str
     Ok(module)
 }
 
-/// The source with each `override NAME: TYPE = DEFAULT;` as a `const` instead. The front end folds
-/// constants, and what is calculated from them.
+/// The source with each `override NAME: TYPE = DEFAULT;` replaced by a `const`. The front end folds constant
+/// expressions.
 fn with_constants(source: &str, overrides: &[(&str, f64)]) -> String {
     let line = |line: &str| {
         let Some(Override { name, ty, default }) = Override::parse(line) else {
@@ -73,8 +71,8 @@ impl<'a> Override<'a> {
     }
 }
 
-/// The name in `bindings.wesl` of one that the linker has mangled: it puts `_N` before names that contain
-/// N underscores.
+/// The name in `bindings.wesl` of a name that the linker has mangled: it adds `_N` before names that contain N
+/// underscores.
 fn plain_name(mangled: &str) -> &str {
     let name = mangled.strip_prefix(PREFIX).unwrap_or(mangled);
     match name.strip_prefix('_') {
@@ -83,7 +81,7 @@ fn plain_name(mangled: &str) -> &str {
     }
 }
 
-/// A value as WGSL writes it.
+/// A value as a WGSL literal.
 fn literal(ty: &str, value: f64) -> String {
     match ty {
         "bool" => (value != 0.0).to_string(),
@@ -104,7 +102,7 @@ fn fold_function(
         globals,
         temporaries: HashMap::new(),
     };
-    // Each round may leave one more temporary with a constant.
+    // Each iteration may reveal another temporary with a constant value.
     loop {
         body = fold.block(body);
         let found = fold.constant_temporaries(&body);
@@ -114,22 +112,22 @@ fn fold_function(
         fold.temporaries = found;
     }
     function.body = body;
-    // `compact` keeps named expressions, and cannot keep those that are no longer evaluated.
+    // `compact` keeps named expressions, but cannot keep those that are no longer evaluated.
     function.named_expressions.clear();
 }
 
-/// What tells whether an expression of a function is constant.
+/// Constant folding of a function.
 struct Fold<'a> {
     function: &'a naga::Function,
     constants: &'a Arena<naga::Constant>,
     globals: &'a Arena<Expression>,
-    /// Temporaries that hold the same value wherever they are read.
+    /// Temporaries that always have the same value when read.
     temporaries: HashMap<Handle<LocalVariable>, bool>,
 }
 
 impl Fold<'_> {
-    /// The block with the branch taken in place of each `if` on a constant, and nothing behind a
-    /// statement that leaves the block.
+    /// The block, with each `if` on a constant replaced by the taken branch, and without statements after one
+    /// that ends the block.
     fn block(&self, block: Block) -> Block {
         let mut folded = Block::with_capacity(block.len());
         for (mut statement, span) in block.span_into_iter() {
@@ -174,7 +172,7 @@ impl Fold<'_> {
                 }
                 _ => folded.push(statement, span),
             }
-            if folded.last().is_some_and(leaves) {
+            if folded.last().is_some_and(ends_block) {
                 break;
             }
         }
@@ -197,8 +195,8 @@ impl Fold<'_> {
         values.into_iter().filter_map(constant).collect()
     }
 
-    /// The variable that a pointer points to if the front end made it: for the result of `&&` or `||`,
-    /// to which it stores before it reads.
+    /// The variable that a pointer points to, if it is a temporary of the front end: the result of `&&` or
+    /// `||`, which is stored before it is read.
     fn temporary(&self, pointer: Handle<Expression>) -> Option<Handle<LocalVariable>> {
         match self.function.expressions[pointer] {
             Expression::LocalVariable(variable) => {
@@ -209,7 +207,7 @@ impl Fold<'_> {
         }
     }
 
-    /// The value of a condition that is the same for all invocations.
+    /// The value of a constant condition.
     fn constant(&self, expression: Handle<Expression>) -> Option<bool> {
         let literal = match self.function.expressions[expression] {
             Expression::Load { pointer } => {
@@ -229,7 +227,7 @@ impl Fold<'_> {
     }
 }
 
-/// All stores in a block and the blocks in it: (pointer, value).
+/// All stores in a block and its nested blocks: (pointer, value).
 fn stores(block: &Block, found: &mut Vec<(Handle<Expression>, Handle<Expression>)>) {
     for statement in block {
         match statement {
@@ -255,8 +253,8 @@ fn stores(block: &Block, found: &mut Vec<(Handle<Expression>, Handle<Expression>
     }
 }
 
-/// Whether nothing behind this statement in its block is reached.
-fn leaves(statement: &Statement) -> bool {
+/// Whether the statements after this one in its block are unreachable.
+fn ends_block(statement: &Statement) -> bool {
     matches!(
         statement,
         Statement::Return { .. } | Statement::Break | Statement::Continue | Statement::Kill

@@ -1,9 +1,9 @@
-//! Bottom-level trees (BLAS): the topology over a mesh is built once in object space, and refitted to
-//! where the mesh is baked.
+//! Bottom-level acceleration structures (BLAS): the topology over a mesh is built once in object space, and
+//! refitted to the position at which the mesh is baked.
 
 use super::{
     geometry::{self, Flat},
-    nodes::{self, Children, Place},
+    nodes::{self, Children, Offsets},
 };
 use crate::{
     bvh::{self, Aabb},
@@ -15,19 +15,19 @@ use crate::{
 };
 use std::{collections::BinaryHeap, sync::Arc};
 
-/// Most primitives in a leaf.
+/// Maximum number of primitives in a leaf.
 const LEAF_SIZE: u32 = 4;
 
-/// Bound on the traversal stack of trees that have another above them, for which it leaves room.
+/// Stack limit of BVHs below another one, which leaves room for it.
 pub const STACK_BELOW: usize = 60;
 
-/// Most parts into which one tree is opened.
-pub const MOST_PARTS: usize = 64;
+/// Maximum number of parts into which one BVH is opened.
+pub const MAX_PARTS: usize = 64;
 
-/// Which triangles of a mesh are in which leaf; boxes come with the place.
+/// The assignment of the triangles of a mesh to leaves, without boxes, which depend on the position.
 #[derive(Debug)]
 pub struct Topology {
-    /// Child references of each node, as in a tree at place 0. Children come after their parents.
+    /// Child references of each node, for offsets of 0. Children come after their parents.
     children: Vec<[u32; 4]>,
     /// Triangles of the mesh in leaf order.
     order: Vec<u32>,
@@ -36,7 +36,7 @@ pub struct Topology {
 
 impl Topology {
     pub fn build(mesh: &Mesh) -> Self {
-        // Powers of two change no tree, but keep areas in range.
+        // Scaling by a power of two does not change the BVH, but keeps areas in range.
         let largest =
             (mesh.positions.iter()).fold(0.0, |most: f32, p| most.max(p.abs().max_element()));
         let scale = (-largest.log2().floor()).clamp(-126.0, 126.0).exp2();
@@ -45,11 +45,11 @@ impl Topology {
             .map(|&[a, b, c]| Aabb::of([corner(a), corner(b), corner(c)]))
             .collect();
         let bvh = bvh::build(&boxes, &vec![nodes::TRIANGLES; boxes.len()], 1, limits());
-        let place = Place::default();
+        let offsets = Offsets::default();
         let references = |node: &bvh::WideNode| {
             let mut references = [0; 4];
             for (slot, (_, child)) in references.iter_mut().zip(&node.children) {
-                *slot = place.reference(child);
+                *slot = offsets.reference(child);
             }
             references
         };
@@ -68,33 +68,33 @@ fn limits() -> bvh::Limits {
     }
 }
 
-/// A tree as it lies in the arrays of a scene.
+/// A BLAS with its offsets in the arrays of a scene.
 #[derive(Clone, Debug)]
 pub struct Blas {
-    pub place: Place,
+    pub offsets: Offsets,
     pub nodes: Arc<[PackedNode]>,
     /// In leaf order.
     pub triangles: Arc<[PackedTriangle]>,
     /// In leaf order.
     pub shapes: Arc<[PackedShape]>,
-    /// In the order of the meshes.
+    /// In mesh order.
     pub vertices: Arc<[PackedVertex]>,
-    /// The most entries that a walk through it has on the stack.
+    /// Maximum number of stack entries during traversal.
     pub stack_need: usize,
-    /// The children of the nodes near the root, with exact boxes, by the nodes' indices in the tree.
+    /// The children of nodes near the root, with exact boxes, by node index in the BLAS.
     top: Vec<(u32, Children)>,
 }
 
 impl Blas {
-    /// The tree of one mesh, whose geometry is in `flat`, with its boxes refitted.
-    pub fn refitted(topology: &Topology, flat: Flat, place: Place) -> Self {
+    /// The BLAS of one mesh, whose geometry is in `flat`, with refitted boxes.
+    pub fn refitted(topology: &Topology, flat: Flat, offsets: Offsets) -> Self {
         let triangles: Arc<[_]> = (topology.order.iter())
             .map(|&i| flat.triangles[i as usize])
             .collect();
         let boxes: Vec<_> = triangles.iter().map(geometry::triangle_box).collect();
         let mut bounds = vec![Aabb::EMPTY; topology.children.len()];
         let mut packed = vec![PackedNode::default(); topology.children.len()];
-        let zero = Place::default();
+        let zero = Offsets::default();
         let children_of = |bounds: &[Aabb], index: usize| {
             let references = topology.children[index].iter().filter(|r| **r != 0);
             Children::new(references.map(|&reference| {
@@ -104,7 +104,7 @@ impl Blas {
                         .iter()
                         .fold(Aabb::EMPTY, |all, one| all.union(*one)),
                 };
-                (aabb, place.moved(reference, &zero))
+                (aabb, offsets.moved(reference, &zero))
             }))
         };
         for index in (0..packed.len()).rev() {
@@ -113,18 +113,18 @@ impl Blas {
             packed[index] = nodes::quantize(children.as_slice());
         }
         Self {
-            place,
+            offsets,
             nodes: packed.into(),
             triangles,
             shapes: Arc::default(),
             vertices: flat.vertices.into(),
             stack_need: topology.stack_need,
-            top: top_of(&place, |index| children_of(&bounds, index)),
+            top: top_of(&offsets, |index| children_of(&bounds, index)),
         }
     }
 
-    /// A tree over several meshes and shapes.
-    pub fn joint(flat: Flat, stack_size: usize, place: Place) -> Self {
+    /// One BLAS over several meshes and shapes.
+    pub fn joint(flat: Flat, stack_size: usize, offsets: Offsets) -> Self {
         let boxes: Vec<_> = (flat.triangles.iter().map(geometry::triangle_box))
             .chain(flat.bounded.iter().map(|(_, bounds)| *bounds))
             .collect();
@@ -137,9 +137,9 @@ impl Blas {
         };
         let bvh = bvh::build(&boxes, &groups, nodes::GROUP_COUNT, limits);
         let order = |group: u8| bvh.order[group as usize].iter().map(|&i| i as usize);
-        let children_of = |index: usize| Children::of(&bvh.nodes[index], &place);
+        let children_of = |index: usize| Children::of(&bvh.nodes[index], &offsets);
         Self {
-            place,
+            offsets,
             nodes: (0..bvh.nodes.len())
                 .map(|index| nodes::quantize(children_of(index).as_slice()))
                 .collect(),
@@ -149,20 +149,21 @@ impl Blas {
                 .collect(),
             vertices: flat.vertices.into(),
             stack_need: bvh.stack_need,
-            top: top_of(&place, children_of),
+            top: top_of(&offsets, children_of),
         }
     }
 
-    /// The same tree at another place.
-    pub fn moved_to(self: &Arc<Self>, place: Place) -> Arc<Self> {
-        let from = self.place;
-        if from == place {
+    /// The same BLAS at other offsets.
+    pub fn moved_to(self: &Arc<Self>, offsets: Offsets) -> Arc<Self> {
+        let from = self.offsets;
+        if from == offsets {
             return self.clone();
         }
-        let reference = |reference: u32| place.moved(reference, &from);
+        let reference = |reference: u32| offsets.moved(reference, &from);
         let mut moved = Self::clone(self);
-        moved.place = place;
-        if (from.node, from.triangle, from.shape) != (place.node, place.triangle, place.shape) {
+        moved.offsets = offsets;
+        if (from.node, from.triangle, from.shape) != (offsets.node, offsets.triangle, offsets.shape)
+        {
             let node = |node: &PackedNode| {
                 let mut node = *node;
                 node[12..].iter_mut().for_each(|r| *r = reference(*r));
@@ -173,8 +174,8 @@ impl Blas {
                 children.map_references(reference);
             }
         }
-        if from.vertex != place.vertex {
-            let vertex = |index: u32| index - from.vertex + place.vertex;
+        if from.vertex != offsets.vertex {
+            let vertex = |index: u32| index - from.vertex + offsets.vertex;
             let triangle = |triangle: &PackedTriangle| PackedTriangle {
                 i0: vertex(triangle.i0),
                 i1: vertex(triangle.i1),
@@ -186,17 +187,17 @@ impl Blas {
         Arc::new(moved)
     }
 
-    /// The place behind it.
-    pub fn end(&self) -> Place {
-        Place {
-            node: self.place.node + self.nodes.len() as u32,
-            triangle: self.place.triangle + self.triangles.len() as u32,
-            shape: self.place.shape + self.shapes.len() as u32,
-            vertex: self.place.vertex + self.vertices.len() as u32,
+    /// The offsets of what follows it.
+    pub fn end(&self) -> Offsets {
+        Offsets {
+            node: self.offsets.node + self.nodes.len() as u32,
+            triangle: self.offsets.triangle + self.triangles.len() as u32,
+            shape: self.offsets.shape + self.shapes.len() as u32,
+            vertex: self.offsets.vertex + self.vertices.len() as u32,
         }
     }
 
-    /// Whether there is nothing in it.
+    /// Whether it has no primitives.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty() && self.shapes.is_empty()
     }
@@ -205,45 +206,45 @@ impl Blas {
     pub fn root(&self) -> u32 {
         match self.top[0].1.as_slice() {
             [(_, only)] => *only,
-            _ => self.place.node,
+            _ => self.offsets.node,
         }
     }
 
-    /// The box round all of it.
+    /// The bounding box.
     pub fn bounds(&self) -> Aabb {
         self.top[0].1.bounds()
     }
 
-    /// Boxes that hold it together; none where it is empty.
+    /// Boxes that together bound it; none if it is empty.
     pub fn boxes(&self) -> Vec<Aabb> {
         match self.is_empty() {
             true => Vec::new(),
-            false => (opened([self], MOST_PARTS).into_iter().map(|(aabb, _)| aabb)).collect(),
+            false => (opened([self], MAX_PARTS).into_iter().map(|(aabb, _)| aabb)).collect(),
         }
     }
 
-    /// The children of a node near the root.
+    /// The children of a node near the root; `None` for nodes further down.
     fn children(&self, reference: u32) -> Option<&Children> {
-        let index = reference.wrapping_sub(self.place.node);
+        let index = reference.wrapping_sub(self.offsets.node);
         let known = self.top.iter().find(|(known, _)| *known == index);
         known.map(|(_, children)| children)
     }
 }
 
-/// Places of the primitives of a leaf in a tree at place 0.
+/// The primitives of a leaf, for offsets of 0.
 fn leaf_range(reference: u32) -> std::ops::Range<usize> {
     let first = (reference & LEAF_FIRST_MASK) as usize;
     first..first + ((reference & LEAF_COUNT_MASK) >> LEAF_COUNT_SHIFT) as usize + 1
 }
 
-/// The children of the root, and of the nodes that are opened until there are [`MOST_PARTS`].
-fn top_of(place: &Place, children_of: impl Fn(usize) -> Children) -> Vec<(u32, Children)> {
+/// The children of the root, and of the nodes that are opened until there are [`MAX_PARTS`] parts.
+fn top_of(offsets: &Offsets, children_of: impl Fn(usize) -> Children) -> Vec<(u32, Children)> {
     let root = children_of(0);
     let mut top = vec![(0, root)];
-    let mut parts = Parts::new(MOST_PARTS);
+    let mut parts = Parts::new(MAX_PARTS);
     root.as_slice().iter().for_each(|part| parts.add(0, *part));
     parts.open_all(|_, reference| {
-        let index = reference - place.node;
+        let index = reference - offsets.node;
         let children = children_of(index as usize);
         top.push((index, children));
         Some(children)
@@ -251,8 +252,8 @@ fn top_of(place: &Place, children_of: impl Fn(usize) -> Children) -> Vec<(u32, C
     top
 }
 
-/// The boxes near the roots of several trees, with references to what is in them: of all that are nodes
-/// the largest is opened, until there are `limit`.
+/// The boxes near the roots of several BVHs, with their references: the largest node is opened repeatedly,
+/// until there are `limit` parts.
 pub fn opened<'a>(trees: impl IntoIterator<Item = &'a Blas>, limit: usize) -> Vec<(Aabb, u32)> {
     let trees: Vec<_> = trees.into_iter().collect();
     let mut parts = Parts::new(limit);
@@ -263,11 +264,11 @@ pub fn opened<'a>(trees: impl IntoIterator<Item = &'a Blas>, limit: usize) -> Ve
     parts.into_list()
 }
 
-/// Parts of trees, which nodes among them are opened to.
+/// Parts of BVHs, some of which are replaced by their children.
 struct Parts {
-    /// The tree that it is of, its box and the reference to it; `None` where it was opened.
+    /// Index of the BVH, box and reference of each part; `None` once it is opened.
     list: Vec<Option<(usize, Aabb, u32)>>,
-    /// Areas of nodes, as ordered bits, and their places in the list.
+    /// Areas of nodes, as ordered bits, and their list indices.
     nodes: BinaryHeap<(u32, usize)>,
     count: usize,
     limit: usize,
@@ -291,7 +292,7 @@ impl Parts {
         self.count += 1;
     }
 
-    /// Opens the largest node again and again. Nodes that `children` does not know stay as they are.
+    /// Opens the largest node repeatedly. Nodes unknown to `children` stay closed.
     fn open_all(&mut self, mut children: impl FnMut(usize, u32) -> Option<Children>) {
         while let Some((_, index)) = self.nodes.pop() {
             let Some((tree, _, reference)) = self.list[index] else {

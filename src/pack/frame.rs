@@ -1,4 +1,4 @@
-//! What changes from frame to frame: camera, lights, materials and what is placed.
+//! Packs the data of a frame: camera, lights, materials and instances.
 
 use super::{
     PackError, PackedScene,
@@ -19,45 +19,44 @@ use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
 use std::{slice, sync::Arc};
 
-/// A [`Frame`] as the GPU wants it.
+/// A packed [`Frame`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedView {
-    /// Its camera's `right` is still that of a square picture; [`PackedView::with_aspect`] widens it.
+    /// Its camera is for a square picture; [`PackedView::with_aspect`] adapts it.
     pub frame: PackedFrame,
-    /// At least one: a dark light stands in where there is none. Where one moves, all of them for each
-    /// key.
+    /// At least one: a scene without lights gets a black one. If a light moves, each key holds all lights.
     pub lights: Vec<PackedLight>,
-    /// Keys of a moving camera, whose `right` is that of a square picture too; else empty.
+    /// Keys of a moving camera, for a square picture too; otherwise empty.
     pub cameras: Arc<[PackedCamera]>,
-    /// The tree over the instances, which views share as long as nothing moves.
+    /// The TLAS, shared between views as long as no instance moves.
     pub(super) tlas: Arc<Tlas>,
-    /// In place of the scene's, if any changes over time; else empty. They are as they are when the
-    /// shutter opens, but lamps show the mean of what they shine with while it is open.
+    /// Replaces the materials of the scene if any changes over time; otherwise empty. The values are those when
+    /// the shutter opens, except that visible lights show their mean emission over the shutter interval.
     pub materials: Arc<[PackedMaterial]>,
-    /// Whether rays start side by side rather than in one point.
+    /// Whether the camera is orthographic.
     pub orthographic: bool,
-    /// Whether there is a light that is not dark.
+    /// Whether there is a light that is not black.
     pub has_lights: bool,
-    /// Whether there is a light that has extent.
+    /// Whether there is an area light.
     pub has_area_lights: bool,
-    /// [`BACKGROUND_COLOR`] and so on.
+    /// One of the `BACKGROUND_` tags, such as [`BACKGROUND_COLOR`].
     pub background: u32,
 }
 
 impl PackedScene {
-    /// Packs a frame of the scene that this was made from.
+    /// Packs a frame of the scene that this was packed from.
     pub fn frame(&self, frame: &Frame) -> Result<PackedView, PackError> {
         self.view(slice::from_ref(frame))
     }
 
-    /// Packs what [`crate::scene::Scene::motion_samples`] of the scene that this was made from gives: at least
-    /// one frame, evenly spaced over the time in which the shutter is open.
+    /// Packs the result of [`crate::scene::Scene::motion_samples`] for the scene that this was packed from: at
+    /// least one frame, evenly spaced over the shutter interval.
     pub fn view(&self, frames: &[Frame]) -> Result<PackedView, PackError> {
         self.view_from(None, frames)
     }
 
-    /// The same, with the tree over the instances of another view of this scene or of the one that it was
-    /// packed from, if it serves: where only camera, lights, materials or background differ.
+    /// Like [`Self::view`], but reuses the TLAS of another view of this scene, or of the one it was packed
+    /// from, if only camera, lights, materials or background differ.
     ///
     /// # Errors
     /// As [`Self::view`].
@@ -112,7 +111,7 @@ impl PackedScene {
                 plane_count: self.plane_count,
                 vertex_count: self.vertices.len() as u32,
                 material_count: self.materials.len() as u32,
-                camera_media: media::around(&self.bodies, first, first.camera.look_from)?,
+                camera_media: media::at_point(&self.volumes, first, first.camera.look_from)?,
                 root: if self.features.instances {
                     first_node | moving
                 } else {
@@ -144,23 +143,23 @@ impl PackedScene {
         })
     }
 
-    /// The materials of a shot; empty if they never change.
+    /// The materials over the shutter interval; empty if they never change.
     fn materials_of(&self, frames: &[Frame]) -> Arc<[PackedMaterial]> {
-        let Some(changing) = &self.changing else {
+        let Some(animated_materials) = &self.animated_materials else {
             return Arc::default();
         };
         let materials = match &frames[0].materials[..] {
-            [] => &changing.materials,
+            [] => &animated_materials.materials,
             changed => changed,
         };
-        let lamps = changing.lamps.iter();
+        let lamps = animated_materials.lamps.iter();
         let lamps = lamps.map(|&index| light::mean_material(frames, index));
         (materials.iter().map(material::material))
             .chain(lamps.map(|lamp| material::material(&lamp)))
             .collect()
     }
 
-    /// The members of a frame that belong to the background.
+    /// The background members of a frame.
     fn background(&self, background: &Background) -> PackedFrame {
         let mut frame = PackedFrame::default();
         match *background {
@@ -188,7 +187,7 @@ impl PackedScene {
 }
 
 impl PackedView {
-    /// Every byte that a picture of this scene depends on.
+    /// All bytes of the view that a picture depends on.
     pub fn parts(&self) -> Vec<&[u8]> {
         let mut parts = vec![
             bytes_of(&self.frame),
@@ -202,7 +201,7 @@ impl PackedView {
         parts
     }
 
-    /// What follows the scene's nodes on the GPU.
+    /// The data after the scene's nodes on the GPU.
     pub fn node_parts(&self) -> [&[u8]; 4] {
         [
             cast_slice(&self.tlas.nodes),
@@ -212,12 +211,12 @@ impl PackedView {
         ]
     }
 
-    /// Whether both have one tree over their instances.
+    /// Whether both views share a TLAS.
     pub fn shares_tlas(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.tlas, &other.tlas)
     }
 
-    /// Which of the things that the scene instances is this instance of the view; hidden ones are none.
+    /// The scene index of an instance of the view; hidden instances are omitted from the view.
     pub(super) fn instanced_index(&self, instance: u32) -> Option<usize> {
         let instance = self.tlas.instances.get(instance as usize)?;
         Some(instance.id as usize - 1)
@@ -240,7 +239,7 @@ impl PackedView {
     }
 }
 
-/// A camera of square pictures for those of this aspect.
+/// Adapts the camera of a square picture to this aspect ratio.
 fn widened(camera: &PackedCamera, aspect: f64) -> PackedCamera {
     PackedCamera {
         right: camera.right.map(|c| (f64::from(c) * aspect) as f32),
@@ -248,8 +247,8 @@ fn widened(camera: &PackedCamera, aspect: f64) -> PackedCamera {
     }
 }
 
-/// The image plane at distance 1: half its height is tan(fov_y / 2). That of an orthographic camera is
-/// as high as what it sees, wherever it is.
+/// The image plane at distance 1: half its height is tan(fov_y / 2). For an orthographic camera it has the
+/// height of the visible region.
 fn camera(camera: &Camera, origin: DVec3) -> Result<PackedCamera, PackError> {
     let forward = (camera.look_at - camera.look_from).normalize_or(DVec3::NEG_Z);
     let right = forward

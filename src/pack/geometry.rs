@@ -1,4 +1,4 @@
-//! Meshes and shapes in render space, or in the space of a tree that is instanced.
+//! Packs meshes and shapes in render space, or in the space of an instanced BLAS.
 
 use super::PackError;
 use crate::{
@@ -11,11 +11,11 @@ use crate::{
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
-/// Beyond this, squares of coordinates leave the range of f32.
+/// Beyond this limit, squares of coordinates overflow f32.
 const COORDINATE_LIMIT: f64 = 1e15;
 
-/// A sphere with a radius of more than so many times its distance from the render origin is packed as a globe:
-/// with a centre and a radius in f32, its surface would be off by a visible part of that distance.
+/// A sphere whose radius exceeds its distance from the render origin by this factor is packed as a globe: with
+/// a centre and a radius in f32, the error of its surface would be visible.
 const GLOBE_RATIO: f64 = 16.0;
 
 /// Geometry in scene order.
@@ -23,13 +23,13 @@ const GLOBE_RATIO: f64 = 16.0;
 pub struct Flat {
     pub triangles: Vec<PackedTriangle>,
     pub vertices: Vec<PackedVertex>,
-    /// Shapes that have bounds, and those that have none.
+    /// Bounded shapes with their boxes, and unbounded ones.
     pub bounded: Vec<(PackedShape, Aabb)>,
     pub planes: Vec<PackedShape>,
 }
 
 impl Flat {
-    /// A mesh alone; see [`Self::add_mesh`].
+    /// A single mesh; see [`Self::add_mesh`].
     pub fn of_mesh(
         mesh: &Mesh,
         world_from_object: DAffine3,
@@ -41,7 +41,7 @@ impl Flat {
         Ok(flat)
     }
 
-    /// Adds a shape in render space, which has this origin, or in a space of its own.
+    /// Adds a shape in render space with this origin, or in its own space.
     pub fn add_shape(
         &mut self,
         geometry: &Geometry,
@@ -74,7 +74,7 @@ impl Flat {
                 }
             }
             Geometry::Plane { point, normal } => {
-                // The foot of the perpendicular from the origin is the point f32 keeps best.
+                // The perpendicular foot from the origin is the point that f32 represents best.
                 let foot = origin + normal * normal.dot(point - origin);
                 packed.kind = SHAPE_PLANE;
                 packed.position = render_point(foot, origin)?.into();
@@ -100,7 +100,7 @@ impl Flat {
                         top,
                         capped,
                     } => {
-                        // The shader wants cones as wide as they are high, where f32 is finest.
+                        // The shader expects cones scaled to a radius of 1, where f32 is most precise.
                         let wide = bottom.max(top);
                         render_from_canonical.x_axis *= wide;
                         render_from_canonical.z_axis *= wide;
@@ -122,7 +122,7 @@ impl Flat {
         }
         let (min, max) = geometry.bounds().unwrap_or_default();
         let (min, max) = (render_point(min, origin)?, render_point(max, origin)?);
-        // Rounded outwards, and for what f32 makes of the position and the rows.
+        // Enlarged for the rounding of the bounds, the position and the rows.
         let slack = (min.abs().max(max.abs()) + (max - min).max_element()) * (2.0 * f32::EPSILON);
         let bounds = Aabb {
             min: min - slack,
@@ -132,8 +132,8 @@ impl Flat {
         Ok(())
     }
 
-    /// Adds a mesh in render space. The first vertex of all is number `vertex` of the scene. All
-    /// arithmetic before the last rounding is f64.
+    /// Adds a mesh in render space. Its vertex indices start at `vertex` plus the vertices added so far. All
+    /// arithmetic before the final rounding is f64.
     pub fn add_mesh(
         &mut self,
         mesh: &Mesh,
@@ -141,7 +141,7 @@ impl Flat {
         origin: DVec3,
         vertex: u32,
     ) -> Result<(), PackError> {
-        // Normals go by the inverse transpose; a mirroring keeps them on their side.
+        // Normals transform by the inverse transpose; mirroring keeps them on their side.
         let normal_matrix: DMat3 = world_from_object.matrix3.inverse().transpose();
         let first_vertex = vertex as usize + self.vertices.len();
         if first_vertex + mesh.positions.len() > u32::MAX as usize {
@@ -179,14 +179,14 @@ impl Flat {
     }
 }
 
-/// World to render space.
+/// Transforms a point from world to render space.
 pub fn render_point(world: DVec3, origin: DVec3) -> Result<Vec3, PackError> {
     let p = world - origin;
     in_range(p.abs().max_element())?;
     Ok(p.as_vec3())
 }
 
-/// Refuses a length whose square f32 cannot hold.
+/// Rejects a length whose square overflows f32.
 pub fn in_range(value: f64) -> Result<(), PackError> {
     if value > COORDINATE_LIMIT {
         return Err(PackError::OutOfRange {
@@ -197,7 +197,7 @@ pub fn in_range(value: f64) -> Result<(), PackError> {
     Ok(())
 }
 
-/// What is smaller than this in some direction cannot be scaled up to size 1 in f32.
+/// Rejects a size that cannot be scaled up to 1 in f32.
 fn large_enough(size: f64) -> Result<(), PackError> {
     let limit = COORDINATE_LIMIT.recip();
     if size < limit {

@@ -1,5 +1,5 @@
-//! What of a scene is baked into the world, and what instances of trees of their own: meshes that stand
-//! in several places, and all that moves.
+//! Decides which objects are baked into the world and which become instances with their own BLAS: meshes with
+//! several copies, and everything that moves.
 
 use super::{PackError, light};
 use crate::{
@@ -9,35 +9,35 @@ use crate::{
 };
 use glam::{DAffine3, DVec3};
 
-/// Copies of a static mesh are baked into the world if they have at most this many triangles together:
-/// rays need no way into the space of an instance then.
-pub const MOST_BAKED: usize = 1 << 14;
+/// Copies of a static mesh are baked into the world if they have at most this many triangles in total: rays
+/// then need no transform into the space of an instance.
+pub const MAX_BAKED: usize = 1 << 14;
 
-/// Static meshes of at most this many triangles share a tree with others ...
-const MOST_IN_SMALL: usize = 1 << 11;
-/// ... as long as all of them have at most this many, which bounds the time to build it again.
-const MOST_JOINT: usize = 1 << 14;
+/// Static meshes of at most this many triangles are merged into the joint BLAS ...
+const MAX_IN_SMALL: usize = 1 << 11;
+/// ... up to this total, which bounds the time to rebuild it.
+const MAX_JOINT: usize = 1 << 14;
 
-/// A tree of its own in the world.
+/// An instance of a BLAS.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instance {
-    /// Index among the trees that are instanced.
+    /// Index among the instanced BLASes.
     pub blas: usize,
     pub source: TransformSource,
 }
 
-/// What says where an instance is.
+/// The source of the transform of an instance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TransformSource {
-    /// A transform into the world.
+    /// A static transform to world space.
     World(DAffine3),
-    /// A node that moves, and a transform into its space.
+    /// A moving node, and a transform to its space.
     Node(usize, DAffine3),
-    /// A light that rays can see.
+    /// A visible light.
     Lamp(usize),
 }
 
-/// A tree that is instanced, as the tree over the instances sees it.
+/// An instanced BLAS, as the TLAS builder needs it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InstancedBlas {
     /// Child reference to its root.
@@ -46,13 +46,13 @@ pub struct InstancedBlas {
     pub first: u32,
     /// Number of primitives.
     pub count: u32,
-    /// Boxes that hold it together, in its own space.
+    /// Boxes that together bound it, in its own space.
     pub boxes: Vec<Aabb>,
-    /// Set for shapes, whose bounds are exact in any place.
+    /// Set for shapes, whose bounds are computed exactly for any transform.
     pub shape: Option<Geometry>,
 }
 
-/// A static mesh with a tree of its own that is in the world.
+/// A static mesh baked as a BLAS of its own.
 #[derive(Debug)]
 pub struct Baked {
     /// Index of the instance in the scene.
@@ -61,46 +61,48 @@ pub struct Baked {
     pub is_visible: bool,
 }
 
-/// What of a scene is baked, and what is instanced.
+/// The assignment of objects to baked and instanced BLASes.
 #[derive(Debug, Default)]
 pub struct Plan {
     pub baked: Vec<Baked>,
-    /// Indices of the instances that are baked into the joint tree, and where they are.
+    /// Indices of the instances in the joint BLAS, and their transforms.
     pub joint: Vec<(usize, DAffine3)>,
-    /// Shapes in the joint tree, and planes.
+    /// Shapes in the joint BLAS, and planes.
     pub joint_shapes: Vec<usize>,
-    /// Lights whose surfaces are in the joint tree.
+    /// Lights whose surfaces are in the joint BLAS.
     pub joint_lamps: Vec<usize>,
-    /// Meshes with trees in a space of their own.
+    /// Meshes with an instanced BLAS.
     pub instanced_meshes: Vec<usize>,
-    /// Indices of instances in the scene, the places of their meshes among those, and what moves them.
+    /// Indices of instances in the scene, indices of their meshes in `instanced_meshes`, and their transform
+    /// sources.
     pub instances: Vec<(usize, usize, TransformSource)>,
-    /// Indices of shapes that move, and their nodes.
+    /// Indices of moving shapes, and their nodes.
     pub shapes: Vec<(usize, usize)>,
-    /// Lights whose surfaces move.
+    /// Visible lights that move.
     pub lamps: Vec<usize>,
 }
 
 impl Plan {
-    /// Bakes what is static, but for meshes of which there are many large copies. What is hidden counts
-    /// in what shares a tree, so that showing it changes no other tree.
+    /// Bakes static objects, except meshes with many large copies. Hidden objects count towards the joint
+    /// limit, so that showing one changes no other BLAS.
     ///
     /// # Errors
     /// There are too many instances.
     pub fn new(scene: &Scene, rest: &Frame, most_baked: usize) -> Result<Self, PackError> {
         let moving = scene.moving_nodes();
         let moving_node = |node: Option<usize>| node.filter(|&node| moving[node]);
-        let is_there = |node: Option<usize>| node.is_none_or(|node| rest.nodes[node].visible);
+        let is_visible_at_rest =
+            |node: Option<usize>| node.is_none_or(|node| rest.nodes[node].visible);
         let mut copies = vec![0_usize; scene.meshes.len()];
         for instance in &scene.instances {
             copies[instance.mesh] += 1;
         }
         let mut plan = Self::default();
         let mut place_of_mesh = vec![None; scene.meshes.len()];
-        let mut room = MOST_JOINT;
+        let mut room = MAX_JOINT;
         for (index, instance) in scene.instances.iter().enumerate() {
             let triangles = scene.meshes[instance.mesh].triangles.len();
-            let is_visible = is_there(instance.node);
+            let is_visible = is_visible_at_rest(instance.node);
             let is_shared =
                 copies[instance.mesh] > 1 && copies[instance.mesh] * triangles > most_baked;
             let world_from_object = world_from(rest, instance.node) * instance.placement;
@@ -118,7 +120,7 @@ impl Plan {
                     });
                     plan.instances.push((index, place, source));
                 }
-                None if triangles <= MOST_IN_SMALL.min(room) => {
+                None if triangles <= MAX_IN_SMALL.min(room) => {
                     room -= triangles;
                     if is_visible {
                         plan.joint.push((index, world_from_object));
@@ -134,7 +136,7 @@ impl Plan {
         for (index, shape) in scene.shapes.iter().enumerate() {
             if let Some(node) = moving_node(shape.node) {
                 plan.shapes.push((index, node));
-            } else if is_there(shape.node) {
+            } else if is_visible_at_rest(shape.node) {
                 plan.joint_shapes.push(index);
             }
         }
@@ -142,7 +144,7 @@ impl Plan {
             let node = scene.lights[index].node;
             if moving_node(node).is_some() || has_moving_surface(scene, index) {
                 plan.lamps.push(index);
-            } else if is_there(node) {
+            } else if is_visible_at_rest(node) {
                 plan.joint_lamps.push(index);
             }
         }
@@ -162,7 +164,7 @@ impl Plan {
         self.instances.len() + self.shapes.len() + self.lamps.len()
     }
 
-    /// What is instanced: meshes, then shapes, then lamps.
+    /// The instanced objects: meshes, then shapes, then lamps.
     pub fn instanced_objects(&self) -> impl Iterator<Item = ObjectRef> + '_ {
         let instances = (self.instances.iter()).map(|(index, ..)| ObjectRef::Instance(*index));
         let shapes = (self.shapes.iter()).map(|(index, _)| ObjectRef::Shape(*index));
@@ -171,12 +173,12 @@ impl Plan {
     }
 }
 
-/// From the space of a node to the world's.
+/// The transform from a node to world space.
 pub fn world_from(frame: &Frame, node: Option<usize>) -> DAffine3 {
     node.map_or(DAffine3::IDENTITY, |node| frame.nodes[node].world_from_node)
 }
 
-/// Whether a track changes where a light is or whether it is there.
+/// Whether a track changes the position, direction or visibility of a light.
 fn has_moving_surface(scene: &Scene, light: usize) -> bool {
     use LightProperty::{Direction, On, Position};
     let targets = scene.tracks.iter().flat_map(|track| &track.targets);
@@ -188,7 +190,7 @@ fn has_moving_surface(scene: &Scene, light: usize) -> bool {
 }
 
 impl TransformSource {
-    /// From the tree's space to the world's, or `None` where it is hidden.
+    /// The transform from BLAS to world space; `None` if the object is hidden.
     pub fn world_from_tree(&self, frame: &Frame) -> Option<DAffine3> {
         match *self {
             Self::World(placement) => Some(placement),
@@ -197,7 +199,7 @@ impl TransformSource {
         }
     }
 
-    /// Whether it is there at all.
+    /// Whether the object is visible.
     pub fn is_visible(&self, frame: &Frame) -> bool {
         match *self {
             Self::World(_) => true,
@@ -206,8 +208,8 @@ impl TransformSource {
         }
     }
 
-    /// From the tree's space to where patterns in space are looked up: they stand still for what
-    /// carries the tree.
+    /// The transform from BLAS space to the lookup position of solid textures, which stay fixed relative to the
+    /// moving node.
     pub fn pattern_from_tree(&self, world_from_tree: DAffine3) -> DAffine3 {
         match *self {
             Self::Node(_, placement) => placement,
@@ -217,7 +219,7 @@ impl TransformSource {
 }
 
 impl InstancedBlas {
-    /// The box round it in the space that the transform leads to.
+    /// The bounding box in the space that `transform` leads to.
     pub fn bounds(&self, transform: DAffine3) -> (DVec3, DVec3) {
         if let Some(geometry) = &self.shape {
             return geometry.placed(transform).bounds().unwrap_or_default();
@@ -229,7 +231,7 @@ impl InstancedBlas {
     }
 }
 
-/// The box round a transformed box.
+/// The bounding box of a transformed box.
 fn box_of(aabb: Aabb, transform: DAffine3) -> (DVec3, DVec3) {
     let (min, max) = (aabb.min.as_dvec3(), aabb.max.as_dvec3());
     let center = transform.transform_point3((min + max) * 0.5);

@@ -1,22 +1,22 @@
-//! The surfaces of lights that rays can see.
+//! The surfaces of visible lights.
 
 use crate::scene::{CanonicalShape, Frame, Geometry, Light, LightKind, Material, Scene};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
-/// Those lights' indices, in scene order.
+/// The indices of visible lights, in scene order.
 pub fn visible(scene: &Scene) -> impl Iterator<Item = usize> + '_ {
     let has_surface = |light: &Light| light.visible && unit_surface(&light.kind).is_some();
     (0..scene.lights.len()).filter(move |&index| has_surface(&scene.lights[index]))
 }
 
-/// Index of the material of a visible light's surface, behind those of the scene, and its id, behind
-/// those of the shapes.
+/// The material index of a visible light's surface, after the materials of the scene, and its id, after those
+/// of the shapes.
 pub fn material_and_id(scene: &Scene, light: usize) -> (usize, usize) {
     let place = visible(scene).take_while(|&other| other != light).count();
     (scene.materials.len() + place, scene.shapes.len() + place)
 }
 
-/// What rays see of a light: it answers no light, and shines on the side that the light shines on.
+/// The material of a visible light: it reflects nothing, and emits on the side on which the light emits.
 pub fn material(light: &Light) -> Material {
     let radiance = light.kind.radiance().unwrap_or(0.0);
     Material {
@@ -28,9 +28,9 @@ pub fn material(light: &Light) -> Material {
     }
 }
 
-/// The same over the frames of a shot: its radiance is the mean of what lies between them in straight
-/// lines, as that of its light on other things is. Of a lamp that moves and changes at the same time
-/// the trace in the picture is even.
+/// The material over the shutter interval: its radiance is the mean of the piecewise linear interpolation
+/// between the frames, the same as for the illumination. The trail of a lamp that moves and changes at the same
+/// time therefore has uniform brightness.
 pub fn mean_material(frames: &[Frame], light: usize) -> Material {
     let intervals = (frames.len() - 1) as f64;
     let last = frames.len() - 1;
@@ -49,7 +49,7 @@ pub fn mean_material(frames: &[Frame], light: usize) -> Material {
     }
 }
 
-/// The surface of a light in the world.
+/// The surface of a light in world space.
 pub fn surface(kind: &LightKind) -> Option<Geometry> {
     if let LightKind::Sphere { center, radius } = *kind {
         return Some(Geometry::Sphere { center, radius });
@@ -63,7 +63,7 @@ pub fn surface(kind: &LightKind) -> Option<Geometry> {
     }
 }
 
-/// The surface of a light of this kind in a space of its own, from which [`world_from_unit`] leads.
+/// The surface of a light in its own space, which [`world_from_unit`] maps to the world.
 pub fn unit_surface(kind: &LightKind) -> Option<Geometry> {
     let canonical = match kind {
         LightKind::Point { .. } | LightKind::Directional { .. } | LightKind::Spot { .. } => {
@@ -84,7 +84,7 @@ pub fn unit_surface(kind: &LightKind) -> Option<Geometry> {
     })
 }
 
-/// From the space of [`unit_surface`] to the world.
+/// The transform from the space of [`unit_surface`] to world space.
 pub fn world_from_unit(kind: &LightKind) -> Option<DAffine3> {
     let (matrix, center) = match *kind {
         LightKind::Point { .. } | LightKind::Directional { .. } | LightKind::Spot { .. } => {

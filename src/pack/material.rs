@@ -1,4 +1,4 @@
-//! Materials, textures and pictures as the GPU reads them.
+//! Packs materials, textures and pictures.
 
 use super::{Features, PackError, light};
 use crate::{
@@ -17,11 +17,10 @@ use glam::{DAffine3, DVec3, Vec3};
 use half::f16;
 use std::sync::Arc;
 
-/// Most texels of all pictures together: a row of texels for each line of the largest texture that
-/// WebGPU guarantees.
+/// Maximum number of texels of all pictures: the rows of the largest texture that WebGPU guarantees.
 const MAX_TEXELS: usize = (8192 << IMAGE_WIDTH_LOG2) - 1;
 
-/// `NOISE_PERIOD` of `lib/noise.wesl`.
+/// Equals `NOISE_PERIOD` of `lib/noise.wesl`.
 const NOISE_PERIOD: f64 = 256.0;
 
 pub fn material(material: &Material) -> PackedMaterial {
@@ -67,40 +66,44 @@ pub fn material(material: &Material) -> PackedMaterial {
     }
 }
 
-/// For each material of a scene whether its `color` is not black at some time: its own, or one
-/// that a track gives to `property`.
-fn is_lit(scene: &Scene, color: fn(&Material) -> Vec3, property: MaterialProperty) -> Vec<bool> {
+/// For each material, whether its `color` may be non-black at some time: its own, or a value that a track gives
+/// to `property`.
+fn may_be_nonblack(
+    scene: &Scene,
+    color: fn(&Material) -> Vec3,
+    property: MaterialProperty,
+) -> Vec<bool> {
     let own = scene.materials.iter().map(|m| color(m) != Vec3::ZERO);
-    let mut lit: Vec<bool> = own.collect();
+    let mut nonblack: Vec<bool> = own.collect();
     for track in &scene.tracks {
-        let is_nothing =
+        let is_black =
             matches!(&track.curve.values, Values::Vector(v) if v.iter().all(|v| *v == DVec3::ZERO));
         for target in &track.targets {
             if let Target::Material(index, p) = *target
                 && p == property
             {
-                lit[index] |= !is_nothing;
+                nonblack[index] |= !is_black;
             }
         }
     }
-    lit
+    nonblack
 }
 
-/// For each material of a scene whether it is transparent at some time.
-pub fn clear(scene: &Scene) -> Vec<bool> {
-    is_lit(scene, |m| m.transmit, MaterialProperty::Transmit)
+/// For each material, whether it is transparent at some time.
+pub fn may_transmit(scene: &Scene) -> Vec<bool> {
+    may_be_nonblack(scene, |m| m.transmit, MaterialProperty::Transmit)
 }
 
-/// Whether total reflection turns the light that some material lets through into mirrored light. Where
-/// Fresnel's equations count, `reflect` says what is mirrored there too, and a sum has no such rule.
+/// Whether total internal reflection converts transmitted light to reflected light for some material. With
+/// Fresnel, `reflect` covers that case; `sum` mixing does not convert.
 fn has_total_reflection(scene: &Scene) -> bool {
-    let mut materials = scene.materials.iter().zip(clear(scene));
-    materials.any(|(material, is_clear)| {
-        is_clear && material.fresnel == Fresnel::None && material.mixing != Mixing::Sum
+    let mut materials = scene.materials.iter().zip(may_transmit(scene));
+    materials.any(|(material, transmits)| {
+        transmits && material.fresnel == Fresnel::None && material.mixing != Mixing::Sum
     })
 }
 
-/// Whether some material shows only part of its local light at some time.
+/// Whether some material has partly weighted local shading at some time.
 fn has_thin_material(scene: &Scene) -> bool {
     let is_layer = |material: &Material| material.mixing == Mixing::Layer;
     let is_thin = |material: &Material| is_layer(material) && material.opacity != 1.0;
@@ -112,13 +115,14 @@ fn has_thin_material(scene: &Scene) -> bool {
     scene.materials.iter().any(is_thin) || targets.any(thins)
 }
 
-/// What the materials, textures and pictures of a scene ask for.
+/// The features used by materials, textures and pictures.
 pub fn features(scene: &Scene) -> Features {
-    let mirrors = is_lit(scene, |m| m.reflect, MaterialProperty::Reflect).contains(&true);
-    let refraction = clear(scene).contains(&true);
-    let emission = is_lit(scene, |m| m.emission, MaterialProperty::Emission).contains(&true);
+    let mirrors = may_be_nonblack(scene, |m| m.reflect, MaterialProperty::Reflect).contains(&true);
+    let refraction = may_transmit(scene).contains(&true);
+    let emission =
+        may_be_nonblack(scene, |m| m.emission, MaterialProperty::Emission).contains(&true);
     Features {
-        // Refraction brings the code for thin materials along.
+        // Refraction includes the code for thin materials.
         reflection: mirrors
             || has_total_reflection(scene)
             || !refraction && has_thin_material(scene),
@@ -129,7 +133,7 @@ pub fn features(scene: &Scene) -> Features {
     }
 }
 
-/// All textures, of which materials can tell `NO_TEXTURE` apart.
+/// Packs all textures. Their indices must differ from `NO_TEXTURE`.
 pub fn textures(
     scene: &Scene,
     origin: DVec3,
@@ -149,12 +153,12 @@ fn texture(texture: &Texture, origin: DVec3, pictures: &[[u32; 3]]) -> PackedTex
         Space::World => texture.pattern_from_space * DAffine3::from_translation(origin),
         Space::Uv => texture.pattern_from_space,
     };
-    // Whole repetitions are left out, so that f32 is as fine far from the pattern's origin as near it.
+    // Whole periods are subtracted, so that f32 is as precise far from the origin of the pattern as near it.
     if let Some(period) = period(&texture.pattern) {
         let repetitions = (space.translation / period).round();
         space.translation -= period * repetitions;
     }
-    // Kept so small that no point of a scene leads out of range.
+    // Clamped so that no point of a scene overflows.
     let row = |i| {
         let row = space.matrix3.row(i);
         [row.x, row.y, row.z, space.translation[i]].map(|c| c.clamp(-1e18, 1e18) as f32)
@@ -190,7 +194,7 @@ fn texture(texture: &Texture, origin: DVec3, pictures: &[[u32; 3]]) -> PackedTex
     packed
 }
 
-/// After how many units along each axis a pattern begins anew.
+/// The period of a pattern along each axis, in pattern units.
 fn period(pattern: &Pattern) -> Option<f64> {
     match pattern {
         Pattern::Checker { .. } => Some(2.0),
@@ -200,11 +204,11 @@ fn period(pattern: &Pattern) -> Option<f64> {
     }
 }
 
-/// A picture's texels as half floats.
+/// A picture and its texels as half floats.
 pub type PackedPicture = (Arc<Picture>, Arc<[[u16; 4]]>);
 
-/// All pictures' texels, and for each picture its first texel, width and height. Those that were packed
-/// `before` are kept.
+/// The texels of all pictures, and the first texel, width and height of each. Pictures that were packed
+/// `before` are reused.
 pub fn texels(
     scene: &Scene,
     before: &[PackedPicture],

@@ -1,4 +1,4 @@
-//! Which transparent bodies the camera is inside of.
+//! Dielectric volumes around the camera.
 
 use super::{PackError, light, material, mesh::CachedMesh, shell::Shell};
 use crate::{
@@ -8,13 +8,13 @@ use crate::{
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
-/// Most media that a ray remembers.
+/// Maximum number of media in the list of a ray.
 pub const MEDIA_SIZE: usize = 4;
 
-/// A closed surface of a material that is transparent at some time.
+/// A closed surface with a material that is transparent at some time.
 #[derive(Clone, Debug)]
-pub struct Body {
-    /// In whose space it is; `None` is the world.
+pub struct Volume {
+    /// The node whose space it is in; `None` for world space.
     node: Option<usize>,
     material: u32,
     surface: Surface,
@@ -23,16 +23,16 @@ pub struct Body {
 #[derive(Clone, Debug)]
 enum Surface {
     Shape(Geometry),
-    /// All instances of a mesh share it; the transform leads to their own space.
+    /// Shared by all instances of a mesh; the transform leads to the node.
     Mesh(Arc<Shell>, DAffine3),
 }
 
-/// The bodies of a scene that are transparent at some time.
-pub fn bodies(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> Vec<Body> {
-    let may_be_clear = material::clear(scene);
+/// The dielectric volumes of a scene.
+pub fn volumes(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> Vec<Volume> {
+    let may_transmit = material::may_transmit(scene);
     let shapes = (scene.shapes.iter())
-        .filter(|shape| may_be_clear[shape.material] && is_closed(&shape.geometry))
-        .map(|shape| Body {
+        .filter(|shape| may_transmit[shape.material] && is_closed(&shape.geometry))
+        .map(|shape| Volume {
             node: shape.node,
             material: shape.material as u32,
             surface: Surface::Shape(shape.geometry),
@@ -40,17 +40,17 @@ pub fn bodies(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> Vec<Body> {
     let shells: Vec<_> = (meshes.iter())
         .map(|cached| {
             let mesh = &cached.mesh;
-            // A mesh of several materials is several bodies, which nothing tells apart.
+            // A mesh with several materials consists of several volumes that cannot be told apart.
             let material = *mesh.materials.first()?;
-            let is_body = may_be_clear[material as usize]
+            let is_volume = may_transmit[material as usize]
                 && mesh.materials.iter().all(|&other| other == material);
-            let shell = if is_body { cached.shell() } else { None };
+            let shell = if is_volume { cached.shell() } else { None };
             Some((shell?, material))
         })
         .collect();
     let meshes = scene.instances.iter().filter_map(|instance| {
         let (shell, material) = shells[instance.mesh].as_ref()?;
-        Some(Body {
+        Some(Volume {
             node: instance.node,
             material: *material,
             surface: Surface::Mesh(shell.clone(), instance.placement),
@@ -59,45 +59,45 @@ pub fn bodies(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> Vec<Body> {
     shapes.chain(meshes).collect()
 }
 
-/// Whether a body that is transparent at some time may touch or overlap another body. One mesh may hold
-/// several: mostly they differ in material, but parts that do not hang together are bodies as well.
+/// Whether a dielectric volume may touch or overlap another object. One mesh may contain several volumes, with
+/// different materials or as disconnected parts.
 pub fn may_touch(scene: &Scene, meshes: &[Arc<CachedMesh>]) -> bool {
     let lamps = light::visible(scene).count();
-    let bodies = scene.shapes.len() + scene.instances.len() + lamps;
+    let volumes = scene.shapes.len() + scene.instances.len() + lamps;
     let is_divided = || meshes.iter().any(|mesh| mesh.part_count() > 1);
-    material::clear(scene).contains(&true)
-        && (bodies > 1 || scene.materials.len() > 1 || is_divided())
+    material::may_transmit(scene).contains(&true)
+        && (volumes > 1 || scene.materials.len() > 1 || is_divided())
 }
 
-/// The materials of the bodies round a point in the world that are transparent in this frame, the
-/// outermost first, then [`NONE`].
+/// The materials of the volumes that contain a world-space point and are transparent in this frame, outermost
+/// first, then [`NONE`].
 ///
 /// # Errors
-/// More than [`MEDIA_SIZE`] are nested there.
-pub fn around(
-    bodies: &[Body],
+/// More than [`MEDIA_SIZE`] volumes contain the point.
+pub fn at_point(
+    volumes: &[Volume],
     frame: &Frame,
     point: DVec3,
 ) -> Result<[u32; MEDIA_SIZE], PackError> {
-    let is_clear = |material: u32| {
+    let transmits = |material: u32| {
         let now = frame.materials.get(material as usize);
         now.is_none_or(|material| material.transmit != Vec3::ZERO)
     };
-    let mut inside: Vec<(f64, u32)> = (bodies.iter())
-        .filter(|body| is_clear(body.material))
-        .filter_map(|body| {
-            let world_from_body = match body.node.map(|node| frame.nodes[node]) {
+    let mut inside: Vec<(f64, u32)> = (volumes.iter())
+        .filter(|volume| transmits(volume.material))
+        .filter_map(|volume| {
+            let world_from_volume = match volume.node.map(|node| frame.nodes[node]) {
                 None => DAffine3::IDENTITY,
                 Some(state) if state.visible => state.world_from_node,
                 Some(_) => return None,
             };
-            let is_inside = body.contains(world_from_body.inverse().transform_point3(point));
-            is_inside.then(|| (body.extent(world_from_body), body.material))
+            let is_inside = volume.contains(world_from_volume.inverse().transform_point3(point));
+            is_inside.then(|| (volume.extent(world_from_volume), volume.material))
         })
         .collect();
     if inside.len() > MEDIA_SIZE {
         return Err(PackError::TooMany {
-            what: "transparent bodies round the camera",
+            what: "transparent volumes around the camera",
             count: inside.len(),
             limit: MEDIA_SIZE,
         });
@@ -122,7 +122,7 @@ fn is_closed(geometry: &Geometry) -> bool {
     )
 }
 
-impl Body {
+impl Volume {
     fn contains(&self, point: DVec3) -> bool {
         match &self.surface {
             Surface::Shape(geometry) => shape_contains(geometry, point),
@@ -132,11 +132,11 @@ impl Body {
         }
     }
 
-    /// The volume of its box in the world: what lies inside another body has the smaller one.
-    fn extent(&self, world_from_body: DAffine3) -> f64 {
+    /// The volume of its bounding box in the world: a nested volume has the smaller one.
+    fn extent(&self, world_from_volume: DAffine3) -> f64 {
         let bounds = match &self.surface {
-            Surface::Shape(geometry) => geometry.placed(world_from_body).bounds(),
-            Surface::Mesh(shell, placement) => Some(shell.bounds(world_from_body * *placement)),
+            Surface::Shape(geometry) => geometry.placed(world_from_volume).bounds(),
+            Surface::Mesh(shell, placement) => Some(shell.bounds(world_from_volume * *placement)),
         };
         bounds.map_or(f64::INFINITY, |(min, max)| (max - min).element_product())
     }
@@ -145,7 +145,7 @@ impl Body {
 fn shape_contains(geometry: &Geometry, point: DVec3) -> bool {
     match *geometry {
         Geometry::Sphere { center, radius } => point.distance(center) < radius,
-        // A half-space: inside is where the normal points away from.
+        // A half-space: the inside is opposite to the normal.
         Geometry::Plane {
             point: foot,
             normal,

@@ -1,4 +1,4 @@
-//! What is made of a mesh once, whatever places it: kept as long as the mesh is the same object.
+//! Data derived from a mesh, independent of its instances; cached as long as the mesh is the same object.
 
 use super::{
     blas::Topology,
@@ -10,7 +10,7 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
-/// A mesh with what was made of it so far.
+/// A mesh with lazily derived data.
 #[derive(Debug)]
 pub struct CachedMesh {
     pub mesh: Arc<Mesh>,
@@ -37,7 +37,7 @@ impl CachedMesh {
         }
     }
 
-    /// The topology of its tree, which counts in `built` where it had to be built.
+    /// The topology of its BLAS; increments `built` if it has to be built.
     pub fn topology(&self, built: &mut usize) -> &Topology {
         self.topology.get_or_init(|| {
             *built += 1;
@@ -45,7 +45,7 @@ impl CachedMesh {
         })
     }
 
-    /// (u, v, 0, 0) of each vertex, zeros where it has none.
+    /// (u, v, 0, 0) of each vertex, zeros where it has no texture coordinates.
     pub fn uvs(&self) -> Arc<[[f32; 4]]> {
         let uvs = || {
             let mut uvs: Vec<_> = (self.mesh.uvs.iter())
@@ -57,19 +57,19 @@ impl CachedMesh {
         self.uvs.get_or_init(uvs).clone()
     }
 
-    /// Its surface, to find out what is inside; `None` without triangles.
+    /// Its surface for inside tests; `None` without triangles.
     pub fn shell(&self) -> Option<Arc<Shell>> {
         let shell = || Shell::of(&self.mesh).map(Arc::new);
         self.shell.get_or_init(shell).clone()
     }
 
-    /// Sets of triangles that hang together.
+    /// The number of connected components.
     pub fn part_count(&self) -> usize {
         *(self.part_count).get_or_init(|| shell::part_count(&self.mesh))
     }
 }
 
-/// One for each mesh of a scene; those that were there `before` are kept.
+/// One for each mesh of a scene; those in `before` are reused.
 pub fn cached(before: &[Arc<CachedMesh>], scene: &Scene) -> Vec<Arc<CachedMesh>> {
     let known: HashMap<_, _> = (before.iter())
         .map(|cached| (Arc::as_ptr(&cached.mesh), cached))

@@ -1,6 +1,5 @@
-//! Nodes as the shader's `decode_node` reads them: 64 bytes, box planes as 8-bit steps from a
-//! common corner (after Ylitie, Karras, Laine, Efficient Incoherent Ray Traversal on GPUs Through
-//! Compressed Wide BVHs, 2017).
+//! Packs nodes in the format of `decode_node`: 64 bytes, box planes as 8-bit steps from a common corner (after
+//! Ylitie, Karras, Laine, Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs, 2017).
 
 use crate::{
     bvh::{Aabb, Child, WideNode},
@@ -8,26 +7,26 @@ use crate::{
 };
 use glam::Vec3;
 
-/// The groups of boxes that do not share leaves.
+/// Groups of primitives that do not share leaves.
 pub const TRIANGLES: u8 = 0;
 pub const SHAPES: u8 = 1;
 pub const GROUP_COUNT: usize = 2;
 
-/// Planes move outwards by this fraction of the node's size, which is more than the shader's slab test
-/// rounds off when the ray starts inside the node.
+/// Planes are moved outwards by this fraction of the node size, which exceeds the rounding error of the slab
+/// test for rays that start inside the node.
 const SLACK: f64 = 1.0 / (1 << 20) as f64;
 
-/// Where a tree's nodes, triangles, shapes and vertices begin in the arrays of the scene.
+/// The offsets of the nodes, triangles, shapes and vertices of a BLAS in the arrays of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Place {
+pub struct Offsets {
     pub node: u32,
     pub triangle: u32,
     pub shape: u32,
     pub vertex: u32,
 }
 
-impl Place {
-    /// The child reference to a child of a tree at this place.
+impl Offsets {
+    /// The packed reference to a child.
     pub fn reference(&self, child: &Child) -> u32 {
         match *child {
             Child::Node(index) => self.node + index,
@@ -43,7 +42,7 @@ impl Place {
         }
     }
 
-    /// The reference in a tree at this place that `reference` is in a tree at `from`.
+    /// Converts a reference of a BLAS at the offsets `from` to these offsets.
     pub fn moved(&self, reference: u32, from: &Self) -> u32 {
         if reference == 0 {
             return 0;
@@ -60,7 +59,7 @@ impl Place {
     }
 }
 
-/// The up to four children of a node: their boxes and the references to them.
+/// The up to four children of a node: boxes and references.
 #[derive(Clone, Copy, Debug)]
 pub struct Children {
     list: [(Aabb, u32); 4],
@@ -80,10 +79,10 @@ impl Children {
         all
     }
 
-    /// Those of a node of a tree at `place`.
-    pub fn of(node: &WideNode, place: &Place) -> Self {
+    /// The children of a node of a BLAS at `offsets`.
+    pub fn of(node: &WideNode, offsets: &Offsets) -> Self {
         let children = node.children.iter();
-        Self::new(children.map(|(aabb, child)| (*aabb, place.reference(child))))
+        Self::new(children.map(|(aabb, child)| (*aabb, offsets.reference(child))))
     }
 
     pub fn map_references(&mut self, map: impl Fn(u32) -> u32) {
@@ -95,14 +94,14 @@ impl Children {
         &self.list[..self.count]
     }
 
-    /// The box round all of them.
+    /// The bounding box of all children.
     pub fn bounds(&self) -> Aabb {
         let boxes = self.as_slice().iter();
         boxes.fold(Aabb::EMPTY, |all, (aabb, _)| all.union(*aabb))
     }
 }
 
-/// Packs one node. Every quantised box contains its exact one.
+/// Packs one node. Every quantised box contains the exact one.
 pub fn quantize(children: &[(Aabb, u32)]) -> PackedNode {
     let (lo, hi) = children.iter().fold(
         (Vec3::INFINITY, Vec3::NEG_INFINITY),
@@ -125,7 +124,7 @@ pub fn quantize(children: &[(Aabb, u32)]) -> PackedNode {
     words
 }
 
-/// Corner, step and for each child the numbers of its lower and upper plane.
+/// The corner, the step size, and the lower and upper plane of each child.
 fn quantize_axis(
     children: &[(Aabb, u32)],
     axis: usize,

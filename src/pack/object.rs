@@ -1,4 +1,4 @@
-//! The way back: from a primitive on the GPU to what it is in the host model.
+//! Maps packed primitives back to objects of the scene.
 
 use super::{PackedScene, PackedView, instance::Plan, light, trees::Trees};
 use crate::{
@@ -6,15 +6,15 @@ use crate::{
     scene::{ObjectRef, Scene},
 };
 
-/// What primitives, instances and materials of a packed scene are in the scene that it was made from.
+/// The objects of the scene behind packed primitives, instances and materials.
 #[derive(Clone, Debug)]
 pub struct Origins {
-    /// First vertices of the meshes that are baked, in ascending order, and their instances.
+    /// First vertices of the baked meshes, in ascending order, and their instances.
     baked: Vec<(u32, usize)>,
-    /// For each thing that is instanced.
+    /// The object of each instance.
     instanced: Vec<ObjectRef>,
     shape_count: usize,
-    /// Lights whose surfaces follow the shapes.
+    /// Visible lights, whose ids follow those of the shapes.
     lamps: Vec<usize>,
     material_names: Vec<String>,
     instance_names: Vec<String>,
@@ -26,9 +26,9 @@ impl Origins {
     pub fn new(scene: &Scene, plan: &Plan, trees: &Trees) -> Self {
         let own_trees = plan.baked.iter().zip(&trees.baked);
         let mut baked: Vec<_> = own_trees
-            .map(|(baked, tree)| (tree.blas.place.vertex, baked.index))
+            .map(|(baked, tree)| (tree.blas.offsets.vertex, baked.index))
             .collect();
-        let mut first_vertex = trees.joint.blas.place.vertex;
+        let mut first_vertex = trees.joint.blas.offsets.vertex;
         for &(index, _) in &plan.joint {
             baked.push((first_vertex, index));
             let mesh = &scene.meshes[scene.instances[index].mesh];
@@ -58,9 +58,8 @@ fn names(scene: &Scene, count: usize, object: fn(usize) -> ObjectRef) -> Vec<Str
 }
 
 impl PackedScene {
-    /// What a hit belongs to: `primitive` is a triangle's index or [`SHAPE`] with a shape's, `instance` that
-    /// of an instance of `view` or [`NO_INSTANCE`], as shaders have them. `None` where there is nothing
-    /// of that number.
+    /// The object of a hit: `primitive` is the index of a triangle, or [`SHAPE`] with the index of a shape;
+    /// `instance` is an instance of `view`, or [`NO_INSTANCE`]. `None` if the index does not exist.
     pub fn object_at(&self, view: &PackedView, primitive: u32, instance: u32) -> Option<ObjectRef> {
         let origins = &self.origins;
         if primitive & SHAPE != 0 {
@@ -83,7 +82,7 @@ impl PackedScene {
         Some(ObjectRef::Instance(*index))
     }
 
-    /// [`Scene::object_name`] of the scene that this was made from; `None` where there is none.
+    /// [`Scene::object_name`] in the scene that this was packed from; `None` if it has no name.
     pub fn object_name(&self, object: ObjectRef) -> Option<&str> {
         let (names, index) = match object {
             ObjectRef::Instance(index) => (&self.origins.instance_names, index),
@@ -96,14 +95,14 @@ impl PackedScene {
             .filter(|name| !name.is_empty())
     }
 
-    /// Index into [`Scene::materials`] of a material as shaders number them; `None` for [`crate::layout::NONE`]
-    /// and the surfaces of lamps.
+    /// The index into [`Scene::materials`] of a packed material; `None` for [`crate::layout::NONE`] and the
+    /// surfaces of lamps.
     pub fn material_at(&self, material: u32) -> Option<usize> {
         let index = material as usize;
         (index < self.origins.material_names.len()).then_some(index)
     }
 
-    /// The name of a material of the scene that this was made from; `None` where there is none.
+    /// The name of a material in the scene that this was packed from; `None` if it has no name.
     pub fn material_name(&self, index: usize) -> Option<&str> {
         let name = self.origins.material_names.get(index)?;
         Some(name.as_str()).filter(|name| !name.is_empty())

@@ -1,20 +1,20 @@
-//! Transforms taken apart into what can be interpolated.
+//! Decomposes transforms into parts that can be interpolated.
 
 use crate::layout::PackedKey;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// Where something is: stretched, then rotated, then translated. Any affine transform can be written
-/// that way (Shoemake and Duff, Matrix Animation and Polar Decomposition, 1992).
+/// A transform as stretch, then rotation, then translation. Any affine transform can be written that way
+/// (Shoemake and Duff, Matrix Animation and Polar Decomposition, 1992).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     pub translation: DVec3,
     pub rotation: DQuat,
-    /// Symmetric; negative definite where the transform mirrors.
+    /// Symmetric; negative definite if the transform mirrors.
     pub stretch: DMat3,
 }
 
 impl Placement {
-    /// The parts of an invertible transform.
+    /// Decomposes an invertible transform.
     pub fn of(transform: DAffine3) -> Self {
         let mirror = transform.matrix3.determinant().signum();
         let matrix = transform.matrix3 * mirror;
@@ -27,7 +27,7 @@ impl Placement {
         }
     }
 
-    /// Between this and the next key, as `space_between` of `lib/motion.wesl` has it.
+    /// Interpolates to the next key, as `space_between` of `lib/motion.wesl` does.
     pub fn between(&self, next: &Self, fraction: f64) -> Self {
         Self {
             translation: self.translation.lerp(next.translation, fraction),
@@ -36,7 +36,7 @@ impl Placement {
         }
     }
 
-    /// The transform that it stands for.
+    /// The composed transform.
     pub fn transform(&self) -> DAffine3 {
         DAffine3 {
             matrix3: DMat3::from_quat(self.rotation) * self.stretch,
@@ -60,8 +60,8 @@ impl Placement {
     }
 }
 
-/// The same placements with rotations on one side of their sphere, so that the way from each to the
-/// next is the short one.
+/// The same placements with all quaternions in one hemisphere relative to their predecessor, so that
+/// interpolation takes the short way.
 pub fn aligned(mut placements: Vec<Placement>) -> Vec<Placement> {
     for i in 1..placements.len() {
         if placements[i].rotation.dot(placements[i - 1].rotation) < 0.0 {

@@ -1,20 +1,20 @@
-//! Arrays made of shared runs: a scene that differs from another in one object shares the runs of all
-//! others with it.
+//! Arrays made of shared segments: a scene that differs from another in one object shares the segments of all
+//! other objects.
 
 use bytemuck::Pod;
 use std::{fmt, ops::Index, sync::Arc};
 
-/// Runs that lie one after the other in an array. A clone shares them.
+/// Segments that form one array. A clone shares them.
 #[derive(Clone)]
 pub struct Segments<T> {
     runs: Vec<Arc<[T]>>,
-    /// Index of the first element of each run.
+    /// Index of the first element of each segment.
     starts: Vec<usize>,
     len: usize,
 }
 
 impl<T> Segments<T> {
-    /// Adds a run at the end. Empty ones are left out.
+    /// Appends a segment; empty ones are skipped.
     pub(super) fn push(&mut self, run: Arc<[T]>) {
         if run.is_empty() {
             return;
@@ -53,7 +53,7 @@ impl<T> Segments<T> {
 }
 
 impl<T: Pod> Segments<T> {
-    /// The bytes of each run.
+    /// The bytes of each segment.
     pub fn bytes(&self) -> impl Iterator<Item = &[u8]> {
         self.runs.iter().map(|run| bytemuck::cast_slice(run))
     }
@@ -86,7 +86,7 @@ impl<T> Index<usize> for Segments<T> {
     }
 }
 
-/// By elements, however they are cut into runs.
+/// Compares elements, however they are split into segments.
 impl<T: PartialEq> PartialEq for Segments<T> {
     fn eq(&self, other: &Self) -> bool {
         self.len == other.len && self.iter().eq(other.iter())

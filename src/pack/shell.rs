@@ -1,4 +1,4 @@
-//! The surface of a mesh as a body: what is inside, and how many parts it has.
+//! The surface of a mesh as a closed volume: inside tests and connected components.
 
 use crate::scene::Mesh;
 use glam::{DAffine3, DVec3, Vec3};
@@ -13,7 +13,7 @@ pub struct Shell {
 }
 
 impl Shell {
-    /// Of a mesh with triangles.
+    /// The shell of a mesh; `None` without triangles.
     pub fn of(mesh: &Mesh) -> Option<Self> {
         let corner = |&i: &u32| mesh.positions[i as usize];
         let corners: Vec<[Vec3; 3]> = (mesh.triangles.iter())
@@ -27,7 +27,7 @@ impl Shell {
         })
     }
 
-    /// The box round it where it is placed.
+    /// The bounding box after `placement`.
     pub fn bounds(&self, placement: DAffine3) -> (DVec3, DVec3) {
         let corners = self.corners.iter().flatten();
         let placed = corners.map(|corner| placement.transform_point3(corner.as_dvec3()));
@@ -36,8 +36,8 @@ impl Shell {
         })
     }
 
-    /// Whether a ray from the point crosses it an odd number of times. Its direction is no axis and
-    /// no diagonal, so that it hardly meets an edge.
+    /// Whether a ray from the point crosses the surface an odd number of times. Its direction is neither an
+    /// axis nor a diagonal, so that it rarely hits an edge.
     pub fn contains(&self, point: DVec3) -> bool {
         let (min, max) = (self.min.as_dvec3(), self.max.as_dvec3());
         if point.cmplt(min).any() || point.cmpgt(max).any() {
@@ -61,10 +61,10 @@ impl Shell {
     }
 }
 
-/// Sets of triangles that hang together by the positions of their vertices.
+/// The number of sets of triangles connected by equal vertex positions.
 pub fn part_count(mesh: &Mesh) -> usize {
     let mut first_at = HashMap::new();
-    // A forest over the vertices: each leads to an earlier one of its part, or to itself.
+    // A union-find forest over the vertices: each points to an earlier one of its component, or to itself.
     let mut leads_to: Vec<usize> = (mesh.positions.iter().enumerate())
         .map(|(i, p)| *first_at.entry(p.to_array().map(f32::to_bits)).or_insert(i))
         .collect();
@@ -82,7 +82,7 @@ pub fn part_count(mesh: &Mesh) -> usize {
             leads_to[i] = first;
         }
     }
-    // Vertices that no triangle uses are no part.
+    // Unused vertices form no component.
     let roots: HashSet<usize> = (mesh.triangles.iter())
         .map(|triangle| root(&mut leads_to, triangle[0] as usize))
         .collect();

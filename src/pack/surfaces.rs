@@ -1,21 +1,24 @@
-//! The materials of a scene and of the lights that rays can see.
+//! Packs the materials of a scene and of its visible lights.
 
 use super::{light, material};
 use crate::layout::PackedMaterial;
 use crate::scene::{Frame, Material, Scene};
 use std::sync::Arc;
 
-/// What the packed materials are made of, where they may change over time.
+/// The source of the packed materials, if they may change over time.
 #[derive(Clone, Debug)]
-pub struct Changing {
+pub struct AnimatedMaterials {
     pub materials: Vec<Material>,
     /// Indices of the visible lights.
     pub lamps: Vec<usize>,
 }
 
-/// Materials in scene order, then those of visible lights; and what they are made of where that may
-/// change over time.
-pub fn materials(scene: &Scene, rest: &Frame) -> (Arc<[PackedMaterial]>, Option<Changing>) {
+/// Packed materials in scene order, then those of visible lights; and their source if they may change over
+/// time.
+pub fn materials(
+    scene: &Scene,
+    rest: &Frame,
+) -> (Arc<[PackedMaterial]>, Option<AnimatedMaterials>) {
     let lamps: Vec<usize> = light::visible(scene).collect();
     let lamp_materials = lamps
         .iter()
@@ -28,9 +31,9 @@ pub fn materials(scene: &Scene, rest: &Frame) -> (Arc<[PackedMaterial]>, Option<
         .chain(lamp_materials.map(|lamp| material::material(&lamp)))
         .collect();
     let is_changing = !rest.materials.is_empty() || (!lamps.is_empty() && !scene.tracks.is_empty());
-    let changing = is_changing.then(|| Changing {
+    let animated_materials = is_changing.then(|| AnimatedMaterials {
         materials: scene.materials.clone(),
         lamps,
     });
-    (materials, changing)
+    (materials, animated_materials)
 }

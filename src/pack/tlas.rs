@@ -1,5 +1,5 @@
-//! The tree over the instances (TLAS), built for each shot in which something is elsewhere: instances,
-//! their keys while the shutter is open, and nodes whose boxes follow the movement.
+//! The top-level acceleration structure (TLAS), built for each frame in which an instance moves: instances,
+//! their keys over the shutter interval, and nodes with moving boxes.
 
 use super::{
     PackError, PackedScene, PackedView,
@@ -16,44 +16,44 @@ use crate::{
 use glam::{DAffine3, DMat3, DVec3};
 use std::sync::Arc;
 
-/// What a scene says about the tree over its instances, whatever the frame.
+/// The input of the TLAS that does not depend on the frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TlasSource {
     pub origin: DVec3,
-    /// Index that the first node will have.
+    /// Index of its first node in the nodes array.
     pub first_node: u32,
-    /// Boxes of what is baked, with child references.
+    /// Boxes of baked geometry, with child references.
     pub parts: Vec<(Aabb, u32)>,
     pub blas: Vec<InstancedBlas>,
     pub instances: Vec<Instance>,
-    /// The most entries on the stack in any of the trees below.
+    /// Maximum number of stack entries of any BLAS.
     pub stack_need: usize,
 }
 
-/// The tree over the instances, as the GPU wants it.
+/// A packed TLAS.
 #[derive(Debug, Default)]
 pub struct Tlas {
-    /// Each followed by the same node at the end of the shot if anything moves.
+    /// If any instance moves, each node is followed by the same node at the end of the shutter interval.
     pub nodes: Vec<PackedNode>,
     pub instances: Vec<PackedInstance>,
     pub keys: Vec<PackedKey>,
     /// Whether an instance moves while the shutter is open.
     pub moves: bool,
-    /// What it was built from: of each instance the transforms into the world over the shot, one where
-    /// it does not move; `None` where it is hidden.
+    /// The input it was built from: for each instance the transforms to world space over the shutter interval,
+    /// one if it does not move; `None` if it is hidden.
     source: Arc<TlasSource>,
     worlds: Vec<Option<Vec<DAffine3>>>,
 }
 
-/// By what the GPU sees.
+/// Compares the packed data.
 impl PartialEq for Tlas {
     fn eq(&self, other: &Self) -> bool {
         self.nodes == other.nodes && self.instances == other.instances && self.keys == other.keys
     }
 }
 
-/// Boxes at the beginning and at the end of a shot. What moves is at any time in the box that lies in
-/// proportion between them.
+/// Boxes at the beginning and the end of the shutter interval. At any time, the object is inside the linear
+/// interpolation between them.
 #[derive(Clone, Copy)]
 struct Swept {
     open: Aabb,
@@ -61,8 +61,7 @@ struct Swept {
 }
 
 impl PackedScene {
-    /// The tree over the instances where the frames of a shot have them: that of `previous` if it would
-    /// be the same.
+    /// The TLAS for the frames of a shutter interval; reuses that of `previous` if it is the same.
     pub(super) fn tlas(
         &self,
         frames: &[Frame],
@@ -106,8 +105,7 @@ impl Tlas {
             source: source.clone(),
             ..Self::default()
         };
-        // Boxes, and the child references to what is in them: first parts of what is baked, then
-        // instances.
+        // Boxes and child references: first parts of baked geometry, then instances.
         let (mut boxes, mut references) = (Vec::new(), Vec::new());
         for &(aabb, reference) in &source.parts {
             boxes.push(at_rest(aabb));
@@ -121,7 +119,8 @@ impl Tlas {
         }
         tlas.worlds = worlds;
         tlas.moves = tlas.instances.iter().any(|instance| instance.key_count > 1);
-        // One entry leads back from an instance's tree, and the last store of a step lies one beyond.
+        // One stack entry returns from a BLAS, and the last store of a traversal step writes one entry beyond
+        // the top.
         let limit = STACK_SIZE as usize - 2;
         let limits = bvh::Limits {
             leaf_size: 1,
@@ -130,7 +129,7 @@ impl Tlas {
         let unions: Vec<_> = (boxes.iter())
             .map(|swept| swept.open.union(swept.close))
             .collect();
-        // A leaf has one box, so that it does not matter what kind the others are of.
+        // Leaves hold a single box, so the groups do not matter.
         let bvh = bvh::build(&unions, &vec![0; unions.len()], 1, limits);
         let need = bvh.stack_need + source.stack_need;
         if need > limit {
@@ -140,7 +139,7 @@ impl Tlas {
         Ok(tlas)
     }
 
-    /// Adds the instance with this number, and its keys if it moves.
+    /// Adds the instance with this index, and its keys if it moves.
     fn add(&mut self, id: usize, worlds: &[DAffine3]) -> Result<Swept, PackError> {
         let Instance { blas, source } = &self.source.instances[id];
         let to_render = DAffine3::from_translation(-self.source.origin);
@@ -205,7 +204,7 @@ fn at_rest(aabb: Aabb) -> Swept {
     }
 }
 
-/// In f32, with room for what rounds on a ray's way into the space of an instance.
+/// Rounds to f32, with a margin for the rounding error of transforming a ray into the space of an instance.
 fn rounded_outwards(min: DVec3, max: DVec3) -> Aabb {
     let size = min.abs().max(max.abs()).max_element() + (max - min).max_element();
     let slack = size * 16.0 * f64::from(f32::EPSILON);
@@ -215,8 +214,8 @@ fn rounded_outwards(min: DVec3, max: DVec3) -> Aabb {
     }
 }
 
-/// Boxes between which a tree stays. They hold it at all keys and at steps in between, and half as much
-/// more as it strays from one step to the next from where the boxes beside it would have it.
+/// Boxes whose linear interpolation bounds a moving BLAS. They bound it at all keys and at steps between, plus
+/// half of its maximum deviation from linear motion between neighbouring steps.
 fn sweep(blas: &InstancedBlas, keys: &[Placement]) -> Swept {
     let last = (keys.len() - 1) as f64;
     let mut boxes = vec![(0.0, blas.bounds(keys[0].transform()))];
@@ -243,7 +242,7 @@ fn sweep(blas: &InstancedBlas, keys: &[Placement]) -> Swept {
         }
     }
     let ((_, open), (_, close)) = (boxes[0], boxes[boxes.len() - 1]);
-    // How far the two boxes must move outwards.
+    // The distances by which both boxes must be enlarged.
     let (mut below, mut above) = (DVec3::ZERO, DVec3::ZERO);
     for &(fraction, (min, max)) in &boxes {
         below = below.max(open.0.lerp(close.0, fraction) - min);
@@ -258,8 +257,8 @@ fn sweep(blas: &InstancedBlas, keys: &[Placement]) -> Swept {
     }
 }
 
-/// How many steps there are from one key to the next: more where so much turns at once, as in a jump,
-/// that a box may be larger in between than at both ends and half-way.
+/// The number of steps between two keys: more for a large rotation, as in a jump cut, where a box may be larger
+/// in between than at both ends and the middle.
 fn steps_between(from: &Placement, to: &Placement) -> u32 {
     const MAX_TURN: f64 = 0.25;
     if from.rotation.angle_between(to.rotation) > MAX_TURN {
@@ -269,7 +268,7 @@ fn steps_between(from: &Placement, to: &Placement) -> u32 {
     }
 }
 
-/// The nodes over all boxes. References to the nodes themselves count from `first_node`.
+/// The packed nodes. References to them start at `first_node`.
 fn pack_nodes(
     bvh: &Bvh,
     boxes: &[Swept],
@@ -291,7 +290,7 @@ fn pack_nodes(
         let pack = |node| nodes::quantize(children(node).as_slice());
         return bvh.nodes.iter().map(pack).collect();
     }
-    // Children come after their parents, so one pass backwards knows the boxes of all nodes.
+    // Children come after their parents, so one backward pass computes the boxes of all nodes.
     let mut bounds = vec![at_rest(Aabb::EMPTY); bvh.nodes.len()];
     let mut packed = vec![PackedNode::default(); 2 * bvh.nodes.len()];
     for (i, node) in bvh.nodes.iter().enumerate().rev() {

@@ -1,14 +1,14 @@
-//! All trees of a scene: those of its meshes, the joint one of what is small, and the one above what
-//! is baked. Those that serve a scene that differs a little are kept.
+//! All BVHs of a scene: those of its meshes, the joint BLAS of shapes and small meshes, and the one above baked
+//! geometry. Unchanged ones are reused from a previous scene.
 
 use super::{
     PackError,
-    blas::{Blas, MOST_PARTS, STACK_BELOW, opened},
+    blas::{Blas, MAX_PARTS, STACK_BELOW, opened},
     geometry::Flat,
     instance::{InstancedBlas, Plan},
     light,
     mesh::CachedMesh,
-    nodes::{self, Children, Place},
+    nodes::{self, Children, Offsets},
     segments::Segments,
 };
 use crate::{
@@ -19,45 +19,44 @@ use crate::{
 use glam::{DAffine3, DVec3};
 use std::{collections::HashMap, sync::Arc};
 
-/// The most entries on the stack of a walk through what is baked: the last store of a traversal step
-/// lies one beyond the entries that count.
+/// Stack limit for baked geometry: the last store of a traversal step writes one entry beyond the top.
 const STACK_ENTRIES: usize = STACK_SIZE as usize - 1;
 
-/// What had to be built to pack a scene.
+/// Counts of the BVHs built to pack a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TreeWork {
-    /// Topologies of meshes.
+    /// Mesh topologies that were built.
     pub topologies: usize,
-    /// Trees of one mesh each that were laid out in the world or in their own space.
+    /// BLASes of single meshes that were refitted in world space or in their own space.
     pub refits: usize,
-    /// 1 if the tree of all shapes and small meshes was built.
+    /// 1 if the joint BLAS of shapes and small meshes was built.
     pub joint: usize,
-    /// 1 if the tree above baked trees was built.
+    /// 1 if the tree above the baked BLASes was built.
     pub top: usize,
 }
 
 impl TreeWork {
-    /// All trees that were built or refitted.
+    /// Number of BVHs built or refitted.
     pub fn total(&self) -> usize {
         self.refits + self.joint + self.top
     }
 }
 
-/// The tree of a mesh.
+/// The BLAS of a mesh.
 #[derive(Clone, Debug)]
 pub struct MeshTree {
     pub mesh: Arc<CachedMesh>,
-    /// Where it is baked; `None` in a space of its own.
+    /// The transform at which it is baked; `None` if it is instanced.
     world_from_object: Option<DAffine3>,
     pub blas: Arc<Blas>,
 }
 
 impl MeshTree {
-    /// What the tree over its instances sees.
+    /// The input of the TLAS.
     pub fn instanced(&self) -> InstancedBlas {
         InstancedBlas {
             root: self.blas.root(),
-            first: self.blas.place.triangle,
+            first: self.blas.offsets.triangle,
             count: self.blas.triangles.len() as u32,
             boxes: self.blas.boxes(),
             shape: None,
@@ -65,7 +64,7 @@ impl MeshTree {
     }
 }
 
-/// Trees in the order in which they lie in the arrays, so that what changes most lies last.
+/// BVHs in the order of the arrays: those that change most often come last.
 #[derive(Clone, Debug)]
 pub struct Trees {
     pub instanced: Vec<MeshTree>,
@@ -76,7 +75,7 @@ pub struct Trees {
     origin: DVec3,
 }
 
-/// What shares a tree: static shapes and small static meshes; and planes, which are in none.
+/// The joint BLAS of static shapes and small static meshes; and planes, which are in no BVH.
 #[derive(Debug)]
 pub struct Joint {
     input: JointInput,
@@ -87,7 +86,7 @@ pub struct Joint {
 #[derive(Debug)]
 struct JointInput {
     meshes: Vec<(Arc<CachedMesh>, DAffine3)>,
-    /// With their materials and ids.
+    /// Shapes with their materials and ids.
     shapes: Vec<(Geometry, usize, usize)>,
     stack_size: usize,
     origin: DVec3,
@@ -106,20 +105,20 @@ impl PartialEq for JointInput {
     }
 }
 
-/// The tree above baked trees, where nothing is instanced.
+/// The tree above the baked BLASes, if nothing is instanced.
 #[derive(Debug)]
 pub struct Top {
-    /// Boxes of what is baked, and child references.
+    /// Boxes of baked geometry, and child references.
     pub parts: Vec<(Aabb, u32)>,
     /// Node 0 of the scene.
     pub root: Arc<[PackedNode]>,
-    /// Those below it, behind all other nodes.
+    /// Its descendants, after all other nodes.
     pub nodes: Arc<[PackedNode]>,
     first_node: u32,
 }
 
 impl Trees {
-    /// The trees of a scene that `meshes` are of. `previous` are those of another one.
+    /// Builds the BVHs of a scene with these `meshes`; `previous` are those of another scene.
     pub fn build(
         previous: Option<&Self>,
         scene: &Scene,
@@ -129,32 +128,32 @@ impl Trees {
     ) -> Result<Self, PackError> {
         let previous = previous.filter(|previous| previous.origin == origin);
         let mut work = TreeWork::default();
-        let known = Known::new(previous);
-        // Node 0 is the root of what is baked.
-        let mut place = Place {
+        let known = ExistingTrees::new(previous);
+        // Node 0 is the root of the baked geometry.
+        let mut offsets = Offsets {
             node: 1,
-            ..Place::default()
+            ..Offsets::default()
         };
         let mut tree = |index: usize, world_from_object: Option<DAffine3>| {
             let mesh = &meshes[index];
             let tree = MeshTree {
                 mesh: mesh.clone(),
                 world_from_object,
-                blas: match known.find(mesh, world_from_object, place) {
-                    Some(blas) => blas.moved_to(place),
+                blas: match known.find(mesh, world_from_object, offsets) {
+                    Some(blas) => blas.moved_to(offsets),
                     None => {
                         let (transform, origin) = match world_from_object {
                             Some(transform) => (transform, origin),
                             None => (DAffine3::IDENTITY, DVec3::ZERO),
                         };
-                        let flat = Flat::of_mesh(&mesh.mesh, transform, origin, place.vertex)?;
+                        let flat = Flat::of_mesh(&mesh.mesh, transform, origin, offsets.vertex)?;
                         work.refits += 1;
                         let topology = mesh.topology(&mut work.topologies);
-                        Arc::new(Blas::refitted(topology, flat, place))
+                        Arc::new(Blas::refitted(topology, flat, offsets))
                     }
                 },
             };
-            place = tree.blas.end();
+            offsets = tree.blas.end();
             Ok(tree)
         };
         let instanced = (plan.instanced_meshes.iter())
@@ -173,15 +172,15 @@ impl Trees {
         let input = JointInput::new(scene, (rest, origin), plan, meshes, stack_size);
         let before = previous.map(|previous| &previous.joint);
         let joint = match before.filter(|before| before.input == input) {
-            Some(before) if before.blas.place == place => before.clone(),
+            Some(before) if before.blas.offsets == offsets => before.clone(),
             Some(before) => Arc::new(Joint {
                 input,
-                blas: before.blas.moved_to(place),
+                blas: before.blas.moved_to(offsets),
                 planes: before.planes.clone(),
             }),
             None => {
                 work.joint = 1;
-                Arc::new(Joint::build(input, place)?)
+                Arc::new(Joint::build(input, offsets)?)
             }
         };
 
@@ -213,7 +212,7 @@ impl Trees {
             .collect()
     }
 
-    /// All triangles; zeros stand in for what is hidden.
+    /// All triangles; those of hidden meshes are zero.
     pub fn triangles(&self, plan: &Plan) -> Segments<PackedTriangle> {
         let instanced = self
             .instanced
@@ -243,12 +242,12 @@ impl Trees {
         self.own().map(|tree| &*tree.mesh).chain(joint)
     }
 
-    /// Trees of one mesh.
+    /// The BLASes of single meshes.
     fn own(&self) -> impl Iterator<Item = &MeshTree> {
         self.instanced.iter().chain(&self.baked)
     }
 
-    /// The most entries on the stack in any of those that others may be above.
+    /// Maximum number of stack entries of any BLAS that may be below another tree.
     pub fn stack_need(&self) -> usize {
         (self.own())
             .map(|tree| tree.blas.stack_need)
@@ -256,13 +255,13 @@ impl Trees {
     }
 }
 
-/// Trees that are there already, by mesh and place in the world.
-struct Known<'a>(HashMap<Key, Vec<&'a Arc<Blas>>>);
+/// Existing BLASes, by mesh and transform.
+struct ExistingTrees<'a>(HashMap<Key, Vec<&'a Arc<Blas>>>);
 
 /// The mesh's address and the bits of its transform.
 type Key = (usize, Option<[u64; 12]>);
 
-impl<'a> Known<'a> {
+impl<'a> ExistingTrees<'a> {
     fn new(trees: Option<&'a Trees>) -> Self {
         let mut known: HashMap<_, Vec<_>> = HashMap::new();
         for tree in trees.into_iter().flat_map(Trees::own) {
@@ -272,15 +271,15 @@ impl<'a> Known<'a> {
         Self(known)
     }
 
-    /// Of several the one at this place.
+    /// An existing BLAS, preferably at these offsets.
     fn find(
         &self,
         mesh: &Arc<CachedMesh>,
         world_from_object: Option<DAffine3>,
-        place: Place,
+        offsets: Offsets,
     ) -> Option<&'a Arc<Blas>> {
         let all = self.0.get(&key(mesh, world_from_object))?;
-        let here = all.iter().find(|blas| blas.place == place);
+        let here = all.iter().find(|blas| blas.offsets == offsets);
         here.or(all.first()).copied()
     }
 }
@@ -298,8 +297,11 @@ impl JointInput {
         meshes: &[Arc<CachedMesh>],
         stack_size: usize,
     ) -> Self {
-        let mesh = |&(index, place): &(usize, DAffine3)| {
-            (meshes[scene.instances[index].mesh].clone(), place)
+        let mesh = |&(index, world_from_object): &(usize, DAffine3)| {
+            (
+                meshes[scene.instances[index].mesh].clone(),
+                world_from_object,
+            )
         };
         let shapes = plan.joint_shapes.iter().map(|&id| {
             let shape = &scene.shapes[id];
@@ -324,24 +326,24 @@ impl JointInput {
 }
 
 impl Joint {
-    fn build(input: JointInput, place: Place) -> Result<Self, PackError> {
+    fn build(input: JointInput, offsets: Offsets) -> Result<Self, PackError> {
         let mut flat = Flat::default();
         for (mesh, world_from_object) in &input.meshes {
-            flat.add_mesh(&mesh.mesh, *world_from_object, input.origin, place.vertex)?;
+            flat.add_mesh(&mesh.mesh, *world_from_object, input.origin, offsets.vertex)?;
         }
         for (geometry, material, id) in &input.shapes {
             flat.add_shape(geometry, *material, *id, Some(input.origin))?;
         }
         Ok(Self {
             planes: std::mem::take(&mut flat.planes).into(),
-            blas: Arc::new(Blas::joint(flat, input.stack_size, place)),
+            blas: Arc::new(Blas::joint(flat, input.stack_size, offsets)),
             input,
         })
     }
 }
 
 impl Top {
-    /// Above `trees`, of which none is empty; where something is instanced the boxes are enough.
+    /// The tree above non-empty `trees`; if something is instanced, only their boxes are needed.
     fn over(
         trees: &[&Blas],
         has_instances: bool,
@@ -357,7 +359,7 @@ impl Top {
                 first_node,
             }))
         };
-        let limit = MOST_PARTS + 2 * trees.len().saturating_sub(1);
+        let limit = MAX_PARTS + 2 * trees.len().saturating_sub(1);
         match trees {
             _ if has_instances => {
                 return alone(opened(trees.iter().copied(), limit), PackedNode::default());

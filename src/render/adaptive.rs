@@ -1,135 +1,136 @@
-//! Adaptive sampling: which pixels go on after a round.
+//! Adaptive sampling: decides after each round which pixels need more samples.
 
 use super::{
+    film_tile::FilmTile,
     layers::{self, Layer, SQUARES},
     settings::RenderSettings,
-    window::Window,
 };
 use std::{collections::BTreeMap, ops::Range};
 
-/// Samples of the first round; later rounds double them.
+/// Samples in the first round; each later round doubles the samples of a pixel.
 const FIRST_SAMPLES: u32 = 4;
 
-/// A pixel with this many times fewer samples than a noisy neighbour is behind it.
+/// A pixel with this many times fewer samples than a noisy neighbour needs more.
 const BEHIND: u32 = 4;
 
-/// Rounds in which pixels look at their neighbours. What one of them has found spreads by a pixel a round:
-/// this is how far it gets, and how wide the margin round a crop must be.
+/// Rounds in which pixels compare with their neighbours. A difference propagates by one pixel per round, so
+/// this is its maximum distance and the width of the margin around a crop.
 const NEIGHBOUR_ROUNDS: u32 = 32;
 
-/// What all rounds have gathered, pixel by pixel of the region.
+/// The accumulated statistics of all rounds, for each pixel of the region.
 ///
-/// A pixel looks at its neighbours, which have looked at theirs a round before, so it depends on all pixels
-/// within as many steps as there are such rounds. A margin of that width is sampled round a crop, which then
-/// has the pixels of the whole picture. Pixels of the margin take part for as long as the crop depends on them.
+/// A pixel compares with its neighbours, which compared with theirs in the previous round, so it depends on all
+/// pixels within as many steps as there are such rounds. A margin of that width is sampled around a crop, so
+/// that the crop has the same pixels as the whole picture. Pixels of the margin take part as long as the crop
+/// depends on them.
 #[derive(Clone, Debug)]
 pub struct Adaptive {
     /// The crop and its margin: x, y, width, height.
     region: [u32; 4],
-    /// The part of it that is asked for, in the same coordinates.
+    /// The requested part, in the same coordinates.
     crop: [u32; 4],
     noise: f64,
     samples: u32,
     /// Rounds after the first.
     rounds: u32,
-    /// Most pixels of a window.
-    window_pixels: usize,
+    /// Maximum number of pixels of a film tile.
+    tile_pixels: usize,
     layers: &'static [&'static Layer],
     pixels: Vec<PixelStatistics>,
-    /// The samples of the pixels that have most of them, in this round.
+    /// The range of samples of the most sampled pixels in this round.
     front: Range<u32>,
 }
 
-/// What is known of a pixel.
+/// The statistics of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
 struct PixelStatistics {
     sum: [f64; 3],
     weight: f64,
-    /// Of the samples' luminance.
+    /// Sum of squared luminance.
     squares: f64,
     count: u32,
 }
 
 impl Adaptive {
-    pub fn new(settings: &RenderSettings, window_side: u32) -> Self {
+    pub fn new(settings: &RenderSettings, tile_side: u32) -> Self {
         let crop = settings.region();
-        // With so few samples there are no rounds.
+        // With so few samples there is only the first round.
         let has_rounds = settings.samples > FIRST_SAMPLES;
         let margin = if has_rounds { NEIGHBOUR_ROUNDS } else { 0 };
         let region = widened(crop, margin, settings.size);
         let [.., width, height] = region;
-        let side = window_side as usize;
+        let side = tile_side as usize;
         Self {
             region,
             crop,
             rounds: 0,
             noise: f64::from(settings.noise),
             samples: settings.samples,
-            window_pixels: side * side,
+            tile_pixels: side * side,
             layers: layers::of_sampling(settings),
             front: 0..FIRST_SAMPLES.min(settings.samples),
             pixels: vec![PixelStatistics::default(); width as usize * height as usize],
         }
     }
 
-    /// What is to be sampled: the crop and its margin.
+    /// The sampled region: the crop and its margin.
     pub fn region(&self) -> [u32; 4] {
         self.region
     }
 
-    /// What is asked for.
+    /// The requested region.
     pub fn crop(&self) -> [u32; 4] {
         self.crop
     }
 
-    /// Windows over all the pixels.
-    pub fn first_round(&self, pixels: Vec<[u32; 2]>) -> Vec<Window> {
-        self.windows(pixels, 0..FIRST_SAMPLES.min(self.samples))
+    /// Film tiles over all pixels.
+    pub fn first_round(&self, pixels: Vec<[u32; 2]>) -> Vec<FilmTile> {
+        self.tiles(pixels, 0..FIRST_SAMPLES.min(self.samples))
     }
 
-    /// Windows over the pixels that need more samples, those that have as many together; none when
-    /// all are done. A round doubles the samples of a pixel.
-    pub fn next_round(&mut self) -> Vec<Window> {
+    /// Film tiles over the pixels that need more samples, grouped by sample count; empty when all are done. A
+    /// round doubles the samples of a pixel.
+    pub fn next_round(&mut self) -> Vec<FilmTile> {
         self.rounds += 1;
         let [x0, y0, width, height] = self.region;
-        let tiles = |length: u32| 0..length.div_ceil(8);
-        let mut going_on: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
-        for (ty, tx) in tiles(height).flat_map(|y| tiles(width).map(move |x| (y, x))) {
+        let groups = |length: u32| 0..length.div_ceil(8);
+        let mut unfinished: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
+        for (ty, tx) in groups(height).flat_map(|y| groups(width).map(move |x| (y, x))) {
             for (y, x) in (0..8).flat_map(|y| (0..8).map(move |x| (8 * ty + y, 8 * tx + x))) {
-                if x < width && y < height && self.goes_on(x, y) {
-                    let list = going_on.entry(self.statistics(x, y).count).or_default();
+                if x < width && y < height && self.needs_more_samples(x, y) {
+                    let list = unfinished.entry(self.statistics(x, y).count).or_default();
                     list.push([x0 + x, y0 + y]);
                 }
             }
         }
-        if let Some((&count, _)) = going_on.last_key_value() {
+        if let Some((&count, _)) = unfinished.last_key_value() {
             self.front = self.front.end..(2 * count).min(self.samples).max(self.front.end);
         }
-        let windows = |(count, pixels)| self.windows(pixels, count..(2 * count).min(self.samples));
-        going_on.into_iter().flat_map(windows).collect()
+        let tiles = |(count, pixels)| self.tiles(pixels, count..(2 * count).min(self.samples));
+        unfinished.into_iter().flat_map(tiles).collect()
     }
 
-    /// Goes by the most samples that any pixel has.
+    /// The progress of the most sampled pixels, in 0..=1.
     pub fn progress(&self, fraction: f64) -> f64 {
         let Range { start, end } = self.front;
         (f64::from(start) + fraction * f64::from(end - start)) / f64::from(self.samples)
     }
 
-    fn windows(&self, pixels: Vec<[u32; 2]>, samples: Range<u32>) -> Vec<Window> {
-        let lists = pixels.chunks(self.window_pixels);
+    fn tiles(&self, pixels: Vec<[u32; 2]>, samples: Range<u32>) -> Vec<FilmTile> {
+        let lists = pixels.chunks(self.tile_pixels);
         lists
-            .map(|list| Window::list(list.to_vec(), samples.clone(), self.layers))
+            .map(|list| FilmTile::list(list.to_vec(), samples.clone(), self.layers))
             .collect()
     }
 
-    /// Adds what a round has gathered.
-    pub fn take(&mut self, windows: Vec<Window>) {
+    /// Adds the samples of a round.
+    pub fn add_round(&mut self, tiles: Vec<FilmTile>) {
         let squares = layers::row_of(self.layers, &SQUARES).unwrap_or_default();
-        for window in windows {
-            let taken = window.samples.end - window.samples.start;
-            let rows = window.totals();
-            let pixels = rows.chunks_exact(window.rows_per_pixel());
-            for (place, rows) in window.places().iter().zip(pixels) {
+        for tile in tiles {
+            let sample_count = tile.samples.end - tile.samples.start;
+            let rows = tile.totals();
+            let pixels = rows.chunks_exact(tile.rows_per_pixel());
+            for (place, rows) in tile.places().iter().zip(pixels) {
                 let index = self.index(*place);
                 let statistics = &mut self.pixels[index];
                 for (sum, row) in statistics.sum.iter_mut().zip(rows[0]) {
@@ -137,12 +138,12 @@ impl Adaptive {
                 }
                 statistics.weight += rows[0][3];
                 statistics.squares += rows[squares][0];
-                statistics.count += taken;
+                statistics.count += sample_count;
             }
         }
     }
 
-    /// The pixel's mean, as the film has it for one sample.
+    /// The mean of a pixel, in the format of a film with one sample.
     pub fn mean(&self, pixel: [u32; 2]) -> [f32; 4] {
         let statistics = &self.pixels[self.index(pixel)];
         let scale = statistics.scale();
@@ -150,7 +151,7 @@ impl Adaptive {
         [r, g, b, 1.0]
     }
 
-    /// For each pixel of the crop its mean, and a row that begins with its samples.
+    /// For each pixel of the crop its mean, and a row that starts with its sample count.
     pub fn means_and_counts(&self) -> Vec<[f32; 4]> {
         let [x, y, width, height] = self.crop;
         let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
@@ -173,11 +174,11 @@ impl Adaptive {
         (y - y0) as usize * width as usize + (x - x0) as usize
     }
 
-    /// Whether a pixel needs another round: its own error is too large, or it may have missed what
-    /// its neighbours have found. Few samples may all have missed what is there, and then agree: so
-    /// after the first round a difference from a neighbour is enough, and later a neighbour that
-    /// still needs samples and has many more.
-    fn goes_on(&self, x: u32, y: u32) -> bool {
+    /// Whether a pixel needs another round: its own error is too large, or it may have missed something that
+    /// its neighbours found. A few samples can all miss the same feature and then agree. After the first round
+    /// a difference from a neighbour is therefore enough; later the neighbour must also be noisy and have many
+    /// more samples.
+    fn needs_more_samples(&self, x: u32, y: u32) -> bool {
         let statistics = self.statistics(x, y);
         let rounds_left = NEIGHBOUR_ROUNDS.saturating_sub(self.rounds);
         if statistics.count >= self.samples || self.steps_to_crop(x, y) > rounds_left {
@@ -188,11 +189,11 @@ impl Adaptive {
             let is_ahead = other.count >= BEHIND * statistics.count && other.error() > self.noise;
             differs && (statistics.count <= FIRST_SAMPLES || is_ahead)
         };
-        let asks = self.rounds <= NEIGHBOUR_ROUNDS;
-        statistics.error() > self.noise || (asks && self.around(x, y).any(missed))
+        let looks_at_neighbours = self.rounds <= NEIGHBOUR_ROUNDS;
+        statistics.error() > self.noise || (looks_at_neighbours && self.around(x, y).any(missed))
     }
 
-    /// Steps from a pixel of the region to the nearest of the crop; 0 within it.
+    /// Distance in pixels from a pixel of the region to the crop; 0 inside it.
     fn steps_to_crop(&self, x: u32, y: u32) -> u32 {
         let [x0, y0, ..] = self.region;
         let [left, top, width, height] = self.crop;
@@ -216,7 +217,7 @@ impl Adaptive {
     }
 }
 
-/// A rectangle with this margin around it, as far as the picture reaches.
+/// A rectangle enlarged by a margin, clamped to the picture.
 fn widened([x, y, width, height]: [u32; 4], margin: u32, size: (u32, u32)) -> [u32; 4] {
     let along = |start: u32, length: u32, most: u32| {
         let first = start.saturating_sub(margin);
@@ -228,8 +229,8 @@ fn widened([x, y, width, height]: [u32; 4], margin: u32, size: (u32, u32)) -> [u
 }
 
 impl PixelStatistics {
-    /// What its sum is multiplied by for the mean. Weights of both signs may cancel; what is left
-    /// then says nothing, as in the shader that develops (lib/filter.wesl).
+    /// The factor from sum to mean. Weights of both signs may cancel; the remainder is then meaningless, as in
+    /// the shader that develops (lib/filter.wesl).
     fn scale(&self) -> f64 {
         if self.weight.abs() > 0.5 {
             1.0 / self.weight
@@ -244,12 +245,12 @@ impl PixelStatistics {
         (sum * self.scale()).max(0.0)
     }
 
-    /// The square root of luminance, which is nearer to what the eye sees.
+    /// The square root of luminance, which is closer to perceived brightness.
     fn brightness(&self) -> f64 {
         self.luminance().sqrt()
     }
 
-    /// By how much one standard error changes the brightness.
+    /// The change of brightness by one standard error.
     fn error(&self) -> f64 {
         let count = f64::from(self.count);
         let mean = self.luminance();

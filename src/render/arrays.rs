@@ -1,4 +1,4 @@
-//! The arrays of group 0 of `bindings.wesl`: what is in them, and what of it must be written.
+//! The arrays of bind group 0 of `bindings.wesl`: their contents, and which parts must be uploaded.
 
 use super::{
     layouts::{ROW_FORMAT, TEXEL_FORMAT},
@@ -17,16 +17,16 @@ pub const ROW_BYTES: u64 = 16;
 pub const IMAGE_WIDTH: u32 = 1 << IMAGE_WIDTH_LOG2;
 pub const ARRAY_COUNT: usize = 6;
 
-/// Most bytes that are gathered for one write.
-const MOST_GATHERED: usize = 16 << 20;
+/// Maximum number of bytes that are merged into one write.
+const MAX_GATHERED: usize = 16 << 20;
 
-/// What belongs into one buffer or image.
+/// The contents of one buffer or image.
 pub struct Array<'a> {
     pub what: &'static str,
     kind: Kind,
-    /// In ascending order, with gaps at most where a view begins.
+    /// In ascending order; gaps occur only before the data of a view.
     pub pieces: Vec<Piece<'a>>,
-    /// With room for views that place a little more than this one.
+    /// Size in bytes, with some spare room for views with more instances.
     pub bytes: u64,
 }
 
@@ -51,7 +51,7 @@ enum Kind {
 /// A member of [`Uploads`].
 type Upload = fn(&mut Uploads) -> &mut u64;
 
-/// All of them, in the order of their bindings.
+/// All arrays, in binding order.
 pub fn arrays<'a>(scene: &'a PackedScene, view: &'a PackedView) -> [Array<'a>; ARRAY_COUNT] {
     let geometry: Upload = |uploads| &mut uploads.geometry;
     let surfaces: Upload = |uploads| &mut uploads.surfaces;
@@ -109,7 +109,7 @@ impl<'a> Array<'a> {
         }
     }
 
-    /// What a view adds to the nodes, with room for a little more.
+    /// Adds the data of a view to the nodes, with some spare room.
     fn add_view(&mut self, scene: &PackedScene, view: &'a PackedView) {
         let [nodes, instances, keys, cameras] = view.node_parts();
         let scene_bytes = self.bytes;
@@ -125,18 +125,18 @@ impl<'a> Array<'a> {
         };
     }
 
-    /// Whether it may be in an image of rows.
+    /// Whether it may be stored in an image of rows.
     pub fn is_row_image(&self) -> bool {
         self.kind == Kind::Rows
     }
 
-    /// Bytes without room for more.
+    /// Size in bytes without spare room.
     pub fn least_bytes(&self) -> u64 {
         let last = self.pieces.last();
         last.map_or(0, |last| last.offset + last.bytes.len() as u64)
     }
 
-    /// Writes what is not in the array yet, which has these `known` pieces.
+    /// Uploads the pieces that differ from the `known` contents of the array.
     pub fn write(
         &self,
         gpu: &Gpu,
@@ -151,16 +151,16 @@ impl<'a> Array<'a> {
                 std::ptr::eq(known, piece.bytes) || known == piece.bytes
             })
         };
-        // Neighbours go together.
+        // Adjacent pieces are written together.
         let (mut start, mut gathered) = (0, Vec::new());
         for piece in self.pieces.iter().filter(|piece| !is_there(piece)) {
             *(piece.counts_as)(uploads) += piece.bytes.len() as u64;
             let is_next = start + gathered.len() as u64 == piece.offset;
-            if !is_next || gathered.len() + piece.bytes.len() > MOST_GATHERED {
+            if !is_next || gathered.len() + piece.bytes.len() > MAX_GATHERED {
                 rows.write(gpu, start, &gathered)?;
                 gathered.clear();
             }
-            if piece.bytes.len() > MOST_GATHERED {
+            if piece.bytes.len() > MAX_GATHERED {
                 rows.write(gpu, piece.offset, piece.bytes)?;
                 start = piece.offset + piece.bytes.len() as u64;
                 continue;
@@ -174,7 +174,7 @@ impl<'a> Array<'a> {
     }
 }
 
-/// One of them on the GPU.
+/// One of the arrays on the GPU.
 pub enum Rows {
     Image(wgpu::TextureView),
     Buffer(Buffer),
@@ -190,7 +190,7 @@ impl Rows {
         match array.kind {
             Kind::Rows if fetch == Fetch::Image => image(ROW_FORMAT),
             Kind::Texels => image(TEXEL_FORMAT),
-            // WebGPU wants a binding to hold at least one element; 256 bytes hold any of ours.
+            // WebGPU requires a binding to hold at least one element; 256 bytes hold any of our structs.
             Kind::Rows | Kind::Buffer => {
                 let buffer = gpu.allocate(array.what, bytes.max(256), usage)?;
                 Ok(Self::Buffer(buffer))
@@ -198,7 +198,7 @@ impl Rows {
         }
     }
 
-    /// Bytes that have room in it.
+    /// Capacity in bytes.
     pub fn bytes(&self) -> u64 {
         match self {
             Self::Image(view) => {
@@ -209,8 +209,8 @@ impl Rows {
         }
     }
 
-    /// The size of another one of this kind in place of this, with a quarter more room if that takes no
-    /// more than `spare` and the device allows for it.
+    /// The size of a replacement for at least `bytes`, with a quarter of spare room if that takes at most
+    /// `spare` bytes and the device allows it.
     pub fn grown(&self, gpu: &Gpu, bytes: u64, spare: u64) -> u64 {
         let limits = gpu.device.limits();
         let wanted = bytes + (bytes / 4).min(spare);
@@ -224,7 +224,7 @@ impl Rows {
         wanted.min(most).max(bytes)
     }
 
-    /// Writes from `offset` on, which is the beginning of a row or texel.
+    /// Writes at `offset`, which must be the start of a row or texel.
     fn write(&self, gpu: &Gpu, offset: u64, bytes: &[u8]) -> Result<(), GpuError> {
         match self {
             _ if bytes.is_empty() => Ok(()),

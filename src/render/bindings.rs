@@ -1,4 +1,4 @@
-//! What is in the bind groups of `bindings.wesl`, on the host.
+//! The contents of the bind groups of `bindings.wesl`.
 
 use super::{
     arrays::{ARRAY_COUNT, Array, IMAGE_WIDTH, ROW_BYTES, Rows, arrays},
@@ -8,31 +8,31 @@ use super::{
 };
 use crate::{
     gpu::{Gpu, GpuError, Ledger, Needs},
-    layout::{PackedFrame, PackedSlice, PackedTone},
+    layout::{PackedCounters, PackedDispatch, PackedFrame, PackedTone},
     pack::{PackedScene, PackedView},
 };
 use bytemuck::{bytes_of, cast_slice};
 use std::sync::Arc;
 use wgpu::{Buffer, BufferUsages};
 
-/// What shaders write and the host reads.
+/// Usage of buffers that shaders write and the host reads.
 const READABLE: BufferUsages = BufferUsages::STORAGE
     .union(BufferUsages::COPY_SRC)
     .union(BufferUsages::COPY_DST);
 
-/// Everything on the GPU but the pipelines.
+/// All GPU resources except the pipelines.
 pub struct Buffers {
     pub scene_group: wgpu::BindGroup,
     pub frame_group: wgpu::BindGroup,
     pub film_group: wgpu::BindGroup,
-    pub slice: Buffer,
+    pub dispatch: Buffer,
     pub film: Buffer,
     pub staging: Buffer,
     scene: SceneBuffers,
 }
 
 impl Buffers {
-    /// Uploads the scene and the frame, and makes room for `film_rows`.
+    /// Uploads the scene and the frame, and allocates a film of `film_rows`.
     pub fn new(
         gpu: &Gpu,
         layouts: &Layouts,
@@ -43,23 +43,23 @@ impl Buffers {
     ) -> Result<Self, GpuError> {
         let buffers = SceneBuffers::new(gpu, fetch, scene, view, uploads)?;
         let scene_group = buffers.group(gpu, layouts);
-        let slice = gpu.allocate("slice", size_of::<PackedSlice>() as u64, READABLE)?;
+        let dispatch = gpu.allocate("dispatch", size_of::<PackedDispatch>() as u64, READABLE)?;
         let (film, staging) = film(gpu, film_rows)?;
-        let frame_group = frame_group(gpu, layouts, view, &slice)?;
+        let frame_group = frame_group(gpu, layouts, view, &dispatch)?;
         uploads.frames += frame_bytes(view);
         let film_group = group(gpu, &layouts.film, &[film.as_entire_binding()]);
         Ok(Self {
             scene_group,
             frame_group,
             film_group,
-            slice,
+            dispatch,
             film,
             staging,
             scene: buffers,
         })
     }
 
-    /// Makes room for `film_rows`, unless there is. Returns whether the film is another now.
+    /// Ensures room for `film_rows`. Returns whether the film buffer was replaced.
     pub fn make_room(
         &mut self,
         gpu: &Gpu,
@@ -76,8 +76,8 @@ impl Buffers {
         Ok(true)
     }
 
-    /// Puts another frame in place, or another scene with it: of both only what is not there yet.
-    /// Arrays that are too small grow beyond what is needed, by `spare` bytes at most.
+    /// Switches to another frame, or to another scene with its frame, and uploads only the differences. Arrays
+    /// that are too small grow by up to `spare` bytes beyond what is needed.
     pub fn set(
         &mut self,
         gpu: &Gpu,
@@ -89,18 +89,18 @@ impl Buffers {
         if self.scene.set(gpu, scene, view, spare, uploads)? {
             self.scene_group = self.scene.group(gpu, layouts);
         }
-        self.frame_group = frame_group(gpu, layouts, view, &self.slice)?;
+        self.frame_group = frame_group(gpu, layouts, view, &self.dispatch)?;
         uploads.frames += frame_bytes(view);
         Ok(())
     }
 }
 
-/// What kernels read of a scene, and of what a view places in it.
+/// The buffers of a scene and its view.
 struct SceneBuffers {
     fetch: Fetch,
-    /// In the order of [`arrays`], and of the bindings.
+    /// In the order of [`arrays`] and of the bindings.
     buffers: Vec<Rows>,
-    /// What is in them; `None` before they are written, and after that failed.
+    /// Their contents; `None` before they are written or after a failure.
     on_device: Option<(Arc<PackedScene>, PackedView)>,
 }
 
@@ -121,8 +121,8 @@ impl SceneBuffers {
         Ok(buffers)
     }
 
-    /// Writes what differs from what is there. Returns whether some buffer is another now: those that were
-    /// too small are destroyed first, as the ledger counts them once.
+    /// Uploads the differences. Returns whether some buffer was replaced; buffers that are too small are
+    /// destroyed first, because the ledger counts them once.
     fn set(
         &mut self,
         gpu: &Gpu,
@@ -166,29 +166,30 @@ impl SceneBuffers {
     }
 }
 
-/// A film with this many rows, and what it is read back through, with the accounts of a slice.
+/// A film with this many rows, and the staging buffer for reading it back together with the counters of a
+/// dispatch.
 fn film(gpu: &Gpu, rows: usize) -> Result<(Buffer, Buffer), GpuError> {
     let bytes = rows as u64 * ROW_BYTES;
     let film = gpu.allocate("film", bytes, READABLE)?;
     let staging = gpu.allocate(
         "staging",
-        bytes + size_of::<PackedSlice>() as u64,
+        bytes + size_of::<PackedCounters>() as u64,
         BufferUsages::MAP_READ | BufferUsages::COPY_DST,
     )?;
     Ok((film, staging))
 }
 
-/// The view's frame and lights, with the accounts of a slice.
+/// The bind group of a frame with its lights, and of the dispatch parameters.
 fn frame_group(
     gpu: &Gpu,
     layouts: &Layouts,
     view: &PackedView,
-    slice: &Buffer,
+    dispatch: &Buffer,
 ) -> Result<wgpu::BindGroup, GpuError> {
     let mut bytes = bytes_of(&view.frame).to_vec();
     bytes.extend_from_slice(cast_slice(&view.lights));
     let frame = gpu.upload("frame", &bytes)?;
-    let resources = [frame.as_entire_binding(), slice.as_entire_binding()];
+    let resources = [frame.as_entire_binding(), dispatch.as_entire_binding()];
     Ok(group(gpu, &layouts.frame, &resources))
 }
 
@@ -197,8 +198,8 @@ fn frame_bytes(view: &PackedView) -> u64 {
     (size_of::<PackedFrame>() + size_of_val(&view.lights[..])) as u64
 }
 
-/// The fetch to use: as asked, or images on software adapters, where they are twice as fast.
-/// Elsewhere buffers, unless only images are large enough.
+/// The fetch to use: the requested one, or by default images on software adapters, where they are twice as
+/// fast, and buffers elsewhere unless only images are large enough.
 pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene, view: &PackedView) -> Fetch {
     let fits = largest_row_bytes(scene, view) <= gpu.adapter().max_binding_bytes;
     match wanted {
@@ -208,7 +209,7 @@ pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene, view: &Packed
     }
 }
 
-/// What the device must be able to do for this scene and this film.
+/// The device limits needed for this scene and film.
 pub fn needs(scene: &PackedScene, view: &PackedView, fetch: Fetch, film_rows: usize) -> Needs {
     let shapes = scene.shapes.byte_len();
     let film = film_rows as u64 * ROW_BYTES;
@@ -219,7 +220,7 @@ pub fn needs(scene: &PackedScene, view: &PackedView, fetch: Fetch, film_rows: us
             texture_side: 0,
         };
     }
-    // Texels keep to what WebGPU guarantees.
+    // Texels stay within the limits that WebGPU guarantees.
     let height = rows.div_ceil(u64::from(IMAGE_WIDTH) * 16);
     Needs {
         binding_bytes: shapes.max(film),
@@ -232,7 +233,7 @@ fn largest_row_bytes(scene: &PackedScene, view: &PackedView) -> u64 {
     rows.map(|array| array.bytes).max().unwrap_or(0)
 }
 
-/// All that a render will allocate, on the GPU and for the picture on the host.
+/// The planned allocations of a render, on the GPU and for the picture on the host.
 pub fn ledger(
     scene: &PackedScene,
     view: &PackedView,

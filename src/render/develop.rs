@@ -1,13 +1,13 @@
-//! From sums to a picture: `kernels/develop.wesl`.
+//! Develops sums to a picture: `kernels/develop.wesl`.
 
 use super::{
     Fingerprint, Integrator, Levels, Quantity, RenderError, RenderSettings, Renderer,
     bindings::Buffers,
+    film_tile::FilmTile,
     fingerprint::Encoder,
     layouts::{Layouts, group},
     levels,
     slice::Slice,
-    window::Window,
 };
 use crate::clock::Instant;
 use crate::{
@@ -21,21 +21,21 @@ use crate::{
 use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec};
 use wgpu::BufferUsages;
 
-/// How linear radiance becomes a picture.
+/// How linear radiance is developed to a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tone {
-    /// Stops; each doubles the brightness.
+    /// Exposure in stops; each doubles the brightness.
     pub exposure_ev: f32,
-    /// Applied after the exposure.
+    /// Tone curve, applied after the exposure.
     pub curve: ToneCurve,
-    /// Applied last.
+    /// Transfer function, applied last.
     pub transfer: Transfer,
-    /// The range of a view that shows a quantity, such as distances.
+    /// The range for views that show a quantity, such as distances.
     pub levels: Levels,
 }
 
 impl From<&OutputDefaults> for Tone {
-    /// What the scene says, for pictures of radiance.
+    /// The output defaults of the scene, for pictures of radiance.
     fn from(output: &OutputDefaults) -> Self {
         Self {
             exposure_ev: output.exposure_ev,
@@ -47,7 +47,7 @@ impl From<&OutputDefaults> for Tone {
 }
 
 impl Tone {
-    /// Leaves radiance as it is.
+    /// Keeps radiance unchanged.
     pub const LINEAR: Self = Self {
         exposure_ev: 0.0,
         curve: ToneCurve::None,
@@ -55,7 +55,7 @@ impl Tone {
         levels: Levels::Raw,
     };
 
-    /// A name for all of it: see [`RenderSettings::fingerprint`].
+    /// A fingerprint of all members: see [`RenderSettings::fingerprint`].
     pub fn fingerprint(&self) -> Fingerprint {
         let mut encoder = Encoder::new("tone", 1);
         for number in self.numbers() {
@@ -64,7 +64,7 @@ impl Tone {
         encoder.finish()
     }
 
-    /// All of it in numbers that stay the same in other builds.
+    /// All members as numbers that are stable across builds.
     pub(super) fn numbers(&self) -> [u32; 6] {
         let Self {
             exposure_ev,
@@ -124,7 +124,7 @@ impl Tone {
         })
     }
 
-    /// Over this range, where there is one, for a film with so many rows a pixel.
+    /// The packed tone, with a range for a quantity if there is one, for a film with this many rows per pixel.
     pub(super) fn packed(
         &self,
         integrator: Integrator,
@@ -152,7 +152,7 @@ impl Tone {
     }
 }
 
-/// What developing keeps on the GPU once it has been used.
+/// GPU resources for developing, created on first use.
 pub struct Developer {
     pipeline: wgpu::ComputePipeline,
     developed: wgpu::Buffer,
@@ -160,14 +160,14 @@ pub struct Developer {
     group: wgpu::BindGroup,
 }
 
-/// What a film is developed with, and where.
+/// The device and buffers with which a film is developed.
 #[derive(Clone, Copy)]
 pub struct Context<'a> {
     pub gpu: &'a Gpu,
     pub layouts: &'a Layouts,
     pub frame_group: &'a wgpu::BindGroup,
     pub film_group: &'a wgpu::BindGroup,
-    pub slice: &'a wgpu::Buffer,
+    pub dispatch: &'a wgpu::Buffer,
     pub film: &'a wgpu::Buffer,
     pub staging: &'a wgpu::Buffer,
 }
@@ -179,7 +179,7 @@ impl<'a> Context<'a> {
             layouts,
             frame_group: &buffers.frame_group,
             film_group: &buffers.film_group,
-            slice: &buffers.slice,
+            dispatch: &buffers.dispatch,
             film: &buffers.film,
             staging: &buffers.staging,
         }
@@ -187,15 +187,15 @@ impl<'a> Context<'a> {
 }
 
 impl Renderer {
-    /// The picture of what has been gathered so far, also before the render is done. Changing the
-    /// tone costs no new rays.
+    /// Develops the samples so far to a picture, also before the render is done. Changing the tone requires no
+    /// new rays.
     pub fn develop(&mut self, tone: &Tone) -> Result<Image, RenderError> {
         let start = Instant::now();
         self.fetch_film()?;
         let range = self.range_of(tone)?;
         let region = self.settings.region();
         if self.settings.integrator.quantity() == Some(Quantity::Samples) {
-            return Ok(counted(
+            return Ok(sample_count_image(
                 region,
                 &self.counts(),
                 self.settings.samples,
@@ -204,20 +204,20 @@ impl Renderer {
         }
         let [x, y, width, height] = region;
         let mut image = Image::new(width, height);
-        for (window, rows) in self.windows.developable(self.policy.slicing.window_side) {
-            let tone = tone.packed(self.settings.integrator, range, window.rows_per_pixel());
+        for (tile, rows) in self.tiles.developable(self.policy.slicing.tile_side) {
+            let tone = tone.packed(self.settings.integrator, range, tile.rows_per_pixel());
             let pixels =
-                self.surviving_losses(|renderer| renderer.develop_window(&window, &rows, &tone))?;
-            put(&mut image, &pixels, &window, [x, y]);
+                self.surviving_losses(|renderer| renderer.develop_tile(&tile, &rows, &tone))?;
+            copy_tile(&mut image, &pixels, &tile, [x, y]);
         }
         self.stats.develop_seconds += start.elapsed().as_secs_f64();
         Ok(image)
     }
 
-    /// One window's pixels, row by row.
-    fn develop_window(
+    /// The pixels of one film tile, row by row.
+    fn develop_tile(
         &mut self,
-        window: &Window,
+        tile: &FilmTile,
         rows: &[[f32; 4]],
         tone: &PackedTone,
     ) -> Result<Vec<[f32; 4]>, GpuError> {
@@ -225,18 +225,18 @@ impl Renderer {
         let context = Context::new(&device.gpu, &device.layouts, &device.buffers);
         let developer = match &mut device.developer {
             Some(developer) => developer,
-            empty => empty.insert(Developer::new(context, self.windows.largest())?),
+            empty => empty.insert(Developer::new(context, self.tiles.largest())?),
         };
-        let pixels = developer.develop(context, window, rows, &self.settings, tone)?;
-        // The film on the GPU is this window's now.
-        device.loaded_window = None;
+        let pixels = developer.develop(context, tile, rows, &self.settings, tone)?;
+        // The film buffer now holds this tile.
+        device.loaded_tile = None;
         Ok(pixels)
     }
 }
 
 impl Developer {
-    /// For windows of at most so many pixels.
-    pub fn new(context: Context, most_pixels: usize) -> Result<Self, GpuError> {
+    /// For film tiles of at most `max_pixels` pixels.
+    pub fn new(context: Context, max_pixels: usize) -> Result<Self, GpuError> {
         let Context { gpu, layouts, .. } = context;
         let groups = [
             None,
@@ -247,7 +247,7 @@ impl Developer {
         let Compiled { pipeline, .. } =
             gpu.pipeline(&Kernel::DEVELOP, false, &groups, Vec::new())?;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
-        let developed = gpu.allocate("developed", most_pixels as u64 * 16, usage)?;
+        let developed = gpu.allocate("developed", max_pixels as u64 * 16, usage)?;
         let tone = gpu.upload("tone", bytes_of(&PackedTone::default()))?;
         let resources = [tone.as_entire_binding(), developed.as_entire_binding()];
         let group = group(gpu, &layouts.develop, &resources);
@@ -259,24 +259,24 @@ impl Developer {
         })
     }
 
-    /// One window's pixels, row by row, from the rows of its film.
+    /// Develops one film tile from its film rows to pixels, row by row.
     pub fn develop(
         &self,
         context: Context,
-        window: &Window,
+        tile: &FilmTile,
         rows: &[[f32; 4]],
         settings: &RenderSettings,
         tone: &PackedTone,
     ) -> Result<Vec<[f32; 4]>, GpuError> {
         let gpu = context.gpu;
         let slice = Slice {
-            first_tile: 0,
-            end_tile: window.tile_count(),
+            first_group: 0,
+            end_group: tile.group_count(),
             first_sample: 0,
             end_sample: 0,
         };
-        let packed = slice.packed(window, settings);
-        gpu.write(context.slice, 0, bytes_of(&packed))?;
+        let packed = slice.packed(tile, settings);
+        gpu.write(context.dispatch, 0, bytes_of(&packed))?;
         gpu.write(context.film, 0, cast_slice(rows))?;
         gpu.write(&self.tone, 0, bytes_of(tone))?;
 
@@ -293,33 +293,33 @@ impl Developer {
         let source = Source {
             buffer: &self.developed,
             offset: 0,
-            bytes: u64::from(window.width) * u64::from(window.height) * 16,
+            bytes: u64::from(tile.width) * u64::from(tile.height) * 16,
         };
         gpu.submit_and_read(encoder, &[source], context.staging, pod_collect_to_vec)
     }
 }
 
-/// Puts a window's pixels where they belong in a picture that begins at `origin`.
-pub fn put(image: &mut Image, pixels: &[[f32; 4]], window: &Window, [x, y]: [u32; 2]) {
-    for (row, line) in pixels.chunks_exact(window.width as usize).enumerate() {
-        let start = (window.y - y) as usize + row;
-        let start = start * image.width as usize + (window.x - x) as usize;
+/// Copies the pixels of a film tile to their position in a picture whose upper left corner is `[x, y]`.
+pub fn copy_tile(image: &mut Image, pixels: &[[f32; 4]], tile: &FilmTile, [x, y]: [u32; 2]) {
+    for (row, line) in pixels.chunks_exact(tile.width as usize).enumerate() {
+        let start = (tile.y - y) as usize + row;
+        let start = start * image.width as usize + (tile.x - x) as usize;
         image.pixels[start..start + line.len()].copy_from_slice(line);
     }
 }
 
-/// A picture of numbers of samples, as grey levels over a range or as shares of the most possible.
-pub fn counted(
+/// A picture of sample counts, as grey levels over a range or as fractions of `max`.
+pub fn sample_count_image(
     [.., width, height]: [u32; 4],
     counts: &[f32],
-    most: u32,
+    max: u32,
     range: Option<[f32; 2]>,
 ) -> Image {
     let mut image = Image::new(width, height);
     for (pixel, count) in image.pixels.iter_mut().zip(counts) {
         let level = match range {
-            Some(range) => levels::place(*count, range),
-            None => count / most as f32,
+            Some(range) => levels::position_in_range(*count, range),
+            None => count / max as f32,
         };
         *pixel = [level, level, level, 1.0];
     }

@@ -1,41 +1,41 @@
-//! What a render keeps on the GPU, and how one slice is run there.
+//! The GPU resources of a render, and the submission of slices.
 
 use super::{
     Stats,
     bindings::{self, Buffers},
     develop::Developer,
+    film_tile::{FilmTile, GROUP_PIXELS},
     layouts::Layouts,
     overrides, pipelines,
     policy::Fetch,
     settings::RenderSettings,
-    show::Projector,
+    show::Presenter,
     slice::Slice,
     task::Task,
-    window::{TILE_PIXELS, Window},
 };
 use crate::clock::Instant;
 use crate::{
     gpu::{AdapterChoice, Compiled, Gpu, GpuError, Reading, Source},
-    layout::PackedSlice,
+    layout::{PackedCounters, PackedDispatch},
 };
 use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_collect_to_vec, pod_read_unaligned};
 use std::ops::Range;
 
 const ROW_BYTES: u64 = 16;
 
-/// Everything that lives on the GPU, and dies with it.
+/// All GPU resources, which are lost with the device.
 pub struct Device {
     pub gpu: Gpu,
-    /// Image or buffer, not auto.
+    /// Image or buffer, never auto.
     pub fetch: Fetch,
     pub layouts: Layouts,
     pub buffers: Buffers,
-    /// What the view needs: views of one scene differ in what moves and shines.
+    /// The pipeline for the current view: views of one scene differ in motion and lights.
     pipeline: wgpu::ComputePipeline,
     pub developer: Option<Developer>,
-    pub projector: Option<Projector>,
-    /// The window whose sums are in the film buffer.
-    pub loaded_window: Option<usize>,
+    pub presenter: Option<Presenter>,
+    /// Index of the film tile whose sums are in the film buffer.
+    pub loaded_tile: Option<usize>,
 }
 
 impl Device {
@@ -55,13 +55,13 @@ impl Device {
             buffers,
             pipeline,
             developer: None,
-            projector: None,
-            loaded_window: None,
+            presenter: None,
+            loaded_tile: None,
         })
     }
 
-    /// Puts another frame in place, or another scene with it, and makes room for its film. `spare` bytes
-    /// may be allocated beyond what is needed.
+    /// Switches to another frame, or to another scene with its frame, and ensures room for its film. Up to
+    /// `spare` bytes may be allocated beyond what is needed.
     pub fn set(&mut self, task: Task, spare: u64, stats: &mut Stats) -> Result<(), GpuError> {
         let start = Instant::now();
         let (gpu, layouts) = (&self.gpu, &self.layouts);
@@ -71,111 +71,106 @@ impl Device {
         let shown = (task.scene, task.view);
         (self.buffers).set(gpu, layouts, shown, spare, &mut stats.uploads)?;
         stats.upload_seconds += start.elapsed().as_secs_f64();
-        self.loaded_window = None;
+        self.loaded_tile = None;
         self.pipeline = compile(gpu, self.fetch, layouts, &self.buffers, task, stats)?;
         Ok(())
     }
 
-    /// The sums of the window that is on the device.
-    pub fn fetch_film(&self, window: &mut Window) -> Result<(), GpuError> {
+    /// Reads back the sums of the film tile on the device.
+    pub fn fetch_film(&self, tile: &mut FilmTile) -> Result<(), GpuError> {
         let encoder = self.gpu.device.create_command_encoder(&Default::default());
         let rows = Source {
             buffer: &self.buffers.film,
             offset: 0,
-            bytes: window.row_count() as u64 * ROW_BYTES,
+            bytes: tile.row_count() as u64 * ROW_BYTES,
         };
         let staging = &self.buffers.staging;
         self.gpu
             .submit_and_read(encoder, &[rows], staging, |bytes| {
-                window.sums.clear();
-                window
-                    .sums
+                tile.sums.clear();
+                tile.sums
                     .extend_from_slice(&pod_collect_to_vec::<u8, [f32; 4]>(bytes));
             })
     }
 
-    /// Submits one slice of the window with this index, without waiting for it. [`Device::finish`] takes up
-    /// what comes of it.
+    /// Submits one slice of the film tile with this index, without waiting for it. [`Device::finish`] collects
+    /// the results.
     pub fn launch(
         &mut self,
         slice: &Slice,
-        (index, window): (usize, &Window),
+        (index, tile): (usize, &FilmTile),
         settings: &RenderSettings,
-        back: Back,
+        back: Readback,
     ) -> Result<Reading, GpuError> {
         let Self { gpu, buffers, .. } = self;
-        if self.loaded_window != Some(index) {
-            gpu.write(&buffers.film, 0, cast_slice(&window.sums))?;
-            self.loaded_window = Some(index);
+        if self.loaded_tile != Some(index) {
+            gpu.write(&buffers.film, 0, cast_slice(&tile.sums))?;
+            self.loaded_tile = Some(index);
         }
-        let packed = slice.packed(window, settings);
-        gpu.write(&buffers.slice, 0, bytes_of(&packed))?;
+        let packed = slice.packed(tile, settings);
+        gpu.write(&buffers.dispatch, 0, bytes_of(&packed))?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let (columns, rows) = slice.grid();
-        let grid = (gpu.dispatched(columns), rows);
+        let grid = (gpu.dispatch_columns(columns), rows);
         dispatch(&mut encoder, &self.pipeline, buffers, grid);
-        let accounts = Source {
-            buffer: &buffers.slice,
-            offset: 0,
-            bytes: size_of::<PackedSlice>() as u64,
-        };
-        let rows = back.rows(slice, window);
+        let counters = counters(&buffers.dispatch);
+        let rows = back.rows(slice, tile);
         let sums = Source {
             buffer: &buffers.film,
             offset: rows.start as u64 * ROW_BYTES,
             bytes: rows.len() as u64 * ROW_BYTES,
         };
-        let sources = &[accounts, sums][..1 + usize::from(!rows.is_empty())];
+        let sources = &[counters, sums][..1 + usize::from(!rows.is_empty())];
         gpu.submit_reading(encoder, sources, &buffers.staging)
     }
 
-    /// The accounts of a slice that was launched, for which this waits. What came back of the film goes to
-    /// the window if the slice was done in full.
+    /// Waits for a launched slice and returns its counters. The sums that were read back are stored in the tile
+    /// if the slice is complete.
     pub fn finish(
         &self,
         reading: Reading,
         slice: &Slice,
-        window: &mut Window,
-        back: Back,
-    ) -> Result<PackedSlice, GpuError> {
-        let rows = back.rows(slice, window);
+        tile: &mut FilmTile,
+        back: Readback,
+    ) -> Result<PackedCounters, GpuError> {
+        let rows = back.rows(slice, tile);
         self.gpu.read(reading, |bytes| {
-            let (tally, sums) = bytes.split_at(size_of::<PackedSlice>());
-            let tally = pod_read_unaligned(tally);
-            if slice.is_complete(&tally) {
-                cast_slice_mut(&mut window.sums[rows]).copy_from_slice(sums);
+            let (counters, sums) = bytes.split_at(size_of::<PackedCounters>());
+            let counters = pod_read_unaligned(counters);
+            if slice.is_complete(&counters) {
+                cast_slice_mut(&mut tile.sums[rows]).copy_from_slice(sums);
             }
-            tally
+            counters
         })
     }
 }
 
-/// What of the film comes to the host with a slice.
+/// Which part of the film is read back with a slice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Back {
+pub enum Readback {
     /// Nothing.
     Nothing,
-    /// Its tiles.
-    Tiles,
-    /// The window.
-    Window,
+    /// Its workgroups.
+    Groups,
+    /// The whole film tile.
+    Tile,
 }
 
-impl Back {
-    /// The rows of the window's film.
-    fn rows(self, slice: &Slice, window: &Window) -> Range<usize> {
-        let tile_rows = TILE_PIXELS * window.rows_per_pixel();
+impl Readback {
+    /// The film rows to read back.
+    fn rows(self, slice: &Slice, tile: &FilmTile) -> Range<usize> {
+        let group_rows = GROUP_PIXELS * tile.rows_per_pixel();
         match self {
             Self::Nothing => 0..0,
-            Self::Tiles => {
-                slice.first_tile as usize * tile_rows..slice.end_tile as usize * tile_rows
+            Self::Groups => {
+                slice.first_group as usize * group_rows..slice.end_group as usize * group_rows
             }
-            Self::Window => 0..window.row_count(),
+            Self::Tile => 0..tile.row_count(),
         }
     }
 }
 
-/// A device like the one that was lost.
+/// Opens a replacement for a lost device.
 pub fn reopen(
     choice: &AdapterChoice,
     fetch: Fetch,
@@ -186,8 +181,17 @@ pub fn reopen(
     Device::new(Gpu::open(choice, needs)?, fetch, task, stats)
 }
 
-/// The integrator's pipeline. One that is new runs once on nothing, which is when some drivers really
-/// compile.
+/// The counters in a buffer of dispatch parameters, to be read back.
+pub fn counters(dispatch: &wgpu::Buffer) -> Source<'_> {
+    Source {
+        buffer: dispatch,
+        offset: std::mem::offset_of!(PackedDispatch, counters) as u64,
+        bytes: size_of::<PackedCounters>() as u64,
+    }
+}
+
+/// The pipeline of the integrator. A new one is dispatched once without work, because some drivers only compile
+/// then.
 fn compile(
     gpu: &Gpu,
     fetch: Fetch,
@@ -201,13 +205,13 @@ fn compile(
     let Compiled { pipeline, is_new } =
         pipelines::tracing(gpu, fetch, layouts, kernel, overrides::of(task))?;
     if is_new {
-        let idle = PackedSlice {
-            tile_count: 1,
-            tile_columns: 1,
+        let idle = PackedDispatch {
+            group_count: 1,
+            group_columns: 1,
             grid_width: 1,
             ..Default::default()
         };
-        gpu.write(&buffers.slice, 0, bytes_of(&idle))?;
+        gpu.write(&buffers.dispatch, 0, bytes_of(&idle))?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         dispatch(&mut encoder, &pipeline, buffers, (1, 1));
         gpu.submit(encoder.finish())?;

@@ -1,5 +1,5 @@
-//! How much work one sample of a pixel may be, as far as it is known before: a submission cannot do less
-//! than one sample of one tile, and drivers reset a GPU that takes too long over one.
+//! Estimates the work of one sample of a pixel in advance: a submission cannot do less than one sample of one
+//! workgroup, and drivers reset a GPU that takes too long.
 
 use super::{FilmError, RenderError, RenderSettings};
 use crate::{
@@ -8,16 +8,16 @@ use crate::{
 };
 use std::fmt;
 
-/// Most shadow rays from one point: what one light of any format may ask for. In a lane of its own a GPU
-/// takes a good part of a second for so many.
-pub const MOST_SHADOW_RAYS: u64 = 1 << 16;
+/// Maximum number of shadow rays from one point, which is also the maximum that a single light of any format
+/// may request. For this many a GPU takes a good part of a second in a single lane.
+pub const MAX_SHADOW_RAYS: u64 = 1 << 16;
 
-/// More rays than this can end a driver's loops without anything else that is unusual.
+/// More rays than this can exceed a driver's loop limit on their own.
 const MANY_RAYS: u64 = 512;
 /// More primitives than this can, if every ray tests all of them.
 const MANY_PRIMITIVES: u64 = 4096;
 
-/// What makes a sample too much work for the loops of a driver.
+/// Why a sample exceeds the loop limit of a driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LongPath {
     /// Every ray tests all primitives.
@@ -25,24 +25,24 @@ pub enum LongPath {
         /// Triangles and shapes, instances not counted.
         primitives: u64,
     },
-    /// The lights.
+    /// Many shadow rays.
     ShadowRays {
-        /// Of all lights.
+        /// Number of lights.
         lights: u64,
-        /// From every point that a ray meets.
+        /// Shadow rays from every hit point.
         rays: u64,
     },
-    /// Mirrored and refracted rays.
+    /// Reflected and refracted rays.
     Depth {
-        /// The most that lead to a ray.
+        /// Maximum number of bounces of a path.
         bounces: u32,
     },
-    /// Nothing of these: rays meet the boxes of very many primitives.
+    /// None of these: rays hit the boxes of very many primitives.
     Crowded,
 }
 
 impl LongPath {
-    /// What it most likely is.
+    /// The most likely cause.
     pub fn of(scene: &PackedScene, view: &PackedView, settings: &RenderSettings) -> Self {
         let primitives = (scene.triangles.len() + scene.shapes.len()) as u64;
         let shadow = shadow_rays(view, settings);
@@ -85,7 +85,7 @@ impl fmt::Display for LongPath {
     }
 }
 
-/// Shadow rays from one point that a camera ray meets: one for each light, or for each of its samples.
+/// Shadow rays from the hit point of a camera ray: one for each light, or for each sample of an area light.
 pub fn shadow_rays(view: &PackedView, settings: &RenderSettings) -> u64 {
     if !view.has_lights || !settings.integrator.entry().is_lit {
         return 0;
@@ -101,24 +101,24 @@ pub fn shadow_rays(view: &PackedView, settings: &RenderSettings) -> u64 {
         .fold(0, u64::saturating_add)
 }
 
-/// Refuses lights that take too many shadow rays from one point, and ranges of samples that cannot be told
-/// before the first ones are there.
+/// Rejects lights that need too many shadow rays from one point, and sample ranges with adaptive sampling,
+/// where they are not known in advance.
 pub fn check(view: &PackedView, settings: &RenderSettings) -> Result<(), RenderError> {
     if settings.is_adaptive() && settings.sample_range.is_some() {
         return Err(FilmError::Adaptive.into());
     }
     let rays = shadow_rays(view, settings);
-    if rays > MOST_SHADOW_RAYS {
+    if rays > MAX_SHADOW_RAYS {
         return Err(RenderError::TooManyShadowRays {
             lights: u64::from(view.frame.light_count),
             rays,
-            limit: MOST_SHADOW_RAYS,
+            limit: MAX_SHADOW_RAYS,
         });
     }
     Ok(())
 }
 
-/// The most bounces that lead to a ray.
+/// Maximum number of bounces of a path.
 fn bounces(scene: &PackedScene, settings: &RenderSettings) -> u32 {
     let sends_on = scene.features.reflection || scene.features.refraction;
     match sends_on && settings.integrator.entry().is_lit {

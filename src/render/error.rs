@@ -1,32 +1,32 @@
-//! Why a picture cannot be rendered.
+//! Errors of the renderer.
 
 use super::{FilmError, effort::LongPath};
 use crate::gpu::GpuError;
 
-/// Why a picture cannot be rendered.
+/// An error of the renderer.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
     /// The device or its driver failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// There is no such film.
+    /// The film does not exist as requested.
     #[error(transparent)]
     Film(#[from] FilmError),
-    /// The driver ended a shader's loops early, even with one sample in an invocation.
+    /// The driver ended the loops of a shader early, even with one sample per invocation.
     #[error(
-        "too much work in one sample ({0}): this driver ends a shader's loops after 65,535 rounds, and the picture would be wrong."
+        "too much work in one sample ({0}): this driver ends the loops of a shader after 65,535 iterations, so the picture would be wrong."
     )]
     PathTooLong(LongPath),
-    /// One sample would keep a GPU busy for longer than drivers allow.
+    /// One sample would keep the GPU busy for longer than drivers allow.
     #[error(
-        "too many shadow rays ({lights} lights): every point takes {rays}, at most {limit} are possible before a driver may reset the GPU."
+        "too many shadow rays ({lights} lights): every point needs {rays}, at most {limit} are possible before a driver may reset the GPU."
     )]
     TooManyShadowRays {
-        /// Of the scene.
+        /// Number of lights of the scene.
         lights: u64,
-        /// From each point that a camera ray meets.
+        /// Shadow rays from each hit point of a camera ray.
         rays: u64,
-        /// The most possible.
+        /// The maximum.
         limit: u64,
     },
 }

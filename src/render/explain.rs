@@ -1,57 +1,62 @@
-//! All rays of a pixel, one by one: `kernels/whitted.wesl` with the feature `record`.
+//! Records all rays of a pixel: `kernels/whitted.wesl` with the feature `record`.
 //!
-//! The same code runs that traced the picture, once more for each sample, with the same random numbers.
-//! It writes what it does into a buffer of its own: the film, which may still be growing, is not touched.
+//! The same kernel that rendered the picture, compiled a second time with recording enabled, runs once more for
+//! each sample with the same random numbers. It writes to its own buffer, so the film, which may still be
+//! growing, is not changed.
 
 mod tree;
 
 pub use tree::{RayHit, RayKind, RaySplit, RayTree, SampleTree, ShadowRay, TracedRay};
 
 use super::{
-    Integrator, RenderError, RenderSettings, Renderer, device::Device, layouts::group, overrides,
-    pipelines, task::Task,
+    Integrator, RenderError, RenderSettings, Renderer,
+    device::{self, Device},
+    layouts::group,
+    overrides, pipelines,
+    task::Task,
 };
 use crate::{
     gpu::{GpuError, Kernel, Source},
-    layout::{NONE, PROBE_ROWS, PackedProbe, PackedRay, PackedSlice, RAY_ROWS},
+    layout::{NONE, PROBE_ROWS, PackedCounters, PackedDispatch, PackedProbe, PackedRay, RAY_ROWS},
 };
 use bytemuck::{Pod, bytes_of, cast_slice, pod_read_unaligned};
 use std::ops::Range;
 use tree::Reader;
 use wgpu::BufferUsages;
 
-/// Most rays of a sample that are kept.
-const MOST_RAYS: u32 = 1 << 16;
-/// Most rays of a pixel that are kept, when many samples are asked for.
-const MOST_PIXEL_RAYS: u32 = 1 << 18;
-/// Most samples in a submission.
-const MOST_PROBES: usize = 1024;
-/// Most rays of a submission together: 32 MiB of them.
-const MOST_RECORDS: u32 = (32 << 20) / (16 * RAY_ROWS);
-/// Lanes of a workgroup, each of which takes a sample.
+/// Maximum number of recorded rays of a sample.
+const MAX_RAYS: u32 = 1 << 16;
+/// Maximum number of recorded rays of a pixel, over all its samples.
+const MAX_PIXEL_RAYS: u32 = 1 << 18;
+/// Maximum number of samples in a submission.
+const MAX_PROBES: usize = 1024;
+/// Maximum number of recorded rays of a submission: 32 MiB.
+const MAX_RECORDS: u32 = (32 << 20) / (16 * RAY_ROWS);
+/// Lanes of a workgroup; each traces one sample.
 const LANES: usize = 64;
-/// There is no film here, and nothing is counted.
-const WITHOUT: [&str; 4] = ["COUNT_RAYS", "ADAPTIVE", "FILM_ROWS", "SQUARES_ROW"];
+/// Overrides that the kernel lacks, because it has no film and counts no rays.
+const UNUSED_OVERRIDES: [&str; 4] = ["COUNT_RAYS", "ADAPTIVE", "FILM_ROWS", "SQUARES_ROW"];
 
-/// What came of a submission.
+/// The results of a submission.
 struct Records {
-    accounts: PackedSlice,
+    counters: PackedCounters,
     probes: Vec<PackedProbe>,
     rays: Vec<PackedRay>,
 }
 
 impl Renderer {
-    /// Every ray of some samples of a pixel of the picture. Their contributions add up to the samples'
-    /// colours, and these by their weights to [`RayTree::value`]. With the samples 0 to
-    /// [`Self::samples_at`] that is the pixel's value in the film when the render is done.
+    /// Traces samples of a pixel of the picture and records all their rays. The contributions of the rays add
+    /// up to the colour of a sample, and the weighted colours of the samples to [`RayTree::value`]. With the
+    /// samples 0 to [`Self::samples_at`] that is the pixel's value in the finished film.
     ///
-    /// Of very many rays the first are kept, and [`SampleTree::ray_count`] says how many there were.
+    /// If there are too many rays, only the first are recorded, and [`SampleTree::ray_count`] is their full
+    /// number.
     ///
-    /// It can be called at any moment and leaves the film as it is. The rays are those of
-    /// [`Integrator::Whitted`], whatever the settings' integrator is.
+    /// This can be called at any time and does not change the film. The rays are those of
+    /// [`Integrator::Whitted`], whatever integrator the settings specify.
     ///
     /// # Errors
-    /// The device failed, or the driver ends a shader's loops early even for one sample.
+    /// The device failed, or the driver ends the loops of a shader early even for one sample.
     pub fn explain(
         &mut self,
         pixel: [u32; 2],
@@ -61,7 +66,7 @@ impl Renderer {
         Ok(RayTree::new(pixel, self.explain_samples(wanted)?))
     }
 
-    /// The same for several pixels, which takes fewer submissions than one after the other.
+    /// Like [`Self::explain`] for several pixels, with fewer submissions.
     ///
     /// # Errors
     /// As [`Self::explain`].
@@ -80,13 +85,13 @@ impl Renderer {
         Ok(pixels.iter().map(tree).collect())
     }
 
-    /// The samples that a pixel of the picture is to get; with adaptive sampling those of the rounds that
-    /// are done. 0 outside of [`RenderSettings::region`].
+    /// The number of samples that a pixel will have; with adaptive sampling the number after the finished
+    /// rounds. 0 outside of [`RenderSettings::region`].
     pub fn samples_at(&self, pixel: [u32; 2]) -> u32 {
         let [x, y, width, height] = self.settings.region();
         let within = |at: u32, start: u32, length: u32| (start..start + length).contains(&at);
         match within(pixel[0], x, width) && within(pixel[1], y, height) {
-            true => self.windows.samples_at(pixel),
+            true => self.tiles.samples_at(pixel),
             false => 0,
         }
     }
@@ -97,7 +102,7 @@ impl Renderer {
     ) -> Result<Vec<SampleTree>, RenderError> {
         let mut trees = Vec::with_capacity(wanted.len());
         let (mut pixel, mut room) = (None, 0);
-        for part in wanted.chunks(MOST_PROBES) {
+        for part in wanted.chunks(MAX_PROBES) {
             let mut probes: Vec<_> = (part.iter())
                 .map(|&([pixel_x, pixel_y], sample)| PackedProbe {
                     pixel_x,
@@ -106,20 +111,20 @@ impl Renderer {
                     ..Default::default()
                 })
                 .collect();
-            // Once to count the rays, so that there is just enough room for them.
+            // First only count the rays, to allocate exactly enough room.
             let counted = self.record(&probes, 0)?.probes;
             for (probe, counted) in probes.iter_mut().zip(&counted) {
                 let place = Some([probe.pixel_x, probe.pixel_y]);
                 if pixel != place {
-                    (pixel, room) = (place, MOST_PIXEL_RAYS);
+                    (pixel, room) = (place, MAX_PIXEL_RAYS);
                 }
-                probe.ray_limit = counted.ray_count.min(MOST_RAYS).min(room);
+                probe.ray_limit = counted.ray_count.min(MAX_RAYS).min(room);
                 room -= probe.ray_limit;
             }
             let mut rest = &mut probes[..];
             while !rest.is_empty() {
-                let (now, later) = rest.split_at_mut(fitting(rest));
-                let record_count = place(now);
+                let (now, later) = rest.split_at_mut(probes_that_fit(rest));
+                let record_count = assign_rows(now);
                 let records = self.record(now, record_count)?;
                 let reader = Reader::new(&self.scene, &self.view);
                 let mut rays = &records.rays[..];
@@ -134,7 +139,7 @@ impl Renderer {
         Ok(trees)
     }
 
-    /// Traces the probes, each in a lane of its own, with room for so many rays behind them.
+    /// Traces the probes, one per lane, with room for `record_count` rays after them.
     fn record(
         &mut self,
         probes: &[PackedProbe],
@@ -142,13 +147,13 @@ impl Renderer {
     ) -> Result<Records, RenderError> {
         let records =
             self.surviving_losses(|renderer| renderer.dispatch_probes(probes, record_count))?;
-        match records.accounts.cut_off_paths {
+        match records.counters.cut_off_paths {
             0 => Ok(records),
             _ => Err(self.path_too_long()),
         }
     }
 
-    /// The kernel that records.
+    /// The pipeline of the recording kernel.
     fn recorder(&self) -> Result<wgpu::ComputePipeline, GpuError> {
         let settings = RenderSettings {
             integrator: Integrator::Whitted,
@@ -159,10 +164,10 @@ impl Renderer {
             view: &self.view,
             settings: &settings,
             policy: &self.policy,
-            film_rows: self.windows.largest(),
+            film_rows: self.tiles.largest(),
         };
         let mut overrides = overrides::of(task);
-        overrides.retain(|(name, _)| !WITHOUT.contains(name));
+        overrides.retain(|(name, _)| !UNUSED_OVERRIDES.contains(name));
         let Device {
             gpu,
             fetch,
@@ -192,14 +197,14 @@ impl Renderer {
         let groups = (padded.len() / LANES) as u32;
         let probe_bytes = size_of_val(&padded[..]) as u64;
         let bytes = probe_bytes + u64::from(record_count) * size_of::<PackedRay>() as u64;
-        let slice_bytes = size_of::<PackedSlice>() as u64;
+        let counter_bytes = size_of::<PackedCounters>();
         let storage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let mapped = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
         let records = gpu.allocate("records", bytes, storage)?;
-        let staging = gpu.allocate("staging", slice_bytes + bytes, mapped)?;
+        let staging = gpu.allocate("staging", counter_bytes as u64 + bytes, mapped)?;
         let own_group = group(gpu, &device.layouts.film, &[records.as_entire_binding()]);
         gpu.write(&records, 0, cast_slice(&padded))?;
-        gpu.write(&device.buffers.slice, 0, bytes_of(&self.packed(groups)))?;
+        gpu.write(&device.buffers.dispatch, 0, bytes_of(&self.packed(groups)))?;
 
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
@@ -210,42 +215,38 @@ impl Renderer {
             pass.set_bind_group(2, &own_group, &[]);
             pass.dispatch_workgroups(groups, 1, 1);
         }
-        let accounts = Source {
-            buffer: &device.buffers.slice,
-            offset: 0,
-            bytes: slice_bytes,
-        };
+        let counters = device::counters(&device.buffers.dispatch);
         let written = Source {
             buffer: &records,
             offset: 0,
             bytes,
         };
-        let records = gpu.submit_and_read(encoder, &[accounts, written], &staging, |bytes| {
-            let (accounts, written) = bytes.split_at(slice_bytes as usize);
+        let records = gpu.submit_and_read(encoder, &[counters, written], &staging, |bytes| {
+            let (counters, written) = bytes.split_at(counter_bytes);
             let (written_probes, rays) = written.split_at(probe_bytes as usize);
             let mut traced: Vec<PackedProbe> = read_all(written_probes);
             traced.truncate(probes.len());
             Records {
-                accounts: pod_read_unaligned(accounts),
+                counters: pod_read_unaligned(counters),
                 probes: traced,
                 rays: read_all(rays),
             }
         })?;
-        // A driver that stops a dispatch of a thousand samples is as good as lost.
-        match records.accounts.tiles_done == groups {
+        // A driver that stops a dispatch of a thousand samples is treated as lost.
+        match records.counters.groups_done == groups {
             true => Ok(records),
             false => Err(GpuError::Lost),
         }
     }
 
-    /// What the kernel reads of the settings.
-    fn packed(&self, groups: u32) -> PackedSlice {
+    /// The dispatch parameters.
+    fn packed(&self, groups: u32) -> PackedDispatch {
         let settings = &self.settings;
-        PackedSlice {
+        PackedDispatch {
             picture_width: settings.size.0,
             picture_height: settings.size.1,
-            tile_count: groups,
-            end_tile: groups,
+            group_count: groups,
+            end_group: groups,
             grid_width: groups,
             seed: settings.seed,
             max_depth: settings.max_depth,
@@ -261,9 +262,9 @@ fn read_all<T: Pod>(bytes: &[u8]) -> Vec<T> {
     each.map(pod_read_unaligned).collect()
 }
 
-/// How many of the probes, at least one, have room in one submission.
-fn fitting(probes: &[PackedProbe]) -> usize {
-    let mut room = MOST_RECORDS;
+/// How many of the probes fit in one submission, at least one.
+fn probes_that_fit(probes: &[PackedProbe]) -> usize {
+    let mut room = MAX_RECORDS;
     let fits = |probe: &&PackedProbe| {
         let left = room.checked_sub(probe.ray_limit);
         room = left.unwrap_or(0);
@@ -272,8 +273,8 @@ fn fitting(probes: &[PackedProbe]) -> usize {
     probes.iter().take_while(fits).count().max(1)
 }
 
-/// Says where each probe's rays go, behind the probes of whole workgroups, and how many there are.
-fn place(probes: &mut [PackedProbe]) -> u32 {
+/// Assigns rows to the rays of each probe, after the probes of whole workgroups. Returns the number of rays.
+fn assign_rows(probes: &mut [PackedProbe]) -> u32 {
     let first_row = PROBE_ROWS * probes.len().next_multiple_of(LANES) as u32;
     let mut count = 0;
     for probe in probes {

@@ -1,9 +1,9 @@
-//! What was gathered of a picture, as a value: it can be written, read, merged with other parts of the same
-//! picture, and developed.
+//! The film: the accumulated samples of a picture as a value that can be written, read, merged with other parts
+//! of the same picture, and developed.
 //!
-//! Sums are kept pixel by pixel, whatever windows and submissions they came from, and blocks of samples are
-//! added exactly ([`SAMPLE_BLOCK`]). So parts of a picture, cut anywhere between pixels and between blocks,
-//! merge in any order to the same film, which is that of one run.
+//! Sums are stored for each pixel, independent of film tiles and submissions, and blocks of samples are added
+//! exactly ([`SAMPLE_BLOCK`]). Parts of a picture, split anywhere between pixels and between blocks, therefore
+//! merge in any order to the same film as a single run.
 
 mod coverage;
 mod develop;
@@ -21,48 +21,49 @@ use super::{
 use coverage::{Coverage, SampleSet};
 use std::{collections::BTreeSet, fmt::Debug, ops::Range};
 
-/// What a film is a part of. Films whose headers differ in more than adapters do not belong together.
+/// The picture that a film is a part of. Films can be merged only if their headers differ at most in the
+/// adapters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmHeader {
-    /// Of the packed scene.
+    /// Fingerprint of the packed scene.
     pub scene: Fingerprint,
-    /// Of the packed frame: camera, lights and what moves.
+    /// Fingerprint of the packed frame: camera, lights and instances.
     pub view: Fingerprint,
-    /// Of the settings of the whole picture.
+    /// Fingerprint of the settings of the whole picture.
     pub settings: Fingerprint,
-    /// What camera rays brought back.
+    /// The integrator.
     pub integrator: Integrator,
     /// Width and height of the whole picture in pixels.
     pub size: (u32, u32),
-    /// Samples of each pixel in the whole picture; with adaptive sampling the most.
+    /// Samples of each pixel in the whole picture; with adaptive sampling the maximum.
     pub samples: u32,
-    /// What is known of a pixel.
+    /// The layers of each pixel.
     pub layers: &'static [&'static Layer],
-    /// How the picture is developed unless told otherwise.
+    /// The default tone for developing the picture.
     pub tone: Tone,
-    /// Names of the adapters that took part. Others may round otherwise.
+    /// Names of the adapters that took part; different adapters may round differently.
     pub adapters: BTreeSet<String>,
 }
 
-/// Part of a picture, or all of it.
+/// A part of a picture, or all of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     header: FilmHeader,
     coverage: Coverage,
-    /// Of each patch of the coverage, its pixels row by row.
+    /// For each patch of the coverage, its pixels row by row.
     sums: Vec<Sums>,
 }
 
-/// Pixels and samples that a film does not have.
+/// Pixels and samples that a film lacks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Missing {
     /// x, y, width and height in pixels of the whole picture.
     pub region: [u32; 4],
-    /// Of each of its pixels.
+    /// The samples missing in each of its pixels.
     pub samples: Range<u32>,
 }
 
-/// The sums of a rectangle, its pixels row by row, and which samples are in them.
+/// The sums of a rectangle, row by row, and the range of their samples.
 pub(super) struct Piece {
     pub region: [u32; 4],
     pub samples: Range<u32>,
@@ -70,18 +71,18 @@ pub(super) struct Piece {
 }
 
 impl FilmHeader {
-    /// Whether pixels have as many samples as they need. Then a pixel has the mean of its samples and their
-    /// number, and samples cannot be cut.
+    /// Whether sampling was adaptive. A pixel then stores the mean and the number of its samples, and samples
+    /// cannot be split.
     pub fn is_adaptive(&self) -> bool {
         self.layers.contains(&&layers::COUNT)
     }
 
-    /// Whether the sums of these samples are those of one block.
+    /// Whether these samples are stored as a single block.
     fn is_block(&self, samples: &SampleSet) -> bool {
         self.is_adaptive() || samples.block_count() == 1
     }
 
-    /// Refuses the header of another picture.
+    /// Rejects the header of another picture.
     fn check_same(&self, other: &Self) -> Result<(), FilmError> {
         fn same<T: PartialEq + Debug>(what: &'static str, a: &T, b: &T) -> Result<(), FilmError> {
             match a == b {
@@ -117,7 +118,7 @@ impl FilmHeader {
 }
 
 impl Film {
-    /// Of pieces that do not overlap.
+    /// A film of pieces that do not overlap.
     pub(super) fn new(header: FilmHeader, pieces: Vec<Piece>) -> Result<Self, FilmError> {
         let mut coverage = Coverage::default();
         for piece in &pieces {
@@ -132,7 +133,7 @@ impl Film {
             coverage = united(&coverage, &own)?;
         }
         let parts = pieces.iter().map(|piece| (piece.region, &piece.sums));
-        let sums = gathered(&header, &coverage, parts);
+        let sums = combined_sums(&header, &coverage, parts);
         Ok(Self {
             header,
             coverage,
@@ -140,28 +141,27 @@ impl Film {
         })
     }
 
-    /// What it is a part of.
+    /// The header.
     pub fn header(&self) -> &FilmHeader {
         &self.header
     }
 
-    /// Says how the picture is developed unless told otherwise.
+    /// Sets the default tone for developing the picture.
     pub fn set_tone(&mut self, tone: Tone) {
         self.header.tone = tone;
     }
 
-    /// The rectangle round all pixels that have samples: x, y, width, height.
+    /// The bounding rectangle of all pixels with samples: x, y, width, height.
     pub fn region(&self) -> [u32; 4] {
         self.coverage.bounds()
     }
 
-    /// Its rectangles (x, y, width, height) and the ranges of samples that their pixels have, from top to
-    /// bottom and from left to right.
+    /// Its rectangles (x, y, width, height) and their ranges of samples, from top to bottom and left to right.
     pub fn parts(&self) -> impl Iterator<Item = ([u32; 4], &[Range<u32>])> {
         (self.coverage.patches()).map(|(region, samples)| (region, samples.ranges()))
     }
 
-    /// Both films together.
+    /// Merges two films.
     ///
     /// # Errors
     /// They are not of the same picture, or have samples in common.
@@ -176,7 +176,7 @@ impl Film {
             let regions = film.coverage.patches().map(|(region, _)| region);
             regions.zip(&film.sums)
         });
-        let sums = gathered(&header, &coverage, parts);
+        let sums = combined_sums(&header, &coverage, parts);
         Ok(Self {
             header,
             coverage,
@@ -184,12 +184,12 @@ impl Film {
         })
     }
 
-    /// What it lacks of the whole picture: nothing if that is complete.
+    /// The missing parts of the whole picture; empty if the film is complete.
     pub fn missing(&self) -> Vec<Missing> {
         self.missing_of([0, 0, self.header.size.0, self.header.size.1])
     }
 
-    /// What it lacks of a rectangle of the picture: x, y, width, height.
+    /// The missing parts of a rectangle of the picture: x, y, width, height.
     pub fn missing_of(&self, region: [u32; 4]) -> Vec<Missing> {
         let all = SampleSet::new(0..self.header.samples);
         let lacking = Coverage::rectangle(region, all).without(&self.coverage);
@@ -200,7 +200,7 @@ impl Film {
         lacking.patches().flat_map(each).collect()
     }
 
-    /// Rows of a pixel.
+    /// Rows per pixel.
     fn rows(&self) -> usize {
         layers::rows(self.header.layers)
     }
@@ -211,8 +211,8 @@ fn united(first: &Coverage, second: &Coverage) -> Result<Coverage, FilmError> {
     first.union(second).map_err(overlap)
 }
 
-/// The sums of the patches of a coverage, from those of rectangles that are covered.
-fn gathered<'a>(
+/// The sums of the patches of a coverage, combined from those of rectangles within it.
+fn combined_sums<'a>(
     header: &FilmHeader,
     coverage: &Coverage,
     parts: impl Iterator<Item = ([u32; 4], &'a Sums)>,

@@ -1,16 +1,16 @@
-//! Short names for long bytes: two things with the same fingerprint are the same.
+//! Fingerprints: things with the same fingerprint are treated as equal.
 
 use crate::pack::{Features, PackedScene, PackedView};
 use std::fmt;
 use xxhash_rust::xxh3::Xxh3;
 
-/// XXH3 of 128 bits, stable across runs, machines and builds. It finds accidents, not forgeries. Displayed in
-/// hexadecimal digits.
+/// A 128-bit XXH3 hash, stable across runs, machines and builds. It detects accidental differences, not
+/// forgeries. Displayed in hexadecimal.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Fingerprint(pub u128);
 
 impl Fingerprint {
-    /// Of everything in a packed scene that a picture depends on.
+    /// The fingerprint of everything in a packed scene that affects a picture.
     pub fn of_scene(scene: &PackedScene) -> Self {
         let Features {
             shape_kinds,
@@ -47,7 +47,7 @@ impl Fingerprint {
         encoder.finish()
     }
 
-    /// Of everything in a packed frame that a picture depends on.
+    /// The fingerprint of everything in a packed frame that affects a picture.
     pub fn of_view(view: &PackedView) -> Self {
         let mut encoder = Encoder::new("view", 1);
         for part in view.parts() {
@@ -72,11 +72,11 @@ impl fmt::Debug for Fingerprint {
     }
 }
 
-/// Puts values one after the other, such that nothing moves from one to the next unnoticed.
+/// Hashes a sequence of values unambiguously: byte strings are preceded by their length.
 pub(super) struct Encoder(Xxh3);
 
 impl Encoder {
-    /// For what is named so. Who changes what is encoded, or how, counts the version up.
+    /// Starts the fingerprint of a kind of object. Increase the version when the encoding changes.
     pub fn new(name: &str, version: u32) -> Self {
         let mut encoder = Self(Xxh3::new());
         encoder.bytes(name.as_bytes());
@@ -97,7 +97,7 @@ impl Encoder {
         self.number(number.to_bits());
     }
 
-    /// Whether there are numbers, and which.
+    /// Encodes whether there are numbers, and their values.
     pub fn option<const N: usize>(&mut self, numbers: Option<[u32; N]>) {
         self.number(numbers.is_some().into());
         for number in numbers.unwrap_or([0; N]) {

@@ -1,7 +1,6 @@
-//! What a camera ray brings back.
+//! The integrators: what a camera ray computes.
 //!
-//! Another integrator is a variant here with its entry in [`TABLE`], and its kernel; where it shares a kernel,
-//! the branch there.
+//! To add an integrator, add a variant with its entry in [`TABLE`] and a kernel, or a branch in an existing kernel.
 
 use super::levels::Quantity;
 use crate::{
@@ -9,65 +8,65 @@ use crate::{
     layout::{VIEW_DEPTH, VIEW_HEAT, VIEW_IDS, VIEW_NORMALS, VIEW_UV},
 };
 
-/// What a camera ray brings back.
+/// What a camera ray computes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Integrator {
     /// Phong's illumination with shadow rays, and recursive reflection and refraction.
     #[default]
     Whitted,
-    /// Shading normals, components from -1..1 to 0..1; black where nothing is hit.
+    /// Shading normals, with components mapped from -1..1 to 0..1; black without a hit.
     Normals,
-    /// Distance along the ray in scene units; 0 where nothing is hit.
+    /// Distance along the ray in scene units; 0 without a hit.
     Depth,
     /// A colour for each primitive.
     Ids,
-    /// Texture coordinates: u in red and v in green, from 0 to 1 and again, over a pattern of 8 by 8 fields;
-    /// black where nothing is hit and on meshes that have none.
+    /// Texture coordinates: u in red and v in green, repeating over 0 to 1, with a pattern of 8 by 8 fields;
+    /// black without a hit and on meshes without texture coordinates.
     Uv,
-    /// Steps of the tree walk.
+    /// Traversal steps.
     Heat,
-    /// The samples that adaptive sampling spent; raw, as a fraction of those allowed.
+    /// The samples of each pixel with adaptive sampling; as a fraction of the maximum if developed raw.
     Samples,
 }
 
-/// Everything that sets one integrator apart from the others.
+/// The description of an integrator.
 #[derive(Clone, Copy, Debug)]
 pub struct IntegratorEntry {
-    /// Which it is.
+    /// The integrator.
     pub integrator: Integrator,
-    /// Its word on the command line and in files.
+    /// Its name on the command line and in files.
     pub name: &'static str,
     /// Its title in menus.
     pub title: &'static str,
-    /// What it shows, in a few words.
+    /// A short description.
     pub help: &'static str,
     /// Its kernel.
     pub kernel: Kernel,
-    /// The kernel's view, and how the film is developed: one of the `VIEW_` tags.
+    /// The view of the kernel and of developing: one of the `VIEW_` tags.
     pub view: u32,
-    /// What the pictures are of.
+    /// What its pictures show.
     pub shows: Shows,
-    /// Whether it goes on from what a camera ray meets: lights, mirrors and glass matter, and adaptive
-    /// sampling can judge its pixels.
+    /// Whether it computes shading: lights, reflection and refraction matter, and adaptive sampling can judge
+    /// its pixels.
     pub is_lit: bool,
-    /// Whether it looks up u and v where no texture asks for them.
+    /// Whether it needs texture coordinates even without textures.
     pub needs_uvs: bool,
-    /// Whether rounds of the tree walk are counted.
+    /// Whether it counts traversal steps.
     pub counts_steps: bool,
 }
 
-/// What the pictures of an integrator are of, which says how they are developed unless told otherwise.
+/// What the pictures of an integrator show, which determines how they are developed by default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shows {
-    /// Radiance: as the scene says.
+    /// Radiance: developed with the tone of the scene.
     Radiance,
-    /// Colours that stand for something: as they are.
+    /// False colours: not tone-mapped.
     Colors,
-    /// A quantity: over the range found.
+    /// A quantity: shown over the range found in the picture.
     Quantity(Quantity),
 }
 
-/// All integrators, in the order in which they are offered.
+/// All integrators, in menu order.
 pub const TABLE: [IntegratorEntry; 7] = [
     IntegratorEntry {
         kernel: Kernel::WHITTED,
@@ -75,8 +74,8 @@ pub const TABLE: [IntegratorEntry; 7] = [
         is_lit: true,
         ..debug_view(
             Integrator::Whitted,
-            ("whitted", "Picture"),
-            "Phong shading, shadows, mirrors and glass",
+            ("whitted", "Full render"),
+            "Phong shading with shadows, reflection and refraction",
             VIEW_NORMALS,
         )
     },
@@ -115,8 +114,8 @@ pub const TABLE: [IntegratorEntry; 7] = [
         counts_steps: true,
         ..debug_view(
             Integrator::Heat,
-            ("heat", "Work in the tree"),
-            "steps of each ray through the tree, from black over blue to white",
+            ("heat", "BVH heatmap"),
+            "BVH traversal steps of each ray, from black through blue to white",
             VIEW_HEAT,
         )
     },
@@ -127,13 +126,13 @@ pub const TABLE: [IntegratorEntry; 7] = [
         ..debug_view(
             Integrator::Samples,
             ("samples", "Samples"),
-            "the samples that adaptive sampling spent, from black to white",
+            "sample counts of adaptive sampling, from black to white",
             VIEW_NORMALS,
         )
     },
 ];
 
-/// Colours for what a camera ray meets.
+/// The entry of a debug view.
 const fn debug_view(
     integrator: Integrator,
     (name, title): (&'static str, &'static str),
@@ -155,18 +154,18 @@ const fn debug_view(
 }
 
 impl Integrator {
-    /// Everything about it.
+    /// The description.
     pub const fn entry(self) -> &'static IntegratorEntry {
         &TABLE_IN_PLACE[self as usize]
     }
 
-    /// The one with this name.
+    /// The integrator with this name.
     pub fn named(name: &str) -> Option<Self> {
         let entry = TABLE.iter().find(|entry| entry.name == name)?;
         Some(entry.integrator)
     }
 
-    /// What it measures; `None` for those that show colours.
+    /// The quantity it measures; `None` if it shows colours.
     pub fn quantity(self) -> Option<Quantity> {
         match self.entry().shows {
             Shows::Quantity(quantity) => Some(quantity),

@@ -1,8 +1,8 @@
-//! The layers of films: what is kept of the samples of a pixel.
+//! The layers of films: the data accumulated for each pixel.
 //!
-//! Another layer is another constant here and its place in [`of_sampling`] and [`of_pictures`]; and in
-//! `shaders/scene/film.wesl` a member of `Sample` and of `Sum`, with the row that it is loaded from and stored
-//! in. Memory, windows, exact totals, files and merging follow from the table.
+//! To add a layer, add a constant here and list it in [`of_sampling`] and [`of_pictures`]; then add a member to
+//! `Sample` and `Sum` in `shaders/scene/film.wesl`, with the row that it is loaded from and stored to. Memory,
+//! film tiles, exact totals, files and merging follow from the table.
 
 use super::settings::RenderSettings;
 
@@ -13,45 +13,45 @@ pub struct Layer {
     pub name: &'static str,
     /// Rows of four numbers for each pixel, at least 1.
     pub rows: usize,
-    /// How it comes about, and what becomes of it.
+    /// How it is accumulated and developed.
     pub kind: LayerKind,
 }
 
-/// How a layer comes about, and what becomes of it.
+/// How a layer is accumulated and developed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LayerKind {
-    /// Three sums of what samples bring back times their weights, and the sum of the weights. Their ratio
-    /// is developed, through the tone.
+    /// Three weighted sums of sample values, and the sum of the weights. Their ratio is developed with the
+    /// tone.
     Weighted,
-    /// The sum of the squares of luminance, which says when a pixel is good enough; then the pixel's place,
-    /// and 1. It is not developed.
+    /// The sum of squared luminance, which decides when a pixel has converged; then the pixel position, and 1.
+    /// It is not developed.
     Squares,
-    /// How many samples there are, which is known without the GPU; then zeros. It is developed as a grey level.
+    /// The number of samples, which is known without the GPU; then zeros. It is developed as a grey level.
     Count,
 }
 
-/// Linear radiance, or what else an integrator brings back.
+/// Linear radiance, or the value of another integrator.
 pub const RADIANCE: Layer = Layer {
     name: "radiance",
     rows: 1,
     kind: LayerKind::Weighted,
 };
 
-/// By what adaptive sampling stops.
+/// The stopping criterion of adaptive sampling.
 pub const SQUARES: Layer = Layer {
     name: "squares",
     rows: 1,
     kind: LayerKind::Squares,
 };
 
-/// Where the samples of adaptive sampling went.
+/// The sample counts of adaptive sampling.
 pub const COUNT: Layer = Layer {
     name: "count",
     rows: 1,
     kind: LayerKind::Count,
 };
 
-/// The layers on the GPU while samples are added, in the order of their rows.
+/// The layers on the GPU during sampling, in row order.
 pub fn of_sampling(settings: &RenderSettings) -> &'static [&'static Layer] {
     match settings.is_adaptive() {
         true => &[&RADIANCE, &SQUARES],
@@ -59,7 +59,7 @@ pub fn of_sampling(settings: &RenderSettings) -> &'static [&'static Layer] {
     }
 }
 
-/// The layers of the film that comes of it.
+/// The layers of the resulting film.
 pub fn of_pictures(settings: &RenderSettings) -> &'static [&'static Layer] {
     match settings.is_adaptive() {
         true => &[&RADIANCE, &COUNT],
@@ -76,12 +76,12 @@ pub fn named(names: &[String]) -> Option<&'static [&'static Layer]> {
     LISTS.iter().find(is_wanted).copied()
 }
 
-/// Rows of all layers together.
+/// Total number of rows per pixel.
 pub fn rows(layers: &[&Layer]) -> usize {
     layers.iter().map(|layer| layer.rows).sum()
 }
 
-/// The first row of a layer among those of a pixel.
+/// The first row of a layer within a pixel.
 pub fn row_of(layers: &[&Layer], wanted: &Layer) -> Option<usize> {
     let index = layers.iter().position(|layer| *layer == wanted)?;
     Some(rows(&layers[..index]))

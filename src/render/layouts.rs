@@ -1,14 +1,14 @@
-//! Layouts of the bind groups of `bindings.wesl`, and the groups made after them.
+//! Bind group layouts of `bindings.wesl`, and bind groups.
 
 use super::policy::Fetch;
 use crate::gpu::Gpu;
 use wgpu::{BindGroupLayout, BindingType, BufferBindingType, TextureFormat};
 
-/// Of the images that hold rows of the scene.
+/// Format of the images that hold rows of the scene.
 pub const ROW_FORMAT: TextureFormat = TextureFormat::Rgba32Uint;
-/// Of pictures in the scene.
+/// Format of the texels of pictures.
 pub const TEXEL_FORMAT: TextureFormat = TextureFormat::Rgba16Float;
-/// Of what is looked at: values as they go to the screen, already encoded.
+/// Format of screen textures: values already encoded for display.
 pub const SCREEN_FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 
 /// Layouts of groups 0 to 3.
@@ -88,7 +88,7 @@ pub fn group(
     group_at(gpu, layout, &numbered)
 }
 
-/// The same at the bindings that stand with them.
+/// A bind group of resources at the given bindings.
 pub fn group_at(
     gpu: &Gpu,
     layout: &BindGroupLayout,

@@ -1,14 +1,14 @@
-//! Views of quantities (distances, samples, work) and the range over which they are shown.
+//! Views of quantities (distances, samples, traversal steps) and the range over which they are shown.
 
 use super::{RenderError, Renderer, Tone};
 
-/// Fraction of a pixel's samples that must hit something, as in `lib/quantity.wesl`.
+/// Minimum fraction of hits among the samples of a pixel, as in `lib/quantity.wesl`.
 const LEAST_COVERAGE: f32 = 0.01;
 
 /// The range over which a view of a quantity is shown. Other pictures are not affected.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Levels {
-    /// None: the values stay as they are, and are developed like radiance.
+    /// No range: values are developed like radiance.
     #[default]
     Raw,
     /// Over the range found in the picture so far: [`Renderer::range`].
@@ -17,21 +17,21 @@ pub enum Levels {
     Fixed([f32; 2]),
 }
 
-/// What a view measures.
+/// The quantity that a view measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// Distance along the ray in scene units. The nearest is white, the farthest dark grey, and doubling
-    /// the distance is the same step everywhere; black is no hit.
+    /// Distance along the ray in scene units, on a logarithmic scale from white for the nearest to dark grey
+    /// for the farthest; black without a hit.
     Distance,
     /// Samples of a pixel, from black for the fewest to white for the most.
     Samples,
-    /// Steps of the tree walk for a ray: black, blue, green, yellow, red, white.
+    /// Traversal steps of a ray: black, blue, green, yellow, red, white.
     Work,
 }
 
 impl Quantity {
-    /// Fraction of the pixels at either end that a range leaves out: a horizon, or a few expensive rays along
-    /// an edge, would leave no levels for the rest.
+    /// Fraction of the pixels excluded from the range at both ends: otherwise a horizon, or a few expensive
+    /// rays along an edge, would leave no levels for the rest.
     pub fn outliers(self) -> f64 {
         match self {
             Self::Distance => 0.02,
@@ -50,8 +50,8 @@ impl Quantity {
     }
 }
 
-/// Where a value lies in a range, from 0 to 1; in the middle of one that has no extent.
-pub(super) fn place(value: f32, [least, most]: [f32; 2]) -> f32 {
+/// The position of a value in a range, from 0 to 1; 0.5 for an empty range.
+pub(super) fn position_in_range(value: f32, [least, most]: [f32; 2]) -> f32 {
     match most > least {
         true => ((value - least) / (most - least)).clamp(0.0, 1.0),
         false => 0.5,
@@ -59,11 +59,11 @@ pub(super) fn place(value: f32, [least, most]: [f32; 2]) -> f32 {
 }
 
 impl Renderer {
-    /// The least and the greatest value in the picture so far, less [`Quantity::outliers`]. `None` where it
-    /// shows no quantity or has no value yet. Pixels without a hit have no distance.
+    /// The minimum and maximum in the picture so far, without [`Quantity::outliers`]. `None` if the integrator
+    /// shows no quantity or there is no value yet. Pixels without a hit have no distance.
     ///
     /// # Errors
-    /// The device failed while the film was fetched.
+    /// The device failed during readback of the film.
     pub fn range(&mut self) -> Result<Option<[f32; 2]>, RenderError> {
         let Some(quantity) = self.settings.integrator.quantity() else {
             return Ok(None);
@@ -72,10 +72,10 @@ impl Renderer {
             return Ok(extent(self.counts(), quantity));
         }
         self.fetch_film()?;
-        let windows = self.windows.developable(self.policy.slicing.window_side);
-        let rows = windows
+        let tiles = self.tiles.developable(self.policy.slicing.tile_side);
+        let rows = tiles
             .iter()
-            .flat_map(|(window, rows)| rows.iter().step_by(window.rows_per_pixel()));
+            .flat_map(|(tile, rows)| rows.iter().step_by(tile.rows_per_pixel()));
         Ok(extent(values(quantity, rows), quantity))
     }
 
@@ -84,11 +84,11 @@ impl Renderer {
         let [x, y, width, height] = self.settings.region();
         let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
         pixels
-            .map(|pixel| self.windows.samples_at(pixel) as f32)
+            .map(|pixel| self.tiles.samples_at(pixel) as f32)
             .collect()
     }
 
-    /// The range that a tone asks for.
+    /// The range for a tone.
     pub(super) fn range_of(&mut self, tone: &Tone) -> Result<Option<[f32; 2]>, RenderError> {
         match tone.levels {
             Levels::Raw => Ok(None),
@@ -98,10 +98,10 @@ impl Renderer {
     }
 }
 
-/// The values of pixels that have any, from the rows of their sums.
+/// The values of all pixels that have one, from their film rows.
 pub(super) fn values<'a>(quantity: Quantity, rows: impl Iterator<Item = &'a [f32; 4]>) -> Vec<f32> {
     let value = |[value, hits, _, weight]: &[f32; 4]| {
-        // Padding and what has no sample yet weigh nothing.
+        // Padding and pixels without samples have no weight.
         let is_sampled = weight.abs() > 0.5;
         let hits = hits / weight;
         match quantity {
@@ -114,7 +114,7 @@ pub(super) fn values<'a>(quantity: Quantity, rows: impl Iterator<Item = &'a [f32
     rows.filter_map(value).collect()
 }
 
-/// The least and the greatest value, less [`Quantity::outliers`].
+/// The minimum and maximum, without [`Quantity::outliers`].
 pub(super) fn extent(mut values: Vec<f32>, quantity: Quantity) -> Option<[f32; 2]> {
     let last = values.len().checked_sub(1)?;
     let skipped = (values.len() as f64 * quantity.outliers()) as usize;

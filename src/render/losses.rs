@@ -1,4 +1,4 @@
-//! Going on after the device was lost.
+//! Recovery from device loss.
 
 use super::{
     Fetch, RenderError, Renderer, Stats,
@@ -8,7 +8,7 @@ use super::{
 use crate::gpu::GpuError;
 
 impl Renderer {
-    /// Repeats `attempt` on a fresh device when the old one is lost; see [`Self::survives_losses`].
+    /// Retries `attempt` on a new device after a loss; see [`Self::survives_losses`].
     pub(super) fn surviving_losses<T>(
         &mut self,
         mut attempt: impl FnMut(&mut Self) -> Result<T, GpuError>,
@@ -21,19 +21,19 @@ impl Renderer {
         }
     }
 
-    /// Whether the film on the host holds all finished slices, and the device is ours to replace. Else its
-    /// loss is the caller's.
+    /// Whether a loss can be recovered from: the host has the sums of all finished slices, and the device
+    /// belongs to the renderer. Otherwise the caller gets the error.
     pub(super) fn survives_losses(&self) -> bool {
         self.policy.host_copy && self.device.gpu.is_own()
     }
 
-    /// Goes on with another device after a loss.
+    /// Continues on another device after a loss.
     pub(super) fn recover(&mut self) -> Result<(), RenderError> {
         self.stats.count_loss(self.earlier_losses)?;
         self.replace_device(self.device.fetch)
     }
 
-    /// Goes on with a device whose limits serve the view.
+    /// Continues on a device whose limits meet the needs of the view.
     pub(super) fn replace_device(&mut self, fetch: Fetch) -> Result<(), RenderError> {
         let choice = self.device.gpu.choice().clone();
         let task = Task {
@@ -41,7 +41,7 @@ impl Renderer {
             view: &self.view,
             settings: &self.settings,
             policy: &self.policy,
-            film_rows: self.windows.largest(),
+            film_rows: self.tiles.largest(),
         };
         let reopen = |stats: &mut Stats| device::reopen(&choice, fetch, task, stats);
         let device = reopen(&mut self.stats);
@@ -50,7 +50,7 @@ impl Renderer {
     }
 }
 
-/// The device, or another one if it was lost while it was made; that may be lost in turn.
+/// The device, or a replacement if it was lost during creation; the replacement may be lost in turn.
 pub fn or_replacement(
     mut device: Result<Device, GpuError>,
     stats: &mut Stats,

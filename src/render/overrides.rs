@@ -1,4 +1,5 @@
-//! What of the scene, the frame and the settings is compiled into a kernel: the overrides of `bindings.wesl`.
+//! The overrides of `bindings.wesl`: properties of the scene, the frame and the settings that are compiled into
+//! a kernel.
 
 use super::{layers, settings::TriangleTest, task::Task};
 use crate::{

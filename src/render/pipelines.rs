@@ -1,9 +1,9 @@
-//! Pipelines of kernels that trace.
+//! Pipelines of the kernels that trace rays.
 
 use super::{layouts::Layouts, policy::Fetch};
 use crate::gpu::{Compiled, Gpu, GpuError, Kernel, Overrides};
 
-/// A kernel for groups 0 to 2, specialised by these overrides.
+/// A pipeline for bind groups 0 to 2, specialised by these overrides.
 pub fn tracing(
     gpu: &Gpu,
     fetch: Fetch,

@@ -1,20 +1,20 @@
-//! How work is done, which never shows in a picture.
+//! How the work is executed. The policy never affects the picture.
 
 use crate::gpu::MEMORY_LIMIT_BYTES;
 
-/// How a picture is made: with any policy it is the same.
+/// How a picture is rendered. The policy does not affect the result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExecutionPolicy {
-    /// How work is cut into submissions.
+    /// How work is split into submissions.
     pub slicing: Slicing,
-    /// Whether the film comes to the host after each submission, so that a lost device costs no more
-    /// than one. Without, it comes when it is asked for, and a loss is an error.
+    /// Whether the film is read back after each submission, so that a lost device costs at most one submission.
+    /// Otherwise it is read back on request, and a loss is an error.
     pub host_copy: bool,
-    /// Through what the shader reads the scene.
+    /// How shaders read the scene.
     pub fetch: Fetch,
-    /// Most memory that scene and picture may take, in bytes.
+    /// Memory limit for scene and picture, in bytes.
     pub memory_limit_bytes: u64,
-    /// Whether [`super::Stats::rays`] is kept.
+    /// Whether to count [`super::Stats::rays`].
     pub count_rays: bool,
 }
 
@@ -30,39 +30,38 @@ impl Default for ExecutionPolicy {
     }
 }
 
-/// Through what the shader reads nodes and triangles.
+/// How shaders read nodes and triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Fetch {
-    /// Images on software adapters, buffers elsewhere where they are large enough.
+    /// Images on software adapters; elsewhere buffers if they are large enough.
     #[default]
     Auto,
-    /// Storage images: the faster way on software adapters.
+    /// Storage images: faster on software adapters.
     Image,
-    /// Storage buffers: the faster way on most GPUs, where one binding can hold the scene.
+    /// Storage buffers: faster on most GPUs, if one binding can hold the scene.
     Buffer,
 }
 
-/// How work is cut into submissions.
+/// How work is split into submissions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slicing {
-    /// Time that one submission should take, in seconds.
+    /// Target time of a submission, in seconds.
     pub target_seconds: f64,
-    /// Most tiles of 8x8 pixels in a submission, at least 1.
-    pub max_tiles: u32,
-    /// Most samples per pixel in a submission, at least 1.
+    /// Maximum number of workgroups of 8x8 pixels in a submission, at least 1.
+    pub max_groups: u32,
+    /// Maximum number of samples per pixel in a submission, at least 1.
     pub max_samples: u32,
-    /// Longest side of a window, the part of the picture that is on the GPU at a time, in pixels;
-    /// 8 to 2048.
-    pub window_side: u32,
+    /// Maximum side of a film tile, the part of the picture that is on the GPU at a time, in pixels; 8 to 2048.
+    pub tile_side: u32,
 }
 
 impl Default for Slicing {
     fn default() -> Self {
         Self {
             target_seconds: 0.1,
-            max_tiles: u32::MAX,
+            max_groups: u32::MAX,
             max_samples: 16,
-            window_side: 2048,
+            tile_side: 2048,
         }
     }
 }

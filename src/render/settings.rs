@@ -1,14 +1,13 @@
-//! What is to be rendered, apart from the scene.
+//! Render settings.
 
 use super::{Fingerprint, Integrator, fingerprint::Encoder};
 use crate::scene::{Antialias, Filter, OutputDefaults};
 use std::ops::Range;
 
-/// The throughput below which rays are not sent, unless told otherwise: half of what shows
-/// in 8 bits.
+/// The default minimum throughput of rays: half of the smallest 8-bit step.
 pub const MIN_THROUGHPUT: f32 = 1.0 / 512.0;
 
-/// Settings of one picture. Together with scene, frame and seed they determine every pixel.
+/// Settings of one picture. Together with scene and frame they determine every pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderSettings {
     /// Width and height of the whole picture in pixels, at least 1.
@@ -17,31 +16,32 @@ pub struct RenderSettings {
     pub crop: Option<[u32; 4]>,
     /// Samples per pixel, at least 1.
     pub samples: u32,
-    /// Which of them to render, all without it: within 0 to `samples`, not empty, and not with adaptive
-    /// sampling. For a film both ends are multiples of [`super::SAMPLE_BLOCK`], or the last is `samples`.
+    /// The range of samples to render, or all of them: within 0 to `samples`, not empty, and not with adaptive
+    /// sampling. For a film both ends must be multiples of [`super::SAMPLE_BLOCK`], or the end must be
+    /// `samples`.
     pub sample_range: Option<Range<u32>>,
-    /// Where in a pixel its samples lie.
+    /// How samples are distributed over a pixel.
     pub antialias: Antialias,
     /// The noise at which adaptive sampling stops; see [`Antialias::Adaptive`]. Above 0.
     pub noise: f32,
-    /// What samples are weighted by; without effect where they all lie at the centre.
+    /// Reconstruction filter; without effect if all samples are at the centre.
     pub filter: Filter,
-    /// Half the filter's width in pixels, above 0.
+    /// Filter radius in pixels, above 0.
     pub filter_radius: f32,
-    /// Factor on the samples of every area light, above 0; each has at least one all the same.
+    /// Factor on the sample count of every area light, above 0; each keeps at least one sample.
     pub light_samples: f32,
-    /// What a camera ray brings back.
+    /// The integrator.
     pub integrator: Integrator,
-    /// How rays meet triangles.
+    /// Ray–triangle intersection algorithm.
     pub triangle_test: TriangleTest,
-    /// Tests every primitive for every ray instead of walking the tree. For checking it.
+    /// Tests every primitive for every ray instead of traversing the BVH, to verify it.
     pub brute_force: bool,
-    /// Chooses the random numbers.
+    /// Seed of the random numbers.
     pub seed: u32,
-    /// Bounces after the first hit; 0 is local shading only.
+    /// Maximum number of bounces after the first hit; 0 means local shading only.
     pub max_depth: u32,
-    /// Mirrored and refracted rays are sent whose throughput, the mean of the channels, is at
-    /// least this, 0 to 1.
+    /// Minimum throughput of reflected and refracted rays, averaged over the channels, 0 to 1. Rays below it
+    /// are not traced.
     pub min_throughput: f32,
 }
 
@@ -68,7 +68,7 @@ impl Default for RenderSettings {
 }
 
 impl From<&OutputDefaults> for RenderSettings {
-    /// What the scene says, and everything else by default.
+    /// The output defaults of the scene, and defaults for everything else.
     fn from(output: &OutputDefaults) -> Self {
         let antialias = if output.samples > 1 {
             Antialias::Stratified
@@ -90,7 +90,7 @@ impl From<&OutputDefaults> for RenderSettings {
 }
 
 impl RenderSettings {
-    /// Whether pixels stop when they are good enough.
+    /// Whether sampling is adaptive: pixels stop once they have converged.
     pub fn is_adaptive(&self) -> bool {
         self.antialias == Antialias::Adaptive && self.integrator.entry().is_lit
     }
@@ -106,7 +106,7 @@ impl RenderSettings {
         self.sample_range.clone().unwrap_or(0..self.samples)
     }
 
-    /// The settings of the whole picture of which these render a part.
+    /// The settings of the whole picture that these settings render a part of.
     pub fn of_whole(&self) -> Self {
         Self {
             crop: None,
@@ -115,7 +115,7 @@ impl RenderSettings {
         }
     }
 
-    /// A name for all of it, which stays the same in other builds and versions unless what is encoded changes.
+    /// A fingerprint of all settings. It is stable across builds and versions unless the encoding changes.
     pub fn fingerprint(&self) -> Fingerprint {
         let Self {
             size,
@@ -170,14 +170,14 @@ impl RenderSettings {
     }
 }
 
-/// How a ray is tested against a triangle.
+/// Ray–triangle intersection algorithm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TriangleTest {
-    /// The plane, then whether the point is inside.
+    /// Intersects the plane, then tests whether the point is inside.
     Plane,
     /// Möller and Trumbore 1997.
     MollerTrumbore,
-    /// Woop, Benthin and Wald 2013: no ray slips between neighbours.
+    /// Woop, Benthin and Wald 2013: no ray slips between neighbouring triangles.
     #[default]
     Watertight,
 }

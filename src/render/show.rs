@@ -1,4 +1,4 @@
-//! From sums to a picture on the screen, without leaving the GPU: `kernels/show.wesl`.
+//! Develops sums to a texture on the GPU: `kernels/show.wesl`.
 
 use super::{
     Levels, Quantity, RenderError, Renderer, Tone,
@@ -11,15 +11,15 @@ use crate::{
 };
 use bytemuck::{bytes_of, cast_slice};
 
-/// What a window or a test shows: a texture as large as a picture, 8 bits a channel, encoded as its
-/// tone says, with premultiplied alpha.
+/// A texture for display, as large as the picture: 8 bits per channel, encoded with the transfer function of
+/// the tone, premultiplied alpha.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Screen {
     view: wgpu::TextureView,
 }
 
 impl Screen {
-    /// The texture, to be sampled without any conversion.
+    /// The texture, to be sampled without conversion.
     pub fn view(&self) -> &wgpu::TextureView {
         &self.view
     }
@@ -31,14 +31,14 @@ impl Screen {
     }
 }
 
-/// What showing keeps on the GPU once it has been used.
-pub struct Projector {
+/// GPU resources for display, created on first use.
+pub struct Presenter {
     pipeline: wgpu::ComputePipeline,
     tone: wgpu::Buffer,
 }
 
 impl Renderer {
-    /// A black screen as large as the picture, or as its crop.
+    /// A black screen of the size of the picture or its crop.
     pub fn new_screen(&self) -> Result<Screen, RenderError> {
         let [.., width, height] = self.settings.region();
         let view = self
@@ -48,39 +48,38 @@ impl Renderer {
         Ok(Screen { view })
     }
 
-    /// The part of the picture that is rendered: x, y, width, height in pixels.
+    /// The rendered part of the picture: x, y, width, height in pixels.
     pub fn region(&self) -> [u32; 4] {
         self.settings.region()
     }
 
-    /// Samples that every pixel has got, for a picture that [`Self::shows_directly`]; else the fraction
-    /// of all that has been done.
+    /// The number of samples of every pixel, for a picture that [`Self::shows_directly`]; otherwise an estimate
+    /// from the progress.
     pub fn samples_done(&self) -> u32 {
-        match self.windows.is_one_rectangle() && !self.is_done() {
+        match self.tiles.is_one_rectangle() && !self.is_done() {
             true => self.cursor.sample,
             false => (self.progress() * f64::from(self.settings.samples)) as u32,
         }
     }
 
-    /// Whether [`Self::show`] leaves the film where it is. Else the host has a part in it: films of
-    /// several windows, more samples than one sum takes, adaptive sampling.
+    /// Whether [`Self::show`] works on the GPU alone. The host is needed for several film tiles, for more
+    /// samples than one block, and for adaptive sampling.
     pub fn shows_directly(&self) -> bool {
-        self.settings.integrator.quantity() != Some(Quantity::Samples)
-            && self.windows.is_one_block()
+        self.settings.integrator.quantity() != Some(Quantity::Samples) && self.tiles.is_one_block()
     }
 
-    /// Puts what has been gathered so far on a screen of the picture's size: for every pixel that has a
-    /// sample what [`Self::develop`] gives, rounded to 8 bits. Returns the range of a quantity over which it
-    /// is shown. Where it [`Self::shows_directly`] and no range is to be found, it waits for nothing.
+    /// Develops the samples so far to a screen of the size of the picture: pixels with samples get the result
+    /// of [`Self::develop`], rounded to 8 bits. Returns the range over which a quantity is shown. If it
+    /// [`Self::shows_directly`] and needs no range, it does not wait for the GPU.
     pub fn show(&mut self, tone: &Tone, screen: &Screen) -> Result<Option<[f32; 2]>, RenderError> {
         let range = self.range_of(tone)?;
         if self.shows_directly() {
             let tone = tone.packed(
                 self.settings.integrator,
                 range,
-                self.windows.list[0].rows_per_pixel(),
+                self.tiles.list[0].rows_per_pixel(),
             );
-            self.surviving_losses(|renderer| renderer.project(&tone, screen))?;
+            self.surviving_losses(|renderer| renderer.present(&tone, screen))?;
             return Ok(range);
         }
         let tone = &Tone {
@@ -96,40 +95,40 @@ impl Renderer {
         Ok(range)
     }
 
-    fn project(&mut self, tone: &PackedTone, screen: &Screen) -> Result<(), GpuError> {
-        if self.device.projector.is_none() {
-            self.device.projector = Some(self.new_projector()?);
+    fn present(&mut self, tone: &PackedTone, screen: &Screen) -> Result<(), GpuError> {
+        if self.device.presenter.is_none() {
+            self.device.presenter = Some(self.new_presenter()?);
         }
         let device = &mut self.device;
         let (gpu, buffers) = (&device.gpu, &device.buffers);
-        let Some(projector) = &device.projector else {
+        let Some(presenter) = &device.presenter else {
             return Err(GpuError::Internal {
                 what: "no show pipeline".into(),
             });
         };
-        let window = &self.windows.list[0];
-        if device.loaded_window != Some(0) {
-            gpu.write(&buffers.film, 0, cast_slice(&window.developable()))?;
-            device.loaded_window = Some(0);
+        let tile = &self.tiles.list[0];
+        if device.loaded_tile != Some(0) {
+            gpu.write(&buffers.film, 0, cast_slice(&tile.developable()))?;
+            device.loaded_tile = Some(0);
         }
         let slice = Slice {
-            first_tile: 0,
-            end_tile: window.tile_count(),
+            first_group: 0,
+            end_group: tile.group_count(),
             first_sample: 0,
             end_sample: 0,
         };
-        let packed = slice.packed(window, &self.settings);
-        gpu.write(&buffers.slice, 0, bytes_of(&packed))?;
-        gpu.write(&projector.tone, 0, bytes_of(tone))?;
+        let packed = slice.packed(tile, &self.settings);
+        gpu.write(&buffers.dispatch, 0, bytes_of(&packed))?;
+        gpu.write(&presenter.tone, 0, bytes_of(tone))?;
         let resources = [
-            (0, projector.tone.as_entire_binding()),
+            (0, presenter.tone.as_entire_binding()),
             (2, wgpu::BindingResource::TextureView(&screen.view)),
         ];
         let target = group_at(gpu, &device.layouts.show, &resources);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(&projector.pipeline);
+            pass.set_pipeline(&presenter.pipeline);
             pass.set_bind_group(1, &buffers.frame_group, &[]);
             pass.set_bind_group(2, &buffers.film_group, &[]);
             pass.set_bind_group(3, &target, &[]);
@@ -139,7 +138,7 @@ impl Renderer {
         gpu.enqueue(encoder.finish()).map(drop)
     }
 
-    fn new_projector(&self) -> Result<Projector, GpuError> {
+    fn new_presenter(&self) -> Result<Presenter, GpuError> {
         let (gpu, layouts) = (&self.device.gpu, &self.device.layouts);
         let groups = [
             None,
@@ -147,7 +146,7 @@ impl Renderer {
             Some(&layouts.film),
             Some(&layouts.show),
         ];
-        Ok(Projector {
+        Ok(Presenter {
             pipeline: gpu
                 .pipeline(&Kernel::SHOW, false, &groups, Vec::new())?
                 .pipeline,

@@ -1,29 +1,29 @@
-//! Cuts the work on a window into submissions that take about the target time each: watchdogs kill
-//! long ones, and nothing can be shown, stopped or saved within one.
+//! Splits the work on a film tile into submissions of about the target time each: watchdogs kill long
+//! submissions, and nothing can be displayed, stopped or saved during one.
 
-use super::{policy::Slicing, settings::RenderSettings, window::Window};
-use crate::layout::PackedSlice;
+use super::{film_tile::FilmTile, policy::Slicing, settings::RenderSettings};
+use crate::layout::{PackedCounters, PackedDispatch};
 
-/// Tiles of the first submission; one that turns out heavier than planned stays short.
-const FIRST_TILES: f64 = 8.0;
-/// Shadow rays from one point for which it is that many; with more of them it is fewer.
+/// Workgroups of the first submission, so that it stays short even if the work is heavier than expected.
+const FIRST_GROUPS: f64 = 8.0;
+/// Number of shadow rays per point above which the first submission has fewer workgroups.
 const FEW_SHADOW_RAYS: f64 = 256.0;
-/// The most by which a submission may be larger than the one before.
+/// Maximum growth from one submission to the next.
 const GROWTH: f64 = 4.0;
-/// Where twice the work takes no more than this much longer, time goes elsewhere: to the submission itself,
-/// or to what else the adapter and the machine have to do. Smaller submissions would only waste it.
+/// If twice the work takes at most this factor longer, the time is spent on overhead: on the submission itself,
+/// or on other work of the adapter and the machine. Smaller submissions would only add overhead.
 const TWICE: f64 = 2.0;
 const HARDLY_LONGER: f64 = 1.4;
-/// Seconds within which submissions grow for that reason: watchdogs wait for a little longer.
+/// Maximum duration, in seconds, up to which submissions grow for that reason: watchdogs allow a little more.
 const LONGEST_WAIT: f64 = 1.5;
-/// Most workgroups along x: a second dimension keeps both below WebGPU's 65,535.
+/// Maximum number of workgroups along x: with a second dimension both stay below the 65,535 of WebGPU.
 const GRID_WIDTH: u32 = 256;
 
-/// What one submission does: some tiles of a window, some samples of their pixels.
+/// The work of one submission: a range of workgroups of a film tile, and a range of samples of their pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Slice {
-    pub first_tile: u32,
-    pub end_tile: u32,
+    pub first_group: u32,
+    pub end_group: u32,
     pub first_sample: u32,
     pub end_sample: u32,
 }
@@ -31,32 +31,32 @@ pub struct Slice {
 impl Slice {
     /// Workgroups along x and y.
     pub fn grid(&self) -> (u32, u32) {
-        let tiles = (self.end_tile - self.first_tile).max(1);
-        let rows = tiles.div_ceil(GRID_WIDTH);
-        (tiles.div_ceil(rows), rows)
+        let groups = (self.end_group - self.first_group).max(1);
+        let rows = groups.div_ceil(GRID_WIDTH);
+        (groups.div_ceil(rows), rows)
     }
 
-    /// Whether every workgroup of the dispatch signed off.
-    pub fn is_signed_off(&self, tally: &PackedSlice) -> bool {
+    /// Whether every workgroup of the dispatch finished.
+    pub fn is_done(&self, counters: &PackedCounters) -> bool {
         let (columns, rows) = self.grid();
-        tally.tiles_done == columns * rows
+        counters.groups_done == columns * rows
     }
 
-    /// Whether all of it was done, and no path cut off.
-    pub fn is_complete(&self, tally: &PackedSlice) -> bool {
-        self.is_signed_off(tally) && tally.cut_off_paths == 0
+    /// Whether every workgroup finished and no path was cut off.
+    pub fn is_complete(&self, counters: &PackedCounters) -> bool {
+        self.is_done(counters) && counters.cut_off_paths == 0
     }
 
-    /// Its first and its last tiles, if it has several.
-    pub fn tile_halves(&self) -> Option<(Self, Self)> {
-        let middle = self.first_tile + (self.end_tile - self.first_tile) / 2;
+    /// Two slices with half of the workgroups each, if there are several.
+    pub fn group_halves(&self) -> Option<(Self, Self)> {
+        let middle = self.first_group + (self.end_group - self.first_group) / 2;
         let mut parts = (*self, *self);
-        parts.0.end_tile = middle;
-        parts.1.first_tile = middle;
-        (middle > self.first_tile).then_some(parts)
+        parts.0.end_group = middle;
+        parts.1.first_group = middle;
+        (middle > self.first_group).then_some(parts)
     }
 
-    /// Its earlier and its later samples, if it has several.
+    /// Two slices with half of the samples each, if there are several.
     pub fn sample_halves(&self) -> Option<(Self, Self)> {
         let middle = self.first_sample + (self.end_sample - self.first_sample) / 2;
         let mut parts = (*self, *self);
@@ -65,25 +65,26 @@ impl Slice {
         (middle > self.first_sample).then_some(parts)
     }
 
-    /// Tiles times samples, the measure of work.
+    /// Workgroups times samples, the measure of work.
     fn work(&self) -> f64 {
-        f64::from(self.end_tile - self.first_tile) * f64::from(self.end_sample - self.first_sample)
+        f64::from(self.end_group - self.first_group)
+            * f64::from(self.end_sample - self.first_sample)
     }
 
-    /// The slice as the shader reads it.
-    pub fn packed(&self, window: &Window, settings: &RenderSettings) -> PackedSlice {
-        PackedSlice {
+    /// The dispatch parameters of the slice.
+    pub fn packed(&self, tile: &FilmTile, settings: &RenderSettings) -> PackedDispatch {
+        PackedDispatch {
             picture_width: settings.size.0,
             picture_height: settings.size.1,
-            window_x: window.x,
-            window_y: window.y,
-            window_width: window.width,
-            window_height: window.height,
-            tile_columns: window.tile_columns(),
-            tile_count: window.tile_count(),
-            tile_stride: window.tile_stride(),
-            first_tile: self.first_tile,
-            end_tile: self.end_tile,
+            tile_x: tile.x,
+            tile_y: tile.y,
+            tile_width: tile.width,
+            tile_height: tile.height,
+            group_columns: tile.group_columns(),
+            group_count: tile.group_count(),
+            group_stride: tile.group_stride(),
+            first_group: self.first_group,
+            end_group: self.end_group,
             grid_width: self.grid().0,
             first_sample: self.first_sample,
             end_sample: self.end_sample,
@@ -96,27 +97,27 @@ impl Slice {
     }
 }
 
-/// Plans slices from how long the last ones took.
+/// Plans slices from the duration of the previous ones.
 #[derive(Clone, Debug)]
 pub struct Planner {
     slicing: Slicing,
     /// Work of the first submission.
     first: f64,
-    /// Work that should fit into the target time.
+    /// Work that is expected to take the target time.
     budget: f64,
-    /// Work below which time is wasted.
+    /// Minimum work, below which overhead dominates.
     floor: f64,
     /// Work and seconds of the last submission.
     last: Option<(f64, f64)>,
-    /// Most samples that an invocation takes.
+    /// Maximum number of samples per invocation.
     max_samples: u32,
 }
 
 impl Planner {
-    /// For a picture whose points take this many shadow rays each.
+    /// A planner for a picture with this many shadow rays per point.
     pub fn new(slicing: Slicing, shadow_rays: u64) -> Self {
         let fraction = FEW_SHADOW_RAYS / (shadow_rays as f64).max(FEW_SHADOW_RAYS);
-        let first = (FIRST_TILES * fraction).max(1.0);
+        let first = (FIRST_GROUPS * fraction).max(1.0);
         Self {
             slicing,
             first,
@@ -127,41 +128,41 @@ impl Planner {
         }
     }
 
-    /// Whether it begins more carefully than another, which has learned from lighter work.
+    /// Whether it starts with smaller slices than another planner, which has learned from lighter work.
     pub fn is_for_more_work_than(&self, other: &Self) -> bool {
         self.first < other.first
     }
 
-    /// The next slice of a sweep over `tile_count` tiles that stands at `first_tile`; all slices of
-    /// a sweep take the same samples.
-    pub fn next(
+    /// The next slice of a sweep over `group_count` workgroups, starting at `first_group`; all slices of a
+    /// sweep have the same samples.
+    pub fn next_slice(
         &self,
-        tile_count: u32,
-        first_tile: u32,
+        group_count: u32,
+        first_group: u32,
         first_sample: u32,
         sweep_samples: u32,
     ) -> Slice {
-        let tiles = (self.budget / f64::from(sweep_samples)) as u32;
-        let tiles = tiles
-            .clamp(1, self.slicing.max_tiles)
-            .min(tile_count - first_tile);
+        let groups = (self.budget / f64::from(sweep_samples)) as u32;
+        let groups = groups
+            .clamp(1, self.slicing.max_groups)
+            .min(group_count - first_group);
         Slice {
-            first_tile,
-            end_tile: first_tile + tiles,
+            first_group,
+            end_group: first_group + groups,
             first_sample,
             end_sample: first_sample + sweep_samples,
         }
     }
 
-    /// Samples per pixel of the next sweep: several only where a slice holds the whole window, which
-    /// then saves submissions.
-    pub fn sweep_samples(&self, tile_count: u32, samples_left: u32) -> u32 {
-        let fitting = (self.budget / f64::from(tile_count)) as u32;
+    /// Samples per pixel of the next sweep. More than one only if a slice covers the whole film tile; that
+    /// saves submissions.
+    pub fn sweep_samples(&self, group_count: u32, samples_left: u32) -> u32 {
+        let fitting = (self.budget / f64::from(group_count)) as u32;
         fitting.clamp(1, self.max_samples).min(samples_left)
     }
 
-    /// Learns from a finished slice.
-    pub fn finished(&mut self, slice: &Slice, seconds: f64) {
+    /// Updates the plan with the duration of a finished slice.
+    pub fn learn(&mut self, slice: &Slice, seconds: f64) {
         let work = slice.work();
         self.floor = match self.last {
             _ if seconds <= self.slicing.target_seconds => self.floor / TWICE,
@@ -172,15 +173,15 @@ impl Planner {
                 } else {
                     (took, seconds)
                 };
-                let is_wasted =
+                let is_overhead =
                     more >= TWICE * less && long <= HARDLY_LONGER * short && long <= LONGEST_WAIT;
-                if is_wasted {
+                if is_overhead {
                     TWICE * more
                 } else {
                     self.floor.min(less)
                 }
             }
-            // Whether it still is wasted shows when there is less of it.
+            // Smaller slices will show whether overhead still dominates.
             _ => self.floor / TWICE,
         }
         .max(1.0);
@@ -190,13 +191,13 @@ impl Planner {
         self.budget = fitting.clamp(self.floor.min(most), most);
     }
 
-    /// Answers paths that the driver cut off: fewer samples in an invocation from now on.
+    /// Reacts to paths that the driver cut off: fewer samples per invocation from now on.
     pub fn shorten_paths(&mut self) {
         self.max_samples = (self.max_samples / 2).max(1);
     }
 
-    /// Answers a slice that the driver cut short: smaller ones from now on.
-    pub fn cut_short(&mut self) {
+    /// Reacts to a slice that the driver cut short: smaller slices from now on.
+    pub fn shrink(&mut self) {
         self.budget = (self.budget / 2.0).max(1.0);
         self.floor = 1.0;
     }

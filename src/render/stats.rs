@@ -1,76 +1,77 @@
-//! The accounts of a render.
+//! Statistics of a render.
 
 use super::RenderError;
-use crate::{gpu::GpuError, layout::PackedSlice};
+use crate::{gpu::GpuError, layout::PackedCounters};
 
-/// How often a lost device is replaced before a picture is given up.
+/// Maximum number of device losses in one picture.
 const MAX_LOSSES: u32 = 3;
 
-/// What a render has cost so far.
+/// Statistics of a render so far.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stats {
-    /// Making pipelines and running each once with nothing to do, when drivers compile.
+    /// Time spent on creating pipelines and running each once without work, which is when drivers compile, in
+    /// seconds.
     pub compile_seconds: f64,
-    /// Copying the scene to the device, again after a loss.
+    /// Time spent on uploading the scene, including after a loss, in seconds.
     pub upload_seconds: f64,
-    /// What was copied to it.
+    /// The uploaded bytes.
     pub uploads: Uploads,
-    /// Tracing, from submission to the copy of the film, whatever came of it.
+    /// Time spent on tracing, from submission to readback, including discarded work, in seconds.
     pub trace_seconds: f64,
-    /// Developing, each time it was asked for.
+    /// Time spent on developing, in seconds.
     pub develop_seconds: f64,
-    /// Submissions that traced.
+    /// Number of tracing submissions.
     pub submissions: u64,
-    /// The longest of them, in milliseconds.
+    /// The duration of the longest one, in milliseconds.
     pub longest_submission_ms: f64,
-    /// Samples that were dropped: with them a sum would be infinite or not a number.
+    /// Samples that were dropped because they would make a sum infinite or NaN.
     pub nonfinite_samples: u64,
-    /// Samples whose ray tree outgrew its stack or had too many rays, or a ray of which came into more
-    /// transparent bodies, one inside the other, than it remembers. What was cut off is missing in the
-    /// picture, and behind bodies that were forgotten it is wrong.
+    /// Samples whose ray tree exceeded its stack or its maximum number of rays, or in which a ray entered more
+    /// nested volumes than its list of media holds. Cut-off rays are missing in the picture, and the media
+    /// behind omitted volumes are wrong.
     pub cut_off_trees: u64,
-    /// Planned memory in bytes, of the frame that takes most; see [`super::ExecutionPolicy::memory_limit_bytes`].
+    /// Planned memory in bytes, of the largest frame; see [`super::ExecutionPolicy::memory_limit_bytes`].
     pub gpu_bytes: u64,
-    /// How often the device was lost and replaced.
+    /// Number of device losses.
     pub device_losses: u32,
-    /// Camera rays whose sum is in the film.
+    /// Number of samples in the film.
     pub samples: u64,
-    /// Kept with [`super::ExecutionPolicy::count_rays`].
+    /// Counted if [`super::ExecutionPolicy::count_rays`] is set.
     pub rays: Option<Rays>,
 }
 
-/// Bytes copied to the device so far. What is there already is not copied again.
+/// Bytes uploaded to the device so far. Unchanged data is not uploaded again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Uploads {
-    /// Trees, triangles, shapes and vertices of scenes.
+    /// BLASes, triangles, shapes and vertices of scenes.
     pub geometry: u64,
     /// Materials, textures and texels.
     pub surfaces: u64,
-    /// Trees over instances, the instances and their keys.
+    /// TLASes, with instances and their keys.
     pub tlas: u64,
     /// Frames with their lights, and keys of moving cameras.
     pub frames: u64,
 }
 
-/// Rays by kind. Shadow rays count one for each light, or sample of a light with extent, that the
-/// surface faces.
+/// Rays by kind. There is one shadow ray for each light, or for each sample of an area light, that the surface
+/// faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rays {
-    /// From the camera, one for each sample.
+    /// Camera rays, one for each sample.
     pub primary: u64,
-    /// Those that hit something.
+    /// Those with a hit.
     pub primary_hits: u64,
-    /// To lights.
+    /// Shadow rays.
     pub shadow: u64,
-    /// Those that hit something before the light.
+    /// Shadow rays that are blocked before the light.
     pub shadow_blocked: u64,
-    /// Mirrored.
+    /// Reflected rays.
     pub reflection: u64,
-    /// Those that hit something.
+    /// Those with a hit.
     pub reflection_hits: u64,
-    /// Refracted.
+    /// Refracted rays.
     pub refraction: u64,
-    /// Those that hit something.
+    /// Those with a hit.
     pub refraction_hits: u64,
 }
 
@@ -81,24 +82,24 @@ impl Stats {
         self.longest_submission_ms = self.longest_submission_ms.max(seconds * 1e3);
     }
 
-    /// Adds the accounts of a slice.
-    pub(super) fn add(&mut self, tally: &PackedSlice) {
-        self.nonfinite_samples += u64::from(tally.nonfinite_samples);
-        self.cut_off_trees += u64::from(tally.cut_off_trees);
+    /// Adds the counters of a slice.
+    pub(super) fn add(&mut self, counters: &PackedCounters) {
+        self.nonfinite_samples += u64::from(counters.nonfinite_samples);
+        self.cut_off_trees += u64::from(counters.cut_off_trees);
         if let Some(rays) = &mut self.rays {
-            rays.primary += u64::from(tally.primary);
-            rays.primary_hits += u64::from(tally.primary_hits);
-            rays.shadow += u64::from(tally.shadow);
-            rays.shadow_blocked += u64::from(tally.shadow_blocked);
-            rays.reflection += u64::from(tally.reflection);
-            rays.reflection_hits += u64::from(tally.reflection_hits);
-            rays.refraction += u64::from(tally.refraction);
-            rays.refraction_hits += u64::from(tally.refraction_hits);
+            rays.primary += u64::from(counters.primary);
+            rays.primary_hits += u64::from(counters.primary_hits);
+            rays.shadow += u64::from(counters.shadow);
+            rays.shadow_blocked += u64::from(counters.shadow_blocked);
+            rays.reflection += u64::from(counters.reflection);
+            rays.reflection_hits += u64::from(counters.reflection_hits);
+            rays.refraction += u64::from(counters.refraction);
+            rays.refraction_hits += u64::from(counters.refraction_hits);
         }
     }
 
-    /// Counts a failure of the device; too many of them in one picture, before which there were
-    /// `earlier` ones, are the end.
+    /// Counts a device failure; fails if there are too many in one picture. `earlier` failures belong to
+    /// previous pictures.
     pub(super) fn count_loss(&mut self, earlier: u32) -> Result<(), RenderError> {
         self.device_losses += 1;
         let count = self.device_losses - earlier;

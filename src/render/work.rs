@@ -1,45 +1,45 @@
-//! Work for the GPU, slice by slice: planned, submitted, and taken up when it is done.
+//! Submits work to the GPU slice by slice and collects the results.
 
 use super::{
-    Cursor, RenderError, Renderer, device::Back, effort::LongPath, slice::Slice,
-    sums::SAMPLE_BLOCK, window::Window, windows::Windows,
+    Cursor, RenderError, Renderer, device::Readback, effort::LongPath, film_tile::FilmTile,
+    film_tiles::FilmTiles, slice::Slice, sums::SAMPLE_BLOCK,
 };
 use crate::{
     clock::Instant,
     gpu::{GpuError, Reading},
-    layout::PackedSlice,
+    layout::PackedCounters,
 };
 
-/// How it stands with the work that [`Renderer::submit`] handed to the GPU.
+/// The state of the work that [`Renderer::submit`] submitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The GPU is at it.
+    /// The GPU is busy.
     Working,
-    /// It is taken up, or there was none: the GPU can have more.
+    /// It is finished, or there was none: the renderer can submit more.
     Ready,
-    /// Every pixel has its samples.
+    /// Every pixel has all its samples.
     Done,
 }
 
-/// A slice that is under way, in parts if it must be.
+/// The current slice, possibly split into parts.
 pub struct Work {
     slice: Slice,
-    /// Those that are still to be submitted, the last one first.
+    /// Parts still to be submitted, the last one first.
     parts: Vec<Slice>,
     running: Option<Running>,
 }
 
-/// What the GPU is at.
+/// A submitted part.
 struct Running {
     part: Slice,
-    back: Back,
+    back: Readback,
     reading: Reading,
     started: Instant,
 }
 
 impl Renderer {
-    /// Adds samples for about [`super::Slicing::target_seconds`], and waits for them. Does nothing when the
-    /// render is done.
+    /// Adds samples for about [`super::Slicing::target_seconds`] and waits for them. Does nothing if the render
+    /// is done.
     ///
     /// # Errors
     /// The device failed or cannot render the scene.
@@ -54,8 +54,8 @@ impl Renderer {
         Ok(())
     }
 
-    /// Hands the GPU its next work, unless it has some or the render is done. Does not wait for it:
-    /// [`Self::poll`] takes up what comes of it.
+    /// Submits the next work unless the GPU is busy or the render is done. Does not wait: [`Self::poll`]
+    /// collects the results.
     ///
     /// # Errors
     /// The device failed.
@@ -65,17 +65,17 @@ impl Renderer {
         }
         let mut work = match self.work.take() {
             Some(work) => work,
-            None => self.planned(),
+            None => self.plan_slice(),
         };
         if let Some(part) = work.parts.pop() {
-            work.running = Some(self.launched(part)?);
+            work.running = Some(self.launch(part)?);
         }
         self.work = Some(work);
         Ok(())
     }
 
-    /// Takes up what the GPU has finished, without waiting for it. A device that is lost is replaced first,
-    /// which takes a moment, where it is the renderer's own.
+    /// Collects finished work without waiting for the GPU. If the device is lost and belongs to the renderer,
+    /// it is replaced first, which takes a moment.
     ///
     /// # Errors
     /// The device failed or cannot render the scene.
@@ -84,7 +84,7 @@ impl Renderer {
             match self.device.gpu.is_readable(&running.reading) {
                 Ok(false) => return Ok(Status::Working),
                 Ok(true) => self.wait()?,
-                Err(error) => self.lost(error)?,
+                Err(error) => self.handle_error(error)?,
             }
         }
         match self.is_done() {
@@ -98,24 +98,26 @@ impl Renderer {
     }
 
     /// The next slice.
-    fn planned(&mut self) -> Work {
-        let window = &mut self.windows.list[self.cursor.window];
-        if window.sums.is_empty() {
-            window.begin();
+    fn plan_slice(&mut self) -> Work {
+        let tile = &mut self.tiles.list[self.cursor.tile];
+        if tile.sums.is_empty() {
+            tile.reset_sums();
         }
-        let tile_count = window.tile_count();
-        if self.cursor.tile == 0 {
-            let left = window.samples.end - self.cursor.sample;
+        let group_count = tile.group_count();
+        if self.cursor.group == 0 {
+            let left = tile.samples.end - self.cursor.sample;
             let in_block = SAMPLE_BLOCK - self.cursor.sample % SAMPLE_BLOCK;
-            self.cursor.sweep_samples = self.planner.sweep_samples(tile_count, left.min(in_block));
+            self.cursor.sweep_samples = self.planner.sweep_samples(group_count, left.min(in_block));
         }
         let Cursor {
-            tile,
+            group,
             sample,
             sweep_samples,
             ..
         } = self.cursor;
-        let slice = self.planner.next(tile_count, tile, sample, sweep_samples);
+        let slice = self
+            .planner
+            .next_slice(group_count, group, sample, sweep_samples);
         Work {
             slice,
             parts: vec![slice],
@@ -123,17 +125,17 @@ impl Renderer {
         }
     }
 
-    fn launched(&mut self, part: Slice) -> Result<Running, RenderError> {
-        let index = self.cursor.window;
+    fn launch(&mut self, part: Slice) -> Result<Running, RenderError> {
+        let index = self.cursor.tile;
         let back = match self.policy.host_copy {
-            true => Back::Tiles,
-            false if ends_block(&part, &self.windows.list[index]) => Back::Window,
-            false => Back::Nothing,
+            true => Readback::Groups,
+            false if ends_block(&part, &self.tiles.list[index]) => Readback::Tile,
+            false => Readback::Nothing,
         };
         let started = Instant::now();
         let reading = self.surviving_losses(|renderer| {
-            let window = &renderer.windows.list[index];
-            (renderer.device).launch(&part, (index, window), &renderer.settings, back)
+            let tile = &renderer.tiles.list[index];
+            (renderer.device).launch(&part, (index, tile), &renderer.settings, back)
         })?;
         Ok(Running {
             part,
@@ -143,7 +145,7 @@ impl Renderer {
         })
     }
 
-    /// Waits for what the GPU is at, if it is at something, and takes it up.
+    /// Waits for submitted work, if any, and collects its results.
     fn wait(&mut self) -> Result<(), RenderError> {
         let Some(running) = self.work.as_mut().and_then(|work| work.running.take()) else {
             return Ok(());
@@ -154,18 +156,18 @@ impl Renderer {
             reading,
             started,
         } = running;
-        let window = &mut self.windows.list[self.cursor.window];
-        match self.device.finish(reading, &part, window, back) {
-            Ok(tally) => self.take_up(part, &tally, started.elapsed().as_secs_f64()),
+        let tile = &mut self.tiles.list[self.cursor.tile];
+        match self.device.finish(reading, &part, tile, back) {
+            Ok(counters) => self.finish_part(part, &counters, started.elapsed().as_secs_f64()),
             Err(error) => {
                 self.submit_again(part);
-                self.lost(error)
+                self.handle_error(error)
             }
         }
     }
 
-    /// Answers an error of what the GPU was at: it is done again if a loss is all that it was.
-    fn lost(&mut self, error: GpuError) -> Result<(), RenderError> {
+    /// Handles an error of submitted work: after a device loss the work is repeated.
+    fn handle_error(&mut self, error: GpuError) -> Result<(), RenderError> {
         if let Some(running) = self.work.as_mut().and_then(|work| work.running.take()) {
             self.submit_again(running.part);
         }
@@ -181,37 +183,37 @@ impl Renderer {
         }
     }
 
-    /// Takes up a part that was done: a driver may stop a dispatch, or end the loops of a path, without a
-    /// word. What it did then is thrown away, and smaller parts follow; where the host has no copy of what
-    /// was there before, the picture starts over, with copies.
-    fn take_up(
+    /// Collects a finished part. A driver may silently stop a dispatch or end the loops of a path. The result
+    /// is then discarded, and the work is repeated in smaller parts; if the host has no copy of the sums before
+    /// it, the picture restarts with host copies.
+    fn finish_part(
         &mut self,
         part: Slice,
-        tally: &PackedSlice,
+        counters: &PackedCounters,
         seconds: f64,
     ) -> Result<(), RenderError> {
         self.stats.submitted(seconds);
-        if part.is_complete(tally) {
-            self.planner.finished(&part, seconds);
-            self.stats.add(tally);
+        if part.is_complete(counters) {
+            self.planner.learn(&part, seconds);
+            self.stats.add(counters);
             if let Some(work) = self.work.take_if(|work| work.parts.is_empty()) {
                 self.advance(&work.slice);
             }
             return Ok(());
         }
-        self.device.loaded_window = None;
+        self.device.loaded_tile = None;
         if !self.policy.host_copy {
             self.policy.host_copy = true;
-            self.windows = Windows::new(&self.settings, self.policy.slicing.window_side);
-            self.cursor = Cursor::at_start(&self.windows);
+            self.tiles = FilmTiles::new(&self.settings, self.policy.slicing.tile_side);
+            self.cursor = Cursor::at_start(&self.tiles);
             self.work = None;
             return Ok(());
         }
         let work = self.work.take();
-        let smaller = if !part.is_signed_off(tally) {
-            self.planner.cut_short();
+        let smaller = if !part.is_done(counters) {
+            self.planner.shrink();
             self.stats.count_loss(self.earlier_losses)?;
-            match part.tile_halves() {
+            match part.group_halves() {
                 Some((first, last)) => vec![last, first],
                 None => vec![part],
             }
@@ -228,54 +230,54 @@ impl Renderer {
         Ok(())
     }
 
-    /// The error of a sample that the driver's loops are too short for.
+    /// The error of a sample that exceeds the driver's loop limit.
     pub(super) fn path_too_long(&self) -> RenderError {
         RenderError::PathTooLong(LongPath::of(&self.scene, &self.view, &self.settings))
     }
 
-    /// Goes on behind a slice that was done.
+    /// Advances the cursor past a finished slice.
     fn advance(&mut self, slice: &Slice) {
-        let window = &mut self.windows.list[self.cursor.window];
-        self.cursor.tile = slice.end_tile;
-        if self.cursor.tile < window.tile_count() {
+        let tile = &mut self.tiles.list[self.cursor.tile];
+        self.cursor.group = slice.end_group;
+        if self.cursor.group < tile.group_count() {
             return;
         }
-        let taken = slice.end_sample - slice.first_sample;
-        self.stats.samples += u64::from(taken) * window.sampled_pixels();
-        self.cursor.tile = 0;
+        let sample_count = slice.end_sample - slice.first_sample;
+        self.stats.samples += u64::from(sample_count) * tile.sampled_pixels();
+        self.cursor.group = 0;
         self.cursor.sample = slice.end_sample;
-        if self.cursor.sample < window.samples.end {
+        if self.cursor.sample < tile.samples.end {
             if self.cursor.sample.is_multiple_of(SAMPLE_BLOCK) {
-                window.close_block();
-                self.device.loaded_window = None;
+                tile.close_block();
+                self.device.loaded_tile = None;
             }
             return;
         }
-        self.cursor.window += 1;
-        if self.is_done() && self.windows.next_round() {
-            self.device.loaded_window = None;
-            self.cursor.window = 0;
+        self.cursor.tile += 1;
+        if self.is_done() && self.tiles.next_round() {
+            self.device.loaded_tile = None;
+            self.cursor.tile = 0;
         }
-        if let Some(next) = self.windows.list.get(self.cursor.window) {
+        if let Some(next) = self.tiles.list.get(self.cursor.tile) {
             self.cursor.sample = next.samples.start;
         }
     }
 
-    /// Brings the sums to the host that are only on the device, once the GPU is done with what it is at.
+    /// Reads back sums that are only on the device, after submitted work has finished.
     pub(super) fn fetch_film(&mut self) -> Result<(), RenderError> {
         self.wait()?;
-        let index = self.cursor.window;
-        let is_there = self.policy.host_copy || self.device.loaded_window != Some(index);
-        match self.windows.list.get_mut(index) {
-            Some(window) if !is_there => Ok(self.device.fetch_film(window)?),
+        let index = self.cursor.tile;
+        let is_there = self.policy.host_copy || self.device.loaded_tile != Some(index);
+        match self.tiles.list.get_mut(index) {
+            Some(tile) if !is_there => Ok(self.device.fetch_film(tile)?),
             _ => Ok(()),
         }
     }
 }
 
-/// Whether the sums of the window are closed, or complete, behind a slice.
-fn ends_block(slice: &Slice, window: &Window) -> bool {
+/// Whether a slice completes the current block, or the tile.
+fn ends_block(slice: &Slice, tile: &FilmTile) -> bool {
     let ends_samples =
-        slice.end_sample == window.samples.end || slice.end_sample.is_multiple_of(SAMPLE_BLOCK);
-    slice.end_tile == window.tile_count() && ends_samples
+        slice.end_sample == tile.samples.end || slice.end_sample.is_multiple_of(SAMPLE_BLOCK);
+    slice.end_group == tile.group_count() && ends_samples
 }

@@ -1,4 +1,4 @@
-//! Adaptive sampling: as good as spending the same everywhere, for less.
+//! Adaptive sampling: the same quality as uniform sampling with fewer samples.
 
 use crate::reference::compare::{assert_none, check_same_bits, render, sliced, start};
 use crate::reference::scenes;
@@ -29,7 +29,7 @@ fn detail_in_a_fifth() -> Scene {
         }],
         ..Scene::default()
     };
-    // The picture reaches from -5 to 5.
+    // The picture covers -5 to 5.
     for i in 0..16 {
         for j in 0..10 {
             let (x, y) = (-4.9 + 0.29 * f64::from(i), -4.9 + 0.43 * f64::from(j));
@@ -121,7 +121,7 @@ fn the_map_of_samples_shows_where_they_went() {
         .sum();
     assert_eq!(spent as u64, stats.samples);
     let at = |x, y| map.pixel(x, y).expect("a pixel")[0] * 64.0;
-    // Above and right of the balls there is nothing to find.
+    // There is nothing above and to the right of the balls.
     assert_eq!((at(80, 10), at(10, 10), at(80, 80)), (4.0, 4.0, 4.0));
     assert!(map.pixels.iter().any(|pixel| pixel[0] == 1.0));
 }
@@ -132,16 +132,16 @@ fn the_cut_of_the_work_does_not_show_in_adaptive_pictures() {
     let whole = settings(Antialias::Adaptive, 300, 0.01);
     let expected = render(&scene, &whole).0;
     assert_none([(1, 3, 2048), (50, 16, 16), (7, 1, 40)].map(
-        |(max_tiles, max_samples, window_side)| {
+        |(max_groups, max_samples, tile_side)| {
             let slicing = Slicing {
-                max_tiles,
+                max_groups,
                 max_samples,
-                window_side,
+                tile_side,
                 ..Slicing::default()
             };
             let cut = sliced(&whole, slicing);
             check_same_bits(
-                &format!("{max_tiles} tiles"),
+                &format!("{max_groups} workgroups"),
                 &expected,
                 &render(&scene, &cut).0,
             )
@@ -149,7 +149,7 @@ fn the_cut_of_the_work_does_not_show_in_adaptive_pictures() {
     ));
 }
 
-/// A small bright ball far out of focus: a disc that few rays of a pixel find.
+/// A small bright ball far out of focus: a disc that few rays of a pixel hit.
 fn blurred_light() -> Scene {
     let mut scene = Scene {
         cameras: vec![Camera {

@@ -1,4 +1,4 @@
-//! Backgrounds that a frame brings along, in place of the scene's.
+//! Backgrounds of a frame that replace that of the scene.
 
 use crate::reference::compare::{assert_none, check_same_bits, render, sized, start};
 use crate::reference::scenes;
@@ -15,8 +15,8 @@ const GRADIENT: Background = Background::Gradient {
     top: Vec3::new(0.2, 0.4, 1.5),
 };
 
-/// A renderer that restarts with a frame before another background, with the scene that it has, gives the
-/// bits of a scene that was packed with that background; and those of its own again.
+/// A renderer restarted with a frame with another background gives the bits of a scene packed with that
+/// background, and afterwards again those of its own.
 fn check(name: &str, scene: &Scene) -> Vec<Result<(), String>> {
     let settings = RenderSettings {
         samples: 3,

@@ -203,6 +203,7 @@ fn help_explains_every_promised_flag_with_an_example() {
         ("compare", "--tolerance --max-share --diff --json".into()),
         ("bench", ["--json --repeats --only", device].join(" ")),
         ("completions", "bash zsh fish".into()),
+        ("man", "<DIR>".into()),
         ("schema", "--help".into()),
     ] {
         let help = place.run(&format!("{command} --help")).expect(0);

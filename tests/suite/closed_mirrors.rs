@@ -1,4 +1,4 @@
-//! Closed bodies that mirror everything, seen from inside: no ray ever gets out.
+//! Closed meshes of perfect mirrors, seen from inside: no ray ever escapes.
 
 use crate::reference::compare::{counting, render, sized};
 use crate::reference::scenes::{self, Build};
@@ -27,11 +27,11 @@ fn tetrahedron() -> Mesh {
     mesh
 }
 
-/// A ball with spikes and interpolated normals, which mirror rays deep into its corners.
+/// A ball with spikes and interpolated normals, which reflect rays deep into its corners.
 fn spiky() -> Mesh {
     let mut mesh = scenes::ball(UVec2::new(24, 12), 0);
     for position in &mut mesh.positions {
-        // The same for all vertices of one place.
+        // The same for all vertices at one position.
         let place = (*position * 1e3).round().as_ivec3();
         let odd = (place.x + 3 * place.y + 5 * place.z).rem_euclid(2);
         *position *= if odd == 1 { 2.2 } else { 1.0 };
@@ -41,7 +41,7 @@ fn spiky() -> Mesh {
     mesh
 }
 
-/// Looks from inside, all round but for what is behind.
+/// Looks from inside in all directions except backwards.
 fn mirrors(look_from: DVec3) -> Scene {
     let mut scene = scenes::empty();
     let camera = &mut scene.cameras[0];

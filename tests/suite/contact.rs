@@ -1,4 +1,4 @@
-//! Bodies of one medium that lie in the same place, in part or as a whole: together they look like one.
+//! Coincident volumes of one medium, in part or as a whole: together they look like one.
 
 use crate::{
     features::boxes,
@@ -87,14 +87,14 @@ fn add_box(scene: &mut Scene, [min, max]: [DVec3; 2]) {
 }
 
 const WHOLE: [DVec3; 2] = [DVec3::NEG_ONE, DVec3::ONE];
-/// Parts of it that share five of its faces, or some of three.
+/// Parts of it that share five faces, or parts of three.
 const PARTS: [[DVec3; 2]; 2] = [
     [DVec3::NEG_ONE, dvec3(0.2, 1.0, 1.0)],
     [dvec3(-1.0, -0.4, -0.5), dvec3(0.2, 0.6, 1.0)],
 ];
 
 #[test]
-fn a_body_within_another_of_the_same_glass_is_not_seen_where_they_share_faces() {
+fn a_volume_inside_another_of_the_same_glass_is_invisible_where_they_share_faces() {
     let mut one = outside();
     add_box(&mut one, WHOLE);
     let expected = picture(&one);
@@ -117,7 +117,8 @@ fn a_body_within_another_of_the_same_glass_is_not_seen_where_they_share_faces() 
     assert_none(rows.collect::<Vec<_>>());
 }
 
-/// A body once, and twice in the same place: of one material, of two, and one of them on a node that may move.
+/// A volume once, and twice in the same position: with one material, with two, and with one copy on a node that
+/// may move.
 fn check_twins(
     name: &str,
     stage: fn() -> Scene,
@@ -174,7 +175,7 @@ fn add_torus(scene: &mut Scene) {
 }
 
 #[test]
-fn coincident_bodies_of_glass_look_like_one() {
+fn coincident_volumes_of_glass_look_like_one() {
     let ball = |scene: &mut Scene| scene.add_sphere(DVec3::ZERO, 1.2, 0);
     let mut rows = check_twins("balls", outside, ball);
     rows.extend(check_twins("meshes", outside, add_torus));
@@ -184,7 +185,7 @@ fn coincident_bodies_of_glass_look_like_one() {
 }
 
 #[test]
-fn a_ray_inside_more_bodies_than_it_remembers_is_counted() {
+fn a_ray_inside_too_many_volumes_is_counted() {
     let nested = |count: usize| {
         let mut scene = stage(dvec3(0.0, 0.0, 20.0), DVec3::ZERO);
         scene.cameras[0].fov_y = 0.01;

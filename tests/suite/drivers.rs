@@ -1,4 +1,4 @@
-//! The same pictures through a second driver: wgpu's OpenGL backend, where there is one.
+//! The same pictures through a second driver: the OpenGL backend of wgpu, if available.
 
 use crate::reference::compare::{assert_none, check_alike, render};
 use crate::support::devices::Devices;
@@ -10,13 +10,13 @@ use glimray::scene::{Scene, Shadows};
 use glimray::{image::Image, pack};
 use std::{path::Path, sync::Arc};
 
-/// The OpenGL backend's adapter, if there is one.
+/// The adapter of the OpenGL backend, if available.
 const GL: AdapterChoice = AdapterChoice {
     backend: Some(Backend::Gl),
     adapter: None,
 };
 
-/// The scene through OpenGL, in linear radiance.
+/// Renders the scene with OpenGL, in linear radiance.
 fn through_gl(scene: &Scene, settings: &RenderSettings) -> Image {
     static DEVICES: Devices = Devices::new(|| Gpu::new(&GL));
     let gpu = DEVICES.lease();
@@ -61,12 +61,18 @@ fn every_scene_looks_the_same_through_opengl() {
         let scene = import::load(path).expect("a scene");
         let actual = through_gl(&scene, &settings);
         let (expected, _) = render(&scene, &settings);
-        // Light that grazes many boundaries on its way to a lamp is let through by one rounding and
-        // mirrored by the next.
-        let share = match scene.shadows {
+        // Light at grazing incidence on many boundaries may be transmitted or totally reflected, depending on
+        // rounding.
+        let fraction = match scene.shadows {
             Shadows::Opaque => 0.001,
             Shadows::Filtered => 0.01,
         };
-        check_alike(&path.display().to_string(), &expected, &actual, 3.0, share)
+        check_alike(
+            &path.display().to_string(),
+            &expected,
+            &actual,
+            3.0,
+            fraction,
+        )
     }));
 }

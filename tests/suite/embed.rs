@@ -1,4 +1,4 @@
-//! The renderer in another program: it waits only when told to, and the device stays the program's.
+//! The renderer embedded in another program: it waits only on request, and the device stays with the program.
 
 use crate::reference::compare::{check_same_bits, sized};
 use crate::reference::scenes;
@@ -28,10 +28,10 @@ fn settings() -> RenderSettings {
     }
 }
 
-/// In many small submissions.
+/// With many small submissions.
 fn policy(host_copy: bool) -> ExecutionPolicy {
     let slicing = Slicing {
-        max_tiles: 7,
+        max_groups: 7,
         max_samples: 2,
         ..Slicing::default()
     };
@@ -47,7 +47,7 @@ fn renderer(gpu: Gpu, policy: ExecutionPolicy) -> Renderer {
     Renderer::new(gpu, packed, &view, settings(), policy).expect("a renderer")
 }
 
-/// The picture of a renderer that is waited for at each step.
+/// The picture of a renderer that waits at each step.
 fn waited_for() -> Image {
     let gpu = Gpu::new(&AdapterChoice::default()).expect("a device");
     let mut renderer = renderer(gpu, policy(true));
@@ -57,7 +57,7 @@ fn waited_for() -> Image {
     renderer.develop(&Tone::LINEAR).expect("a picture")
 }
 
-/// Runs to the end without waiting. Returns how often the GPU was at work.
+/// Renders to the end without waiting. Returns how often the GPU was busy.
 fn poll_to_the_end(renderer: &mut Renderer) -> usize {
     let mut working = 0;
     loop {
@@ -96,7 +96,7 @@ fn a_picture_can_be_had_and_begun_again_while_the_gpu_works() {
         let screen = renderer.new_screen().expect("a screen");
         for _ in 0..3 {
             renderer.submit().expect("submitted");
-            // A second time hands over nothing more.
+            // A second call submits nothing more.
             renderer.submit().expect("submitted");
             renderer.show(&Tone::LINEAR, &screen).expect("shown");
             renderer.develop(&Tone::LINEAR).expect("a picture so far");
@@ -112,7 +112,7 @@ fn a_picture_can_be_had_and_begun_again_while_the_gpu_works() {
     }
 }
 
-/// A device that glimray did not open, with no more than these limits.
+/// A device opened outside of glimray, with at most these limits.
 fn device(limits: wgpu::Limits) -> (wgpu::Instance, wgpu::Adapter, wgpu::Device, wgpu::Queue) {
     let own = Gpu::new(&AdapterChoice::default()).expect("an adapter");
     let (instance, adapter, ..) = own.handles();

@@ -269,7 +269,7 @@ fn explaining_between_steps_leaves_the_picture_as_it_would_be() {
         };
         // Many steps.
         let slicing = Slicing {
-            max_tiles: 8,
+            max_groups: 8,
             ..Slicing::default()
         };
         let settings = sliced(&settings, slicing);
@@ -344,7 +344,7 @@ fn same_hit(ray: &TracedRay, hit: Option<(f64, ObjectRef)>, slack: f64) -> bool 
 fn compare(sample: &SampleTree, at: usize, nodes: &[Node], node: usize) -> Result<(), String> {
     let (ray, expected) = (&sample.rays[at], &nodes[node]);
     let slack = slack(sample, at);
-    let mut shares = (ray.throughput.into_iter()).zip(expected.share.to_array());
+    let mut shares = (ray.throughput.into_iter()).zip(expected.throughput.to_array());
     let is_same = ray.kind == expected.kind
         && same_hit(ray, expected.hit, slack)
         && shares.all(|(got, share)| (f64::from(got) - share).abs() <= slack * share.max(0.01));
@@ -352,7 +352,7 @@ fn compare(sample: &SampleTree, at: usize, nodes: &[Node], node: usize) -> Resul
         let met = ray.hit.as_ref().map(|hit| (hit.distance, hit.object));
         return Err(format!(
             "{:?} of {:?} meets {met:?}, not {:?} of {} meets {:?}",
-            ray.kind, ray.throughput, expected.kind, expected.share, expected.hit
+            ray.kind, ray.throughput, expected.kind, expected.throughput, expected.hit
         ));
     }
     let children = |kind: RayKind| {

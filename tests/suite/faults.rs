@@ -1,5 +1,5 @@
-//! What a user meets when the GPU fails, rehearsed through `GLIMRAY_FAULT` (see `src/gpu/fault.rs`):
-//! the same picture after a lost device, or one clear line and an exit code, and never half a file.
+//! GPU failures as a user sees them, injected through `GLIMRAY_FAULT` (see `src/gpu/fault.rs`): the same
+//! picture after a lost device, or one clear line and an exit code, and never a partial file.
 
 use crate::reference::compare::assert_none;
 use std::ffi::OsStr;
@@ -31,7 +31,7 @@ triangle = { vertices = [[-3, 0, 0], [-1, 0, 1], [-2, 2, 0]] }
 /// A folder with a scene in it.
 struct Workplace(TempDir);
 
-/// What a run of `glimray render` left.
+/// The outcome of a run of `glimray render`.
 struct Run {
     code: Option<i32>,
     stderr: String,
@@ -50,7 +50,7 @@ impl Workplace {
         self.0.path().join(name)
     }
 
-    /// Renders under a fault with more flags, and clears away what the run left.
+    /// Renders with an injected fault and more flags, and removes the output.
     fn render<S: AsRef<OsStr>>(&self, fault: &str, flags: impl IntoIterator<Item = S>) -> Run {
         let output = Command::new(env!("CARGO_BIN_EXE_glimray"))
             .args([
@@ -84,8 +84,7 @@ impl Workplace {
 const NO_FLAGS: [&str; 0] = [];
 
 impl Run {
-    /// Says what is wrong unless the run ended with this code, one line with these words, and no
-    /// picture.
+    /// Describes the error unless the run ended with this code, one line with these words, and no picture.
     fn check_refusal(&self, fault: &str, code: i32, words: &[&str]) -> Result<(), String> {
         let lines: Vec<_> = message_lines(&self.stderr);
         let [line] = lines[..] else {
@@ -103,7 +102,7 @@ impl Run {
     }
 }
 
-/// Without what Vulkan's loader and Mesa may have to say about the machine.
+/// Without messages of Vulkan's loader and Mesa about the machine.
 fn message_lines(stderr: &str) -> Vec<&str> {
     stderr
         .lines()
@@ -156,10 +155,10 @@ fn a_device_that_is_lost_every_time_ends_with_exit_6() {
     assert_none([run.check_refusal("device@*", 6, &["the GPU failed 4 times", "--adapter"])]);
 }
 
-/// How many frames [`animate`] makes.
+/// Number of frames that [`animate`] renders.
 const FRAMES: usize = 25;
 
-/// Frames of an object that moves, is hidden in the middle and changes its colour, and what was said.
+/// Frames of an object that moves, is hidden in the middle and changes its colour, and the messages.
 fn animate(fault: &str) -> (Option<i32>, Vec<Vec<u8>>, String) {
     const MOVING: &str = "
 [materials]
@@ -206,7 +205,7 @@ fn a_device_lost_again_and_again_in_an_animation_costs_nothing_but_time() {
     let (code, expected, words) = animate("");
     assert_eq!((code, expected.len()), (Some(0), FRAMES), "{words}");
     assert!(expected[0] != expected[12] && expected[12] != expected[24]);
-    // So far apart that no picture meets four, at different places of a frame.
+    // So far apart that no picture has four, at different points of a frame.
     const APART: usize = 9;
     for first in (1..=APART).step_by(4) {
         let places = (0..FRAMES).map(|i| (first + i * APART).to_string());
@@ -214,7 +213,7 @@ fn a_device_lost_again_and_again_in_an_animation_costs_nothing_but_time() {
         let (code, frames, words) = animate(&fault);
         assert_eq!(code, Some(0), "{fault}: {words}");
         assert!(frames == expected, "{fault}: other frames");
-        // More in all than one picture may meet.
+        // More in total than one picture may have.
         let losses = words
             .split_once("lost ")
             .and_then(|(_, rest)| rest.split_once(' '));
@@ -224,7 +223,7 @@ fn a_device_lost_again_and_again_in_an_animation_costs_nothing_but_time() {
 }
 
 #[test]
-fn a_refused_allocation_ends_with_exit_7_wherever_it_strikes() {
+fn a_failed_allocation_ends_with_exit_7_wherever_it_occurs() {
     let place = Workplace::new();
     let mut at = 0;
     loop {

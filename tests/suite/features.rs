@@ -1,4 +1,4 @@
-//! What a scene does not have is compiled out of its kernel: that must never take away what it has.
+//! Features that a scene does not use are compiled out of its kernel; that must never affect its picture.
 
 use crate::{
     instances::{packed, rendered},
@@ -22,7 +22,7 @@ use glimray::{
 };
 use std::sync::Arc;
 
-/// In front of a background of this radiance, a material and nothing that lights it but ambient light.
+/// A material in front of a background of this radiance, with only ambient light.
 fn before(background: f32, material: Material) -> Scene {
     Scene {
         cameras: vec![Camera {
@@ -45,7 +45,7 @@ fn black() -> Material {
     }
 }
 
-/// Without Fresnel's equations: all light passes through.
+/// Without Fresnel: all light passes.
 fn clear(ior: f32) -> Material {
     Material {
         transmit: Vec3::ONE,
@@ -84,8 +84,8 @@ fn assert_all(image: &Image, expected: f32) {
 
 #[test]
 fn total_reflection_needs_no_mirror_elsewhere_in_the_scene() {
-    // A ray that enters a block of index 1.5 meets its sides beyond the critical angle and leaves by the
-    // face opposite: no light is lost, so the block cannot be seen before an even background.
+    // A ray that enters a block of index 1.5 hits its sides beyond the critical angle and leaves by the
+    // opposite face: no light is lost, so the block is invisible in front of a uniform background.
     let mut scene = before(0.5, clear(1.5));
     add_box(&mut scene, DVec3::NEG_ONE, DVec3::ONE);
     let (image, stats) = render(
@@ -134,7 +134,7 @@ fn a_lamp_on_the_back_of_the_only_body_is_seen_through_it() {
         visible: true,
         ..Light::default()
     });
-    // A square of area 4 that radiates as a light of colour 1: π c / A.
+    // A square of area 4 with the radiance of a light of colour 1: π c / A.
     assert_all(
         &render(&scene, &sized(16, 16)).0,
         std::f32::consts::PI / 4.0,
@@ -174,8 +174,8 @@ pub fn boxes(corners: &[[DVec3; 2]]) -> Mesh {
 }
 
 #[test]
-fn overlapping_parts_of_a_mesh_are_one_body() {
-    // Half of the light passes each boundary, and where the parts overlap there is none.
+fn overlapping_parts_of_a_mesh_are_one_volume() {
+    // Half of the light passes each boundary; the overlap has no boundaries.
     let mut scene = before(
         1.0,
         Material {
@@ -204,7 +204,7 @@ fn overlapping_parts_of_a_mesh_are_one_body() {
 /// Kinds of materials.
 const MATERIALS: usize = 10;
 
-/// Every way in which a material makes a kernel do something.
+/// Every property of a material that adds code to a kernel.
 fn material(kind: usize) -> Material {
     let shiny = scenes::shiny(vec3(0.8, 0.5, 0.3));
     let glass = Material {
@@ -290,8 +290,8 @@ fn light(kind: usize, random: &mut Random) -> Light {
     }
 }
 
-/// A small scene with a subset of what there is. Of each kind few are chosen, so that most scenes lack most;
-/// some have this kind of material and no other.
+/// A small scene with a random subset of the features. Few of each kind are chosen, so that most scenes lack
+/// most features; some have this kind of material and no other.
 fn random_scene(random: &mut Random, only: Option<usize>) -> Scene {
     let mut scene = scenes::empty();
     let kinds: Vec<usize> = match only {
@@ -388,7 +388,7 @@ fn random_scene(random: &mut Random, only: Option<usize>) -> Scene {
     scene
 }
 
-/// A ball and a mesh that move; hidden, they only make a kernel take instances, shapes and triangles.
+/// A moving ball and a moving mesh; hidden, they only make a kernel include instances, shapes and triangles.
 fn add_moving(scene: &mut Scene, way: DVec3, visible: bool) {
     scene.nodes.push(Node {
         visible,
@@ -415,11 +415,11 @@ fn add_moving(scene: &mut Scene, way: DVec3, visible: bool) {
     });
 }
 
-/// The picture of a kernel with everything in it that has no say where the scene lacks it.
+/// The picture of a kernel with all features that do not affect the scene.
 fn with_everything_compiled_in(scene: &Scene, settings: &RenderSettings) -> Image {
     let mut full = scene.clone();
     if full.tracks.is_empty() && full.cameras[0].lens.is_none() {
-        // Too small to see. Where something moves, moments are drawn in another way under a lens.
+        // Too small to see. With motion, a lens changes how shutter times are sampled.
         full.cameras[0].lens = Some(Lens {
             radius: 1e-9,
             focus_distance: 6.0,
@@ -463,7 +463,7 @@ fn without(scene: &Scene, feature: fn(&mut pack::Features) -> &mut bool) -> Imag
 }
 
 #[test]
-fn a_feature_that_is_compiled_out_although_it_is_needed_is_seen() {
+fn compiling_out_a_needed_feature_changes_the_picture() {
     type Feature = fn(&mut pack::Features) -> &mut bool;
     let features: [(usize, Feature); 5] = [
         (2, |features| &mut features.reflection),
@@ -485,7 +485,7 @@ fn a_feature_that_is_compiled_out_although_it_is_needed_is_seen() {
 }
 
 #[test]
-fn what_is_compiled_out_of_a_kernel_is_not_missing_in_the_picture() {
+fn compiled_out_features_do_not_affect_the_picture() {
     let rows = (0..2 * MATERIALS).map(|seed| {
         let mut random = Random::new(seed as u64);
         let scene = random_scene(&mut random, (seed < MATERIALS).then_some(seed));
@@ -497,10 +497,10 @@ fn what_is_compiled_out_of_a_kernel_is_not_missing_in_the_picture() {
             ..sized(32, 24)
         };
         let everything = with_everything_compiled_in(&scene, &settings);
-        let most_baked = [0, pack::MOST_BAKED][random.below(2)];
+        let most_baked = [0, pack::MAX_BAKED][random.below(2)];
         let packed = packed(&scene, most_baked);
         let (specialised, _) = rendered(&packed, &scene.motion_samples(0.0, 1.0), &settings);
-        // Where roundings move a ray over an edge it sees something else.
+        // If rounding moves a ray across an edge, it sees something else.
         check_alike(
             &format!("seed {seed}"),
             &everything,

@@ -1,4 +1,4 @@
-//! Films as values: parts of a picture, cut anywhere and merged in any order, are one picture.
+//! Films as values: parts of a picture, split anywhere and merged in any order, give the whole picture.
 
 use crate::reference::compare::{
     Wanted, assert_none, check_same_bits, open_gpu, render, sized, sliced, start,
@@ -12,7 +12,7 @@ use glimray::render::{
 };
 use glimray::scene::{Background, Filter, Scene};
 
-/// A renderer that is done.
+/// A finished renderer.
 fn traced(scene: &Scene, wanted: &impl Wanted) -> Renderer {
     let mut renderer = start(scene, wanted).expect("a renderer");
     while !renderer.is_done() {
@@ -43,7 +43,8 @@ pub fn stratified(samples: u32, (width, height): (u32, u32)) -> RenderSettings {
     }
 }
 
-/// The settings of parts of a picture: cut across, down or between blocks of samples, at random places.
+/// The settings of parts of a picture, split horizontally, vertically or between sample blocks, at random
+/// positions.
 fn cut(whole: &RenderSettings, count: usize, random: &mut Random) -> Vec<RenderSettings> {
     let [x, y, width, height] = whole.region();
     let mut below = |limit: u32| random.below(limit as usize) as u32;
@@ -76,7 +77,7 @@ fn cut(whole: &RenderSettings, count: usize, random: &mut Random) -> Vec<RenderS
     parts.into_iter().map(settings).collect()
 }
 
-/// Merges two of them at a time, in a random order.
+/// Merges them pairwise in a random order.
 fn merged(mut films: Vec<Film>, random: &mut Random) -> Film {
     while films.len() > 1 {
         let mut any = |films: &mut Vec<Film>| films.swap_remove(random.below(films.len()));
@@ -117,12 +118,12 @@ fn parts_cut_anywhere_and_merged_in_any_order_have_the_bytes_of_one_run() {
 }
 
 #[test]
-fn windows_and_submissions_do_not_show_in_films() {
+fn film_tiles_and_submissions_do_not_affect_films() {
     let scene = scenes::spheres();
     let whole = stratified(70, (41, 23));
     let slicing = Slicing {
-        window_side: 16,
-        max_tiles: 3,
+        tile_side: 16,
+        max_groups: 3,
         max_samples: 5,
         ..Slicing::default()
     };
@@ -130,7 +131,7 @@ fn windows_and_submissions_do_not_show_in_films() {
     assert!(bytes(&expected) == bytes(&film(&scene, &sliced(&whole, slicing))));
 }
 
-/// Under a background of one colour every sum is known.
+/// With a constant background every sum is known.
 #[test]
 fn sums_of_several_blocks_are_exact() {
     let scene = Scene {
@@ -203,7 +204,7 @@ fn films_of_other_pictures_are_refused_with_what_differs() {
 }
 
 #[test]
-fn what_two_films_have_in_common_is_named() {
+fn samples_common_to_two_films_are_named() {
     let scene = scenes::spheres();
     let whole = stratified(200, (20, 10));
     let part = |crop, sample_range| {
@@ -215,7 +216,7 @@ fn what_two_films_have_in_common_is_named() {
         film(&scene, &part)
     };
     let first = part([2, 1, 12, 9], 64..200);
-    // Beside it, and other samples of the same pixels.
+    // Adjacent pixels, and other samples of the same pixels.
     assert!(first.merge(&part([12, 1, 20, 9], 0..200)).is_ok());
     assert!(first.merge(&part([0, 0, 20, 10], 0..64)).is_ok());
     let error = first
@@ -228,7 +229,7 @@ fn what_two_films_have_in_common_is_named() {
 }
 
 #[test]
-fn what_is_missing_is_listed() {
+fn missing_samples_are_listed() {
     let scene = scenes::spheres();
     let whole = stratified(200, (20, 10));
     let part = RenderSettings {
@@ -277,7 +278,7 @@ fn the_film_of_an_unfinished_picture_has_its_finished_blocks() {
 }
 
 #[test]
-fn ranges_that_are_no_blocks_have_no_film() {
+fn ranges_of_partial_blocks_have_no_film() {
     for range in [0..63, 1..64, 64..100, 65..150] {
         let settings = RenderSettings {
             sample_range: Some(range.clone()),
@@ -354,7 +355,7 @@ fn adaptive_pictures_have_films_that_are_cut_into_regions_only() {
     assert!(
         error
             .to_string()
-            .contains("adaptive sampling cannot be cut"),
+            .contains("adaptive sampling cannot be split"),
         "{error}"
     );
 }

@@ -1,5 +1,5 @@
-//! Films in files: written and read exactly; what is no film, cut short, damaged or of another version is
-//! refused.
+//! Film files: exact round trip; files that are not films, truncated, damaged or of another version are
+//! rejected.
 
 use crate::film::{bytes, film, stratified};
 use crate::reference::scenes;
@@ -7,7 +7,7 @@ use crate::support::random::Random;
 use glimray::render::{Film, FilmError, RenderSettings};
 use std::io::{self, Read};
 
-/// Of one block and of several, with a hole.
+/// Films of one block and of several, with a hole.
 fn small() -> Film {
     let scene = scenes::spheres();
     let part = |crop, sample_range| {
@@ -69,7 +69,7 @@ fn every_changed_bit_is_noticed() {
 }
 
 #[test]
-fn noise_is_no_film_and_another_version_is_named() {
+fn random_bytes_are_not_a_film_and_another_version_is_named() {
     let noise: Vec<u8> = (0..200_u8).collect();
     assert!(matches!(Film::read(&noise[..]), Err(FilmError::NotAFilm)));
     let mut other = bytes(&small());
@@ -78,9 +78,9 @@ fn noise_is_no_film_and_another_version_is_named() {
     assert!(error.to_string().contains("version 77"), "{error}");
 }
 
-/// Numbers in a file that announce more than there is cost no memory: the film ends first.
+/// Counts in a file beyond the available data cost no memory: reading fails first.
 #[test]
-fn announced_numbers_do_not_count_before_what_they_announce_is_there() {
+fn counts_in_a_file_allocate_nothing_before_the_data_is_read() {
     let written = bytes(&small());
     for place in (8..written.len().min(400) - 4).step_by(2) {
         let mut changed = written.clone();
@@ -90,7 +90,7 @@ fn announced_numbers_do_not_count_before_what_they_announce_is_there() {
 }
 
 #[test]
-fn a_reader_that_fails_is_an_error_and_one_that_trickles_is_none() {
+fn a_failing_reader_is_an_error_and_a_slow_one_is_not() {
     struct Trickle<'a>(&'a [u8], usize);
     impl Read for Trickle<'_> {
         fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {

@@ -1,4 +1,4 @@
-//! Names for settings, scenes and views that stay what they are.
+//! Stable fingerprints of settings, scenes and views.
 
 use crate::reference::scenes;
 use glam::dvec3;
@@ -9,8 +9,8 @@ use glimray::render::{
 use glimray::scene::{Antialias, Filter, Scene, ToneCurve, Transfer};
 use std::collections::{HashMap, HashSet};
 
-/// Films and journals of other builds have it: whoever changes what is encoded counts the version up and
-/// takes another value here.
+/// Films and journals of other builds contain it: when the encoding changes, increase the version and update
+/// the value here.
 #[test]
 fn the_fingerprint_of_settings_is_the_same_in_every_build() {
     let fingerprint = RenderSettings::default().fingerprint().to_string();

@@ -1,5 +1,5 @@
-//! Small pictures, one for each thing that can be asked for, as they were when somebody last looked
-//! at them and found them right. A failure says how to look and how to bless what is there now.
+//! Golden pictures: small pictures, one for each feature, that a person has checked. A failure explains how to
+//! compare and how to update them.
 
 use crate::reference::compare::{assert_none, check_alike, sized, start_packed};
 use crate::reference::scenes::{self, Build};
@@ -18,10 +18,10 @@ use std::sync::Arc;
 
 const WIDTH: u32 = 64;
 const HEIGHT: u32 = 48;
-/// Allowed on a tenth of a percent of the pixels.
+/// Tolerance for a tenth of a percent of the pixels.
 const LEVELS: f32 = 3.0;
 const MOST_BYTES: u64 = 16 << 10;
-const UPDATE: &str = "UPDATE_GOLDEN=1 cargo test --release --test suite golden";
+const UPDATE: &str = "UPDATE_GOLDEN=1 cargo test --profile ci --test suite golden";
 
 struct Golden {
     name: &'static str,
@@ -57,7 +57,7 @@ impl Golden {
         Self { tone, ..self }.set(|settings| settings.integrator = integrator)
     }
 
-    /// Over the range found in the picture.
+    /// Shown over the range found in the picture.
     fn ranged(mut self, integrator: Integrator) -> Self {
         self = self.viewed(integrator, 0.0);
         self.tone.levels = Levels::Found;
@@ -89,7 +89,7 @@ impl Golden {
     }
 }
 
-/// A ball, a torus and a sphere on a floor, without light.
+/// A ball, a torus and a sphere on a floor, without lights.
 fn still_life() -> Scene {
     let mut scene = scenes::empty();
     let red = scene.add_material(scenes::shiny(vec3(0.9, 0.3, 0.2)));
@@ -147,7 +147,7 @@ fn mixed() -> Scene {
     scene
 }
 
-/// Two walls seen and lit from behind: the left one has two sides, the right one has not.
+/// Two walls seen and lit from behind: the left one is two-sided, the right one is not.
 fn sides() -> Scene {
     let mut scene = scenes::empty();
     let one_sided = scene.add_material(Material {
@@ -282,7 +282,7 @@ fn path(name: &str) -> PathBuf {
     folder.join(format!("{name}.png"))
 }
 
-/// A stored picture, levels as parts of 1.
+/// A stored picture, with levels from 0 to 1.
 fn stored(name: &str) -> Result<Image, String> {
     let read =
         image::open(path(name)).map_err(|error| format!("{name}: {error}. Run: {UPDATE}"))?;
@@ -305,7 +305,7 @@ fn golden_pictures_are_as_they_were() {
         if update {
             return output::save(path(golden.name), &actual).map_err(|error| error.to_string());
         }
-        // Allows the rounding to levels on top.
+        // Includes the rounding to levels.
         check_alike(
             &format!("golden {}", golden.name),
             &stored(golden.name)?,

@@ -256,7 +256,7 @@ fn what_make_demo_renders_is_seen_neither_by_git_nor_by_cargo() {
         .nth(1)
         .expect("a recipe")
         .lines()
-        .nth(1);
+        .find(|line| line.contains(" demo -o "));
     let name = recipe
         .and_then(|line| line.split("-o ").nth(1))
         .expect("a name");

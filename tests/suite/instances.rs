@@ -1,4 +1,4 @@
-//! Trees that instances place: the same picture as if every copy were laid out in the world.
+//! Instances of BLASes: the same picture as if every copy were baked into the world.
 
 use crate::{
     reference::{
@@ -23,7 +23,7 @@ use glimray::{
 };
 use std::{fmt::Write, fs, process::Command, sync::Arc};
 
-/// A picture of packed frames of a scene, linear, and what it cost.
+/// A linear picture of packed frames of a scene, and its statistics.
 pub fn rendered(
     packed: &Arc<PackedScene>,
     frames: &[Frame],
@@ -44,7 +44,7 @@ pub fn packed(scene: &Scene, most_baked: usize) -> Arc<PackedScene> {
     Arc::new(pack::scene_with(scene, most_baked).expect("a scene that can be packed"))
 }
 
-/// Copies of a ball and a torus, moved, turned, stretched, and mirrored by turns, over a floor.
+/// Copies of a ball and a torus, translated, rotated, stretched, and alternately mirrored, over a floor.
 pub fn crowd(materials: [Material; 2]) -> Scene {
     let mut scene = scenes::empty();
     let [first, second] = materials.map(|material| scene.add_material(material) as u32);
@@ -93,7 +93,7 @@ pub fn glass() -> Material {
 }
 
 #[test]
-fn instances_give_the_picture_of_copies_laid_out() {
+fn instances_give_the_picture_of_baked_copies() {
     let checkered = |mut scene: Scene| {
         scene.textures.push(Texture {
             pattern: Pattern::Checker {
@@ -130,7 +130,7 @@ fn instances_give_the_picture_of_copies_laid_out() {
         check_alike(name, &expected, &actual, 2.0, 0.004)?;
 
         if name == "mirrors" || name == "glass" {
-            // Beyond the driver's limit on the rounds of loops.
+            // Beyond the loop limit of the driver.
             return Ok(());
         }
         let brute_force = RenderSettings {
@@ -164,13 +164,13 @@ fn instances_need_the_memory_of_one_mesh() {
         all.map(<[u8]>::len).sum::<usize>()
     };
     let (one, thousand) = (bytes(&scene_of(1)), bytes(&scene_of(1000)));
-    // An instance's rows, and its share of the nodes above it.
+    // The rows of an instance, and its part of the nodes above it.
     assert!(thousand - one < 1000 * 256, "{} bytes more", thousand - one);
 }
 
 #[test]
 fn rays_that_leave_a_triangle_hit_the_same_one_of_another_instance() {
-    // A floor and the same mesh as a roof above it, which is its only shade.
+    // A floor and the same mesh as a roof above it, which is the only object that casts shadows.
     let mut scene = scenes::empty();
     scene.meshes.push(scenes::quad(4.0, 0).into());
     scene.instances = [0.0, 2.0]
@@ -234,7 +234,7 @@ fn a_lamp_throws_no_shadow_of_itself_on_instances() {
         },
     ];
     for kind in lamps {
-        // Floors side by side, far from the origin of their own space.
+        // Adjacent floors, far from the origin of their own space.
         let mut scene = scenes::empty();
         let mut floor = scenes::quad(0.5, 0);
         for position in &mut floor.positions {
@@ -263,7 +263,7 @@ fn a_lamp_throws_no_shadow_of_itself_on_instances() {
     }
 }
 
-/// A crowd on a node that stands still, while another one moves.
+/// A crowd on a static node, while another node moves.
 fn crowd_beside_a_mover() -> Scene {
     let mut scene = crowd([vec3(0.8, 0.3, 0.2), vec3(0.2, 0.4, 0.8)].map(scenes::shiny));
     scene.nodes = vec![
@@ -282,7 +282,7 @@ fn crowd_beside_a_mover() -> Scene {
     scene
 }
 
-/// A node's way from the first to the second place in a second, in a jump at half of it.
+/// A node that moves from the first to the second position within a second, in a jump at half of it.
 fn jump(node: usize, places: [DVec3; 2]) -> Track {
     let mut track = translation(node, places);
     track.curve.times = vec![0.0, 0.5];
@@ -290,7 +290,7 @@ fn jump(node: usize, places: [DVec3; 2]) -> Track {
     track
 }
 
-/// A node's way from the first to the second place in a second.
+/// A node that moves from the first to the second position within a second.
 fn translation(node: usize, places: [DVec3; 2]) -> Track {
     Track {
         targets: vec![Target::Node(node, NodeProperty::Translation)],
@@ -305,7 +305,7 @@ fn translation(node: usize, places: [DVec3; 2]) -> Track {
 }
 
 #[test]
-fn patterns_stay_in_the_world_on_what_stands_still_while_others_move() {
+fn patterns_on_static_objects_stay_in_world_space_while_others_move() {
     let mut scene = crowd_beside_a_mover();
     scene.textures.push(Texture {
         pattern: Pattern::Checker {
@@ -325,7 +325,7 @@ fn patterns_stay_in_the_world_on_what_stands_still_while_others_move() {
     assert_none([check_alike("patterns", &expected, &actual, 2.0, 0.004)]);
 }
 
-/// Many spheres on a node that jumps while the shutter is open, which takes all keys that there can be.
+/// Many spheres on a node that jumps while the shutter is open, which needs the maximum number of keys.
 fn jumping_spheres(count: usize) -> Scene {
     let mut scene = scenes::empty();
     scene.nodes.push(Node::default());
@@ -340,7 +340,7 @@ fn jumping_spheres(count: usize) -> Scene {
 }
 
 #[test]
-fn a_later_frame_is_held_against_the_memory_limit_as_the_first_one_is() {
+fn the_memory_limit_applies_to_later_frames_too() {
     let scene = jumping_spheres(100);
     let packed = packed(&scene, 0);
     let still = packed
@@ -396,7 +396,7 @@ fn a_frame_that_outgrows_the_limits_of_the_device_gets_another_device_or_is_too_
     let expected = picture(Fetch::Auto, &[&moving]).expect("a picture");
     let after = picture(Fetch::Auto, &[&still, &moving]).expect("a picture");
     same(&expected, &after);
-    // Beyond what WebGPU guarantees for one binding, which some adapters do not exceed.
+    // Beyond the minimum binding size of WebGPU, which some adapters do not exceed.
     match picture(Fetch::Buffer, &[&still, &moving, &still, &moving]) {
         Ok(image) => same(&expected, &image),
         Err(error) => assert_eq!(AppError::from(error).exit_code(), 7),
@@ -441,7 +441,7 @@ repeat = {{ grid = {{ count = [50, 60, 1], step = [50, 50, 1] }} }}
     };
     let dull = peak_bytes("phong = { diffuse = [1, 1, 1] }");
     let glass = peak_bytes("refract = { ior = 1.5 }");
-    // Where the system tells. 3000 copies of 3200 triangles would be hundreds of megabytes.
+    // Where the system reports it. 3000 copies of 3200 triangles would need hundreds of megabytes.
     if let (Some(dull), Some(glass)) = (dull, glass) {
         assert!(glass < dull + (100 << 20), "{glass} bytes, dull {dull}");
     }

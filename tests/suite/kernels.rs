@@ -1,4 +1,4 @@
-//! Every kernel is valid WGSL that WebGPU runs without asking for more than it must give.
+//! Every kernel is valid WGSL within the minimum limits of WebGPU.
 
 use crate::support::verdict::Verdict;
 use glimray::gpu::Kernel;
@@ -7,6 +7,27 @@ use naga::{
     valid::{Capabilities, ValidationFlags, Validator},
 };
 use std::fs;
+
+#[path = "../../shaders/link.rs"]
+mod link;
+
+/// A build from stale sources stops by itself; this finds files that were edited by hand.
+#[test]
+fn linked_kernels_are_what_the_sources_link_to() {
+    let mut verdict = Verdict::on("shaders/linked");
+    let linked = link::kernels().expect("the sources link");
+    for (name, text) in &linked {
+        let kept = fs::read_to_string(format!("shaders/linked/{name}")).unwrap_or_default();
+        verdict.that(name, kept == *text, || "differs: run `make shaders`");
+    }
+    for entry in fs::read_dir("shaders/linked").expect("a folder") {
+        let name = entry.expect("an entry").file_name();
+        let name = name.to_string_lossy();
+        let is_known = name == "sources.txt" || linked.iter().any(|(known, _)| *known == name);
+        verdict.that(&name, is_known, || "is no kernel");
+    }
+    verdict.close();
+}
 
 /// All variants of every kernel: (name, WGSL).
 fn sources() -> impl Iterator<Item = (String, &'static str)> {
@@ -65,7 +86,7 @@ fn workgroups_are_rows_of_a_multiple_of_eight() {
     verdict.close();
 }
 
-/// Seeded choices for every override of `bindings.wesl`.
+/// Random values for every override of `bindings.wesl`, from a seed.
 fn random_overrides(seed: u64) -> Vec<(String, f64)> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut next = || {
@@ -90,7 +111,7 @@ fn random_overrides(seed: u64) -> Vec<(String, f64)> {
         .collect()
 }
 
-/// Whether a block or a block in it branches on a literal.
+/// Whether a block or a nested block branches on a literal.
 fn branches_on_a_literal(function: &naga::Function, block: &naga::Block) -> bool {
     block.iter().any(|statement| match statement {
         naga::Statement::If {
@@ -149,7 +170,7 @@ fn a_feature_that_is_off_leaves_no_function_behind() {
             .join(" ")
     };
     let mut verdict = Verdict::on("functions");
-    // With what only this feature needs.
+    // With the functions that only this feature needs.
     for (feature, name) in [
         ("HAS_TEXTURES", "package_lib_noise"),
         ("HAS_INSTANCES", "load_instance"),
@@ -166,10 +187,10 @@ fn a_feature_that_is_off_leaves_no_function_behind() {
 }
 
 #[test]
-fn an_override_that_is_not_declared_is_refused() {
+fn an_undeclared_override_is_rejected() {
     let refused = Kernel::WHITTED.specialized(true, &[("HAS_LIGHTS", 1.0), ("HAS_LIGHT", 1.0)]);
     assert_eq!(
         refused.map(|_| ()),
-        Err("no override is called HAS_LIGHT".to_owned())
+        Err("there is no override HAS_LIGHT".to_owned())
     );
 }

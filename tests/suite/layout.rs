@@ -1,4 +1,4 @@
-//! Host and shader mean the same bytes: structs, tags, bindings and overrides.
+//! Host and shader agree on structs, tags, bindings and overrides.
 
 use crate::support::verdict::Verdict;
 use glimray::{
@@ -14,7 +14,7 @@ fn parse(name: &str, source: &str) -> Module {
         .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)))
 }
 
-/// What all shaders share, before linking: it imports nothing, so it is plain WGSL.
+/// The shared types before linking: they import nothing, so the file is plain WGSL.
 fn shared_types() -> Module {
     parse(
         "types.wesl",
@@ -31,8 +31,7 @@ fn linked() -> Vec<(String, Module)> {
         .collect()
 }
 
-/// A name as it is written in its own file: the linker puts the path before it and marks
-/// underscores.
+/// The name in its own file: the linker adds the path as a prefix and escapes underscores.
 fn plain(name: &Option<String>) -> String {
     let name = name.as_deref().unwrap_or_default();
     let linked = name
@@ -44,8 +43,8 @@ fn plain(name: &Option<String>) -> String {
 
 type Members = Vec<(String, usize)>;
 
-/// Name, size and members (name, offset) of the packed structs of a module. An array without length
-/// at the end is no member on the host, where the struct is the head of a buffer.
+/// Name, size and members (name, offset) of the packed structs of a module. The host struct omits a
+/// runtime-sized array at the end: it is the head of a buffer.
 fn packed_structs(module: &Module) -> Vec<(String, usize, Members)> {
     let mut found = Vec::new();
     for (_, ty) in module.types.iter() {
@@ -198,7 +197,7 @@ fn tags_have_the_same_values() {
     verdict.close();
 }
 
-/// Bindings by group and slot, as `render/bindings.rs` lays them out: what a shader may do there.
+/// Bindings by group and slot, as defined in `render/bindings.rs`: their access in shaders.
 const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (0, 0, "nodes", "geometry"),
     (0, 1, "triangles", "geometry"),
@@ -207,7 +206,7 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (0, 4, "shapes", "read"),
     (0, 5, "texels", "texture"),
     (1, 0, "frame", "read"),
-    (1, 1, "slice", "read and write"),
+    (1, 1, "dispatch", "read and write"),
     (2, 0, "film", "read and write"),
     (2, 0, "records", "read and write"),
     (3, 0, "tone", "read"),
@@ -215,7 +214,7 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (3, 2, "screen", "screen"),
 ];
 
-/// What a module binds: group, slot, name and kind.
+/// The bindings of a module: group, slot, name and kind.
 fn bindings(module: &Module) -> BTreeSet<(u32, u32, String, &'static str)> {
     let kind = |variable: &naga::GlobalVariable| match (
         variable.space,
@@ -292,7 +291,7 @@ fn bindings_are_where_the_host_puts_them() {
             "read"
         };
         for (group, slot, name, kind) in bindings(&module) {
-            // Two may share a slot, in kernels of their own.
+            // Two bindings may share a slot in different kernels.
             let mut here = BINDINGS
                 .iter()
                 .filter(|(g, s, ..)| (*g, *s) == (group, slot));
@@ -331,7 +330,7 @@ fn no_kernel_needs_more_storage_buffers_than_webgpu_guarantees() {
     verdict.close();
 }
 
-/// A name that no override has is refused when a kernel is specialised; this is the other direction.
+/// Specialisation rejects unknown overrides; this is the other direction.
 #[test]
 fn the_host_sets_every_override() {
     let mut verdict = Verdict::on("overrides");

@@ -1,5 +1,5 @@
-//! The thin lens in whole renders: what is out of focus becomes the picture of the opening, in the
-//! size that the lens formula gives.
+//! The thin lens in whole renders: out-of-focus points become images of the aperture, of the size given by the
+//! lens formula.
 
 use crate::reference::compare::{assert_none, check_same_bits, render, sized, start_packed};
 use crate::reference::scenes::Build;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 const SIDE: u32 = 48;
 const FOCUS: f64 = 10.0;
-/// Of the picture, seen at distance 1.
+/// Of the picture, at distance 1.
 const HALF_HEIGHT: f64 = 0.1;
 
 const ROUND: Lens = Lens {
@@ -22,8 +22,8 @@ const ROUND: Lens = Lens {
     blade_rotation: 0.0,
 };
 
-/// A ball that glows at `depth` in the middle of a dark picture, `share` of whose height it takes.
-fn ball(depth: f64, share: f64, lens: Option<Lens>) -> Scene {
+/// An emissive ball at `depth` in the middle of a dark picture that covers `fraction` of its height.
+fn ball(depth: f64, fraction: f64, lens: Option<Lens>) -> Scene {
     let mut scene = Scene {
         cameras: vec![Camera {
             look_from: DVec3::ZERO,
@@ -40,7 +40,7 @@ fn ball(depth: f64, share: f64, lens: Option<Lens>) -> Scene {
         ambient: Vec3::ONE,
         ..Scene::default()
     };
-    scene.add_sphere(dvec3(0.0, 0.0, -depth), share * HALF_HEIGHT * depth, 0);
+    scene.add_sphere(dvec3(0.0, 0.0, -depth), fraction * HALF_HEIGHT * depth, 0);
     scene
 }
 
@@ -53,7 +53,7 @@ fn picture(scene: &Scene) -> Image {
     render(scene, &settings).0
 }
 
-/// The mean of x^i y^j over the picture's light, with x to the right, y up and the edges at ±1.
+/// The mean of x^i y^j, weighted by radiance, with x to the right, y up and the edges at ±1.
 fn moment(image: &Image, i: i32, j: i32) -> f64 {
     let (mut sum, mut light) = (0.0, 0.0);
     for (index, pixel) in (0..).zip(&image.pixels) {
@@ -67,14 +67,14 @@ fn moment(image: &Image, i: i32, j: i32) -> f64 {
 
 #[test]
 fn the_circle_of_confusion_has_the_size_of_the_thin_lens_formula() {
-    let share = 0.2;
+    let fraction = 0.2;
     assert_none([4.0, 5.0, 40.0, 1000.0].map(|depth| {
-        let image = picture(&ball(depth, share, Some(ROUND)));
-        // A disc spreads by a quarter of its squared radius along each axis. The ball's own does so on
-        // top, and a pixel's square by a twelfth of its side's.
+        let image = picture(&ball(depth, fraction, Some(ROUND)));
+        // The variance of a disc along each axis is a quarter of its squared radius; that of the ball itself is
+        // added, and a twelfth of the squared side of a pixel.
         let pixel = 2.0 / f64::from(SIDE);
         let spread = moment(&image, 2, 0) + moment(&image, 0, 2) - pixel * pixel / 6.0;
-        let measured = 2.0 * (2.0 * spread - share * share).sqrt();
+        let measured = 2.0 * (2.0 * spread - fraction * fraction).sqrt();
         let expected = 2.0 * ROUND.radius * (1.0 / FOCUS - 1.0 / depth).abs() / HALF_HEIGHT;
         if (measured / expected - 1.0).abs() < 0.01 {
             return Ok(());
@@ -86,7 +86,7 @@ fn the_circle_of_confusion_has_the_size_of_the_thin_lens_formula() {
 }
 
 #[test]
-fn what_is_in_focus_is_as_sharp_as_through_a_pinhole() {
+fn points_in_focus_are_as_sharp_as_through_a_pinhole() {
     let spread = |lens| {
         let image = picture(&ball(FOCUS, 0.5, lens));
         moment(&image, 2, 0) + moment(&image, 0, 2)

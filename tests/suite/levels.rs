@@ -1,4 +1,4 @@
-//! Views of quantities: over which range they are shown, and that there is something to see.
+//! Views of quantities: their ranges and their contrast.
 
 use crate::reference::compare::{sized, start};
 use crate::support::{
@@ -14,7 +14,7 @@ use glimray::scene::{Background, Camera, Geometry, Material, Scene, Shape};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A ball of radius 1, 5 before the camera.
+/// A ball of radius 1 at a distance of 5 from the camera.
 fn ball() -> Scene {
     Scene {
         shapes: vec![Shape {
@@ -48,11 +48,11 @@ fn values(image: &Image) -> Vec<f32> {
     image.pixels.iter().map(|pixel| pixel[0]).collect()
 }
 
-/// The value that this share of the others lies below.
-fn percentile(values: &[f32], share: f64) -> f32 {
+/// The quantile of the values.
+fn percentile(values: &[f32], fraction: f64) -> f32 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f32::total_cmp);
-    sorted[((sorted.len() - 1) as f64 * share).round() as usize]
+    sorted[((sorted.len() - 1) as f64 * fraction).round() as usize]
 }
 
 fn found() -> Tone {
@@ -131,14 +131,14 @@ fn samples_are_shown_from_the_fewest_to_the_most() {
         noise: 0.02,
         ..sized(48, 48)
     };
-    // Its edge is what there is to find.
+    // Only its edge needs samples.
     let scene = Scene {
         background: Background::Color(Vec3::ONE),
         ..ball()
     };
     let mut renderer = traced(&scene, &settings);
-    let shares = values(&renderer.develop(&Tone::LINEAR).expect("a picture"));
-    let counts: Vec<f32> = shares.iter().map(|share| share * 16.0).collect();
+    let fractions = values(&renderer.develop(&Tone::LINEAR).expect("a picture"));
+    let counts: Vec<f32> = fractions.iter().map(|fraction| fraction * 16.0).collect();
     let (least, most) = (percentile(&counts, 0.0), percentile(&counts, 1.0));
     assert!(least < most, "{least}, {most}");
     assert_eq!(renderer.range().expect("a range"), Some([least, most]));
@@ -218,7 +218,7 @@ fn the_legend_has_the_colours_of_the_picture() {
         (Quantity::Work, VIEW_HEAT),
     ] {
         let stops = legend::stops(quantity);
-        // On a range over which both distances and work go by equal steps of the legend.
+        // On a range over which both distances and steps use equal steps of the legend.
         let value = |index: usize| {
             let place = index as f32 / (stops.len() - 1) as f32;
             match quantity {
@@ -263,7 +263,7 @@ fn asset(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// What `glimray render` makes of a scene, and what it says.
+/// The output of `glimray render` for a scene.
 fn command(scene: &Path, flags: &[&str], name: &str) -> (image::DynamicImage, String) {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join(name);
@@ -280,7 +280,7 @@ fn command(scene: &Path, flags: &[&str], name: &str) -> (image::DynamicImage, St
     (image::open(&out).expect("a picture"), said)
 }
 
-/// The least and the greatest level of that channel which varies most, 5 % of the pixels left out at either
+/// The minimum and maximum level of the channel with the largest variation, without 5 % of the pixels at either
 /// end.
 fn spread(picture: &image::DynamicImage) -> (f32, f32) {
     let pixels = picture.to_rgb8();
@@ -307,14 +307,14 @@ fn every_debug_view_has_contrast_and_is_not_clipped() {
             verdict.that(format!("{name}: spread"), high - low >= 64.0, || {
                 format!("from {low} to {high}")
             });
-            // White: as bright as a picture can be, in all channels.
+            // White: the maximum in all channels.
             let white = picture.to_rgb8();
             let white = white.pixels().filter(|pixel| pixel.0 == [255; 3]).count();
-            let share = white as f64 / (96.0 * 64.0);
-            // Many pixels get all the samples that there are.
+            let fraction = white as f64 / (96.0 * 64.0);
+            // Many pixels get the maximum number of samples.
             let most = if view == "samples" { 0.5 } else { 0.1 };
-            verdict.that(format!("{name}: not clipped"), share < most, || {
-                format!("{:.0} % are white", 100.0 * share)
+            verdict.that(format!("{name}: not clipped"), fraction < most, || {
+                format!("{:.0} % are white", 100.0 * fraction)
             });
         }
     }
@@ -342,14 +342,14 @@ fn linear_files_and_an_explicit_exposure_keep_distances_as_they_are() {
     std::fs::write(&path, BALL).expect("a scene");
     let flags = ["--integrator", "depth", "--size", "33x33", "--samples", "1"];
     let (raw, said) = command(&path, &flags, "ball.exr");
-    // The middle of the picture is 4 away.
+    // The centre of the picture is 4 away.
     let middle = raw.to_rgb32f().get_pixel(16, 16).0[0];
     assert!((middle - 4.0).abs() < 1e-4, "{middle}");
     assert!(!said.contains("distances"), "{said}");
     let exposed: Vec<&str> = flags.iter().copied().chain(["--exposure", "-3"]).collect();
     let (half, _) = command(&path, &exposed, "ball.png");
     let middle = half.to_rgb8().get_pixel(16, 16).0;
-    // 4 / 8 of 255, whichever way it is rounded.
+    // 4 / 8 of 255, rounded either way.
     assert!(middle == [127; 3] || middle == [128; 3], "{middle:?}");
     let (found, said) = command(&path, &flags, "ball.png");
     assert_eq!(found.to_rgb8().get_pixel(16, 16).0, [255; 3]);

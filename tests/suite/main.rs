@@ -7,6 +7,7 @@ mod bvh;
 mod cli;
 mod closed_mirrors;
 mod contact;
+mod distribution;
 mod drivers;
 mod embed;
 mod endings;

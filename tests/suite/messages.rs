@@ -207,11 +207,8 @@ fn a_terminal_gets_the_line_at_fault_with_a_mark() {
         "{text}"
     );
     assert_snapshot!(drawing, @r"
-  ╭─[bad.toml:2:18]
 2 │ background = [0, oops, 0]
-  ·                  ──┬─
-  ·                    ╰── here
-  ╰────
+  │                  ^^^^
 ");
     // A program that reads along gets the message alone.
     let run = place.run("inspect bad.toml").expect(3);

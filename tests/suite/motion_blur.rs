@@ -1,4 +1,4 @@
-//! What moves while the shutter is open, against what integrals over its time say.
+//! Motion blur against integrals over the shutter interval.
 
 use crate::{
     instances::rendered,
@@ -20,13 +20,13 @@ use glimray::{
 };
 use std::{f64::consts::PI, sync::Arc};
 
-/// Size of the pictures, and half of what the camera sees at the distance of the object.
+/// Size of the pictures, and half of the visible extent at the distance of the object.
 pub const SIDE: u32 = 64;
 pub const HALF: f64 = 1.0;
-/// From where: so far that a sphere is as large as its silhouette, to a thousandth.
+/// The distance of the camera: so far that a sphere has the size of its silhouette, to a thousandth.
 pub const DISTANCE: f64 = 60.0;
 
-/// Nothing before black, seen from far away along −z; x and y of −1 and 1 are the picture's edges.
+/// An empty black scene, seen from far away along −z; x and y of −1 and 1 are the edges of the picture.
 pub fn stage() -> Scene {
     Scene {
         cameras: vec![Camera {
@@ -84,7 +84,7 @@ pub fn blurred(samples: u32) -> RenderSettings {
     }
 }
 
-/// The picture of everything that happens from time 0 to 1.
+/// The picture with the shutter open from time 0 to 1.
 pub fn exposed(scene: &Scene, settings: &RenderSettings) -> Image {
     let packed = Arc::new(pack::scene(scene).expect("a scene that can be packed"));
     rendered(&packed, &scene.motion_samples(0.0, 1.0), settings).0
@@ -97,7 +97,7 @@ pub fn mean(image: &Image, pixels: impl Iterator<Item = (u32, u32)>) -> f64 {
     sum / f64::from(count)
 }
 
-/// Where the middle of a column or row of pixels is on the stage.
+/// The scene position of the centre of a column or row of pixels.
 pub fn place(index: u32) -> f64 {
     (2.0 * (f64::from(index) + 0.5) / f64::from(SIDE) - 1.0) * HALF
 }
@@ -114,7 +114,7 @@ fn a_sphere_that_crosses_the_picture_covers_it_as_its_profile_says() {
     let target = Target::Node(0, NodeProperty::Translation);
     scene.tracks.push(track(target, Values::Vector(way)));
     let image = exposed(&scene, &blurred(1024));
-    // A point at (x, y) is covered while the centre is within the chord's half of it.
+    // A point at (x, y) is covered while the centre is within half of the chord.
     let covered = |x: f64, y: f64| {
         let half = (radius * radius - y * y).max(0.0).sqrt();
         ((x + half).min(to) - (x - half).max(from)).max(0.0) / (to - from)
@@ -135,7 +135,7 @@ fn a_sphere_that_crosses_the_picture_covers_it_as_its_profile_says() {
         }
     }
     assert!(worst < 0.01, "{worst} off");
-    // All of its light is there: its silhouette's share of the picture.
+    // All of its light is there: the fraction of the picture that its silhouette covers.
     let energy = mean(&image, (0..SIDE * SIDE).map(|i| (i % SIDE, i / SIDE)));
     let expected = PI * radius * radius / (4.0 * HALF * HALF);
     assert!(
@@ -159,7 +159,7 @@ fn a_disc_that_turns_about_a_point_beside_it_is_an_annulus_and_does_not_shrink()
     let target = Target::Node(0, NodeProperty::Angles);
     scene.tracks.push(track(target, Values::Vector(turn)));
     let image = exposed(&scene, &blurred(256));
-    // At distance r from the pivot the share of the circle that lies in the disc.
+    // At distance r from the pivot, the fraction of the circle inside the disc.
     let covered = |r: f64| {
         let cos = (r * r + arm * arm - radius * radius) / (2.0 * r * arm);
         cos.clamp(-1.0, 1.0).acos() / PI
@@ -249,7 +249,7 @@ fn a_light_that_moves_leaves_the_mean_of_its_places() {
     scene.tracks.push(track(target, Values::Vector(way)));
     let image = exposed(&scene, &blurred(64));
     let diffuse = f64::from(scene.materials[0].diffuse.x);
-    // ∫ 1/√(1 + y² + (x − s)²) ds over the way: the cosine at a lamp of height 1.
+    // ∫ 1/√(1 + y² + (x − s)²) ds over the path: the cosine at a lamp of height 1.
     let expected = |x: f64, y: f64| {
         let height = (1.0 + y * y).sqrt();
         let to_end = |s: f64| ((s - x) / height).asinh();
@@ -273,7 +273,7 @@ fn a_scene_in_which_nothing_moves_is_the_same_bit_for_bit_with_an_open_shutter()
         antialias: Antialias::Stratified,
         ..sized(48, 36)
     };
-    // A track that does not move anything while the shutter is open.
+    // A track that moves nothing while the shutter is open.
     scene.nodes.push(Node::default());
     let values = Values::Vector(vec![DVec3::ONE; 2]);
     let target = Target::Node(0, NodeProperty::Scale);
@@ -286,7 +286,7 @@ fn a_scene_in_which_nothing_moves_is_the_same_bit_for_bit_with_an_open_shutter()
 
 #[test]
 fn boxes_that_follow_the_movement_lose_nothing() {
-    // Shapes that tumble, swing and grow, against every primitive in turn.
+    // Shapes that tumble, swing and grow, against testing every primitive.
     let mut scene = scenes::empty();
     let material = scene.add_material(scenes::shiny(Vec3::splat(0.7)));
     let torus = scenes::torus(0.7, 0.3, glam::UVec2::new(16, 8), material as u32);
@@ -358,7 +358,7 @@ fn boxes_that_follow_the_movement_lose_nothing() {
 }
 
 #[test]
-fn a_box_that_makes_half_a_turn_at_once_is_met_on_all_its_way() {
+fn a_box_that_turns_by_180_degrees_is_hit_along_its_whole_path() {
     let cube = Geometry::Placed {
         canonical: CanonicalShape::Box,
         world_from_canonical: DAffine3::from_scale(DVec3::splat(0.6)),
@@ -377,7 +377,7 @@ fn a_box_that_makes_half_a_turn_at_once_is_met_on_all_its_way() {
     let (tree, _) = rendered(&packed, &frames, &settings);
     let (every, _) = rendered(&packed, &frames, &brute_force);
     check_same_bits("half a turn", &every, &tree).unwrap_or_else(|problem| panic!("{problem}"));
-    // Its corners reach √2 as far as its sides, where without the turn there is nothing.
+    // Its corners reach √2 as far as its sides, where there is nothing without the rotation.
     let (corner, ..) = (0..SIDE)
         .map(|x| (x, mean(&every, [(x, SIDE / 2)].into_iter())))
         .find(|(_, value)| *value > 0.0)

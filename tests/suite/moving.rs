@@ -1,4 +1,4 @@
-//! What can move, one by one: closed forms, and scenes that stand still as it should be by then.
+//! Everything that can move, one by one: closed forms, and static scenes with the same state.
 
 use crate::{
     instances::{packed, rendered},
@@ -21,7 +21,7 @@ use glimray::{
 };
 use std::{f64::consts::PI, sync::Arc};
 
-/// The pictures at some times, by one packed scene.
+/// The pictures at several times, from one packed scene.
 fn moments<const N: usize>(
     scene: &Scene,
     settings: &RenderSettings,
@@ -57,7 +57,7 @@ fn switch(target: Target, values: [f64; 2]) -> Track {
     }
 }
 
-/// Radiance of a pixel's red.
+/// The red radiance of a pixel.
 fn red(image: &Image, x: u32, y: u32) -> f64 {
     mean(image, [(x, y)].into_iter())
 }
@@ -80,7 +80,7 @@ fn furthest(a: &Image, b: &Image) -> f32 {
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
 
-/// A square before the camera, facing it, that reaches over a quarter of the picture.
+/// A square facing the camera that covers a quarter of the picture.
 fn facing() -> DAffine3 {
     DAffine3::from_scale_rotation_translation(
         DVec3::splat(HALF / 4.0),
@@ -90,7 +90,7 @@ fn facing() -> DAffine3 {
 }
 
 #[test]
-fn a_pattern_travels_with_what_carries_it() {
+fn a_pattern_moves_with_its_node() {
     let pixel = 2.0 * HALF / f64::from(SIDE);
     let steps = (11_u32, 5_u32);
     let way = dvec3(f64::from(steps.0), -f64::from(steps.1), 0.0) * pixel;
@@ -105,7 +105,7 @@ fn a_pattern_travels_with_what_carries_it() {
             b: vec3(0.1, 0.5, 1.0),
         },
         space: Space::World,
-        // Cells of three pixels, whose edges no pixel's centre is on.
+        // Cells of three pixels, with no pixel centre on an edge.
         pattern_from_space: DAffine3::from_scale(DVec3::splat(1.0 / (3.0 * pixel))),
     });
     as_shape.materials[0].textures = Textures {
@@ -135,7 +135,7 @@ fn a_pattern_travels_with_what_carries_it() {
                 seen += u32::from(here[0] > 0.0);
             }
         }
-        // The square is all there, and not of one colour.
+        // The square is complete, and not of one colour.
         assert_eq!(seen, SIDE * SIDE / 16, "{name}");
         let dim = before.pixels.iter().filter(|pixel| pixel[0] == 0.1).count();
         assert!(
@@ -146,8 +146,8 @@ fn a_pattern_travels_with_what_carries_it() {
 }
 
 #[test]
-fn a_pattern_on_what_stands_still_stands_still_whatever_else_moves() {
-    // Copies on a node that stands still, beside one that moves, laid out or placed.
+fn a_pattern_on_a_static_object_is_static_whatever_else_moves() {
+    // Copies on a static node, next to one that moves, baked or instanced.
     let mut scene = scenes::empty();
     scene.textures.push(Texture {
         pattern: Pattern::Checker {
@@ -192,7 +192,7 @@ fn a_pattern_on_what_stands_still_stands_still_whatever_else_moves() {
     assert!(differing(&laid_out, &placed, 2.0) <= 10);
 }
 
-/// A lamp that lights a floor behind it and is seen before it, and does nothing else.
+/// A visible lamp that lights a floor behind it, and nothing else.
 fn lamp(visible: bool) -> Scene {
     let mut scene = stage();
     scene.materials[0] = Material::default();
@@ -219,8 +219,8 @@ fn a_lamp_that_moves_is_seen_where_it_shines_from() {
     let target = Target::Light(0, LightProperty::Position);
     scene.tracks.push(track(target, Values::Vector(way)));
     let image = exposed(&scene, &blurred(512));
-    // Its own radiance is 0.5 / 0.25² where it is; elsewhere the floor shows its light, which is that
-    // of a point light at its centre: k_d · 0.5 · cos / d², and cos = h / d.
+    // Its own radiance is 0.5 / 0.25²; elsewhere the floor shows its light, which is that of a point light at
+    // its centre: k_d · 0.5 · cos / d², with cos = h / d.
     let diffuse = f64::from(scene.materials[0].diffuse.x);
     for (x, y) in [(32, 32), (32, 20), (28, 44), (2, 32), (60, 10), (12, 60)] {
         let (px, py) = (place(x), place(y));
@@ -238,7 +238,7 @@ fn a_lamp_that_moves_is_seen_where_it_shines_from() {
             .sum();
         let expected = sum / f64::from(steps);
         let actual = red(&image, x, y);
-        // Within a pixel the edge of the lamp takes some of it.
+        // Within a pixel the edge of the lamp blocks some of it.
         let allowed = 0.02 * expected.max(1.0);
         assert!(
             (actual - expected).abs() < allowed,
@@ -266,7 +266,7 @@ fn a_lamp_is_switched_together_with_its_surface() {
         },
     ] {
         let mut scene = lamp(true);
-        // One more light, so that there is something to see all the time.
+        // Another light, so that there is always something to see.
         scene.add_point_light(dvec3(0.5, 0.5, 3.0), 0.3);
         scene.lights[0].kind = kind;
         let settings = sized(SIDE, SIDE);
@@ -290,7 +290,7 @@ fn a_lamp_is_switched_together_with_its_surface() {
 }
 
 #[test]
-fn what_a_node_hides_is_gone_with_its_shadow_and_its_light() {
+fn hidden_nodes_hide_their_shadows_and_lights() {
     let mut scene = scenes::spheres();
     let without = {
         let mut scene = scene.clone();
@@ -350,7 +350,7 @@ fn materials_become_what_their_tracks_say() {
     let vectors = |from: Vec3, to: Vec3| Values::Vector(vec![from.as_dvec3(), to.as_dvec3()]);
     let scalars = |from: f64, to: f64| Values::Scalar(vec![from, to]);
     let (dark, bright) = (vec3(0.1, 0.3, 0.6), vec3(0.9, 0.5, 0.2));
-    // At rest, what changes it, and what it is at the end.
+    // At rest, the change, and the state at the end.
     type Change = fn(&mut Material);
     let rows: [(&str, &Material, P, Values, Change); 11] = [
         ("diffuse", &plain, P::Diffuse, vectors(dark, bright), |m| {
@@ -450,9 +450,8 @@ fn twice_the_emission_is_twice_the_radiance() {
 }
 
 #[test]
-fn a_camera_is_in_the_medium_that_is_round_it_by_then() {
-    // Balls that swallow light, of the index of nothing, before a white sky: what is left is
-    // exp(-absorption · way).
+fn a_moving_camera_is_in_the_medium_around_it() {
+    // Absorbing balls with an index of 1, in front of a white sky: the result is exp(-absorption · distance).
     let medium = Material {
         diffuse: Vec3::ZERO,
         ambient: Vec3::ZERO,
@@ -485,7 +484,7 @@ fn a_camera_is_in_the_medium_that_is_round_it_by_then() {
             .to_array()
             .map(|a| (-a * way).exp())
     };
-    // Ways of rays through the corners of the picture are longer or shorter by a hundredth.
+    // Ray paths through the corners of the picture differ in length by one percent.
     let check = |name: &str, image: &Image, expected: [f64; 3]| {
         for pixel in &image.pixels {
             for (actual, expected) in pixel.iter().zip(expected) {
@@ -497,19 +496,19 @@ fn a_camera_is_in_the_medium_that_is_round_it_by_then() {
             }
         }
     };
-    // From its centre; from half-way to its rim, sideways; and outside.
+    // From its centre; from half-way to its rim, sideways; and from outside.
     let [middle, aside, outside] = moments(&scene, &settings, [0.0, 0.02, 1.0]);
     check("in the middle", &middle, left(2.0));
     check("half-way", &aside, left(3.0_f64.sqrt()));
     check("outside", &outside, left(0.0));
 
-    // Carried along: always in the middle.
+    // Moved along with it: always in the centre.
     scene.cameras[0].node = Some(0);
     let [start, later] = moments(&scene, &settings, [0.0, 0.7]);
     check("carried, before", &start, left(2.0));
     check("carried, later", &later, left(2.0));
 
-    // A ball round it that turns transparent, with something bright in it, straight ahead.
+    // A ball around it that becomes transparent, with a bright object in it, straight ahead.
     scene.tracks.clear();
     scene.materials[0].transmit = Vec3::ZERO;
     let target = Target::Material(0, MaterialProperty::Transmit);
@@ -544,7 +543,7 @@ fn a_ball_that_flies_under_a_still_light_keeps_its_light() {
         color: Vec3::ONE,
         ..Light::default()
     });
-    // To and fro and round, in the picture all the time, and spinning.
+    // Moves back and forth and around, always in the picture, and spins.
     let way = vec![
         dvec3(-0.6, -0.5, 0.0),
         dvec3(0.6, -0.1, 0.0),
@@ -564,8 +563,8 @@ fn a_ball_that_flies_under_a_still_light_keeps_its_light() {
 }
 
 #[test]
-fn uneven_and_mirrored_sizes_give_the_picture_of_what_they_make() {
-    // A cone's placement by keys, against cones that were placed so from the start.
+fn nonuniform_and_mirrored_scales_give_the_picture_of_baked_geometry() {
+    // A cone transformed by keys, against cones with that transform from the start.
     let cone = |world_from_canonical| Geometry::Placed {
         canonical: CanonicalShape::Cone {
             bottom: 0.5,
@@ -608,7 +607,7 @@ fn uneven_and_mirrored_sizes_give_the_picture_of_what_they_make() {
 }
 
 #[test]
-fn what_is_mirrored_is_blurred_as_what_is_seen() {
+fn reflections_are_blurred_like_direct_views() {
     // Behind the camera, seen in a mirror across the picture; and as far behind the mirror without it.
     let glow = |z: f64| {
         let mut scene = carried(Geometry::Sphere {
@@ -643,7 +642,7 @@ fn what_is_mirrored_is_blurred_as_what_is_seen() {
 }
 
 #[test]
-fn the_shadow_of_what_moves_is_blurred_as_its_profile_says() {
+fn the_shadow_of_a_moving_object_is_blurred_as_its_profile_says() {
     let radius = 0.2;
     let (from, to) = (-0.5, 0.5);
     let mut scene = carried(Geometry::Sphere {
@@ -664,7 +663,7 @@ fn the_shadow_of_what_moves_is_blurred_as_its_profile_says() {
     scene.tracks.push(moves(NodeProperty::Translation, way));
     let image = exposed(&scene, &blurred(512));
     let lit = f64::from(scene.materials[1].diffuse.x) / 2.0_f64.sqrt();
-    // The shadow's middle is at x = -0.4, and it is √2 as long along x.
+    // The centre of the shadow is at x = -0.4, and it is √2 as long along x.
     let covered = |x: f64, y: f64| {
         let across = (x + 0.4) / (radius * 2.0_f64.sqrt());
         let half = radius * (1.0 - across * across).max(0.0).sqrt();
@@ -681,27 +680,27 @@ fn the_shadow_of_what_moves_is_blurred_as_its_profile_says() {
                     -place(y) + step(i / 16) * pixel,
                 )
             });
-            let share = points.sum::<f64>() / 256.0;
+            let fraction = points.sum::<f64>() / 256.0;
             let actual = red(&image, x, y) / lit;
             assert!(
-                (actual - (1.0 - share)).abs() < 0.02,
+                (actual - (1.0 - fraction)).abs() < 0.02,
                 "{x} {y}: {actual}, not {}",
-                1.0 - share
+                1.0 - fraction
             );
-            shaded += u32::from(share > 0.1);
+            shaded += u32::from(fraction > 0.1);
         }
     }
     assert!(shaded > 300, "{shaded} pixels in the shade");
 }
 
-/// Depths and normals of what is carried, in closed form at some times.
+/// Depths and normals of moving objects, in closed form at several times.
 #[test]
 fn depths_and_normals_are_those_of_the_moment() {
     let mut scene = carried(Geometry::Placed {
         canonical: CanonicalShape::Rectangle,
         world_from_canonical: facing(),
     });
-    // Towards the camera, while it turns about the vertical.
+    // Towards the camera, while it rotates about the vertical axis.
     let way = vec![DVec3::ZERO, dvec3(0.0, 0.0, 20.0)];
     scene.tracks.push(moves(NodeProperty::Translation, way));
     let turn = vec![DVec3::ZERO, dvec3(0.0, 0.8, 0.0)];

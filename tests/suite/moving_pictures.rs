@@ -1,5 +1,5 @@
-//! Whole moving pictures: against the independent tracer, against the mean of their moments, and
-//! against themselves made in other ways.
+//! Whole moving pictures: against the independent tracer, against the mean of their moments, and against
+//! themselves rendered in other ways.
 
 use crate::{
     instances::{crowd, glass, mirror, packed, rendered},
@@ -46,8 +46,8 @@ fn under(parent: usize) -> Node {
     }
 }
 
-/// What moves in every way, for one second, over a floor with a pattern: carried meshes and shapes with
-/// patterns, one node under another, unevenly scaled and mirrored, something that comes and goes.
+/// Objects that move in every way for one second over a patterned floor: meshes and shapes with patterns on
+/// nodes, nested nodes, non-uniform and mirrored scales, and an object that appears and disappears.
 fn fair() -> Scene {
     let mut scene = scenes::empty();
     let pattern = |pattern, size: f64| Texture {
@@ -77,7 +77,7 @@ fn fair() -> Scene {
         NodeProperty::Angles,
         &[DVec3::ZERO, dvec3(0.0, 4.0, 0.0)],
     );
-    // Uneven above what turns: it shears.
+    // Non-uniform scale above a rotation: it shears.
     let horse = node(
         &mut scene,
         Node {
@@ -184,7 +184,7 @@ fn fair() -> Scene {
     scene
 }
 
-/// Mirrors and glass that move, one of them with the camera inside of nothing else.
+/// Moving mirrors and glass, with the camera inside one of them.
 fn glassware() -> Scene {
     let mut scene = scenes::mirrors_and_glass();
     for i in 1..scene.shapes.len() {
@@ -210,7 +210,7 @@ fn glassware() -> Scene {
     scene
 }
 
-/// Lamps that are carried, turn, and travel by themselves, and can be seen.
+/// Visible lamps that move with nodes, rotate, and move by themselves.
 fn lamps() -> Scene {
     let mut scene = scenes::spheres();
     scene.lights.clear();
@@ -255,7 +255,7 @@ fn lamps() -> Scene {
     let target = Target::Light(1, LightProperty::Position);
     let way = vec![dvec3(2.2, 2.0, 0.5), dvec3(-2.0, 1.9, 1.2)];
     scene.tracks.push(track(target, Values::Vector(way)));
-    // Stands still and fades: of one that moves too, the trace is even.
+    // Static and fading: the trail of a lamp that moves as well has uniform brightness.
     scene.lights.push(area(
         LightKind::Disc {
             center: dvec3(0.4, 2.8, -0.5),
@@ -272,7 +272,7 @@ fn lamps() -> Scene {
     scene
 }
 
-/// A camera on a carrier that itself is carried, with a body beside it.
+/// A camera on nested moving nodes, with a volume next to it.
 fn ride() -> Scene {
     let mut scene = fair();
     let cart = node(&mut scene, Node::default());
@@ -330,7 +330,7 @@ fn moments_of_moving_scenes_match_an_independent_tracer() {
         [0.0, 0.37, 1.0].map(|time| {
             let expected = trace_at(&scene, time, settings.size).image;
             let (actual, _) = rendered(&packed, &[scene.frame(time)], &settings);
-            // Small pictures have their share of pixels on edges.
+            // Small pictures have relatively many pixels on edges.
             check_alike(&format!("{name} at {time}"), &expected, &actual, 2.0, 0.002)
         })
     }));
@@ -344,7 +344,7 @@ fn stratified(samples: u32, (width, height): (u32, u32)) -> RenderSettings {
     }
 }
 
-/// The mean of as many moments of a second, each a picture without blur.
+/// The mean of this many moments of a second, each a picture without blur.
 fn mean_of_moments(
     scene: &Scene,
     packed: &Arc<PackedScene>,
@@ -375,8 +375,7 @@ fn mean_of_moments(
     sum
 }
 
-/// The mean difference of the colours as a share of their mean in `a`, and the root of their mean
-/// squared difference.
+/// The mean colour difference relative to the mean of `a`, and the root mean squared difference.
 fn difference(a: &Image, b: &Image) -> (f64, f64) {
     let channels = |image: &Image| -> Vec<f64> {
         let colors = image.pixels.iter().flat_map(|pixel| &pixel[..3]);
@@ -423,7 +422,7 @@ fn an_open_shutter_gives_the_mean_of_its_moments() {
             ..stratified(8, size)
         };
         let expected = mean_of_moments(&scene, &packed, 32, &other);
-        // As shares of the picture's own strength: lamps are much brighter than what they light.
+        // Relative to the brightness of the picture: lamps are much brighter than the surfaces they light.
         let (_, strength) = difference(&expected, &Image::new(size.0, size.1));
         let (bias, rmse) = difference(&blurred, &expected);
         let rmse = rmse / strength;
@@ -431,14 +430,14 @@ fn an_open_shutter_gives_the_mean_of_its_moments() {
             bias.abs() < 0.005 && rmse < 0.05,
             "{name}: bias {bias}, RMSE {rmse}"
         );
-        // A moment alone is another picture.
+        // A single moment is a different picture.
         let (sharp, _) = rendered(&packed, &[scene.frame(0.0)], &stratified(16, size));
         let sharp = difference(&sharp, &expected).1 / strength;
         assert!(sharp > 3.0 * rmse, "{name}: RMSE {rmse} and {sharp}");
     }
 }
 
-/// Everything that samples can depend on at once, small.
+/// Everything that samples can depend on at once, in a small scene.
 fn busy() -> (Arc<PackedScene>, Vec<glimray::scene::Frame>) {
     let mut scene = ride();
     scene.cameras[0].lens = Some(Lens {
@@ -474,7 +473,7 @@ fn the_cut_of_the_work_does_not_show_in_blurred_pictures() {
         rendered(&packed, &frames, &other).0 != expected,
         "nothing is drawn"
     );
-    // Every other one: each means a shader to be compiled.
+    // Every second one: each needs a shader to be compiled.
     assert_none(slicings().into_iter().step_by(2).map(|(name, slicing)| {
         let (actual, cut) = rendered(&packed, &frames, &sliced(&base, slicing));
         assert_eq!(cut.rays, stats.rays, "{name}");
@@ -508,7 +507,7 @@ fn two_runs_images_buffers_and_crops_give_the_same_blur() {
 
 #[test]
 fn adaptive_sampling_spends_more_on_blur_and_comes_near_the_converged_picture() {
-    // A bright ball that crosses the left half; the right one stands still.
+    // A bright ball that crosses the left half; the one on the right is static.
     let mut scene = scenes::empty();
     scene.background = Background::Color(Vec3::splat(0.1));
     let glow = scene.add_material(Material {
@@ -550,13 +549,13 @@ fn adaptive_sampling_spends_more_on_blur_and_comes_near_the_converged_picture() 
         ..adaptive
     };
     let (spent, _) = rendered(&packed, &frames, &spent);
-    // Along its way, and in the sky above the other.
-    let share = |columns: std::ops::Range<usize>, rows: std::ops::Range<usize>| {
+    // Along its path, and in the sky above the other.
+    let fraction = |columns: std::ops::Range<usize>, rows: std::ops::Range<usize>| {
         let pixels = rows.flat_map(|y| columns.clone().map(move |x| y * 64 + x));
         let values: Vec<_> = pixels.map(|i| f64::from(spent.pixels[i][0])).collect();
         values.iter().sum::<f64>() / values.len() as f64
     };
-    let (blur, sky) = (share(14..22, 16..26), share(40..60, 2..12));
+    let (blur, sky) = (fraction(14..22, 16..26), fraction(40..60, 2..12));
     assert!(blur > 4.0 * sky, "{blur} in the blur, {sky} in the sky");
 }
 
@@ -593,7 +592,7 @@ fn trees_of_rays_are_counted_alike_through_instances() {
         let total = laid_out.iter().step_by(2).sum::<u64>() as f64;
         for (a, b) in laid_out.iter().zip(&instanced) {
             let off = a.abs_diff(*b) as f64;
-            // Rays of a kind that is rare are few in all.
+            // Rare kinds of rays are few in total.
             let allowed = 0.002 * (*a as f64).max(0.1 * total);
             assert!(off <= allowed, "{name}: {laid_out:?} and {instanced:?}");
         }
@@ -616,7 +615,7 @@ fn normals_and_depths_are_the_same_through_instances() {
         let off = pairs
             .filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 1e-3))
             .count();
-        // On an edge either of two is right.
+        // On an edge either result is correct.
         assert!(off <= 7, "{integrator:?}: {off} pixels");
         let seen = laid_out
             .pixels

@@ -15,7 +15,7 @@ use glimray::scene::{
 };
 use glimray::{import, pack};
 
-/// A scene without light, in which only backgrounds and emission shine.
+/// A scene without lights, in which only backgrounds and emission contribute.
 fn dark() -> Scene {
     Scene {
         cameras: vec![camera(dvec3(0.0, 0.0, 5.0), DVec3::ZERO, 1.0)],
@@ -181,7 +181,7 @@ fn an_absorbing_slab_leaves_what_beer_and_lambert_say() {
 
 #[test]
 fn a_camera_inside_a_medium_sees_through_it() {
-    // 2 units of water to its surface, at which all indices are 1.
+    // 2 units of water to its surface, where all indices are 1.
     let mut scene = dark();
     let water = Material {
         absorption: Vec3::splat(0.5),
@@ -217,7 +217,7 @@ fn a_white_furnace_shows_neither_mirror_nor_glass() {
 
 #[test]
 fn a_mirror_corridor_shows_one_image_more_with_every_bounce() {
-    // Mirrors at z = ±2 and a ball beside the camera, whose k-th image lies 4k away.
+    // Mirrors at z = ±2 and a ball next to the camera, whose k-th image is 4k away.
     let mut scene = dark();
     scene.cameras[0] = camera(DVec3::ZERO, DVec3::NEG_Z, 2.0 * 0.16_f64.atan());
     add(&mut scene, plane(dvec3(0.0, 0.0, -2.0), DVec3::Z), mirror());
@@ -268,8 +268,8 @@ fn every_bounce_between_mirrors_is_one_reflected_ray() {
 }
 
 #[test]
-fn rays_below_the_least_share_are_not_sent() {
-    // A mirror of one half between others: the k-th ray has the share 2⁻ᵏ, and 2⁻⁹ is 1/512.
+fn rays_below_the_minimum_throughput_are_not_traced() {
+    // Half mirrors: the k-th ray has the throughput 2⁻ᵏ, and 2⁻⁹ is 1/512.
     let mut scene = dark();
     scene.cameras[0] = camera(DVec3::ZERO, DVec3::NEG_Z, 0.1);
     let half = Material {
@@ -297,7 +297,7 @@ fn rays_below_the_least_share_are_not_sent() {
 
 #[test]
 fn a_tree_with_too_many_rays_is_cut_off_and_counted() {
-    // Surfaces that mirror and transmit all of the light make a tree that no share ends.
+    // Surfaces that fully reflect and fully transmit: the throughput never ends the tree.
     let mut scene = dark();
     let endless = Material {
         mixing: Mixing::Sum,
@@ -320,7 +320,7 @@ fn a_tree_with_too_many_rays_is_cut_off_and_counted() {
 }
 
 #[test]
-fn counts_do_not_depend_on_how_the_work_is_cut() {
+fn counts_do_not_depend_on_slicing() {
     let mut scene = dark();
     scene.background = Background::Color(Vec3::ONE);
     add(&mut scene, sphere(dvec3(-0.8, 0.0, 0.0), 1.0), glass(1.5));
@@ -343,15 +343,15 @@ fn counts_do_not_depend_on_how_the_work_is_cut() {
         ..to_depth(5)
     };
     let (image, stats) = render(&scene, &counting(&whole));
-    for (max_tiles, max_samples, window_side, fetch) in [
+    for (max_groups, max_samples, tile_side, fetch) in [
         (1, 1, 8, Fetch::Buffer),
         (3, 2, 2048, Fetch::Image),
         (2, 4, 16, Fetch::Auto),
     ] {
         let slicing = Slicing {
-            max_tiles,
+            max_groups,
             max_samples,
-            window_side,
+            tile_side,
             ..Slicing::default()
         };
         let (settings, policy) = sliced(&whole, slicing);
@@ -364,7 +364,7 @@ fn counts_do_not_depend_on_how_the_work_is_cut() {
     assert!(counted.reflection > 0 && counted.refraction > 0 && counted.shadow > 0);
 }
 
-/// A row of pixels across two bodies and what surrounds them.
+/// A row of pixels across two volumes and their surroundings.
 fn across(scene: &Scene) -> Vec<f64> {
     let settings = RenderSettings {
         size: (129, 129),
@@ -412,8 +412,8 @@ fn two_touching_blocks_of_one_glass_look_like_one() {
 }
 
 #[test]
-fn light_passes_from_one_body_into_another_that_touches_it() {
-    // Straight through glass and water: three boundaries, none of them with air between.
+fn light_passes_between_touching_volumes() {
+    // Straight through glass and water: three boundaries, none of them to air.
     let (glass_ior, water_ior) = (1.5_f64, 1.33);
     let once = |a: f64, b: f64| ((a - b) / (a + b)).powi(2);
     let straight = [
@@ -434,7 +434,7 @@ fn light_passes_from_one_body_into_another_that_touches_it() {
         glass(1.33),
     );
     scene.cameras[0].fov_y = 1e-3;
-    // Only what is never mirrored: the tree is as deep as there are boundaries.
+    // Without reflection: the tree is as deep as there are boundaries.
     let settings = RenderSettings {
         min_throughput: 0.5,
         ..to_depth(3)
@@ -446,7 +446,7 @@ fn light_passes_from_one_body_into_another_that_touches_it() {
 
 #[test]
 fn of_overlapping_bodies_the_one_with_the_higher_priority_counts() {
-    // Water that reaches into the wall of its glass: from z = -1 to -1.5 both are there.
+    // Water that overlaps the wall of its glass: from z = -1 to -1.5 both are present.
     let seen = |water_priority| {
         let mut scene = dark();
         scene.background = Background::Color(Vec3::ONE);
@@ -486,8 +486,8 @@ fn of_overlapping_bodies_the_one_with_the_higher_priority_counts() {
 }
 
 #[test]
-fn bodies_of_one_mesh_touch_and_overlap_like_others() {
-    // Two cubes as triangles of a native scene, one inside the other: together they are one mesh.
+fn volumes_of_one_mesh_touch_and_overlap_like_others() {
+    // Two cubes as triangles of a native scene, one inside the other: together they form one mesh.
     let cube = |half: f64, material: &str| {
         let corner = |i: usize| {
             let sign = |bit: usize| if i >> bit & 1 == 1 { half } else { -half };
@@ -525,7 +525,7 @@ fn bodies_of_one_mesh_touch_and_overlap_like_others() {
 
 #[test]
 fn a_bubble_in_glass_is_entered_from_glass() {
-    // At normal incidence four boundaries of the same R₀; the sphere of air counts as a medium of its own.
+    // At normal incidence four boundaries of the same R₀; the sphere of air is a medium of its own.
     let r0 = (0.5_f64 / 2.5).powi(2);
     let mut scene = dark();
     scene.background = Background::Color(Vec3::ONE);
@@ -542,7 +542,7 @@ fn a_bubble_in_glass_is_entered_from_glass() {
 
 #[test]
 fn a_pane_on_a_table_shows_the_table() {
-    // The lower face of the pane and the table lie in one plane.
+    // The lower face of the pane and the table are coplanar.
     let mut scene = dark();
     scene.cameras[0] = camera(dvec3(0.0, 4.0, 4.0), DVec3::ZERO, 0.5);
     add(&mut scene, plane(DVec3::ZERO, DVec3::Y), shining(1.0));
@@ -563,8 +563,8 @@ fn a_pane_on_a_table_shows_the_table() {
 
 #[test]
 fn a_ball_of_glass_bends_light_as_a_lens_does() {
-    // A ball's focal length is n R / (2 (n - 1)) from its centre, where both principal planes lie:
-    // a ray that leaves a point at the distance s under the angle θ goes on under θ (1 - s / f).
+    // The focal length of a ball is n R / (2 (n - 1)) from its centre, where both principal planes lie: a ray
+    // that leaves a point at the distance s under the angle θ continues under θ (1 - s / f).
     let (radius, n) = (1.0, 1.5);
     let f = n * radius / (2.0 * (n - 1.0));
     let mut verdict = Verdict::on("ball lens");
@@ -575,7 +575,7 @@ fn a_ball_of_glass_bends_light_as_a_lens_does() {
         ("far", 10.0),
     ] {
         let mut scene = dark();
-        // The brightness of the background tells the direction's y.
+        // The brightness of the background gives the y of the direction.
         scene.background = Background::Gradient {
             bottom: Vec3::ZERO,
             top: Vec3::ONE,
@@ -588,7 +588,7 @@ fn a_ball_of_glass_bends_light_as_a_lens_does() {
             ..to_depth(4)
         };
         let image = render(&scene, &settings).0;
-        // The ray of pixel (8, 2) and the share that two boundaries let through.
+        // The ray of pixel (8, 2) and the fraction that two boundaries transmit.
         let angle = ((5.5 / 8.0) * 0.01_f64.tan()).atan();
         let through = (1.0 - 0.04_f64).powi(2);
         let seen = f64::from(image.pixel(8, 2).expect("a pixel")[0]) / through;
@@ -603,7 +603,7 @@ fn a_ball_of_glass_bends_light_as_a_lens_does() {
 
 #[test]
 fn the_courses_mirrors_blend_local_and_reflected_light() {
-    // One ball under ambient light 0.2 only: (1 - spe) · amb + spe · white.
+    // One ball with ambient light 0.2 only: (1 - spe) · amb + spe · white.
     let text = "2\namb: 0.2 0.2 0.2\nsphere pos: 0 0 -3 rad: 1 dif: 0 0 0 spe: 0.25 0.5 1 shi: 1\n\
                 light pos: 0 0 -9 col: 1 1 1\n";
     let scene = import::parse("a.scene", text, &import::Options::default()).expect("a scene");
@@ -619,7 +619,7 @@ fn the_courses_mirrors_blend_local_and_reflected_light() {
 
 #[test]
 fn filtered_shadows_let_through_what_transmission_and_absorption_leave() {
-    // A lamp straight above a plate of glass above a floor.
+    // A lamp directly above a plate of glass above a floor.
     let lit = |shadows, plate: Option<Material>| {
         let mut scene = dark();
         scene.shadows = shadows;
@@ -660,7 +660,7 @@ fn filtered_shadows_let_through_what_transmission_and_absorption_leave() {
 }
 
 #[test]
-fn light_comes_through_bodies_that_touch_and_through_balls_up_to_their_rim() {
+fn light_passes_through_touching_volumes_and_balls_up_to_their_rim() {
     let lit = |bodies: &[(Geometry, Material)], x: f64| {
         let mut scene = dark();
         scene.shadows = Shadows::Filtered;
@@ -683,7 +683,7 @@ fn light_comes_through_bodies_that_touch_and_through_balls_up_to_their_rim() {
         middle(&render(&scene, &to_depth(5)).0)
     };
     let open = lit(&[], 0.0);
-    // Half a unit of a tinted medium under another one that swallows nothing.
+    // Half a unit of a tinted medium below a clear one.
     let tinted = Material {
         absorption: Vec3::splat(2.0),
         ..glass(1.0)
@@ -697,7 +697,7 @@ fn light_comes_through_bodies_that_touch_and_through_balls_up_to_their_rim() {
     ];
     let got = lit(&stack, 0.0) / open;
     assert!((got / (-1.0_f64).exp() - 1.0).abs() < 2e-3, "{got}");
-    // Both boundaries at the angle whose sine is x: never less than grazing light leaves.
+    // Both boundaries at the angle whose sine is x: never below the value for grazing light.
     for x in [0.0, 0.5, 0.7, 0.9_f64] {
         let ball = [(sphere(dvec3(0.0, 2.0, 0.0), 1.0), glass(1.5))];
         let (incidence, refraction) = (x.asin(), (x / 1.5).asin());
@@ -717,7 +717,7 @@ fn light_comes_through_bodies_that_touch_and_through_balls_up_to_their_rim() {
 }
 
 #[test]
-fn more_media_round_the_camera_than_a_ray_remembers_are_refused() {
+fn too_many_media_around_the_camera_are_rejected() {
     let mut scene = dark();
     for radius in 6..=10 {
         add(
@@ -752,7 +752,7 @@ fn track(target: Target, values: [DVec3; 2]) -> Track {
     }
 }
 
-/// The materials of the media round the camera at a time.
+/// The materials of the media around the camera at a time.
 fn media_at(scene: &Scene, time: f64) -> [u32; 4] {
     let packed = pack::scene(scene).expect("a packed scene");
     let view = packed.frame(&scene.frame(time)).expect("a frame");
@@ -798,8 +798,8 @@ fn the_media_round_the_camera_are_those_of_the_copy_that_it_is_in() {
         scenes::ball(UVec2::new(12, 8), 0).into(),
         scenes::ball(UVec2::new(12, 8), 1).into(),
     ];
-    // Only one of the first mesh's copies, stretched and mirrored, reaches to the camera; one of the
-    // second's lies in it.
+    // Only one of the copies of the first mesh, stretched and mirrored, contains the camera; so does one of the
+    // second's.
     let stretched = DAffine3::from_scale_rotation_translation(
         dvec3(-1.0, 1.0, 6.0),
         DQuat::from_rotation_x(0.1),
@@ -825,7 +825,7 @@ fn the_media_round_the_camera_are_those_of_the_copy_that_it_is_in() {
     assert_eq!(media_at(&scene, 0.0), [1, NONE, NONE, NONE]);
 }
 
-/// A ball round the origin in Haines' format, in front of a background of one colour.
+/// A ball around the origin in Haines' format, in front of a constant background.
 fn nff_ball(material: &str) -> Scene {
     let text = format!(
         "b 0.25 0.5 1\nv\nfrom 0 -5 0\nat 0 0 0\nup 0 0 1\nangle 30\nhither 1\nresolution 64 64\n\
@@ -834,8 +834,8 @@ fn nff_ball(material: &str) -> Scene {
     import::parse("a.nff", &text, &import::Options::default()).expect("a scene")
 }
 
-/// Every pixel of a picture through the camera of [`nff_ball`], with what its ray shows in f64. Rays
-/// that pass the edge of the ball nearer than roundings reach are left out.
+/// Every pixel of a picture through the camera of [`nff_ball`], with its value in f64. Rays within rounding
+/// error of the edge of the ball are skipped.
 fn check_nff_ball(image: &Image, expected: impl Fn(DVec3, Option<DVec3>) -> DVec3) {
     let mut verdict = Verdict::on("a ball");
     let eye = dvec3(0.0, -5.0, 0.0);
@@ -862,9 +862,9 @@ fn check_nff_ball(image: &Image, expected: impl Fn(DVec3, Option<DVec3>) -> DVec
 
 #[test]
 fn a_ball_of_haines_adds_phongs_light_its_mirror_and_what_comes_through() {
-    // What is mirrored outside comes from the background, and what was let in arrives at the wall
-    // under the angle that it came in by, so that it always gets out: with d bounces left, the light
-    // along a ray inside is I(d) = T B + Ks I(d - 1), I(0) = 0. No lamp shines on the inside.
+    // Light reflected outside comes from the background. Light that entered hits the wall from inside under its
+    // angle of entry, so that it always exits: with d bounces left, the radiance along a ray inside is I(d) = T
+    // B + Ks I(d - 1), I(0) = 0. No lamp illuminates the inside.
     let (mirror, through, depth) = (0.25_f64, 0.5_f64, 5);
     let scene = nff_ball("1 0.5 0.25 0.5 0.25 12 0.5 1.5");
     let image = render(
@@ -897,7 +897,7 @@ fn a_ball_of_haines_adds_phongs_light_its_mirror_and_what_comes_through() {
 #[test]
 fn a_clear_ball_of_haines_turns_every_ray_by_twice_the_angle_that_snell_bends_it() {
     let mut scene = nff_ball("1 1 1 0 0 1 1 1.5");
-    // The brightness tells y, and so how far a ray was turned: the camera looks along it.
+    // The brightness gives y, and therefore the deflection of a ray: the camera looks along y.
     scene.background = Background::Gradient {
         bottom: Vec3::ZERO,
         top: Vec3::ONE,
@@ -923,8 +923,8 @@ fn a_clear_ball_of_haines_turns_every_ray_by_twice_the_angle_that_snell_bends_it
 
 #[test]
 fn inside_a_ball_of_haines_only_rays_within_the_critical_angle_go_on() {
-    // From the distance s off the middle the wall is met under sin φ = s sin θ; without a mirror
-    // nothing comes back from beyond the critical angle.
+    // At the distance s from the centre the ray hits the wall under sin φ = s sin θ; without a mirror nothing
+    // returns from beyond the critical angle.
     let mut scene = nff_ball("1 1 1 0 0 1 0.5 1.25");
     let eye = dvec3(0.9, 0.0, 0.0);
     scene.cameras[0] = camera(eye, eye + DVec3::NEG_Z, 1.0);

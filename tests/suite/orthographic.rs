@@ -31,7 +31,7 @@ fn parallel(distance: f64, height: f64) -> Camera {
     }
 }
 
-/// A unit sphere round the origin.
+/// A unit sphere around the origin.
 fn ball(camera: Camera) -> Scene {
     let mut scene = Scene {
         cameras: vec![camera],
@@ -56,7 +56,7 @@ fn depths(camera: Camera, (width, height): (u32, u32)) -> Image {
 }
 
 #[test]
-fn a_sphere_takes_its_share_of_the_picture_from_wherever_it_is_seen() {
+fn a_sphere_covers_the_same_fraction_of_the_picture_from_any_distance() {
     let (height, size) = (3.0, (512, 256));
     let pixels: Vec<Vec<bool>> = [1.5, 4.0, 900.0]
         .map(|distance| {
@@ -65,7 +65,7 @@ fn a_sphere_takes_its_share_of_the_picture_from_wherever_it_is_seen() {
         })
         .into();
     let hits = pixels[0].iter().filter(|hit| **hit).count() as f64;
-    // π r² in a picture of height h and width 2 h, counted at the middles of pixels.
+    // π r² in a picture of height h and width 2 h, sampled at pixel centres.
     let expected = PI / (2.0 * height * height) * f64::from(size.0 * size.1);
     assert!((hits / expected - 1.0).abs() < 2e-3, "{hits} of {expected}");
     for others in &pixels[1..] {
@@ -99,8 +99,8 @@ fn distances_are_those_from_the_plane_through_the_eye() {
 }
 
 #[test]
-fn what_is_behind_the_plane_through_the_eye_is_not_seen() {
-    // Through the middle of the sphere: only its far side is left.
+fn objects_behind_the_plane_through_the_eye_are_not_seen() {
+    // Through the centre of the sphere: only its far side is visible.
     let image = depths(parallel(0.0, 2.5).at_origin(), (SIDE, SIDE));
     let middle = image.pixels[(SIDE / 2 * SIDE + SIDE / 2) as usize][0];
     assert!((middle - 1.0).abs() < 1e-3, "{middle}");
@@ -265,8 +265,8 @@ fn blur_has_the_size_of_the_opening_seen_from_the_focus() {
         }
         sum / light
     };
-    // The mean of the squared distance from the middle of a disc is half its radius squared; that of the
-    // ball and that of the blur add up.
+    // The mean squared distance from the centre of a disc is half its squared radius; those of the ball and of
+    // the blur add up.
     for depth in [10.0, 4.0, 20.0] {
         let blur = 0.8 * (1.0_f64 - depth / 10.0).abs();
         let expected = (0.3 * 0.3 + blur * blur) / 2.0;
@@ -279,7 +279,7 @@ fn blur_has_the_size_of_the_opening_seen_from_the_focus() {
 }
 
 #[test]
-fn the_height_goes_with_time_and_with_what_carries_the_camera() {
+fn the_height_is_animated_and_follows_the_node_of_the_camera() {
     let mut scene = ball(parallel(5.0, 2.0));
     scene.tracks = vec![Track {
         targets: vec![Target::Camera(0, CameraProperty::OrthographicHeight)],
@@ -306,7 +306,7 @@ fn the_height_goes_with_time_and_with_what_carries_the_camera() {
     scene.cameras[0].node = Some(0);
     let carried = height(&scene, 0.5).expect("orthographic");
     assert!((carried - 7.5).abs() < 1e-12, "{carried}");
-    // It says nothing of a camera with perspective.
+    // It does not apply to perspective cameras.
     scene.cameras[0].orthographic_height = None;
     assert_eq!(height(&scene, 0.5), None);
 }

@@ -1,4 +1,4 @@
-//! Packing: what lies where in the arrays that the GPU reads.
+//! Packing: the layout of the arrays that the GPU reads.
 
 use crate::reference::scenes::{self, Build};
 use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3, vec3};
@@ -21,7 +21,7 @@ fn render_space_has_its_origin_at_the_camera() {
     let eye = dvec3(1e7, -3e7, 2e7);
     scene.cameras[0].look_from = eye;
     scene.cameras[0].look_at = eye + DVec3::X;
-    // f32 would round these places to whole metres.
+    // f32 would round these positions to whole metres.
     scene.add_sphere(eye + dvec3(0.125, 0.25, -0.375), 0.5, 0);
     scene.add_mesh(
         scenes::quad(1.0, 0),
@@ -77,7 +77,7 @@ fn planes_follow_the_bounded_shapes_and_all_keep_their_ids() {
 fn a_plane_is_kept_by_its_point_nearest_to_the_camera() {
     let mut scene = scenes::empty();
     let normal = dvec3(1.0, 2.0, -2.0) / 3.0;
-    // The point in the file is far away, where f32 would place the plane badly.
+    // The point in the file is far away, where f32 would misplace the plane.
     let along = normal.any_orthonormal_vector();
     let eye = scene.cameras[0].look_from;
     scene.add_plane(eye + normal * 4.0 + along * 1e12, normal, 0);
@@ -298,7 +298,7 @@ fn a_scene_without_geometry_packs_to_a_root_without_children() {
 #[test]
 fn u_and_v_of_a_plane_are_lengths_from_its_point_to_the_right_and_up() {
     let half = std::f64::consts::FRAC_1_SQRT_2;
-    // The normal, and where u and v grow.
+    // The normal, and the directions of u and v.
     let rows = [
         ("a floor", DVec3::Y, DVec3::X, DVec3::NEG_Z),
         ("a ceiling", DVec3::NEG_Y, DVec3::X, DVec3::Z),
@@ -413,7 +413,7 @@ fn visible_lights_are_surfaces_that_shine_on_their_front() {
     let packed = packed(&scene);
     assert!(packed.features.emission);
     assert_eq!(packed.shapes.len(), shapes + 3);
-    // (kind, radiance of colour 1, which way it faces): π over the area, 1/r² for round ones.
+    // (kind, radiance of colour 1, normal): π over the area, 1/r² for round ones.
     let expected = [
         (
             SHAPE_RECTANGLE,

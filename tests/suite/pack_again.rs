@@ -1,5 +1,5 @@
-//! A scene that differs a little from another is packed from it to the same bytes: only what differs
-//! gets new trees, and only that is uploaded.
+//! Packing a scene from a similar one gives the same bytes as packing it anew: only changed parts get new trees
+//! and are uploaded.
 
 use crate::reference::compare::{open_gpu, sized};
 use crate::reference::scenes::{self, Build};
@@ -19,7 +19,7 @@ fn packed(scene: &Scene) -> PackedScene {
     pack::scene(scene).expect("a scene that can be packed")
 }
 
-/// Both kinds of objects, and a lamp that rays see.
+/// Both kinds of objects, and a visible lamp.
 fn furnished() -> Scene {
     let mut scene = scenes::meshes();
     let material = scene.add_material(scenes::shiny(vec3(0.2, 0.7, 0.2)));
@@ -39,7 +39,7 @@ fn furnished() -> Scene {
 
 type Edit = fn(&mut Scene);
 
-/// Whether both are the same to the GPU, and name things alike.
+/// Whether both are the same to the GPU, and have the same names.
 fn is_same(scene: &Scene, a: &PackedScene, b: &PackedScene) -> bool {
     let frames = scene.motion_samples(0.0, 0.0);
     let names = |packed: &PackedScene| (packed.material_name(0).map(str::to_owned), packed.origin);
@@ -52,7 +52,7 @@ fn is_same(scene: &Scene, a: &PackedScene, b: &PackedScene) -> bool {
 }
 
 #[test]
-fn what_only_looks_different_is_packed_to_the_same_bytes_without_a_tree() {
+fn changes_of_appearance_build_no_tree_and_give_the_bytes_of_a_full_pack() {
     let edits: [(&str, Edit); 10] = [
         ("a colour", |s| s.materials[0].diffuse = vec3(0.1, 0.5, 0.9)),
         ("a mirror", |s| s.materials[1].reflect = Vec3::splat(0.5)),
@@ -101,8 +101,7 @@ fn what_only_looks_different_is_packed_to_the_same_bytes_without_a_tree() {
     verdict.close();
 }
 
-/// Twelve balls too large for the tree that small objects share, in two rows over a floor; a shape and a
-/// small mesh beside them.
+/// Twelve balls too large for the joint tree, in two rows over a floor; a shape and a small mesh next to them.
 fn gallery() -> Scene {
     let mut scene = scenes::empty();
     scene.add_material(scenes::shiny(vec3(0.7, 0.2, 0.1)));
@@ -145,7 +144,7 @@ const ONE_MESH: TreeWork = TreeWork {
 const JOINT: TreeWork = TreeWork { joint: 1, ..TOP };
 const NOTHING: TreeWork = TreeWork { top: 0, ..TOP };
 
-/// Edits of a gallery, and the trees that each takes.
+/// Edits of a gallery, and the trees that each rebuilds.
 const EDITS: [(&str, TreeWork, Edit); 12] = [
     ("the camera", NOTHING, |s| {
         s.cameras[0].look_from += dvec3(1.0, 2.0, 3.0);
@@ -186,7 +185,7 @@ const EDITS: [(&str, TreeWork, Edit); 12] = [
 ];
 
 #[test]
-fn an_edit_takes_the_trees_of_what_it_changes_and_gives_the_bytes_of_packing_anew() {
+fn an_edit_rebuilds_only_affected_trees_and_gives_the_bytes_of_a_full_pack() {
     let was = gallery();
     let before = packed(&was);
     assert_eq!((before.work.topologies, before.work.refits), (12, 12));
@@ -276,7 +275,7 @@ fn the_tree_over_instances_is_kept_as_long_as_nothing_moves() {
         let again = pack::scene_from(&packed, &scene).expect("packed");
         let is_kept = from(&again, &scene, (0.2, 0.4));
         verdict.that(name, is_kept == (work == NOTHING), || is_kept);
-        // What moves is not moved by edits of what does not.
+        // Moving objects are not affected by edits of static ones.
         verdict.that(name, again.work.top == 0, || format!("{:?}", again.work));
     }
     verdict.close();
@@ -331,7 +330,7 @@ fn only_what_differs_is_uploaded_and_the_picture_is_that_of_a_new_renderer() {
                 });
             }
             if let "moved" | "turned" = edit_name {
-                // Its triangles, its vertices, at most a node for two triangles, and the tree above.
+                // Its triangles and vertices, at most a node for two triangles, and the tree above.
                 let own = |index: usize| {
                     let mesh = &scene.meshes[index];
                     48 * mesh.triangles.len()

@@ -1,5 +1,4 @@
-//! The tree over what is placed: boxes that follow what moves, keys that say where it is, and nothing
-//! else.
+//! The TLAS: boxes that bound moving objects, keys that give their transforms, and nothing else.
 
 use crate::{
     reference::scenes::{self, Build},
@@ -30,7 +29,7 @@ fn track(index: usize, property: NodeProperty, values: Vec<DVec3>) -> Track {
     }
 }
 
-/// What lies behind the scene's nodes on the GPU.
+/// The data after the scene's nodes on the GPU.
 struct Behind {
     nodes: Vec<PackedNode>,
     instances: Vec<PackedInstance>,
@@ -86,8 +85,7 @@ impl Behind {
             .collect()
     }
 
-    /// For each instance what is common to all boxes on the way down to it, and all other references
-    /// with theirs.
+    /// For each instance the intersection of all boxes on the path to it, and all other references with theirs.
     fn boxes_at(&self, time: f64) -> (Vec<Option<Box>>, Vec<(Box, u32)>) {
         let mut found = vec![None; self.instances.len()];
         let mut others = Vec::new();
@@ -111,7 +109,7 @@ impl Behind {
         (found, others)
     }
 
-    /// Where an instance is at this fraction of the shutter interval, from its keys.
+    /// The transform of an instance at this fraction of the shutter interval, from its keys.
     fn space_at(&self, instance: &PackedInstance, time: f64) -> DAffine3 {
         let vector = |v: [f32; 3]| DVec3::from(v.map(f64::from));
         if instance.key_count == 1 {
@@ -124,12 +122,12 @@ impl Behind {
         }
         let at = time * f64::from(instance.key_count - 1);
         let before = (at as u32).min(instance.key_count - 2);
-        let share = at - f64::from(before);
+        let fraction = at - f64::from(before);
         let key = |step: u32| parts(&self.keys[(instance.first_key + before + step) as usize]);
         let ((p, q, s), (p1, q1, s1)) = (key(0), key(1));
-        let rotation = (q * (1.0 - share) + q1 * share).normalize();
-        let matrix = DMat3::from_quat(rotation) * (s * (1.0 - share) + s1 * share);
-        DAffine3::from_mat3_translation(matrix, p.lerp(p1, share))
+        let rotation = (q * (1.0 - fraction) + q1 * fraction).normalize();
+        let matrix = DMat3::from_quat(rotation) * (s * (1.0 - fraction) + s1 * fraction);
+        DAffine3::from_mat3_translation(matrix, p.lerp(p1, fraction))
     }
 }
 
@@ -146,8 +144,8 @@ fn parts(key: &PackedKey) -> (DVec3, DQuat, DMat3) {
     (vector(key.translation), rotation, stretch)
 }
 
-/// Objects that fly, tumble, stretch, shear and grow, mirrored or not, over a floor that stands still;
-/// meshes first, each with points that are on it.
+/// Objects that translate, tumble, stretch, shear and grow, mirrored or not, over a static floor; meshes first,
+/// each with points on its surface.
 fn flock(random: &mut Random) -> (Scene, Vec<Vec<DVec3>>) {
     let mut scene = scenes::empty();
     scene
@@ -155,7 +153,7 @@ fn flock(random: &mut Random) -> (Scene, Vec<Vec<DVec3>>) {
         .push(scenes::torus(0.7, 0.3, UVec2::new(10, 6), 0).into());
     let mut points = Vec::new();
     for i in 0..24 {
-        // A parent that scales unevenly above a child that turns makes it shear.
+        // A parent with non-uniform scale above a rotating child makes it shear.
         let mirror = if i % 5 == 0 { -1.0 } else { 1.0 };
         let uneven = dvec3(
             mirror * random.between(0.3, 2.0),
@@ -236,13 +234,13 @@ fn flock(random: &mut Random) -> (Scene, Vec<Vec<DVec3>>) {
 }
 
 #[test]
-fn boxes_hold_what_moves_at_every_moment() {
+fn boxes_bound_moving_objects_at_every_moment() {
     let mut random = Random::new(51);
     let mut verdict = Verdict::on("boxes of a view");
     for round in 0..6 {
         let (scene, points) = flock(&mut random);
         let packed = pack::scene(&scene).expect("packed");
-        // From a sliver of the animation to all of it.
+        // From a tiny part of the animation to all of it.
         let (open, close) = [(0.3, 0.31), (0.2, 0.4), (0.0, 1.0)][round % 3];
         let frames = scene.motion_samples(open, close);
         let view = packed.view(&frames).expect("a view");
@@ -269,7 +267,7 @@ fn boxes_hold_what_moves_at_every_moment() {
                     format!("{p} is not in {min} to {max}")
                 });
             }
-            // The floor is there too, and stays where it is.
+            // The floor is there too, and does not move.
             let half = 3.0;
             let corners =
                 [dvec3(-half, 0.0, -half), dvec3(half, 0.0, half)].map(|p| p - packed.origin);
@@ -286,11 +284,11 @@ fn boxes_hold_what_moves_at_every_moment() {
 }
 
 #[test]
-fn keys_lead_where_the_scene_says_at_every_moment() {
+fn keys_give_the_transforms_of_the_scene_at_every_moment() {
     let mut random = Random::new(52);
     let (scene, points) = flock(&mut random);
     let packed = pack::scene(&scene).expect("packed");
-    // Between keys of the scene: at one that bends the way sharply, the most frames may be too few.
+    // Between keys of the scene: at a key with a sharp bend, the maximum number of frames may be too few.
     let (open, close) = (0.35, 0.48);
     let view = packed
         .view(&scene.motion_samples(open, close))
@@ -298,8 +296,8 @@ fn keys_lead_where_the_scene_says_at_every_moment() {
     let behind = behind(&packed, &view);
     let mut verdict = Verdict::on("keys of a view");
     for _ in 0..200 {
-        let share = random.between(0.0, 1.0);
-        let frame = scene.frame(open + (close - open) * share);
+        let fraction = random.between(0.0, 1.0);
+        let frame = scene.frame(open + (close - open) * fraction);
         for instance in &behind.instances {
             let object = instance.id as usize - 1;
             let (node, placement) = match scene.instances.get(object).filter(|_| object < 12) {
@@ -307,9 +305,9 @@ fn keys_lead_where_the_scene_says_at_every_moment() {
                 None => (scene.shapes[object - 12].node, DAffine3::IDENTITY),
             };
             let world = frame.nodes[node.expect("a node")].world_from_node * placement;
-            let space = behind.space_at(instance, share);
-            // What motion samples are close enough for: a thousandth of the distance for places,
-            // and what a turn of 0.1 makes of the object's size.
+            let space = behind.space_at(instance, fraction);
+            // The required precision of motion samples: a thousandth of the distance for positions, and a
+            // rotation of 0.1 for the size of the object.
             let worst = (points[object].iter())
                 .map(|p| {
                     let expected = world.transform_point3(*p) - packed.origin;
@@ -318,22 +316,24 @@ fn keys_lead_where_the_scene_says_at_every_moment() {
                     space.transform_point3(*p).distance(expected) / allowed
                 })
                 .fold(0.0, f64::max);
-            verdict.that(format!("object {object} at {share}"), worst <= 1.0, || {
-                worst
-            });
+            verdict.that(
+                format!("object {object} at {fraction}"),
+                worst <= 1.0,
+                || worst,
+            );
         }
     }
     verdict.close();
 }
 
 #[test]
-fn any_transform_is_what_its_key_puts_together_again() {
+fn every_transform_survives_decomposition_into_a_key() {
     let mut random = Random::new(53);
     let mut scene = scenes::empty();
     scene.meshes.push(scenes::quad(1e-3, 0).into());
     let mut transforms = Vec::new();
     for i in 0..400 {
-        // From round to a millionth as thin as wide, and mirrored by turns.
+        // From spherical to a millionth as thin as wide, and alternately mirrored.
         let thin = || -6.0 * (i % 5) as f64 / 4.0;
         let scale = dvec3(
             random.between(0.5, 1.0),
@@ -353,7 +353,7 @@ fn any_transform_is_what_its_key_puts_together_again() {
             placement: DAffine3::from_mat3(matrix),
             ..Node::default()
         });
-        // Far enough to move, so that there are keys.
+        // Moved far enough to need keys.
         let way = vec![DVec3::ZERO, DVec3::splat(1.0)];
         scene.tracks.push(track(i, NodeProperty::Translation, way));
         scene.instances.push(Instance {
@@ -394,7 +394,7 @@ fn any_transform_is_what_its_key_puts_together_again() {
 
 #[test]
 fn keys_go_the_short_way_round() {
-    // Three whole turns: quaternions change their sign on the way.
+    // Three full turns: quaternions change their sign on the way.
     let mut scene = scenes::empty();
     scene.meshes.push(scenes::quad(1.0, 0).into());
     scene.nodes.push(Node::default());
@@ -418,7 +418,7 @@ fn keys_go_the_short_way_round() {
 }
 
 #[test]
-fn what_is_hidden_is_not_there_and_takes_no_room() {
+fn hidden_objects_are_omitted_and_take_no_memory() {
     let mut random = Random::new(54);
     let (mut scene, points) = flock(&mut random);
     let hide = |node: usize, times: [f64; 2], values: [f64; 2]| Track {
@@ -431,7 +431,7 @@ fn what_is_hidden_is_not_there_and_takes_no_room() {
             beyond: Beyond::Hold,
         },
     };
-    // A parent, and so its child, until half-time; another one's child from then on.
+    // A parent, and so its child, until half-time; then another child.
     scene.tracks.push(hide(0, [0.0, 0.5], [0.0, 1.0]));
     scene.tracks.push(hide(3, [0.0, 0.5], [1.0, 0.0]));
     let lamp = |radius, position: DVec3| Light {
@@ -448,7 +448,7 @@ fn what_is_hidden_is_not_there_and_takes_no_room() {
     switch.targets = vec![Target::Light(1, LightProperty::On)];
     scene.tracks.push(switch);
     let packed = pack::scene(&scene).expect("packed");
-    // The first lamp stands still, the second is the last of what is placed.
+    // The first lamp is static, the second is the last instance.
     let all = points.len() + 1;
     assert_eq!(packed.instance_count(), all);
     let ids = |time: f64| {
@@ -482,7 +482,7 @@ fn the_same_frames_are_packed_to_the_same_bytes() {
             .expect("a view")
     };
     let first = view_of(&packed, 0.2, 0.4);
-    // Others in between leave no trace.
+    // Other views in between have no effect.
     let other = view_of(&packed, 0.5, 0.6);
     assert!(first.parts() != other.parts());
     assert!(first.parts() == view_of(&packed, 0.2, 0.4).parts());
@@ -491,8 +491,7 @@ fn the_same_frames_are_packed_to_the_same_bytes() {
     assert!(still(&packed).parts() == still(&again).parts());
 }
 
-/// Entries that a walk from this reference may have on its stack at once: at each node all children
-/// but the one that is walked wait.
+/// Maximum number of stack entries of a traversal from this reference: at each node all children but one.
 fn need(reference: u32, children: &impl Fn(u32) -> Vec<u32>) -> usize {
     if reference & LEAF != 0 {
         return 0;
@@ -505,9 +504,9 @@ fn need(reference: u32, children: &impl Fn(u32) -> Vec<u32>) -> usize {
 }
 
 #[test]
-fn a_walk_through_both_levels_fits_on_the_stack() {
-    // Each twice as far out as the one before, triangles and copies: whoever joins nearest neighbours
-    // digs a chain, far too deep for two levels of it.
+fn traversal_of_both_levels_fits_on_the_stack() {
+    // Each is twice as far out as the previous one, triangles and copies: joining nearest neighbours gives a
+    // chain far too deep for two levels.
     let place = |i: i32| 2f64.powi(i);
     let boxes: Vec<_> = (-70..49)
         .map(|i| {
@@ -567,8 +566,8 @@ fn a_walk_through_both_levels_fits_on_the_stack() {
         .max()
         .expect("an instance");
     let outer = need(behind.root, &references);
-    // At the bottom lies the mark of the end, between the levels the way back, and the last store of a
-    // step lies one beyond.
+    // At the bottom is the end marker, between the levels the return marker, and the last store of a step
+    // writes one entry beyond the top.
     let all = 1 + outer + 1 + inner + 1;
     assert!(all <= STACK_SIZE as usize, "{all} entries");
 }

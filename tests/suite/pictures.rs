@@ -10,7 +10,7 @@ use glimray::render::{Antialias, Fetch, RenderSettings, TriangleTest};
 use glimray::scene::Scene;
 use std::path::PathBuf;
 
-/// What the course's rules and the other tests here allow: 2 levels on 99.9 % of the pixels.
+/// The tolerance of the course and of the tests here: 2 levels on 99.9 % of the pixels.
 const LEVELS: f32 = 2.0;
 const SHARE: f64 = 0.001;
 
@@ -48,7 +48,7 @@ fn the_course_scenes_match_an_independent_tracer_at_their_full_size() {
 
 #[test]
 fn the_native_scenes_match_an_independent_tracer() {
-    // Brute force over the thousands of triangles of mesh.toml allows no larger picture.
+    // Brute force over the thousands of triangles of mesh.toml limits the size of the picture.
     let rows = [
         ("shapes.toml", 320),
         ("solids.toml", 320),
@@ -95,14 +95,14 @@ fn mirrors_and_glass_match_a_tracer_that_calls_itself() {
         if !counts.iter().all(|&(got, wanted)| near(got, wanted)) {
             return Err(format!("{name}: rays {counts:?}"));
         }
-        // Edges seen through a lens or in a ball are edges all the same.
+        // Edges seen through a lens or in a ball are edges as well.
         check_alike(name, &expected.image, &image, LEVELS, 0.004)
     }));
 }
 
 #[test]
 fn every_form_alone_is_what_it_is_among_others() {
-    // Each picture has a pipeline for one kind of shape.
+    // Each picture has a pipeline for a single kind of shape.
     let all = scenes::solids();
     assert_none((0..all.shapes.len()).map(|i| {
         let mut scene = all.clone();
@@ -190,7 +190,8 @@ fn the_seed_moves_stratified_samples_and_no_others() {
 
 #[test]
 fn many_stratified_samples_average_the_pixel() {
-    // The mean of a picture 8 times as fine over 8x8 pixels is a good estimate of the same integral.
+    // The mean of a picture with 8 times the resolution over 8x8 pixels is a good estimate of the same
+    // integral.
     let scene = scenes::spheres();
     let settings = RenderSettings {
         samples: 256,

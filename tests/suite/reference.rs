@@ -1,6 +1,6 @@
-//! An independent tracer to hold the renderer against: f64, every primitive tried for every ray,
-//! textbook formulas, written from the rules of the picture and sharing nothing with shaders or
-//! packing. Beside it what tests of whole pictures need: scenes, rendering and comparing.
+//! An independent reference tracer: f64, brute force, textbook formulas, written from the specification and
+//! sharing no code with shaders or packing. Its submodules support tests of whole pictures: scenes, rendering
+//! and comparison.
 
 pub mod compare;
 pub mod count;
@@ -30,12 +30,12 @@ pub struct Traced {
     pub rays: Rays,
 }
 
-/// The picture of `scene` through its default camera, one ray through the centre of each pixel.
+/// Renders `scene` through its default camera, one ray through the centre of each pixel.
 pub fn trace(scene: &Scene, size: (u32, u32)) -> Traced {
     picture(&Tracer::new(scene, &Carriers::default()), size)
 }
 
-/// The same of a moving scene at `time`.
+/// Renders a moving scene at `time`.
 pub fn trace_at(scene: &Scene, time: f64, size: (u32, u32)) -> Traced {
     let (still, carriers) = moment::resolve(scene, time);
     picture(&Tracer::new(&still, &carriers), size)
@@ -93,8 +93,8 @@ fn pixel_ray(camera: &Camera, (width, height): (u32, u32), [x, y]: [u32; 2]) -> 
     camera_ray(camera, DVec2::new(x * aspect, y))
 }
 
-/// From the eye through (x, y) of the image plane at distance 1, whose upper edge is at y = 1; without
-/// perspective straight ahead, from (x, y) of the plane through the eye.
+/// The ray from the eye through (x, y) of the image plane at distance 1, whose upper edge is at y = 1; for an
+/// orthographic camera straight ahead, from (x, y) of the plane through the eye.
 fn camera_ray(camera: &Camera, at: DVec2) -> (DVec3, DVec3) {
     let forward = (camera.look_at - camera.look_from).normalize();
     let right = forward.cross(camera.up).normalize();
@@ -139,19 +139,19 @@ struct Ray {
     /// Hits count with t_min < t < t_max.
     t_min: f64,
     t_max: f64,
-    /// A flat primitive that the ray leaves, and so cannot hit.
+    /// A flat primitive that the ray leaves and therefore cannot hit.
     leaving: Option<Primitive>,
 }
 
-/// Where a ray meets a surface.
+/// A hit.
 struct Hit {
     p: DVec3,
-    /// For shading.
+    /// Shading normal.
     n: DVec3,
-    /// Interpolated, and multiplied by its textures.
+    /// Interpolated, and multiplied by textures.
     material: Material,
     material_index: usize,
-    /// Whether the ray comes from the side that the surface's own normal points to.
+    /// Whether the ray hit the side that the normal of the surface points to.
     enters: bool,
 }
 
@@ -198,15 +198,15 @@ impl<'a> Tracer<'a> {
             kind: RayKind::Primary,
             sender: None,
             depth: 0,
-            share: DVec3::ONE,
+            throughput: DVec3::ONE,
             media: Vec::new(),
         };
-        let (color, is_hit) = self.follow(ray, &first, rays);
+        let (color, is_hit) = self.trace(ray, &first, rays);
         rays.counts.primary_hits += u64::from(is_hit);
         color
     }
 
-    /// What there is to know of the place where a ray meets a surface.
+    /// The surface at a hit.
     fn hit(&self, ray: Ray, t: f64, primitive: Primitive) -> Hit {
         let p = ray.origin + t * ray.direction;
         let direction = ray.direction;
@@ -243,7 +243,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Where patterns in space are looked up for a point of a primitive.
+    /// The lookup position of solid textures for a point of a primitive.
     fn pattern_place(&self, primitive: Primitive, p: DVec3) -> DVec3 {
         match primitive {
             Primitive::Shape(i) => Carriers::pattern_place(&self.carriers.shapes, i, p),
@@ -254,8 +254,8 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// amb + Σ L (k_d max(l·n, 0) + k_s max(r·v, 0)^α) over the lights that are seen from `shadow`'s
-    /// origin, with r = 2(l·n)n - l.
+    /// amb + Σ L (k_d max(l·n, 0) + k_s max(r·v, 0)^α) over the lights visible from `shadow`'s origin, with r =
+    /// 2(l·n)n - l.
     fn shade(&self, shadow: Ray, n: DVec3, v: DVec3, material: &Material, rays: &mut Log) -> DVec3 {
         let mut sum = self.scene.ambient.as_dvec3() * material.ambient.as_dvec3();
         for (index, light) in self.scene.lights.iter().enumerate() {
@@ -339,7 +339,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Normal and coefficients are interpolated; the first corner says whether there are two sides.
+    /// Interpolates normal and coefficients; the first corner decides whether there are two sides.
     fn triangle_surface(
         &self,
         triangle: &Triangle,
@@ -364,19 +364,19 @@ impl<'a> Tracer<'a> {
         };
         let [na, nb, nc] = triangle.normals;
         let normal = (weights.x * na + weights.y * nb + weights.z * nc).normalize();
-        // The side is that of the flat triangle; the shading normal has to be on it.
+        // The side is that of the flat triangle; the shading normal must be on it.
         let facing = triangle.cross * -triangle.cross.dot(direction).signum();
         let turned = material.two_sided && normal.dot(facing) < 0.0;
         (if turned { -normal } else { normal }, material)
     }
 }
 
-/// Points that stand for a light: direction and distance to each, and what arrives without shadow.
+/// Sample points of a light: direction and distance to each, and its unshadowed light.
 fn light_points(light: &Light, p: DVec3) -> Vec<(DVec3, f64, DVec3)> {
     /// Along either of a surface's coordinates.
     const PARTS: u32 = 24;
     let parts = || (0..PARTS).map(|i| (f64::from(i) + 0.5) / f64::from(PARTS));
-    // Points of equal shares of the surface, and the normal there.
+    // Points that represent equal areas of the surface, with their normals.
     let on_surface = |(u, v): (f64, f64)| {
         let (sin, cos) = (TAU * v).sin_cos();
         match light.kind {
@@ -407,8 +407,8 @@ fn light_points(light: &Light, p: DVec3) -> Vec<(DVec3, f64, DVec3)> {
             _ => unreachable!("it has no surface"),
         }
     };
-    // A Lambertian surface, from A color cos / (π d²) L down to what `color` means: for flat lights
-    // the mean of color cos / d²; a sphere has four times the area of its disc.
+    // A Lambertian emitter, from A color cos / (π d²) L to the definition of `color`: for flat lights the mean
+    // of color cos / d²; a sphere has four times the area of its disc.
     let factor = match light.kind {
         LightKind::Rectangle { .. } | LightKind::Disc { .. } => 1.0,
         LightKind::Sphere { .. } => 4.0,
@@ -419,14 +419,14 @@ fn light_points(light: &Light, p: DVec3) -> Vec<(DVec3, f64, DVec3)> {
         Attenuation::InverseSquare,
         "no scene of the tests has another"
     );
-    let share = factor / f64::from(PARTS * PARTS);
+    let weight = factor / f64::from(PARTS * PARTS);
     parts()
         .flat_map(|u| parts().map(move |v| (u, v)))
         .map(on_surface)
         .map(|(q, normal)| {
             let distance = q.distance(p);
             let l = (q - p) / distance;
-            let strength = share * (-l.dot(normal)).max(0.0) / (distance * distance);
+            let strength = weight * (-l.dot(normal)).max(0.0) / (distance * distance);
             (
                 l,
                 distance * (1.0 - 1e-9),
@@ -436,7 +436,7 @@ fn light_points(light: &Light, p: DVec3) -> Vec<(DVec3, f64, DVec3)> {
         .collect()
 }
 
-/// Direction to the light, distance to it, and what arrives without shadow.
+/// Direction to the light, distance to it, and its unshadowed light.
 fn light_at(light: &Light, p: DVec3) -> (DVec3, f64, DVec3) {
     let color = light.color.as_dvec3();
     let (position, strength) = match light.kind {
@@ -468,7 +468,7 @@ fn light_at(light: &Light, p: DVec3) -> (DVec3, f64, DVec3) {
     )
 }
 
-/// t² + 2 b t + c = 0, the smaller root that counts.
+/// t² + 2 b t + c = 0: the smaller valid root.
 fn hit_sphere(center: DVec3, radius: f64, ray: Ray) -> Option<f64> {
     let from_center = ray.origin - center;
     let b = from_center.dot(ray.direction);
@@ -491,13 +491,13 @@ fn hit_plane(point: DVec3, normal: DVec3, ray: Ray) -> Option<f64> {
     (t > ray.t_min && t < ray.t_max).then_some(t)
 }
 
-/// Where the plane is met, if that is on the inner side of all edges.
+/// The hit of the plane, if it is on the inner side of all edges.
 fn hit_triangle(triangle: &Triangle, ray: Ray) -> Option<f64> {
     let t = hit_plane(triangle.corners[0], triangle.cross, ray)?;
     (weights(triangle, ray.origin + t * ray.direction).min_element() >= 0.0).then_some(t)
 }
 
-/// Barycentric weights of a point in the triangle's plane: areas that it cuts off.
+/// Barycentric weights of a point in the plane of the triangle: ratios of areas.
 fn weights(triangle: &Triangle, p: DVec3) -> DVec3 {
     let [a, b, c] = triangle.corners;
     let area = |from: DVec3, to: DVec3| (to - from).cross(p - from).dot(triangle.cross);

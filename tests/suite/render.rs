@@ -1,5 +1,5 @@
-//! The renderer's promises: a picture is a function of scene, settings and seed, however the work
-//! is cut; rays are counted right; sizes and scenes at the edge of what is possible.
+//! The guarantees of the renderer: a picture is a function of scene, settings and seed, independent of slicing;
+//! rays are counted correctly; extreme sizes and scenes work.
 
 use crate::reference::compare::{
     assert_none, check_alike, check_same_bits, counting, open_gpu, render, sized, sliced, start,
@@ -31,7 +31,7 @@ fn against_the_reference(
     check_alike(name, &expected, &render(scene, settings).0, 2.0, 0.001)
 }
 
-/// Runs to the end without a picture.
+/// Renders to the end without a picture.
 fn finish(renderer: &mut Renderer) {
     while !renderer.is_done() {
         renderer.step().expect("a step");
@@ -42,16 +42,16 @@ pub fn slicings() -> Vec<(&'static str, Slicing)> {
     let base = Slicing::default();
     vec![
         (
-            "one tile at a time",
+            "one workgroup at a time",
             Slicing {
-                max_tiles: 1,
+                max_groups: 1,
                 ..base
             },
         ),
         (
-            "seven tiles at a time",
+            "seven workgroups at a time",
             Slicing {
-                max_tiles: 7,
+                max_groups: 7,
                 ..base
             },
         ),
@@ -70,16 +70,16 @@ pub fn slicings() -> Vec<(&'static str, Slicing)> {
             },
         ),
         (
-            "windows of one tile",
+            "film tiles of one workgroup",
             Slicing {
-                window_side: 8,
+                tile_side: 8,
                 ..base
             },
         ),
         (
-            "windows that cut tiles",
+            "film tiles that cut workgroups",
             Slicing {
-                window_side: 29,
+                tile_side: 29,
                 ..base
             },
         ),
@@ -118,7 +118,7 @@ fn the_cut_of_the_work_does_not_show() {
 }
 
 #[test]
-fn the_cut_does_not_show_where_samples_fill_more_than_a_block() {
+fn slicing_does_not_affect_pictures_of_more_than_one_block() {
     let scene = scenes::spheres();
     let base = RenderSettings {
         samples: 600,
@@ -128,7 +128,7 @@ fn the_cut_does_not_show_where_samples_fill_more_than_a_block() {
     let (expected, _) = render(&scene, &base);
     let rows = slicings()
         .into_iter()
-        .filter(|(name, _)| *name != "one tile at a time");
+        .filter(|(name, _)| *name != "one workgroup at a time");
     assert_none(rows.map(|(name, slicing)| {
         let (actual, _) = render(&scene, &sliced(&base, slicing));
         check_same_bits(name, &expected, &actual)
@@ -173,7 +173,7 @@ fn a_crop_is_the_same_pixels_of_the_whole_picture() {
     }));
 }
 
-/// Part of a picture.
+/// A part of a picture.
 pub fn cut(image: &Image, [x0, y0, x1, y1]: [u32; 4]) -> Image {
     let pixels = (y0..y1).flat_map(|y| (x0..x1).filter_map(move |x| image.pixel(x, y)));
     Image {
@@ -192,9 +192,9 @@ fn looking_at_an_unfinished_picture_does_not_change_the_finished_one() {
         ..sized(24, 24)
     };
     let slicing = Slicing {
-        max_tiles: 5,
+        max_groups: 5,
         max_samples: 40,
-        window_side: 16,
+        tile_side: 16,
         ..Slicing::default()
     };
     let settings = sliced(&settings, slicing);
@@ -220,9 +220,9 @@ fn progress_grows_from_0_to_1() {
         ..sized(50, 40)
     };
     let slicing = Slicing {
-        max_tiles: 3,
+        max_groups: 3,
         max_samples: 2,
-        window_side: 32,
+        tile_side: 32,
         ..Slicing::default()
     };
     let mut renderer = start(&scenes::spheres(), &sliced(&settings, slicing)).expect("a renderer");
@@ -292,7 +292,7 @@ fn rays_are_counted_as_the_reference_counts_them() {
             ),
         ];
         for (what, expected, actual) in pairs {
-            // Rays along an edge may go either way.
+            // Rays at an edge may go either way.
             let off = expected.abs_diff(actual);
             assert!(
                 off * 1000 <= expected,
@@ -416,7 +416,7 @@ fn a_thousand_lights_all_shine() {
     )]);
 }
 
-/// Right picture or a refusal, nothing else will do.
+/// Either the correct picture or an error.
 fn right_or_refused(
     name: &str,
     scene: &Scene,
@@ -434,7 +434,7 @@ fn right_or_refused(
 fn too_many_lights_for_the_drivers_loop_limit_are_refused_not_left_out() {
     let settings = sized(16, 12);
     assert_none([8_000, 12_000, 20_000, 70_000].map(|count| {
-        // The mean of so many lamps is that of fewer.
+        // The mean of many lamps is that of fewer.
         let expected = trace(&under_lamps(count / 8), settings.size).image;
         right_or_refused(
             &format!("{count} lamps"),
@@ -466,7 +466,7 @@ fn lights_behind_the_surface_count_towards_the_loop_limit() {
     )]);
 }
 
-/// Lamps with extent, each of so many samples, over a floor.
+/// Area lights with this many samples each, over a floor.
 fn under_area_lamps(count: usize, samples: u32) -> Scene {
     let mut scene = under_lamps(count);
     for light in &mut scene.lights {
@@ -505,7 +505,7 @@ fn more_shadow_rays_from_a_point_than_a_submission_should_take_are_refused_befor
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }
-    // One light at the limit of the formats, few samples, and pictures that no light is in.
+    // One light at the limit of the formats, few samples, and integrators without lights.
     assert!(start(&under_area_lamps(1, 65_536), &with(1.0)).is_ok());
     assert!(start(&scene, &with(1e-3)).is_ok());
     let normals = RenderSettings {
@@ -513,7 +513,7 @@ fn more_shadow_rays_from_a_point_than_a_submission_should_take_are_refused_befor
         ..with(1.0)
     };
     assert!(start(&scene, &normals).is_ok());
-    // A picture that is under way is restarted.
+    // An unfinished picture is restarted.
     let mut renderer = start(&scene, &with(1e-3)).expect("a renderer");
     let packed = Arc::new(pack::scene(&scene).expect("packed"));
     let view = packed.frame(&scene.frame(0.0)).expect("a frame");
@@ -525,7 +525,7 @@ fn more_shadow_rays_from_a_point_than_a_submission_should_take_are_refused_befor
 }
 
 #[test]
-fn the_first_submission_is_one_tile_where_points_take_thousands_of_shadow_rays() {
+fn the_first_submission_is_one_workgroup_if_points_take_thousands_of_shadow_rays() {
     for (samples, tiles) in [(1, 8.0), (2048, 1.0)] {
         let scene = under_area_lamps(1, samples);
         let mut renderer = start(&scene, &sized(64, 64)).expect("a renderer");
@@ -608,7 +608,7 @@ fn more_coincident_triangles_than_the_drivers_loop_limit_are_refused_as_such() {
     }
 }
 
-/// `count` triangles in layers, the last one in front of the others.
+/// `count` triangles in layers, the last one in front.
 fn layers(count: u32) -> Scene {
     let mut mesh = Mesh::default();
     for i in 0..count {
@@ -629,7 +629,7 @@ fn layers(count: u32) -> Scene {
     scene
 }
 
-/// A window draws with the device that it gave: a picture on another one would be of no use to it.
+/// A window draws with its own device, and could not use a picture on another one.
 #[test]
 fn a_device_that_is_shared_is_never_replaced() {
     let scene = scenes::everything();

@@ -1,4 +1,4 @@
-//! Samples in whole renders: how fast they get quiet, and that filters neither add light nor take it.
+//! Sampling in whole renders: how fast noise decreases, and that filters preserve energy.
 
 use crate::reference::compare::{assert_none, check_same_bits, render, sized, sliced};
 use crate::reference::scenes::{self, Build};
@@ -43,7 +43,7 @@ fn soft_shadow() -> Scene {
     scene
 }
 
-/// Balls behind the focus and one before it, blurred over several pixels.
+/// Balls behind the plane of focus and one in front of it, blurred over several pixels.
 fn depth_of_field() -> Scene {
     let mut scene = scenes::spheres();
     scene.add_sphere(dvec3(0.6, 0.4, 3.2), 0.3, 1);
@@ -131,7 +131,7 @@ fn sixteen_samples_are_twice_as_quiet_as_independent_ones() {
     }));
 }
 
-/// A panel that fills the picture and more, whose brightness is linear over it.
+/// A panel that fills the picture and more, with a linear brightness gradient.
 fn gradient() -> Scene {
     let mut scene = Scene {
         cameras: vec![Camera {
@@ -187,9 +187,9 @@ fn filters_neither_add_light_nor_take_it_at_tiles_or_edges() {
             filter_radius: filter.default_radius(),
             ..stratified(20, 256)
         };
-        // Windows and tiles are cut where they must not show.
+        // Boundaries between film tiles and workgroups must not be visible.
         let slicing = glimray::render::Slicing {
-            window_side: 13,
+            tile_side: 13,
             ..Default::default()
         };
         let got = mean(&render(&scene, &sliced(&settings, slicing)).0);
@@ -202,7 +202,7 @@ fn filters_neither_add_light_nor_take_it_at_tiles_or_edges() {
 
 #[test]
 fn filters_spread_a_thin_line_by_their_own_width() {
-    // A bright edge between two pixels: how far it reaches is the radius of the filter.
+    // A bright edge between two pixels: its reach is the radius of the filter.
     let mut scene = gradient();
     scene.materials.clear();
     for shade in [0.0, 1.0] {
@@ -214,7 +214,7 @@ fn filters_spread_a_thin_line_by_their_own_width() {
     std::sync::Arc::make_mut(&mut scene.meshes[0]).materials = vec![0; 3];
     let mut right = (*scene.meshes[0]).clone();
     right.materials = vec![1; 3];
-    // A triangle whose left edge is x = 0, nearer than the dark panel.
+    // A triangle whose left edge is x = 0, in front of the dark panel.
     right.positions = vec![
         vec3(0.0, -9.0, -4.0),
         vec3(9.0, 0.0, -4.0),
@@ -241,7 +241,7 @@ fn filters_spread_a_thin_line_by_their_own_width() {
                 return Err(format!("{filter:?}: {value} at {x}"));
             }
         }
-        // The two sides of the edge mirror each other, but for light below none.
+        // The two sides of the edge are symmetric, except for clamped negative values.
         let (left, right) = (row[7], row[8]);
         let softened = if filter == Filter::Box {
             left == 0.0
@@ -276,7 +276,7 @@ fn filters_and_light_samples_change_nothing_where_they_have_nothing_to_do() {
 }
 
 #[test]
-fn few_samples_of_a_filter_with_negative_lobes_make_no_light_and_nothing_undefined() {
+fn few_samples_of_a_filter_with_negative_lobes_give_no_light_and_no_nan() {
     let scene = scenes::spheres();
     for samples in [1, 2, 3, 4, 16] {
         let settings = RenderSettings {

@@ -1,4 +1,4 @@
-//! A scene's size and place do not show in its picture.
+//! The scale and position of a scene do not affect its picture.
 
 use crate::reference::compare::{assert_none, check_alike, render, sized};
 use crate::reference::scenes::{self, Build};
@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3, UVec2, Vec3, dvec3};
 use glimray::scene::{Attenuation, Geometry, Light, LightKind, Scene};
 use std::sync::Arc;
 
-/// `scene` scaled round the origin and moved; light that fades with the distance grows along.
+/// `scene` scaled around the origin and translated; lights with attenuation are scaled accordingly.
 fn placed(scene: &Scene, scale: f64, offset: DVec3) -> Scene {
     let place = |p: DVec3| scale * p + offset;
     let mut placed = scene.clone();
@@ -96,7 +96,7 @@ fn all_scenes() -> [(&'static str, Scene); 4] {
     ]
 }
 
-/// Each scene beside itself at other places.
+/// Each scene next to itself at other positions.
 fn check_places(places: &[(&str, f64, DVec3)]) {
     let settings = sized(160, 120);
     assert_none(all_scenes().into_iter().flat_map(|(name, scene)| {
@@ -133,7 +133,7 @@ fn a_mesh_with_large_or_small_vertices_gives_the_same_picture() {
     let settings = sized(160, 120);
     let (expected, _) = render(&scenes::meshes(), &settings);
     assert_none([1e-3, 1e4].map(|scale: f64| {
-        // The scale is taken out of the placement and put into the vertices.
+        // The scale is moved from the placement to the vertices.
         let mut scene = placed(&scenes::meshes(), scale, DVec3::ZERO);
         for instance in &mut scene.instances {
             instance.placement *= DAffine3::from_scale(DVec3::splat(1.0 / scale));
@@ -156,7 +156,7 @@ fn a_mesh_with_large_or_small_vertices_gives_the_same_picture() {
     }));
 }
 
-/// A distant view, a long way through a narrow lens: f32 is coarse at the far end.
+/// A distant view through a narrow field of view: f32 is coarse at the far end.
 #[test]
 fn a_scene_seen_from_10_000_away_matches_the_reference() {
     let settings = sized(160, 120);
@@ -164,14 +164,14 @@ fn a_scene_seen_from_10_000_away_matches_the_reference() {
         let camera = &mut scene.cameras[0];
         camera.look_from = camera.look_at + (camera.look_from - camera.look_at).normalize() * 1e4;
         camera.fov_y = 6.0 / 1e4;
-        // The course's tolerance, but for the edges: there, one f32 step is a tenth of a pixel.
+        // The tolerance of the course, except at edges, where one f32 step is a tenth of a pixel.
         let (actual, _) = render(&scene, &settings);
         let expected = trace(&scene, settings.size).image;
         check_alike(&format!("{name} from afar"), &expected, &actual, 2.0, 0.02)
     }));
 }
 
-/// Light that grazes the ground at this angle and lights it all the same.
+/// Light at this grazing angle to the ground, which still lights it.
 fn grazing(angle: f64) -> Light {
     Light {
         kind: LightKind::Directional {

@@ -1,4 +1,4 @@
-//! `lib/area_light.wesl`: what one point of a rectangle, a disc or a sphere sends to a point.
+//! `lib/area_light.wesl`: the light from one point of a rectangle, a disc or a sphere.
 
 use crate::support::{
     harness::gpu,
@@ -15,7 +15,7 @@ use glimray::layout::{
 
 const COLOR: [f32; 3] = [8.0, 4.0, 1.0];
 
-/// Of size 1 at the origin, shining down.
+/// Size 1 at the origin, emitting downwards.
 fn light(kind: u32) -> PackedLight {
     PackedLight {
         kind,
@@ -50,7 +50,7 @@ fn the_middle_of_a_light_shines_like_a_point_light_there() {
         let p = [0f32, -4.0, 0.0];
         let got = &arriving(&[(light(kind), p, [0.5, 0.5])])[0];
         let strength = if kind == LIGHT_SPHERE {
-            // All directions of a sphere's cone weigh alike: its solid angle over π, R = 1.
+            // All directions in the cone of a sphere have the same weight: its solid angle over π, R = 1.
             2.0 * (1.0 - (1.0 - 1.0 / 16.0f64).sqrt())
         } else {
             1.0 / 16.0
@@ -87,7 +87,7 @@ fn segments_end_just_short_of_the_lights_surface() {
     for ((light, p, u), got) in rows.iter().zip(arriving(&rows)) {
         let (p, t) = (wide(*p), f64::from(got.distance));
         let direction = wide(got.direction).normalize();
-        // Where the light's own surface is met, first or from within.
+        // The distance to the light's own surface, at its front or from inside.
         let surface = if light.kind == LIGHT_SPHERE {
             let (b, c) = (p.dot(direction), p.length_squared() - 1.0);
             let root = (b * b - c).max(0.0).sqrt();
@@ -104,7 +104,7 @@ fn segments_end_just_short_of_the_lights_surface() {
         verdict.that(format!("{name}: aims at the light"), within, || {
             format!("{end}")
         });
-        // At a glancing angle a rounding error reaches far along the ray.
+        // At a grazing angle a rounding error moves the hit far along the ray.
         let steep = if light.kind == LIGHT_SPHERE {
             -end.dot(direction) * if p.length() > 1.0 { 1.0 } else { -1.0 }
         } else {
@@ -210,7 +210,7 @@ fn far_away_every_light_is_a_point_light() {
 }
 
 #[test]
-fn nothing_undefined_comes_of_points_on_the_light_or_lights_without_size() {
+fn points_on_a_light_and_lights_without_size_give_defined_values() {
     let mut rows = Vec::new();
     for kind in [LIGHT_RECTANGLE, LIGHT_DISC, LIGHT_SPHERE] {
         for attenuation in [ATTENUATION_NONE, ATTENUATION_INVERSE_SQUARE] {

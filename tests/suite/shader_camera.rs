@@ -9,8 +9,8 @@ use crate::support::{
 use glam::DVec3;
 use glimray::layout::PackedCamera;
 
-/// Looks along -z with +y up and a vertical field of view of 60°: half the picture's height is
-/// tan 30° = 1/√3 at distance 1.
+/// A camera that looks along -z with +y up and a vertical field of view of 60°: half the height of the picture
+/// is tan 30° = 1/√3 at distance 1.
 fn course_camera(aspect: f64) -> PackedCamera {
     looking([0.0; 3], DVec3::NEG_Z, DVec3::Y, 1.0 / 3f64.sqrt(), aspect)
 }
@@ -31,7 +31,7 @@ fn looking(
     }
 }
 
-/// Rounding of the camera's vectors, of the point on the image plane and of its normalisation.
+/// Rounding error of the camera's vectors, the point on the image plane and its normalisation.
 const TOLERANCE: Tolerance = Tolerance::Absolute(3e-7);
 
 #[test]

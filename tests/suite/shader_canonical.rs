@@ -45,7 +45,7 @@ const CANONICAL_SHAPES: [CanonicalShape; 15] = [
     CanonicalShape::Torus { minor: 0.03125 },
 ];
 
-/// Wraps the shader functions of all canonical shapes: `test` and `point`.
+/// Wraps the shader functions of all shapes as `test` and `point`.
 const CANONICAL: &str = "
     import package::types::{Candidate, NONE, NO_INSTANCE, PackedShape, Ray, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC, SHAPE_RECTANGLE, SHAPE_TORUS};
     import package::lib::canonical::{CanonicalPoint, PlacedPoint, canonical_ray, canonical_vector, placed_point};
@@ -128,7 +128,7 @@ fn on_surface(canonical: CanonicalShape, random: &mut Random) -> DVec3 {
             top,
             capped,
         } => match random.below(if capped { 4 } else { 2 }) {
-            // A tip has no end.
+            // A cone with an apex has no end there.
             2 if bottom > 0.0 => turned(bottom * random.between(0.0, 1.0), 0.0),
             3 if top > 0.0 => turned(top * random.between(0.0, 1.0), 1.0),
             _ => {
@@ -143,7 +143,7 @@ fn on_surface(canonical: CanonicalShape, random: &mut Random) -> DVec3 {
     }
 }
 
-/// How far a point is from the surface.
+/// The distance of a point from the surface.
 fn off_surface(canonical: CanonicalShape, p: DVec3) -> f64 {
     let off_axis = p.x.hypot(p.z);
     let beyond = |x: f64, most: f64| (x - most).max(0.0);
@@ -184,8 +184,8 @@ fn double(v: [f32; 3]) -> DVec3 {
     DVec3::from(v.map(f64::from))
 }
 
-/// Rays of all kinds at a shape: from far and near, from inside, along axes, through edges, grazing.
-/// Directions have any length.
+/// Rays of all kinds at a shape: from far and near, from inside, along axes, through edges, grazing. Directions
+/// have any length.
 fn rays_at(canonical: CanonicalShape, count: usize, random: &mut Random) -> Vec<Ray> {
     let middle = if matches!(canonical, CanonicalShape::Cone { .. }) {
         DVec3::new(0.0, 0.5, 0.0)
@@ -212,7 +212,7 @@ fn rays_at(canonical: CanonicalShape, count: usize, random: &mut Random) -> Vec<
             1 => (within(random), random.direction()),
             2 => (target + 3.0 * axis, -axis),
             3 => {
-                // A hair, or more, beside a tangent.
+                // Slightly, or more, beside a tangent.
                 let n = canonical_normal(canonical, target).normalize_or(DVec3::Y);
                 let aside = n.cross(random.direction()).normalize();
                 let lift =
@@ -232,8 +232,8 @@ fn rays_at(canonical: CanonicalShape, count: usize, random: &mut Random) -> Vec<
     rays
 }
 
-/// Distances, in canonical space, of what is met first by the ray and by others that are off by
-/// `tolerance` beside it; `None` for a miss.
+/// Distances, in canonical space, of the first hit of the ray and of rays that differ from it by `tolerance`;
+/// `None` for a miss.
 fn answers(canonical: CanonicalShape, ray: &Ray, tolerance: f64, around: bool) -> Vec<Option<f64>> {
     let (o, d) = (double(ray.origin), double(ray.direction));
     let length = d.length();
@@ -266,7 +266,7 @@ fn check_hits(canonical: CanonicalShape) {
         let fits = |answers: &[Option<f64>]| {
             let found = answers.iter().flatten().copied();
             let (least, most) = found.fold((f64::INFINITY, 0f64), |(a, b), s| (a.min(s), b.max(s)));
-            // Where some miss, the others reach almost to the tangent point, half a chord away.
+            // If some miss, the others reach almost to the tangent point, half a chord away.
             let tangent = answers.iter().any(Option::is_none);
             let half_chord = if tangent { 2.0 * tolerance.sqrt() } else { 0.0 };
             if got.hit {
@@ -284,7 +284,7 @@ fn check_hits(canonical: CanonicalShape) {
         if got.hit {
             let p = o + f64::from(got.t) * d;
             let off = off_surface(canonical, p);
-            // f32 cannot tell a line along a cone's side from one beside its tip.
+            // f32 cannot distinguish a line along the side of a cone from one next to its apex.
             let tip = match canonical {
                 CanonicalShape::Cone { bottom, top, .. } if bottom.min(top) == 0.0 => {
                     p.x.hypot(p.z) < 0.01
@@ -515,7 +515,7 @@ fn surfaces_have_the_normal_of_their_slope_and_u_and_v_from_0_to_1() {
             let show = || format!("{got:?}, reached {reached}, part {part}");
             let in_unit = got.uv.iter().all(|x| (0.0..=1.0).contains(x));
             verdict.that("u and v are in 0..=1", in_unit, show);
-            // Discs and rectangles keep what was reached beside their edges.
+            // Discs and rectangles do not clamp points slightly beyond their edges.
             let most = if matches!(
                 canonical,
                 CanonicalShape::Disc { .. } | CanonicalShape::Rectangle | CanonicalShape::Box
@@ -531,7 +531,7 @@ fn surfaces_have_the_normal_of_their_slope_and_u_and_v_from_0_to_1() {
             );
             verdict.that("it is near", p.distance(reached) < 2e-3, show);
             let n_ref = canonical_normal(canonical, p).normalize();
-            // Beside a rim or a tip the reference may be on the other part.
+            // Next to a rim or an apex the reference may be on the other part.
             let rim = match canonical {
                 CanonicalShape::Cone { bottom, top, .. } => {
                     let off_axis = p.x.hypot(p.z);
@@ -558,7 +558,7 @@ fn surfaces_have_the_normal_of_their_slope_and_u_and_v_from_0_to_1() {
     }
 }
 
-/// u and v of points of a canonical shape in the part of this number.
+/// u and v of points on the part of a shape with this number.
 fn uvs(canonical: CanonicalShape, points: &[(DVec3, f32)]) -> Vec<[f32; 2]> {
     let (kind, sizes) = kind_and_sizes(canonical);
     let inputs: Vec<_> = (points.iter())
@@ -636,7 +636,7 @@ fn u_and_v_have_no_jumps_but_at_seams() {
         let mut verdict = Verdict::on(format!("{canonical:?}"));
         for (pair, (p, off_axis)) in uvs(canonical, &points).chunks(2).zip(gaps) {
             let [a, b] = [pair[0], pair[1]].map(|uv| DVec2::from(uv.map(f64::from)));
-            // Once round is back where it began.
+            // A full turn ends where it started.
             let way = (a - b).abs();
             let way = way.min(DVec2::ONE - way);
             let tube = match canonical {
@@ -651,7 +651,7 @@ fn u_and_v_have_no_jumps_but_at_seams() {
     }
 }
 
-/// A shape as the renderer packs it, seen from the origin.
+/// A shape as the renderer packs it, with the render origin at the origin.
 fn packed(canonical: CanonicalShape, world_from_canonical: DAffine3) -> PackedShape {
     let geometry = Geometry::Placed {
         canonical,
@@ -670,7 +670,7 @@ fn packed(canonical: CanonicalShape, world_from_canonical: DAffine3) -> PackedSh
     pack::scene(&scene).expect("a scene").shapes[0]
 }
 
-/// A canonical shape somewhere, of any size, turned, scaled unevenly and perhaps mirrored.
+/// A canonical shape at a random position, of any size, rotated, scaled non-uniformly and possibly mirrored.
 fn placement(random: &mut Random) -> DAffine3 {
     let size = 10f64.powf(random.between(-6.0, 6.0));
     let mut scale = DVec3::splat(size);
@@ -682,8 +682,7 @@ fn placement(random: &mut Random) -> DAffine3 {
     DAffine3::from_scale_rotation_translation(scale, turn, place)
 }
 
-/// Whether an outward ray from here can only get away: true of convex shapes and of the outer half of
-/// a torus.
+/// Whether an outward ray from here can only escape: true for convex shapes and for the outer half of a torus.
 fn is_convex_at(canonical: CanonicalShape, p: DVec3) -> bool {
     match canonical {
         CanonicalShape::Torus { .. } => p.x.hypot(p.z) > 1.0,
@@ -704,7 +703,7 @@ fn a_ray_that_leaves_a_shape_does_not_hit_it_again_at_any_scale() {
             let direction = normalize(tangent * sqrt(1.0 - cosine * cosine) + cosine * at.ng);
             let origin = offset_origin(at.p, at.error, at.ng, direction);
             let again = test(canonical_ray(Ray(origin, 3e38, direction, NONE, NO_INSTANCE), shape), shape.kind, sizes_of(shape));
-            // Rounding may turn a ray that grazes to the other side.
+            // Rounding may move a grazing ray to the other side.
             return vec2u(u32(hit.hit & (dot(at.ng, direction) > 0.0)), u32(again.hit));
         }
     ";
@@ -759,7 +758,7 @@ fn a_ray_that_leaves_a_shape_does_not_hit_it_again_at_any_scale() {
 }
 
 #[test]
-fn a_ray_into_a_body_comes_out_of_it() {
+fn a_ray_into_a_closed_shape_comes_out_of_it() {
     const ENTER: &str = "
         fn probe(shape: PackedShape, ray: Ray, aside: vec3f, cosine: f32) -> vec2u {
             let hit = test(canonical_ray(ray, shape), shape.kind, sizes_of(shape));
@@ -796,7 +795,7 @@ fn a_ray_into_a_body_comes_out_of_it() {
             }
         }
         let results: Vec<[u32; 2]> = gpu().map_source(&format!("{CANONICAL}{ENTER}"), &inputs);
-        // A point within its error of an edge may lie outside the other face.
+        // A point within its error of an edge may lie beyond the other face.
         let lost = results
             .iter()
             .filter(|[hit, out]| *hit == 1 && *out == 0)
@@ -845,7 +844,7 @@ fn the_point_of_a_hit_is_within_its_error_of_the_surface() {
             if hit.x == 0.0 {
                 continue;
             }
-            // The canonical shape that the shader knows: its position and rows are rounded.
+            // The canonical shape as the shader sees it: its position and rows are rounded.
             let shape = &input[0].0;
             let rows = DMat3::from_cols(
                 double(shape.row_x),

@@ -1,4 +1,4 @@
-//! `lib/colormap.wesl`: colours that stand for numbers.
+//! `lib/colormap.wesl`: colour maps.
 
 use crate::support::{
     harness::gpu,

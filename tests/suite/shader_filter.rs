@@ -1,4 +1,4 @@
-//! `lib/filter.wesl`: samples that follow reconstruction filters.
+//! `lib/filter.wesl`: importance sampling of reconstruction filters.
 
 use crate::support::{
     harness::gpu,
@@ -11,7 +11,7 @@ use glimray::layout::{
 };
 use std::f64::consts::PI;
 
-/// Filters with the radii they are used with, and others.
+/// Filters with their default radii, and others.
 const FILTERS: [(&str, u32, f32); 11] = [
     ("box", FILTER_BOX, 0.5),
     ("wide box", FILTER_BOX, 2.0),
@@ -26,7 +26,7 @@ const FILTERS: [(&str, u32, f32); 11] = [
     ("narrow Mitchell", FILTER_MITCHELL, 1.0),
 ];
 
-/// The curve in one dimension, up to a factor.
+/// The filter curve in one dimension, up to a factor.
 fn curve(kind: u32, radius: f64, x: f64) -> f64 {
     let t = (x / radius).abs();
     if t > 1.0 {
@@ -37,7 +37,7 @@ fn curve(kind: u32, radius: f64, x: f64) -> f64 {
         FILTER_TENT => 1.0 - t,
         FILTER_GAUSSIAN => (-x * x / (2.0 * 0.25)).exp(),
         FILTER_BLACKMAN_HARRIS => {
-            // As it is printed: over a window from 0 to 1.
+            // As published: over a window from 0 to 1.
             let phase = PI * (1.0 + x / radius);
             0.35875 - 0.48829 * phase.cos() + 0.14128 * (2.0 * phase).cos()
                 - 0.01168 * (3.0 * phase).cos()
@@ -107,7 +107,7 @@ fn samples_are_dense_where_the_filter_is_large() {
             let below: Vec<f64> = (0..=BINS)
                 .map(|i| integral(kind, r, edge(i), |_| 1.0) / total * COUNT as f64)
                 .collect();
-            // Bins that expect too little for the test go to a neighbour.
+            // Bins whose expected count is too small for the test are merged with a neighbour.
             let (mut pooled, mut expected) = (Vec::new(), Vec::new());
             let (mut count, mut sum) = (0, 0.0);
             for (i, found) in counts.iter().enumerate() {
@@ -135,7 +135,7 @@ fn the_two_axes_are_independent() {
     let points = square_points(100_000, 2);
     let mut verdict = Verdict::on("filter_offset");
     for (name, kind, radius) in FILTERS {
-        // Ranks along each axis are uniform and unrelated.
+        // Ranks along both axes are uniform and independent.
         let offsets = offsets(kind, radius, &points);
         let rank = |axis: usize| {
             let mut order: Vec<usize> = (0..offsets.len()).collect();
@@ -175,14 +175,14 @@ fn stratified_samples_integrate_a_filter_to_1_and_its_moments_to_the_curves() {
                 .map(|([x, y], sign)| f64::from(**sign) * of(f64::from(*x), f64::from(*y)));
             sum.sum::<f64>() / weight
         };
-        // What samples weigh beside the absolute value is what the filter's integral is to it.
-        let share = weight / f64::from(SIDE * SIDE);
+        // The sign of the samples relative to the absolute value is the ratio of the two integrals.
+        let fraction = weight / f64::from(SIDE * SIDE);
         let expected = (whole / integral(kind, r, r, |_| 1.0)).powi(2);
-        let off = (share - expected).abs();
+        let off = (fraction - expected).abs();
         verdict.that(
             format!("{name}: weight"),
             off < 6e-2 * (1.0 - expected) + 1e-9,
-            || format!("{share}, expected {expected}"),
+            || format!("{fraction}, expected {expected}"),
         );
         let second = signed(&|x| x * x) / whole;
         let rows = [
@@ -215,7 +215,7 @@ fn only_the_outer_lobes_of_mitchell_are_negative() {
         for ([x, y], sign) in offsets.iter().zip(&signs) {
             let [x, y] = [x, y].map(|&c| f64::from(c));
             let value = curve(kind, r, x) * curve(kind, r, y);
-            // Beside a zero of the curve rounding may choose.
+            // Next to a zero of the curve, rounding may decide.
             let clear = value.abs() > 1e-4;
             verdict.that(
                 format!("{name} at ({x}, {y})"),
@@ -246,7 +246,7 @@ fn the_ends_of_the_unit_square_are_ends_of_the_filter() {
     let almost_1 = 1.0 - f32::EPSILON / 2.0;
     for (name, kind, radius) in FILTERS {
         let got = offsets(kind, radius, &[[0.0, almost_1], [0.5, 0.5]]);
-        // A Gaussian that is cut late has hardly anything beyond a few deviations.
+        // A Gaussian truncated late has almost no weight beyond a few deviations.
         let reach = if kind == FILTER_GAUSSIAN {
             0.9 * radius.min(2.4)
         } else {

@@ -15,7 +15,7 @@ const BOUNDARY: &str = "
     }
 ";
 
-/// Into the second medium and out again through a parallel boundary, and the mirrored direction.
+/// Enters the second medium and leaves it through a parallel boundary; and the reflected direction.
 const SLAB: &str = "
     import package::lib::fresnel::{fresnel, mirrored, refracted};
     fn probe(direction: vec3f, n: vec3f, eta: f32) -> mat3x3f {
@@ -29,7 +29,7 @@ fn boundaries(rows: &[(f32, f32)]) -> Vec<[f32; 4]> {
     gpu().map_source(BOUNDARY, rows)
 }
 
-/// Angles of incidence over all of a quarter turn, and ratios of indices on both sides of 1.
+/// Angles of incidence from 0 to 90°, and ratios of indices on both sides of 1.
 fn slopes() -> Vec<(f32, f32)> {
     let etas = [
         0.2,
@@ -89,8 +89,8 @@ fn reflected_and_transmitted_light_are_all_of_it() {
 #[test]
 fn known_angles_have_their_known_reflectance() {
     let brewster = 1.5_f64.atan();
-    // At Brewster's angle only one of the polarisations is mirrored: sin² of the difference of the
-    // two angles, which add up to a right one.
+    // At Brewster's angle only one polarisation is reflected: sin² of the difference of the two angles, which
+    // add up to 90°.
     let at_brewster = 0.5 * (2.0 * brewster - std::f64::consts::FRAC_PI_2).sin().powi(2);
     let rows = [
         ("straight into glass", 1.0, 1.0 / 1.5, 0.04),
@@ -125,7 +125,7 @@ fn known_angles_have_their_known_reflectance() {
 
 #[test]
 fn schlick_is_exact_at_both_ends_and_near_between() {
-    // It is meant for the indices of glass and water.
+    // It is intended for the indices of glass and water.
     let mut rows = slopes();
     rows.retain(|(_, eta)| [1.0 / 1.5, 0.75, 1.33, 1.5, 2.4].contains(eta));
     let mut verdict = Verdict::on("Schlick");
@@ -164,7 +164,7 @@ fn a_slab_returns_the_direction_and_snells_law_holds_inside() {
         let (direction, n) = (wide(*direction), wide(*n));
         let [into, back, mirrored] = result.map(wide);
         let name = format!("{direction} at {n}, eta {eta}");
-        // Grazing, the last bit of the direction inside is worth more than that.
+        // At grazing incidence, the last bit of the refracted direction is worth more than that.
         let room = 1e-5_f64.max(2e-6 / direction.dot(n).abs());
         verdict.that(&name, back.distance(direction) < room, || {
             format!("out as {back}")

@@ -1,5 +1,5 @@
-//! `lib/intersect/globe.wesl` and how scenes are packed for it: huge spheres seen from nearby, against
-//! the exact sphere of the scene.
+//! `lib/intersect/globe.wesl` and its packing: huge spheres seen from nearby, against the exact sphere of the
+//! scene.
 
 use crate::reference::{
     compare::{render, sized},
@@ -21,7 +21,7 @@ use glimray::{
 /// Half a step of f32 at 1.
 const ROUNDING: f64 = f32::EPSILON as f64 / 2.0;
 const RADII: [f64; 7] = [1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
-/// Of the camera above the ground, or below it: exact in f64 beside each of the radii.
+/// Heights of the camera above or below the ground: exact in f64 next to each of the radii.
 const HEIGHTS: [f64; 6] = [0.0078125, 0.125, 2.0, 50.0, -0.125, -2.0];
 
 /// A scene with one sphere of this radius, whose surface is `height` below the camera.
@@ -43,8 +43,8 @@ fn packed(scene: &Scene) -> PackedShape {
         .shapes[0]
 }
 
-/// The distance to the sphere from `height` above its top, where `cosine` is that of the angle between
-/// the ray and the way down. Nothing cancels in it.
+/// The distance to the sphere from `height` above its top; `cosine` is that of the angle between the ray and
+/// the downward direction. Nothing cancels in it.
 fn distance_to_ground(radius: f64, height: f64, cosine: f64) -> Option<f64> {
     let b = (radius + height) * cosine;
     let c = height * (2.0 * radius + height);
@@ -119,15 +119,15 @@ fn a_globe_is_hit_where_the_exact_sphere_is() {
         let cosine = -direction.dot(*up) / direction.length();
         let name = format!("radius {radius}, height {height}, cosine {cosine}");
         let Some(t) = distance_to_ground(*radius, *height, cosine) else {
-            // The f32 height may be off by its rounding: a ray past the horizon by less is not judged.
+            // The f32 height may be off by its rounding: rays that pass the horizon by less are ignored.
             let missed = distance_to_ground(*radius, height * (1.0 - 1e-5), cosine).is_none();
             verdict.that(name, !got.hit || !missed, || format!("{got:?}, none"));
             continue;
         };
-        // How steeply the ray meets the ground there.
+        // The cosine at which the ray hits the ground there.
         let slope = ((radius + height) * cosine - t).abs() / radius;
         let error = (f64::from(got.t) * direction.length() - t).abs();
-        // Roundings of the anchor, of the normal, of the products; and of the radius in f64.
+        // Rounding of the anchor, of the normal, of the products; and of the radius in f64.
         let most = 16.0 * ROUNDING * (t + height.abs()) + 1e-15 * radius;
         let is_horizon = slope * slope * radius < 1e-4 * height.abs();
         verdict.that(
@@ -211,8 +211,8 @@ fn a_ray_that_leaves_a_globe_starts_close_to_it_and_does_not_hit_it_again() {
             let shape = packed(&ground(radius, height, up));
             for i in 0..2000 {
                 // From under the camera to the far side.
-                let share = 10f64.powf(random.between(-9.0, 0.0));
-                let turned = (up + 2.0 * share * random.direction()).normalize();
+                let fraction = 10f64.powf(random.between(-9.0, 0.0));
+                let turned = (up + 2.0 * fraction * random.direction()).normalize();
                 let center = -(radius + height) * up;
                 let reached = (center + radius * turned).as_vec3();
                 let cosine = match i % 10 {
@@ -228,7 +228,7 @@ fn a_ray_that_leaves_a_globe_starts_close_to_it_and_does_not_hit_it_again() {
     let mut verdict = Verdict::on("rays that leave a globe");
     for ((shape, reached, _, cosine), moved) in rows.iter().zip(&moved) {
         let from_camera = Vec3::from(*reached).length() + Vec3::from(shape.position).length();
-        // The point itself is rounded, and its surface is as uncertain.
+        // The point itself is rounded, and so is the surface.
         let most = 256.0 * ROUNDING * f64::from(from_camera);
         verdict.that(
             format!("radius {}, {reached:?}, cosine {cosine}", 1.0 / shape.size0),

@@ -1,4 +1,4 @@
-//! The table in `shaders/lib/README.md` names every function that others import, and tests that there are.
+//! The table in `shaders/lib/README.md` lists every function that is imported elsewhere, with an existing test.
 
 use crate::support::verdict::Verdict;
 use std::collections::BTreeSet;
@@ -35,7 +35,7 @@ fn imported<'t>(text: &'t str, module: &str) -> Vec<&'t str> {
     names
 }
 
-/// Whether the suite's module `name` has that test.
+/// Whether the module `name` of the suite has that test.
 fn has_test(module: &str, test: &str) -> bool {
     let path = format!("tests/suite/{module}.rs");
     let text = fs::read_to_string(path).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Level 3: `lib/light.wesl`, what point, directional and spot lights send to a point.
+//! Level 3: `lib/light.wesl`, the light from point, directional and spot lights.
 
 use crate::support::{
     harness::gpu,
@@ -29,7 +29,7 @@ fn lights_arrive_with_direction_distance_and_strength() {
     let at = |position| light(LIGHT_POINT, position, ATTENUATION_NONE);
     let fading = |position| light(LIGHT_POINT, position, ATTENUATION_INVERSE_SQUARE);
     let sun = light(LIGHT_DIRECTIONAL, [5.0, 5.0, 5.0], ATTENUATION_NONE);
-    // Full on its axis only, nothing where the cosine is below 0.6.
+    // Full only on its axis, zero where the cosine is below 0.6.
     let spot = |position| PackedLight {
         cos_inner: 1.0,
         cos_outer: 0.6,

@@ -34,7 +34,7 @@ fn lists() -> Vec<Vec<u32>> {
 }
 
 #[test]
-fn bodies_are_entered_and_left_like_a_list() {
+fn media_are_entered_and_left_in_order() {
     let mut rows = Vec::new();
     let mut expected = Vec::new();
     for list in lists() {

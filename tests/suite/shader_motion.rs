@@ -1,5 +1,4 @@
-//! `lib/motion.wesl`, and nodes between two: what lies between keys, against f64 and against what
-//! interpolation must not change.
+//! `lib/motion.wesl` and moving nodes: interpolation between keys, against f64 and against invariants.
 
 use crate::support::{
     harness::gpu,
@@ -111,7 +110,7 @@ fn a_rotation_matrix_turns_as_its_quaternion() {
 }
 
 #[test]
-fn what_lies_between_two_keys_is_their_mean_and_has_its_inverse() {
+fn interpolated_transforms_are_the_mean_and_have_the_right_inverse() {
     let mut random = Random::new(32);
     let mut inputs = Vec::new();
     for i in 0..3000 {
@@ -125,7 +124,7 @@ fn what_lies_between_two_keys_is_their_mean_and_has_its_inverse() {
         };
         let (first, second) = (scales() * size * mirror, scales() * size * mirror);
         let (axes, turn) = (quaternion(&mut random), quaternion(&mut random));
-        // As near as hosts set keys: a tenth of a radian.
+        // As close as the host places keys: a tenth of a radian.
         let small = |random: &mut Random| DQuat::from_scaled_axis(0.1 * random.in_cube());
         let (a, b) = (
             random.in_cube() * 10.0 * size,
@@ -174,7 +173,7 @@ fn what_lies_between_two_keys_is_their_mean_and_has_its_inverse() {
 }
 
 #[test]
-fn what_turns_keeps_its_size_and_shape_at_every_moment() {
+fn rotating_objects_keep_their_size_and_shape_at_every_moment() {
     let mut random = Random::new(33);
     let mut inputs = Vec::new();
     let mut sizes = Vec::new();
@@ -182,7 +181,7 @@ fn what_turns_keeps_its_size_and_shape_at_every_moment() {
         let size =
             10f64.powf(random.between(-3.0, 3.0)) * if random.below(2) == 0 { 1.0 } else { -1.0 };
         let turn = quaternion(&mut random);
-        // Up to a radian, far more than hosts leave between two keys.
+        // Up to a radian, far more than the host allows between two keys.
         let next = DQuat::from_axis_angle(random.direction(), random.between(0.0, 1.0)) * turn;
         let ball = DMat3::from_diagonal(DVec3::splat(size));
         for fraction in [0.0, 0.1, 0.25, 0.5, 0.9, 1.0_f32] {
@@ -207,7 +206,7 @@ fn what_turns_keeps_its_size_and_shape_at_every_moment() {
     verdict.close();
 }
 
-/// Words of a struct that are all different, so that none can be taken for another.
+/// Distinct words of a struct, so that no two can be confused.
 fn different(random: &mut Random, count: usize) -> Vec<f32> {
     (0..count)
         .map(|_| random.between(0.1, 9.0) as f32)
@@ -215,7 +214,7 @@ fn different(random: &mut Random, count: usize) -> Vec<f32> {
 }
 
 #[test]
-fn all_of_a_camera_is_between_its_keys() {
+fn every_member_of_a_camera_is_interpolated() {
     let mut random = Random::new(34);
     let mut camera = |blades| {
         let mut words = different(&mut random, 16);
@@ -246,7 +245,7 @@ fn all_of_a_camera_is_between_its_keys() {
 }
 
 #[test]
-fn all_of_a_light_is_between_its_keys_and_its_direction_has_unit_length() {
+fn every_member_of_a_light_is_interpolated_and_its_direction_has_unit_length() {
     let mut random = Random::new(35);
     let mut light = |kind, attenuation, direction: DVec3| {
         let words = different(&mut random, 24);
@@ -328,10 +327,10 @@ fn a_light_that_turns_right_round_keeps_a_direction() {
     assert_eq!(lights[0].direction, [0.0, 1.0, 0.0]);
 }
 
-/// Planes of a node and of the same at the end of the shot, in proportion, to the roundings of the
-/// node's size and of its way: boxes are packed with more room than that.
+/// Interpolated planes of a node, up to the rounding of its size and motion: packed boxes have more slack than
+/// that.
 #[test]
-fn nodes_between_two_lie_in_proportion() {
+fn moving_nodes_are_interpolated_linearly() {
     let mut random = Random::new(36);
     let mut node = |lo: DVec3, size: f64| {
         let mut planes = || -> [[f32; 4]; 2] {
@@ -391,8 +390,8 @@ fn nodes_between_two_lie_in_proportion() {
         for axis in 0..3 {
             let size = 255.0 * f64::from(a.scale[axis].max(b.scale[axis]));
             let way = (f64::from(a.lo[axis]) - f64::from(b.lo[axis])).abs();
-            // Moments in between and the lower corner round as numbers of the corner's size, but that
-            // rounding counts in what is measured from there and falls out again.
+            // Interpolated planes and the lower corner round like numbers of the size of the corner, but that
+            // rounding cancels in distances measured from it.
             let most = 3.0 * ulp(size + way);
             for side in 0..2 {
                 for child in 0..4 {

@@ -1,5 +1,5 @@
-//! Ray and boxes: `lib/intersect/node.wesl`. A box test may let a ray in that passes it by; it must
-//! never turn one away that hits.
+//! Ray and boxes: `lib/intersect/node.wesl`. A box test may accept a ray that misses the box; it must never
+//! reject one that hits.
 
 use crate::support::{
     harness::gpu,
@@ -12,7 +12,7 @@ use glam::DVec3;
 /// `MISS` of node.wesl.
 const MISS: u32 = 0xffff_fffc;
 
-/// Keys of the four children, from the same numbers that the traversal has.
+/// Keys of the four children, from the same inputs as in traversal.
 const KEYS: &str = "
     import package::types::Node;
     import package::lib::intersect::node::child_keys;
@@ -52,7 +52,7 @@ fn corners(node: &Node, (min, max): Steps) -> [DVec3; 2] {
     })
 }
 
-/// Where a line is in a box, planes included: from t to t, or nowhere.
+/// The interval of a line inside a box, planes included; `None` if it misses.
 fn slab([min, max]: [DVec3; 2], origin: DVec3, direction: DVec3) -> Option<(f64, f64)> {
     let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in 0..3 {
@@ -95,8 +95,8 @@ fn decode_node_takes_the_rows_apart() {
     assert_eq!(nodes[0], expected);
 }
 
-/// All planes lie a power of two away from the node's corner at -4, and directions are powers of
-/// two, so the shader's arithmetic is exact and so is the rule.
+/// All planes lie a power of two away from the corner of the node at -4, and directions are powers of two, so
+/// the arithmetic of the shader and the expected result are exact.
 #[test]
 fn boxes_are_met_exactly_for_every_combination_of_signs_and_places() {
     let boxes = [
@@ -132,8 +132,8 @@ fn boxes_are_met_exactly_for_every_combination_of_signs_and_places() {
             let expected = slab(corners, o, d).map_or(MISS, |(near, _)| {
                 ((near as f32).to_bits() & !3) | child as u32
             });
-            // The builder moves planes outwards, so a ray that runs within one has nothing to hit
-            // there, and either answer is right.
+            // The builder moves planes outwards, so a ray within a plane has nothing to hit there, and either
+            // result is correct.
             let on_plane = |i: usize| d[i] == 0.0 && corners.iter().any(|corner| corner[i] == o[i]);
             let is_in_plane = (0..3).any(on_plane);
             let name = format!("box {child} from {origin:?} along {direction:?}");
@@ -147,7 +147,7 @@ fn boxes_are_met_exactly_for_every_combination_of_signs_and_places() {
     verdict.close();
 }
 
-/// The packer refuses coordinates beyond 1e15.
+/// The packer rejects coordinates beyond 1e15.
 #[test]
 fn the_largest_boxes_are_met_along_the_axes() {
     let whole = ([0; 3], [255; 3]);
@@ -206,8 +206,8 @@ fn boxes_beyond_the_ray_s_end_and_absent_children_are_not_met() {
     verdict.close();
 }
 
-/// The builder moves planes outwards by 2^-20 of the node's size; with that much slack no ray at
-/// something in the box is turned away, near or far, at any scale.
+/// The builder moves planes outwards by 2^-20 of the node size; with that slack no ray at a point in the box is
+/// rejected, near or far, at any scale.
 #[test]
 fn a_ray_at_something_in_a_box_meets_the_box() {
     let mut random = Random::new(13);
@@ -229,13 +229,13 @@ fn a_ray_at_something_in_a_box_meets_the_box() {
         let [min, max] = corners(&node, boxes[child]);
         let slack = 255.0 * DVec3::from(node.scale.map(f64::from)) / (1 << 20) as f64;
         let [min, max] = [min + slack, max - slack];
-        // On the faces, edges and corners of what the box holds, and inside it.
-        let share = (1.2 * random.in_cube() + 0.5).clamp(DVec3::ZERO, DVec3::ONE);
-        let target = min + share * (max - min);
+        // Points on the faces, edges and corners of the contents, and inside.
+        let fraction = (1.2 * random.in_cube() + 0.5).clamp(DVec3::ZERO, DVec3::ONE);
+        let target = min + fraction * (max - min);
         let away = size * 10f64.powf(random.between(-3.0, 4.0));
         let origin = (target + away * random.direction()).as_vec3();
         let direction = (target - origin.as_dvec3()).normalize().as_vec3();
-        // The rounded ray may pass by what the exact one was aimed at.
+        // The rounded ray may miss the target of the exact one.
         if min.cmple(max).all()
             && slab([min, max], origin.as_dvec3(), direction.as_dvec3()).is_some()
         {

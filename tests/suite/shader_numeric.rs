@@ -1,4 +1,4 @@
-//! `lib/numeric.wesl`: the guards hold for the worst there is.
+//! `lib/numeric.wesl`: the guards hold for extreme values.
 
 use crate::support::{
     harness::gpu,

@@ -1,4 +1,4 @@
-//! `lib/offset.wesl`: leaving a surface on the right side of it, and not too far.
+//! `lib/offset.wesl`: rays start on the correct side of a surface, and close to it.
 
 use crate::support::{
     harness::gpu,
@@ -8,7 +8,7 @@ use crate::support::{
 };
 use glam::DVec3;
 
-/// The point, as the shader makes it from a hit, and the origin of a ray that leaves it.
+/// The hit point as computed by the shader, and the origin of a ray that leaves it.
 const LEAVE: &str = "
     import package::lib::numeric::normalize_or;
     import package::lib::offset::{offset_origin, triangle_error};
@@ -52,8 +52,8 @@ fn rays_that_leave(mut triangle: impl FnMut(&mut Random) -> [DVec3; 3]) -> Vec<L
     rows
 }
 
-/// How far each origin is from the triangle's plane, on the side to which the ray goes, and the
-/// rounding of the triangle's coordinates.
+/// The distance of each origin from the plane of the triangle, on the side of the ray, and the rounding error
+/// of the coordinates of the triangle.
 fn clearances(rows: &[Leave]) -> Vec<(f64, f64)> {
     let origins: Vec<[f32; 3]> = gpu().map_source(LEAVE, rows);
     let distance = |(row, origin): (&Leave, &[f32; 3])| {
@@ -77,7 +77,7 @@ fn a_ray_leaves_a_triangle_on_its_own_side_at_every_scale() {
             let scale = 10f64.powf(random.between(-8.0, 8.0));
             let corners = std::array::from_fn(|_| scale * random.in_cube());
             let [a, b, c]: [DVec3; 3] = corners;
-            // Where the triangle is so thin that its normal is noise, no point is on its right side.
+            // If a triangle is so thin that its normal is noise, no side is correct.
             if (b - a).cross(c - a).length() > 1e-3 * (b - a).length() * (c - a).length() {
                 return corners;
             }
@@ -119,7 +119,7 @@ fn a_ray_leaves_a_triangle_far_from_the_origin() {
     verdict.close();
 }
 
-/// A ray that leaves a plane sees what is a little above it: the offset does not jump over.
+/// A ray that leaves a plane sees an object slightly above it: the offset does not skip it.
 #[test]
 fn a_ray_from_a_plane_sees_another_just_above_it() {
     const LOOK_UP: &str = "
@@ -143,7 +143,7 @@ fn a_ray_from_a_plane_sees_another_just_above_it() {
     let seen: Vec<bool> = gpu().map_source(LOOK_UP, &inputs);
     let mut verdict = Verdict::on("a plane above another");
     for ((gap, (p, _)), seen) in rows.iter().zip(&seen) {
-        // Nearer than the error bound, the two count as one surface.
+        // Closer than the error bound, the two count as one surface.
         if *gap >= 64 {
             verdict.near(
                 format!("{gap} ulp above z = {}", p[2]),
@@ -171,15 +171,15 @@ fn offsets_follow_the_normal_to_the_side_of_the_ray() {
 }
 
 #[test]
-fn a_mirrored_ray_starts_on_the_way_of_the_one_before() {
+fn a_reflected_ray_starts_on_the_path_of_the_incoming_ray() {
     let error = [0f32, 1e-3, 0.0];
     let (up, o) = ([0f32, 1.0, 0.0], [0f32; 3]);
     let slanted = |length: f32| ray([-0.6 * length, 0.8 * length, 0.0], [0.6, -0.8, 0.0]);
     const RETREAT: &str = "
         import package::types::Ray;
-        import package::lib::offset::retreat;
+        import package::lib::offset::mirrored_origin;
         fn probe(error: vec3f, ng: vec3f, arriving: Ray, distance: f32, is_flat: bool) -> vec3f {
-            return retreat(vec3f(0.0), error, ng, arriving, distance, is_flat);
+            return mirrored_origin(vec3f(0.0), error, ng, arriving, distance, is_flat);
         }
     ";
     let down = [0f32, -1.0, 0.0];
@@ -194,27 +194,27 @@ fn a_mirrored_ray_starts_on_the_way_of_the_one_before() {
     ];
     let inputs: Vec<_> = rows.iter().map(|row| row.1).collect();
     let origins: Vec<[f32; 3]> = gpu().map_source(RETREAT, &inputs);
-    let mut verdict = Verdict::on("retreat");
+    let mut verdict = Verdict::on("mirrored_origin");
     for ((name, _, expected), got) in rows.iter().zip(&origins) {
         verdict.near(name, got, expected, Tolerance::Absolute(1e-9));
     }
     verdict.close();
 }
 
-/// Two triangles that meet at a sharp edge; a ray from between them is mirrored close to it.
+/// Two triangles that meet at a sharp edge; a ray from between them is reflected close to it.
 #[test]
-fn a_mirrored_ray_starts_between_the_two_faces_of_a_sharp_edge() {
+fn a_reflected_ray_starts_between_the_two_faces_of_a_sharp_edge() {
     const MIRROR: &str = "
         import package::types::{NONE, NO_INSTANCE, Ray};
         import package::lib::numeric::normalize_or;
-        import package::lib::offset::{retreat, triangle_error};
+        import package::lib::offset::{mirrored_origin, triangle_error};
         fn probe(v0: vec3f, v1: vec3f, v2: vec3f, weights: vec2f, origin: vec3f) -> vec3f {
             let p = (1.0 - weights.x - weights.y) * v0 + weights.x * v1 + weights.y * v2;
             let ng = normalize_or(cross(v1 - v0, v2 - v0), v0);
             let direction = normalize(p - origin);
             let arriving = Ray(origin, 3e38, direction, NONE, NO_INSTANCE);
             let error = triangle_error(v0, v1, v2, weights.x, weights.y);
-            return retreat(p, error, ng, arriving, length(p - origin), true);
+            return mirrored_origin(p, error, ng, arriving, length(p - origin), true);
         }
     ";
     let mut random = Random::new(18);

@@ -1,5 +1,5 @@
-//! `lib/pattern.wesl` and `lib/noise.wesl` against values by hand, an f64 twin, and what is
-//! known of gradient noise.
+//! `lib/pattern.wesl` and `lib/noise.wesl` against hand-computed values, an f64 implementation, and known
+//! properties of gradient noise.
 
 use crate::reference::textures;
 use crate::support::{
@@ -66,7 +66,7 @@ fn a_plane_between_two_layers_of_a_checker_shows_no_speckles() {
     let mut random = Random::new(31);
     let mut inputs = Vec::new();
     for i in 0..30_000u32 {
-        // As far off its plane as the rounding of points some thousand cells away makes it.
+        // As far off its plane as the rounding error of points some thousand cells away.
         let off = random.between(-2.5e-4, 2.5e-4) as f32;
         let [x, z] = [0, 1].map(|_| random.between(-300.0, 300.0) as f32);
         inputs.push(([x, off, z], i % 3));
@@ -115,7 +115,7 @@ fn a_gradient_goes_along_x_and_stays_at_its_ends() {
 }
 
 #[test]
-fn clouds_are_half_way_where_the_noise_is_nothing_and_end_at_both_colours() {
+fn clouds_are_half_where_the_noise_is_zero_and_reach_both_colours() {
     gpu().check(
         "lib::pattern::clouds",
         Tolerance::Exact,
@@ -136,7 +136,8 @@ fn noise_is_what_perlins_formula_gives_in_f64() {
         for (p, got) in points.iter().zip(noise(&points, octaves)) {
             let p = p.as_vec3().as_dvec3();
             let expected = textures::noise_octaves(p, octaves);
-            // Below the finest octave's cells f32 has no digits left; those octaves are also weakest.
+            // Below the cells of the finest octave f32 has no precision left; those octaves are also the
+            // weakest.
             let off = (got - expected).abs();
             verdict.that(format!("{p}, {octaves} octaves"), off < 2e-4, || {
                 format!("got {got}, expected {expected}")
@@ -154,7 +155,7 @@ fn one_octave_vanishes_on_the_lattice() {
 
 #[test]
 fn noise_keeps_to_its_range_and_fills_most_of_it() {
-    // The largest value of an octave is 1.0364, all octaves together have less than twice that.
+    // The maximum of an octave is 1.0364; all octaves together have less than twice that.
     for (octaves, least, most) in [(1, 0.85, 1.04), (16, 1.0, 2.08)] {
         let values = noise(&points(6, 400_000, 128.0), octaves);
         let (low, high) = values.iter().fold((0f64, 0f64), |(low, high), &value| {
@@ -172,12 +173,12 @@ fn noise_keeps_to_its_range_and_fills_most_of_it() {
 }
 
 #[test]
-fn noise_has_a_mean_of_nothing() {
+fn noise_has_a_mean_of_zero() {
     for octaves in [1, 4, 16] {
         let values = noise(&points(7, 400_000, 128.0), octaves);
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let spread = values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64;
-        // Neighbouring points are alike: there are as many independent ones as cells, 2^24.
+        // Neighbouring points are correlated: there are as many independent ones as cells, 2^24.
         let error = (spread / values.len() as f64).sqrt();
         assert!(
             mean.abs() < 5.0 * error,
@@ -205,13 +206,13 @@ fn noise_is_continuous_with_its_slope() {
 }
 
 #[test]
-fn noise_begins_anew_after_its_period() {
+fn noise_repeats_after_its_period() {
     let near = points(8, 2000, 1.0);
     let far: Vec<_> = near
         .iter()
         .map(|p| *p + 256.0 * DVec3::new(1.0, -2.0, 3.0))
         .collect();
-    // As f32 has them, so that both are the same places in their cells.
+    // As rounded to f32, so that both are at the same positions in their cells.
     let far: Vec<_> = far.iter().map(|p| p.as_vec3().as_dvec3()).collect();
     let near: Vec<_> = far
         .iter()

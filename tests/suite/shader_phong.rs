@@ -79,7 +79,7 @@ fn high_powers_keep_their_digits() {
     let inputs: Vec<_> = (0..5000)
         .map(|_| {
             let shininess = 10f64.powf(random.between(-1.0, 4.0));
-            // Where the highlight fades from 1 to e^-5.
+            // The range where the highlight falls from 1 to e^-5.
             let x = (-random.between(0.0, 5.0) / shininess).exp();
             (x as f32, shininess as f32)
         })
@@ -117,8 +117,8 @@ fn nothing_is_negative_or_undefined_for_any_directions() {
     let colors: Vec<[f32; 3]> = gpu().map(PHONG, &inputs);
     let mut verdict = Verdict::on("phong");
     for (input, color) in inputs.iter().zip(&colors) {
-        // k_d + k_s is the most there is; rounding may lift r·v to a few steps above 1, and 1e5 of
-        // shininess multiply that.
+        // k_d + k_s is the maximum; rounding may raise r·v to a few steps above 1, and a shininess of 1e5
+        // multiplies that.
         let defined = color.iter().all(|c| (0.0..=1.05).contains(c));
         verdict.that(format!("{input:?}"), defined, || format!("{color:?}"));
     }

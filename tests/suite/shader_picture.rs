@@ -1,4 +1,4 @@
-//! `lib/picture.wesl`, where to look in pictures.
+//! `lib/picture.wesl`: texel lookup.
 
 use crate::support::{
     harness::gpu,
@@ -8,7 +8,7 @@ use crate::support::{
 };
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
-/// What it shows, arguments, and the neighbours with the second one's weight.
+/// Name, arguments, and the neighbours with the weight of the second one.
 type Row<I> = (&'static str, I, (u32, u32, f32));
 
 #[test]
@@ -40,7 +40,7 @@ fn the_colour_of_a_texel_is_in_its_middle() {
 }
 
 #[test]
-fn neighbours_are_in_the_picture_wherever_they_are_looked_for() {
+fn neighbouring_texels_are_inside_the_picture_for_any_position() {
     let mut random = Random::new(3);
     let mut inputs = Vec::new();
     for count in [1, 2, 3, 7, 640, 4096] {
@@ -70,10 +70,10 @@ fn neighbours_are_in_the_picture_wherever_they_are_looked_for() {
         verdict.that(format!("{at} of {count}, {nearest}"), holds, || {
             format!("{got:?}")
         });
-        // The same place in exact numbers, but for what rounding the fraction does.
+        // The same position in exact arithmetic, up to the rounding of the fraction.
         let place = (f64::from(*at) - f64::from(*at).floor()) * f64::from(*count);
         let (own, place) = match nearest {
-            // The middle of the texel, from which no place in it is further than half of it.
+            // The centre of the texel, at most half a texel from any point in it.
             true => (f64::from(got.first) + 0.5, place),
             false => (f64::from(got.first) + f64::from(got.weight), place - 0.5),
         };
@@ -109,7 +109,7 @@ fn rows_end_at_the_poles() {
 }
 
 #[test]
-fn directions_lie_in_the_picture_of_all_directions_where_they_should() {
+fn directions_map_to_the_right_place_in_an_equirectangular_picture() {
     let quarter = PI as f32 / 2.0;
     let diagonal = FRAC_1_SQRT_2 as f32;
     #[rustfmt::skip]
@@ -123,7 +123,7 @@ fn directions_lie_in_the_picture_of_all_directions_where_they_should() {
         ("turned half, it is behind", ([0.0, 0.0, 1.0], 2.0 * quarter), [1.5, 0.5]),
         ("turned three quarters, it is at the right", ([1.0, 0.0, 0.0], 3.0 * quarter), [1.5, 0.5]),
     ]);
-    // u means nothing there, but it must be a number.
+    // u is arbitrary there, but must be a number.
     for (y, v) in [(1.0f32, 1.0f32), (-1.0, 0.0)] {
         let poles: Vec<[f32; 2]> = gpu().map(
             "lib::picture::equirectangular",

@@ -1,4 +1,4 @@
-//! `lib/rng.wesl`: the same numbers on every device, and good ones.
+//! `lib/rng.wesl`: reproducible on every device, and of good quality.
 
 use crate::support::{
     harness::gpu,
@@ -27,7 +27,7 @@ fn uncombine(a: u32, combined: u32) -> u32 {
     )
 }
 
-/// Corner cases and then anything.
+/// Corner cases, then random values.
 fn words(count: usize) -> Vec<u32> {
     let mut random = Random::new(2);
     let corners = [
@@ -45,7 +45,7 @@ fn words(count: usize) -> Vec<u32> {
         .collect()
 }
 
-/// Worked out with big integers in another language; stratified pictures depend on them.
+/// Computed with big integers in another language; stratified pictures depend on them.
 #[test]
 fn hashes_have_known_answers() {
     #[rustfmt::skip]
@@ -100,11 +100,11 @@ fn hash_flips_half_of_the_bits_when_one_input_bit_flips() {
         let flipped: u32 = pairs.map(|pair| (pair[0] ^ pair[1]).count_ones()).sum();
         // 4000 · 32 fair coins deviate from the half by 0.0014 (one sigma); five of them, and the
         // bias of the hash, which is below that.
-        let share = f64::from(flipped) / (4000.0 * 32.0);
+        let fraction = f64::from(flipped) / (4000.0 * 32.0);
         verdict.that(
             format!("input bit {bit}"),
-            (share - 0.5).abs() < 0.01,
-            || share,
+            (fraction - 0.5).abs() < 0.01,
+            || fraction,
         );
     }
     verdict.close();
@@ -141,7 +141,7 @@ fn pixel_keys_do_not_repeat() {
         .collect();
     let keys: Vec<u32> = gpu().map("lib::rng::pixel_key", &inputs);
     let distinct: HashSet<_> = keys.iter().collect();
-    // Among 65,536 random words, one pair in two trials is alike by chance.
+    // Among 65,536 random words, a pair of equal ones occurs by chance in one of two trials.
     let repeated = keys.len() - distinct.len();
     assert!(repeated <= 4, "{repeated} keys repeat");
 }

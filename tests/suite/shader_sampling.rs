@@ -1,4 +1,4 @@
-//! `lib/sampling.wesl`: the Sobol sequence and the facts that Owen scrambling must not change.
+//! `lib/sampling.wesl`: the Sobol sequence and the properties that Owen scrambling must preserve.
 
 use crate::support::{
     harness::gpu,
@@ -39,7 +39,7 @@ fn sobol_begins_with_the_published_points() {
     verdict.close();
 }
 
-/// Dimensions 3 and 4 of the same.
+/// The same for dimensions 3 and 4.
 const FIRST_POINTS_34: [[f64; 2]; 16] = [
     [0.0, 0.0],
     [0.5, 0.5],
@@ -71,8 +71,8 @@ fn the_third_and_fourth_dimension_begin_with_the_published_points() {
     verdict.close();
 }
 
-/// Sobol's property A for the points of the two-dimensional and the further pair together: each of
-/// the 16 quarters of halves of the four-dimensional cube has one of 16.
+/// Sobol's property A for both pairs of dimensions together: each of the 16 sub-cubes that halve the
+/// four-dimensional cube along each axis contains one of 16 points.
 #[test]
 fn sixteen_samples_are_in_sixteen_parts_of_the_four_dimensional_cube() {
     let mut random = Random::new(9);
@@ -108,8 +108,8 @@ fn sixteen_samples_are_in_sixteen_parts_of_the_four_dimensional_cube() {
     verdict.close();
 }
 
-/// How many of the elementary intervals (boxes of 2^-a by 2^-b, a + b = k) of 2^k points do not
-/// hold exactly one.
+/// The number of elementary intervals (boxes of 2^-a by 2^-b, a + b = k) that do not contain exactly one of 2^k
+/// points.
 fn crowded_or_empty(points: &[[f64; 2]]) -> usize {
     let k = points.len().ilog2();
     assert_eq!(points.len(), 1 << k, "a power of two");
@@ -215,7 +215,7 @@ fn owen_scrambling_keeps_common_leading_bits_and_splits_where_they_end() {
     let mut inputs = Vec::new();
     for _ in 0..4000 {
         let (x, seed, shared) = (random.word(), random.word(), random.below(32) as u32);
-        // Differs from x in the bit after the first `shared`, and at random behind it.
+        // Differs from x in the bit after the first `shared`, and at random after it.
         let bit = 0x8000_0000 >> shared;
         let y = (x ^ bit) ^ (random.word() & (bit - 1));
         inputs.extend([(x, seed), (y, seed)]);

@@ -12,7 +12,7 @@ const INTERSECT: &str = "lib::intersect::sphere::intersect_sphere";
 /// 2^-20, exact in f32.
 const HAIR: f32 = 1.0 / 1_048_576.0;
 
-/// Some((near, far)) roots in f64, of the very numbers that the shader gets.
+/// Some((near, far)) roots in f64, of the same numbers that the shader gets.
 fn roots(ray: &Ray, center: [f32; 3], radius: f32) -> Option<(f64, f64)> {
     let d = DVec3::from(ray.direction.map(f64::from));
     let f = DVec3::from(ray.origin.map(f64::from)) - DVec3::from(center.map(f64::from));
@@ -61,7 +61,7 @@ fn a_hair_inside_the_tangent_hits() {
             1f32,
         )],
     );
-    // The half chord is √(2 · 2^-20), and only a few digits of it survive.
+    // The half chord is √(2 · 2^-20), and only a few digits of it remain.
     let expected = 5.0 - (2.0f64 / 1_048_576.0).sqrt();
     assert!(
         t[0].hit && (f64::from(t[0].t) - expected).abs() < 1e-4,
@@ -90,7 +90,7 @@ fn far_spheres_are_hit_and_t_is_right_to_a_few_roundings() {
         let candidates: Vec<Candidate> = gpu().map(INTERSECT, &inputs);
         for (i, ((ray, center, radius), got)) in inputs.iter().zip(&candidates).enumerate() {
             let t = roots(ray, *center, *radius).map(|(near, _)| near);
-            // Rounding the direction alone moves the far rays by more than the rest of the radius.
+            // Rounding the direction alone moves the distant rays by more than the rest of the radius.
             if t.is_some() {
                 verdict.near(
                     format!("distance {distance}, ray {i}"),
@@ -106,7 +106,7 @@ fn far_spheres_are_hit_and_t_is_right_to_a_few_roundings() {
 
 #[test]
 fn an_earth_at_the_feet_is_hit_to_the_rounding_of_its_radius() {
-    // c = |f|² - r² cannot be better than the coordinates it is made of: half a metre here.
+    // c = |f|² - r² cannot be more accurate than the coordinates: half a metre here.
     let radius = 6.4e6f32;
     let mut random = Random::new(6);
     let inputs: Vec<_> = (0..400)

@@ -7,8 +7,8 @@ use crate::support::{
 use std::collections::HashSet;
 
 #[test]
-fn strides_without_common_factor_visit_every_tile_once() {
-    let mut verdict = Verdict::on("permuted_tile");
+fn strides_without_common_factor_visit_every_workgroup_once() {
+    let mut verdict = Verdict::on("permuted_group");
     for (count, stride) in [
         (1, 1),
         (2, 1),
@@ -18,19 +18,19 @@ fn strides_without_common_factor_visit_every_tile_once() {
         (65_536, 65_535),
     ] {
         let inputs: Vec<_> = (0..count).map(|index| (index, count, stride)).collect();
-        let tiles: Vec<u32> = gpu().map("lib::tile::permuted_tile", &inputs);
-        let distinct: HashSet<_> = tiles.iter().filter(|tile| **tile < count).collect();
+        let groups: Vec<u32> = gpu().map("lib::tile::permuted_group", &inputs);
+        let distinct: HashSet<_> = groups.iter().filter(|group| **group < count).collect();
         verdict.that(
-            format!("{count} tiles in strides of {stride}"),
+            format!("{count} workgroups in strides of {stride}"),
             distinct.len() == count as usize,
-            || format!("{} distinct tiles", distinct.len()),
+            || format!("{} distinct workgroups", distinct.len()),
         );
     }
     verdict.close();
 }
 
 #[test]
-fn lanes_of_a_tile_follow_the_z_curve() {
+fn lanes_of_a_workgroup_follow_the_z_curve() {
     let lanes: Vec<u32> = (0..64).collect();
     let places: Vec<[u32; 2]> = gpu().map("lib::tile::morton_8x8", &lanes);
     let mut verdict = Verdict::on("morton_8x8");
@@ -70,13 +70,13 @@ fn lanes_of_a_tile_follow_the_z_curve() {
 }
 
 #[test]
-fn tiles_cover_a_window_once() {
+fn workgroups_cover_a_tile_once() {
     let (columns, rows) = (5, 3);
     let inputs: Vec<_> = (0..columns * rows)
-        .flat_map(|tile| (0..64).map(move |lane| (tile, lane, columns)))
+        .flat_map(|group| (0..64).map(move |lane| (group, lane, columns)))
         .collect();
-    let pixels: Vec<[u32; 2]> = gpu().map("lib::tile::window_pixel", &inputs);
-    let mut verdict = Verdict::on("window_pixel");
+    let pixels: Vec<[u32; 2]> = gpu().map("lib::tile::tile_pixel", &inputs);
+    let mut verdict = Verdict::on("tile_pixel");
     let distinct: HashSet<_> = pixels
         .iter()
         .filter(|[x, y]| *x < 8 * columns && *y < 8 * rows)
@@ -85,7 +85,7 @@ fn tiles_cover_a_window_once() {
         distinct.len()
     });
     verdict.near(
-        "tile 7 of 5 columns begins at (16, 8)",
+        "workgroup 7 of 5 columns begins at (16, 8)",
         &pixels[7 * 64],
         &[16, 8],
         Tolerance::Exact,

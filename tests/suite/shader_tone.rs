@@ -1,4 +1,4 @@
-//! `lib/tone.wesl`: from linear radiance to what a display shows.
+//! `lib/tone.wesl`: from linear radiance to display values.
 
 use crate::support::{
     harness::gpu,
@@ -17,7 +17,7 @@ fn tone(exposure_scale: f32, curve: u32, transfer: u32) -> PackedTone {
     }
 }
 
-/// IEC 61966-2-1 the other way round: what light a level of the display stands for.
+/// The inverse of IEC 61966-2-1: the light of a display level.
 fn linear_from_srgb(level: f64) -> f64 {
     if level <= 0.04045 {
         level / 12.92
@@ -79,7 +79,7 @@ fn reinhard_maps_luminance_and_keeps_hue() {
 
 #[test]
 fn agx_of_greys_is_its_published_polynomial() {
-    // From the highest power down, over 16.5 stops that end 4.026069 above 1.
+    // Starting with the highest power, over 16.5 stops that end 4.026069 above 1.
     let curve = |x: f64| {
         let v = ((x.log2() + 12.47393) / 16.5).clamp(0.0, 1.0);
         let coefficients = [15.5, -40.14, 31.96, -6.868, 0.4298, 0.1191, -0.00232];
@@ -97,7 +97,7 @@ fn agx_of_greys_is_its_published_polynomial() {
     let shown: Vec<[f32; 3]> = gpu().map("lib::tone::agx", &inputs);
     let mut verdict = Verdict::on("agx");
     for (grey, shown) in greys.iter().zip(&shown) {
-        // The published matrices keep grey to three digits.
+        // The published matrices preserve grey to three digits.
         verdict.near(
             format!("grey {grey}"),
             shown,

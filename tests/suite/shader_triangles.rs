@@ -1,4 +1,4 @@
-//! Level 2: the three triangle tests on the same rows, and what sets the watertight one apart.
+//! Level 2: the three triangle tests on the same inputs, and the properties of the watertight one.
 
 use crate::support::{
     harness::gpu,
@@ -44,7 +44,7 @@ fn intersect(call: &str, rows: &[(Ray, Triangle)]) -> Vec<Candidate> {
     gpu().map_source(&source, &inputs)
 }
 
-/// How many triangles of a mesh each ray hits.
+/// The number of triangles of a mesh that each ray hits.
 fn count_hits(call: &str, mesh: &[Triangle], rays: &[Ray]) -> Vec<u32> {
     let source = format!(
         "{IMPORTS}
@@ -65,8 +65,7 @@ fn count_hits(call: &str, mesh: &[Triangle], rays: &[Ray]) -> Vec<u32> {
     gpu().map_table(&source, &table, rays)
 }
 
-/// Rows that every method must answer: (what it shows, ray, triangle, t and weights of the second
-/// and third corner).
+/// Rows for all methods: (name, ray, triangle, t and weights of the second and third corner).
 type Row = (&'static str, Ray, Triangle, Option<[f64; 3]>);
 
 fn check_with_every_method(tolerance: Tolerance, rows: &[Row]) {
@@ -85,7 +84,8 @@ fn check_with_every_method(tolerance: Tolerance, rows: &[Row]) {
 
 #[test]
 fn a_triangle_is_hit_where_it_should_be() {
-    // Corners with whole numbers: weights are quarters, and all is exact but rounded directions.
+    // Corners with integer coordinates: weights are quarters, and everything except rounded directions is
+    // exact.
     let t = [[-1.0, -1.0, -3.0], [3.0, -1.0, -3.0], [-1.0, 3.0, -3.0]];
     let large = [[-4.0, -4.0, -4.0], [12.0, -4.0, -4.0], [-4.0, 12.0, -4.0]];
     let far = t.map(|v: [f32; 3]| v.map(|c| c * 1e6));
@@ -126,7 +126,7 @@ fn a_triangle_is_hit_where_it_should_be() {
 #[test]
 fn triangles_of_every_size_are_hit() {
     let mut verdict = Verdict::on("triangles by size");
-    // Powers of two, so that nothing but the exponents changes: 1e-8 to 1e8.
+    // Powers of two, so that only the exponents change: 1e-8 to 1e8.
     let sizes: Vec<f32> = (-27..=27).map(|k| 2f32.powi(k)).collect();
     let at = |size: f32| {
         let triangle = [[-1.0, -1.0, -3.0], [3.0, -1.0, -3.0], [-1.0, 3.0, -3.0]];
@@ -226,7 +226,7 @@ fn random_triangles_agree_with_exact_arithmetic() {
     let mut verdict = Verdict::on("random triangles");
     for (method, call) in METHODS {
         for ((input, expected), got) in rows.iter().zip(intersect(call, &inputs)) {
-            // Thirty roundings of numbers around 4, through a system of condition below 200.
+            // Thirty roundings of numbers around 4, through a system with a condition number below 200.
             verdict.near(
                 format!("{method}: {input:?}"),
                 &got,
@@ -270,8 +270,8 @@ fn triangles_without_area_are_never_hit() {
     verdict.close();
 }
 
-/// A closed surface around the origin like a crumpled ball: points on a sphere of 16 by 16 faces,
-/// moved in and out at random, and all of it moved by `shift`.
+/// A closed surface around the origin like a crumpled ball: the vertices of a sphere of 16 by 16 faces, moved
+/// radially at random, and all of it translated by `shift`.
 fn crumpled_ball(shift: DVec3) -> Vec<Triangle> {
     const N: usize = 16;
     let mut random = Random::new(10);
@@ -287,7 +287,7 @@ fn crumpled_ball(shift: DVec3) -> Vec<Triangle> {
             .as_vec3()
             .to_array()
     };
-    // The poles are one corner each, and the last corner of a ring is its first.
+    // The poles are single vertices, and the last vertex of a ring is its first.
     let rings: Vec<Vec<[f32; 3]>> = (0..=N)
         .map(|ring| {
             let count = if ring == 0 || ring == N { 1 } else { N };
@@ -306,8 +306,8 @@ fn crumpled_ball(shift: DVec3) -> Vec<Triangle> {
         .collect()
 }
 
-/// Rays from inside the ball, half of them aimed at corners, a quarter at the middles of edges and
-/// a quarter at any point of an edge.
+/// Rays from inside the ball: half of them at vertices, a quarter at the midpoints of edges and a quarter at
+/// random points of an edge.
 fn rays_at_corners_and_edges(mesh: &[Triangle], shift: DVec3, count: usize) -> Vec<Ray> {
     let mut random = Random::new(11);
     (0..count)
@@ -339,7 +339,7 @@ fn no_ray_leaks_from_a_closed_mesh_through_edges_or_corners() {
             .iter()
             .filter(|hits| **hits == 0)
             .count();
-        // The other two do leak, which is why they are not the default.
+        // The other two tests do leak, which is why they are not the default.
         println!("{method}: {leaks} of {} rays leak", rays.len());
         leaks
     });
@@ -348,7 +348,7 @@ fn no_ray_leaks_from_a_closed_mesh_through_edges_or_corners() {
 
 #[test]
 fn no_ray_leaks_from_a_closed_mesh_far_from_the_origin() {
-    // The place is Embree's, where f32 has steps of 1/64.
+    // The position is from Embree, where f32 has steps of 1/64.
     let shift = DVec3::new(148_376.0, 1_234.0, -223_423.0);
     let mesh = crumpled_ball(shift);
     let rays = rays_at_corners_and_edges(&mesh, shift, 20_000);

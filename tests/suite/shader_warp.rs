@@ -1,4 +1,4 @@
-//! `lib/warp.wesl`: maps from the unit square that keep areas.
+//! `lib/warp.wesl`: area-preserving maps from the unit square.
 
 use crate::support::{
     harness::gpu,
@@ -16,7 +16,7 @@ fn wide<const N: usize>(points: &[[f32; N]]) -> Vec<[f64; N]> {
     points.iter().map(|p| p.map(f64::from)).collect()
 }
 
-/// Angle as a share of a full turn.
+/// Angle as a fraction of a full turn.
 fn turn(x: f64, y: f64) -> f64 {
     y.atan2(x).rem_euclid(TAU) / TAU
 }
@@ -67,7 +67,7 @@ fn triangles_are_covered_evenly() {
         "strips and wedges of equal area",
         &cells(even, SIDE),
     );
-    // The same seen from another corner.
+    // The same, relative to another corner.
     let even = wide(&weights)
         .into_iter()
         .map(|[b1, b2]| [(1.0 - b1).powi(2), b2 / (1.0 - b1).max(1e-9)]);
@@ -97,7 +97,7 @@ fn polygons_are_covered_evenly_from_the_first_corner_on() {
         let points: Vec<[f32; 2]> = gpu().map("lib::warp::polygon_from_square", &inputs);
         let name = format!("{count} corners turned by {rotation}");
         let n = f64::from(count);
-        // Unturned and folded into the first triangle, seen in its own skewed coordinates.
+        // Rotated back and folded into the first triangle, in its own skewed coordinates.
         let corner = DVec2::from_angle(TAU / n);
         let even = wide(&points).into_iter().map(|[x, y]| {
             let p = DVec2::from_angle(-f64::from(rotation)).rotate(DVec2::new(x, y));
@@ -150,7 +150,7 @@ fn cones_and_the_sphere_are_covered_evenly_in_solid_angle() {
         let longest = wide.iter().map(|&d| (DVec3::from(d).length() - 1.0).abs());
         let off = longest.fold(0.0, f64::max);
         verdict.that(format!("cone {depth}: unit length"), off < 5e-7, || off);
-        // 1 - cos from the sine, which does not round off in a narrow cone.
+        // 1 - cos from the sine, which loses no precision in a narrow cone.
         let below = |[x, y, z]: [f64; 3]| {
             let sin2 = x * x + y * y;
             if z > 0.5 {

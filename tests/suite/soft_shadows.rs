@@ -1,5 +1,4 @@
-//! Area lights in whole renders: the light they give has closed forms, and so has the edge of their
-//! shadows.
+//! Area lights in whole renders: closed forms of their illumination and of their penumbras.
 
 use crate::reference::compare::{assert_none, check_alike, counting, render, sized};
 use crate::reference::scenes::{self, Build};
@@ -9,7 +8,7 @@ use glimray::render::RenderSettings;
 use glimray::scene::{Attenuation, Background, Camera, Light, LightKind, Material, Scene};
 use std::f64::consts::PI;
 
-/// A floor of k_d = 1/2 round the origin, which the camera looks at from nearby.
+/// A floor of k_d = 1/2 around the origin, seen by the camera from nearby.
 fn floor() -> Scene {
     let mut scene = Scene {
         cameras: vec![Camera {
@@ -49,7 +48,7 @@ fn square(center: DVec3) -> LightKind {
     }
 }
 
-/// Of one pixel at the origin, from thousands of points of the lights.
+/// Settings of one pixel at the origin, with thousands of light samples.
 fn floor_under(lights: Vec<Light>) -> f64 {
     let mut scene = floor();
     scene.lights = lights;
@@ -94,8 +93,7 @@ fn a_sphere_light_above_the_horizon_gives_its_closed_form() {
     );
 }
 
-/// k_d/π times the irradiance from a sphere of radiance 1, by the midpoint rule over the cone that it
-/// is seen under.
+/// k_d/π times the irradiance from a sphere of radiance 1, by the midpoint rule over the cone that it subtends.
 fn sphere_by_quadrature(distance: f64, off_axis_deg: f64) -> f64 {
     const PARTS: u32 = 1500;
     let axis = off_axis_deg.to_radians();
@@ -204,7 +202,7 @@ fn a_tilted_parallelogram_gives_lamberts_formula() {
         edge_u,
         edge_v,
     };
-    // Which of the two orders shines at the floor is told by the normal, u × v.
+    // The normal, u × v, decides which of the two orders lights the floor.
     let (front, back) = (light(edge_u, edge_v), light(edge_v, edge_u));
     let faces = edge_u.cross(edge_v).dot(-center) > 0.0;
     let (front, back) = if faces { (front, back) } else { (back, front) };
@@ -270,11 +268,11 @@ fn lights_of_all_kinds_add_up() {
         },
         color: Vec3::splat(0.4),
         attenuation: Attenuation::InverseSquare,
-        // Of no use to a light without extent.
+        // Ignored by lights without area.
         samples: 9,
         ..Light::default()
     };
-    // Unseen, so that none stands in the light of another.
+    // Invisible, so that none blocks the light of another.
     let unseen = |kind| Light {
         visible: false,
         ..glowing(kind)
@@ -326,15 +324,18 @@ fn each_light_sample_that_faces_the_surface_is_one_shadow_ray() {
     assert_eq!(shadow_rays(0.01), 1 + 1);
 }
 
-/// What a half-plane leaves of a disc whose radius is 1, by where its edge lies.
+/// The part of a unit disc beyond a half-plane, by the position of its edge.
 fn half_covered(at: f64) -> f64 {
     let at = at.clamp(-1.0, 1.0);
     (at.acos() - at * (1.0 - at * at).sqrt()) / PI
 }
 
-/// ∫ V (1 - V) of a shadow's edge, which is in proportion to its width.
-fn softness(shares: impl Iterator<Item = f64>, step: f64) -> f64 {
-    shares.map(|share| share * (1.0 - share)).sum::<f64>() * step
+/// ∫ V (1 - V) over the edge of a shadow, which is proportional to its width.
+fn softness(fractions: impl Iterator<Item = f64>, step: f64) -> f64 {
+    fractions
+        .map(|fraction| fraction * (1.0 - fraction))
+        .sum::<f64>()
+        * step
 }
 
 #[test]
@@ -342,14 +343,14 @@ fn the_penumbra_of_a_sphere_light_is_as_wide_as_geometry_says() {
     const WIDTH: u32 = 256;
     let (light_height, radius, edge_height) = (20.0, 0.5, 4.0);
     let mut scene = floor();
-    // A wall lying at edge_height, from x = 0 to the left.
+    // A horizontal wall at edge_height, from x = 0 to the left.
     let place = DAffine3::from_translation(dvec3(-50.0, edge_height, 0.0));
     scene.add_mesh(scenes::quad(100.0, 0), place);
     scene.lights = vec![glowing(LightKind::Sphere {
         center: DVec3::Y * light_height,
         radius,
     })];
-    // From below the wall, straight down, so that the picture's width is 1/2 of the floor.
+    // From below the wall, straight down, so that the picture covers 1/2 of the floor.
     let (eye_height, seen) = (3.0, 0.5);
     scene.cameras[0] = Camera {
         look_from: DVec3::Y * eye_height,
@@ -364,13 +365,13 @@ fn the_penumbra_of_a_sphere_light_is_as_wide_as_geometry_says() {
     };
     let (image, _) = render(&scene, &settings);
     let lit = 0.5 * (radius / light_height).powi(2);
-    let shares = image.pixels.iter().map(|pixel| f64::from(pixel[1]) / lit);
+    let fractions = image.pixels.iter().map(|pixel| f64::from(pixel[1]) / lit);
     let (dark, bright) = image
         .pixels
         .iter()
         .fold((f64::MAX, 0f64), |(low, high), pixel| {
-            let share = f64::from(pixel[1]) / lit;
-            (low.min(share), high.max(share))
+            let fraction = f64::from(pixel[1]) / lit;
+            (low.min(fraction), high.max(fraction))
         });
     assert_eq!(dark, 0.0);
     assert!((bright - 1.0).abs() < 2e-3, "{bright}");
@@ -382,7 +383,7 @@ fn the_penumbra_of_a_sphere_light_is_as_wide_as_geometry_says() {
         (0..20_000).map(|i| half_covered(-1.0 + f64::from(i) * step)),
         step,
     );
-    let measured = 2.0 * softness(shares, seen / f64::from(WIDTH)) / per_radius;
+    let measured = 2.0 * softness(fractions, seen / f64::from(WIDTH)) / per_radius;
     assert!(
         (measured / width - 1.0).abs() < 0.01,
         "{measured}, expected {width}"

@@ -7,8 +7,8 @@ use crate::support::verdict::Verdict;
 use glimray::render::RenderSettings;
 use glimray::scene::Scene;
 
-/// Rays through the corners of the pixels of a picture of 512×512 are those through the centres of
-/// one of 513×513 whose edges lie half a pixel farther out. SPD's own count: all of them hit.
+/// Rays through the corners of the pixels of a picture of 512×512 are those through the centres of one of
+/// 513×513 whose edges lie half a pixel farther out. In SPD's own count all of them hit.
 #[test]
 fn every_ray_through_a_corner_of_a_pixel_of_balls_hits() {
     let Some((mut scene, _)) = spd::load("balls.nff") else {
@@ -25,7 +25,7 @@ fn every_ray_through_a_corner_of_a_pixel_of_balls_hits() {
     assert_eq!((rays.primary, rays.primary_hits), (263_169, 263_169));
 }
 
-/// Prints two counts, which should differ by less than so many per cent.
+/// Prints two counts, which should differ by less than this many per cent.
 fn check(verdict: &mut Verdict, name: &str, kind: &str, got: u64, expected: u64, most: f64) {
     let percent = 100.0 * (got as f64 - expected as f64) / expected.max(1) as f64;
     println!("{name} | {kind} | {got} | {expected} | {percent:+.3} %");
@@ -34,10 +34,10 @@ fn check(verdict: &mut Verdict, name: &str, kind: &str, got: u64, expected: u64,
     });
 }
 
-/// Against the tracer in f64. A ray that grazes an edge or a shadow's border may fall to either
-/// side, so counts agree in a share and not in every ray. So do pictures: mirrors that are round
-/// enlarge a rounding with every bounce, and how much of a picture hangs on that shows in how much
-/// of it changes when the tracer's own eye moves by a few roundings of f32.
+/// Compares with the tracer in f64. A ray that grazes an edge or the border of a shadow may fall to either
+/// side, so counts agree approximately and not in every ray. The same holds for pictures: round mirrors amplify
+/// rounding errors with every bounce. The effect on a picture is estimated by moving the eye of the tracer by a
+/// few f32 roundings.
 #[test]
 fn rays_and_pictures_are_those_of_a_tracer_in_f64() {
     let files = spd::files();
@@ -92,10 +92,10 @@ fn rays_and_pictures_are_those_of_a_tracer_in_f64() {
     verdict.close();
 }
 
-/// POV-Ray 3.7.0 without antialiasing, for the same scenes in its own format at 512×512, counts these
-/// mirrored rays under `max_trace_level 5` and these shadow rays, in all and blocked, under 6: it
-/// counts mirrored rays of one level that it then does not follow. In `teapot` it lets interpolated
-/// normals mirror rays into a surface, from where they come back as a few more.
+/// POV-Ray 3.7.0 without antialiasing, for the same scenes in its own format at 512×512, counts these reflected
+/// rays with `max_trace_level 5` and these shadow rays, in total and blocked, with 6: it counts one level of
+/// reflected rays that it does not trace. In `teapot` interpolated normals reflect rays into a surface, from
+/// where they return as a few additional rays.
 #[test]
 fn balls_and_teapot_take_as_many_rays_as_in_pov_ray() {
     let (Some((balls, _)), Some((teapot, _))) = (spd::load("balls.nff"), spd::load("teapot.nff"))

@@ -1,5 +1,5 @@
-//! What several subjects need: shader functions run on the GPU, verdicts that name every failure,
-//! random numbers that are the same in every run, and how much work something is.
+//! Shared helpers: shader functions run on the GPU, verdicts that report every failure, reproducible random
+//! numbers, and measuring work.
 
 pub mod devices;
 pub mod effort;
@@ -11,6 +11,6 @@ pub mod types;
 pub mod verdict;
 pub mod words;
 
-/// How long tests wait for what must come. No test measures by it: it turns a hang into a failure,
-/// on machines that have other things to do.
+/// Time limit for waiting. It is not used for measuring: it turns a hang into a failure, even on a loaded
+/// machine.
 pub const PATIENCE: std::time::Duration = std::time::Duration::from_secs(300);

@@ -18,7 +18,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::process::Command;
 use std::sync::Arc;
 
-/// Five by three texels of random colours that half floats hold exactly.
+/// Five by three texels of random colours that are exact in half floats.
 fn picture(seed: u64) -> Picture {
     let mut random = Random::new(seed);
     let mut channel = || random.below(64) as f32 / 64.0;
@@ -76,7 +76,7 @@ fn textured_scene() -> Scene {
             .textures
             .push(pattern_texture(pattern, Space::Uv, shrunk));
     }
-    // Each slot by itself, and several at once.
+    // Each slot alone, and several at once.
     let slots = |diffuse, specular, ambient| Textures {
         diffuse,
         specular,
@@ -134,7 +134,7 @@ fn pictures_of_textured_scenes_match_an_independent_tracer() {
     assert_none(rows.map(|(name, scene)| {
         let expected = trace(&scene, (256, 192)).image;
         let (actual, _) = render(&scene, &sized(256, 192));
-        // An edge within a pattern is as sharp as one between surfaces: a pixel on it may differ.
+        // An edge in a pattern is as sharp as one between surfaces: pixels on it may differ.
         check_alike(name, &expected, &actual, 2.0, 0.002)
     }));
 }
@@ -150,7 +150,7 @@ fn images_and_buffers_fetch_the_same_textures() {
     )]);
 }
 
-/// A plane seen head on whose ambient colour alone is seen, so that a pixel is a texture's value.
+/// A plane seen face-on with only ambient colour, so that a pixel has the value of the texture.
 fn flat(texture: Texture, pictures: Vec<Picture>, at: DVec3) -> Scene {
     let mut scene = Scene {
         ambient: Vec3::ONE,
@@ -176,7 +176,7 @@ fn flat(texture: Texture, pictures: Vec<Picture>, at: DVec3) -> Scene {
     scene
 }
 
-/// Where the middle of a pixel is seen on the plane of [`flat`], from `at`.
+/// The point of the plane of [`flat`] seen at a pixel centre, from `at`.
 fn seen(index: usize, size: u32) -> DVec2 {
     let middle = |i: usize| (i as f64 + 0.5) / f64::from(size) * 4.0 - 2.0;
     DVec2::new(
@@ -217,7 +217,7 @@ fn texels_blend_as_in_f64_across_the_seam_and_far_from_it() {
 
 #[test]
 fn patterns_far_from_the_origin_are_as_fine_as_near_it() {
-    // Whole periods of every pattern away, and the same in f64.
+    // Shifted by whole periods of every pattern, and the same in f64.
     let far = dvec3(256e6, -128e6, 64e6);
     let mut problems = Vec::new();
     for (i, pattern) in patterns().into_iter().enumerate() {
@@ -247,7 +247,7 @@ fn a_floor_at_the_boundary_of_a_checkers_cells_is_clean() {
         a: Vec3::ONE,
         b: Vec3::ZERO,
     };
-    // The floor is at a whole number of cells, and the camera is not.
+    // The floor is at an integer cell boundary, and the camera is not.
     for scale in [1.0, 0.1, 7.0] {
         let texture = pattern_texture(checker.clone(), Space::World, {
             DAffine3::from_scale(DVec3::splat(scale))
@@ -268,7 +268,7 @@ fn a_floor_at_the_boundary_of_a_checkers_cells_is_clean() {
     }
 }
 
-/// What a narrow camera that looks along `direction` sees of a background.
+/// The background seen by a narrow camera that looks along `direction`.
 fn glimpse(scene: &mut Scene, direction: DVec3) -> DVec3 {
     let up = direction.any_orthonormal_vector();
     scene.cameras[0] = Camera {
@@ -284,7 +284,7 @@ fn glimpse(scene: &mut Scene, direction: DVec3) -> DVec3 {
 
 #[test]
 fn the_background_is_where_it_should_be_along_the_axes_however_it_is_turned() {
-    // Eight by four texels, each of which says where it is.
+    // Eight by four texels that encode their position.
     let texels = (0..32)
         .map(|i| vec3((i % 8) as f32, (i / 8) as f32, 1.0))
         .collect();
@@ -303,7 +303,7 @@ fn the_background_is_where_it_should_be_along_the_axes_however_it_is_turned() {
             strength: 0.5,
             rotation: f64::from(quarters) * FRAC_PI_2,
         };
-        // Turned counter-clockwise from above, what was ahead is at the left: 2 columns a quarter.
+        // Rotated counter-clockwise from above, the front moves to the left: 2 columns per quarter turn.
         let turned = |column: f64| (column + 2.0 * f64::from(quarters)).rem_euclid(8.0);
         for (direction, column) in axes {
             let got = glimpse(&mut scene, direction);
@@ -351,7 +351,7 @@ fn one_bright_texel_is_seen_in_its_direction_alone() {
             strength: 1.0,
             rotation: 0.0,
         };
-        // The texel's middle, by longitude to the right of -Z and latitude.
+        // The centre of the texel, by longitude to the right of -Z and latitude.
         let toward = |column: f64, row: f64| {
             let around = (column + 0.5) / f64::from(WIDTH) * TAU - PI;
             let up = PI / 2.0 - (row + 0.5) / f64::from(HEIGHT) * PI;
@@ -405,7 +405,8 @@ fn the_scene_of_patterns_matches_an_independent_tracer() {
     let scene = import::load(path.as_ref()).unwrap_or_else(|error| panic!("{error}"));
     let expected = trace(&scene, (320, 180)).image;
     let (actual, _) = render(&scene, &sized(320, 180));
-    // The floor near the horizon has cells smaller than pixels, where any rounding picks another.
+    // Near the horizon the cells of the floor are smaller than pixels, where any rounding error picks another
+    // cell.
     assert_none([check_alike("patterns", &expected, &actual, 2.0, 0.005)]);
 }
 

@@ -1,4 +1,4 @@
-//! The picture of texture coordinates: u in red, v in green, fields of an eighth.
+//! The texture coordinate view: u in red, v in green, fields of an eighth.
 
 use crate::reference::compare::{render, sized};
 use crate::reference::scenes::{self, Build};
@@ -27,7 +27,7 @@ fn u_is_red_v_is_green_and_every_other_field_darker() {
 
 const SIDE: u32 = 64;
 
-/// Two units of the world high and wide, seen from +Z without perspective.
+/// Two units of the world high and wide, seen orthographically from +Z.
 fn scene() -> Scene {
     Scene {
         cameras: vec![Camera {
@@ -48,7 +48,7 @@ fn uv(scene: &Scene) -> Image {
     render(scene, &settings).0
 }
 
-/// As the shader's own table of colours says, from outside.
+/// The expected colours, written independently of the shader.
 fn expected(u: f64, v: f64) -> [f64; 3] {
     let parity = ((u * 8.0).floor() + (v * 8.0).floor()) as i64 & 1;
     let shade = if parity == 0 { 1.0 } else { 0.7 };
@@ -64,7 +64,7 @@ fn upright(x: f64, y: f64) -> DAffine3 {
 fn meshes_show_their_coordinates_and_those_without_are_black() {
     let mut scene = scene();
     let mut quad = scenes::quad(1.0, 0);
-    // By where its corners are once it stands upright.
+    // By the position of its corners when it stands upright.
     quad.uvs = (quad.positions.iter())
         .map(|p| {
             let p = upright(0.0, 0.0).transform_point3(p.as_dvec3());
@@ -111,7 +111,7 @@ fn shapes_show_theirs_without_any_texture_in_the_scene() {
         let found = f64::from(pixel[1]);
         let off = greens.map(|green| (found - green).abs());
         assert!(off[0].min(off[1]) < 2e-3, "{y}: {found}, not {greens:?}");
-        // Half-way between x = 0 and the seam, whichever way round u runs.
+        // Half-way between x = 0 and the seam, whichever direction u has.
         assert!(pixel[0] > 0.0 && pixel[2] == 0.0);
     }
     assert_eq!(image.pixels[0][..3], [0.0; 3]);

@@ -4,10 +4,10 @@ use eframe::egui::{
     Event, InputState, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, TouchPhase,
     vec2,
 };
-use glimray::app::view::bindings::{
+use glimray::viewer::model::bindings::{
     Action, Bindings, Category, Conflict, Manner, Mods, Preset, Trigger, markdown_table,
 };
-use glimray::app::view::navigation::Flight;
+use glimray::viewer::model::camera::Flight;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 

@@ -3,8 +3,7 @@
 use crate::reference::compare::render;
 use crate::support::random::Random;
 use glam::{DAffine3, dvec2, dvec3, vec3};
-use glimray::app::view::command_line::{CommandLine, Pasted, Shown, copy, paste};
-use glimray::app::view::navigation::Rig;
+use glimray::cli::view::picture;
 use glimray::import;
 use glimray::output;
 use glimray::pack;
@@ -13,6 +12,8 @@ use glimray::scene::{
     Background, Beyond, Camera, CameraProperty, Curve, Easing, Filter, Interpolation, Lens, Node,
     OutputDefaults, Scene, Shutter, Target, ToneCurve, Track, Transfer, Values,
 };
+use glimray::viewer::model::camera::CameraController;
+use glimray::viewer::model::command_line::{CommandLine, Pasted, Shown, copy, paste};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -58,6 +59,7 @@ impl Screen {
 
     fn copy(&self) -> CommandLine {
         copy(&Shown {
+            parse: picture,
             path: &self.path,
             options: &self.options,
             scene: &self.scene,
@@ -77,7 +79,8 @@ impl Screen {
     fn check(&self) -> String {
         let CommandLine { line, left_out } = self.copy();
         assert_eq!(left_out, Vec::<String>::new(), "{line}");
-        let pasted = paste(&line, &self.scene).unwrap_or_else(|why| panic!("{line}: {why}"));
+        let pasted =
+            paste(picture, &line, &self.scene).unwrap_or_else(|why| panic!("{line}: {why}"));
         let expected = Pasted {
             path: Some(self.path.clone()),
             camera: Camera {
@@ -130,7 +133,7 @@ fn the_camera_of_a_line_packs_to_the_same_bits() {
     let mut random = Random::new(21);
     for i in 0..60 {
         let mut screen = Screen::of(scene());
-        let mut rig = Rig::new(&screen.camera, None);
+        let mut rig = CameraController::new(&screen.camera, None);
         for _ in 0..3 {
             rig.orbit(300.0 * random.in_cube().truncate(), dvec2(640.0, 480.0));
             rig.zoom(random.between(-9.0, 9.0), Some(3.0 * random.in_cube()));
@@ -144,7 +147,9 @@ fn the_camera_of_a_line_packs_to_the_same_bits() {
         }
         screen.camera = rig.camera();
         let line = screen.check();
-        let shown = paste(&line, &screen.scene).expect("a camera").camera;
+        let shown = paste(picture, &line, &screen.scene)
+            .expect("a camera")
+            .camera;
         let packed = |camera: &Camera| {
             let mut scene = scene();
             scene.cameras = vec![camera.clone()];
@@ -305,7 +310,7 @@ fn moving_cameras_are_caught_at_their_moment() {
     screen.time = 0.7;
     screen.camera = screen.scene.frame(0.7).camera;
     assert_eq!(screen.check(), "glimray render scene.toml --time 0.7");
-    let mut rig = Rig::new(&screen.camera, None);
+    let mut rig = CameraController::new(&screen.camera, None);
     rig.orbit(dvec2(100.0, 30.0), dvec2(640.0, 480.0));
     screen.camera = rig.camera();
     let line = screen.check();
@@ -389,7 +394,7 @@ fn a_shell_takes_the_line_apart_as_it_was_put_together() {
             "other folder",
         ];
         assert_eq!(words.lines().collect::<Vec<_>>(), expected);
-        let pasted = paste(&line, &screen.scene).expect("a line");
+        let pasted = paste(picture, &line, &screen.scene).expect("a line");
         assert_eq!(pasted.path.as_deref(), Some(Path::new(&file)));
     }
 }
@@ -397,7 +402,8 @@ fn a_shell_takes_the_line_apart_as_it_was_put_together() {
 #[test]
 fn lines_are_read_as_people_have_them() {
     let scene = scene();
-    let at = |line: &str| paste(line, &scene).unwrap_or_else(|why| panic!("{line}: {why}"));
+    let at =
+        |line: &str| paste(picture, line, &scene).unwrap_or_else(|why| panic!("{line}: {why}"));
     let plain = at("glimray render a.toml --look-from 1,2,3 --fov-y 20");
     assert_eq!(plain.camera.look_from, dvec3(1.0, 2.0, 3.0));
     assert_eq!(plain.camera.fov_y, 20_f64.to_radians());
@@ -438,7 +444,7 @@ fn what_is_no_line_of_ours_is_refused_in_one_line() {
     ] {
         let mut scene = scene();
         scene.cameras[0].look_from = dvec3(1.0, 2.0, 9.0);
-        let why = paste(line, &scene).expect_err(line);
+        let why = paste(picture, line, &scene).expect_err(line);
         assert!(why.contains(needle) && !why.contains('\n'), "{line}: {why}");
     }
 }
@@ -456,7 +462,7 @@ fn the_command_line_makes_the_pixels_that_were_copied() {
     for orthographic in [false, true] {
         let scene = import::load(&path).expect("a scene");
         let mut screen = Screen::of(scene);
-        let mut rig = Rig::new(&screen.camera, screen.scene.bounds());
+        let mut rig = CameraController::new(&screen.camera, screen.scene.bounds());
         rig.orbit(dvec2(77.0, 33.0), dvec2(640.0, 480.0));
         rig.zoom(2.0, Some(dvec3(0.5, 0.5, 0.0)));
         rig.advance(0.05);

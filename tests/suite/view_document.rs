@@ -1,8 +1,8 @@
 //! The scene that is being edited: what is done to it, taken back, and done again.
 
 use glam::{DAffine3, DQuat, DVec3, Vec3};
-use glimray::app::view::document::Document;
 use glimray::scene::{Camera, Geometry, Instance, Material, Mesh, Scene, Shape};
+use glimray::viewer::model::document::Document;
 use std::sync::Arc;
 
 fn scene() -> Scene {

@@ -2,8 +2,8 @@
 
 use crate::support::random::Random;
 use glam::{DVec2, DVec3, dvec2, dvec3};
-use glimray::app::view::navigation::{Flight, Rig, Side, project, ray_through};
 use glimray::scene::{Camera, Lens};
+use glimray::viewer::model::camera::{CameraController, Flight, Side, project, ray_through};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const SIZE: DVec2 = dvec2(640.0, 480.0);
@@ -27,12 +27,12 @@ fn parallel() -> Camera {
     }
 }
 
-fn rig(camera: &Camera) -> Rig {
-    Rig::new(camera, Some(BOX))
+fn rig(camera: &Camera) -> CameraController {
+    CameraController::new(camera, Some(BOX))
 }
 
 /// Lets a minute go by.
-fn settled(mut rig: Rig) -> Camera {
+fn settled(mut rig: CameraController) -> Camera {
     for _ in 0..600 {
         rig.advance(0.1);
     }
@@ -230,7 +230,7 @@ fn a_point_as_deep_as_the_pivot_is_where_the_cursor_is() {
 
 #[test]
 fn movement_does_not_depend_on_how_time_is_cut_into_frames() {
-    type Start = fn(&mut Rig);
+    type Start = fn(&mut CameraController);
     let starts: [(&str, Start); 5] = [
         ("zoom", |rig| rig.zoom(3.0, Some(dvec3(0.5, 0.0, 0.0)))),
         ("view", |rig| rig.look_from(Side::Top)),
@@ -618,7 +618,7 @@ fn the_upward_axis_is_the_one_that_a_camera_is_level_to() {
             up,
             ..Camera::default()
         };
-        Rig::new(&camera, None).up_axis()
+        CameraController::new(&camera, None).up_axis()
     };
     let rows = [
         (

@@ -1,12 +1,12 @@
 //! Edits of one object, and the outline that it is found in.
 
 use glam::{DAffine3, DQuat, DVec3, Vec3};
-use glimray::app::view::objects::{
-    self, EditError, Id, assign, duplicate, freedom, is_visible, place, remove, set_place,
-    set_visible,
-};
-use glimray::app::view::outline::{Outline, label};
 use glimray::scene::*;
+use glimray::viewer::model::objects;
+use glimray::viewer::model::objects::{
+    EditError, Id, assign, duplicate, freedom, is_visible, place, remove, set_place, set_visible,
+};
+use glimray::viewer::model::outline::{Outline, label};
 use std::sync::Arc;
 
 const SHAPE: Id = Id::Object(ObjectRef::Shape(0));

@@ -2,11 +2,11 @@
 
 use crate::support::random::Random;
 use glam::dvec3;
-use glimray::app::view::bindings::{Action, Preset};
-use glimray::app::view::preferences::{
+use glimray::scene::{Camera, Lens, ToneCurve};
+use glimray::viewer::model::bindings::{Action, Preset};
+use glimray::viewer::model::preferences::{
     MAX_CAMERAS, MAX_RECENT, Preferences, SavedCamera, Store, Theme,
 };
-use glimray::scene::{Camera, Lens, ToneCurve};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! The rays of a pixel as plain data, in world space, with the names of what they met.
+//! The rays of a pixel as plain data, in world space, with the names of the objects they hit.
 
 use crate::{
     layout::{
@@ -11,18 +11,18 @@ use crate::{
 use glam::{DVec3, Vec3};
 use serde::Serialize;
 
-/// Beyond this, in scene units, is infinitely far: no scene is as wide.
+/// Distances beyond this, in scene units, are infinite: no scene is that large.
 const FAR: f32 = 1e30;
 
-/// What a pixel is made of.
+/// The samples and rays of a pixel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RayTree {
     /// Column and row in the picture.
     pub pixel: [u32; 2],
-    /// Linear radiance, as the film has it for these samples: the sum of weight × colour over the sum
-    /// of weights. What is negative counts as 0, and all is 0 where the weights cancel.
+    /// Linear radiance, as in the film for these samples: the weighted mean of the sample colours. Negative
+    /// values are clamped to 0, and the value is 0 if the weights cancel.
     pub value: [f32; 3],
-    /// In the order of their indices.
+    /// In index order.
     pub samples: Vec<SampleTree>,
 }
 
@@ -31,56 +31,55 @@ pub struct RayTree {
 pub struct SampleTree {
     /// Index of the sample in its pixel.
     pub sample: u32,
-    /// What it counts in the pixel: 1, or −1 where the filter is negative.
+    /// The weight in the pixel: 1, or −1 where the filter is negative.
     pub weight: f32,
-    /// When it was taken: 0 as the shutter opens and 1 as it closes; 0 where nothing moves.
+    /// The shutter time: 0 when the shutter opens, 1 when it closes; 0 if nothing moves.
     pub time: f32,
     /// Linear radiance: the sum of the contributions of all its rays.
     pub color: [f32; 3],
-    /// Whether it is left out of the pixel, because its colour is not finite.
+    /// Whether the sample was dropped because its colour is not finite.
     pub dropped: bool,
-    /// Whether rays are missing in the picture: the tree outgrew what a tree may have.
+    /// Whether rays are missing in the picture because the tree exceeded a limit.
     pub cut_off: bool,
-    /// Rays that were traced; more than `rays` where there was no room for all of them.
+    /// Number of traced rays; more than in `rays` if there was no room to record all of them.
     pub ray_count: usize,
-    /// In the order in which they were sent, so that parents come before their children; the first is
-    /// the primary ray.
+    /// In spawn order, so that parents come before their children; the first is the primary ray.
     pub rays: Vec<TracedRay>,
 }
 
-/// A ray that was traced, in world space.
+/// A traced ray, in world space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TracedRay {
-    /// What it was sent for.
+    /// Its kind.
     pub kind: RayKind,
-    /// Place in [`SampleTree::rays`] of the ray that sent it; `None` for the primary ray.
+    /// Index in [`SampleTree::rays`] of the parent; `None` for the primary ray.
     pub parent: Option<usize>,
-    /// Places of the rays that it sent, in the order in which they were sent.
+    /// Indices of its child rays, in spawn order.
     pub children: Vec<usize>,
-    /// Where it starts.
+    /// Origin.
     pub origin: [f64; 3],
     /// Of unit length.
     pub direction: [f64; 3],
-    /// Where it ends: at a surface, or at the light; `None` if nothing is in its way to infinity.
+    /// End point: at a surface or a light; `None` if it goes to infinity.
     pub end: Option<[f64; 3]>,
-    /// The surface that it met. Of a shadow ray the nearest in its way, or the last one that it reached
-    /// where light goes through things; without material and normals.
+    /// The surface it hit. For a shadow ray the nearest one, or the last one that it reached if transparent
+    /// surfaces filter shadows; without material and normals.
     pub hit: Option<RayHit>,
-    /// Of a shadow ray.
+    /// Set for shadow rays.
     pub shadow: Option<ShadowRay>,
-    /// Materials of the bodies that its origin is inside of, the outermost first: indices into
-    /// [`crate::scene::Scene::materials`]. Empty where nothing is transparent.
+    /// Materials of the dielectric volumes around its origin, outermost first: indices into
+    /// [`crate::scene::Scene::materials`]. Empty if nothing is transparent.
     pub media: Vec<usize>,
-    /// Its throughput where it starts. Of a shadow ray that of one sample of the light.
+    /// Its throughput at the origin. For a shadow ray that of one sample of the light.
     pub throughput: [f32; 3],
-    /// The same where it ends, after what the medium swallowed or the shadow took.
+    /// The throughput at its end, after absorption or shadowing.
     pub arriving: [f32; 3],
-    /// What it adds itself to the sample's colour: ambient and emitted light of the surface, the
-    /// background, or of a shadow ray the light that comes through.
+    /// The radiance it adds to the sample: ambient light and emission of the surface, the background, or for a
+    /// shadow ray the light that passes.
     pub contribution: [f32; 3],
 }
 
-/// What a ray was sent for.
+/// The kind of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RayKind {
@@ -88,84 +87,84 @@ pub enum RayKind {
     Primary,
     /// To a light.
     Shadow,
-    /// Mirrored.
+    /// Reflected.
     Reflection,
-    /// Refracted, or on through a surface that does not bend it.
+    /// Refracted, or continued through a surface that does not refract.
     Refraction,
 }
 
-/// A surface that a ray met.
+/// A surface that a ray hit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RayHit {
-    /// From the ray's origin, in scene units.
+    /// Distance from the origin of the ray, in scene units.
     pub distance: f64,
-    /// What it belongs to.
+    /// The object.
     pub object: Option<ObjectRef>,
-    /// The object's name, where it has one.
+    /// The name of the object, if it has one.
     pub name: Option<String>,
-    /// Number of the triangle or of the shape on the GPU.
+    /// Index of the triangle or the shape on the GPU.
     pub primitive: u32,
     /// Index into [`crate::scene::Scene::materials`]; `None` for lamps, and for shadow rays.
     pub material: Option<usize>,
-    /// The material's name, where it has one.
+    /// The name of the material, if it has one.
     pub material_name: Option<String>,
-    /// Where it was met.
+    /// Hit point.
     pub position: [f64; 3],
-    /// Of unit length, as it was used for shading.
+    /// Shading normal, of unit length.
     pub normal: [f64; 3],
-    /// Of unit length, to the surface's own outside.
+    /// Geometric normal, of unit length, pointing outwards.
     pub geometric_normal: [f64; 3],
-    /// Whether the ray came from the outside.
+    /// Whether the ray came from outside.
     pub outside: bool,
-    /// Linear radiance that ambient light adds here, before the ray's throughput.
+    /// Linear radiance of ambient light here, before the throughput of the ray.
     pub ambient: [f32; 3],
-    /// Linear radiance that the surface emits, before the ray's throughput.
+    /// Linear radiance of emission, before the throughput of the ray.
     pub emission: [f32; 3],
-    /// How it divides light; `None` where the scene has no mirrors and no glass, or depth is 0.
+    /// How it scatters light; `None` if the scene has no reflection and no refraction, or the depth is 0.
     pub split: Option<RaySplit>,
 }
 
-/// How a surface divides the light among itself, a mirrored and a refracted ray.
+/// How a surface divides light among local shading, a reflected and a refracted ray.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RaySplit {
-    /// Fraction that is mirrored.
+    /// Reflected fraction.
     pub reflect: [f32; 3],
-    /// Fraction that goes through.
+    /// Transmitted fraction.
     pub transmit: [f32; 3],
-    /// Fresnel's reflectance; `None` for a material that does not ask for it.
+    /// Fresnel reflectance; `None` for a material without Fresnel.
     pub reflectance: Option<f32>,
-    /// Whether all is mirrored, beyond the critical angle.
+    /// Whether there is total internal reflection.
     pub total: bool,
-    /// Whether the surface lets light through.
+    /// Whether the surface is transparent.
     pub transparent: bool,
-    /// Whether the media on its two sides differ; else the ray goes on as if it were not there.
+    /// Whether the media on its two sides differ; otherwise the ray passes unchanged.
     pub boundary: bool,
     /// Index of refraction in front and behind.
     pub iors: [f32; 2],
     /// Material of the medium that the ray travelled in; `None` is the vacuum.
     pub medium: Option<usize>,
-    /// Its name, where it has one.
+    /// The name of that medium, if it has one.
     pub medium_name: Option<String>,
     /// Material of the medium behind a transparent surface; `None` is the vacuum.
     pub medium_behind: Option<usize>,
 }
 
-/// What a shadow ray found out.
+/// The result of a shadow ray.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShadowRay {
     /// Index into [`crate::scene::Scene::lights`].
     pub light: usize,
-    /// The light's name, where it has one.
+    /// The name of the light, if it has one.
     pub light_name: Option<String>,
-    /// To the light, in scene units; `None` for one that is infinitely far.
+    /// Distance to the light, in scene units; `None` if it is infinitely far away.
     pub distance: Option<f64>,
-    /// Whether no light comes through.
+    /// Whether the light is fully blocked.
     pub blocked: bool,
-    /// The fraction of it that comes through.
+    /// The fraction of the light that passes.
     pub transmittance: [f32; 3],
-    /// Linear radiance that the light adds at the surface without a shadow.
+    /// Linear radiance that the unshadowed light adds at the surface.
     pub unshadowed: [f32; 3],
-    /// Surfaces that it met.
+    /// Number of surfaces that it crossed.
     pub crossings: u32,
 }
 
@@ -190,7 +189,7 @@ impl RayTree {
     }
 }
 
-/// Turns records into trees.
+/// Converts records to trees.
 pub struct Reader<'a> {
     scene: &'a PackedScene,
     view: &'a PackedView,
@@ -258,7 +257,7 @@ impl<'a> Reader<'a> {
         let material = self.scene.material_at(record.material);
         let name = object.and_then(|object| self.scene.object_name(object));
         let material_name = material.and_then(|material| self.scene.material_name(material));
-        // Only where the kernel has code for mirrors and glass.
+        // Set only if the kernel has code for reflection or refraction.
         let is_split = !is_shadow && record.ior > 0.0;
         RayHit {
             distance: record.t.into(),

@@ -1,15 +1,15 @@
-//! Which pixels of a picture have which samples, in one way only: two films that cover the same are equal,
-//! however they came about.
+//! The samples of each pixel of a picture, in a canonical form: two films with the same coverage compare equal,
+//! however they were made.
 
 use super::super::sums::SAMPLE_BLOCK;
 use std::ops::Range;
 
-/// Ranges of samples in order; between two of them some are missing.
+/// Ranges of samples in ascending order, with gaps between them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SampleSet(Vec<Range<u32>>);
 
 impl SampleSet {
-    /// Of one range, unless it is empty.
+    /// The set of one range, unless it is empty.
     pub fn new(range: Range<u32>) -> Self {
         let mut set = Self::default();
         set.push(range);
@@ -21,7 +21,7 @@ impl SampleSet {
         &self.0
     }
 
-    /// Adds a range that begins no earlier than the last one ends. Whether it does.
+    /// Appends a range, which must not start before the end of the last one. Returns whether that holds.
     pub fn push(&mut self, range: Range<u32>) -> bool {
         match self.0.last_mut() {
             _ if range.is_empty() => {}
@@ -36,18 +36,18 @@ impl SampleSet {
         self.0.is_empty()
     }
 
-    /// Samples in it.
+    /// Number of samples.
     pub fn len(&self) -> u32 {
         self.0.iter().map(|range| range.end - range.start).sum()
     }
 
-    /// Blocks of samples in it.
+    /// Number of sample blocks.
     pub fn block_count(&self) -> u32 {
         let blocks = |range: &Range<u32>| (range.end - range.start).div_ceil(SAMPLE_BLOCK);
         self.0.iter().map(blocks).sum()
     }
 
-    /// What both have, first to last.
+    /// The first range that both have.
     fn common(&self, other: &Self) -> Option<Range<u32>> {
         let mut others = other.0.iter().peekable();
         for own in &self.0 {
@@ -59,7 +59,7 @@ impl SampleSet {
         None
     }
 
-    /// Everything that one of the two has, or the first range that both have.
+    /// The union, or the first range that both have.
     fn union(&self, other: &Self) -> Result<Self, Range<u32>> {
         if let Some(common) = self.common(other) {
             return Err(common);
@@ -73,7 +73,7 @@ impl SampleSet {
         Ok(set)
     }
 
-    /// What this one has and the other has not.
+    /// The difference: samples of this one that the other lacks.
     fn without(&self, other: &Self) -> Self {
         let mut set = Self::default();
         for own in &self.0 {
@@ -88,7 +88,7 @@ impl SampleSet {
     }
 }
 
-/// Pixels of a row, or of several below each other, that have the same samples.
+/// A run of pixels with the same samples, in one or several rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Run {
     pub x: Range<u32>,
@@ -99,23 +99,24 @@ pub struct Run {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Band {
     pub y: Range<u32>,
-    /// From left to right, apart or with other samples.
+    /// From left to right; adjacent runs have different samples.
     pub runs: Vec<Run>,
-    /// Runs in the bands above.
+    /// Number of runs in the bands above.
     first: usize,
 }
 
-/// Bands from top to bottom, apart or with other runs. A patch is a run with all the rows of its band.
+/// Bands from top to bottom; adjacent bands have different runs. A patch is a run with all the rows of its
+/// band.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Coverage {
     bands: Vec<Band>,
 }
 
-/// A rectangle of the picture (x, y, width, height) and samples that both of two films have.
+/// A rectangle of the picture (x, y, width, height) and samples that two films have in common.
 pub type Overlap = ([u32; 4], Range<u32>);
 
 impl Coverage {
-    /// Of one rectangle: x, y, width, height.
+    /// The coverage of one rectangle: x, y, width, height.
     pub fn rectangle([x, y, width, height]: [u32; 4], samples: SampleSet) -> Self {
         let mut coverage = Self::default();
         if width > 0 && height > 0 && !samples.is_empty() {
@@ -129,14 +130,14 @@ impl Coverage {
         &self.bands
     }
 
-    /// The rectangles (x, y, width, height) of the patches and their samples, in the order of their indices.
+    /// The rectangles (x, y, width, height) of the patches and their samples, in index order.
     pub fn patches(&self) -> impl Iterator<Item = ([u32; 4], &SampleSet)> {
         self.bands.iter().flat_map(|band| {
             (band.runs.iter()).map(|run| (rectangle(&run.x, &band.y), &run.samples))
         })
     }
 
-    /// The rectangle round everything: x, y, width, height.
+    /// The bounding rectangle: x, y, width, height.
     pub fn bounds(&self) -> [u32; 4] {
         let (Some(first), Some(last)) = (self.bands.first(), self.bands.last()) else {
             return [0; 4];
@@ -155,12 +156,12 @@ impl Coverage {
         Some((band.first + index, rectangle(&run.x, &band.y)))
     }
 
-    /// What both have together, or what both have in common.
+    /// The union, or the first samples that both have.
     pub fn union(&self, other: &Self) -> Result<Self, Overlap> {
         self.combined(other, SampleSet::union)
     }
 
-    /// What this one has and the other has not.
+    /// The difference: samples of this one that the other lacks.
     pub fn without(&self, other: &Self) -> Self {
         let without = |own: &SampleSet, other: &SampleSet| Ok(own.without(other));
         self.combined(other, without).unwrap_or_default()
@@ -202,7 +203,7 @@ impl Coverage {
         Ok(combined)
     }
 
-    /// Adds rows below all others. Whether they are, and the runs are in order.
+    /// Appends rows, which must be below all others and have valid runs. Returns whether that holds.
     pub fn push(&mut self, y: Range<u32>, runs: Vec<Run>) -> bool {
         let in_order = |pair: &[Run]| {
             let (before, after) = (&pair[0], &pair[1]);

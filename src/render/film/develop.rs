@@ -1,31 +1,31 @@
-//! From a film to a picture, without the scene that it is of.
+//! Develops a film to a picture, without its scene.
 
 use super::Film;
 use crate::{
     gpu::{Gpu, Ledger, MEMORY_LIMIT_BYTES},
     image::Image,
-    layout::{PackedFrame, PackedLight, PackedSlice},
+    layout::{PackedDispatch, PackedFrame, PackedLight},
     render::{
         Fetch, Levels, Quantity, RenderError, RenderSettings, Slicing, Tone,
-        develop::{Context, Developer, counted, put},
+        develop::{Context, Developer, copy_tile, sample_count_image},
+        film_tile::{FilmTile, rectangles},
         layers::{self, LayerKind},
         layouts::{Layouts, group},
         levels,
-        window::{Window, rectangles},
     },
 };
 use bytemuck::bytes_of;
 use wgpu::BufferUsages;
 
-/// Bytes of a pixel of the picture, of its film, and of both on the way to the GPU and back.
+/// Bytes per pixel of the picture, its film, and their copies for upload and readback.
 const PIXEL_BYTES: u64 = 64;
 
 impl Film {
-    /// The picture of the rectangle round all its pixels, the same as that of the renderer which they are
-    /// from. Pixels without samples are black.
+    /// Develops the bounding rectangle of all pixels, with the same result as the renderer that made the film.
+    /// Pixels without samples are black.
     ///
     /// # Errors
-    /// The device failed, or the picture is larger than [`MEMORY_LIMIT_BYTES`] allow.
+    /// The device failed, or the picture exceeds [`MEMORY_LIMIT_BYTES`].
     pub fn develop(&self, gpu: &Gpu, tone: &Tone) -> Result<Image, RenderError> {
         let region = self.region();
         let [x, y, width, height] = region;
@@ -38,11 +38,16 @@ impl Film {
             let counts: Vec<_> = (self.layer(LayerKind::Count).iter())
                 .map(|row| row[0])
                 .collect();
-            return Ok(counted(region, &counts, self.header.samples, range));
+            return Ok(sample_count_image(
+                region,
+                &counts,
+                self.header.samples,
+                range,
+            ));
         }
         let mut image = Image::new(width, height);
-        let windows = rectangles(region, Slicing::default().window_side, 0..0, 1);
-        let Some(most) = windows.iter().map(Window::pixel_count).max() else {
+        let tiles = rectangles(region, Slicing::default().tile_side, 0..0, 1);
+        let Some(most) = tiles.iter().map(FilmTile::pixel_count).max() else {
             return Ok(image);
         };
         let layouts = Layouts::new(gpu, Fetch::Buffer);
@@ -50,17 +55,17 @@ impl Film {
         let film = gpu.allocate("film", most as u64 * 16, written)?;
         let read = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
         let staging = gpu.allocate("staging", most as u64 * 16, read)?;
-        let slice = gpu.allocate("slice", size_of::<PackedSlice>() as u64, written)?;
-        // The layout has a frame, which is not looked at.
+        let dispatch = gpu.allocate("dispatch", size_of::<PackedDispatch>() as u64, written)?;
+        // The layout requires a frame, which is not used.
         let frame = (PackedFrame::default(), PackedLight::default());
         let frame = gpu.upload("frame", &[bytes_of(&frame.0), bytes_of(&frame.1)].concat())?;
-        let shared = [frame.as_entire_binding(), slice.as_entire_binding()];
+        let shared = [frame.as_entire_binding(), dispatch.as_entire_binding()];
         let context = Context {
             gpu,
             layouts: &layouts,
             frame_group: &group(gpu, &layouts.frame, &shared),
             film_group: &group(gpu, &layouts.film, &[film.as_entire_binding()]),
-            slice: &slice,
+            dispatch: &dispatch,
             film: &film,
             staging: &staging,
         };
@@ -73,17 +78,16 @@ impl Film {
         let means = self.layer(LayerKind::Weighted);
         let mean =
             |[px, py]: [u32; 2]| means[(py - y) as usize * width as usize + (px - x) as usize];
-        for window in windows {
-            let pixels = (0..window.pixel_count()).map(|index| window.pixel_at(index));
+        for tile in tiles {
+            let pixels = (0..tile.pixel_count()).map(|index| tile.pixel_at(index));
             let rows: Vec<_> = pixels.map(|pixel| pixel.map_or([0.0; 4], mean)).collect();
-            let pixels = developer.develop(context, &window, &rows, &settings, &tone)?;
-            put(&mut image, &pixels, &window, [x, y]);
+            let pixels = developer.develop(context, &tile, &rows, &settings, &tone)?;
+            copy_tile(&mut image, &pixels, &tile, [x, y]);
         }
         Ok(image)
     }
 
-    /// The least and the greatest value in it, less [`Quantity::outliers`]; see
-    /// [`crate::render::Renderer::range`].
+    /// The minimum and maximum, without [`Quantity::outliers`]; see [`crate::render::Renderer::range`].
     pub fn range(&self) -> Option<[f32; 2]> {
         let quantity = self.header.integrator.quantity()?;
         let values = match quantity {
@@ -111,7 +115,7 @@ impl Film {
         }
     }
 
-    /// What is to be developed of a layer, for each pixel of [`Film::region`] row by row; zeros without samples.
+    /// The developable values of a layer, for each pixel of [`Film::region`] row by row; zeros without samples.
     fn layer(&self, kind: LayerKind) -> Vec<[f32; 4]> {
         let [left, top, full, height] = self.region();
         let full = full as usize;
@@ -126,7 +130,7 @@ impl Film {
         found
     }
 
-    /// The same of the pixels that have samples, rectangle by rectangle (x, y, width, height).
+    /// The developable values of a layer for the pixels with samples, by rectangle (x, y, width, height).
     fn patches(&self, kind: LayerKind) -> impl Iterator<Item = ([u32; 4], Vec<[f32; 4]>)> {
         let layers = self.header.layers;
         let layer = layers.iter().find(|layer| layer.kind == kind);
@@ -137,7 +141,7 @@ impl Film {
             let pixels = pixels.chunks_exact(self.rows());
             let rows = match first {
                 Some(first) => pixels.map(|pixel| pixel[first]).collect(),
-                // All pixels have as many samples where no layer counts them.
+                // All pixels have the same number of samples if no layer counts them.
                 None => pixels
                     .map(|_| [samples.len() as f32, 0.0, 0.0, 0.0])
                     .collect(),

@@ -1,9 +1,9 @@
-//! Why films do not go together, or cannot be read.
+//! Errors of merging and reading films.
 
 use super::super::sums::SAMPLE_BLOCK;
 use std::{io, ops::Range};
 
-/// Why films do not go together, or cannot be read.
+/// Errors of merging and reading films.
 #[derive(Debug, thiserror::Error)]
 pub enum FilmError {
     /// They are not of the same picture.
@@ -11,11 +11,11 @@ pub enum FilmError {
         "the films are not of the same picture: they differ in the {what}, {first} and {second}. Merge parts of one picture only."
     )]
     Differs {
-        /// In what.
+        /// The part in which they differ.
         what: &'static str,
-        /// Of the first film.
+        /// Its value in the first film.
         first: String,
-        /// Of the other.
+        /// Its value in the other film.
         second: String,
     },
     /// Some samples are in both.
@@ -29,9 +29,9 @@ pub enum FilmError {
         /// The first samples of its pixels that both have.
         samples: Range<u32>,
     },
-    /// A range of samples that is not made of blocks.
+    /// A range of samples that does not consist of whole blocks.
     #[error(
-        "samples {} to {} are no whole blocks: a range begins and ends at multiples of {SAMPLE_BLOCK}, or at the end of the picture's samples. Choose other ends.",
+        "samples {} to {} are not whole blocks: a range must start and end at multiples of {SAMPLE_BLOCK}, or at the end of the picture's samples. Choose other ends.",
         samples.start, samples.end.saturating_sub(1)
     )]
     Unaligned {
@@ -40,18 +40,18 @@ pub enum FilmError {
     },
     /// A range of samples of an adaptive picture.
     #[error(
-        "adaptive sampling cannot be cut by samples: how many a pixel gets depends on its first ones. Cut the picture into regions instead, or choose stratified sampling."
+        "adaptive sampling cannot be split by samples: the number of samples of a pixel depends on its first ones. Split the picture into regions instead, or choose stratified sampling."
     )]
     Adaptive,
-    /// An adaptive picture that is not done.
-    #[error("an adaptive picture has no film before all its samples are there. Let it finish.")]
+    /// An adaptive picture that is not finished.
+    #[error("an adaptive picture has no film before it is finished. Let it finish.")]
     Unfinished,
-    /// It is something else.
-    #[error("it is not a film. Choose a file that ends in .film.")]
+    /// The file is not a film.
+    #[error("the file is not a film. Choose a file that ends in .film.")]
     NotAFilm,
-    /// Another form.
+    /// An unknown version of the format.
     #[error(
-        "it is a film of version {found}, and this program reads version {known}. Render it again, or use the program that wrote it."
+        "the film has version {found}, but this program reads version {known}. Render it again, or use the program that wrote it."
     )]
     Version {
         /// Its version.
@@ -59,25 +59,25 @@ pub enum FilmError {
         /// The one that can be read.
         known: u32,
     },
-    /// It ends too early.
+    /// The file is truncated.
     #[error("the film is cut short: it ends after {bytes} bytes. Copy or render it again.")]
     CutShort {
         /// Its length.
         bytes: u64,
     },
-    /// It is not what was written.
+    /// The contents are invalid.
     #[error("the film is damaged: {why}. Copy or render it again.")]
     Damaged {
         /// What is wrong.
         why: &'static str,
     },
-    /// There is not enough memory for it.
-    #[error("the film is too big: there is no memory left after {bytes} bytes of it.")]
+    /// Out of memory while reading.
+    #[error("the film is too big: memory ran out after {bytes} bytes.")]
     TooBig {
-        /// What was read.
+        /// Bytes read so far.
         bytes: u64,
     },
-    /// It cannot be read or written.
-    #[error("it cannot be read: {0}. Check the file and its folder.")]
+    /// An input or output error.
+    #[error("the film cannot be read: {0}. Check the file and its folder.")]
     Io(#[from] io::Error),
 }

@@ -1,7 +1,7 @@
-//! Films in files. All numbers are little-endian.
+//! The file format of films. All numbers are little-endian.
 //!
-//! A signature, the version, the header, the coverage band by band, the sums patch by patch, and XXH3 (128
-//! bits) of all that. Memory grows with what is read, not with what a number in the file announces.
+//! A signature, the version, the header, the coverage band by band, the sums patch by patch, and a 128-bit XXH3
+//! hash of everything before it. Memory grows with the data that is read, not with counts that the file claims.
 
 use super::{
     super::{
@@ -20,14 +20,14 @@ use xxhash_rust::xxh3::Xxh3;
 
 const SIGNATURE: [u8; 8] = *b"glimfilm";
 const VERSION: u32 = 1;
-/// Most bytes that are asked for at once.
+/// Maximum number of bytes read at once.
 const STEP: usize = 1 << 16;
 
 impl Film {
-    /// Writes the film, the same bytes for equal films.
+    /// Writes the film. Equal films give the same bytes.
     ///
     /// # Errors
-    /// What `out` says.
+    /// Those of `out`.
     pub fn write(&self, out: impl Write) -> io::Result<()> {
         let mut out = Writer {
             out,
@@ -91,10 +91,10 @@ impl Film {
         out.out.flush()
     }
 
-    /// Reads what [`Film::write`] wrote, up to the end of `input`.
+    /// Reads a film written by [`Film::write`], up to the end of `input`.
     ///
     /// # Errors
-    /// It is no film, of another version, cut short or damaged, or `input` cannot be read.
+    /// The input is not a film, has another version, is truncated or damaged, or cannot be read.
     pub fn read(input: impl Read) -> Result<Self, FilmError> {
         let mut input = Reader {
             input,
@@ -128,12 +128,12 @@ impl Film {
         }
         let digest = input.hash.digest128();
         if u128::from_le_bytes(input.array()?) != digest {
-            return Err(damaged("its bytes are not those that were written"));
+            return Err(damaged("its checksum is wrong"));
         }
         match input.array::<1>() {
             Err(FilmError::CutShort { .. }) => {}
             Err(error) => return Err(error),
-            Ok(_) => return Err(damaged("something follows its end")),
+            Ok(_) => return Err(damaged("there is data after its end")),
         }
         Ok(Self {
             header,
@@ -152,21 +152,21 @@ fn header<R: Read>(input: &mut Reader<R>) -> Result<FilmHeader, FilmError> {
     let size = (input.number()?, input.number()?);
     let samples = input.number()?;
     if input.number()? != SAMPLE_BLOCK || samples == 0 {
-        return Err(damaged("its samples are not those of a picture"));
+        return Err(damaged("its number of samples is invalid"));
     }
     let name = input.text()?;
-    let integrator = Integrator::named(&name).ok_or(damaged("its integrator is not known"))?;
+    let integrator = Integrator::named(&name).ok_or(damaged("its integrator is unknown"))?;
     let mut names = Vec::new();
     for _ in 0..input.number()? {
         let name = input.text()?;
         input.push(&mut names, name)?;
     }
-    let layers = layers::named(&names).ok_or(damaged("its layers are not known"))?;
+    let layers = layers::named(&names).ok_or(damaged("its layers are unknown"))?;
     let mut numbers = [0; 6];
     for number in &mut numbers {
         *number = input.number()?;
     }
-    let tone = Tone::from_numbers(numbers).ok_or(damaged("its tone is not known"))?;
+    let tone = Tone::from_numbers(numbers).ok_or(damaged("its tone is unknown"))?;
     let mut adapters = BTreeSet::new();
     for _ in 0..input.number()? {
         let adapter = input.text()?;
@@ -197,7 +197,7 @@ fn coverage<R: Read>(input: &mut Reader<R>, header: &FilmHeader) -> Result<Cover
             let x = input.number()?..input.number()?;
             let samples = samples(input, header)?;
             if x.end > header.size.0 {
-                return Err(damaged("it has pixels outside of its picture"));
+                return Err(damaged("it has pixels outside of the picture"));
             }
             input.push(&mut runs, Run { x, samples })?;
         }
@@ -217,7 +217,7 @@ fn samples<R: Read>(input: &mut Reader<R>, header: &FilmHeader) -> Result<Sample
             && (end.is_multiple_of(SAMPLE_BLOCK) || end == header.samples);
         let is_whole = start == 0 && end == header.samples;
         if end > header.samples || !is_cut_well || header.is_adaptive() && !is_whole {
-            return Err(damaged("it has samples that its picture has not"));
+            return Err(damaged("it has samples that the picture does not have"));
         }
         if !samples.push(start..end) || samples.ranges().len() != index + 1 {
             return Err(damaged("its samples are not in order"));
@@ -244,7 +244,7 @@ fn damaged(why: &'static str) -> FilmError {
     FilmError::Damaged { why }
 }
 
-/// What is too short for a signature is no film.
+/// A file too short for the signature is not a film.
 fn no_film(error: FilmError) -> FilmError {
     match error {
         FilmError::CutShort { .. } => FilmError::NotAFilm,
@@ -288,7 +288,7 @@ impl<W: Write> Writer<W> {
 struct Reader<R> {
     input: R,
     hash: Xxh3,
-    /// Read so far.
+    /// Bytes read so far.
     bytes: u64,
 }
 
@@ -306,10 +306,10 @@ impl<R: Read> Reader<R> {
     fn text(&mut self) -> Result<String, FilmError> {
         let length = self.number()?;
         let bytes = self.words(length.into(), |[byte]: [u8; 1]| byte)?;
-        String::from_utf8(bytes).map_err(|_| damaged("it has a name that is no text"))
+        String::from_utf8(bytes).map_err(|_| damaged("it has a name that is not valid text"))
     }
 
-    /// As many words as are announced, with memory for those that are there.
+    /// Reads `count` words, allocating memory only for those present.
     fn words<T, const N: usize>(
         &mut self,
         count: u64,

@@ -1,14 +1,15 @@
-//! The film of a renderer.
+//! Converts the state of a renderer to a film.
 
 use super::{Film, FilmHeader};
 use crate::render::{Fingerprint, RenderError, Renderer, Tone, layers};
 
 impl Renderer {
-    /// The film of all samples so far that are in finished blocks ([`crate::render::SAMPLE_BLOCK`]); of all of
-    /// them once the render is done.
+    /// The film of all finished blocks of samples so far ([`crate::render::SAMPLE_BLOCK`]); of all samples once
+    /// the render is done.
     ///
     /// # Errors
-    /// The settings' range of samples is not made of blocks, or the picture is adaptive and not done.
+    /// The sample range of the settings does not consist of whole blocks, or the picture is adaptive and not
+    /// finished.
     pub fn film(&self) -> Result<Film, RenderError> {
         let header = FilmHeader {
             scene: Fingerprint::of_scene(&self.scene),
@@ -21,7 +22,7 @@ impl Renderer {
             tone: Tone::LINEAR,
             adapters: [self.adapter().name.clone()].into(),
         };
-        let (done, sample) = (self.cursor.window, self.cursor.sample);
-        Ok(self.windows.film(header, done, sample)?)
+        let (done, sample) = (self.cursor.tile, self.cursor.sample);
+        Ok(self.tiles.film(header, done, sample)?)
     }
 }

@@ -1,17 +1,15 @@
-//! Modules beside each other form no circle: whoever reads one need not read the other first.
+//! Modules beside each other form no circle, and the window's tiers import downwards only: a reader of a
+//! module need not read its users first.
 
 use super::{code, files};
 use crate::support::verdict::Verdict;
 use std::{
     collections::{BTreeMap, BTreeSet},
-    path::Path,
+    path::{Path, PathBuf},
 };
 
 /// A module by the names that lead to it from the crate's root.
 type Name = Vec<String>;
-
-/// Folders in which circles are still allowed. Nothing may be added.
-const KNOTTED: &[&str] = &["app/view", "app/view/files", "app/view/inspector"];
 
 /// The module in a file below `src/`; the crate's root for `lib.rs` and `main.rs`.
 fn module_of(path: &Path) -> Name {
@@ -100,11 +98,10 @@ fn target(path: &[&str], here: &Name, modules: &BTreeSet<Name>) -> Option<Name> 
 }
 
 /// For each folder who uses whom of the modules in it, with all that is below them.
-fn uses() -> BTreeMap<String, BTreeMap<String, BTreeSet<String>>> {
-    let files = files("src", "rs");
+fn uses(files: &[(PathBuf, String)]) -> BTreeMap<String, BTreeMap<String, BTreeSet<String>>> {
     let modules: BTreeSet<Name> = files.iter().map(|(path, _)| module_of(path)).collect();
     let mut uses: BTreeMap<_, BTreeMap<_, BTreeSet<_>>> = BTreeMap::new();
-    for (path, text) in &files {
+    for (path, text) in files {
         let here = module_of(path);
         let code = code(text);
         for path in paths_in(&code) {
@@ -140,10 +137,10 @@ fn leads(uses: &BTreeMap<String, BTreeSet<String>>, from: &str, to: &str) -> boo
 #[test]
 fn modules_beside_each_other_form_no_circle() {
     let mut verdict = Verdict::on("circles");
-    for (folder, uses) in uses() {
+    for (folder, uses) in uses(&files("src", "rs")) {
         for (user, used) in &uses {
             for used in used {
-                let is_circle = leads(&uses, used, user) && !KNOTTED.contains(&folder.as_str());
+                let is_circle = leads(&uses, used, user);
                 verdict.that(format!("{folder}/{user}"), !is_circle, || {
                     format!("uses {used}, which uses it in turn")
                 });
@@ -151,6 +148,42 @@ fn modules_beside_each_other_form_no_circle() {
         }
     }
     verdict.close();
+}
+
+/// The tiers of the window, each of which may use those after it. The bench stands beside the window.
+const WINDOW_TIERS: [&str; 7] = [
+    "window", "bench", "ui", "actions", "state", "model", "worker",
+];
+
+/// Imports in `src/viewer` that do not lead down the tiers.
+fn upward_imports(files: &[(PathBuf, String)]) -> Vec<(String, String)> {
+    let tier = |name: &str| WINDOW_TIERS.iter().position(|tier| *tier == name);
+    let uses = uses(files).remove("viewer").unwrap_or_default();
+    let pairs = uses.into_iter().flat_map(|(user, used)| {
+        let pairs = used.into_iter().map(move |used| (user.clone(), used));
+        pairs.collect::<Vec<_>>()
+    });
+    let is_upward = |user: &str, used: &str| user != used && tier(user) >= tier(used);
+    pairs.filter(|(user, used)| is_upward(user, used)).collect()
+}
+
+#[test]
+fn the_windows_tiers_import_downwards_only() {
+    let mut files = files("src", "rs");
+    assert_eq!(upward_imports(&files), []);
+    let folders: BTreeSet<_> = (files.iter())
+        .filter_map(|(path, _)| path.strip_prefix("src/viewer").ok())
+        .filter_map(|path| path.with_extension("").iter().next().map(|n| n.to_owned()))
+        .collect();
+    let tiers: BTreeSet<_> = WINDOW_TIERS.iter().map(|tier| (*tier).into()).collect();
+    assert_eq!(folders, tiers, "a folder that is no tier");
+    // The test sees an import that leads up.
+    let model = files
+        .iter_mut()
+        .find(|(path, _)| path.ends_with("viewer/model/document.rs"));
+    let (_, text) = model.expect("a file of the model");
+    text.push_str("use crate::viewer::ui::panels;");
+    assert_eq!(upward_imports(&files), [("model".into(), "ui".into())]);
 }
 
 #[test]

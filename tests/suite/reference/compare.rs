@@ -1,4 +1,4 @@
-//! Rendering a picture in a test, and holding two pictures against each other.
+//! Rendering pictures in tests, and comparing two pictures.
 
 use crate::support::devices::Devices;
 use glimray::gpu::{AdapterChoice, Gpu};
@@ -17,7 +17,7 @@ pub fn open_gpu() -> Gpu {
     DEVICES.lease()
 }
 
-/// What a test asks for: settings, with a policy where that is not the usual one.
+/// Test settings, with an optional policy.
 pub trait Wanted {
     fn parts(&self) -> (RenderSettings, ExecutionPolicy);
 }
@@ -43,13 +43,13 @@ pub fn counting(settings: &RenderSettings) -> (RenderSettings, ExecutionPolicy) 
     (settings.clone(), policy)
 }
 
-/// The settings with the work cut so, and rays counted.
+/// The settings with this slicing, and rays counted.
 pub fn sliced(settings: &RenderSettings, slicing: Slicing) -> (RenderSettings, ExecutionPolicy) {
     let (settings, policy) = counting(settings);
     (settings, ExecutionPolicy { slicing, ..policy })
 }
 
-/// The settings with the scene read through this.
+/// The settings with this kind of fetch.
 pub fn fetched(settings: &RenderSettings, fetch: Fetch) -> (RenderSettings, ExecutionPolicy) {
     let policy = ExecutionPolicy {
         fetch,
@@ -58,7 +58,7 @@ pub fn fetched(settings: &RenderSettings, fetch: Fetch) -> (RenderSettings, Exec
     (settings.clone(), policy)
 }
 
-/// A renderer at its first step.
+/// A renderer before its first step.
 pub fn start(scene: &Scene, wanted: &impl Wanted) -> Result<Renderer, RenderError> {
     let packed = Arc::new(pack::scene(scene).expect("a scene that can be packed"));
     let view = packed
@@ -68,7 +68,7 @@ pub fn start(scene: &Scene, wanted: &impl Wanted) -> Result<Renderer, RenderErro
     Renderer::new(open_gpu(), packed, &view, settings, policy)
 }
 
-/// The same of a scene that is packed already.
+/// A renderer of a packed scene.
 #[track_caller]
 pub fn start_packed(packed: Arc<PackedScene>, view: &PackedView, wanted: &impl Wanted) -> Renderer {
     let (settings, policy) = wanted.parts();
@@ -86,13 +86,13 @@ pub fn try_render(scene: &Scene, wanted: &impl Wanted) -> Result<(Image, Stats),
     Ok((image, renderer.stats().clone()))
 }
 
-/// As [`try_render`], where nothing may go wrong.
+/// As [`try_render`], panicking on errors.
 #[track_caller]
 pub fn render(scene: &Scene, wanted: &impl Wanted) -> (Image, Stats) {
     try_render(scene, wanted).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Settings for a picture of this size, everything else by default.
+/// Default settings for a picture of this size.
 pub fn sized(width: u32, height: u32) -> RenderSettings {
     RenderSettings {
         size: (width, height),
@@ -105,7 +105,7 @@ pub fn differing(a: &Image, b: &Image, levels: f32) -> usize {
     assert_eq!((a.width, a.height), (b.width, b.height), "sizes differ");
     let level = |c: f32| c.clamp(0.0, 1.0) * 255.0;
     let far = |(a, b): (&[f32; 4], &[f32; 4])| {
-        // Written so that a NaN counts as different.
+        // NaN counts as different.
         !a.iter()
             .zip(b)
             .all(|(a, b)| (level(*a) - level(*b)).abs() <= levels + 1e-3)
@@ -117,17 +117,17 @@ pub fn differing(a: &Image, b: &Image, levels: f32) -> usize {
         .count()
 }
 
-/// Says what is wrong unless at most `share` of the pixels differ by more than `levels` of 255.
+/// Describes the error unless at most `fraction` of the pixels differ by more than `levels` of 255.
 pub fn check_alike(
     name: &str,
     expected: &Image,
     actual: &Image,
     levels: f32,
-    share: f64,
+    fraction: f64,
 ) -> Result<(), String> {
     let differing = differing(expected, actual, levels);
     let pixels = expected.pixels.len();
-    if differing as f64 <= share * pixels as f64 {
+    if differing as f64 <= fraction * pixels as f64 {
         return Ok(());
     }
     let path = write_comparison(name, expected, actual);
@@ -138,7 +138,7 @@ pub fn check_alike(
     ))
 }
 
-/// Says what is wrong unless the pictures are the same bit for bit.
+/// Describes the error unless the pictures are bit-identical.
 pub fn check_same_bits(name: &str, expected: &Image, actual: &Image) -> Result<(), String> {
     assert_eq!(
         (expected.width, expected.height),
@@ -157,7 +157,7 @@ pub fn check_same_bits(name: &str, expected: &Image, actual: &Image) -> Result<(
     ))
 }
 
-/// Fails with all the problems at once, or if nothing was looked at.
+/// Fails with all problems, or if nothing was compared.
 #[track_caller]
 pub fn assert_none(results: impl IntoIterator<Item = Result<(), String>>) {
     let results: Vec<_> = results.into_iter().collect();
@@ -166,7 +166,7 @@ pub fn assert_none(results: impl IntoIterator<Item = Result<(), String>>) {
     assert!(problems.is_empty(), "{}", problems.join("\n"));
 }
 
-/// Writes expected | difference (amplified) | actual into the folder for temporary files.
+/// Writes expected | difference (amplified) | actual to the folder for temporary files.
 fn write_comparison(name: &str, expected: &Image, actual: &Image) -> PathBuf {
     let (width, height) = (expected.width, expected.height);
     let mut canvas = Image::new(3 * width, height);

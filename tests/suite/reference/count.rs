@@ -1,6 +1,6 @@
-//! Rays of the classical ray tree, counted and shaded by an independent tracer: f64, textbook
-//! formulas, a tree of halves for speed. It knows what NFF scenes are made of (spheres, cones,
-//! triangles, point lights, no ambient light, [`Mixing::Sum`] without Fresnel) and refuses the rest.
+//! Counts and shades the rays of the classical ray tree with an independent tracer: f64, textbook formulas, a
+//! median-split BVH for speed. It supports the contents of NFF scenes (spheres, cones, triangles, point lights,
+//! no ambient light, [`Mixing::Sum`] without Fresnel) and rejects everything else.
 
 use glam::{DAffine3, DVec2, DVec3};
 use glimray::image::Image;
@@ -10,16 +10,15 @@ use glimray::scene::{
 use glimray::scene::{Fresnel, Mixing, Scene};
 use std::ops::AddAssign;
 
-/// A ray is sent only if the product of the shares up to it reaches this in some channel.
+/// A ray is traced only if its throughput reaches this in some channel.
 const MIN_THROUGHPUT: f64 = 1.0 / 512.0;
 
-/// Of the size of a point's coordinates: secondary rays hit nothing nearer. NFF files carry six digits,
-/// so spheres that should touch overlap or gape by as much, and what a ray finds between them there is
-/// rounding. POV-Ray passes over such hits too: without this its mirrored rays in `balls` are exceeded
-/// by a hundredth.
+/// Relative to the coordinates of a point: secondary rays ignore closer hits. NFF files have six digits, so
+/// spheres that should touch overlap or have gaps of that size, and hits there are rounding noise. POV-Ray
+/// ignores such hits too: without this, its number of reflected rays in `balls` is exceeded by one percent.
 const NEAREST: f64 = 1e-6;
 
-/// How many rays of each kind a picture took.
+/// Number of rays of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rays {
     pub primary: u64,
@@ -45,23 +44,22 @@ impl AddAssign for Rays {
     }
 }
 
-/// What becomes of a ray that an interpolated normal would mirror into the surface.
+/// The handling of a ray that an interpolated normal would reflect into the surface.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Inwards {
-    /// It goes there, as in POV-Ray.
+    /// It is traced into the surface, as in POV-Ray.
     Sent,
-    /// The geometric normal takes the other's place, for the mirrored and the refracted ray, as in
-    /// the renderer.
+    /// The geometric normal is used instead, for the reflected and the refracted ray, as in the renderer.
     Turned,
 }
 
-/// The rays of a picture of `scene` through its default camera, one primary ray through the centre
-/// of each pixel, `max_depth` bounces after it.
+/// Counts the rays of a picture of `scene` through its default camera: one primary ray through the centre of
+/// each pixel, and `max_depth` bounces.
 pub fn count(scene: &Scene, size: (u32, u32), max_depth: u32) -> Rays {
     trace(scene, size, max_depth, Inwards::Sent).1
 }
 
-/// The picture too: linear radiance, not clamped.
+/// Also returns the picture: linear radiance, not clamped.
 pub fn trace(
     scene: &Scene,
     (width, height): (u32, u32),
@@ -121,9 +119,9 @@ pub fn trace(
 struct Ray {
     origin: DVec3,
     direction: DVec3,
-    /// Hits count beyond it.
+    /// Hits count beyond this distance.
     t_min: f64,
-    /// A triangle that the ray leaves, and so cannot hit.
+    /// A triangle that the ray leaves and therefore cannot hit.
     leaving: usize,
 }
 
@@ -139,7 +137,7 @@ enum Surface {
         center: DVec3,
         radius: f64,
     },
-    /// x² + z² = (bottom + slope y)², 0 ≤ y ≤ 1 in a space of its own.
+    /// x² + z² = (bottom + slope y)², 0 ≤ y ≤ 1 in its own space.
     Cone {
         bottom: f64,
         slope: f64,
@@ -153,7 +151,7 @@ enum Surface {
     },
 }
 
-/// A box, and either two children or primitives.
+/// A box with either two children or primitives.
 struct Node {
     min: DVec3,
     max: DVec3,
@@ -191,7 +189,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// What comes along `ray` whose share of the pixel is `throughput`, and whether it hits anything.
+    /// The radiance along `ray`, whose weight in the pixel is `throughput`, and whether it hits anything.
     fn radiance(
         &self,
         ray: &Ray,
@@ -207,7 +205,7 @@ impl<'a> Tree<'a> {
         let p = ray.origin + t * ray.direction;
         let (outwards, shading) = primitive.surface.normals(p);
         let enters = outwards.dot(ray.direction) < 0.0;
-        // Towards the side that the ray comes from.
+        // On the side of the ray.
         let side = if enters { outwards } else { -outwards };
         let n = if shading.dot(side) < 0.0 {
             -shading
@@ -248,8 +246,8 @@ impl<'a> Tree<'a> {
         if bounces == 0 {
             return (color, true);
         }
-        let goes_on = |share: DVec3| {
-            share.max_element() > 0.0 && (throughput * share).max_element() >= MIN_THROUGHPUT
+        let goes_on = |weight: DVec3| {
+            weight.max_element() > 0.0 && (throughput * weight).max_element() >= MIN_THROUGHPUT
         };
         let mirrored = |n: DVec3| ray.direction - 2.0 * ray.direction.dot(n) * n;
         let is_turned = self.inwards == Inwards::Turned && mirrored(n).dot(side) <= 0.0;
@@ -278,7 +276,7 @@ impl<'a> Tree<'a> {
         (color, true)
     }
 
-    /// The nearest hit before `t_max`, or just any.
+    /// The nearest hit before `t_max`, or any hit.
     fn hit(&self, ray: &Ray, mut t_max: f64, any: bool) -> Option<(f64, usize)> {
         let mut best = None;
         let mut stack = vec![self.nodes.len().checked_sub(1)?];
@@ -363,7 +361,7 @@ impl Surface {
         }
     }
 
-    /// The geometric normal and the one for shading, both of unit length.
+    /// The geometric and the shading normal, both of unit length.
     fn normals(&self, p: DVec3) -> (DVec3, DVec3) {
         match *self {
             Self::Sphere { center, radius } => {
@@ -393,7 +391,7 @@ impl Surface {
     }
 }
 
-/// Barycentric weights of a point in the triangle's plane.
+/// Barycentric weights of a point in the plane of the triangle.
 fn weights([a, b, c]: [DVec3; 3], cross: DVec3, p: DVec3) -> DVec3 {
     let area = |from: DVec3, to: DVec3| (to - from).cross(p - from).dot(cross);
     DVec3::new(area(b, c), area(c, a), area(a, b)) / cross.length_squared()
@@ -451,7 +449,7 @@ fn primitives(scene: &Scene) -> Vec<Primitive> {
     primitives
 }
 
-/// Builds the tree over a part of the primitives, which it sorts, and returns its root.
+/// Builds the BVH over a part of the primitives, which it sorts, and returns its root.
 fn build(
     primitives: &mut [Primitive],
     part: std::ops::Range<usize>,
@@ -475,7 +473,7 @@ fn build(
         let second = build(primitives, middle..part.end, nodes);
         children = Some((first, second));
     }
-    // Wide enough for roundings of the box test.
+    // Enlarged for the rounding of the box test.
     let slack = DVec3::splat(1e-9 * (1.0 + min.abs().max(max.abs()).max_element()));
     nodes.push(Node {
         min: min - slack,
@@ -487,7 +485,7 @@ fn build(
 }
 
 impl Node {
-    /// Whether the ray is in the box somewhere before `t_max` (Kay and Kajiya 1986).
+    /// Whether the ray intersects the box before `t_max` (Kay and Kajiya 1986).
     fn is_met(&self, ray: &Ray, t_max: f64) -> bool {
         let (a, b) = (
             (self.min - ray.origin) / ray.direction,
@@ -495,7 +493,7 @@ impl Node {
         );
         let (mut enter, mut exit) = (0.0, t_max);
         for axis in 0..3 {
-            // NaN, of a ray within a side, is passed over by min and max.
+            // min and max ignore NaN, which occurs for a ray within a side.
             enter = f64::max(enter, a[axis].min(b[axis]));
             exit = f64::min(exit, a[axis].max(b[axis]));
         }
@@ -503,8 +501,8 @@ impl Node {
     }
 }
 
-/// A camera at `eye` that looks along -z, and the sphere round the origin of a material that mirrors
-/// and lets through these shares.
+/// A camera at `eye` that looks along -z, and a sphere around the origin of a material with these reflection
+/// and transmission factors.
 fn ball(eye: DVec3, reflect: f32, transmit: f32, ior: f32) -> Scene {
     let material = Material {
         reflect: glam::Vec3::splat(reflect),
@@ -541,7 +539,7 @@ fn the_counter_loses_no_ray_in_a_mirror_ball() {
     assert_eq!((rays.reflection, rays.reflection_hits), (5 * 256, 5 * 256));
     assert_eq!((rays.shadow, rays.shadow_blocked), (6 * 256, 0));
     assert_eq!((rays.refraction, rays.refraction_hits), (0, 0));
-    // 1/10 and 1/100 are sent, 1/1000 is below 1/512.
+    // 1/10 and 1/100 are traced, 1/1000 is below 1/512.
     scene.materials[0].reflect = glam::Vec3::splat(0.1);
     assert_eq!(count(&scene, (16, 16), 5).reflection, 2 * 256);
 }
@@ -555,8 +553,8 @@ fn the_counter_follows_light_through_a_ball_that_does_not_bend_it() {
     assert_eq!(rays.refraction_hits, rays.primary_hits);
 }
 
-/// From inside at distance d from the middle, along a direction at the angle θ to the outward
-/// radius, the ball's wall is met under sin φ = d sin θ.
+/// From inside at distance d from the centre, along a direction at the angle θ to the outward radius, the ray
+/// hits the wall of the ball under sin φ = d sin θ.
 #[test]
 fn the_counter_sends_nothing_beyond_the_critical_angle() {
     let eye = DVec3::new(0.9, 0.0, 0.0);
@@ -575,8 +573,8 @@ fn the_counter_sends_nothing_beyond_the_critical_angle() {
     assert_eq!((rays.refraction, rays.refraction_hits), (expected, 0));
 }
 
-/// A frustum from y = -1 with radius 2 to y = 1 with radius 1, against the analytic area that it
-/// takes in a view from above through its open ends: a ring.
+/// A frustum from y = -1 with radius 2 to y = 1 with radius 1, against the analytic area of its ring in a view
+/// from above through its open ends.
 #[test]
 fn the_counter_sees_open_cones_from_both_sides() {
     let mut scene = ball(DVec3::new(0.0, 1e6, 0.0), 0.0, 0.0, 1.0);

@@ -1,10 +1,10 @@
-//! A moving scene at one time: the same with nothing in it that moves or is carried.
+//! A moving scene frozen at one time: the same scene without tracks and nodes.
 
 use glam::{DAffine3, DVec3};
 use glimray::scene::{CanonicalShape, Geometry, LightKind, Material, NodeState, Scene, Shape};
 
-/// Where patterns in space are looked up for a point in the world: what carries a thing carries its
-/// patterns along. `None` is the world itself.
+/// The lookup transform of solid textures for a point in the world: patterns move with the node of their
+/// object. `None` is the world itself.
 #[derive(Default)]
 pub struct Carriers {
     pub instances: Vec<Option<DAffine3>>,
@@ -12,7 +12,7 @@ pub struct Carriers {
 }
 
 impl Carriers {
-    /// Of the shape or the instance at this place in its list.
+    /// For the shape or the instance with this index.
     pub fn pattern_place(list: &[Option<DAffine3>], index: usize, p: DVec3) -> DVec3 {
         let carrier = list.get(index).copied().flatten();
         carrier.map_or(p, |world_from_carrier| {
@@ -21,7 +21,7 @@ impl Carriers {
     }
 }
 
-/// The scene as it is at `time`. Hidden things are gone; lamps that rays can see are shapes too.
+/// The scene at `time`. Hidden objects are removed; visible lamps become shapes too.
 pub fn resolve(scene: &Scene, time: f64) -> (Scene, Carriers) {
     let frame = scene.frame(time);
     let moving = moving(scene);
@@ -94,7 +94,7 @@ pub fn resolve(scene: &Scene, time: f64) -> (Scene, Carriers) {
     (still, carriers)
 }
 
-/// Nodes that a track drives, and those below them.
+/// Nodes that a track animates, and their descendants.
 fn moving(scene: &Scene) -> Vec<bool> {
     use glimray::scene::Target;
     let driven = |index: usize| {
@@ -127,8 +127,8 @@ fn carried(geometry: Geometry, world_from_node: DAffine3) -> Geometry {
     }
 }
 
-/// The surface of a lamp, its normal where it shines to, and its radiance for a colour of 1: what is
-/// c at distance 1 along the normal is π c / A over the area A, and a sphere counts as its disc.
+/// The surface of a lamp, its emitting normal, and its radiance for a colour of 1: a light of c at distance 1
+/// along the normal has π c / A over the area A, and a sphere counts as its disc.
 fn lamp(kind: LightKind) -> (Geometry, f64) {
     use std::f64::consts::PI;
     let flat = |canonical, u: DVec3, normal: DVec3, v: DVec3, center, area: f64| {

@@ -1,4 +1,4 @@
-//! Recursive reflection and refraction as a textbook writes them: a function that calls itself.
+//! Recursive reflection and refraction as in a textbook: a recursive function.
 
 use super::rays::{Log, Sent};
 use super::{Hit, Ray, Tracer, textures};
@@ -6,27 +6,27 @@ use glam::DVec3;
 use glimray::render::{MIN_THROUGHPUT, RayKind, Rays};
 use glimray::scene::{Fresnel, Mixing};
 
-/// A ray's place in the tree.
+/// The position of a ray in the tree.
 #[derive(Clone)]
 pub struct Place {
     pub kind: RayKind,
-    /// The ray that sent it, where rays are kept.
+    /// The parent ray, if rays are recorded.
     pub sender: Option<usize>,
     pub depth: u32,
-    /// Its share in the sample.
-    pub share: DVec3,
-    /// The materials of the bodies that it is inside of, the last entered last.
+    /// Its throughput.
+    pub throughput: DVec3,
+    /// The materials of the volumes that it is inside of, the last entered last.
     pub media: Vec<usize>,
 }
 
 impl Tracer<'_> {
-    /// What a ray brings back, without its own share.
-    pub fn follow(&self, ray: Ray, place: &Place, rays: &mut Log) -> (DVec3, bool) {
+    /// The radiance of a ray, without its throughput.
+    pub fn trace(&self, ray: Ray, place: &Place, rays: &mut Log) -> (DVec3, bool) {
         let nearest = self.nearest(ray);
         let own = rays.keep(Sent {
             kind: place.kind,
             sender: place.sender,
-            share: place.share,
+            throughput: place.throughput,
             hit: nearest,
             light: None,
         });
@@ -61,14 +61,14 @@ impl Tracer<'_> {
         } else {
             DVec3::ONE
         };
-        let share = place.share * left;
+        let throughput = place.throughput * left;
         let (reflect, transmit, refracted) =
             self.split(&hit, ray.direction, here, &behind, is_clear);
 
         if is_clear && here == self.dominant(&behind) {
-            // A boundary within a body that goes before is not there, but what the body has swallowed
-            // may leave too little to go on.
-            if share.element_sum() / 3.0 < f64::from(MIN_THROUGHPUT) {
+            // A boundary within a volume of higher priority is ignored, but absorption in that volume may leave
+            // too little throughput to continue.
+            if throughput.element_sum() / 3.0 < f64::from(MIN_THROUGHPUT) {
                 return (DVec3::ZERO, true);
             }
             let onwards = Ray {
@@ -80,12 +80,12 @@ impl Tracer<'_> {
             let next = Place {
                 kind: RayKind::Refraction,
                 sender: own,
-                share,
+                throughput,
                 media: behind,
                 depth: place.depth,
             };
             rays.refraction += 1;
-            let (arriving, is_hit) = self.follow(onwards, &next, rays);
+            let (arriving, is_hit) = self.trace(onwards, &next, rays);
             rays.refraction_hits += u64::from(is_hit);
             return (left * arriving, true);
         }
@@ -95,10 +95,10 @@ impl Tracer<'_> {
                 kind,
                 sender: own,
                 depth: place.depth + 1,
-                share: share * weight,
+                throughput: throughput * weight,
                 media: media.to_vec(),
             };
-            let matters = next.share.element_sum() / 3.0 >= f64::from(MIN_THROUGHPUT);
+            let matters = next.throughput.element_sum() / 3.0 >= f64::from(MIN_THROUGHPUT);
             if place.depth >= self.scene.output.max_depth || !matters {
                 return false;
             }
@@ -109,7 +109,7 @@ impl Tracer<'_> {
                 t_max: f64::INFINITY,
                 leaving: Some(primitive),
             };
-            let (arriving, is_hit) = self.follow(onwards, &next, rays);
+            let (arriving, is_hit) = self.trace(onwards, &next, rays);
             let counts: &mut Rays = rays;
             let (sent, met) = match kind {
                 RayKind::Reflection => (&mut counts.reflection, &mut counts.reflection_hits),
@@ -152,7 +152,7 @@ impl Tracer<'_> {
         (left * color, true)
     }
 
-    /// Weights of mirrored and refracted light, and the refracted direction.
+    /// Weights of reflected and refracted light, and the refracted direction.
     fn split(
         &self,
         hit: &Hit,
@@ -183,10 +183,10 @@ impl Tracer<'_> {
             return (reflect, DVec3::ZERO, direction);
         }
         let refraction = sine.asin();
-        let normal_share = ((n1 - n2) / (n1 + n2)).powi(2);
-        let share = match hit.material.fresnel {
+        let normal_reflectance = ((n1 - n2) / (n1 + n2)).powi(2);
+        let reflectance = match hit.material.fresnel {
             Fresnel::None => None,
-            Fresnel::Exact if incidence < 1e-7 => Some(normal_share),
+            Fresnel::Exact if incidence < 1e-7 => Some(normal_reflectance),
             Fresnel::Exact => {
                 let (sum, difference) = (incidence + refraction, incidence - refraction);
                 Some(
@@ -196,12 +196,12 @@ impl Tracer<'_> {
             }
             Fresnel::Schlick => {
                 let cos = incidence.max(refraction).cos();
-                Some(normal_share + (1.0 - normal_share) * (1.0 - cos).powi(5))
+                Some(normal_reflectance + (1.0 - normal_reflectance) * (1.0 - cos).powi(5))
             }
         };
-        if let Some(share) = share {
-            reflect *= share;
-            transmit *= 1.0 - share;
+        if let Some(reflectance) = reflectance {
+            reflect *= reflectance;
+            transmit *= 1.0 - reflectance;
         }
         let along = (direction + incidence.cos() * n).normalize_or_zero();
         (
@@ -213,7 +213,7 @@ impl Tracer<'_> {
 
     fn dominant(&self, media: &[usize]) -> Option<usize> {
         let priority = |&m: &usize| self.scene.materials[m].priority;
-        // The last of the highest.
+        // The last one of the highest priority.
         media.iter().copied().max_by_key(priority)
     }
 

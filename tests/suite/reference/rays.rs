@@ -1,4 +1,4 @@
-//! What the tracer remembers of its rays: how many there were and, where asked for, each of them.
+//! The records of the tracer: the number of rays and, on request, each of them.
 
 use super::{Primitive, Tracer, moment, pixel_ray};
 use glam::DVec3;
@@ -6,16 +6,16 @@ use glimray::render::{RayKind, Rays};
 use glimray::scene::{ObjectRef, Scene};
 use std::ops::{Deref, DerefMut};
 
-/// A ray that was sent.
+/// A traced ray.
 pub struct Sent {
     pub kind: RayKind,
-    /// Place among those kept of the ray that sent it.
+    /// Index of its parent in the records.
     pub sender: Option<usize>,
-    /// Its share in the sample; of a shadow ray 0.
-    pub share: DVec3,
-    /// Distance, and what it met.
+    /// Its throughput; 0 for a shadow ray.
+    pub throughput: DVec3,
+    /// Distance, and the object it hit.
     pub hit: Option<(f64, Primitive)>,
-    /// Of a shadow ray.
+    /// Set for a shadow ray.
     pub light: Option<usize>,
 }
 
@@ -51,25 +51,25 @@ impl Log {
         self.keep(Sent {
             kind: RayKind::Shadow,
             sender: self.sender,
-            share: DVec3::ZERO,
+            throughput: DVec3::ZERO,
             hit,
             light: Some(light),
         });
     }
 }
 
-/// A ray of a pixel, with what it sent on.
+/// A ray of a pixel, with its children.
 pub struct Node {
     pub kind: RayKind,
-    pub share: DVec3,
-    /// Distance, and the instance or shape that it met.
+    pub throughput: DVec3,
+    /// Distance, and the instance or shape it hit.
     pub hit: Option<(f64, ObjectRef)>,
     pub light: Option<usize>,
     pub children: Vec<usize>,
 }
 
-/// For each pixel its colour and the rays through its centre, the primary one first. Nothing in the
-/// scene may be hidden, nor any lamp be visible.
+/// For each pixel its colour and the rays through its centre, the primary one first. The scene must have no
+/// hidden objects and no visible lamps.
 pub fn trees(
     scene: &Scene,
     time: f64,
@@ -96,7 +96,7 @@ pub fn trees(
             }
             nodes.push(Node {
                 kind: sent.kind,
-                share: sent.share,
+                throughput: sent.throughput,
                 hit: sent.hit.map(|(t, primitive)| (t, object(primitive))),
                 light: sent.light,
                 children: Vec::new(),

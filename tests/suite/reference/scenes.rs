@@ -8,7 +8,7 @@ use glimray::scene::{
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// A camera, a grey material and a bluish background, and nothing in it.
+/// A camera, a grey material and a bluish background, without objects.
 pub fn empty() -> Scene {
     Scene {
         cameras: vec![Camera {
@@ -122,7 +122,7 @@ pub fn everything() -> Scene {
     scene
 }
 
-/// Mirrors, varnish, glass, one glass in another and a medium that counts before its surroundings.
+/// Mirrors, varnish, glass, nested glass, and a medium with a higher priority than its surroundings.
 pub fn mirrors_and_glass() -> Scene {
     let mut scene = spheres();
     scene.shapes.truncate(1);
@@ -162,7 +162,7 @@ pub fn mirrors_and_glass() -> Scene {
             ..shiny(vec3(0.7, 0.1, 0.1))
         },
     );
-    // A bubble, a drop of another liquid, and one that overlaps with glass and goes before it.
+    // A bubble, a drop of another liquid, and a volume that overlaps with glass and has priority over it.
     ball(
         dvec3(-1.7, 0.9, 0.5),
         0.3,
@@ -194,7 +194,7 @@ pub fn mirrors_and_glass() -> Scene {
     scene
 }
 
-/// Every canonical shape, turned and scaled unevenly, over a floor.
+/// Every canonical shape, rotated and scaled non-uniformly, over a floor.
 pub fn solids() -> Scene {
     let mut scene = empty();
     scene.add_plane(dvec3(0.0, -0.2, 0.0), DVec3::Y, 0);
@@ -251,7 +251,7 @@ pub fn shiny(color: Vec3) -> Material {
     }
 }
 
-/// What tests build scenes with.
+/// Helpers for building scenes.
 pub trait Build {
     fn add_material(&mut self, material: Material) -> usize;
     fn add_sphere(&mut self, center: DVec3, radius: f64, material: usize);
@@ -331,7 +331,7 @@ pub fn ball(parts: UVec2, material: u32) -> Mesh {
     })
 }
 
-/// A torus round the y axis.
+/// A torus around the y axis.
 pub fn torus(radius: f64, thickness: f64, parts: UVec2, material: u32) -> Mesh {
     lattice(parts, material, |u, v| {
         let outwards = dvec3((TAU * u).sin(), 0.0, (TAU * u).cos());
@@ -340,7 +340,7 @@ pub fn torus(radius: f64, thickness: f64, parts: UVec2, material: u32) -> Mesh {
     })
 }
 
-/// A height field over the square of this side, without normals of its own.
+/// A height field over the square of this side, without its own normals.
 pub fn height_field(
     side: f64,
     parts: u32,
@@ -380,7 +380,7 @@ fn lattice(parts: UVec2, material: u32, at: impl Fn(f64, f64) -> (DVec3, DVec3))
     mesh
 }
 
-/// Numbers that look random and are the same each time (SplitMix64).
+/// Reproducible pseudo-random numbers (SplitMix64).
 pub struct Random(pub u64);
 
 impl Random {
@@ -400,7 +400,7 @@ impl Random {
         low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// In the cube round the origin with this half side.
+    /// In the cube around the origin with this half side.
     pub fn within(&mut self, half: f64) -> DVec3 {
         DVec3::from_array(std::array::from_fn(|_| self.between(-half, half)))
     }

@@ -1,13 +1,13 @@
-//! Canonical shapes in f64, by other ways than the shaders': implicit functions, their signs along the
-//! ray, and differences of them for normals.
+//! Canonical shapes in f64, by other methods than the shaders: implicit functions, their signs along the ray,
+//! and finite differences for normals.
 
 use glam::{DAffine3, DVec3};
 use glimray::scene::CanonicalShape;
 
-/// Steps in which a torus is looked for along a ray.
+/// Steps of the search for a torus along a ray.
 const STEPS: usize = 160;
 
-/// All distances at which the ray meets the placed shape, in ascending order. Flat shapes edge-on are
+/// All distances at which the ray hits the placed shape, in ascending order. Flat shapes seen edge-on are
 /// missed.
 pub fn crossings(
     canonical: CanonicalShape,
@@ -69,7 +69,7 @@ pub fn canonical_crossings(canonical: CanonicalShape, o: DVec3, d: DVec3) -> Vec
     found
 }
 
-/// The unit normal at a point of the placed shape, away from its inside; of flat ones towards +y.
+/// The outward unit normal at a point of the placed shape; of flat shapes towards +y.
 pub fn normal(canonical: CanonicalShape, world_from_canonical: DAffine3, p: DVec3) -> DVec3 {
     let local = world_from_canonical.inverse().transform_point3(p);
     let turn = world_from_canonical.matrix3.inverse().transpose();
@@ -105,7 +105,7 @@ pub fn canonical_normal(canonical: CanonicalShape, p: DVec3) -> DVec3 {
     }
 }
 
-/// Distance from the surface of a torus, negative in its tube.
+/// Signed distance from the surface of a torus, negative inside its tube.
 pub fn tube(minor: f64, p: DVec3) -> f64 {
     (off_axis(p) - 1.0).hypot(p.y) - minor
 }
@@ -114,7 +114,7 @@ fn off_axis(p: DVec3) -> f64 {
     p.x.hypot(p.z)
 }
 
-/// By differences.
+/// By finite differences.
 fn slope_of(f: impl Fn(DVec3) -> f64, p: DVec3) -> DVec3 {
     let step = 1e-6;
     let along = |axis: DVec3| (f(p + step * axis) - f(p - step * axis)) / (2.0 * step);
@@ -141,8 +141,7 @@ fn quadratic(a: f64, b: f64, c: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Where the sign of the distance changes between small steps, and where it dips to the other side
-/// within one.
+/// The sign changes of the distance between small steps, and double crossings within a step.
 fn torus(minor: f64, o: DVec3, d: DVec3) -> Vec<f64> {
     let reach = (1.0 + minor) * 1.001;
     let chord = quadratic(
@@ -162,7 +161,7 @@ fn torus(minor: f64, o: DVec3, d: DVec3) -> Vec<f64> {
             ends.push((a, b));
             continue;
         }
-        // The extremum towards zero, if it is within reach from both ends.
+        // The extremum towards zero, if it is inside the step.
         let steep = step * d.length();
         if f(a).abs().min(f(b).abs()) < steep {
             let sign = f(a).signum();

@@ -1,5 +1,5 @@
-//! Scenes of the Standard Procedural Database (Haines 1987), where they are at hand: in the folder
-//! that `GLIMRAY_SPD` names, or beside the repository. Without them tests are skipped.
+//! Scenes of the Standard Procedural Database (Haines 1987), if available: in the folder that `GLIMRAY_SPD`
+//! names, or next to the repository. Without them tests are skipped.
 
 use crate::support::skip::{Need, skip};
 use glimray::import;

@@ -4,10 +4,10 @@ use glam::{DVec2, DVec3, Vec3};
 use glimray::scene::{Background, Material, Pattern, Picture, Scene, Space, Texture};
 use std::f64::consts::{PI, TAU};
 
-/// Coordinates in a pattern at which a cell begins, as `lib/pattern.wesl` has them.
+/// The coordinate at which a cell of a pattern begins, as in `lib/pattern.wesl`.
 const CELL_START: f64 = -0.00073;
 
-/// The material with its Phong coefficients as they are at a point.
+/// The material with its textured Phong coefficients at a point.
 pub fn textured(scene: &Scene, material: Material, p: DVec3, uv: DVec2) -> Material {
     let at = |color: Vec3, texture: Option<usize>| {
         let factor = texture.map(|i| color_at(scene, &scene.textures[i], p, uv));
@@ -29,7 +29,7 @@ pub fn color_at(scene: &Scene, texture: &Texture, p: DVec3, uv: DVec2) -> DVec3 
         Space::Uv => uv.extend(0.0),
     };
     let q = texture.pattern_from_space.transform_point3(at);
-    let mix = |a: Vec3, b: Vec3, share: f64| a.as_dvec3().lerp(b.as_dvec3(), share);
+    let mix = |a: Vec3, b: Vec3, fraction: f64| a.as_dvec3().lerp(b.as_dvec3(), fraction);
     match texture.pattern {
         Pattern::Checker { a, b } => {
             let cell = (q - CELL_START).floor();
@@ -60,7 +60,7 @@ pub fn background(scene: &Scene, direction: DVec3) -> DVec3 {
             strength,
             rotation,
         } => {
-            // The picture is turned, so the direction is turned back before it is looked up.
+            // The picture is rotated, so the direction is rotated back before lookup.
             let turned = glam::DQuat::from_rotation_y(-rotation) * direction;
             let u = 0.5 + turned.x.atan2(-turned.z) / TAU;
             let v = 0.5 + turned.y.clamp(-1.0, 1.0).asin() / PI;
@@ -70,7 +70,7 @@ pub fn background(scene: &Scene, direction: DVec3) -> DVec3 {
     }
 }
 
-/// A picture over [0, 1]², repeated along u and, if asked, along v; else its rows end.
+/// A picture over [0, 1]², repeated along u and optionally along v; otherwise its rows are clamped.
 pub fn picture_at(picture: &Picture, uv: DVec2, nearest: bool, repeats_rows: bool) -> DVec3 {
     let (width, height) = (i64::from(picture.width), i64::from(picture.height));
     let texel = |column: i64, row_from_below: i64| {
@@ -87,14 +87,14 @@ pub fn picture_at(picture: &Picture, uv: DVec2, nearest: bool, repeats_rows: boo
         return texel(place.x.floor() as i64, place.y.floor() as i64);
     }
     let place = place - 0.5;
-    let (low, share) = (place.floor(), place - place.floor());
+    let (low, fraction) = (place.floor(), place - place.floor());
     let (x, y) = (low.x as i64, low.y as i64);
-    let lower = texel(x, y).lerp(texel(x + 1, y), share.x);
-    let upper = texel(x, y + 1).lerp(texel(x + 1, y + 1), share.x);
-    lower.lerp(upper, share.y)
+    let lower = texel(x, y).lerp(texel(x + 1, y), fraction.x);
+    let upper = texel(x, y + 1).lerp(texel(x + 1, y + 1), fraction.x);
+    lower.lerp(upper, fraction.y)
 }
 
-/// Gradient noise (Perlin 2002), octaves of half the size and strength, over the lattice's hash.
+/// Gradient noise (Perlin 2002), with octaves of half the size and strength, over the hash of the lattice.
 pub fn noise_octaves(p: DVec3, octaves: u32) -> f64 {
     (0..octaves)
         .map(|k| {
@@ -126,7 +126,7 @@ pub fn gradient_noise(p: DVec3, period: i64) -> f64 {
     sum
 }
 
-/// The middle of one of the twelve edges of a cube, as a direction of length √2.
+/// The centre of one of the twelve edges of a cube, as a direction of length √2.
 fn gradient([x, y, z]: [u32; 3]) -> DVec3 {
     const EDGES: [[f64; 3]; 16] = [
         [1.0, 1.0, 0.0],

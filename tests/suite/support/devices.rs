@@ -1,17 +1,16 @@
-//! Devices that tests use one after the other: opening one and compiling its kernels costs more than
-//! most pictures.
+//! A pool of devices for tests: opening one and compiling its kernels costs more than most pictures.
 
 use glimray::gpu::{Gpu, GpuError};
 use std::cell::RefCell;
 use std::sync::{Mutex, PoisonError};
 
-/// Devices of one kind. A test has one for itself until its thread ends.
+/// Devices of one kind. A test owns one until its thread ends.
 pub struct Devices {
     open: fn() -> Result<Gpu, GpuError>,
     idle: Mutex<Vec<Gpu>>,
 }
 
-/// What a thread has, to be given back when it ends.
+/// The device of a thread, returned to the pool when it ends.
 struct Leases(Vec<(&'static Devices, Gpu)>);
 
 thread_local! {

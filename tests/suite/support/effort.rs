@@ -1,11 +1,11 @@
-//! How much work something is, whatever the machine and however busy it is: the CPU time of this
-//! thread, in units of a calculation that is timed on the same thread before and after.
+//! Measures work independently of the machine and its load: the CPU time of this thread, in units of a
+//! calculation that is timed on the same thread before and after.
 
 use super::random::Random;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// CPU seconds of this thread so far. Where the system does not tell them, seconds.
+/// CPU seconds of this thread so far; wall-clock seconds if the system does not report them.
 fn seconds() -> f64 {
     static START: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
     // Nanoseconds on a CPU, nanoseconds spent waiting for one, how often.
@@ -26,16 +26,15 @@ fn unit() -> f64 {
     (seconds() - start) / MILLIONS as f64
 }
 
-/// Fails if `work`, which runs on this thread, is more than that of drawing so many million random
-/// numbers. A limit is many times what is needed: it tells a wrong order of growth, not a slow
-/// machine.
+/// Fails if `work`, which runs on this thread, takes longer than drawing this many million random numbers. A
+/// limit is many times the expected value: it detects a wrong order of growth, not a slow machine.
 #[track_caller]
 pub fn within<T>(millions: f64, work: impl FnOnce() -> T) -> T {
     let before = unit();
     let start = seconds();
     let result = work();
     let spent = seconds() - start;
-    // The slower of the two: clocks and neighbours on the same core change.
+    // The slower of the two: clocks and load on the same core change.
     let took = spent / before.max(unit());
     println!("as much work as {took:.0} million random numbers, {millions} allowed");
     assert!(
@@ -59,7 +58,7 @@ fn work_beyond_its_limit_fails() {
     });
 }
 
-/// Sleep stands for all that others do meanwhile.
+/// Sleep stands for other processes.
 #[cfg(target_os = "linux")]
 #[test]
 fn waiting_is_no_work() {

@@ -1,8 +1,8 @@
-//! Shader units through readback: any function of `shaders/lib` mapped over rows of inputs.
+//! Evaluates shader functions: any function of `shaders/lib` over rows of inputs.
 //!
-//! A tiny entry point is written around the function, linked like the kernels, and run with one
-//! invocation for each row. The output starts as a sentinel and each row ends with its own number,
-//! so a row that was never written cannot be taken for a result.
+//! A small entry point is generated around the function, linked like the kernels, and run with one invocation
+//! for each row. The output is filled with a sentinel and each row ends with its index, so a row that was never
+//! written cannot be mistaken for a result.
 
 use super::{
     verdict::{Expected, Tolerance, Verdict},
@@ -14,7 +14,7 @@ use wgpu::{BufferUsages, util::DeviceExt};
 
 /// Fills the output before a run.
 const SENTINEL: u32 = u32::MAX;
-/// WebGPU's limit on the groups along X.
+/// The limit of WebGPU on workgroups along X.
 const MOST_ROWS: usize = 64 * 65_535;
 
 /// The device that all tests share.
@@ -23,8 +23,8 @@ pub struct Harness {
     queue: wgpu::Queue,
 }
 
-/// A software renderer if there is one, so that results do not depend on the machine; with
-/// `GLIMRAY_TEST_ADAPTER` set, the first adapter with that in its name.
+/// A software renderer if available, so that results do not depend on the machine; if `GLIMRAY_TEST_ADAPTER` is
+/// set, the first adapter with that in its name.
 pub fn gpu() -> &'static Harness {
     static HARNESS: OnceLock<Harness> = OnceLock::new();
     HARNESS.get_or_init(Harness::open)
@@ -50,17 +50,17 @@ impl Harness {
         Self { device, queue }
     }
 
-    /// What a function such as `lib::phong::phong` returns for each row of arguments.
+    /// Evaluates a function such as `lib::phong::phong` for each row of arguments.
     pub fn map<I: Input, O: Output>(&self, function: &str, inputs: &[I]) -> Vec<O> {
         self.run("", &format!("package::{function}"), &[0.0], inputs)
     }
 
-    /// What the function `probe` in a piece of WESL returns for each row of arguments.
+    /// Evaluates the function `probe` of a piece of WESL for each row of arguments.
     pub fn map_source<I: Input, O: Output>(&self, source: &str, inputs: &[I]) -> Vec<O> {
         self.run(source, "probe", &[0.0], inputs)
     }
 
-    /// As `map_source`, with numbers that all rows share: `table` in the source.
+    /// As `map_source`, with numbers shared by all rows: `table` in the source.
     pub fn map_table<I: Input, O: Output>(
         &self,
         source: &str,
@@ -70,8 +70,7 @@ impl Harness {
         self.run(source, "probe", table, inputs)
     }
 
-    /// Maps a function over a table of (what the row shows, arguments, result) and fails with all
-    /// the rows that are off.
+    /// Evaluates a function for a table of (name, arguments, result) and fails with all wrong rows.
     pub fn check<I: Input + Clone, E: Expected>(
         &self,
         function: &str,
@@ -87,7 +86,7 @@ impl Harness {
         verdict.close();
     }
 
-    /// Writes the entry point around `function`, runs it and takes the rows apart.
+    /// Generates the entry point around `function`, runs it and unpacks the rows.
     fn run<I: Input, O: Output>(
         &self,
         source: &str,
@@ -180,7 +179,7 @@ impl Harness {
             },
             count: None,
         };
-        // Stated, because the shader may use no table, and a layout derived from it would lack one.
+        // Explicit, because the shader may not use the table, and a derived layout would lack it.
         let group_layout = self
             .device
             .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -263,7 +262,7 @@ impl Harness {
     }
 }
 
-/// Plain WGSL from a module of our own and whatever it imports from `shaders/`.
+/// Links a module of a test and its imports from `shaders/` to plain WGSL.
 fn link(probe: &str) -> String {
     let path: wesl::ModulePath = "package::probe".parse().expect("a path");
     let mut own = VirtualResolver::new();

@@ -36,7 +36,7 @@ impl Random {
         DVec3::from_array(std::array::from_fn(|_| self.between(-1.0, 1.0)))
     }
 
-    /// A unit vector, all directions alike.
+    /// A unit vector, uniformly distributed.
     pub fn direction(&mut self) -> DVec3 {
         let z = self.between(-1.0, 1.0);
         let (sin, cos) = self.between(0.0, TAU).sin_cos();

@@ -1,23 +1,25 @@
-//! Tests of what a machine may lack: without it they are skipped, in plain sight, unless
-//! `GLIMRAY_REQUIRE` says that it has to be there.
+//! Tests that need optional parts of a machine: they are skipped with a visible message, unless
+//! `GLIMRAY_REQUIRE` requires them.
 
 use std::fmt::Display;
 use std::io::Write;
 
-/// What a test may need, and how `GLIMRAY_REQUIRE` names it: `GLIMRAY_REQUIRE=gl,xvfb`.
+/// Optional requirements of tests, and their names in `GLIMRAY_REQUIRE`: `GLIMRAY_REQUIRE=gl,xvfb`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
-    /// Built examples, which `cargo test` without `--test` makes.
+    /// Built examples, which `cargo test` without `--test` builds.
     Examples,
-    /// FFmpeg's programs, `ffmpeg` and `ffprobe`.
+    /// The programs of FFmpeg, `ffmpeg` and `ffprobe`.
     Ffmpeg,
-    /// An adapter of wgpu's OpenGL backend.
+    /// A Git checkout of the project.
+    Git,
+    /// An adapter of the OpenGL backend of wgpu.
     Gl,
-    /// A driver that limits the rounds of a shader's loops, as lavapipe does.
+    /// A driver that limits the loop iterations of a shader, as lavapipe does.
     LoopLimit,
-    /// Models of other people in `../shared/data`.
+    /// Third-party models in `../shared/data`.
     Models,
-    /// Mounts that only one process sees.
+    /// Private mounts.
     Mounts,
     /// Named pipes, `/dev/full` and `/proc`.
     Special,
@@ -30,9 +32,10 @@ pub enum Need {
 }
 
 impl Need {
-    const ALL: [Self; 10] = [
+    const ALL: [Self; 11] = [
         Self::Examples,
         Self::Ffmpeg,
+        Self::Git,
         Self::Gl,
         Self::LoopLimit,
         Self::Models,
@@ -47,6 +50,7 @@ impl Need {
         match self {
             Self::Examples => "examples",
             Self::Ffmpeg => "ffmpeg",
+            Self::Git => "git",
             Self::Gl => "gl",
             Self::LoopLimit => "loop-limit",
             Self::Models => "models",
@@ -59,13 +63,13 @@ impl Need {
     }
 }
 
-/// To be called by a test that returns early because something it needs is missing. Panics where
-/// that is required; else it writes a line that the test harness does not swallow.
+/// Called by a test that returns early because a requirement is missing. Panics if it is required; otherwise
+/// writes a line that the test harness does not capture.
 #[track_caller]
 pub fn skip(need: Need, why: impl Display) {
     let required = std::env::var("GLIMRAY_REQUIRE").unwrap_or_default();
     match judge(&required, need, why) {
-        // `eprintln!` is captured where a test passes.
+        // `eprintln!` is captured if a test passes.
         Ok(line) => _ = writeln!(std::io::stderr(), "{line}"),
         Err(error) => panic!("{error}"),
     }
@@ -115,7 +119,7 @@ fn a_misspelt_requirement_fails() {
     }
 }
 
-/// A test that says so itself would go unnoticed where it is required.
+/// A test that prints its own message would bypass the requirement.
 #[test]
 fn tests_are_skipped_here_and_nowhere_else() {
     let mut open = vec![std::path::PathBuf::from("tests/suite")];

@@ -1,9 +1,9 @@
-//! Whether samples follow the distribution that they claim.
+//! Tests whether samples follow their distribution.
 
 use super::{random::Random, verdict::Verdict};
 use std::fmt::Display;
 
-/// Points of the unit square, independent of each other.
+/// Independent points of the unit square.
 pub fn square_points(count: usize, seed: u64) -> Vec<[f32; 2]> {
     let mut random = Random::new(seed);
     // 24 bits, as shaders draw them: 1 itself does not occur.
@@ -11,15 +11,15 @@ pub fn square_points(count: usize, seed: u64) -> Vec<[f32; 2]> {
     (0..count).map(|_| [unit(), unit()]).collect()
 }
 
-/// Pearson's χ² of counts that all should be alike, at a level of 1e-4 (Wilson and Hilferty's
-/// approximation of the quantile).
+/// Pearson's χ² test of counts with equal expectations, at a level of 1e-4 (Wilson and Hilferty's approximation
+/// of the quantile).
 pub fn check_even(verdict: &mut Verdict, name: impl Display, counts: &[u32]) {
     let total: f64 = counts.iter().map(|&count| f64::from(count)).sum();
     let expected = vec![total / counts.len() as f64; counts.len()];
     check_counts(verdict, name, counts, &expected);
 }
 
-/// The same of counts with expectations of their own, all of which should be 5 or more.
+/// The same for counts with individual expectations, all of which should be at least 5.
 pub fn check_counts(verdict: &mut Verdict, name: impl Display, counts: &[u32], expected: &[f64]) {
     assert_eq!(counts.len(), expected.len());
     let terms = counts.iter().zip(expected);
@@ -34,8 +34,8 @@ pub fn check_counts(verdict: &mut Verdict, name: impl Display, counts: &[u32], e
     });
 }
 
-/// Which of `side` × `side` cells of the unit square each point is in, counted. Points are clamped
-/// into it, but must be in it but for rounding.
+/// Counts the points in each of `side` × `side` cells of the unit square. Points are clamped to it, but may
+/// exceed it only by rounding.
 pub fn cells(points: impl IntoIterator<Item = [f64; 2]>, side: usize) -> Vec<u32> {
     let mut counts = vec![0; side * side];
     for [x, y] in points {

@@ -16,7 +16,7 @@ pub struct Ray {
     pub leaving_instance: u32,
 }
 
-/// A ray without end.
+/// A ray of unlimited length.
 pub fn ray(origin: [f32; 3], direction: [f32; 3]) -> Ray {
     Ray {
         origin,
@@ -79,7 +79,7 @@ pub struct Moment {
     pub fraction: f32,
 }
 
-/// See `lib/motion.wesl`. Matrices are lists of columns; only ever a result.
+/// See `lib/motion.wesl`. Matrices are lists of columns; used only as a result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Space {
     pub translation: [f32; 3],

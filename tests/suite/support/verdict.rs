@@ -1,15 +1,15 @@
-//! Judges rows one by one and fails once, with all that is wrong.
+//! Checks rows one by one and fails once, with all errors.
 
 use super::{types::Candidate, words::Output};
 use std::fmt::{Debug, Display};
 
-/// How far a result may be from what is expected.
+/// The tolerance of a result.
 #[derive(Clone, Copy, Debug)]
 pub enum Tolerance {
     Exact,
     Absolute(f64),
     Relative(f64),
-    /// Steps of f32 at the expected value.
+    /// In f32 steps at the expected value.
     Ulps(f64),
 }
 
@@ -31,7 +31,7 @@ pub fn ulp(x: f64) -> f64 {
     f64::from(x.next_up()) - f64::from(x)
 }
 
-/// What a shader should return, in exact numbers.
+/// The expected result of a shader, in exact numbers.
 pub trait Expected: Debug {
     type Got: Output + Debug;
     fn is_met(&self, got: &Self::Got, tolerance: Tolerance) -> bool;
@@ -84,7 +84,7 @@ impl Expected for Option<[f64; 3]> {
     }
 }
 
-/// What became of a number of rows.
+/// The results of a number of rows.
 pub struct Verdict {
     subject: String,
     rows: usize,
@@ -92,7 +92,7 @@ pub struct Verdict {
     is_closed: bool,
 }
 
-/// Failures in a verdict that nobody closes would be lost.
+/// Failures in a verdict that is never closed would be lost.
 impl Drop for Verdict {
     fn drop(&mut self) {
         let is_lost = !self.is_closed && !std::thread::panicking();
@@ -113,7 +113,7 @@ impl Verdict {
         }
     }
 
-    /// One row whose result must be within `tolerance` of what is expected.
+    /// Checks that a result is within `tolerance` of the expected one.
     pub fn near<E: Expected>(
         &mut self,
         name: impl Display,
@@ -126,7 +126,7 @@ impl Verdict {
         });
     }
 
-    /// One row of which something must hold; `details` says what was found instead.
+    /// Checks that a condition holds; `details` describes the actual result.
     pub fn that<D: Display>(
         &mut self,
         name: impl Display,
@@ -139,7 +139,7 @@ impl Verdict {
         }
     }
 
-    /// Fails with every row that did not hold, or if there were none.
+    /// Fails with all failed rows, or if there were none at all.
     pub fn close(mut self) {
         self.is_closed = true;
         let Self {

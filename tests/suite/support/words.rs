@@ -1,18 +1,18 @@
-//! Values as the GPU sees them: runs of 32-bit words, and the WGSL that packs and unpacks them.
+//! Values as the GPU sees them: sequences of 32-bit words, and the WGSL that packs and unpacks them.
 
-/// A Rust value that WGSL can make from words of the input.
+/// A Rust value that WGSL can unpack from input words.
 pub trait Input {
-    /// The WGSL expression of the value whose words begin at `at`; moves `at` behind them.
+    /// The WGSL expression of the value whose words start at `at`; advances `at`.
     fn load(at: &mut usize) -> String;
     /// Appends the words.
     fn write(&self, words: &mut Vec<u32>);
 }
 
-/// A Rust value that WGSL can take apart into words of the output.
+/// A Rust value that WGSL can pack into output words.
 pub trait Output {
-    /// The WGSL statements that write the value `from` to the words from `at` on; moves `at`.
+    /// The WGSL statements that write the value `from` to the words from `at` on; advances `at`.
     fn store(from: &str, at: &mut usize) -> String;
-    /// Takes the words.
+    /// Reads the words.
     fn read(words: &mut impl Iterator<Item = u32>) -> Self;
 }
 
@@ -84,7 +84,7 @@ impl<T: Output, const N: usize> Output for [T; N] {
     }
 }
 
-/// Several arguments of a function.
+/// The arguments of a function.
 macro_rules! arguments {
     ($($name:ident)*) => {
         impl<$($name: Input),*> Input for ($($name,)*) {
@@ -105,7 +105,7 @@ arguments!(A B C);
 arguments!(A B C D);
 arguments!(A B C D E);
 
-/// A struct: `$wgsl` is its name there, in the order of its members.
+/// A struct: `$wgsl` is its WGSL name, with members in order.
 macro_rules! shader_struct {
     ($type:ty = $wgsl:literal { $($field:ident: $field_type:ty,)* }) => {
         impl $crate::support::words::Input for $type {

@@ -8,15 +8,15 @@ use crate::reference::scenes;
 use crate::support::PATIENCE;
 use eframe::egui;
 use glam::Vec3;
-use glimray::app::view::canvas::Place;
-use glimray::app::view::canvas::{Pace, Shown};
-use glimray::app::view::order::Order;
-use glimray::app::view::render_thread::{Fault, Orders, RenderThread};
 use glimray::gpu::Gpu;
 use glimray::image::Image;
 use glimray::import;
 use glimray::render::{Antialias, ExecutionPolicy, RenderSettings, Tone, Uploads};
 use glimray::scene::{Background, Camera, Scene, ToneCurve};
+use glimray::viewer::worker::progressive_image::PictureSlot;
+use glimray::viewer::worker::progressive_image::{Pace, Shown};
+use glimray::viewer::worker::render_thread::{Fault, RenderRequests, RenderThread};
+use glimray::viewer::worker::request::RenderRequest;
 use std::sync::Arc;
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
@@ -25,15 +25,15 @@ use std::time::{Duration, Instant};
 struct Easel {
     gpu: Gpu,
     thread: RenderThread<()>,
-    orders: Orders,
+    orders: RenderRequests,
 }
 
 impl Easel {
     fn new(scene: &Scene, settings: RenderSettings) -> Self {
         let gpu = open_gpu();
         let thread = RenderThread::new(gpu.clone(), || {}).expect("a thread");
-        let mut orders = Orders::default();
-        orders.pictures[Place::Main as usize] = Some(Order {
+        let mut orders = RenderRequests::default();
+        orders.pictures[PictureSlot::Main as usize] = Some(RenderRequest {
             scene: Arc::new(scene.clone()),
             restarts: 0,
             camera: None,
@@ -53,8 +53,8 @@ impl Easel {
     }
 
     /// Changes what is wanted.
-    fn want(&mut self, change: impl FnOnce(&mut Order)) {
-        let order = self.orders.pictures[Place::Main as usize].as_mut();
+    fn want(&mut self, change: impl FnOnce(&mut RenderRequest)) {
+        let order = self.orders.pictures[PictureSlot::Main as usize].as_mut();
         change(order.expect("an order"));
         self.thread.order(self.orders.clone());
     }
@@ -81,7 +81,7 @@ impl Easel {
     }
 
     fn shown(&self) -> Shown {
-        self.thread.shown(Place::Main).expect("a picture")
+        self.thread.shown(PictureSlot::Main).expect("a picture")
     }
 
     /// The picture in linear light.
@@ -156,7 +156,7 @@ fn a_pause_does_not_show_in_the_picture() {
     let settings = stratified(600);
     let mut easel = Easel::new(&scene, settings.clone());
     easel.wait_until("fine", |easel| {
-        let shown = easel.thread.shown(Place::Main);
+        let shown = easel.thread.shown(PictureSlot::Main);
         shown.is_some_and(|shown| shown.screen.is_some() && shown.progress.samples > 0)
     });
     easel.pause(true);
@@ -399,7 +399,11 @@ fn the_coarse_picture_is_what_is_wanted_too_after_a_way_back() {
         off.fold(0.0, f64::max)
     };
     let wanted = means(&easel);
-    type Change = (&'static str, fn(&mut Order, &Camera), fn(&mut Order));
+    type Change = (
+        &'static str,
+        fn(&mut RenderRequest, &Camera),
+        fn(&mut RenderRequest),
+    );
     let changes: [Change; 2] = [
         (
             "camera",
@@ -542,7 +546,7 @@ fn a_picture_is_finished_while_the_window_draws_nothing() {
     let render = window.harness.state().render_thread();
     let is_done = || {
         render
-            .shown(Place::Main)
+            .shown(PictureSlot::Main)
             .is_some_and(|shown| shown.progress.is_done)
     };
     while !is_done() {
@@ -605,14 +609,14 @@ fn samples_outlast_a_window_of_another_size_until_the_picture_begins_again() {
         size,
         "the samples are gone"
     );
-    window.session().look.tone.exposure_ev += 1.0;
+    window.session().view.tone.exposure_ev += 1.0;
     window.session().set_space((size.0 + 40, size.1 + 30));
     assert_eq!(
         window.session().picture_size(),
         size,
         "the samples are gone"
     );
-    window.session().look.settings.seed += 1;
+    window.session().view.settings.seed += 1;
     window.session().set_space((size.0 + 40, size.1 + 30));
     assert_eq!(
         window.session().picture_size(),
@@ -676,7 +680,7 @@ fn a_background_that_was_changed_gives_the_png_of_the_command_line() {
     let green = Vec3::new(0.1, 0.5, 0.2);
     let flags = ["--size", "72x48", "--samples", "4"];
     let change = |window: &mut Window| {
-        window.session().look.background = Some(Background::Color(green));
+        window.session().view.background = Some(Background::Color(green));
         window.settle();
         vec!["--background".into(), "0.1,0.5,0.2".into()]
     };
@@ -686,9 +690,9 @@ fn a_background_that_was_changed_gives_the_png_of_the_command_line() {
     // Of the command line from the start, and back to it.
     let flags = [&flags[..], &["--background", "0.1,0.5,0.2"]].concat();
     check("media.toml", &flags, |window| {
-        window.session().look.background = Some(Background::Color(Vec3::ONE));
+        window.session().view.background = Some(Background::Color(Vec3::ONE));
         window.settle();
-        window.session().look.background = None;
+        window.session().view.background = None;
         Vec::new()
     });
     let adaptive = [&flags[..], &["--antialias", "adaptive"]].concat();
@@ -701,7 +705,7 @@ fn a_camera_that_was_moved_gives_the_png_of_the_command_line() {
     for scene in ["showcase.toml", "far_away.toml", "mesh.toml"] {
         check(scene, &flags, |window| {
             let mut session = window.session();
-            let rig = session.rig.as_mut().expect("a rig");
+            let rig = session.controller.as_mut().expect("a rig");
             rig.orbit_by(0.4, -0.1);
             rig.zoom(1.5, None);
             session.moved();

@@ -6,14 +6,14 @@ use eframe::egui::{Key, Pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::{DVec3, dvec3, vec3};
 use glimray::app::scene_file;
-use glimray::app::view::bindings::Action;
-use glimray::app::view::editing;
-use glimray::app::view::files::Intent;
-use glimray::app::view::objects::Id;
-use glimray::app::view::sheets::Sheet;
-use glimray::app::view::tools::Tool;
 use glimray::render::Tone;
 use glimray::scene::{Background, Geometry, ObjectRef, Scene};
+use glimray::viewer::actions::saving;
+use glimray::viewer::model::bindings::Action;
+use glimray::viewer::model::objects::Id;
+use glimray::viewer::model::tool::Tool;
+use glimray::viewer::state::dialogs::Dialog;
+use glimray::viewer::state::files::Intent;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -63,7 +63,7 @@ pub(super) fn open(path: &Path, size: &str) -> Window {
 }
 
 fn perform(window: &mut Window, action: Action) {
-    editing::perform(action, &mut window.session());
+    window.session().clicked.push(action);
     window.settle();
 }
 
@@ -73,7 +73,7 @@ pub(super) fn scene(window: &Window) -> Scene {
 }
 
 fn notices(window: &Window) -> Vec<String> {
-    let notices = window.session().notices.current();
+    let notices = window.session().messages.current();
     notices.into_iter().map(|notice| notice.text).collect()
 }
 
@@ -82,7 +82,7 @@ pub(super) fn on_screen(window: &Window, point: DVec3) -> Pos2 {
     let session = window.session();
     let viewport = session.viewport.expect("a picture");
     let camera = session.camera().expect("a camera");
-    let at = glimray::app::view::navigation::project(&camera, point, viewport.extent());
+    let at = glimray::viewer::model::camera::project(&camera, point, viewport.extent());
     viewport.point(at.expect("in front of the camera"))
 }
 
@@ -412,7 +412,7 @@ fn a_saved_scene_that_someone_else_changed_is_not_replaced_without_a_question() 
     perform(&mut window, Action::SaveScene);
     assert_eq!(std::fs::read_to_string(&other).expect("the file"), BALLS);
     // Nor when it was read again.
-    glimray::app::view::files::go_on(&mut window.session(), Intent::Reload);
+    glimray::viewer::actions::files::go_on(&mut window.session(), Intent::Reload);
     window.settle();
     perform(&mut window, Action::SaveScene);
     assert_eq!(std::fs::read_to_string(&other).expect("the file"), BALLS);
@@ -448,7 +448,7 @@ fn settings_of_the_picture_are_kept_in_the_scene_when_they_are_wanted_there() {
     let (folder, path) = file();
     let mut window = open(&path, "64x48");
     {
-        let look = &mut window.session().look;
+        let look = &mut window.session().view;
         look.set_samples(2);
         look.tone.exposure_ev = 0.5;
         look.background = Some(Background::Color(vec3(0.5, 0.25, 0.125)));
@@ -492,7 +492,7 @@ fn the_camera_under_the_hand_can_become_the_scenes_own() {
     let mut window = open(&path, "64x48");
     {
         let mut session = window.session();
-        let rig = session.rig.as_mut().expect("a camera");
+        let rig = session.controller.as_mut().expect("a camera");
         rig.orbit_by(0.5, 0.25);
         rig.arrive();
     }
@@ -505,7 +505,14 @@ fn the_camera_under_the_hand_can_become_the_scenes_own() {
     window.settle();
     let own = scene(&window).frame(0.0).camera;
     assert_eq!((own.look_from, own.look_at), (seen.look_from, seen.look_at));
-    assert!(window.session().rig.as_ref().expect("a camera").is_home());
+    assert!(
+        window
+            .session()
+            .controller
+            .as_ref()
+            .expect("a camera")
+            .is_home()
+    );
 }
 
 #[test]
@@ -640,7 +647,7 @@ fn no_key_but_escape_goes_past_a_question() {
         }),
         ("picture", |window| window.harness.key_press(Key::F12)),
         ("scene", |window| {
-            editing::perform(Action::SaveSceneAs, &mut window.session());
+            saving::ask(&mut window.session());
         }),
     ];
     for (name, ask) in questions {
@@ -651,7 +658,10 @@ fn no_key_but_escape_goes_past_a_question() {
             window.harness.run_steps(2);
         }
         assert_eq!(scene(&window), before, "{name}");
-        assert!(!window.session().sheets.is_open(Sheet::Bindings), "{name}");
+        assert!(
+            !window.session().dialogs.is_open(Dialog::Shortcuts),
+            "{name}"
+        );
         window.harness.key_press(Key::Escape);
         window.settle();
         let session = window.session();
@@ -749,7 +759,7 @@ fn no_camera_is_without_an_up() {
 
 /// Labels of all lines of the outline.
 fn labels(scene: &Scene) -> Vec<String> {
-    let outline = glimray::app::view::outline::Outline::of(scene);
+    let outline = glimray::viewer::model::outline::Outline::of(scene);
     outline
         .entries
         .into_iter()

@@ -4,11 +4,12 @@ use super::harness::Window;
 use crate::support::PATIENCE;
 use eframe::egui;
 use egui_kittest::kittest::{Queryable, by};
-use glimray::app::view::bindings::Action;
-use glimray::app::view::files;
-use glimray::app::view::files::dialogs::{Dialogs, Reply};
 use glimray::image::Image;
 use glimray::scene::Background;
+use glimray::viewer::actions::files;
+use glimray::viewer::model::bindings::Action;
+use glimray::viewer::model::file_dialog::{FileDialogs, Reply};
+use glimray::viewer::state::files::Intent;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -29,9 +30,9 @@ fn scene(radius: &str) -> String {
 }
 
 /// A folder with files in it.
-struct Place(TempDir);
+struct Folder(TempDir);
 
-impl Place {
+impl Folder {
     fn new(files: &[(&str, &str)]) -> Self {
         let place = Self(tempfile::tempdir().expect("a folder"));
         for (name, text) in files {
@@ -89,7 +90,7 @@ fn wait(window: &mut Window, what: &str, is_so: impl Fn(&Window) -> bool) {
 fn notices(window: &Window) -> Vec<String> {
     let session = window.session.borrow();
     session
-        .notices
+        .messages
         .all()
         .iter()
         .map(|n| n.text.clone())
@@ -133,7 +134,7 @@ fn glimray(arguments: &[&str]) -> Output {
 
 #[test]
 fn a_dropped_scene_is_opened_and_remembered() {
-    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let place = Folder::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
     let mut window = place.open("one.toml");
     drop_files(&mut window, &[place.path("two.toml")]);
     assert_eq!(title(&window), "two.toml");
@@ -149,7 +150,7 @@ fn of_a_dropped_folder_the_first_scene_that_can_be_read_is_opened_and_said() {
         ("b.toml", &*scene("2")),
         ("c.toml", &*scene("3")),
     ];
-    let place = Place::new(&files);
+    let place = Folder::new(&files);
     let mut window = Window::open(&SMALL);
     window.settle();
     drop_files(&mut window, &[place.path("")]);
@@ -161,7 +162,7 @@ fn of_a_dropped_folder_the_first_scene_that_can_be_read_is_opened_and_said() {
 
 #[test]
 fn what_cannot_be_read_is_one_notice_and_changes_nothing() {
-    let place = Place::new(&[("one.toml", &scene("1")), ("notes.txt", "notes")]);
+    let place = Folder::new(&[("one.toml", &scene("1")), ("notes.txt", "notes")]);
     let mut window = place.open("one.toml");
     let before = notices(&window).len();
     drop_files(&mut window, &[place.path("notes.txt")]);
@@ -172,7 +173,7 @@ fn what_cannot_be_read_is_one_notice_and_changes_nothing() {
 
 #[test]
 fn a_dropped_picture_becomes_the_surroundings_and_can_be_undone() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let sky = Image {
         pixels: vec![[0.25, 0.5, 2.0, 1.0]; 2],
         ..Image::new(2, 1)
@@ -192,15 +193,15 @@ fn a_dropped_picture_becomes_the_surroundings_and_can_be_undone() {
 
 #[test]
 fn a_changed_file_is_read_again_and_the_camera_stays() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     window
         .session()
-        .rig
+        .controller
         .as_mut()
         .expect("a camera")
         .orbit_by(0.5, 0.2);
-    window.session().look.tone.exposure_ev = 1.5;
+    window.session().view.tone.exposure_ev = 1.5;
     window.settle();
     let (camera, before) = (window.camera(), picture(&mut window));
     replace(&place.path("one.toml"), &scene("1.5"));
@@ -208,7 +209,7 @@ fn a_changed_file_is_read_again_and_the_camera_stays() {
         has_notice(w, "read one.toml again")
     });
     assert_eq!(window.camera(), camera);
-    assert_eq!(window.session.borrow().look.tone.exposure_ev, 1.5);
+    assert_eq!(window.session.borrow().view.tone.exposure_ev, 1.5);
     assert!(
         picture(&mut window) != before,
         "the larger sphere is not seen"
@@ -219,7 +220,7 @@ fn a_changed_file_is_read_again_and_the_camera_stays() {
 fn a_changed_file_that_the_scene_refers_to_is_read_again() {
     let obj = |x: &str| format!("v -1 -1 0\nv {x} -1 0\nv 0 1 0\nf 1 2 3\n");
     let text = scene("0.1") + "\n[[objects]]\nmaterial = \"red\"\nmesh = { file = \"tri.obj\" }\n";
-    let place = Place::new(&[("one.toml", &text), ("tri.obj", &obj("1"))]);
+    let place = Folder::new(&[("one.toml", &text), ("tri.obj", &obj("1"))]);
     let mut window = place.open("one.toml");
     assert_eq!(message(&window), None);
     let before = picture(&mut window);
@@ -235,7 +236,7 @@ fn a_changed_file_that_the_scene_refers_to_is_read_again() {
 
 #[test]
 fn a_broken_edit_shows_its_line_and_keeps_the_last_good_picture_until_it_is_mended() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     let before = picture(&mut window);
     let broken = scene("1").replace("[0.8, 0.1, 0.1]", "[0.8, \"much\", 0.1]");
@@ -274,7 +275,7 @@ fn a_broken_edit_shows_its_line_and_keeps_the_last_good_picture_until_it_is_mend
 
 #[test]
 fn a_deleted_file_is_one_notice_and_is_taken_up_when_it_comes_back() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     let before = picture(&mut window);
     fs::remove_file(place.path("one.toml")).expect("a file");
@@ -295,7 +296,7 @@ fn a_deleted_file_is_one_notice_and_is_taken_up_when_it_comes_back() {
 
 #[test]
 fn a_scene_that_was_broken_from_the_start_is_shown_when_it_is_mended() {
-    let place = Place::new(&[("one.toml", "[camera\n")]);
+    let place = Folder::new(&[("one.toml", "[camera\n")]);
     let mut window = place.open("one.toml");
     assert!(message(&window).is_some_and(|text| text.contains("one.toml:1:")));
     replace(&place.path("one.toml"), &scene("1"));
@@ -308,7 +309,7 @@ fn a_scene_that_was_broken_from_the_start_is_shown_when_it_is_mended() {
 /// Saves through the sheet, with `name` chosen in the dialog.
 fn save(window: &mut Window, path: &Path) {
     let chosen = path.to_owned();
-    window.session().files.dialogs = Dialogs::answering(move |request| {
+    window.session().files.dialogs = FileDialogs::answering(move |request| {
         assert!(request.saves);
         Reply::Chosen(chosen.clone())
     });
@@ -325,7 +326,7 @@ fn save(window: &mut Window, path: &Path) {
 #[test]
 fn a_saved_picture_has_the_bytes_of_the_command_lines() {
     let text = scene("1") + "\n[output]\nexposure_ev = 0.5\ntone = \"aces\"\n";
-    let place = Place::new(&[("one.toml", &text)]);
+    let place = Folder::new(&[("one.toml", &text)]);
     let mut window = place.open("one.toml");
     for ending in ["png", "jpg", "exr", "hdr"] {
         let (ours, theirs) = (format!("ours.{ending}"), format!("theirs.{ending}"));
@@ -344,7 +345,7 @@ fn a_saved_picture_has_the_bytes_of_the_command_lines() {
 fn no_picture_is_saved_over_a_file_that_the_scene_reads() {
     let painted = "material = { phong = { diffuse = { picture = \"paint.png\" } } }";
     let text = scene("1").replace("material = \"red\"", painted);
-    let place = Place::new(&[("one.toml", &text)]);
+    let place = Folder::new(&[("one.toml", &text)]);
     let paint = place.path("paint.png");
     let image = Image {
         width: 1,
@@ -374,7 +375,7 @@ fn no_picture_is_saved_over_a_file_that_the_scene_reads() {
 
 #[test]
 fn the_name_of_a_picture_is_under_the_keys_and_enter_saves_it() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     window.harness.key_press(egui::Key::F12);
     window.harness.run_steps(2);
@@ -392,7 +393,7 @@ fn the_name_of_a_picture_is_under_the_keys_and_enter_saves_it() {
 
 #[test]
 fn a_picture_that_exists_is_replaced_only_when_the_person_agrees() {
-    let place = Place::new(&[("one.toml", &scene("1")), ("one_1.png", "mine")]);
+    let place = Folder::new(&[("one.toml", &scene("1")), ("one_1.png", "mine")]);
     let mut window = place.open("one.toml");
     window.harness.key_press(egui::Key::F12);
     window.harness.run_steps(2);
@@ -427,9 +428,9 @@ fn a_picture_that_exists_is_replaced_only_when_the_person_agrees() {
 
 #[test]
 fn without_a_dialog_a_path_can_be_typed() {
-    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let place = Folder::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
     let mut window = place.open("one.toml");
-    window.session().files.dialogs = Dialogs::answering(|_| Reply::Unavailable);
+    window.session().files.dialogs = FileDialogs::answering(|_| Reply::Unavailable);
     window
         .harness
         .key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::O);
@@ -458,7 +459,7 @@ fn the_next_scene_of_the_folder_comes_after_this_one_and_round_the_end() {
         ("b.toml", "nonsense"),
         ("c.toml", &*scene("3")),
     ];
-    let place = Place::new(&files);
+    let place = Folder::new(&files);
     let mut window = place.open("a.toml");
     let next = |window: &mut Window, key, expected: &str| {
         window
@@ -474,11 +475,11 @@ fn the_next_scene_of_the_folder_comes_after_this_one_and_round_the_end() {
 
 #[test]
 fn a_camera_copied_as_a_command_line_and_pasted_is_the_same_camera() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     window
         .session()
-        .rig
+        .controller
         .as_mut()
         .expect("a camera")
         .orbit_by(0.7, 0.3);
@@ -506,10 +507,10 @@ fn a_camera_copied_as_a_command_line_and_pasted_is_the_same_camera() {
 
 #[test]
 fn an_empty_clipboard_leaves_the_next_paste_to_text() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     let ctx = window.harness.ctx.clone();
-    files::perform(Action::PasteCamera, &mut window.session(), &ctx);
+    files::paste_camera(&mut window.session(), &ctx);
     window.harness.run_steps(5);
     window.session().files.typed = Some(String::new());
     window.harness.run_steps(3);
@@ -522,12 +523,12 @@ fn an_empty_clipboard_leaves_the_next_paste_to_text() {
 
 #[test]
 fn kept_cameras_come_after_the_scenes_own_and_outlive_the_window() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     let home = window.camera();
     window
         .session()
-        .rig
+        .controller
         .as_mut()
         .expect("a camera")
         .orbit_by(0.7, 0.3);
@@ -541,14 +542,14 @@ fn kept_cameras_come_after_the_scenes_own_and_outlive_the_window() {
     window.harness.key_press(egui::Key::CloseBracket);
     window.settle();
     assert_eq!(window.camera().look_from, kept.look_from);
-    glimray::app::view::sheets::write(&mut window.session());
+    glimray::viewer::actions::settings::write(&mut window.session());
     let text = fs::read_to_string(window.settings.path().join("viewer.toml")).expect("a file");
     assert!(text.contains("Camera 1"), "{text}");
 }
 
 #[test]
 fn unsaved_changes_are_asked_about_before_another_scene_is_opened() {
-    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let place = Folder::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
     let mut window = place.open("one.toml");
     window
         .session()
@@ -569,7 +570,7 @@ fn unsaved_changes_are_asked_about_before_another_scene_is_opened() {
 
 #[test]
 fn edits_made_while_another_scene_is_read_are_asked_about() {
-    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let place = Folder::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
     let mut window = place.open("one.toml");
     window.session().open(place.path("two.toml"));
     window
@@ -587,17 +588,17 @@ fn edits_made_while_another_scene_is_read_are_asked_about() {
 
 #[test]
 fn a_scene_is_opened_although_the_one_on_screen_changes_meanwhile() {
-    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let place = Folder::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
     let mut window = place.open("one.toml");
     window.session().open(place.path("two.toml"));
-    files::go_on(&mut window.session(), files::Intent::Follow);
+    files::go_on(&mut window.session(), Intent::Follow);
     window.settle();
     assert_eq!(title(&window), "two.toml");
 }
 
 #[test]
 fn what_the_command_line_says_of_a_scene_is_not_said_of_the_next() {
-    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let place = Folder::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
     let path = place.path("one.toml");
     let path = path.to_str().expect("a name");
     let flags = ["--look-from", "0,0,9", "--set"];
@@ -610,7 +611,7 @@ fn what_the_command_line_says_of_a_scene_is_not_said_of_the_next() {
     .concat();
     let mut window = Window::open(&words);
     window.settle();
-    files::go_on(&mut window.session(), files::Intent::Reload);
+    files::go_on(&mut window.session(), Intent::Reload);
     window.settle();
     let shown = |window: &Window| {
         let session = window.session();
@@ -624,7 +625,7 @@ fn what_the_command_line_says_of_a_scene_is_not_said_of_the_next() {
 
 #[test]
 fn a_crop_of_the_command_line_is_a_region_that_can_be_ended() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let path = place.path("one.toml");
     let path = path.to_str().expect("a name");
     let crop = ["--crop", "12,8,36,24"];
@@ -641,8 +642,8 @@ fn a_crop_of_the_command_line_is_a_region_that_can_be_ended() {
 
 /// Stops the picture before it is finished, and wants it saved when it is.
 fn save_later(window: &mut Window, paths: &[PathBuf]) {
-    window.session().look.paused = true;
-    window.session().look.set_samples(64);
+    window.session().view.paused = true;
+    window.session().view.set_samples(64);
     window.settle();
     for path in paths {
         let mut session = window.session();
@@ -657,11 +658,11 @@ fn save_later(window: &mut Window, paths: &[PathBuf]) {
 
 #[test]
 fn every_picture_that_waits_to_be_finished_is_written() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     let paths = ["a.png", "b.png"].map(|name| place.path(name));
     save_later(&mut window, &paths);
-    window.session().look.paused = false;
+    window.session().view.paused = false;
     wait(&mut window, "both are written", |_| {
         paths.iter().all(|path| path.exists())
     });
@@ -669,7 +670,7 @@ fn every_picture_that_waits_to_be_finished_is_written() {
 
 #[test]
 fn a_picture_that_waits_is_not_made_of_another_scene() {
-    let place = Place::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
+    let place = Folder::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
     let mut window = place.open("one.toml");
     let path = place.path("one.png");
     save_later(&mut window, std::slice::from_ref(&path));
@@ -691,7 +692,7 @@ fn close(window: &mut Window) -> Vec<egui::ViewportCommand> {
 
 #[test]
 fn a_minimised_window_comes_up_to_ask_about_unsaved_changes() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     window
         .session()
@@ -708,7 +709,7 @@ fn a_minimised_window_comes_up_to_ask_about_unsaved_changes() {
 
 #[test]
 fn closing_asks_about_a_picture_that_waits() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     assert!(!close(&mut window).contains(&egui::ViewportCommand::CancelClose));
     save_later(&mut window, &[place.path("one.png")]);
@@ -720,7 +721,7 @@ fn closing_asks_about_a_picture_that_waits() {
 
 #[test]
 fn closing_waits_for_a_picture_that_is_being_written() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     let path = place.path("one.png");
     {
@@ -751,7 +752,7 @@ fn titles(window: &Window) -> Vec<String> {
 
 #[test]
 fn the_title_names_the_scene_and_marks_unsaved_changes() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     window
         .session()
@@ -762,12 +763,12 @@ fn the_title_names_the_scene_and_marks_unsaved_changes() {
 
 #[test]
 fn a_picture_saved_with_overlays_is_what_the_window_shows() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let mut window = place.open("one.toml");
     window.session().shows_overlays = false;
     window.session().preferences.hint_seen = true;
     let path = place.path("shot.png");
-    glimray::app::view::files::pictures::open(&mut window.session(), true);
+    glimray::viewer::actions::files::pictures::open(&mut window.session(), true);
     window
         .session()
         .files
@@ -795,7 +796,7 @@ fn a_picture_saved_with_overlays_is_what_the_window_shows() {
 
 #[test]
 fn a_file_that_cannot_be_read_leaves_its_error_and_an_empty_window_that_says_so() {
-    let place = Place::new(&[("model.glb", "glTF"), ("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("model.glb", "glTF"), ("one.toml", &scene("1"))]);
     let mut window = place.open("model.glb");
     let broken = window.session().files.broken.clone().expect("an error");
     assert!(broken.trouble.message.contains("model.glb"), "{broken:?}");
@@ -816,7 +817,7 @@ fn a_file_that_cannot_be_read_leaves_its_error_and_an_empty_window_that_says_so(
 
 #[test]
 fn while_a_scene_is_read_the_panel_names_it_and_counts_no_samples() {
-    let place = Place::new(&[("one.toml", &scene("1"))]);
+    let place = Folder::new(&[("one.toml", &scene("1"))]);
     let path = place.path("one.toml");
     let window = Window::open(&[path.to_str().expect("a name")]);
     // The harness has drawn one frame, and nothing was taken up yet.

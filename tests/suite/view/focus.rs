@@ -4,8 +4,8 @@ use super::edit::{BLUE, RED, file, open, scene};
 use super::harness::Window;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Role};
 use egui_kittest::kittest::{NodeT, Queryable};
-use glimray::app::view::tools::Tool;
 use glimray::scene::{Geometry, Scene};
+use glimray::viewer::model::tool::Tool;
 
 /// A click of the left button, each event in a frame of its own.
 pub fn click_at(window: &mut Window, pos: Pos2, button: PointerButton) {
@@ -71,7 +71,7 @@ fn untouched(window: &Window) -> (Scene, Tool, bool, bool, bool) {
     let session = window.session();
     let (repeats, blurs) = (session.playback.repeats, session.playback.blurs);
     let scene = Scene::clone(session.scene().expect("a scene"));
-    (scene, session.tool, repeats, blurs, session.look.paused)
+    (scene, session.tool, repeats, blurs, session.view.paused)
 }
 
 #[test]

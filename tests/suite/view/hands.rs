@@ -3,7 +3,7 @@
 use super::harness::Window;
 use eframe::egui::{self, Key, Modifiers, PointerButton, Pos2, Role};
 use egui_kittest::kittest::Queryable;
-use glimray::app::view::bindings::Action;
+use glimray::viewer::model::bindings::Action;
 
 fn open(scene: &str) -> Window {
     let path = format!("assets/scenes/{scene}");
@@ -85,7 +85,7 @@ fn a_key_can_do_what_needs_a_point_under_the_cursor() {
     window.harness.key_press(Key::J);
     window.settle();
     assert!(window.session().selection.is_some());
-    let pivot = |window: &Window| window.session().rig.as_ref().expect("a rig").pivot();
+    let pivot = |window: &Window| window.session().controller.as_ref().expect("a rig").pivot();
     let before = pivot(&window);
     window.harness.key_press_modifiers(Modifiers::SHIFT, Key::J);
     window.settle();
@@ -105,7 +105,7 @@ fn every_button_can_give_every_command() {
         button(&mut window, point, which, true);
         button(&mut window, point, which, false);
         window.settle();
-        assert_eq!(window.session().look.settings.samples, samples, "{which:?}");
+        assert_eq!(window.session().view.settings.samples, samples, "{which:?}");
     }
     let before = window.camera().look_from;
     button(&mut window, point, PointerButton::Extra2, true);
@@ -137,5 +137,5 @@ fn a_picture_that_is_not_to_be_seen_is_not_photographed() {
     let session = window.session();
     assert!(session.files.saving.is_none());
     let told = "The picture is not to be seen: show its panel first";
-    assert!(session.notices.all().iter().any(|n| n.text == told));
+    assert!(session.messages.all().iter().any(|n| n.text == told));
 }

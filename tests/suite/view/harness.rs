@@ -3,18 +3,18 @@
 use crate::support::PATIENCE;
 use eframe::egui;
 use egui_kittest::Harness;
-use glimray::app::view;
-use glimray::app::view::canvas::Place;
-use glimray::app::view::canvas::Shown;
-use glimray::app::view::order::Order;
-use glimray::app::view::preferences::Store;
-use glimray::app::view::session::Session;
-use glimray::app::view::viewer::Viewer;
-use glimray::app::view::window;
+use glimray::cli::view;
 use glimray::gpu::{AdapterChoice, Gpu};
 use glimray::image::Image;
 use glimray::render::Tone;
 use glimray::scene::Camera;
+use glimray::viewer::model::preferences::Store;
+use glimray::viewer::state::session::Session;
+use glimray::viewer::window;
+use glimray::viewer::window::viewer::Viewer;
+use glimray::viewer::worker::progressive_image::PictureSlot;
+use glimray::viewer::worker::progressive_image::Shown;
+use glimray::viewer::worker::request::RenderRequest;
 use std::cell::{RefCell, RefMut};
 use std::rc::Rc;
 use std::sync::mpsc::channel;
@@ -47,7 +47,8 @@ impl Window {
     /// The same with settings that are in this folder.
     pub fn open_with(arguments: &[&str], settings: TempDir) -> Self {
         let store = Store::in_folder(settings.path());
-        let session = view::session(arguments.iter().copied(), store).expect("a session");
+        let request = view::request(arguments.iter().copied()).expect("a command line");
+        let session = Session::new(request, store).expect("a session");
         let session = Rc::new(RefCell::new(session));
         let gpu = Gpu::with_all_limits(&AdapterChoice::default()).expect("an adapter");
         let (kept, theirs) = (session.clone(), gpu.clone());
@@ -84,13 +85,13 @@ impl Window {
     /// What is on the main picture's screen.
     pub fn shown(&self) -> Shown {
         let render = self.harness.state().render_thread();
-        render.shown(Place::Main).expect("a picture")
+        render.shown(PictureSlot::Main).expect("a picture")
     }
 
     /// What the main picture was last asked to be.
-    pub fn order(&self) -> Order {
+    pub fn order(&self) -> RenderRequest {
         let orders = self.session.borrow().orders();
-        orders.pictures[Place::Main as usize]
+        orders.pictures[PictureSlot::Main as usize]
             .clone()
             .expect("a picture")
     }
@@ -101,7 +102,7 @@ impl Window {
         self.session.borrow_mut().ask(move |studio| {
             let (image, _) = studio.image(&tone).expect("a picture");
             sender.send(image).expect("someone who waits");
-            glimray::app::view::question::Answer::Nothing
+            glimray::viewer::state::answer::Answer::Nothing
         });
         self.settle();
         receiver.recv_timeout(PATIENCE).expect("the picture")

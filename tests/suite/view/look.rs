@@ -5,12 +5,12 @@ use crate::reference::compare::start;
 use eframe::egui::{self, Key, Pos2};
 use egui_kittest::kittest::{NodeT, Queryable, by};
 use glam::Vec3;
-use glimray::app::view::canvas::Place;
-use glimray::app::view::look::{Comparison, Sharing};
-use glimray::app::view::preferences::Theme;
-use glimray::app::view::tools::Tool;
 use glimray::render::Integrator;
 use glimray::scene::{Antialias, Background};
+use glimray::viewer::model::preferences::Theme;
+use glimray::viewer::model::tool::Tool;
+use glimray::viewer::model::view_settings::{Comparison, Sharing};
+use glimray::viewer::worker::progressive_image::PictureSlot;
 
 fn open() -> Window {
     let mut window = Window::open(&["--size", "64x48", "--samples", "4"]);
@@ -46,7 +46,7 @@ fn drag(window: &mut Window, from: Pos2, to: Pos2) {
 fn samples_are_doubled_and_halved_by_buttons() {
     let mut window = open();
     click(&mut window, "×2");
-    assert_eq!(window.session().look.settings.samples, 8);
+    assert_eq!(window.session().view.settings.samples, 8);
     assert_eq!(window.shown().progress.target, 8);
     assert_eq!(window.shown().progress.samples, 8);
     click(&mut window, "½");
@@ -57,7 +57,7 @@ fn samples_are_doubled_and_halved_by_buttons() {
 #[test]
 fn one_sample_lies_in_the_centre_and_several_are_spread() {
     let window = open();
-    let look = &mut window.session().look;
+    let look = &mut window.session().view;
     look.set_samples(1);
     assert_eq!(look.settings.antialias, Antialias::None);
     look.set_samples(2);
@@ -74,15 +74,15 @@ fn one_sample_lies_in_the_centre_and_several_are_spread() {
 fn a_changed_value_has_a_way_back_to_the_scene() {
     let mut window = open();
     assert!(window.harness.query_by_label("Reset exposure").is_none());
-    let scene = window.session().look.scene_tone.exposure_ev;
-    window.session().look.tone.exposure_ev = scene + 2.0;
-    window.session().look.settings.max_depth += 3;
+    let scene = window.session().view.scene_tone.exposure_ev;
+    window.session().view.tone.exposure_ev = scene + 2.0;
+    window.session().view.settings.max_depth += 3;
     window.settle();
     click(&mut window, "Reset exposure");
-    assert_eq!(window.session().look.tone.exposure_ev, scene);
+    assert_eq!(window.session().view.tone.exposure_ev, scene);
     assert!(window.harness.query_by_label("Reset exposure").is_none());
     click(&mut window, "Reset max depth");
-    let look = window.session().look.clone();
+    let look = window.session().view.clone();
     assert_eq!(look.settings, look.scene_settings);
 }
 
@@ -123,9 +123,9 @@ fn every_setting_of_the_picture_is_in_the_panel_under_its_name() {
 fn pausing_and_restarting_are_buttons() {
     let mut window = open();
     click(&mut window, "Pause");
-    assert!(window.session().look.paused);
+    assert!(window.session().view.paused);
     click(&mut window, "Continue");
-    assert!(!window.session().look.paused);
+    assert!(!window.session().view.paused);
     let before = window.shown().stats.samples;
     click(&mut window, "Restart");
     let traced = window.shown().stats.samples - before;
@@ -135,21 +135,21 @@ fn pausing_and_restarting_are_buttons() {
 #[test]
 fn the_line_of_a_split_wipe_is_moved_by_mouse_and_by_keys() {
     let mut window = open();
-    window.session().look.compare(Sharing::Wipe(0.5));
+    window.session().view.compare(Sharing::Wipe(0.5));
     window.settle();
-    let order = |window: &Window, place: Place| {
+    let order = |window: &Window, place: PictureSlot| {
         let orders = window.session().orders();
         orders.pictures[place as usize].clone().expect("a picture")
     };
     assert_eq!(
-        order(&window, Place::Main).settings.integrator,
+        order(&window, PictureSlot::Main).settings.integrator,
         Integrator::Whitted
     );
     assert_eq!(
-        order(&window, Place::Beside).settings.integrator,
+        order(&window, PictureSlot::Beside).settings.integrator,
         Integrator::Normals
     );
-    let share = |window: &Window| match window.session().look.comparison {
+    let share = |window: &Window| match window.session().view.comparison {
         Some(Comparison {
             sharing: Sharing::Wipe(share),
             ..
@@ -182,11 +182,11 @@ fn the_line_of_a_split_wipe_is_moved_by_mouse_and_by_keys() {
     );
     click(&mut window, "Swap");
     assert_eq!(
-        order(&window, Place::Main).settings.integrator,
+        order(&window, PictureSlot::Main).settings.integrator,
         Integrator::Normals
     );
     assert_eq!(
-        order(&window, Place::Beside).settings.integrator,
+        order(&window, PictureSlot::Beside).settings.integrator,
         Integrator::Whitted
     );
 }
@@ -194,7 +194,7 @@ fn the_line_of_a_split_wipe_is_moved_by_mouse_and_by_keys() {
 #[test]
 fn the_mouse_goes_round_the_scene_in_both_pictures_side_by_side() {
     let mut window = open();
-    window.session().look.compare(Sharing::SideBySide);
+    window.session().view.compare(Sharing::SideBySide);
     window.settle();
     let whole = window.harness.get_by_label("Rendered picture").rect();
     for share in [0.25, 0.75] {
@@ -214,7 +214,7 @@ fn a_region_is_drawn_with_the_mouse_its_edges_are_moved_and_it_ends() {
     let (from, to) = (at(&window, 0.75, 0.75), at(&window, 0.25, 0.25));
     drag(&mut window, from, to);
     let close = |window: &Window, expected: [f64; 4]| {
-        let region = window.session().look.region.expect("a region");
+        let region = window.session().view.region.expect("a region");
         let off = region.iter().zip(expected).map(|(a, b)| (a - b).abs());
         assert!(
             off.fold(0.0, f64::max) < 0.02,
@@ -234,7 +234,7 @@ fn a_region_is_drawn_with_the_mouse_its_edges_are_moved_and_it_ends() {
     assert_eq!(window.camera().look_from, camera, "the camera moved too");
     window.harness.get_by_label("Left edge");
     click(&mut window, "Reset region");
-    assert!(window.session().look.region.is_none());
+    assert!(window.session().view.region.is_none());
     assert_eq!(window.shown().region, [0, 0, 64, 48]);
 }
 
@@ -244,20 +244,20 @@ fn a_click_with_the_region_tool_is_no_region() {
     window.session().tool = Tool::Region;
     let from = at(&window, 0.5, 0.5);
     drag(&mut window, from, from + egui::vec2(1.0, 1.0));
-    assert!(window.session().look.region.is_none());
+    assert!(window.session().view.region.is_none());
     assert_eq!(window.session().tool, Tool::Region);
 }
 
 #[test]
 fn an_edge_that_is_dragged_over_the_middle_stays_in_its_picture() {
     let mut window = open();
-    window.session().look.compare(Sharing::SideBySide);
-    window.session().look.region = Some([0.25, 0.25, 0.75, 0.75]);
+    window.session().view.compare(Sharing::SideBySide);
+    window.session().view.region = Some([0.25, 0.25, 0.75, 0.75]);
     window.settle();
     let whole = window.harness.get_by_label("Rendered picture").rect();
     let from = at(&window, 0.75, 0.5);
     drag(&mut window, from, whole.lerp_inside(egui::vec2(0.75, 0.5)));
-    let region = window.session().look.region.expect("a region");
+    let region = window.session().view.region.expect("a region");
     assert_eq!(region, [0.25, 0.25, 1.0, 0.75]);
 }
 
@@ -277,7 +277,7 @@ fn a_view_of_a_quantity_has_a_legend_with_its_range_and_unit() {
         (Integrator::Heat, "steps"),
         (Integrator::Samples, "samples from 1 (black) to 1"),
     ] {
-        window.session().look.settings.integrator = integrator;
+        window.session().view.settings.integrator = integrator;
         window.settle();
         let tone = window.order().tone;
         let [least, most] = window.shown().range.expect("a range");
@@ -302,7 +302,7 @@ fn a_view_of_a_quantity_has_a_legend_with_its_range_and_unit() {
         assert!(window.image(tone) == expected, "{integrator:?}");
     }
     // Two of them in a comparison, and none without overlays.
-    window.session().look.comparison = Some(Comparison {
+    window.session().view.comparison = Some(Comparison {
         integrator: Integrator::Depth,
         sharing: Sharing::Wipe(0.5),
     });
@@ -317,10 +317,10 @@ fn a_view_of_a_quantity_has_a_legend_with_its_range_and_unit() {
 fn stops_are_shown_with_two_decimals() {
     let mut window = open();
     let exposure = 0.2 + 1.0 / 3.0;
-    window.session().look.tone.exposure_ev = exposure;
+    window.session().view.tone.exposure_ev = exposure;
     window.settle();
     window.harness.get_by_value("0.53 EV");
-    assert_eq!(window.session().look.tone.exposure_ev, exposure);
+    assert_eq!(window.session().view.tone.exposure_ev, exposure);
 }
 
 #[test]

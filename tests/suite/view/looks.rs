@@ -4,11 +4,11 @@
 use super::harness::Window;
 use eframe::egui::{self, Key};
 use egui_kittest::SnapshotOptions;
-use glimray::app::view::look::Sharing;
-use glimray::app::view::objects::Id;
-use glimray::app::view::preferences::Theme;
-use glimray::app::view::tools::Tool;
 use glimray::scene::ObjectRef;
+use glimray::viewer::model::objects::Id;
+use glimray::viewer::model::preferences::Theme;
+use glimray::viewer::model::tool::Tool;
+use glimray::viewer::model::view_settings::Sharing;
 
 /// Other drivers round otherwise along edges: this many pixels of 700,000 may differ.
 const MAX_PIXELS: usize = 1000;
@@ -46,7 +46,7 @@ fn what_is_selected_has_handles_and_numbers() {
 fn light_colours_are_legible_with_every_panel_beside_a_wipe() {
     let mut window = open();
     window.session().preferences.theme = Theme::Light;
-    window.session().look.compare(Sharing::Wipe(0.4));
+    window.session().view.compare(Sharing::Wipe(0.4));
     check(&mut window, "light");
 }
 

@@ -3,15 +3,15 @@
 use super::harness::Window;
 use eframe::egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable, by};
-use glimray::app::view::bindings::Action;
-use glimray::app::view::editing;
-use glimray::app::view::files::Intent;
-use glimray::app::view::inspector;
-use glimray::app::view::look::Sharing;
-use glimray::app::view::objects::Id;
-use glimray::app::view::sheets::Sheet;
-use glimray::app::view::tools::Tool;
 use glimray::scene::ObjectRef;
+use glimray::viewer::actions::inspector;
+use glimray::viewer::actions::saving;
+use glimray::viewer::model::bindings::Action;
+use glimray::viewer::model::objects::Id;
+use glimray::viewer::model::tool::Tool;
+use glimray::viewer::model::view_settings::Sharing;
+use glimray::viewer::state::dialogs::Dialog;
+use glimray::viewer::state::files::Intent;
 
 /// What a hand has to do with.
 const CONTROLS: [Role; 18] = [
@@ -96,14 +96,14 @@ fn what_is_in_the_panels_has_a_name() {
         check(&mut window, &format!("{tool:?}"));
     }
     let look = |window: &Window| {
-        let look = &mut window.session().look;
+        let look = &mut window.session().view;
         look.region = Some([0.25, 0.25, 0.75, 0.75]);
         look.tone.exposure_ev += 1.0;
         look.settings.max_depth += 1;
     };
     look(&window);
     for sharing in [Sharing::Wipe(0.5), Sharing::SideBySide] {
-        window.session().look.compare(sharing);
+        window.session().view.compare(sharing);
         check(&mut window, &format!("{sharing:?}"));
     }
 }
@@ -123,17 +123,17 @@ fn what_is_in_the_inspector_has_a_name() {
 fn what_is_in_sheets_and_questions_has_a_name() {
     let mut window = open("sphere.scene");
     for sheet in [
-        Sheet::Bindings,
-        Sheet::Preferences,
-        Sheet::Hint,
-        Sheet::History,
-        Sheet::Cameras,
+        Dialog::Shortcuts,
+        Dialog::Preferences,
+        Dialog::Hint,
+        Dialog::Messages,
+        Dialog::Cameras,
     ] {
         window.harness.key_press(Key::K);
         window.settle();
-        window.session().sheets.open(sheet);
+        window.session().dialogs.open(sheet);
         check(&mut window, &format!("{sheet:?}"));
-        window.session().sheets.close(sheet);
+        window.session().dialogs.close(sheet);
     }
     window.session().files.undecided = Some(Intent::Close);
     check(&mut window, "unsaved changes");
@@ -151,7 +151,7 @@ fn what_is_in_sheets_and_questions_has_a_name() {
         check(&mut window, ending);
     }
     window.session().files.saving = None;
-    editing::perform(Action::SaveSceneAs, &mut window.session());
+    saving::ask(&mut window.session());
     check(&mut window, "a scene");
 }
 

@@ -4,9 +4,9 @@ use super::harness::Window;
 use eframe::App;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Role, pos2, vec2};
 use egui_kittest::kittest::Queryable;
-use glimray::app::view::layout::Panel;
-use glimray::app::view::look::{Comparison, Sharing};
-use glimray::app::view::preferences::Store;
+use glimray::viewer::model::preferences::Store;
+use glimray::viewer::model::view_settings::{Comparison, Sharing};
+use glimray::viewer::state::layout::Panel;
 
 fn open() -> Window {
     let mut window = Window::open(&["--size", "64x48", "--samples", "1"]);
@@ -160,7 +160,7 @@ fn pass(window: &mut Window, events: Vec<Event>) {
 #[test]
 fn a_quick_drag_takes_the_line_of_a_wipe_where_it_was_pressed() {
     let mut window = open();
-    window.session().look.compare(Sharing::Wipe(0.5));
+    window.session().view.compare(Sharing::Wipe(0.5));
     window.settle();
     let (camera, rect) = {
         let session = window.session();
@@ -176,7 +176,7 @@ fn a_quick_drag_takes_the_line_of_a_wipe_where_it_was_pressed() {
     let Some(Comparison {
         sharing: Sharing::Wipe(share),
         ..
-    }) = session.look.comparison
+    }) = session.view.comparison
     else {
         panic!("no wipe any more");
     };

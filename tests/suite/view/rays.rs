@@ -5,13 +5,18 @@ use crate::support::effort;
 use eframe::egui;
 use egui_kittest::kittest::{NodeT, Queryable, by};
 use glam::{DMat4, DVec2, DVec3, Vec3, dvec2};
-use glimray::app::view::files::dialogs::{Dialogs, Reply};
-use glimray::app::view::inspector::export::{self, Format};
-use glimray::app::view::inspector::rows::{self, Filter, Row};
-use glimray::app::view::inspector::{self, Inspected, hidden, outside, words};
-use glimray::app::view::objects::Id;
 use glimray::render::{RayKind, RayTree, SampleTree, Tone, TracedRay};
 use glimray::scene::{Camera, ObjectRef};
+use glimray::viewer::actions::inspector;
+use glimray::viewer::actions::inspector::export;
+use glimray::viewer::actions::inspector::export::Format;
+use glimray::viewer::actions::inspector::{hidden, outside};
+use glimray::viewer::model::file_dialog::{FileDialogs, Reply};
+use glimray::viewer::model::objects::Id;
+use glimray::viewer::state::inspector::rows;
+use glimray::viewer::state::inspector::rows::{Filter, Row};
+use glimray::viewer::state::inspector::words;
+use glimray::viewer::state::inspector::{Inspected, PARTS};
 use std::collections::BTreeSet;
 use std::process::Command;
 
@@ -217,7 +222,7 @@ fn the_tree_stays_and_says_so_when_the_picture_changes() {
     assert!(window.harness.query_by_label(STALE).is_none());
     window
         .session()
-        .rig
+        .controller
         .as_mut()
         .expect("a rig")
         .orbit_by(0.3, 0.0);
@@ -235,7 +240,11 @@ fn what_is_saved_is_what_the_command_prints() {
     for turn in [0.0, 0.7] {
         if turn > 0.0 {
             let mut session = window.session();
-            session.rig.as_mut().expect("a rig").orbit_by(turn, 0.2);
+            session
+                .controller
+                .as_mut()
+                .expect("a rig")
+                .orbit_by(turn, 0.2);
             drop(session);
             window.settle();
             inspector::inspect(&mut window.session(), [28, 21]);
@@ -278,12 +287,12 @@ fn rays_that_cannot_be_saved_are_trouble_that_is_told() {
             "/no/such/folder",
         ),
     ] {
-        window.session().files.dialogs = Dialogs::answering(move |_| reply.clone());
+        window.session().files.dialogs = FileDialogs::answering(move |_| reply.clone());
         let ctx = window.harness.ctx.clone();
         export::save(&mut window.session(), Format::Json, &ctx);
         window.settle();
         let session = window.session();
-        let told = session.notices.all().last().expect("a notice");
+        let told = session.messages.all().last().expect("a notice");
         assert!(
             told.text.contains(words) && told.is_trouble,
             "{}",
@@ -325,7 +334,12 @@ fn lines_in_space_end_where_their_rays_do() {
         ..Filter::default()
     };
     // From outside.
-    let camera = session.inspector.outside.rig.as_ref().expect("a rig");
+    let camera = session
+        .inspector
+        .outside
+        .controller
+        .as_ref()
+        .expect("a rig");
     let camera = camera.camera();
     let size = dvec2(400.0, 300.0);
     let lines = outside::lines(inspected, &all, &camera, size, 5.0, None);
@@ -449,8 +463,13 @@ fn what_a_sphere_hides_of_a_ray_is_known() {
     let mut window = Window::open(&[SPHERE, "--size", "64x48", "--samples", "1"]);
     inspect(&mut window, [32, 24]);
     // From the other side, a little from above.
-    let outside = |session: &mut glimray::app::view::session::Session| {
-        let rig = session.inspector.outside.rig.as_mut().expect("a rig");
+    let outside = |session: &mut glimray::viewer::state::session::Session| {
+        let rig = session
+            .inspector
+            .outside
+            .controller
+            .as_mut()
+            .expect("a rig");
         rig.orbit_by(2.0, -0.1);
     };
     outside(&mut window.session());
@@ -463,7 +482,7 @@ fn what_a_sphere_hides_of_a_ray_is_known() {
     let camera = session
         .inspector
         .outside
-        .rig
+        .controller
         .as_ref()
         .expect("a rig")
         .camera();
@@ -473,7 +492,7 @@ fn what_a_sphere_hides_of_a_ray_is_known() {
         let ray = inspected.ray(*id).expect("a ray");
         let (from, to) = outside::ends(ray, session.inspector.outside.reach());
         for (part, is_hidden) in of_line.iter().enumerate() {
-            let point = from.lerp(to, (part as f64 + 0.5) / hidden::PARTS as f64);
+            let point = from.lerp(to, (part as f64 + 0.5) / PARTS as f64);
             let way = point - camera.look_from;
             let nearest = way * ((center - camera.look_from).dot(way) / way.length_squared());
             let gap = (camera.look_from + nearest).distance(center) / radius;

@@ -84,7 +84,7 @@ struct State {
 fn state(window: &mut Window) -> State {
     window.settle();
     let session = window.session();
-    let look = format!("{:?} {:?}", session.look, session.playback);
+    let look = format!("{:?} {:?}", session.view, session.playback);
     drop(session);
     let screen = window.shown().screen.expect("a screen");
     State {
@@ -125,7 +125,7 @@ fn a_recording_played_twice_ends_in_the_same_state_and_picture() {
     let play = || {
         let mut window = open_replay(&file);
         let mut number = 0;
-        while window.session().tape.is_playing() {
+        while window.session().recording.is_playing() {
             frame(&mut window, Vec::new(), number);
             number += 1;
             assert!(number < 10_000, "it never ends");
@@ -228,7 +228,12 @@ fn soak() {
             frame(&mut window, events, number);
             number += 1;
         }
-        window.session().rig.as_mut().expect("a rig").go_home();
+        window
+            .session()
+            .controller
+            .as_mut()
+            .expect("a rig")
+            .go_home();
         window.settle();
         late = resident();
         if round < rounds * 2 / 5 {

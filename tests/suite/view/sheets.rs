@@ -3,10 +3,11 @@
 use super::harness::Window;
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
-use glimray::app::view::bindings::Action;
-use glimray::app::view::layout::Panel;
-use glimray::app::view::preferences::{Store, Theme};
-use glimray::app::view::sheets::{self, Sheet};
+use glimray::viewer::actions::{dialogs, settings};
+use glimray::viewer::model::bindings::Action;
+use glimray::viewer::model::preferences::{Store, Theme};
+use glimray::viewer::state::dialogs::Dialog;
+use glimray::viewer::state::layout::Panel;
 use std::fs;
 
 const SMALL: [&str; 4] = ["--size", "48x32", "--samples", "1"];
@@ -23,7 +24,7 @@ fn label(window: &Window, action: Action) -> String {
 
 /// Changes a binding as a person would: opens the sheet, searches, clicks and presses.
 fn rebind(window: &mut Window, action: Action, modifiers: egui::Modifiers, key: egui::Key) {
-    if !window.session().sheets.is_open(Sheet::Bindings) {
+    if !window.session().dialogs.is_open(Dialog::Shortcuts) {
         window.harness.key_press(egui::Key::F1);
         window.harness.run_steps(2);
     }
@@ -42,7 +43,7 @@ fn rebind(window: &mut Window, action: Action, modifiers: egui::Modifiers, key: 
 #[test]
 fn every_command_is_in_the_sheet_of_bindings() {
     let window = open();
-    window.session().sheets.open(Sheet::Bindings);
+    window.session().dialogs.open(Dialog::Shortcuts);
     let mut window = window;
     window.harness.run_steps(3);
     for action in Action::ALL {
@@ -62,8 +63,8 @@ fn a_changed_binding_gives_the_command_and_is_kept() {
         egui::Key::J,
     );
     assert_eq!(label(&window, Action::TogglePanels), "Alt+J");
-    window.session().sheets.close(Sheet::Bindings);
-    sheets::write(&mut window.session());
+    window.session().dialogs.close(Dialog::Shortcuts);
+    settings::write(&mut window.session());
     let mut store = Store::in_folder(window.settings.path());
     let (kept, notes) = store.load();
     assert_eq!(notes, Vec::<String>::new());
@@ -105,14 +106,14 @@ fn a_key_that_is_captured_gives_no_command() {
 #[test]
 fn escape_closes_the_uppermost_sheet_only() {
     let mut window = open();
-    window.session().sheets.close(Sheet::Hint);
-    window.session().sheets.open(Sheet::History);
-    window.session().sheets.open(Sheet::Preferences);
+    window.session().dialogs.close(Dialog::Hint);
+    window.session().dialogs.open(Dialog::Messages);
+    window.session().dialogs.open(Dialog::Preferences);
     window.harness.run_steps(2);
     window.harness.key_press(egui::Key::Escape);
     window.harness.run_steps(2);
-    assert!(!window.session().sheets.is_open(Sheet::Preferences));
-    assert!(window.session().sheets.is_open(Sheet::History));
+    assert!(!window.session().dialogs.is_open(Dialog::Preferences));
+    assert!(window.session().dialogs.is_open(Dialog::Messages));
 }
 
 #[test]
@@ -122,7 +123,7 @@ fn the_hint_is_shown_until_it_is_read_once() {
     window.harness.get_by_label("Got it").click();
     window.harness.run_steps(2);
     assert!(window.session().preferences.hint_seen);
-    sheets::write(&mut window.session());
+    settings::write(&mut window.session());
     let Window { settings, .. } = window;
     let mut again = Window::open_with(&SMALL, settings);
     again.settle();
@@ -138,14 +139,14 @@ fn theme_scale_and_panels_come_back_and_are_reset_in_one_click() {
     window.settle();
     // More than a second of the window's own clock.
     window.harness.run_steps(8);
-    sheets::write(&mut window.session());
+    settings::write(&mut window.session());
     let Window { settings, .. } = window;
     let mut again = Window::open_with(&SMALL, settings);
     again.settle();
     assert_eq!(again.harness.ctx.theme(), egui::Theme::Light);
     assert_eq!(again.harness.ctx.zoom_factor(), 1.25);
     assert!(!again.harness.state().layout().is_visible(Panel::Outline));
-    again.session().sheets.open(Sheet::Preferences);
+    again.session().dialogs.open(Dialog::Preferences);
     again.harness.run_steps(3);
     again.harness.get_by_label("Reset everything…").click();
     again.harness.run_steps(3);
@@ -167,11 +168,11 @@ fn settings_that_cannot_be_written_are_one_notice() {
     window.session().store = Store::in_folder(blocked.join("settings"));
     for scale in [1.25, 1.5, 1.75] {
         window.session().preferences.ui_scale = scale;
-        sheets::write(&mut window.session());
+        settings::write(&mut window.session());
     }
     let session = window.session.borrow();
     let told = session
-        .notices
+        .messages
         .all()
         .iter()
         .filter(|n| n.text.contains("cannot keep"));

@@ -1,9 +1,0 @@
-//! `glimray schema`: the JSON Schema of the native scene format.
-
-use super::console;
-use super::error::AppError;
-use crate::import;
-
-pub fn run() -> Result<(), AppError> {
-    console::print_json(&import::native_schema())
-}

@@ -1,0 +1,104 @@
+//! The command line: one file for each command, and what they share. Nothing below this module prints,
+//! exits or reads arguments.
+
+mod animate;
+mod args;
+mod bench;
+mod compare;
+mod completions;
+mod convert;
+mod demo;
+mod destination;
+mod device;
+mod doctor;
+pub mod exit;
+mod explain;
+mod inspect;
+mod interrupt;
+mod job;
+mod man;
+mod memory;
+mod merge;
+pub mod mesa;
+mod picture;
+mod progress;
+mod render;
+mod report;
+mod scene_file;
+mod schema;
+mod snippet;
+mod turntable;
+#[cfg(feature = "viewer")]
+pub mod view;
+
+use crate::app::console;
+use crate::app::error::AppError;
+use crate::app::window::Window;
+use args::{Cli, Command};
+use clap::Parser;
+use std::ffi::OsString;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Runs the command that `arguments` (the program's name first) ask for, prints what went wrong to
+/// the standard error, and returns the exit code. `started` is when the process began: reports
+/// count from there. `window` is the program's window; without it there is no `view`.
+pub fn run(
+    arguments: impl IntoIterator<Item = OsString>,
+    started: Instant,
+    window: Option<&Window>,
+) -> ExitCode {
+    interrupt::survive_file_size_limit();
+    memory::exit_as_too_big();
+    let arguments = with_command(arguments, window);
+    if wants_json(&arguments) {
+        console::speak_json();
+    }
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => return exit::command_line(&error),
+    };
+    match dispatch(cli.command, started, window) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => exit::failure(&error),
+    }
+}
+
+/// `glimray` alone opens the window on a desktop.
+fn with_command(
+    arguments: impl IntoIterator<Item = OsString>,
+    window: Option<&Window>,
+) -> Vec<OsString> {
+    let mut arguments: Vec<_> = arguments.into_iter().collect();
+    if arguments.len() == 1 && window.is_some_and(|window| (window.has_display)()) {
+        arguments.push("view".into());
+    }
+    arguments
+}
+
+/// Whether a program reads the standard error: mistakes in the other arguments are told in its way too.
+fn wants_json(arguments: &[OsString]) -> bool {
+    let is_pair = |pair: &[OsString]| pair[0] == "--progress" && pair[1] == "json";
+    arguments.windows(2).any(is_pair) || arguments.iter().any(|word| word == "--progress=json")
+}
+
+fn dispatch(command: Command, started: Instant, window: Option<&Window>) -> Result<(), AppError> {
+    match command {
+        Command::Demo(arguments) => demo::run(&arguments, started),
+        Command::Render(arguments) => render::run(&arguments, started),
+        Command::Animate(arguments) => animate::run(&arguments, started),
+        Command::Turntable(arguments) => turntable::run(&arguments, started),
+        #[cfg(feature = "viewer")]
+        Command::View(arguments) => view::run(&arguments, window),
+        Command::Merge(arguments) => merge::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
+        Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
+        Command::Doctor(arguments) => doctor::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments, window),
+        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Man(arguments) => man::run(&arguments),
+        Command::Schema => schema::run(),
+    }
+}

@@ -1,0 +1,310 @@
+//! `glimray animate SCENE`: the frames of a moving scene → numbered files, or a video made of them.
+//! `turntable` shares everything below [`Sequence`].
+//!
+//! Frames are files first. A run renders those that are not there as it would make them, and then
+//! joins all of them; so a run that was stopped goes on, and a video can be made again.
+
+mod fingerprint;
+mod journal;
+mod lock;
+mod pattern;
+mod plan;
+mod studio;
+mod target;
+mod timeline;
+
+pub use target::Target;
+pub use timeline::Timeline;
+
+use crate::app::clock::Clock;
+use crate::app::error::AppError;
+use crate::app::overrides::picture_size;
+use crate::cli::args::{AnimateArgs, LogFlags, SequenceFlags};
+use crate::cli::interrupt::Interrupt;
+use crate::cli::job::{Job, Outcome};
+use crate::cli::progress::FrameProgress;
+use crate::cli::report::{AnimationReport, Draft};
+use crate::output::OutputError;
+use crate::output::video::{self, FrameRate, VideoOptions};
+use crate::render::Stats;
+use journal::Journal;
+use lock::Lock;
+use plan::Plan;
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::Path;
+use std::time::Instant;
+use studio::{Sink, Studio};
+use target::{Files, Video};
+
+pub fn run(arguments: &AnimateArgs, started: Instant) -> Result<(), AppError> {
+    let AnimateArgs {
+        scene, output, log, ..
+    } = arguments;
+    drafted(
+        ("animate", "video"),
+        scene,
+        output,
+        log,
+        started,
+        |target, draft| render(arguments, target, draft),
+    )
+}
+
+/// What a command does with the way out that `output` names, or the scene, or else `stem`; and with the draft
+/// of its report, which takes up what comes of it.
+pub fn drafted(
+    (command, stem): (&'static str, &str),
+    scene: &Path,
+    output: &SequenceFlags,
+    log: &LogFlags,
+    started: Instant,
+    render: impl FnOnce(Target, &mut Draft) -> Result<(), AppError>,
+) -> Result<(), AppError> {
+    let stem = scene.file_stem().unwrap_or(stem.as_ref());
+    let target = Target::new(output, Path::new(stem))?;
+    target.check_report_name(log)?;
+    let name = scene.display().to_string();
+    let mut draft = Draft::new(command, log, name, &target.path, started);
+    let outcome = render(target, &mut draft);
+    draft.close(outcome)
+}
+
+fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
+    let mut scene = draft.load(&arguments.scene, &arguments.reading)?;
+    arguments.camera.overrides().apply(&mut scene)?;
+    let clock = Clock::new(&scene.output, &arguments.motion.overrides());
+    let timeline = Timeline::new(&scene, &arguments.range, clock)?;
+    let job = Job {
+        scene,
+        picture: &arguments.picture,
+        device: &arguments.device,
+        log: &arguments.log,
+    };
+    let flags = &arguments.output;
+    Sequence {
+        job,
+        timeline,
+        flags,
+        target,
+    }
+    .run(draft)
+}
+
+/// Frames to be rendered and joined.
+pub struct Sequence<'a> {
+    pub job: Job<'a>,
+    pub timeline: Timeline,
+    pub flags: &'a SequenceFlags,
+    pub target: Target,
+}
+
+/// What became of the frames.
+struct Frames {
+    plan: Plan,
+    rendered: usize,
+    /// Rendering, developing and writing them.
+    seconds: f64,
+    adapter: Option<crate::gpu::AdapterReport>,
+    stats: Stats,
+}
+
+impl<'a> Sequence<'a> {
+    /// Renders the frames that are not done, writes the video if one is asked for, and the report.
+    ///
+    /// # Errors
+    /// Whatever goes wrong on the way. Finished frames stay, and a video is complete or absent.
+    pub fn run(&self, draft: &mut Draft) -> Result<(), AppError> {
+        let interrupt = Interrupt::install()?;
+        self.job.warn_of_skipped();
+        let settings = self.job.settings();
+        let size = picture_size(&settings)?;
+        let video = self.video_options()?;
+        let files = self.target.frames.as_ref();
+        draft.plan(self.job.image(&self.target.path, &settings, size));
+        self.target.spare(&draft.inputs)?;
+        self.job.check_report(draft)?;
+        let gpu = if self.flags.encode_only {
+            None
+        } else {
+            Some(self.job.open_gpu(size, draft)?)
+        };
+        let first = self.timeline.first;
+        self.target
+            .check(size, first, video.as_ref(), !self.flags.encode_only)?;
+        let mut studio = Studio::new(self, settings, gpu)?;
+        draft.seconds.bvh = studio.build_seconds();
+
+        // From here on nothing may end at once: the folder is locked.
+        let _deferred = interrupt.defer();
+        let lock = files.map(|files| Lock::take(files.pattern.folder()));
+        let lock = lock.transpose()?;
+        let mut journal = files.map(|files| Journal::open(&files.pattern));
+        let origin = |number| Ok(studio.origin(&studio.view(number)?));
+        let plan = Plan::new(self, origin, journal.as_ref(), &interrupt)?;
+        plan.spare(self, &draft.inputs)?;
+        let sink = match (&self.target.video, &video) {
+            (Some(Video::Stream), Some(options)) => {
+                Some(Sink::new(&self.target.path, size, options)?)
+            }
+            _ => None,
+        };
+        let frames = studio.render(plan, journal.as_mut(), sink, &interrupt)?;
+        if let Some(journal) = &mut journal {
+            journal.close();
+        }
+        draft.seconds.take(&frames.stats);
+        draft.seconds.write = studio.write_seconds();
+        let encode_seconds = match &video {
+            Some(options) => self.encode(options, &interrupt)?,
+            None => 0.0,
+        };
+        if let (true, Some(files), Some(journal)) = (self.flags.discard_frames, files, journal) {
+            journal.discard(&files.pattern, self.timeline.numbers());
+            drop(lock);
+            // Stays if there is anything else in it.
+            let _ = fs::remove_dir(files.pattern.folder());
+        }
+        draft.seconds.total = draft.started.elapsed().as_secs_f64();
+        Job::warn_of_losses(&frames.stats);
+        self.tell(&frames, draft.seconds.total, encode_seconds);
+        let animation = self.report(&frames, encode_seconds);
+        self.job.report(
+            studio.settings(),
+            Outcome {
+                path: &self.target.path,
+                size,
+                pictures: frames.rendered,
+                adapter: frames.adapter.as_ref(),
+                stats: &frames.stats,
+                animation: Some(animation),
+            },
+            draft,
+        )
+    }
+
+    fn video_options(&self) -> Result<Option<VideoOptions>, AppError> {
+        if self.target.video.is_none() {
+            return Ok(None);
+        }
+        Ok(Some(VideoOptions {
+            rate: rate(self.timeline.video_fps())?,
+            quality: self.flags.quality,
+            repeat: self.timeline.repeat,
+            clobber: !self.flags.no_clobber,
+        }))
+    }
+
+    /// Joins the frames' files, and returns the seconds that it took.
+    fn encode(&self, options: &VideoOptions, interrupt: &Interrupt) -> Result<f64, AppError> {
+        let (Some(Video::File(format)), Some(files)) = (&self.target.video, &self.target.frames)
+        else {
+            return Ok(0.0);
+        };
+        let started = Instant::now();
+        let count = self.timeline.count;
+        let mut progress = FrameProgress::encoding(self.job.log, count);
+        let numbers: Vec<_> = self.timeline.numbers().collect();
+        let mut stopped = None;
+        let encoded = video::encode(&self.target.path, *format, options, count, &mut |index| {
+            let path = files.pattern.path(numbers[index]);
+            if let Err(error) = interrupt.check() {
+                stopped = Some(error);
+                let source = io::Error::from(ErrorKind::Interrupted);
+                return Err(OutputError::Io { path, source });
+            }
+            progress.encoded(index);
+            video::read_frame(&path)
+        });
+        match (encoded, stopped) {
+            (Ok(()), _) => Ok(started.elapsed().as_secs_f64()),
+            (Err(error), stopped) => Err(AppError::Stopped {
+                error: Box::new(stopped.unwrap_or(error.into())),
+                kept: format!(
+                    "All {count} frames are kept in {}; the same command goes on with the video.",
+                    files.pattern.folder().display()
+                ),
+            }),
+        }
+    }
+
+    /// Says what was made.
+    fn tell(&self, frames: &Frames, total: f64, encode_seconds: f64) {
+        let console = self.job.console();
+        let count = self.timeline.count;
+        let pace = match frames.pace() {
+            Some(pace) => format!(", {} frames/s", short(pace)),
+            None => String::new(),
+        };
+        let rendered = frames.rendered;
+        match (&self.target.video, &self.target.frames) {
+            (None, Some(files)) if rendered == 0 => console.status(format_args!(
+                "all {count} frames of {} are done already ({total:.2} s)",
+                files.pattern.text().display()
+            )),
+            (None, Some(files)) => console.status(format_args!(
+                "wrote {rendered} of {count} frames to {} ({total:.2} s{pace})",
+                files.pattern.text().display()
+            )),
+            _ => {
+                let fps = self.timeline.video_fps();
+                console.status(format_args!(
+                    "wrote {}: {count} frames, {} s at {} frames/s ({rendered} rendered{pace}, encoded \
+                     in {encode_seconds:.2} s, {total:.2} s in all)",
+                    self.target.path.display(),
+                    short(count as f64 / fps),
+                    short(fps)
+                ));
+            }
+        }
+    }
+
+    fn report(&self, frames: &Frames, encode_seconds: f64) -> AnimationReport {
+        let Timeline {
+            clock, first, step, ..
+        } = self.timeline;
+        let files: Option<&Files> = self.target.frames.as_ref();
+        AnimationReport {
+            first,
+            last: self.timeline.last(),
+            step,
+            frames: self.timeline.count,
+            fps: clock.fps,
+            shutter: [clock.shutter.open, clock.shutter.close],
+            rendered: frames.rendered,
+            reused: frames.plan.done_count(),
+            redone: frames.plan.redone(),
+            frame_files: files
+                .filter(|_| !self.flags.discard_frames)
+                .map(|files| files.pattern.text().display().to_string()),
+            video: (self.target.video.is_some()).then(|| self.target.path.display().to_string()),
+            encode_seconds,
+            frames_per_second: frames.pace(),
+        }
+    }
+}
+
+impl Frames {
+    /// Frames for each second.
+    fn pace(&self) -> Option<f64> {
+        (self.rendered > 0 && self.seconds > 0.0).then(|| self.rendered as f64 / self.seconds)
+    }
+}
+
+/// Three digits after the point at most, and no more than needed.
+fn short(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3
+}
+
+/// How often a video shows a frame.
+///
+/// # Errors
+/// No video can have that many.
+fn rate(fps: f64) -> Result<FrameRate, AppError> {
+    FrameRate::from_f64(fps).ok_or_else(|| {
+        AppError::Usage(format!(
+            "cannot write a video of {fps} frames per second (--fps, --step): no format has that \
+             rate. Choose another one."
+        ))
+    })
+}

@@ -1,0 +1,168 @@
+//! What is to be done: which frames are there, and why others are not good enough.
+
+use crate::app::error::AppError;
+use crate::app::inputs::Inputs;
+use crate::cli::animate::Sequence;
+use crate::cli::animate::journal::{Journal, Origin, State};
+use crate::cli::interrupt::Interrupt;
+use crate::cli::report::Redone;
+use crate::output;
+
+/// Longer lists of frames are cut in messages.
+const MAX_LISTED: usize = 6;
+
+/// The frames of a run in order, and what each one's file is worth.
+pub struct Plan(Vec<(u32, State)>);
+
+impl Plan {
+    /// Looks at every frame; says what is there and what is to be done again. `origin` is what a frame
+    /// would be made of.
+    ///
+    /// # Errors
+    /// A file may not be replaced, frames are missing that may not be rendered, or a signal asked
+    /// for the end.
+    pub fn new(
+        sequence: &Sequence,
+        origin: impl Fn(u32) -> Result<Origin, AppError>,
+        journal: Option<&Journal>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, AppError> {
+        let numbers = sequence.timeline.numbers();
+        let states = numbers.map(|number| {
+            interrupt.check()?;
+            let state = match (&sequence.target.frames, journal) {
+                (Some(files), Some(journal)) => {
+                    journal.state(&files.pattern, number, || origin(number))?
+                }
+                _ => State::Absent,
+            };
+            Ok((number, state))
+        });
+        let plan = Self(states.collect::<Result<_, AppError>>()?);
+        plan.check(sequence)?;
+        plan.tell(sequence);
+        Ok(plan)
+    }
+
+    /// Refuses to write a frame, or to remove one at the end, that the run reads; or to write one through
+    /// a link that leads out of the folder.
+    pub fn spare(&self, sequence: &Sequence, inputs: &Inputs) -> Result<(), AppError> {
+        let Some(files) = &sequence.target.frames else {
+            return Ok(());
+        };
+        for (number, state) in &self.0 {
+            let path = files.pattern.path(*number);
+            if *state != State::Done {
+                output::check_no_link(&path)?;
+            }
+            if *state != State::Done || sequence.flags.discard_frames {
+                inputs.spare(&path, "frame", files.flag(&sequence.target))?;
+            }
+        }
+        Ok(())
+    }
+
+    pub fn frames(&self) -> impl Iterator<Item = (u32, bool)> {
+        (self.0.iter()).map(|(number, state)| (*number, *state == State::Done))
+    }
+
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Frames that need not be rendered.
+    pub fn done_count(&self) -> usize {
+        self.frames().filter(|(_, done)| *done).count()
+    }
+
+    /// Frames that are there but could not be used, by reason.
+    pub fn redone(&self) -> Vec<Redone> {
+        let mut groups: Vec<Redone> = Vec::new();
+        for (number, state) in &self.0 {
+            let why = match state {
+                State::Stale(why) => why,
+                State::Foreign => "there is a file that no run is known to have written",
+                State::Absent | State::Done => continue,
+            };
+            match groups.iter_mut().find(|group| group.why == why) {
+                Some(group) => group.frames.push(*number),
+                None => groups.push(Redone {
+                    why,
+                    frames: vec![*number],
+                }),
+            }
+        }
+        groups
+    }
+
+    fn check(&self, sequence: &Sequence) -> Result<(), AppError> {
+        let Some(files) = &sequence.target.frames else {
+            return Ok(());
+        };
+        let foreign = self.0.iter().find(|(_, state)| *state == State::Foreign);
+        if let Some((number, _)) = foreign.filter(|_| sequence.flags.no_clobber) {
+            return Err(AppError::Unwritable(format!(
+                "cannot write frame {number} ({}): the file exists and no run of this animation is \
+                 known to have written it. Choose another name, or leave out --no-clobber.",
+                files.pattern.path(*number).display()
+            )));
+        }
+        if sequence.flags.encode_only && self.done_count() < self.count() {
+            let mut why: Vec<_> = self.redone().iter().map(reason).collect();
+            let absent = self.0.iter().filter(|(_, state)| *state == State::Absent);
+            let absent: Vec<_> = absent.map(|(number, _)| *number).collect();
+            if !absent.is_empty() {
+                why.push(format!("{}: not rendered yet", list(&absent)));
+            }
+            return Err(AppError::Refused(format!(
+                "cannot use the frames ({}): {}. Leave out --encode-only to have them rendered.",
+                files.pattern.folder().display(),
+                why.join("; ")
+            )));
+        }
+        Ok(())
+    }
+
+    fn tell(&self, sequence: &Sequence) {
+        let console = sequence.job.console();
+        let done = self.done_count();
+        let count = self.count();
+        if done > 0 && done < count {
+            console.status(format_args!("{done} of {count} frames are done already"));
+        }
+        for group in self.redone() {
+            console.status(format_args!("again {}", reason(&group)));
+        }
+    }
+}
+
+/// `frames 3, 5..9: the scene has changed`.
+fn reason(group: &Redone) -> String {
+    format!("{}: {}", list(&group.frames), group.why)
+}
+
+/// `frame 3`, or `frames 3, 5..9`, of rising numbers.
+fn list(numbers: &[u32]) -> String {
+    let mut runs: Vec<(u32, u32)> = Vec::new();
+    for &number in numbers {
+        match runs.last_mut() {
+            Some((_, last)) if *last + 1 == number => *last = number,
+            _ => runs.push((number, number)),
+        }
+    }
+    let shown = runs.iter().take(MAX_LISTED).map(|(first, last)| {
+        if first == last {
+            first.to_string()
+        } else {
+            format!("{first}..{last}")
+        }
+    });
+    let mut text = shown.collect::<Vec<_>>().join(", ");
+    let hidden = runs.iter().skip(MAX_LISTED);
+    let hidden: u32 = hidden.map(|(first, last)| last - first + 1).sum();
+    if hidden > 0 {
+        text += &format!(" and {hidden} more");
+    }
+    let plural = if numbers.len() == 1 { "" } else { "s" };
+    format!("frame{plural} {text}")
+}

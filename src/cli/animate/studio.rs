@@ -1,0 +1,302 @@
+//! Renders frames: one renderer for all of them, so that only what moves is uploaded for each.
+
+use crate::app::error::AppError;
+use crate::cli::animate::fingerprint;
+use crate::cli::animate::fingerprint::Fingerprint;
+use crate::cli::animate::journal::{Journal, Origin};
+use crate::cli::animate::plan::Plan;
+use crate::cli::animate::target::Files;
+use crate::cli::animate::{Frames, Sequence};
+use crate::cli::interrupt::Interrupt;
+use crate::cli::progress::FrameProgress;
+use crate::gpu::{AdapterReport, Gpu};
+use crate::image::Image;
+use crate::output::video::{self, Picture8, VideoOptions, Y4mWriter};
+use crate::output::{self, Format, OutputError};
+use crate::pack::{self, PackedScene, PackedView};
+use crate::render::{self, RenderSettings, Renderer, Stats, Tone};
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// All that frames are made with.
+pub struct Studio<'a> {
+    sequence: &'a Sequence<'a>,
+    settings: RenderSettings,
+    tone: Tone,
+    scene: Arc<PackedScene>,
+    adapter: Option<AdapterReport>,
+    /// Until there is a renderer; `None` from the start where nothing may be rendered.
+    gpu: Option<Gpu>,
+    renderer: Option<Renderer>,
+    /// Of the scene, and of the settings.
+    fingerprints: (Fingerprint, Fingerprint),
+    write_seconds: f64,
+}
+
+impl<'a> Studio<'a> {
+    /// Packs the scene. Without `gpu` there will be nothing to render.
+    pub fn new(
+        sequence: &'a Sequence<'a>,
+        settings: RenderSettings,
+        gpu: Option<Gpu>,
+    ) -> Result<Self, AppError> {
+        let scene = Arc::new(pack::scene(&sequence.job.scene)?);
+        let tone = (sequence.job).tone(&settings, sequence.target.is_linear());
+        Ok(Self {
+            fingerprints: (
+                render::Fingerprint::of_scene(&scene).to_string(),
+                of_settings(&settings, &tone, sequence.target.frames.as_ref()),
+            ),
+            adapter: gpu.as_ref().map(|gpu| gpu.adapter().clone()),
+            sequence,
+            settings,
+            tone,
+            scene,
+            gpu,
+            renderer: None,
+            write_seconds: 0.0,
+        })
+    }
+
+    pub fn settings(&self) -> &RenderSettings {
+        &self.settings
+    }
+
+    /// Seconds that building the tree took.
+    pub fn build_seconds(&self) -> f64 {
+        self.scene.build_seconds
+    }
+
+    /// Seconds that writing frames took.
+    pub fn write_seconds(&self) -> f64 {
+        self.write_seconds
+    }
+
+    /// What a frame sees.
+    pub fn view(&self, number: u32) -> Result<PackedView, AppError> {
+        let (open, close) = self.sequence.timeline.clock.frame(number);
+        Ok(self
+            .scene
+            .view(&self.sequence.job.scene.motion_samples(open, close))?)
+    }
+
+    /// What a frame with this view depends on.
+    pub fn origin(&self, view: &PackedView) -> Origin {
+        let (scene, settings) = self.fingerprints.clone();
+        Origin {
+            scene,
+            view: render::Fingerprint::of_view(view).to_string(),
+            settings,
+            renderer: self.adapter.as_ref().map(|adapter| {
+                let AdapterReport {
+                    name,
+                    backend,
+                    driver,
+                    ..
+                } = adapter;
+                let version = env!("CARGO_PKG_VERSION");
+                format!("glimray {version}, {backend}, {name}, {driver}")
+            }),
+        }
+    }
+
+    /// Renders every frame that is not done, and sends all of them to `sink`.
+    ///
+    /// # Errors
+    /// Whatever ended the work early, with how much of it is kept.
+    pub fn render(
+        &mut self,
+        plan: Plan,
+        mut journal: Option<&mut Journal>,
+        mut sink: Option<Sink>,
+        interrupt: &Interrupt,
+    ) -> Result<Frames, AppError> {
+        let (count, reused) = (plan.count(), plan.done_count());
+        if let Some(adapter) = self.adapter.as_ref().filter(|_| reused < count) {
+            let what = format!("{} frames of ", count - reused);
+            (self.sequence.job).announce(&what, &self.settings, adapter);
+        }
+        let started = Instant::now();
+        let mut progress = FrameProgress::new(self.sequence.job.log, count, reused);
+        let mut rendered = 0;
+        for (sent, (number, done)) in plan.frames().enumerate() {
+            let mut step = || {
+                interrupt.check()?;
+                if !done {
+                    let view = self.view(number)?;
+                    let image = self.frame(number, &view, &mut progress, interrupt)?;
+                    self.save(number, &view, &image, journal.as_deref_mut())?;
+                    rendered += 1;
+                    progress.finish_frame();
+                    if let Some(sink) = &mut sink {
+                        sink.send(&Picture8::from(&image))?;
+                    }
+                } else if let (Some(sink), Some(files)) = (&mut sink, &self.sequence.target.frames)
+                {
+                    sink.send(&video::read_frame(&files.pattern.path(number))?)?;
+                }
+                Ok(())
+            };
+            if let Err(error) = step() {
+                if let Some(journal) = journal {
+                    journal.close();
+                }
+                let kept = (self.sequence.target.frames.is_some()).then_some(reused + rendered);
+                return Err(stopped(error, number, kept, sent, count));
+            }
+        }
+        if let Some(sink) = sink {
+            sink.finish()?;
+        }
+        Ok(Frames {
+            rendered,
+            seconds: started.elapsed().as_secs_f64(),
+            adapter: self.adapter.clone(),
+            stats: self.stats(),
+            plan,
+        })
+    }
+
+    fn frame(
+        &mut self,
+        number: u32,
+        view: &PackedView,
+        progress: &mut FrameProgress,
+        interrupt: &Interrupt,
+    ) -> Result<Image, AppError> {
+        let renderer = match (&mut self.renderer, self.gpu.take()) {
+            (Some(renderer), _) => {
+                renderer.set_frame(view)?;
+                renderer
+            }
+            (empty, Some(gpu)) => {
+                let settings = self.settings.clone();
+                let policy = self.sequence.job.policy();
+                let scene = self.scene.clone();
+                empty.insert(Renderer::new(gpu, scene, view, settings, policy)?)
+            }
+            (None, None) => return Err(AppError::Internal("there is no adapter".into())),
+        };
+        while !renderer.is_done() {
+            interrupt.check()?;
+            renderer.step()?;
+            progress.update(number, renderer.progress());
+        }
+        Ok(renderer.develop(&self.tone)?)
+    }
+
+    fn save(
+        &mut self,
+        number: u32,
+        view: &PackedView,
+        image: &Image,
+        journal: Option<&mut Journal>,
+    ) -> Result<(), AppError> {
+        let (Some(files), Some(journal)) = (&self.sequence.target.frames, journal) else {
+            return Ok(());
+        };
+        let started = Instant::now();
+        let path = files.pattern.path(number);
+        if journal.has_begun(number) {
+            // Removes what a run that was killed at this frame left.
+            output::check(&path, &files.options, image.width, image.height)?;
+        }
+        journal.begin(number)?;
+        output::save_with(&path, image, &files.options)?;
+        journal.finish(&files.pattern, number, self.origin(view))?;
+        self.write_seconds += started.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    fn stats(&self) -> Stats {
+        (self.renderer.as_ref()).map_or_else(Stats::default, |renderer| renderer.stats().clone())
+    }
+}
+
+/// Frames on their way to the standard output, a pipe or a device.
+pub struct Sink {
+    writer: Y4mWriter<Box<dyn Write>>,
+    path: PathBuf,
+}
+
+impl Sink {
+    /// `path` is `-` for the standard output.
+    pub fn new(
+        path: &Path,
+        (width, height): (u32, u32),
+        options: &VideoOptions,
+    ) -> Result<Self, AppError> {
+        let failed = |source| no_more(path, source);
+        let out: Box<dyn Write> = match path == Path::new("-") {
+            true => Box::new(io::stdout()),
+            false => Box::new(File::options().write(true).open(path).map_err(failed)?),
+        };
+        let writer = Y4mWriter::new(out, width, height, options.rate).map_err(failed)?;
+        Ok(Self {
+            writer,
+            path: path.into(),
+        })
+    }
+
+    fn send(&mut self, picture: &Picture8) -> Result<(), AppError> {
+        let sent = self.writer.write(picture);
+        Ok(sent.map_err(|source| no_more(&self.path, source))?)
+    }
+
+    fn finish(self) -> Result<(), AppError> {
+        let Self { writer, path } = self;
+        Ok(writer.finish().map_err(|source| no_more(&path, source))?)
+    }
+}
+
+fn no_more(path: &Path, source: io::Error) -> OutputError {
+    match path == Path::new("-") {
+        true => OutputError::Stdout { source },
+        false => OutputError::Io {
+            path: path.into(),
+            source,
+        },
+    }
+}
+
+/// Of everything but scene and view that can show in a frame's file.
+fn of_settings(settings: &RenderSettings, tone: &Tone, files: Option<&Files>) -> Fingerprint {
+    let format = match files {
+        // Only what is lossy has a quality.
+        Some(files) if files.format == Format::Jpeg => format!("JPEG {}", files.options.quality),
+        Some(files) => files.format.to_string(),
+        None => String::new(),
+    };
+    let (settings, tone) = (settings.fingerprint(), tone.fingerprint());
+    fingerprint::of_text(&format!("{settings} {tone} {format}"))
+}
+
+/// An error that ended the work at frame `number`, with how to go on: `kept` frames are in files, or
+/// `sent` were sent where none are.
+fn stopped(
+    error: AppError,
+    number: u32,
+    kept: Option<usize>,
+    sent: usize,
+    count: usize,
+) -> AppError {
+    let kept = match kept {
+        Some(0) if !matches!(error, AppError::Interrupted { .. }) => return error,
+        Some(kept) => {
+            format!("{kept} of {count} frames are kept; the same command goes on from there.")
+        }
+        None => format!("{sent} of {count} frames were sent."),
+    };
+    let is_interrupted = matches!(error, AppError::Interrupted { .. });
+    AppError::Stopped {
+        error: Box::new(error),
+        kept: if is_interrupted {
+            kept
+        } else {
+            format!("This was frame {number}; {kept}")
+        },
+    }
+}

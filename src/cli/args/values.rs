@@ -1,0 +1,289 @@
+//! What may follow a flag, and the words for what may not.
+
+use crate::app::words::Words;
+use crate::cli::args::{ProgressMode, Range, SequenceFormat};
+use crate::gpu::Backend;
+use crate::output::Format;
+use crate::output::video::VideoFormat;
+use crate::scene::Shutter;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use glam::{DVec3, Vec3};
+use std::fmt::Display;
+use std::str::FromStr;
+
+/// Parses one of a setting's names.
+pub fn one_of<T: Clone + Send + Sync>(
+    words: &'static Words<T>,
+) -> impl TypedValueParser<Value = T> {
+    let names = words.0.iter();
+    PossibleValuesParser::new(names.map(|(name, help, _)| PossibleValue::new(name).help(help)))
+        .try_map(|given| {
+            let found = words.0.iter().find(|(name, ..)| *name == given);
+            found.map(|(.., value)| value.clone()).ok_or("unknown")
+        })
+}
+
+pub static FORMATS: Words<Format> = Words(&[
+    ("png", "8 bits a channel, lossless", Format::Png),
+    ("jpeg", "8 bits a channel, lossy", Format::Jpeg),
+    ("jpg", "the same as jpeg", Format::Jpeg),
+    ("exr", "OpenEXR, linear float", Format::Exr),
+    ("hdr", "Radiance RGBE, linear", Format::Hdr),
+]);
+
+pub static SEQUENCE_FORMATS: Words<SequenceFormat> = Words(&[
+    (
+        "png",
+        "frames of 8 bits a channel, lossless",
+        SequenceFormat::Frames(Format::Png),
+    ),
+    (
+        "jpeg",
+        "frames of 8 bits a channel, lossy",
+        SequenceFormat::Frames(Format::Jpeg),
+    ),
+    (
+        "jpg",
+        "the same as jpeg",
+        SequenceFormat::Frames(Format::Jpeg),
+    ),
+    (
+        "exr",
+        "frames in OpenEXR, linear float",
+        SequenceFormat::Frames(Format::Exr),
+    ),
+    (
+        "hdr",
+        "frames in Radiance RGBE, linear",
+        SequenceFormat::Frames(Format::Hdr),
+    ),
+    (
+        "mp4",
+        "a video of H.264",
+        SequenceFormat::Video(VideoFormat::Mp4),
+    ),
+    (
+        "gif",
+        "an animated GIF of 256 colours",
+        SequenceFormat::Video(VideoFormat::Gif),
+    ),
+    (
+        "y4m",
+        "YUV4MPEG2, not compressed, for other programs",
+        SequenceFormat::Video(VideoFormat::Y4m),
+    ),
+]);
+
+pub static BACKENDS: Words<Backend> = Words(&[
+    ("vulkan", "Linux, Windows, Android", Backend::Vulkan),
+    ("metal", "macOS, iOS", Backend::Metal),
+    ("dx12", "Windows", Backend::Dx12),
+    ("gl", "OpenGL ES 3.1 and later", Backend::Gl),
+]);
+
+pub static PROGRESS: Words<ProgressMode> = Words(&[
+    (
+        "auto",
+        "a bar on a terminal, else nothing",
+        ProgressMode::Auto,
+    ),
+    ("bar", "a bar (on a terminal)", ProgressMode::Bar),
+    ("json", "a line of JSON now and then", ProgressMode::Json),
+    ("none", "nothing", ProgressMode::None),
+]);
+
+/// Pixels on a side of a picture.
+const MAX_SIDE: u32 = 1_000_000;
+
+/// Coordinates beyond this are mistakes.
+const MAX_COORDINATE: f64 = 1e9;
+
+pub fn size(text: &str) -> Result<(u32, u32), String> {
+    let (width, height) = text
+        .split_once(['x', 'X', '×'])
+        .ok_or("it must be WIDTHxHEIGHT in pixels, such as 640x480")?;
+    let side = |text: &str| within(text, 1, MAX_SIDE, "width and height");
+    Ok((side(width)?, side(height)?))
+}
+
+pub fn crop(text: &str) -> Result<[u32; 4], String> {
+    let edges @ [x0, y0, x1, y1] = list(text, "X0,Y0,X1,Y1", |part| {
+        within(part, 0, MAX_SIDE, "every edge")
+    })?;
+    if x0 < x1 && y0 < y1 {
+        Ok(edges)
+    } else {
+        Err("it is empty: X1 must be more than X0, and Y1 more than Y0".into())
+    }
+}
+
+pub fn pixel(text: &str) -> Result<[u32; 2], String> {
+    list(text, "X,Y", |part| {
+        within(part, 0, MAX_SIDE, "column and row")
+    })
+}
+
+pub fn vector(text: &str) -> Result<DVec3, String> {
+    let part = |part: &str| within(part, -MAX_COORDINATE, MAX_COORDINATE, "every coordinate");
+    list(text, "X,Y,Z", part).map(DVec3::from_array)
+}
+
+pub fn color(text: &str) -> Result<Vec3, String> {
+    let part = |part: &str| within(part, 0.0, 1e6_f32, "every channel");
+    list(text, "R,G,B", part).map(Vec3::from_array)
+}
+
+pub fn noise(text: &str) -> Result<f32, String> {
+    within(text, 1e-6, 1.0, "it")
+}
+
+pub fn share(text: &str) -> Result<f32, String> {
+    within(text, 0.0, 1.0, "it")
+}
+
+pub fn exposure(text: &str) -> Result<f32, String> {
+    within(text, -64.0, 64.0, "it")
+}
+
+pub fn fov_y(text: &str) -> Result<f64, String> {
+    within(text, 0.001, 179.9, "it")
+}
+
+pub fn orthographic(text: &str) -> Result<f64, String> {
+    within(text, 1e-9, MAX_COORDINATE, "it")
+}
+
+pub fn filter_radius(text: &str) -> Result<f32, String> {
+    within(text, 0.01, 16.0, "it")
+}
+
+pub fn light_samples(text: &str) -> Result<f32, String> {
+    within(text, 0.001, 1000.0, "it")
+}
+
+pub fn tolerance(text: &str) -> Result<f64, String> {
+    within(text, 0.0, f64::MAX, "it")
+}
+
+pub fn percent(text: &str) -> Result<f64, String> {
+    within(text, 0.0, 100.0, "it")
+}
+
+/// The highest number of a frame.
+pub const MAX_FRAME: u32 = 9_999_999;
+
+pub fn fps(text: &str) -> Result<f64, String> {
+    within(text, 0.01, 1000.0, "it")
+}
+
+pub fn seconds(text: &str) -> Result<f64, String> {
+    within(text, 0.01, 1e4, "it")
+}
+
+pub fn time(text: &str) -> Result<f64, String> {
+    within(text, -1e6, 1e6, "it")
+}
+
+pub fn elevation(text: &str) -> Result<f64, String> {
+    within(text, -89.0, 89.0, "it")
+}
+
+pub fn turn_fov_y(text: &str) -> Result<f64, String> {
+    within(text, 1.0, 170.0, "it")
+}
+
+pub fn margin(text: &str) -> Result<f64, String> {
+    within(text, 0.0, 0.9, "it")
+}
+
+/// A direction of unit length.
+pub fn axis(text: &str) -> Result<DVec3, String> {
+    match text.trim() {
+        "x" | "X" => Ok(DVec3::X),
+        "y" | "Y" => Ok(DVec3::Y),
+        "z" | "Z" => Ok(DVec3::Z),
+        other => (vector(other).ok())
+            .and_then(DVec3::try_normalize)
+            .ok_or_else(|| {
+                format!("it must be x, y, z or a direction such as 0,1,0, not `{other}`")
+            }),
+    }
+}
+
+/// Longest time that the shutter may be open, and furthest from a frame's own time, in frames.
+const MAX_SHUTTER: f64 = 16.0;
+
+/// `0.5`, `180deg` or `-0.25..0.25`.
+pub fn shutter(text: &str) -> Result<Shutter, String> {
+    if let Some((open, close)) = text.split_once("..") {
+        let end = |text: &str| within(text, -MAX_SHUTTER, MAX_SHUTTER, "opening and closing");
+        let (open, close) = (end(open)?, end(close)?);
+        return if open <= close {
+            Ok(Shutter { open, close })
+        } else {
+            Err("it closes before it opens: write the earlier time first, as in -0.25..0.25".into())
+        };
+    }
+    let close = match text.trim().strip_suffix("deg") {
+        Some(degrees) => within(degrees, 0.0, MAX_SHUTTER * 360.0, "the angle")? / 360.0,
+        None => within(text, 0.0, MAX_SHUTTER, "it")?,
+    };
+    Ok(Shutter { open: 0.0, close })
+}
+
+/// `A..B`, `A..`, `..B` or `A`.
+pub fn frames(text: &str) -> Result<Range, String> {
+    let number = |text: &str| within(text, 0, MAX_FRAME, "a frame's number");
+    let Some((first, last)) = text.split_once("..") else {
+        let first = number(text)?;
+        return Ok(Range {
+            first,
+            last: Some(first),
+        });
+    };
+    let is_given = |text: &str| !text.trim().is_empty();
+    // Rust's way of saying that the end is included.
+    let last = last.strip_prefix('=').unwrap_or(last);
+    let first = if is_given(first) { number(first)? } else { 0 };
+    let last = is_given(last).then(|| number(last)).transpose()?;
+    match last {
+        Some(last) if last < first => Err(format!(
+            "it is empty: {last} is before {first}. Write the smaller number first"
+        )),
+        _ => Ok(Range { first, last }),
+    }
+}
+
+pub fn override_of(text: &str) -> Result<String, String> {
+    match text.split_once('=') {
+        Some((key, _)) if !key.trim().is_empty() => Ok(text.into()),
+        _ => Err("it must be KEY=VALUE, such as camera.fov_y_deg=30".into()),
+    }
+}
+
+/// `N` values with commas between them.
+fn list<T, const N: usize>(
+    text: &str,
+    shape: &str,
+    part: impl Fn(&str) -> Result<T, String>,
+) -> Result<[T; N], String> {
+    let parts = text.split(',').map(part).collect::<Result<Vec<_>, _>>()?;
+    let count = parts.len();
+    parts
+        .try_into()
+        .map_err(|_| format!("it must be {shape}, which is {N} numbers, not {count}"))
+}
+
+/// A number from `min` to `max`; NaN is in no range.
+fn within<T>(text: &str, min: T, max: T, what: &str) -> Result<T, String>
+where
+    T: FromStr + PartialOrd + Display,
+{
+    match text.trim().parse::<T>() {
+        Ok(number) if number >= min && number <= max => Ok(number),
+        _ => Err(format!(
+            "{what} must be a number from {min} to {max}, not `{}`",
+            text.trim()
+        )),
+    }
+}

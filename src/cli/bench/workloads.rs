@@ -1,0 +1,255 @@
+//! What is measured: scenes made here, the same every time.
+
+use crate::app::error::AppError;
+use crate::app::showcase;
+use crate::import;
+use crate::pack;
+use crate::scene::{
+    Background, Beyond, Camera, CameraProperty, Curve, Easing, Instance, Interpolation, Light,
+    LightKind, Material, Mesh, Scene, Target, Track, Values,
+};
+use glam::{DAffine3, DQuat, DVec3, Vec3};
+use std::f32::consts::TAU;
+use std::fmt::Write;
+
+/// A scene and the size to render it in.
+pub struct Workload {
+    pub name: &'static str,
+    pub scene: Scene,
+    /// Width and height in pixels.
+    pub size: (u32, u32),
+    /// When the shutter opens and closes, in seconds.
+    pub shot: (f64, f64),
+    /// See [`pack::scene_with`].
+    pub most_baked: usize,
+}
+
+impl Workload {
+    fn new(name: &'static str, scene: Scene, size: (u32, u32)) -> Self {
+        Self {
+            name,
+            scene,
+            size,
+            shot: (0.0, 0.0),
+            most_baked: pack::MAX_BAKED,
+        }
+    }
+}
+
+/// Every workload, from small to large.
+pub fn all() -> Result<Vec<Workload>, AppError> {
+    let mut demo = showcase::scene()?;
+    demo.output.samples = 1;
+    let course = course_text(1500, 3);
+    let course = import::parse("course.scene", &course, &import::Options::default())?;
+    let size = demo.output.size;
+    let quick = (512, 512);
+    Ok(vec![
+        Workload::new("course", course, (640, 480)),
+        Workload::new("demo", demo, size),
+        Workload::new(
+            "heightfield-primary",
+            height_field(300, Vec::new()),
+            (1024, 1024),
+        ),
+        Workload::new(
+            "heightfield-shadow",
+            height_field(300, vec![sun()]),
+            (1024, 1024),
+        ),
+        Workload::new(
+            "heightfield-16",
+            sampled(height_field(300, Vec::new())),
+            quick,
+        ),
+        Workload {
+            shot: (0.0, 1.0),
+            ..Workload::new(
+                "heightfield-pan",
+                sampled(panned(height_field(300, Vec::new()))),
+                quick,
+            )
+        },
+        Workload {
+            most_baked: usize::MAX,
+            ..Workload::new("crowd-laid-out", crowd(), (640, 480))
+        },
+        Workload {
+            most_baked: 0,
+            ..Workload::new("crowd-instanced", crowd(), (640, 480))
+        },
+    ])
+}
+
+/// A scene in the course's format: small triangles strewn over a box in front of the camera.
+fn course_text(triangle_count: u32, light_count: u32) -> String {
+    let mut random = Random(1);
+    let mut text = format!("{}\namb: 0.1 0.1 0.1\n", triangle_count + light_count);
+    for _ in 0..triangle_count {
+        let center = [4.0, 3.0, 3.0].map(|extent| extent * (random.next() - 0.5));
+        text.push_str("triangle\n");
+        for _ in 0..3 {
+            let [x, y, z] = center.map(|c| c + 0.4 * (random.next() - 0.5));
+            let [r, g, b] = [random.next(), random.next(), random.next()];
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "pos: {x:.4} {y:.4} {:.4}\nnor: 0 0 1\ndif: {r:.3} {g:.3} {b:.3}\n\
+                 spe: 0.3 0.3 0.3\nshi: 20",
+                z - 5.0
+            );
+        }
+    }
+    for light in 0..light_count {
+        let x = 4.0 * light as f32 - 4.0;
+        let _ = writeln!(text, "light\npos: {x} 4 2\ncol: 0.4 0.4 0.4");
+    }
+    text
+}
+
+/// Hills of `columns` × `rows` quads over the unit square of the ground. `shift` makes others of them.
+fn hills(columns: u32, rows: u32, shift: f32) -> Mesh {
+    let side = columns + 1;
+    let height = |x: f32, z: f32| {
+        let x = x + shift;
+        0.06 * (TAU * 2.0 * x).sin() * (TAU * 3.0 * z).cos() + 0.01 * (TAU * 17.0 * (x + z)).sin()
+    };
+    let at = |i: u32, count: u32| i as f32 / count as f32 - 0.5;
+    let vertices = (0..side * (rows + 1)).map(|i| (at(i % side, columns), at(i / side, rows)));
+    let mut mesh = Mesh {
+        positions: vertices
+            .map(|(x, z)| Vec3::new(x, height(x, z), z))
+            .collect(),
+        materials: vec![0; (side * (rows + 1)) as usize],
+        triangles: (0..columns * rows)
+            .map(|i| i / columns * side + i % columns)
+            .flat_map(|i| [[i, i + side, i + 1], [i + 1, i + side, i + side + 1]])
+            .collect(),
+        ..Mesh::default()
+    };
+    mesh.repair();
+    mesh
+}
+
+/// A thousand hills of a thousand triangles, no two of which are the same, in the sun.
+#[cfg(feature = "viewer")]
+pub fn thousand() -> Scene {
+    let mut scene = height_field(1, vec![sun()]);
+    scene.meshes = (0..1000)
+        .map(|i| hills(25, 20, i as f32 / 1000.0).into())
+        .collect();
+    scene.instances = (0..1000)
+        .map(|i| {
+            let place = DVec3::new(f64::from(i % 40) - 19.5, 0.0, f64::from(i / 40) - 12.0);
+            Instance {
+                mesh: i as usize,
+                placement: DAffine3::from_scale_rotation_translation(
+                    DVec3::splat(0.03),
+                    DQuat::from_rotation_y(f64::from(i)),
+                    place * 0.03,
+                ),
+                node: None,
+            }
+        })
+        .collect();
+    scene.pin_render_origin();
+    scene
+}
+
+/// Hills of `quads` × `quads` quads, seen from a corner.
+fn height_field(quads: u32, lights: Vec<Light>) -> Scene {
+    Scene {
+        meshes: vec![hills(quads, quads, 0.0).into()],
+        instances: vec![Instance {
+            mesh: 0,
+            placement: DAffine3::IDENTITY,
+            node: None,
+        }],
+        materials: vec![Material::default()],
+        lights,
+        cameras: vec![Camera {
+            look_from: DVec3::new(0.55, 0.45, 0.75),
+            look_at: DVec3::new(0.0, -0.05, 0.0),
+            ..Camera::default()
+        }],
+        background: Background::Color(Vec3::new(0.5, 0.7, 1.0)),
+        ambient: Vec3::splat(0.2),
+        ..Scene::default()
+    }
+}
+
+/// The same scene with 16 samples a pixel.
+fn sampled(mut scene: Scene) -> Scene {
+    scene.output.samples = 16;
+    scene
+}
+
+/// The same scene with a camera that passes by in a second, an eighth of the picture to the right.
+fn panned(mut scene: Scene) -> Scene {
+    let camera = &scene.cameras[0];
+    let (from, at) = (camera.look_from, camera.look_at);
+    let way = (at - from).cross(camera.up).normalize() * 0.125;
+    for (property, rest) in [
+        (CameraProperty::LookFrom, from),
+        (CameraProperty::LookAt, at),
+    ] {
+        scene.tracks.push(Track {
+            targets: vec![Target::Camera(0, property)],
+            curve: Curve {
+                times: vec![0.0, 1.0],
+                values: Values::Vector(vec![rest, rest + way]),
+                interpolation: Interpolation::Linear,
+                easing: Easing::None,
+                beyond: Beyond::Hold,
+            },
+        });
+    }
+    scene
+}
+
+/// A hundred hills of 7,200 triangles in a field, each turned and stretched in its own way, in the sun.
+fn crowd() -> Scene {
+    let mut scene = height_field(60, vec![sun()]);
+    let mut random = Random(3);
+    let mut next = || f64::from(random.next());
+    scene.instances = (0..100)
+        .map(|i| {
+            let place = DVec3::new(
+                f64::from(i % 10) - 4.5,
+                next() * 0.2,
+                f64::from(i / 10) - 4.5,
+            );
+            let scale = DVec3::new(0.1 + 0.06 * next(), 0.2 + 0.2 * next(), 0.1 + 0.06 * next());
+            let turn = DQuat::from_rotation_y(6.0 * next());
+            Instance {
+                mesh: 0,
+                placement: DAffine3::from_scale_rotation_translation(scale, turn, place * 0.12),
+                node: None,
+            }
+        })
+        .collect();
+    scene
+}
+
+fn sun() -> Light {
+    Light {
+        kind: LightKind::Directional {
+            direction: DVec3::new(-2.0, -1.0, -1.0).normalize(),
+        },
+        color: Vec3::ONE,
+        ..Light::default()
+    }
+}
+
+/// Numbers in 0..1, the same on every machine (Steele and Vigna's SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 40) as f32 / (1_u32 << 24) as f32
+    }
+}

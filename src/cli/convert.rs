@@ -1,0 +1,37 @@
+//! `glimray convert SCENE`: a scene in any format → a native one.
+
+use crate::app::console;
+use crate::app::error::AppError;
+use crate::app::scene_file::save;
+use crate::cli::args::ConvertArgs;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::scene_file;
+use std::path::PathBuf;
+
+pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
+    Interrupt::install()?;
+    let (scene, inputs) = scene_file::load(&arguments.scene, &arguments.reading);
+    let scene = scene?;
+    let stem = arguments.scene.file_stem().unwrap_or("scene".as_ref());
+    // What comes before the last dot is the name, whatever dots are in it.
+    let default = || {
+        let mut name = stem.to_owned();
+        name.push(".toml");
+        PathBuf::from(name)
+    };
+    let path: PathBuf = arguments.output.clone().unwrap_or_else(default);
+    let is_native = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    if !is_native {
+        return Err(AppError::Usage(format!(
+            "cannot convert (-o {}): only native scenes are written, whose names end in .toml. \
+             Name such a file.",
+            path.display()
+        )));
+    }
+    inputs.spare(&path, "scene", "-o")?;
+    let files = save(&path, &scene, !arguments.no_clobber)?;
+    let list = files.iter().map(|path| format!("{}\n", path.display()));
+    console::print(&list.collect::<String>())
+}

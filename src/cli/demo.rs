@@ -1,0 +1,44 @@
+//! `glimray demo`: the showcase scene, which is part of the program, → a picture.
+
+use crate::app::error::AppError;
+use crate::app::showcase;
+use crate::cli::args::{DemoArgs, PartFlags, PictureFlags, SizeFlags};
+use crate::cli::destination::Destination;
+use crate::cli::job;
+use crate::cli::job::Job;
+use crate::cli::picture;
+use crate::cli::report::Draft;
+use std::path::Path;
+use std::time::Instant;
+
+pub fn run(arguments: &DemoArgs, started: Instant) -> Result<(), AppError> {
+    let destination = Destination::new(&arguments.output, Path::new("glimray"));
+    job::check_report_name(&arguments.log, destination.path(), |_| false)?;
+    let path = destination.path();
+    let mut draft = Draft::new("demo", &arguments.log, showcase::NAME.into(), path, started);
+    let outcome = render(arguments, &destination, &mut draft);
+    draft.close(outcome)
+}
+
+fn render(
+    arguments: &DemoArgs,
+    destination: &Destination,
+    draft: &mut Draft,
+) -> Result<(), AppError> {
+    let loading = Instant::now();
+    let scene = showcase::scene()?;
+    draft.seconds.load = loading.elapsed().as_secs_f64();
+    draft.read(&scene);
+    let SizeFlags { size, samples } = arguments.size;
+    let job = Job {
+        scene,
+        picture: &PictureFlags {
+            size: SizeFlags { size, samples },
+            ..PictureFlags::default()
+        },
+        device: &arguments.device,
+        log: &arguments.log,
+    };
+    let part = PartFlags::default();
+    picture::run(&job, destination, (0.0, 0.0), &part, draft)
+}

@@ -1,0 +1,124 @@
+//! `glimray doctor`: the adapters, the one that would be used, and whether it computes right.
+
+mod self_test;
+
+use crate::app::console;
+use crate::app::error::AppError;
+use crate::cli::args::DoctorArgs;
+use crate::cli::device;
+use crate::gpu::{self, AdapterChoice, AdapterReport, Gpu};
+use self_test::Outcome;
+use serde_json::{Value, json};
+use std::fmt::{self, Write};
+
+pub fn run(arguments: &DoctorArgs) -> Result<(), AppError> {
+    let choice = arguments.device.choice();
+    let adapters = gpu::adapters(&AdapterChoice {
+        adapter: None,
+        ..choice.clone()
+    });
+    let opened = Gpu::new(&choice);
+    let chosen = opened.as_ref().ok().map(|gpu| gpu.adapter().clone());
+    let outcome = opened
+        .map_err(AppError::from)
+        .and_then(|gpu| self_test::run(gpu, arguments.device.memory_limit_bytes()));
+
+    let advice = (adapters.is_empty()).then(|| device::advice(choice.backend));
+    if arguments.json {
+        let passed = outcome.as_ref().ok();
+        console::print_json(&to_json(&adapters, chosen.as_ref(), passed, advice))?;
+    } else {
+        let mut text = String::new();
+        write_text(&mut text, &adapters, chosen.as_ref(), outcome.as_ref().ok())
+            .map_err(|error| AppError::Internal(format!("doctor: {error}")))?;
+        if let Some(advice) = advice {
+            text = text + advice + "\n";
+        }
+        console::print(&text)?;
+    }
+    verdict(chosen.as_ref(), outcome?)
+}
+
+fn verdict(chosen: Option<&AdapterReport>, outcome: Outcome) -> Result<(), AppError> {
+    if outcome.is_right() {
+        return Ok(());
+    }
+    let Outcome { found, expected } = outcome;
+    Err(AppError::SelfTest(format!(
+        "the adapter computes wrong results ({}): the test sphere is {found:.4}, not {expected:.4}. \
+         Choose another one with --adapter or update the driver.",
+        chosen.map_or_else(String::new, device::describe)
+    )))
+}
+
+fn to_json(
+    adapters: &[AdapterReport],
+    chosen: Option<&AdapterReport>,
+    outcome: Option<&Outcome>,
+    advice: Option<&str>,
+) -> Value {
+    json!({
+        "adapters": adapters.iter().map(adapter_json).collect::<Value>(),
+        "chosen": chosen.map(|adapter| adapter.index),
+        "self_test": outcome.map(|outcome| json!({
+            "passed": outcome.is_right(), "found": outcome.found, "expected": outcome.expected,
+        })),
+        "advice": advice,
+    })
+}
+
+fn adapter_json(adapter: &AdapterReport) -> Value {
+    json!({
+        "index": adapter.index,
+        "name": adapter.name,
+        "backend": adapter.backend,
+        "driver": adapter.driver,
+        "device_type": adapter.device_type,
+        "max_buffer_bytes": adapter.max_buffer_bytes,
+        "max_binding_bytes": adapter.max_binding_bytes,
+        "max_texture_2d": adapter.max_texture_2d,
+        "storage_buffers_per_stage": adapter.storage_buffers_per_stage,
+    })
+}
+
+fn write_text(
+    out: &mut String,
+    adapters: &[AdapterReport],
+    chosen: Option<&AdapterReport>,
+    outcome: Option<&Outcome>,
+) -> fmt::Result {
+    writeln!(out, "adapters   {}", adapters.len())?;
+    for adapter in adapters {
+        writeln!(out, "  {}  {}", adapter.index, device::describe(adapter))?;
+        writeln!(out, "     driver {}", adapter.driver)?;
+        writeln!(
+            out,
+            "     buffers to {}, bindings to {}, textures to {}², {} storage buffers a stage",
+            size(adapter.max_buffer_bytes),
+            size(adapter.max_binding_bytes),
+            adapter.max_texture_2d,
+            adapter.storage_buffers_per_stage
+        )?;
+    }
+    if let Some(adapter) = chosen {
+        writeln!(out, "used       {}  {}", adapter.index, adapter.name)?;
+    }
+    match outcome {
+        Some(outcome) if outcome.is_right() => writeln!(
+            out,
+            "self-test  passed: the test sphere is {:.4}, as computed by hand",
+            outcome.found
+        )?,
+        Some(_) => writeln!(out, "self-test  failed")?,
+        None => writeln!(out, "self-test  not done")?,
+    }
+    Ok(())
+}
+
+fn size(bytes: u64) -> String {
+    if bytes >= 10 << 30 {
+        format!("{} GiB", bytes >> 30)
+    } else {
+        format!("{} MiB", bytes >> 20)
+    }
+}

@@ -1,0 +1,103 @@
+//! `glimray explain SCENE --pixel X,Y`: every ray of a pixel, as a tree, as JSON or as lines.
+
+use crate::app::clock::Clock;
+use crate::app::console;
+use crate::app::error::AppError;
+use crate::app::overrides::picture_size;
+use crate::app::words::INTEGRATORS;
+use crate::app::{ray_lines, ray_text};
+use crate::cli::args::ExplainArgs;
+use crate::cli::device;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::job;
+use crate::cli::memory;
+use crate::cli::scene_file;
+use crate::gpu::Gpu;
+use crate::output;
+use crate::render::{Integrator, RenderSettings, Renderer};
+use std::ops::Range;
+
+pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
+    Interrupt::install()?;
+    let (scene, inputs) = scene_file::load(&arguments.scene, &arguments.reading);
+    let mut scene = scene?;
+    arguments.camera.overrides().apply(&mut scene)?;
+    let settings = arguments.picture.overrides().settings(&scene.output);
+    check(arguments.pixel, &settings)?;
+    if let Some(path) = &arguments.obj {
+        inputs.spare(path, "rays", "--obj")?;
+        output::check_file(path, true)?;
+    }
+    for skipped in &scene.skipped {
+        console::warning(skipped);
+    }
+    let clock = Clock::new(&scene.output, &arguments.motion.overrides());
+    let shot = clock.moment(&arguments.moment.moment());
+    memory::check_scene(
+        &scene,
+        &arguments.scene.display().to_string(),
+        settings.size,
+    )?;
+    let gpu = Gpu::new(&arguments.device.choice())?;
+    let policy = job::policy(&arguments.device, false);
+    let (mut renderer, _) = device::renderer(gpu, &scene, shot, settings.clone(), policy)?;
+    let samples = samples(arguments, &settings, &mut renderer)?;
+    let tree = renderer.explain(arguments.pixel, samples)?;
+    if let Some(path) = &arguments.obj {
+        output::write(path, ray_lines::of(&tree).as_bytes(), true)?;
+    }
+    if arguments.json {
+        return console::print_bytes(ray_text::json(&tree, settings.size)?.as_bytes());
+    }
+    let text = ray_text::of(&tree, settings.size)
+        .map_err(|error| AppError::Internal(format!("explain: {error}")))?;
+    console::print(&text)
+}
+
+/// Refuses a pixel that is not in the picture, and pictures whose pixels have no tree.
+fn check(pixel: [u32; 2], settings: &RenderSettings) -> Result<(), AppError> {
+    if settings.integrator != Integrator::Whitted {
+        let word = INTEGRATORS.word(&settings.integrator);
+        return Err(AppError::Usage(format!(
+            "cannot explain (--integrator {word}): only whitted sends rays on. Leave it out."
+        )));
+    }
+    picture_size(settings)?;
+    let [x0, y0, width, height] = settings.region();
+    let ([x, y], [x1, y1]) = (pixel, [x0 + width, y0 + height]);
+    if (x0..x1).contains(&x) && (y0..y1).contains(&y) {
+        return Ok(());
+    }
+    let what = match settings.crop {
+        None => "the picture",
+        Some(_) => "what --crop leaves of it",
+    };
+    Err(AppError::Usage(format!(
+        "no such pixel (--pixel {x},{y}): {what} has columns {x0} to {} and rows {y0} to {}. \
+         Choose one of them.",
+        x1 - 1,
+        y1 - 1,
+    )))
+}
+
+/// The samples to explain. How many adaptive sampling takes depends on the whole picture, which is
+/// rendered for that.
+fn samples(
+    arguments: &ExplainArgs,
+    settings: &RenderSettings,
+    renderer: &mut Renderer,
+) -> Result<Range<u32>, AppError> {
+    while settings.is_adaptive() && !renderer.is_done() {
+        renderer.step()?;
+    }
+    let count = renderer.samples_at(arguments.pixel);
+    match arguments.sample {
+        None => Ok(0..count),
+        Some(sample) if sample < count => Ok(sample..sample + 1),
+        Some(sample) => Err(AppError::Usage(format!(
+            "no such sample (--sample {sample}): the pixel has {count}, from 0 to {}. \
+             Choose one of them, or set --samples.",
+            count.saturating_sub(1)
+        ))),
+    }
+}

@@ -1,0 +1,384 @@
+//! `glimray inspect SCENE`: what is in a scene, as the renderer will see it.
+
+mod motion;
+mod textures;
+
+use crate::app::console;
+use crate::app::error::AppError;
+use crate::app::words::{TONES, TRANSFERS};
+use crate::cli::args::InspectArgs;
+use crate::cli::job::UNLIT;
+use crate::cli::report::SceneReport;
+use crate::cli::scene_file;
+use crate::scene::{Attenuation, Background, Camera, Light, LightKind, Material, Scene};
+use glam::{DVec3, Vec3};
+use serde_json::{Value, json};
+use std::fmt::{self, Write};
+
+/// Longer lists are cut in the text; JSON has everything.
+const MAX_LISTED: usize = 20;
+
+pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
+    let scene = scene_file::load(&arguments.scene, &arguments.reading).0?;
+    let path = arguments.scene.display().to_string();
+    if arguments.json {
+        return console::print_json(&to_json(&path, &scene)?);
+    }
+    let mut text = String::new();
+    write_text(&mut text, &path, &scene)
+        .map_err(|error| AppError::Internal(format!("inspect: {error}")))?;
+    console::print(&text)
+}
+
+/// The report's `scene` with what is in it: lengths in scene units, angles in degrees.
+fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
+    let mut value = serde_json::to_value(SceneReport::new(path, scene))
+        .map_err(|error| AppError::Internal(format!("inspect: {error}")))?;
+    let output = &scene.output;
+    value["bounds"] = scene.bounds().map_or(
+        Value::Null,
+        |(min, max)| json!({ "min": min.to_array(), "max": max.to_array() }),
+    );
+    value["camera_index"] = json!(scene.camera_index);
+    value["cameras"] = scene.cameras.iter().map(camera_json).collect();
+    value["light_list"] = scene.lights.iter().map(light_json).collect();
+    value["material_list"] = scene.materials.iter().map(material_json).collect();
+    value["texture_list"] = (scene.textures.iter())
+        .map(textures::texture_json)
+        .collect();
+    value["picture_list"] = (scene.pictures.iter())
+        .map(|picture| textures::picture_json(picture))
+        .collect();
+    value["background"] = background_json(&scene.background);
+    value["ambient"] = json!(scene.ambient.to_array());
+    value["output"] = json!({
+        "size": output.size, "samples": output.samples, "max_depth": output.max_depth,
+        "exposure_ev": output.exposure_ev,
+        "tone": TONES.word(&output.tone), "transfer": TRANSFERS.word(&output.transfer),
+    });
+    value["animation"] = motion::to_json(scene);
+    value["unlit"] = json!(scene.is_unlit());
+    Ok(value)
+}
+
+fn background_json(background: &Background) -> Value {
+    match background {
+        Background::Color(color) => json!(color.to_array()),
+        Background::Gradient { bottom, top } => {
+            json!({ "bottom": bottom.to_array(), "top": top.to_array() })
+        }
+        Background::Picture {
+            picture,
+            strength,
+            rotation,
+        } => json!({
+            "picture": picture, "strength": strength, "rotation_deg": rotation.to_degrees(),
+        }),
+    }
+}
+
+fn camera_json(camera: &Camera) -> Value {
+    json!({
+        "name": camera.name,
+        "look_from": camera.look_from.to_array(),
+        "look_at": camera.look_at.to_array(),
+        "up": camera.up.to_array(),
+        "fov_y_deg": camera.fov_y.to_degrees(),
+        "orthographic": camera.orthographic_height,
+        "lens": camera.lens.map(|lens| json!({
+            "radius": lens.radius,
+            "focus_distance": lens.focus_distance,
+            "blades": lens.blade_count,
+            "blade_rotation_deg": lens.blade_rotation.to_degrees(),
+        })),
+    })
+}
+
+fn light_json(light: &Light) -> Value {
+    let mut value = match light.kind {
+        LightKind::Point { position } => json!({ "position": position.to_array() }),
+        LightKind::Directional { direction } => json!({ "direction": direction.to_array() }),
+        LightKind::Spot {
+            position,
+            direction,
+            inner,
+            outer,
+        } => json!({
+            "position": position.to_array(),
+            "direction": direction.to_array(),
+            "inner_deg": inner.to_degrees(),
+            "outer_deg": outer.to_degrees(),
+        }),
+        LightKind::Rectangle {
+            center,
+            edge_u,
+            edge_v,
+        } => json!({
+            "center": center.to_array(),
+            "edge_u": edge_u.to_array(),
+            "edge_v": edge_v.to_array(),
+        }),
+        LightKind::Disc {
+            center,
+            normal,
+            radius,
+        } => json!({
+            "center": center.to_array(), "normal": normal.to_array(), "radius": radius,
+        }),
+        LightKind::Sphere { center, radius } => {
+            json!({ "center": center.to_array(), "radius": radius })
+        }
+    };
+    value["kind"] = json!(kind(light));
+    value["color"] = json!(light.color.to_array());
+    value["attenuation"] = json!(attenuation(light));
+    value["samples"] = json!(light.samples);
+    value["visible"] = json!(light.visible);
+    value
+}
+
+fn material_json(material: &Material) -> Value {
+    json!({
+        "name": material.name,
+        "diffuse": material.diffuse.to_array(),
+        "specular": material.specular.to_array(),
+        "shininess": material.shininess,
+        "ambient": material.ambient.to_array(),
+        "two_sided": material.two_sided,
+        "emission": material.emission.to_array(),
+        "reflect": material.reflect.to_array(),
+        "transmit": material.transmit.to_array(),
+        "ior": material.ior,
+        "absorption": material.absorption.to_array(),
+        "priority": material.priority,
+    })
+}
+
+fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
+    let counts = SceneReport::new(path, scene);
+    writeln!(out, "{path}")?;
+    writeln!(out, "spheres    {}", counts.spheres)?;
+    writeln!(out, "shapes     {} others", counts.shapes)?;
+    let [meshes, instances] = [scene.meshes.len(), counts.instances];
+    let triangles = counts.triangles;
+    writeln!(
+        out,
+        "triangles  {triangles} in {instances} instance(s) of {meshes} mesh(es)"
+    )?;
+    match scene.bounds() {
+        Some((min, max)) => writeln!(out, "bounds     {} to {}", point(min), point(max))?,
+        None => writeln!(out, "bounds     nothing bounded")?,
+    }
+    let output = &scene.output;
+    writeln!(
+        out,
+        "picture    {}×{}, {} sample(s), depth {}, exposure {} EV, tone {}, transfer {}",
+        output.size.0,
+        output.size.1,
+        output.samples,
+        output.max_depth,
+        output.exposure_ev,
+        TONES.word(&output.tone),
+        TRANSFERS.word(&output.transfer),
+    )?;
+    writeln!(
+        out,
+        "background {}, ambient {}",
+        background(&scene.background),
+        color(scene.ambient)
+    )?;
+    motion::write_text(out, scene)?;
+    list(out, "cameras", &scene.cameras, |out, index, camera| {
+        let used = if index == scene.camera_index {
+            " (used)"
+        } else {
+            ""
+        };
+        camera_text(out, camera)?;
+        write!(out, "{used}")
+    })?;
+    list(out, "lights", &scene.lights, |out, _, light| {
+        light_text(out, light)
+    })?;
+    list(out, "materials", &scene.materials, |out, _, material| {
+        material_text(out, material)
+    })?;
+    list(out, "textures", &scene.textures, |out, _, texture| {
+        textures::texture_text(out, texture)
+    })?;
+    list(out, "pictures", &scene.pictures, |out, _, picture| {
+        textures::picture_text(out, picture)
+    })?;
+    list(out, "skipped", &scene.skipped, |out, _, reason| {
+        write!(out, "{reason}")
+    })?;
+    match scene.is_unlit() {
+        true => writeln!(out, "warning    {UNLIT}"),
+        false => Ok(()),
+    }
+}
+
+fn list<T>(
+    out: &mut String,
+    title: &str,
+    items: &[T],
+    write_item: impl Fn(&mut String, usize, &T) -> fmt::Result,
+) -> fmt::Result {
+    let count = items.len();
+    writeln!(out, "{title:<10} {count}")?;
+    for (index, item) in items.iter().enumerate().take(MAX_LISTED) {
+        write!(out, "  {index}  ")?;
+        write_item(out, index, item)?;
+        writeln!(out)?;
+    }
+    if count > MAX_LISTED {
+        writeln!(out, "  … and {} more", count - MAX_LISTED)?;
+    }
+    Ok(())
+}
+
+fn background(background: &Background) -> String {
+    match background {
+        Background::Color(value) => color(*value),
+        Background::Gradient { bottom, top } => {
+            format!("from {} below to {} above", color(*bottom), color(*top))
+        }
+        Background::Picture { picture, .. } => format!("picture number {picture}"),
+    }
+}
+
+fn camera_text(out: &mut String, camera: &Camera) -> fmt::Result {
+    let (from, at) = (point(camera.look_from), point(camera.look_at));
+    let high = match camera.orthographic_height {
+        Some(height) => format!("orthographic, {}", number(height)),
+        None => format!("{:.2}°", camera.fov_y.to_degrees()),
+    };
+    write!(
+        out,
+        "{} from {from} to {at}, {high} high",
+        quoted(&camera.name)
+    )?;
+    match camera.lens {
+        Some(lens) => write!(
+            out,
+            ", lens of radius {} sharp at {}",
+            number(lens.radius),
+            number(lens.focus_distance)
+        ),
+        None => Ok(()),
+    }
+}
+
+fn light_text(out: &mut String, light: &Light) -> fmt::Result {
+    write!(out, "{} {}", kind(light), color(light.color))?;
+    match light.kind {
+        LightKind::Point { position } => write!(out, " at {}", point(position))?,
+        LightKind::Directional { direction } => write!(out, " towards {}", point(direction))?,
+        LightKind::Spot {
+            position,
+            direction,
+            inner,
+            outer,
+        } => write!(
+            out,
+            " at {} towards {}, {:.1}° to {:.1}° off axis",
+            point(position),
+            point(direction),
+            inner.to_degrees(),
+            outer.to_degrees()
+        )?,
+        LightKind::Rectangle {
+            center,
+            edge_u,
+            edge_v,
+        } => write!(
+            out,
+            " at {}, {} by {}",
+            point(center),
+            number(2.0 * edge_u.length()),
+            number(2.0 * edge_v.length())
+        )?,
+        LightKind::Disc { center, radius, .. } | LightKind::Sphere { center, radius } => {
+            write!(out, " at {}, radius {}", point(center), number(radius))?;
+        }
+    }
+    write!(out, ", attenuation {}", attenuation(light))?;
+    match light.kind.radiance() {
+        Some(_) => {
+            let seen = if light.visible { "" } else { ", invisible" };
+            write!(out, ", {} sample(s){seen}", light.samples)
+        }
+        None => Ok(()),
+    }
+}
+
+fn material_text(out: &mut String, material: &Material) -> fmt::Result {
+    write!(
+        out,
+        "{} diffuse {}, specular {}, shininess {}",
+        quoted(&material.name),
+        color(material.diffuse),
+        color(material.specular),
+        material.shininess
+    )?;
+    for (what, share) in [
+        ("reflect", material.reflect),
+        ("transmit", material.transmit),
+        ("absorption", material.absorption),
+        ("emission", material.emission),
+    ] {
+        if share != Vec3::ZERO {
+            write!(out, ", {what} {}", color(share))?;
+        }
+    }
+    if material.transmit != Vec3::ZERO {
+        write!(out, ", ior {}", material.ior)?;
+    }
+    Ok(())
+}
+
+fn kind(light: &Light) -> &'static str {
+    match light.kind {
+        LightKind::Point { .. } => "point",
+        LightKind::Directional { .. } => "directional",
+        LightKind::Spot { .. } => "spot",
+        LightKind::Rectangle { .. } => "rectangle",
+        LightKind::Disc { .. } => "disc",
+        LightKind::Sphere { .. } => "sphere",
+    }
+}
+
+fn attenuation(light: &Light) -> &'static str {
+    match light.attenuation {
+        Attenuation::None => "none",
+        Attenuation::InverseSquare => "inverse-square",
+    }
+}
+
+fn quoted(name: &str) -> String {
+    if name.is_empty() {
+        "(no name)".into()
+    } else {
+        // A name of many lines must not pass for several lines of this list.
+        format!("`{}`", name.replace(char::is_control, " "))
+    }
+}
+
+fn point(p: DVec3) -> String {
+    format!("({}, {}, {})", number(p.x), number(p.y), number(p.z))
+}
+
+fn color_json(c: Vec3) -> Value {
+    json!(c.to_array())
+}
+
+fn color(c: Vec3) -> String {
+    point(c.as_dvec3())
+}
+
+/// Four digits after the point at most, and no more than needed.
+fn number(value: f64) -> String {
+    let rounded = (value * 1e4).round() / 1e4;
+    // Adding 0 turns -0 into 0.
+    format!("{}", rounded + 0.0)
+}

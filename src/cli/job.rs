@@ -1,0 +1,249 @@
+//! What `render`, `demo` and `animate` share: a scene, what the command line says about it, and the
+//! words and figures at the end.
+
+use crate::app::console;
+use crate::app::console::Console;
+use crate::app::error::AppError;
+use crate::app::inputs;
+use crate::app::words::INTEGRATORS;
+use crate::cli::args::{DeviceFlags, LogFlags, PictureFlags};
+use crate::cli::destination;
+use crate::cli::device;
+use crate::cli::memory;
+use crate::cli::report;
+use crate::cli::report::{
+    AnimationReport, Draft, ImageReport, Memory, Report, SceneReport, Seconds,
+};
+use crate::gpu::{AdapterReport, Gpu};
+use crate::output;
+use crate::render::{ExecutionPolicy, RenderSettings, Stats, Tone};
+use crate::scene::Scene;
+use std::path::Path;
+use std::time::Instant;
+
+/// What is said about a scene without light.
+pub const UNLIT: &str = "the scene has no light, so its surfaces are black. Add a light, an ambient \
+                         light, or a material with emission.";
+
+/// A scene to be rendered, and everything the command line says about how.
+pub struct Job<'a> {
+    /// With flags that win over it applied.
+    pub scene: Scene,
+    pub picture: &'a PictureFlags,
+    pub device: &'a DeviceFlags,
+    pub log: &'a LogFlags,
+}
+
+/// What came of a job.
+pub struct Outcome<'a> {
+    /// Where it went; `-` is the standard output.
+    pub path: &'a Path,
+    /// Width and height of every picture.
+    pub size: (u32, u32),
+    /// Pictures that were rendered.
+    pub pictures: usize,
+    /// `None` where none was needed.
+    pub adapter: Option<&'a AdapterReport>,
+    pub stats: &'a Stats,
+    /// Of a moving picture.
+    pub animation: Option<AnimationReport>,
+}
+
+impl Job<'_> {
+    pub fn console(&self) -> Console {
+        Console::new(self.log.quiet, self.log.verbose)
+    }
+
+    /// Says what was left out of the scene, and whether it has no light.
+    pub fn warn_of_skipped(&self) {
+        for skipped in &self.scene.skipped {
+            console::warning(skipped);
+        }
+        if self.scene.is_unlit() {
+            console::warning(UNLIT);
+        }
+    }
+
+    pub fn settings(&self) -> RenderSettings {
+        self.picture.overrides().settings(&self.scene.output)
+    }
+
+    pub fn policy(&self) -> ExecutionPolicy {
+        policy(self.device, self.log.count_rays)
+    }
+
+    /// How a picture is developed, for a format that holds linear light or one that does not.
+    pub fn tone(&self, settings: &RenderSettings, linear_format: bool) -> Tone {
+        let tone = self.picture.develop.overrides();
+        tone.tone(&self.scene.output, settings.integrator, linear_format)
+    }
+
+    /// What is to be rendered, for the report.
+    pub fn image(&self, path: &Path, settings: &RenderSettings, size: (u32, u32)) -> ImageReport {
+        ImageReport {
+            path: path.display().to_string(),
+            width: size.0,
+            height: size.1,
+            samples: settings.samples,
+            mean_samples: 0.0,
+            integrator: INTEGRATORS.word(&settings.integrator),
+            max_depth: settings.max_depth,
+            seed: settings.seed,
+        }
+    }
+
+    /// Opens the adapter, for pictures of `size` pixels.
+    pub fn open_gpu(&self, size: (u32, u32), draft: &mut Draft) -> Result<Gpu, AppError> {
+        memory::check_scene(&self.scene, &draft.scene_path, size)?;
+        let started = Instant::now();
+        let gpu = Gpu::new(&self.device.choice())?;
+        draft.seconds.gpu = started.elapsed().as_secs_f64();
+        draft.adapter = Some(gpu.adapter().into());
+        Ok(gpu)
+    }
+
+    /// Says what is about to be rendered, and on what.
+    pub fn announce(&self, what: &str, settings: &RenderSettings, adapter: &AdapterReport) {
+        let (width, height) = settings.size;
+        let adapter = device::describe(adapter);
+        let console = self.console();
+        console.status(format_args!(
+            "rendering {what}{width}×{height} on {adapter}"
+        ));
+    }
+
+    /// Refuses a report that would replace what the run reads, or that cannot be written.
+    pub fn check_report(&self, draft: &Draft) -> Result<(), AppError> {
+        match self.log.report.as_deref() {
+            Some(report) if report != Path::new("-") => {
+                draft.inputs.spare(report, "report", "--report")?;
+                Ok(output::check_file(report, true)?)
+            }
+            Some(_) => destination::check_open("the report"),
+            None => Ok(()),
+        }
+    }
+
+    /// Warns of what is missing in the pictures.
+    pub fn warn_of_losses(stats: &Stats) {
+        if stats.device_losses > 0 {
+            console::warning(format_args!(
+                "the GPU was lost {} time(s); the work went on from the last finished slice.",
+                stats.device_losses
+            ));
+        }
+        if stats.nonfinite_samples > 0 {
+            console::warning(format_args!(
+                "{} samples were not finite and were dropped.",
+                stats.nonfinite_samples
+            ));
+        }
+        if stats.cut_off_trees > 0 {
+            console::warning(format_args!(
+                "{} samples had too many rays and were cut off, or passed through more than 4 \
+                 transparent bodies at once. Lower --max-depth, raise --min-throughput, or nest fewer \
+                 bodies.",
+                stats.cut_off_trees
+            ));
+        }
+    }
+
+    /// Reports what came of it, if a report is asked for.
+    pub fn report(
+        &self,
+        settings: &RenderSettings,
+        outcome: Outcome,
+        draft: &Draft,
+    ) -> Result<(), AppError> {
+        let stats = outcome.stats;
+        let (width, height) = outcome.size;
+        let samples = outcome.pictures as f64 * f64::from(width) * f64::from(height);
+        let report = Report {
+            glimray: Report::VERSION,
+            command: draft.command,
+            scene: SceneReport::new(&draft.scene_path, &self.scene),
+            image: ImageReport {
+                // Nothing rendered has nothing to average.
+                mean_samples: stats.samples as f64 / samples.max(1.0),
+                ..self.image(outcome.path, settings, outcome.size)
+            },
+            adapter: outcome.adapter.map(Into::into),
+            seconds: draft.seconds.clone(),
+            rays: stats.rays.as_ref().map(Into::into),
+            submissions: stats.into(),
+            nonfinite_samples: stats.nonfinite_samples,
+            cut_off_trees: stats.cut_off_trees,
+            memory: Memory {
+                gpu_bytes: stats.gpu_bytes,
+                host_peak_bytes: report::host_peak_bytes(),
+            },
+            animation: outcome.animation,
+            error: None,
+        };
+        details(self.console(), &report);
+        match &self.log.report {
+            Some(path) => report::write(path, &report),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Refuses a report that would go where the pictures go: to `path`, or to one of those that are `taken`.
+pub fn check_report_name(
+    log: &LogFlags,
+    path: &Path,
+    taken: impl FnOnce(&Path) -> bool,
+) -> Result<(), AppError> {
+    match log.report.as_deref() {
+        Some(report) if inputs::is_same(report, path) || taken(report) => {
+            Err(AppError::Usage(format!(
+                "cannot write the report ({}): the picture goes there. Choose another name.",
+                report.display()
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+impl Seconds {
+    /// Takes over what the renderer measured.
+    pub fn take(&mut self, stats: &Stats) {
+        self.compile = stats.compile_seconds;
+        self.upload = stats.upload_seconds;
+        self.trace = stats.trace_seconds;
+        self.develop = stats.develop_seconds;
+    }
+}
+
+/// How pictures are made, which does not show in them.
+pub fn policy(device: &DeviceFlags, count_rays: bool) -> ExecutionPolicy {
+    ExecutionPolicy {
+        count_rays,
+        memory_limit_bytes: device.memory_limit_bytes(),
+        ..ExecutionPolicy::default()
+    }
+}
+
+fn details(console: Console, report: &Report) {
+    let Seconds {
+        load,
+        bvh,
+        gpu,
+        compile,
+        upload,
+        trace,
+        develop,
+        write,
+        ..
+    } = &report.seconds;
+    console.detail(format_args!(
+        "seconds: load {load:.3}, bvh {bvh:.3}, gpu {gpu:.3}, compile {compile:.3}, \
+         upload {upload:.3}, trace {trace:.3}, develop {develop:.3}, write {write:.3}"
+    ));
+    console.detail(format_args!(
+        "{} submissions, the longest {:.1} ms; {:.1} MiB on the GPU",
+        report.submissions.count,
+        report.submissions.longest_ms,
+        report.memory.gpu_bytes as f64 / f64::from(1 << 20)
+    ));
+}

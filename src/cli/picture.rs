@@ -1,0 +1,157 @@
+//! Scene → picture in a file: what `render` and `demo` share.
+
+use crate::app::error::AppError;
+use crate::app::legend;
+use crate::app::overrides::picture_size;
+use crate::cli::args::PartFlags;
+use crate::cli::destination::Destination;
+use crate::cli::device;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::job::{Job, Outcome};
+use crate::cli::progress::Progress;
+use crate::cli::report::Draft;
+use crate::image::Image;
+use crate::render::{FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
+use std::ops::Range;
+use std::time::Instant;
+
+/// Renders the picture that is taken while the shutter is open, from `shot.0` to `shot.1` in
+/// seconds, and writes it, and the report if one is asked for.
+///
+/// # Errors
+/// Whatever goes wrong on the way; no picture is then left on the disk.
+pub fn run(
+    job: &Job,
+    destination: &Destination,
+    shot: (f64, f64),
+    part: &PartFlags,
+    draft: &mut Draft,
+) -> Result<(), AppError> {
+    let interrupt = Interrupt::install()?;
+    job.warn_of_skipped();
+    let settings = job.settings();
+    let settings = RenderSettings {
+        sample_range: range(part, destination, &settings)?,
+        ..settings
+    };
+    let size = picture_size(&settings)?;
+    draft.plan(job.image(destination.path(), &settings, size));
+    draft.inputs.spare(destination.path(), "picture", "-o")?;
+    destination.check(size.0, size.1)?;
+    job.check_report(draft)?;
+
+    let gpu = job.open_gpu(size, draft)?;
+    job.announce("", &settings, gpu.adapter());
+    let (mut renderer, bvh_seconds) =
+        device::renderer(gpu, &job.scene, shot, settings.clone(), job.policy())?;
+    draft.seconds.bvh = bvh_seconds;
+    {
+        let _deferred = interrupt.defer();
+        trace(job, &mut renderer, &interrupt)?;
+        let started = if destination.is_film() {
+            let mut film = renderer.film()?;
+            film.set_tone(job.tone(&settings, false));
+            let started = Instant::now();
+            destination.save_film(&film)?;
+            started
+        } else {
+            let image = develop(job, &mut renderer, &settings, destination, &interrupt)?;
+            let started = Instant::now();
+            destination.save(&image)?;
+            started
+        };
+        draft.seconds.write = started.elapsed().as_secs_f64();
+    }
+    let stats = renderer.stats();
+    draft.seconds.take(stats);
+    draft.seconds.total = draft.started.elapsed().as_secs_f64();
+    Job::warn_of_losses(stats);
+    let path = destination.path();
+    job.console().status(format_args!(
+        "wrote {} ({:.2} s)",
+        path.display(),
+        draft.seconds.total
+    ));
+    job.report(
+        &settings,
+        Outcome {
+            path,
+            size,
+            pictures: 1,
+            adapter: Some(renderer.adapter()),
+            stats,
+            animation: None,
+        },
+        draft,
+    )
+}
+
+/// The samples that the flags ask for; `None` for all.
+fn range(
+    part: &PartFlags,
+    destination: &Destination,
+    settings: &RenderSettings,
+) -> Result<Option<Range<u32>>, AppError> {
+    let (start, total) = (part.sample_offset.unwrap_or(0), settings.samples);
+    if part.sample_offset.is_none() && part.sample_count.is_none() {
+        return Ok(None);
+    }
+    let refused = |why: String| Err(AppError::Usage(format!("cannot render a part {why}")));
+    if !destination.is_film() {
+        return refused(format!(
+            "({}): only a film holds a part of the samples. Choose a name that ends in .film.",
+            destination.path().display()
+        ));
+    }
+    if start >= total {
+        return refused(format!(
+            "(--sample-offset {start}): the picture has samples 0 to {}. Choose a smaller one.",
+            total - 1
+        ));
+    }
+    let count = part.sample_count.unwrap_or(total - start);
+    let end = start.saturating_add(count).min(total);
+    if !start.is_multiple_of(SAMPLE_BLOCK) {
+        return refused(format!(
+            "(--sample-offset {start}): parts begin at multiples of {SAMPLE_BLOCK}. Choose one."
+        ));
+    }
+    if !end.is_multiple_of(SAMPLE_BLOCK) && end < total {
+        return refused(format!(
+            "(--sample-count {count}): parts end at multiples of {SAMPLE_BLOCK}, or with the last sample. \
+             Choose such a number."
+        ));
+    }
+    if settings.is_adaptive() {
+        return refused(format!("(--antialias adaptive): {}", FilmError::Adaptive));
+    }
+    Ok(Some(start..end))
+}
+
+fn trace(job: &Job, renderer: &mut Renderer, interrupt: &Interrupt) -> Result<(), AppError> {
+    let mut progress = Progress::new(job.log);
+    while !renderer.is_done() {
+        interrupt.check()?;
+        renderer.step()?;
+        progress.update(renderer.progress());
+    }
+    Ok(())
+}
+
+fn develop(
+    job: &Job,
+    renderer: &mut Renderer,
+    settings: &RenderSettings,
+    destination: &Destination,
+    interrupt: &Interrupt,
+) -> Result<Image, AppError> {
+    let tone = job.tone(settings, destination.is_linear());
+    let image = renderer.develop(&tone)?;
+    interrupt.check()?;
+    if let (Levels::Found, Some(quantity)) = (tone.levels, settings.integrator.quantity())
+        && let Some(range) = renderer.range()?
+    {
+        (job.console()).status(format_args!("{}", legend::sentence(quantity, range)));
+    }
+    Ok(image)
+}

@@ -1,0 +1,40 @@
+//! `glimray render SCENE`: a scene file → a picture.
+
+use crate::app::clock::Clock;
+use crate::app::error::AppError;
+use crate::cli::args::RenderArgs;
+use crate::cli::destination::Destination;
+use crate::cli::job;
+use crate::cli::job::Job;
+use crate::cli::picture;
+use crate::cli::report::Draft;
+use std::path::Path;
+use std::time::Instant;
+
+pub fn run(arguments: &RenderArgs, started: Instant) -> Result<(), AppError> {
+    let stem = arguments.scene.file_stem().unwrap_or("picture".as_ref());
+    let destination = Destination::new(&arguments.output, Path::new(stem));
+    job::check_report_name(&arguments.log, destination.path(), |_| false)?;
+    let name = arguments.scene.display().to_string();
+    let mut draft = Draft::new("render", &arguments.log, name, destination.path(), started);
+    let outcome = render(arguments, &destination, &mut draft);
+    draft.close(outcome)
+}
+
+fn render(
+    arguments: &RenderArgs,
+    destination: &Destination,
+    draft: &mut Draft,
+) -> Result<(), AppError> {
+    let mut scene = draft.load(&arguments.scene, &arguments.reading)?;
+    arguments.camera.overrides().apply(&mut scene)?;
+    let clock = Clock::new(&scene.output, &arguments.motion.overrides());
+    let shot = clock.moment(&arguments.moment.moment());
+    let job = Job {
+        scene,
+        picture: &arguments.picture,
+        device: &arguments.device,
+        log: &arguments.log,
+    };
+    picture::run(&job, destination, shot, &arguments.part, draft)
+}

@@ -1,0 +1,37 @@
+//! Reading a scene file and the files that it names.
+
+use super::args::SceneFlags;
+use super::memory;
+use crate::app::error::AppError;
+use crate::app::inputs::Inputs;
+use crate::import;
+use crate::scene::Scene;
+use std::path::Path;
+
+/// Reads a scene; `--strict` refuses one of which anything had to be skipped. What the scene names is
+/// known as far as it was read, whether it could be or not.
+pub fn load(path: &Path, flags: &SceneFlags) -> (Result<Scene, AppError>, Inputs) {
+    if let Err(error) = memory::check_file(path) {
+        return (Err(error), Inputs::new([path]));
+    }
+    let (scene, files) = import::load_watched(path, &flags.import_options());
+    let scene = scene.map_err(AppError::from);
+    (
+        scene.and_then(|scene| strict(path, flags, scene)),
+        Inputs::new(files),
+    )
+}
+
+fn strict(path: &Path, flags: &SceneFlags, scene: Scene) -> Result<Scene, AppError> {
+    match scene.skipped.first() {
+        Some(first) if flags.strict => Err(AppError::Refused(format!(
+            "refusing the scene ({}): {first}{}. Repair it or leave out --strict.",
+            path.display(),
+            match scene.skipped.len() - 1 {
+                0 => String::new(),
+                more => format!(" (and {more} more)"),
+            }
+        ))),
+        _ => Ok(scene),
+    }
+}

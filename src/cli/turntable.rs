@@ -1,0 +1,104 @@
+//! `glimray turntable MODEL`: a turn round a model, as a video or as frames.
+
+use crate::app::clock::Clock;
+use crate::app::error::AppError;
+use crate::cli::animate;
+use crate::cli::animate::{Sequence, Target, Timeline};
+use crate::cli::args::{MotionFlags, Range, RangeFlags, TurnFlags, TurntableArgs};
+use crate::cli::job::Job;
+use crate::cli::report::Draft;
+use crate::scene::{self, Background, Scene, Turntable};
+use std::time::Instant;
+
+/// Samples per pixel where the model does not ask for more than one.
+const SAMPLES: u32 = 4;
+
+/// Most frames of a turn.
+const MAX_FRAMES: f64 = 1e6;
+
+pub fn run(arguments: &TurntableArgs, started: Instant) -> Result<(), AppError> {
+    let TurntableArgs {
+        scene, output, log, ..
+    } = arguments;
+    let name = ("turntable", "turntable");
+    animate::drafted(name, scene, output, log, started, |target, draft| {
+        render(arguments, target, draft)
+    })
+}
+
+fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
+    let mut scene = draft.load(&arguments.scene, &arguments.reading)?;
+    let turn = &arguments.turn;
+    if scene.output.samples == 1 {
+        scene.output.samples = SAMPLES;
+    }
+    let frames = (turn.seconds * turn.fps).round().max(1.0);
+    if frames > MAX_FRAMES {
+        return Err(AppError::Usage(format!(
+            "too many frames (--seconds, --fps): a turn of {frames} frames. At most {MAX_FRAMES} \
+             are possible."
+        )));
+    }
+    let size = arguments.picture.size.size.unwrap_or(scene.output.size);
+    // A whole number of frames, so that the last one is as far from the first as from its neighbour.
+    let mut scene = turned(scene, turn, frames / turn.fps, size)?;
+    if let Some(background) = turn.background {
+        scene.background = Background::Color(background);
+    }
+    let flags = MotionFlags {
+        fps: Some(turn.fps),
+        shutter: turn.shutter,
+    };
+    let range = RangeFlags {
+        frames: Some(Range {
+            first: 0,
+            last: Some(frames as u32),
+        }),
+        step: 1,
+        repeat: true,
+    };
+    let timeline = Timeline::new(
+        &scene,
+        &range,
+        Clock::new(&scene.output, &flags.overrides()),
+    )?;
+    let job = Job {
+        scene,
+        picture: &arguments.picture,
+        device: &arguments.device,
+        log: &arguments.log,
+    };
+    let flags = &arguments.output;
+    Sequence {
+        job,
+        timeline,
+        flags,
+        target,
+    }
+    .run(draft)
+}
+
+/// The scene with a camera that goes once round it in `seconds`.
+fn turned(
+    mut scene: Scene,
+    turn: &TurnFlags,
+    seconds: f64,
+    (width, height): (u32, u32),
+) -> Result<Scene, AppError> {
+    let options = Turntable {
+        axis: turn.axis,
+        elevation: turn.elevation.to_radians(),
+        seconds,
+        fov_y: turn.fov_y.to_radians(),
+        aspect: f64::from(width) / f64::from(height),
+        margin: turn.margin,
+        clockwise: turn.clockwise,
+    };
+    if scene::turntable(&mut scene, &options) {
+        return Ok(scene);
+    }
+    Err(AppError::Refused(
+        "cannot turn round the scene: nothing in it has an end. Give it an object other than a plane."
+            .into(),
+    ))
+}

@@ -1,0 +1,96 @@
+//! `glimray view [SCENE]`: hands what the command line says to the window.
+
+use super::args::{Cli, Command, ViewArgs};
+use super::job;
+use crate::app::error::AppError;
+use crate::app::overrides::{Moment, RenderOverrides};
+use crate::app::window::{PictureRequest, RecordingRequest, ViewRequest, Window};
+use clap::Parser;
+
+pub(super) fn run(arguments: &ViewArgs, window: Option<&Window>) -> Result<(), AppError> {
+    match window {
+        Some(window) => (window.open)(request_of(arguments)),
+        None => Err(AppError::Internal("view: there is no window".into())),
+    }
+}
+
+/// What `glimray view WORDS…` opens the window with.
+///
+/// # Errors
+/// The words are no such command line.
+pub fn request<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<ViewRequest, AppError> {
+    let words = ["glimray", "view"].into_iter().chain(words);
+    match Cli::try_parse_from(words) {
+        Ok(Cli {
+            command: Command::View(arguments),
+        }) => Ok(request_of(&arguments)),
+        Ok(_) => Err(AppError::Usage("not a `view`".into())),
+        Err(error) => Err(AppError::Usage(error.to_string())),
+    }
+}
+
+fn request_of(arguments: &ViewArgs) -> ViewRequest {
+    let recording = &arguments.recording;
+    ViewRequest {
+        scene: arguments.scene.clone(),
+        overrides: RenderOverrides {
+            picture: arguments.picture.overrides(),
+            tone: arguments.picture.develop.overrides(),
+            camera: arguments.camera.overrides(),
+            moment: arguments.moment.moment(),
+            timing: arguments.motion.overrides(),
+        },
+        import: arguments.reading.import_options(),
+        recording: RecordingRequest {
+            record: recording.record.clone(),
+            replay: recording.replay.clone(),
+            is_fast: recording.replay_fast,
+            closes: recording.close_after_replay,
+        },
+        adapter: arguments.device.choice(),
+        policy: job::policy(&arguments.device, false),
+        parse: picture,
+    }
+}
+
+/// The picture that the words of a command line ask for, the program's name first.
+///
+/// # Errors
+/// They are not `glimray render` or `glimray animate`, or a flag is wrong: one line on why.
+pub fn picture(words: &[String]) -> Result<PictureRequest, String> {
+    let cli = Cli::try_parse_from(words).map_err(|error| {
+        let text = error.to_string();
+        let first = text.lines().next().unwrap_or_default();
+        let why = first.strip_prefix("error: ").unwrap_or(first);
+        format!("cannot read the command line: {why}")
+    })?;
+    let (scene, picture, camera, moment, motion) = match cli.command {
+        Command::Render(it) => (
+            it.scene,
+            it.picture,
+            it.camera,
+            it.moment.moment(),
+            it.motion,
+        ),
+        Command::Animate(it) => {
+            let moment = Moment {
+                frame: Some(it.range.frames.map_or(0, |range| range.first)),
+                time: None,
+            };
+            (it.scene, it.picture, it.camera, moment, it.motion)
+        }
+        _ => {
+            return Err("cannot paste: only `glimray render` and `animate` have a camera".into());
+        }
+    };
+    Ok(PictureRequest {
+        scene,
+        overrides: RenderOverrides {
+            picture: picture.overrides(),
+            tone: picture.develop.overrides(),
+            camera: camera.overrides(),
+            moment,
+            timing: motion.overrides(),
+        },
+    })
+}

@@ -1,0 +1,206 @@
+//! A film tile: the part of the picture that is on the GPU at a time.
+//!
+//! The GPU adds samples one after the other to f32 sums. After each slice the sums are copied here, so a lost
+//! device costs at most one slice. After every [`super::SAMPLE_BLOCK`] samples the sums are added to exact
+//! totals and restart from zero.
+
+use super::{
+    layers::{self, Layer, SQUARES},
+    sums::Sums,
+};
+use std::ops::Range;
+
+/// Pixels of a workgroup.
+pub const GROUP_PIXELS: usize = 64;
+const GROUP_SIDE: u32 = 8;
+
+/// A rectangle or a list of pixels of the picture that is on the GPU at a time. Its pixels are in film order:
+/// workgroup by workgroup in dispatch order, 64 lanes each, with padding at the edges.
+#[derive(Clone, Debug)]
+pub struct FilmTile {
+    pub x: u32,
+    pub y: u32,
+    pub width: u32,
+    pub height: u32,
+    /// The samples to render.
+    pub samples: Range<u32>,
+    /// The pixels of a list, in film order; empty for a rectangle.
+    places: Vec<[u32; 2]>,
+    /// Film rows per pixel, and the row that holds the pixel position in a list.
+    rows_per_pixel: usize,
+    place_row: usize,
+    /// Film rows of the current block, layer by layer for each pixel; empty before the block starts.
+    pub sums: Vec<[f32; 4]>,
+    /// The sums of all finished blocks.
+    pub closed: Option<Sums>,
+}
+
+impl FilmTile {
+    /// A rectangle of the picture.
+    pub fn new(
+        [x, y, width, height]: [u32; 4],
+        samples: Range<u32>,
+        rows_per_pixel: usize,
+    ) -> Self {
+        Self {
+            x,
+            y,
+            width,
+            height,
+            samples,
+            places: Vec::new(),
+            rows_per_pixel,
+            place_row: 0,
+            sums: Vec::new(),
+            closed: None,
+        }
+    }
+
+    /// A list of pixels of the picture, not empty.
+    pub fn list(places: Vec<[u32; 2]>, samples: Range<u32>, layers: &[&Layer]) -> Self {
+        let side = GROUP_SIDE;
+        let mut tile = Self::new([0, 0, side, side], samples, layers::rows(layers));
+        tile.place_row = layers::row_of(layers, &SQUARES).unwrap_or_default();
+        tile.places = places;
+        tile
+    }
+
+    /// The same rectangle without sums.
+    pub fn blank(&self) -> Self {
+        let region = [self.x, self.y, self.width, self.height];
+        Self::new(region, self.samples.clone(), self.rows_per_pixel)
+    }
+
+    /// Number of pixels without padding.
+    pub fn sampled_pixels(&self) -> u64 {
+        if self.places.is_empty() {
+            u64::from(self.width) * u64::from(self.height)
+        } else {
+            self.places.len() as u64
+        }
+    }
+
+    /// The pixels of a list.
+    pub fn places(&self) -> &[[u32; 2]] {
+        &self.places
+    }
+
+    /// Film rows per pixel.
+    pub fn rows_per_pixel(&self) -> usize {
+        self.rows_per_pixel
+    }
+
+    pub fn group_columns(&self) -> u32 {
+        self.width.div_ceil(GROUP_SIDE)
+    }
+
+    pub fn group_count(&self) -> u32 {
+        if self.places.is_empty() {
+            self.group_columns() * self.height.div_ceil(GROUP_SIDE)
+        } else {
+            self.places.len().div_ceil(GROUP_PIXELS) as u32
+        }
+    }
+
+    /// A stride, coprime to the number of workgroups, that steps to the next one down and right. Neighbouring
+    /// workgroups then share cached data, and any long enough range of workgroups covers the full height of the
+    /// tile.
+    pub fn group_stride(&self) -> u32 {
+        let count = self.group_count();
+        let columns = match self.places.len() {
+            0 => self.group_columns(),
+            _ => count.isqrt(),
+        };
+        (columns + 1..count)
+            .find(|&stride| gcd(stride, count) == 1)
+            .unwrap_or(1)
+    }
+
+    /// Number of pixels in film order, padding included.
+    pub fn pixel_count(&self) -> usize {
+        self.group_count() as usize * GROUP_PIXELS
+    }
+
+    /// Number of film rows.
+    pub fn row_count(&self) -> usize {
+        self.pixel_count() * self.rows_per_pixel()
+    }
+
+    /// Sets all sums to zero.
+    pub fn reset_sums(&mut self) {
+        self.sums.clear();
+        self.sums.resize(self.row_count(), [0.0; 4]);
+        let pixels = self.sums.chunks_exact_mut(self.rows_per_pixel);
+        for (rows, [x, y]) in pixels.zip(&self.places) {
+            rows[self.place_row] = [0.0, *x as f32, *y as f32, 1.0];
+        }
+    }
+
+    /// The position in the picture of a film index of a rectangle; `None` for padding. The order is that of the
+    /// shader (scene/dispatch.wesl).
+    pub fn pixel_at(&self, film_index: usize) -> Option<[u32; 2]> {
+        let (index, lane) = (
+            film_index / GROUP_PIXELS,
+            (film_index % GROUP_PIXELS) as u32,
+        );
+        let group =
+            (index as u64 * u64::from(self.group_stride()) % u64::from(self.group_count())) as u32;
+        let bit = |shift: u32, to: u32| ((lane >> shift) & 1) << to;
+        let x = group % self.group_columns() * GROUP_SIDE + (bit(0, 0) | bit(2, 1) | bit(4, 2));
+        let y = group / self.group_columns() * GROUP_SIDE + (bit(1, 0) | bit(3, 1) | bit(5, 2));
+        (x < self.width && y < self.height).then_some([self.x + x, self.y + y])
+    }
+
+    /// Finishes a block: adds its sums to the totals.
+    pub fn close_block(&mut self) {
+        self.closed = Some(Sums::with_block(self.closed.take(), &self.sums));
+        self.sums.clear();
+    }
+
+    /// The sums of all samples, `None` before the first.
+    pub fn all_sums(&self) -> Option<Sums> {
+        match self.sums.is_empty() {
+            true => self.closed.clone(),
+            false => Some(Sums::with_block(self.closed.clone(), &self.sums)),
+        }
+    }
+
+    /// The film rows of all blocks together. For a list, the rows with positions are summed as well and
+    /// therefore meaningless.
+    pub fn totals(&self) -> Vec<[f64; 4]> {
+        self.all_sums().map_or_else(Vec::new, |sums| sums.rounded())
+    }
+
+    /// The rows for `develop`: sums and weights of a single block, otherwise means with a weight of 1.
+    pub fn developable(&self) -> Vec<[f32; 4]> {
+        match self.all_sums() {
+            None => vec![[0.0; 4]; self.row_count()],
+            Some(sums) => sums.developable(),
+        }
+    }
+}
+
+/// Splits a region (x, y, width, height) of the picture into rectangles of at most `side` pixels a side.
+pub fn rectangles(
+    [x, y, width, height]: [u32; 4],
+    side: u32,
+    samples: Range<u32>,
+    rows_per_pixel: usize,
+) -> Vec<FilmTile> {
+    let cuts = |start: u32, length: u32| {
+        (0..length.div_ceil(side)).map(move |i| {
+            let offset = i * side;
+            (start + offset, side.min(length - offset))
+        })
+    };
+    let row = |(wy, wh)| {
+        let samples = samples.clone();
+        let tile = move |(wx, ww)| FilmTile::new([wx, wy, ww, wh], samples.clone(), rows_per_pixel);
+        cuts(x, width).map(tile)
+    };
+    cuts(y, height).flat_map(row).collect()
+}
+
+fn gcd(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}

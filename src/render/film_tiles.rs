@@ -1,0 +1,171 @@
+//! The accumulated samples of a picture, by film tile.
+//!
+//! Without adaptive sampling there is one round: all samples, tile by tile. With it (adaptive.rs) there are
+//! several rounds, and a tile is a list of the pixels that need more samples.
+
+use super::{
+    adaptive::Adaptive,
+    film::{Film, FilmError, FilmHeader, Piece},
+    film_tile::{FilmTile, rectangles},
+    layers,
+    settings::RenderSettings,
+    sums::{SAMPLE_BLOCK, Sums},
+};
+use std::ops::Range;
+
+/// All film tiles of a picture, row by row.
+#[derive(Clone, Debug)]
+pub struct FilmTiles {
+    pub list: Vec<FilmTile>,
+    adaptive: Option<Adaptive>,
+    /// Maximum number of film rows of a tile, over all rounds.
+    largest: usize,
+}
+
+impl FilmTiles {
+    /// Splits the region into tiles of at most `tile_side` pixels a side and plans the first round.
+    pub fn new(settings: &RenderSettings, tile_side: u32) -> Self {
+        let adaptive = (settings.is_adaptive()).then(|| Adaptive::new(settings, tile_side));
+        let region = (adaptive.as_ref()).map_or(settings.region(), Adaptive::region);
+        // With adaptive sampling, only the mean is arranged in rectangles, to be developed.
+        let rows = match adaptive {
+            Some(_) => 1,
+            None => layers::rows(layers::of_sampling(settings)),
+        };
+        let side = tile_side / (rows as u32).isqrt();
+        let mut tiles = Self {
+            list: rectangles(region, side, settings.samples_to_render(), rows),
+            adaptive,
+            largest: 0,
+        };
+        tiles.largest = tiles.largest_row_count();
+        if let Some(adaptive) = &tiles.adaptive {
+            // In workgroup order, so that neighbouring pixels stay together.
+            let rectangles = tiles.list.iter();
+            let pixels = rectangles
+                .flat_map(|tile| (0..tile.pixel_count()).filter_map(|index| tile.pixel_at(index)));
+            tiles.list = adaptive.first_round(pixels.collect());
+            tiles.largest = tiles.largest.max(tiles.largest_row_count());
+        }
+        tiles
+    }
+
+    /// Overall progress when `fraction` of the tiles of this round are done, in 0..=1.
+    pub fn progress(&self, fraction: f64) -> f64 {
+        match &self.adaptive {
+            None => fraction,
+            Some(adaptive) => adaptive.progress(fraction),
+        }
+    }
+
+    /// Ends the round and plans the next one. Returns whether there is one.
+    pub fn next_round(&mut self) -> bool {
+        let Some(adaptive) = &mut self.adaptive else {
+            return false;
+        };
+        adaptive.add_round(std::mem::take(&mut self.list));
+        self.list = adaptive.next_round();
+        !self.list.is_empty()
+    }
+
+    /// The rectangles to develop, with the samples so far.
+    pub fn developable(&self, tile_side: u32) -> Vec<(FilmTile, Vec<[f32; 4]>)> {
+        let Some(adaptive) = &self.adaptive else {
+            let tiles = self.list.iter();
+            return tiles
+                .map(|tile| (tile.blank(), tile.developable()))
+                .collect();
+        };
+        let means = |tile: FilmTile| {
+            let mean = |index| {
+                tile.pixel_at(index)
+                    .map_or([0.0; 4], |at| adaptive.mean(at))
+            };
+            let rows = (0..tile.pixel_count()).map(mean).collect();
+            (tile, rows)
+        };
+        rectangles(adaptive.crop(), tile_side, 0..0, 1)
+            .into_iter()
+            .map(means)
+            .collect()
+    }
+
+    /// The film of the samples so far: all samples of the first `done` tiles, and the finished blocks of the
+    /// next one before `sample`.
+    pub fn film(&self, header: FilmHeader, done: usize, sample: u32) -> Result<Film, FilmError> {
+        let mut pieces = Vec::new();
+        if let Some(adaptive) = &self.adaptive {
+            if !self.list.is_empty() {
+                return Err(FilmError::Unfinished);
+            }
+            pieces.push(Piece {
+                region: adaptive.crop(),
+                samples: 0..header.samples,
+                sums: Sums::Block(adaptive.means_and_counts()),
+            });
+        }
+        for (index, tile) in self.list.iter().enumerate() {
+            let Range { start, end } = tile.samples;
+            let (samples, sums) = match index < done {
+                true => (start..end, tile.all_sums()),
+                false => (start..sample - sample % SAMPLE_BLOCK, tile.closed.clone()),
+            };
+            if let (Some(sums), true) = (sums, index <= done) {
+                pieces.push(piece(tile, samples, &sums));
+            }
+        }
+        Film::new(header, pieces)
+    }
+
+    /// Whether some pixels will have more samples than one block.
+    pub fn has_totals(&self) -> bool {
+        let is_more = |tile: &FilmTile| tile.samples.len() > SAMPLE_BLOCK as usize;
+        self.adaptive.is_none() && self.list.iter().any(is_more)
+    }
+
+    /// Whether the whole picture is a single rectangle, sampled evenly.
+    pub fn is_one_rectangle(&self) -> bool {
+        self.adaptive.is_none() && self.list.len() == 1
+    }
+
+    /// Whether in addition all samples so far are in one block.
+    pub fn is_one_block(&self) -> bool {
+        self.is_one_rectangle() && self.list[0].closed.is_none()
+    }
+
+    /// The number of samples of a pixel.
+    pub fn samples_at(&self, pixel: [u32; 2]) -> u32 {
+        match &self.adaptive {
+            None => self.list.first().map_or(0, |tile| tile.samples.end),
+            Some(adaptive) => adaptive.samples_at(pixel),
+        }
+    }
+
+    /// Maximum number of film rows of a tile.
+    pub fn largest(&self) -> usize {
+        self.largest
+    }
+
+    fn largest_row_count(&self) -> usize {
+        let counts = self.list.iter().map(FilmTile::row_count);
+        counts.max().unwrap_or(0)
+    }
+}
+
+/// The sums of a tile, with its pixels row by row.
+fn piece(tile: &FilmTile, samples: Range<u32>, sums: &Sums) -> Piece {
+    let rows = tile.rows_per_pixel();
+    let pixels = tile.sampled_pixels() as usize;
+    let mut ordered = Sums::zeros(rows * pixels, matches!(sums, Sums::Block(_)));
+    for index in 0..tile.pixel_count() {
+        if let Some([x, y]) = tile.pixel_at(index) {
+            let to = (y - tile.y) as usize * tile.width as usize + (x - tile.x) as usize;
+            ordered.add(rows * to, sums, rows * index, rows);
+        }
+    }
+    Piece {
+        region: [tile.x, tile.y, tile.width, tile.height],
+        samples,
+        sums: ordered,
+    }
+}

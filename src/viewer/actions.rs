@@ -1,0 +1,15 @@
+//! What commands, tools and time do to the session.
+
+pub mod answers;
+pub(crate) mod commands;
+pub mod dialogs;
+pub mod editing;
+pub mod files;
+pub mod inspector;
+pub mod keeping;
+pub mod modal;
+pub mod region;
+pub mod saving;
+pub mod settings;
+pub mod tools;
+pub mod update;

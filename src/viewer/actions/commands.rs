@@ -1,0 +1,221 @@
+//! Every command of the viewer, wherever it comes from: a key, a menu, a button.
+
+use crate::viewer::actions::{dialogs, editing, files, inspector, modal, saving, tools};
+use crate::viewer::model::bindings::Action;
+use crate::viewer::model::camera::{CameraController, Side};
+use crate::viewer::model::preferences::Theme;
+use crate::viewer::model::tool::Tool;
+use crate::viewer::model::view_settings::Sharing;
+use crate::viewer::state::dialogs::Dialog;
+use crate::viewer::state::layout::{Layout, Panel};
+use crate::viewer::state::session::Session;
+use eframe::egui::{self, ViewportCommand};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// What a key turns or rolls the camera by.
+const TURN: f64 = PI / 12.0;
+/// What a key brightens by, in stops.
+const EXPOSURE_STEP: f32 = 1.0 / 3.0;
+
+/// Does what clicks and keys ask for; keys only where no text is edited, no question is asked and no menu
+/// is open.
+pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
+    for action in std::mem::take(&mut session.clicked) {
+        perform(action, session, layout, ctx);
+    }
+    if session.editing.modal.is_none()
+        && (egui::Popup::is_any_open(ctx)
+            || dialogs::take_keys(session, ctx)
+            || ctx.egui_wants_keyboard_input() && !editing::keys(session, ctx))
+    {
+        if let Some(controller) = &mut session.controller {
+            controller.fly(Default::default());
+        }
+        return;
+    }
+    let bindings = &session.preferences.bindings;
+    let (events, flight) = ctx.input(|input| (input.events.clone(), bindings.flight(input)));
+    if let Some(controller) = &mut session.controller {
+        controller.fly(flight);
+    }
+    for event in &events {
+        if modal::key(session, event) {
+            continue;
+        }
+        if let Some(action) = session.preferences.bindings.pressed_by(event) {
+            perform(action, session, layout, ctx);
+        }
+    }
+}
+
+/// Carries out one command.
+pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
+    match action {
+        // Drags, wheels and held keys are read where they act.
+        Action::Orbit
+        | Action::Pan
+        | Action::Zoom
+        | Action::ZoomToCursor
+        | Action::LookAround
+        | Action::FlyForward
+        | Action::FlyBack
+        | Action::FlyLeft
+        | Action::FlyRight
+        | Action::FlyUp
+        | Action::FlyDown
+        | Action::FlyFaster
+        | Action::SnapHandles
+        | Action::FineHandles => {}
+        Action::SetPivot | Action::FocusHere | Action::Select => {
+            tools::pick_under_cursor(session, action, ctx);
+        }
+        Action::OrbitLeft => camera(session, |it| it.orbit_by(-TURN, 0.0)),
+        Action::OrbitRight => camera(session, |it| it.orbit_by(TURN, 0.0)),
+        Action::OrbitUp => camera(session, |it| it.orbit_by(0.0, -TURN)),
+        Action::OrbitDown => camera(session, |it| it.orbit_by(0.0, TURN)),
+        Action::ZoomIn => camera(session, |it| it.zoom(1.0, None)),
+        Action::ZoomOut => camera(session, |it| it.zoom(-1.0, None)),
+        Action::RollLeft => camera(session, |it| it.roll(TURN)),
+        Action::RollRight => camera(session, |it| it.roll(-TURN)),
+        Action::Level => camera(session, CameraController::level),
+        Action::FrameSelection => {
+            let bounds = session.selection_bounds();
+            frame(session, bounds.or_else(|| session.subject()));
+        }
+        Action::FrameAll => frame(session, session.subject()),
+        Action::ViewFront => camera(session, |it| it.look_from(Side::Front)),
+        Action::ViewBack => camera(session, |it| it.look_from(Side::Back)),
+        Action::ViewRight => camera(session, |it| it.look_from(Side::Right)),
+        Action::ViewLeft => camera(session, |it| it.look_from(Side::Left)),
+        Action::ViewTop => camera(session, |it| it.look_from(Side::Top)),
+        Action::ViewBottom => camera(session, |it| it.look_from(Side::Bottom)),
+        Action::ToggleOrthographic => camera(session, CameraController::toggle_orthographic),
+        Action::Home => camera(session, CameraController::go_home),
+        Action::SaveCamera => files::cameras::keep(session),
+        Action::NextCamera => files::cameras::step(session, 1),
+        Action::PreviousCamera => files::cameras::step(session, -1),
+        Action::CopyCamera => files::cameras::copy(session, ctx),
+        Action::PasteCamera => files::paste_camera(session, ctx),
+        Action::IntegratorWhitted
+        | Action::IntegratorNormals
+        | Action::IntegratorDepth
+        | Action::IntegratorIds
+        | Action::IntegratorUv
+        | Action::IntegratorHeat
+        | Action::IntegratorSamples => {
+            if let Some(integrator) = action.integrator() {
+                session.view.settings.integrator = integrator;
+            }
+        }
+        Action::SplitWipe => session.view.compare(Sharing::Wipe(0.5)),
+        Action::SideBySide => session.view.compare(Sharing::SideBySide),
+        Action::SwapSides => session.view.swap_sides(),
+        Action::ExposureUp => session.view.tone.exposure_ev += EXPOSURE_STEP,
+        Action::ExposureDown => session.view.tone.exposure_ev -= EXPOSURE_STEP,
+        Action::ExposureReset => session.view.tone = session.view.scene_tone,
+        Action::NextToneCurve => session.view.next_tone_curve(),
+        Action::NextBackground => session.view.next_background(),
+        Action::PauseRender => session.view.paused = !session.view.paused,
+        Action::RestartRender => session.restart(),
+        Action::RegionRender => tools::toggle_region(session),
+        Action::MoreSamples => session.view.scale_samples(2.0),
+        Action::FewerSamples => session.view.scale_samples(0.5),
+        Action::PlayPause => session.playback.toggle(),
+        Action::StepForward => session.playback.step(1),
+        Action::StepBack => session.playback.step(-1),
+        Action::FirstFrame => session.playback.go_to(0),
+        Action::LastFrame => session.playback.go_to(session.playback.last_frame()),
+        Action::PlayFaster => session.playback.scale_speed(2.0),
+        Action::PlaySlower => session.playback.scale_speed(0.5),
+        Action::ToggleLoop => session.playback.repeats = !session.playback.repeats,
+        Action::ToggleMotionBlur => session.playback.blurs = !session.playback.blurs,
+        Action::SelectMode => session.tool = Tool::Select,
+        Action::InspectRays => inspector::open(session, layout),
+        Action::MoveTool => modal::take(session, Tool::Move),
+        Action::RotateTool => modal::take(session, Tool::Rotate),
+        Action::ScaleTool => modal::take(session, Tool::Scale),
+        Action::SelectNothing => leave(session),
+        Action::ToggleVisible => editing::toggle_visible(session),
+        Action::Rename => {
+            layout.set_visible(Panel::Outline, true);
+            session.begin_rename();
+        }
+        Action::Duplicate => editing::with_selection(session, Session::duplicate),
+        Action::Delete => editing::with_selection(session, Session::remove),
+        Action::Undo => editing::undo(session),
+        Action::Redo => editing::redo(session),
+        Action::Open => files::ask(session, ctx),
+        Action::OpenNext => files::open_next(session, 1),
+        Action::OpenPrevious => files::open_next(session, -1),
+        Action::Reload => files::reload(session),
+        Action::Revert => editing::revert(session),
+        Action::SaveScene => saving::save(session),
+        Action::SaveSceneAs => saving::ask(session),
+        Action::SavePicture => files::pictures::open(session, false),
+        Action::SavePictureWithOverlays if session.viewport.is_none() => {
+            session
+                .messages
+                .tell("The picture is hidden: show its panel first");
+        }
+        Action::SavePictureWithOverlays => files::pictures::open(session, true),
+        Action::Help => session.dialogs.toggle(Dialog::Shortcuts),
+        Action::Preferences => session.dialogs.toggle(Dialog::Preferences),
+        Action::TogglePanels => layout.toggle_all(),
+        Action::ToggleOutline => {
+            let visible = layout.is_visible(Panel::Outline);
+            layout.set_visible(Panel::Outline, !visible);
+        }
+        Action::ToggleOverlays => session.shows_overlays = !session.shows_overlays,
+        Action::ToggleStatistics => session.shows_statistics = !session.shows_statistics,
+        Action::ToggleTheme => session.preferences.theme = other_theme(ctx.theme()),
+        Action::LargerText => session.preferences.enlarge(),
+        Action::SmallerText => session.preferences.shrink(),
+        Action::ResetText => session.preferences.ui_scale = 1.0,
+        Action::FullScreen => {
+            let is_full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
+            ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!is_full));
+        }
+        Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+    }
+}
+
+/// Moves the camera, where there is one.
+fn camera(session: &mut Session, change: impl FnOnce(&mut CameraController)) {
+    if let Some(controller) = &mut session.controller {
+        change(controller);
+        session.moved();
+    }
+}
+
+/// Frames a box in world space.
+fn frame(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
+    let (width, height) = session.picture_size();
+    let aspect = f64::from(width) / f64::from(height.max(1));
+    if let Some(bounds) = bounds {
+        camera(session, |it| it.frame(bounds, aspect));
+    }
+}
+
+/// Escape closes the uppermost dialog, else it cancels a drag, else it leaves the tool, else it clears the
+/// selection.
+fn leave(session: &mut Session) {
+    if dialogs::close_uppermost(session) {
+        return;
+    }
+    if session.editing.grip.is_some() {
+        modal::cancel(session);
+        return;
+    }
+    if session.tool == Tool::Select {
+        session.selection = None;
+    }
+    session.tool = Tool::Select;
+}
+
+fn other_theme(theme: egui::Theme) -> Theme {
+    match theme {
+        egui::Theme::Dark => Theme::Light,
+        egui::Theme::Light => Theme::Dark,
+    }
+}

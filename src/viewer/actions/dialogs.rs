@@ -1,0 +1,77 @@
+//! Commands and keys of dialogs.
+
+use crate::viewer::model::bindings::{Action, Trigger};
+use crate::viewer::state::dialogs::Dialog;
+use crate::viewer::state::session::Session;
+use eframe::egui::{self, Key};
+
+/// Whether keys are for a sheet, or leave a field, and give no commands. Escape ends a question.
+pub fn take_keys(session: &mut Session, ctx: &egui::Context) -> bool {
+    let is_escape = ctx.input(|input| input.key_pressed(Key::Escape));
+    // This one sees to Escape itself.
+    if session.editing.is_asking() || session.dialogs.bindings.awaits() {
+        return true;
+    }
+    let files = &session.files;
+    if files.undecided.is_some() || files.saving.is_some() || files.typed.is_some() {
+        if is_escape {
+            close_uppermost(session);
+        }
+        return true;
+    }
+    is_escape && session.dialogs.had_keyboard
+}
+
+/// Closes the uppermost dialog. Whether there was one.
+pub fn close_uppermost(session: &mut Session) -> bool {
+    let files = &mut session.files;
+    if files.undecided.take().is_some() || files.saving.take().is_some() {
+        return true;
+    }
+    if files.typed.take().is_some() {
+        return true;
+    }
+    match session.dialogs.open.pop() {
+        Some(sheet) => {
+            closed(session, sheet);
+            true
+        }
+        None => false,
+    }
+}
+
+/// What follows when a dialog is closed.
+pub fn closed(session: &mut Session, sheet: Dialog) {
+    if sheet == Dialog::Hint {
+        session.preferences.hint_seen = true;
+    }
+}
+
+/// Gives a command another trigger, or one more.
+///
+/// # Errors
+/// Another command has it, or it does not suit the command: why, in a sentence.
+pub fn rebind(
+    session: &mut Session,
+    action: Action,
+    trigger: Trigger,
+    adds: bool,
+) -> Result<(), String> {
+    let bindings = &mut session.preferences.bindings;
+    let taken = bindings.taken_by(&trigger, action);
+    if let Some(other) = taken.first() {
+        return Err(format!(
+            "{} is taken: {}. Change that first.",
+            trigger.label(cfg!(target_os = "macos")),
+            other.description()
+        ));
+    }
+    let mut triggers = match adds {
+        true => bindings.triggers(action).to_vec(),
+        false => Vec::new(),
+    };
+    if !triggers.contains(&trigger) {
+        triggers.push(trigger);
+    }
+    bindings.set(action, triggers)
+}

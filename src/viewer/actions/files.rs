@@ -1,0 +1,336 @@
+//! Scenes and pictures on the disk: opening, dropping, watching, saving.
+
+pub mod cameras;
+mod closing;
+mod dropped;
+pub mod pictures;
+mod screenshot;
+
+use crate::app::advice;
+use crate::app::overrides::CameraOverrides;
+use crate::import;
+use crate::scene::Background;
+use crate::viewer::model::bindings::Action;
+use crate::viewer::model::file_dialog::{Reply, Request, ends_in};
+use crate::viewer::model::watch::Change;
+use crate::viewer::state::files::Broken;
+use crate::viewer::state::files::Intent;
+use crate::viewer::state::session::Session;
+use crate::viewer::state::session::opening::Opened;
+use eframe::egui::{self, ViewportCommand};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::SystemTime;
+
+/// Opens the next scene of the folder, or the previous with −1.
+pub fn open_next(session: &mut Session, step: isize) {
+    dropped::step(session, step);
+}
+
+/// Reads the scene again; the built-in scene is only rendered again.
+pub fn reload(session: &mut Session) {
+    match session.path.is_some() {
+        true => intend(session, Intent::Reload),
+        false => session.restart(),
+    }
+}
+
+/// Takes the camera out of a pasted command line.
+pub fn paste_camera(session: &mut Session, ctx: &egui::Context) {
+    match pasted(ctx) {
+        Some(text) => cameras::paste(session, &text),
+        None => {
+            session.files.awaits_paste = 3;
+            ctx.send_viewport_cmd(ViewportCommand::RequestPaste);
+        }
+    }
+}
+
+fn pasted(ctx: &egui::Context) -> Option<String> {
+    ctx.input(|input| {
+        input.events.iter().find_map(|event| match event {
+            egui::Event::Paste(text) => Some(text.clone()),
+            _ => None,
+        })
+    })
+}
+
+/// Does what may lose unsaved changes, or asks first.
+pub fn intend(session: &mut Session, intent: Intent) {
+    match session.has_changes() {
+        true => session.files.undecided = Some(intent),
+        false => go_on(session, intent),
+    }
+}
+
+/// Does it, whatever is lost.
+pub fn go_on(session: &mut Session, intent: Intent) {
+    session.files.undecided = None;
+    match intent {
+        Intent::Open(path) => session.open(path),
+        // The scene that is being opened takes its place.
+        Intent::Reload | Intent::Follow if session.is_opening() => {}
+        Intent::Reload | Intent::Follow => {
+            if session.files.have_changed() {
+                session.editing.forget_written();
+            }
+            session.files.watch.accept();
+            session.reload();
+        }
+        Intent::Close if session.files.waits_to_save() => {
+            session.files.undecided = Some(Intent::CloseUnfinished);
+        }
+        Intent::Close | Intent::CloseUnfinished => {
+            pictures::cancel(session);
+            session.files.may_close = true;
+        }
+    }
+}
+
+/// Opens whatever it is: a scene, a folder of scenes, or a picture of the surroundings.
+pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
+    dropped::open(session, paths);
+}
+
+/// Asks the desktop for something to open.
+pub fn ask(session: &mut Session, ctx: &egui::Context) {
+    if session.files.asked.is_some() {
+        return;
+    }
+    let folder = session.path.as_deref().and_then(Path::parent);
+    let recent = || session.preferences.recent.first().and_then(|p| p.parent());
+    let request = Request {
+        saves: false,
+        kind: None,
+        title: "Open a scene, a model or a picture of the surroundings".to_owned(),
+        folder: folder.or_else(recent).map(Path::to_owned),
+        name: None,
+    };
+    session.files.asked = Some(session.files.dialogs.ask(request, ctx));
+}
+
+/// What happened to files since the last frame.
+pub fn update(session: &mut Session, ctx: &egui::Context) {
+    take_reply(session);
+    let drops: Vec<PathBuf> = ctx.input(|input| {
+        let files = input.raw.dropped_files.iter();
+        files.map(|file| file.path().to_owned()).collect()
+    });
+    if !drops.is_empty() {
+        dropped::open(session, drops);
+    }
+    if session.files.awaits_paste > 0 {
+        session.files.awaits_paste -= 1;
+        ctx.request_repaint();
+        if let Some(text) = pasted(ctx) {
+            session.files.awaits_paste = 0;
+            cameras::paste(session, &text);
+        }
+    }
+    take_environment(session);
+    follow(session, ctx);
+    pictures::update(session, ctx);
+    screenshot::update(session, ctx);
+    closing::close(session, ctx);
+    name(session, ctx);
+}
+
+fn take_reply(session: &mut Session) {
+    let Some(reply) = session.files.asked.as_ref().map(Receiver::try_recv) else {
+        return;
+    };
+    match reply {
+        Err(TryRecvError::Empty) => return,
+        Ok(Reply::Chosen(path)) => dropped::open(session, vec![path]),
+        Ok(Reply::Cancelled) => {}
+        Ok(Reply::Unavailable) | Err(TryRecvError::Disconnected) => {
+            session.messages.warn(NO_DIALOG.to_owned());
+            session.files.typed = Some(String::new());
+        }
+    }
+    session.files.asked = None;
+}
+
+/// What to say where the desktop has no dialogs.
+pub const NO_DIALOG: &str = "this desktop has no file dialog (no portal answers). Type the path, or drop a file on the window.";
+
+/// Reads a picture of the surroundings.
+fn surround(session: &mut Session, path: PathBuf) {
+    let (sender, receiver) = channel();
+    let from = path.clone();
+    let read = move || {
+        // The window may have been closed meanwhile.
+        let _ = sender.send(import::picture(&from));
+    };
+    match std::thread::Builder::new().name("load".into()).spawn(read) {
+        Ok(_) => session.files.environment = Some((path, receiver)),
+        Err(error) => session
+            .messages
+            .warn(format!("cannot read a picture: {error}.")),
+    }
+}
+
+fn take_environment(session: &mut Session) {
+    let Some((path, outcome)) = &session.files.environment else {
+        return;
+    };
+    let (path, outcome) = (path.clone(), outcome.try_recv());
+    match outcome {
+        Err(TryRecvError::Empty) => return,
+        Err(TryRecvError::Disconnected) => {
+            let path = path.display();
+            let why = format!("internal fault (reading {path}). Please report it.");
+            session.messages.warn(why);
+        }
+        Ok(Err(error)) => session.messages.warn(advice::import(&error)),
+        Ok(Ok(picture)) => {
+            session.view.background = None;
+            session.edit("Change the background", |scene| {
+                scene.pictures.push(picture);
+                scene.background = Background::Picture {
+                    picture: scene.pictures.len() - 1,
+                    strength: 1.0,
+                    rotation: 0.0,
+                };
+            });
+            session.moved();
+            let name = short(&path);
+            session.messages.tell(format!("{name} is all round now"));
+            session.files.surroundings.push(path);
+        }
+    }
+    session.files.environment = None;
+}
+
+/// Takes up what became of a scene that was read.
+pub fn loaded(session: &mut Session, opened: Opened) {
+    let Opened {
+        path,
+        again,
+        files,
+        began,
+        shown,
+    } = opened;
+    let is_first = session.scene().is_none();
+    match shown {
+        Ok(()) => {
+            session.preferences.opened(&path);
+            session.files.candidates.clear();
+            if !again {
+                session.editing.forget_written();
+                pictures::abandon(session);
+            }
+            if let Some(said) = session.files.said.take() {
+                session.messages.tell(said);
+            } else if again {
+                session
+                    .messages
+                    .tell(format!("read {} again", short(&path)));
+            }
+            // What is wrong with another file is not mended by this one.
+            (session.files.broken).take_if(|broken| !again || broken.path == path);
+            session.path = Some(path);
+        }
+        Err(_) if !again && !session.files.candidates.is_empty() => {
+            let next = session.files.candidates.pop_front();
+            next.into_iter().for_each(|next| session.open_instead(next));
+            return;
+        }
+        Err(trouble) => {
+            session.files.said = None;
+            session.files.broken = Some(Broken {
+                path: path.clone(),
+                trouble,
+            });
+            // What was never on screen is watched only if nothing else is.
+            if !again && !is_first {
+                return;
+            }
+            session.path = Some(path);
+        }
+    }
+    session.files.is_gone = false;
+    session.files.to_watch = Some((files, began));
+}
+
+/// Takes up that the scene was saved to these files, that of the scene last: they are watched from now
+/// on, as they are.
+pub fn saved(session: &mut Session, files: Vec<PathBuf>) {
+    // The file has what the command line said of the scene.
+    session.original = session.scene().cloned();
+    session.request.overrides.camera = CameraOverrides::default();
+    session.request.import.overrides.clear();
+    session.path = files.last().cloned();
+    session.files.broken = None;
+    session.files.is_gone = false;
+    session.files.watch.accept();
+    session.files.to_watch = Some((files, SystemTime::now()));
+}
+
+/// Reads the scene again when its files have changed.
+fn follow(session: &mut Session, ctx: &egui::Context) {
+    if let Some((files, since)) = session.files.to_watch.take() {
+        let waker = ctx.clone();
+        let followed = (session.files.watch).follow(&files, since, move || waker.request_repaint());
+        if let Err(why) = followed {
+            session.messages.warn(format!(
+                "cannot watch the scene's files: {why}. Read the scene again by hand when they change."
+            ));
+        }
+    }
+    if session.is_opening() {
+        return;
+    }
+    match session.files.watch.look() {
+        Change::None => return,
+        Change::Wait(time) => {
+            ctx.request_repaint_after(time);
+            return;
+        }
+        Change::Changed => session.editing.forget_written(),
+    }
+    let Some(path) = session.path.clone() else {
+        return;
+    };
+    let was_gone = std::mem::replace(&mut session.files.is_gone, !path.exists());
+    if session.files.is_gone {
+        session.files.watch.accept();
+        if !was_gone {
+            session.messages.warn(format!(
+                "{} was deleted or moved: the last picture stays, and the scene is read again when it \
+                 comes back",
+                path.display()
+            ));
+        }
+        ctx.request_repaint();
+        return;
+    }
+    session.files.watch.accept();
+    intend(session, Intent::Follow);
+}
+
+/// Writes what is on screen into the window's title.
+fn name(session: &mut Session, ctx: &egui::Context) {
+    let mark = if session.has_changes() { "*" } else { "" };
+    let title = format!("{}{mark} · glimray", session.title());
+    if session.files.title != title {
+        ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+        session.files.title = title;
+    }
+}
+
+/// A file's own name, for sentences.
+pub fn short(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
+}
+
+/// Whether a file's name is one of a scene.
+fn is_scene(path: &Path) -> bool {
+    ends_in(path, import::SCENE_ENDINGS)
+}
+
+/// Whether a file's name is one of a picture.
+fn is_picture(path: &Path) -> bool {
+    ends_in(path, import::PICTURE_ENDINGS)
+}

@@ -1,0 +1,226 @@
+//! Cameras: kept, gone to, copied as a command line and taken out of one.
+
+use crate::scene::Camera;
+use crate::viewer::actions::files::short;
+use crate::viewer::model::command_line;
+use crate::viewer::model::command_line::Shown;
+use crate::viewer::model::preferences::SavedCamera;
+use crate::viewer::state::session::Session;
+use crate::viewer::worker::progressive_image::PictureSlot;
+use eframe::egui;
+use std::path::{Path, PathBuf};
+
+/// Under which name the cameras of the demo are kept; no file has it.
+const DEMO: &str = "/glimray demo/";
+/// And by which it goes in a command line.
+const DEMO_FILE: &str = "showcase.toml";
+
+/// Under which name the cameras of what is on screen are kept.
+pub fn key(session: &Session) -> PathBuf {
+    session.path.clone().unwrap_or_else(|| DEMO.into())
+}
+
+/// A camera that one can go to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// For people.
+    pub name: String,
+    /// In the world, at this time.
+    pub camera: Camera,
+    /// Whether a person kept it, rather than the scene.
+    pub is_kept: bool,
+}
+
+/// The scene's cameras as they are at this time, then those that were kept.
+pub fn all(session: &Session) -> Vec<View> {
+    let Some(scene) = session.scene() else {
+        return Vec::new();
+    };
+    let mut scene = command_line::without_geometry(scene);
+    let own = (0..scene.cameras.len()).map(|index| {
+        scene.camera_index = index;
+        let camera = scene.frame(session.playback.time).camera;
+        let name = match camera.name.is_empty() {
+            true => format!("Scene camera {index}"),
+            false => camera.name.clone(),
+        };
+        View {
+            name,
+            camera,
+            is_kept: false,
+        }
+    });
+    let mut cameras: Vec<_> = own.collect();
+    let kept = session.preferences.cameras_of(&key(session)).iter();
+    cameras.extend(kept.map(|saved| View {
+        name: saved.name.clone(),
+        camera: saved.camera.clone(),
+        is_kept: true,
+    }));
+    cameras
+}
+
+/// Keeps what the picture is seen by, under a name that is free.
+pub fn keep(session: &mut Session) {
+    let Some(camera) = session.camera() else {
+        return;
+    };
+    let key = key(session);
+    let names = session.preferences.cameras_of(&key).iter().map(|c| &c.name);
+    let names: Vec<_> = names.cloned().collect();
+    let mut number = names.len() + 1;
+    while names.contains(&format!("Camera {number}")) {
+        number += 1;
+    }
+    let name = format!("Camera {number}");
+    session.messages.tell(format!("kept as {name}"));
+    session
+        .preferences
+        .keep_camera(&key, SavedCamera { name, camera });
+}
+
+/// Gives a camera that was kept another name, if that is free. Whether it is.
+pub fn rename(session: &mut Session, name: &str, to: &str) -> bool {
+    let (key, to) = (key(session), to.trim());
+    let mut kept = session.preferences.cameras_of(&key).to_vec();
+    if to.is_empty() || kept.iter().any(|camera| camera.name == to) {
+        return false;
+    }
+    let Some(camera) = kept.iter_mut().find(|camera| camera.name == name) else {
+        return false;
+    };
+    camera.name = to.to_owned();
+    let names = session
+        .preferences
+        .cameras_of(&key)
+        .iter()
+        .map(|c| c.name.clone());
+    for name in names.collect::<Vec<_>>() {
+        session.preferences.drop_camera(&key, &name);
+    }
+    for camera in kept {
+        session.preferences.keep_camera(&key, camera);
+    }
+    true
+}
+
+/// Drops a camera that was kept.
+pub fn delete(session: &mut Session, name: &str) {
+    let key = key(session);
+    session.preferences.drop_camera(&key, name);
+}
+
+/// Glides to a camera.
+pub fn go(session: &mut Session, camera: &Camera) {
+    if let Some(controller) = &mut session.controller {
+        controller.go_to(camera);
+    }
+    session.moved();
+}
+
+/// Goes so many cameras further.
+pub fn step(session: &mut Session, places: isize) {
+    let cameras = all(session);
+    let Some(destination) = session
+        .controller
+        .as_ref()
+        .map(|controller| controller.destination())
+    else {
+        return;
+    };
+    let is_here = |place: &View| same_view(&place.camera, &destination);
+    let here = cameras.iter().position(is_here);
+    let count = cameras.len() as isize;
+    let next = match here {
+        Some(_) if count == 1 => {
+            let text = "there is no other camera; keep some, and go from one to the next";
+            session.messages.tell(text);
+            return;
+        }
+        Some(here) => (here as isize + places).rem_euclid(count),
+        None if places > 0 => 0,
+        None => count - 1,
+    };
+    if let Some(place) = cameras.get(next as usize) {
+        session.messages.tell(place.name.clone());
+        go(session, &place.camera);
+    }
+}
+
+/// Whether both see the same, whatever they are called.
+fn same_view(a: &Camera, b: &Camera) -> bool {
+    let unnamed = |camera: &Camera| Camera {
+        name: String::new(),
+        node: None,
+        target: None,
+        ..camera.clone()
+    };
+    unnamed(a) == unnamed(b)
+}
+
+/// Copies what is on screen as a command line.
+pub fn copy(session: &mut Session, ctx: &egui::Context) {
+    let orders = session.orders();
+    let Some(order) = &orders.pictures[PictureSlot::Main as usize] else {
+        session.messages.tell("there is no picture yet");
+        return;
+    };
+    let (Some(original), Some(camera)) = (&session.original, session.camera()) else {
+        return;
+    };
+    let path = session.path.clone();
+    let shown = Shown {
+        parse: session.request.parse,
+        path: path.as_deref().unwrap_or(Path::new(DEMO_FILE)),
+        options: &session.request.import,
+        scene: original,
+        camera: &camera,
+        background: (order.background.as_ref()).unwrap_or(&order.scene.background),
+        settings: &order.settings,
+        tone: order.tone,
+        time: session.playback.time,
+        fps: session.playback.clock.fps,
+        shutter: session.playback.shutter(),
+        edited: session.has_changes(),
+    };
+    let mut copied = command_line::copy(&shown);
+    if path.is_none() {
+        let text = "the scene itself, which is the demo's and in no file";
+        copied.left_out.push(text.to_owned());
+    }
+    ctx.copy_text(copied.line.clone());
+    match copied.left_out.as_slice() {
+        [] => session
+            .messages
+            .tell("copied a command line that makes this picture"),
+        left_out => session.messages.warn(format!(
+            "copied a command line. It cannot say: {}",
+            left_out.join("; ")
+        )),
+    }
+}
+
+/// Takes camera and time out of a command line.
+pub fn paste(session: &mut Session, text: &str) {
+    let Some(original) = &session.original else {
+        return;
+    };
+    let pasted = match command_line::paste(session.request.parse, text, original) {
+        Ok(pasted) => pasted,
+        Err(why) => {
+            session.messages.warn(why);
+            return;
+        }
+    };
+    let is_other = |path: &PathBuf| match &session.path {
+        Some(own) => path.file_name() != own.file_name(),
+        None => path != Path::new(DEMO_FILE),
+    };
+    let told = match pasted.path.filter(is_other) {
+        Some(path) => format!("took the camera of {}", short(&path)),
+        None => "took the camera".to_owned(),
+    };
+    session.messages.tell(told);
+    session.playback.time = pasted.time.max(0.0);
+    go(session, &pasted.camera);
+}

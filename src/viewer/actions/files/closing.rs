@@ -1,0 +1,39 @@
+//! The end of the window, and what would be lost with it.
+
+use crate::viewer::state::files::Intent;
+use crate::viewer::state::session::Session;
+use eframe::egui::{self, ViewportCommand};
+
+/// Asks about what would be lost when the window is to be closed, and waits for pictures that are being
+/// written, unless the person asks once more.
+pub(super) fn close(session: &mut Session, ctx: &egui::Context) {
+    if session.is_device_lost() {
+        return;
+    }
+    let is_writing = session.files.pending.is_writing();
+    let is_asked = ctx.input(|input| input.viewport().close_requested());
+    if !is_asked || session.files.may_close {
+        if session.files.may_close && !is_writing {
+            ctx.send_viewport_cmd(ViewportCommand::Close);
+        }
+        return;
+    }
+    let intent = match session.has_changes() {
+        true => Some(Intent::Close),
+        false => (session.files.waits_to_save()).then_some(Intent::CloseUnfinished),
+    };
+    if intent.is_some() {
+        // A window that is minimised would ask unseen.
+        for command in [
+            ViewportCommand::CancelClose,
+            ViewportCommand::Minimized(false),
+            ViewportCommand::Focus,
+        ] {
+            ctx.send_viewport_cmd(command);
+        }
+        session.files.undecided = intent;
+    } else if is_writing {
+        ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+        session.files.may_close = true;
+    }
+}

@@ -1,0 +1,273 @@
+//! The picture on screen → a file, as `glimray render` would write it.
+
+use crate::app::advice;
+use crate::image::Image;
+use crate::output::{self, SaveOptions};
+use crate::render::Tone;
+use crate::viewer::actions::files::{NO_DIALOG, short};
+use crate::viewer::model::file_dialog::{PICTURES, Reply, Request};
+use crate::viewer::state::answer::Answer;
+use crate::viewer::state::files::Pose;
+use crate::viewer::state::files::SaveDialog;
+use crate::viewer::state::files::Taken;
+use crate::viewer::state::files::Target;
+use crate::viewer::state::session::Session;
+use crate::viewer::worker::progressive_image::{FrameRenderer, PictureSlot};
+use eframe::egui;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+/// Opens the sheet, with a name that is free.
+pub fn open(session: &mut Session, overlays: bool) {
+    if session.scene().is_none() {
+        session.messages.tell("there is no picture yet");
+        return;
+    }
+    let path = free_name(session).to_string_lossy().into_owned();
+    session.files.saving = Some(SaveDialog {
+        path,
+        quality: session.files.pending.quality.unwrap_or(90),
+        overlays,
+        is_new: true,
+        inputs: session.files.inputs(),
+        agreed: None,
+        asked: None,
+    });
+}
+
+/// The scene's name and the lowest number that is free, where the last picture went.
+fn free_name(session: &Session) -> PathBuf {
+    let scene = session.path.as_deref();
+    let stem = scene.and_then(Path::file_stem).unwrap_or("demo".as_ref());
+    let folder = (session.files.pending.folder.as_deref())
+        .or(scene.and_then(Path::parent))
+        .unwrap_or(Path::new(""));
+    let name = |number: u32| {
+        let mut name = stem.to_owned();
+        name.push(format!("_{number}.png"));
+        folder.join(name)
+    };
+    let mut number = 1;
+    while name(number).exists() && number < 10_000 {
+        number += 1;
+    }
+    name(number)
+}
+
+/// Asks the desktop for a name.
+pub fn browse(session: &mut Session, ctx: &egui::Context) {
+    let Some(sheet) = &mut session.files.saving else {
+        return;
+    };
+    let path = Path::new(sheet.path.trim());
+    let folder = path.parent().filter(|folder| folder.is_dir());
+    let request = Request {
+        saves: true,
+        kind: Some(PICTURES),
+        title: "Save the picture".to_owned(),
+        folder: folder.map(Path::to_owned),
+        name: path.file_name().map(|n| n.to_string_lossy().into_owned()),
+    };
+    sheet.asked = Some(session.files.dialogs.ask(request, ctx));
+}
+
+/// Saves what the sheet says, now or when the picture is finished.
+pub fn save(session: &mut Session, waits: bool) {
+    let Some(sheet) = session.files.saving.take() else {
+        return;
+    };
+    let target = match sheet.target() {
+        Ok(target) => target,
+        Err(_) => {
+            session.files.saving = Some(sheet);
+            return;
+        }
+    };
+    let pending = &mut session.files.pending;
+    pending.quality = Some(sheet.quality);
+    pending.folder = target.path.parent().map(Path::to_owned);
+    if sheet.overlays {
+        pending.pose = Some(Pose::new(target));
+    } else if waits {
+        let name = short(&target.path);
+        session.messages.tell(format!(
+            "{name} will be written when the picture is finished"
+        ));
+        let waiting = &mut session.files.pending.waiting;
+        waiting.retain(|other| other.path != target.path);
+        waiting.push(target);
+    } else {
+        ask(session, target, None);
+    }
+}
+
+/// Forgets pictures that wait to be finished.
+pub fn cancel(session: &mut Session) {
+    session.files.pending.waiting.clear();
+}
+
+/// The same, because another scene was opened; tells of each.
+pub(super) fn abandon(session: &mut Session) {
+    for target in &session.files.pending.waiting {
+        session.messages.warn(not_finished(target));
+    }
+    cancel(session);
+    session.files.pending.turn += 1;
+}
+
+fn not_finished(target: &Target) -> String {
+    format!(
+        "{} is not written: another scene was opened before the picture was finished. Open the first \
+         one again to save it.",
+        target.path.display()
+    )
+}
+
+/// Asks the render thread for the picture.
+fn ask(session: &mut Session, target: Target, waits: Option<u32>) {
+    let integrator = session.view.settings.integrator;
+    let Some(scene) = session.scene() else {
+        return;
+    };
+    let linear = (session.request.overrides.tone).tone(&scene.output, integrator, true);
+    session.files.pending.asked += 1;
+    session.ask(move |studio| take(studio, target, waits, linear));
+}
+
+fn take(studio: &mut FrameRenderer, target: Target, waits: Option<u32>, linear: Tone) -> Answer {
+    let of = studio.settings().samples;
+    let mut taken = Taken {
+        image: Ok(None),
+        samples: 0,
+        of,
+        target,
+        waits,
+    };
+    if waits.is_some() && !studio.renderer.is_done() {
+        return Answer::Picture(Box::new(taken));
+    }
+    let tone = match taken.target.format.is_linear() {
+        true => linear,
+        false => studio.order.tone,
+    };
+    match studio.image(&tone) {
+        Ok((image, samples)) => {
+            taken.samples = samples;
+            taken.image = Ok(Some(image));
+        }
+        Err(error) => taken.image = Err(advice::render(&error)),
+    }
+    Answer::Picture(Box::new(taken))
+}
+
+/// Takes up what the render thread answered.
+pub fn taken(session: &mut Session, taken: Taken) {
+    let pending = &mut session.files.pending;
+    pending.asked = pending.asked.saturating_sub(1);
+    // It may be the picture of another scene by now.
+    if taken.waits.is_some_and(|turn| turn != pending.turn) {
+        session.messages.warn(not_finished(&taken.target));
+        return;
+    }
+    let image = match taken.image {
+        Ok(Some(image)) => image,
+        Ok(None) => {
+            pending.waiting.push(taken.target);
+            return;
+        }
+        Err(why) => {
+            session.messages.warn(why);
+            return;
+        }
+    };
+    let how_far = match taken.samples < taken.of {
+        true => format!(" ({} of {} samples)", taken.samples, taken.of),
+        false => String::new(),
+    };
+    write(session, image, taken.target, how_far);
+}
+
+/// Writes on a thread of its own.
+pub(super) fn write(session: &mut Session, image: Image, target: Target, how_far: String) {
+    let (sender, receiver) = channel();
+    let work = move || {
+        let options = SaveOptions {
+            format: Some(target.format),
+            quality: target.quality,
+            clobber: target.replaces,
+            ..SaveOptions::default()
+        };
+        let written = output::save_with(&target.path, &image, &options);
+        let outcome = match written {
+            Ok(()) => Ok(format!("wrote {}{how_far}", target.path.display())),
+            Err(error) => Err(error.to_string()),
+        };
+        // The window may have been closed meanwhile.
+        let _ = sender.send(outcome);
+    };
+    match std::thread::Builder::new().name("save".into()).spawn(work) {
+        Ok(_) => session.files.pending.writing.push(receiver),
+        Err(error) => session
+            .messages
+            .warn(format!("cannot write a picture: {error}.")),
+    }
+}
+
+/// What became of pictures since the last frame.
+pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
+    take_reply(session);
+    let messages = &mut session.messages;
+    session.files.pending.writing.retain(|receiver| {
+        match receiver.try_recv() {
+            Ok(Ok(told)) => messages.tell(told),
+            Ok(Err(why)) => messages.warn(why),
+            Err(TryRecvError::Empty) => return true,
+            Err(TryRecvError::Disconnected) => {
+                messages.warn("internal fault (writing a picture). Please report it.".to_owned());
+            }
+        }
+        false
+    });
+}
+
+/// Saves a picture that waited, when what is on screen is finished.
+pub fn finish(session: &mut Session, is_done: bool) {
+    let pending = &mut session.files.pending;
+    if is_done && pending.asked == 0 && !pending.waiting.is_empty() {
+        let (target, turn) = (pending.waiting.remove(0), pending.turn);
+        ask(session, target, Some(turn));
+    }
+}
+
+fn take_reply(session: &mut Session) {
+    let Some(sheet) = &mut session.files.saving else {
+        return;
+    };
+    let Some(reply) = sheet.asked.as_ref().map(Receiver::try_recv) else {
+        return;
+    };
+    match reply {
+        Err(TryRecvError::Empty) => return,
+        Ok(Reply::Chosen(mut path)) => {
+            let agreed = path.clone();
+            if path.extension().is_none() {
+                path.set_extension("png");
+            }
+            sheet.path = path.to_string_lossy().into_owned();
+            sheet.agreed = (agreed == path).then_some(agreed);
+        }
+        Ok(Reply::Cancelled) => {}
+        Ok(Reply::Unavailable) | Err(TryRecvError::Disconnected) => {
+            session.messages.warn(NO_DIALOG.to_owned());
+        }
+    }
+    sheet.asked = None;
+}
+
+/// The picture on screen is of these many pixels.
+pub fn size(session: &Session) -> (u32, u32) {
+    let orders = session.orders();
+    let order = orders.pictures[PictureSlot::Main as usize].as_ref();
+    let region = order.map(|order| order.settings.region());
+    region.map_or((0, 0), |[.., width, height]| (width, height))
+}

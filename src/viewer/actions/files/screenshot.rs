@@ -1,0 +1,67 @@
+//! The picture with what is drawn over it: a photograph of the window, cut to the picture.
+
+use crate::image::Image;
+use crate::viewer::actions::files::pictures;
+use crate::viewer::state::session::Session;
+use eframe::egui::{self, ColorImage, Rect};
+use std::sync::mpsc::{TryRecvError, channel};
+
+/// Takes the photograph, and takes it up.
+pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
+    let Some(mut pose) = session.files.pending.pose.take() else {
+        return;
+    };
+    let Some(shot) = &pose.shot else {
+        pose.frames = pose.frames.saturating_sub(1);
+        if pose.frames == 0 {
+            let (sender, receiver) = channel();
+            let waker = ctx.clone();
+            ctx.request_screenshot(move |image| {
+                // The window may have been closed meanwhile.
+                let _ = sender.send(image);
+                waker.request_repaint();
+            });
+            pose.shot = Some(receiver);
+        }
+        ctx.request_repaint();
+        session.files.pending.pose = Some(pose);
+        return;
+    };
+    match shot.try_recv() {
+        Ok(image) => {
+            let Some(view) = session.viewport else {
+                let why = "the picture is not to be seen. Show its panel, and save it again.";
+                session.messages.warn(why.to_owned());
+                return;
+            };
+            let image = cut(&image, view.rect, ctx.pixels_per_point());
+            pictures::write(session, image, pose.target, String::new());
+        }
+        Err(TryRecvError::Empty) => session.files.pending.pose = Some(pose),
+        Err(TryRecvError::Disconnected) => {
+            let why = "the window cannot be photographed here. Save the picture without overlays.";
+            session.messages.warn(why.to_owned());
+        }
+    }
+}
+
+/// The part of the window that is in `rect`, which is in points.
+fn cut(window: &ColorImage, rect: Rect, pixels_per_point: f32) -> Image {
+    let [width, height] = window.size;
+    let at = |length: f32, most: usize| {
+        ((length * pixels_per_point).round().max(0.0) as usize).min(most)
+    };
+    let (x0, x1) = (at(rect.min.x, width), at(rect.max.x, width));
+    let (y0, y1) = (at(rect.min.y, height), at(rect.max.y, height));
+    let rows = (y0..y1).map(|y| &window.pixels[y * width + x0..y * width + x1]);
+    let level = |code: u8| f32::from(code) / 255.0;
+    let pixels = rows.flatten().map(|color| {
+        let [r, g, b, _] = color.to_array();
+        [level(r), level(g), level(b), 1.0]
+    });
+    Image {
+        pixels: pixels.collect(),
+        width: (x1 - x0) as u32,
+        height: (y1 - y0) as u32,
+    }
+}

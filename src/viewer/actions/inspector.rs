@@ -1,0 +1,131 @@
+//! The rays of a pixel, made visible: which pixel it is, what it is made of, and what of it is shown.
+
+pub mod export;
+pub mod hidden;
+pub mod outside;
+
+use crate::app::advice;
+use crate::render::Integrator;
+use crate::viewer::model::tool::Tool;
+use crate::viewer::model::viewport::Viewport;
+use crate::viewer::state::answer::Answer;
+use crate::viewer::state::inspector::{Hidden, Inspected};
+use crate::viewer::state::layout::{Layout, Panel};
+use crate::viewer::state::session::Session;
+use crate::viewer::worker::progressive_image::{FrameRenderer, PictureSlot};
+use crate::viewer::worker::request::RenderRequest;
+use eframe::egui;
+
+/// Takes the inspector's tool and shows its panels.
+pub fn open(session: &mut Session, layout: &mut Layout) {
+    session.tool = Tool::Inspect;
+    layout.set_visible(Panel::Rays, true);
+    layout.set_visible(Panel::Outside, true);
+}
+
+/// Asks again what another renderer was asked, which is gone.
+pub fn begin(session: &mut Session) {
+    let inspector = &mut session.inspector;
+    inspector.is_wanted |= std::mem::take(&mut inspector.is_asked);
+    inspector.hidden = Hidden::default();
+    ask(session);
+}
+
+/// Asks for the rays of a pixel of the picture. Of several that are asked for before there is an answer,
+/// only the last is.
+pub fn inspect(session: &mut Session, pixel: [u32; 2]) {
+    session.inspector.pixel = Some(pixel);
+    session.inspector.is_wanted = true;
+    ask(session);
+}
+
+fn ask(session: &mut Session) {
+    let inspector = &mut session.inspector;
+    if let (Some(pixel), true, false) = (inspector.pixel, inspector.is_wanted, inspector.is_asked) {
+        (inspector.is_wanted, inspector.is_asked) = (false, true);
+        session.ask(move |studio| Answer::Rays(rays(studio, pixel).map(Box::new)));
+    }
+}
+
+/// All rays of a pixel of the main picture.
+fn rays(studio: &mut FrameRenderer, pixel: [u32; 2]) -> Result<Inspected, String> {
+    let count = studio.renderer.samples_at(pixel);
+    if count == 0 {
+        let [x, y] = pixel;
+        return Err(format!(
+            "no rays for pixel {x},{y}: it is not in the picture, or has no sample yet."
+        ));
+    }
+    let tree = studio.renderer.explain(pixel, 0..count);
+    let is_final = !studio.settings().is_adaptive() || studio.renderer.is_done();
+    let tree = tree.map_err(|error| advice::render(&error))?;
+    Ok(Inspected::new(tree, studio.order.clone(), is_final))
+}
+
+/// Takes up what the render thread answered.
+pub fn take(session: &mut Session, outcome: Result<Box<Inspected>, String>) {
+    let bounds = session.bounds();
+    let inspector = &mut session.inspector;
+    // What was asked of a scene that is gone by now is not wanted any more.
+    if !std::mem::take(&mut inspector.is_asked) {
+        return;
+    }
+    match outcome {
+        Ok(inspected) => {
+            inspector.pixel.get_or_insert(inspected.tree.pixel);
+            let last = inspected.tree.samples.len().saturating_sub(1);
+            inspector.filter.sample = inspector.filter.sample.map(|sample| sample.min(last));
+            inspector.folded.clear();
+            inspector.selected = None;
+            inspector.inspected = Some(*inspected);
+            inspector.tree_count += 1;
+            inspector.changed();
+            outside::look_at(session, bounds);
+        }
+        Err(why) => session.messages.warn(why),
+    }
+    ask(session);
+}
+
+/// What happened since the last frame.
+pub fn update(session: &mut Session, ctx: &egui::Context, seconds: f64) {
+    export::update(session);
+    let inspector = &mut session.inspector;
+    let hovers = inspector.hovers.take();
+    if inspector.hovered != hovers {
+        inspector.hovered = hovers;
+        ctx.request_repaint();
+    }
+    if inspector.outside.advance(seconds) {
+        session.moved();
+    }
+}
+
+/// Inspects the pixel under the cursor, where that is asked for.
+pub fn follow(session: &mut Session, response: &egui::Response, viewport: Viewport) {
+    if session.tool != Tool::Inspect || !session.inspector.follows || session.drag.is_some() {
+        return;
+    }
+    let pixel = (response.hover_pos()).and_then(|point| viewport.pixel(point));
+    if pixel.is_some_and(|pixel| session.inspector.pixel != Some(pixel)) {
+        pixel.into_iter().for_each(|pixel| inspect(session, pixel));
+    }
+}
+
+/// Whether the picture is not the one any more whose rays there are.
+pub fn is_stale(session: &Session) -> bool {
+    let inspected = session.inspector.inspected.as_ref();
+    let orders = session.orders();
+    let now = orders.pictures[PictureSlot::Main as usize].as_ref();
+    match (inspected, now) {
+        (Some(inspected), Some(now)) => {
+            // Debug views show the same surfaces.
+            let settings = |order: &RenderRequest| crate::render::RenderSettings {
+                integrator: Integrator::Whitted,
+                ..order.settings.clone()
+            };
+            !inspected.order.shows_same(now) || settings(&inspected.order) != settings(now)
+        }
+        _ => false,
+    }
+}

@@ -1,0 +1,151 @@
+//! The rays of a pixel for other programs: as `glimray explain` writes them, and the command that does.
+
+use crate::app::{ray_lines, ray_text};
+use crate::output;
+use crate::render::{Integrator, RenderSettings};
+use crate::viewer::model::command_line;
+use crate::viewer::model::command_line::{CommandLine, Shown};
+use crate::viewer::model::file_dialog::{Kind, Reply, Request};
+use crate::viewer::state::inspector::Inspected;
+use crate::viewer::state::session::Session;
+use eframe::egui;
+use std::path::Path;
+use std::sync::mpsc::TryRecvError;
+
+/// What a tree is saved as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// What `glimray explain --json` prints.
+    Json,
+    /// The lines that `glimray explain --obj` writes.
+    Obj,
+}
+
+/// The tree as a text.
+///
+/// # Errors
+/// As `explain::json`, as one line.
+pub fn text(inspected: &Inspected, format: Format) -> Result<String, String> {
+    match format {
+        Format::Json => ray_text::json(&inspected.tree, inspected.order.settings.size)
+            .map_err(|error| error.to_string()),
+        Format::Obj => Ok(ray_lines::of(&inspected.tree)),
+    }
+}
+
+/// Asks for a file's name and writes the tree there; a notice says what came of it.
+pub fn save(session: &mut Session, format: Format, ctx: &egui::Context) {
+    let Some(inspected) = &session.inspector.inspected else {
+        return;
+    };
+    if session.inspector.saving.0.is_some() {
+        return;
+    }
+    let text = match text(inspected, format) {
+        Ok(text) => text,
+        Err(why) => return session.messages.warn(why),
+    };
+    let [x, y] = inspected.tree.pixel;
+    let (kind, ending): (Kind, _) = match format {
+        Format::Json => (("Rays as JSON", &["json"]), "json"),
+        Format::Obj => (("Rays as Wavefront OBJ lines", &["obj"]), "obj"),
+    };
+    let request = Request {
+        saves: true,
+        kind: Some(kind),
+        title: "Save the rays".to_owned(),
+        folder: None,
+        name: Some(format!("rays_{x}_{y}.{ending}")),
+    };
+    let reply = session.files.dialogs.ask(request, ctx);
+    session.inspector.saving.0 = Some((reply, text));
+}
+
+/// Writes a text and says so.
+///
+/// # Errors
+/// The file cannot be written: one line on why.
+pub fn write(path: &Path, text: &str) -> Result<String, String> {
+    match output::write(path, text.as_bytes(), true) {
+        Ok(()) => Ok(format!("saved {}", path.display())),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// Takes up the name of a file since the last frame, and tells what became of it.
+pub fn update(session: &mut Session) {
+    let Some((reply, text)) = &session.inspector.saving.0 else {
+        return;
+    };
+    match reply.try_recv() {
+        Err(TryRecvError::Empty) => return,
+        Ok(Reply::Chosen(path)) if session.files.inputs().contain(&path) => {
+            let path = path.display();
+            session.messages.warn(format!(
+                "cannot save the rays ({path}): the scene reads that file. Choose another name."
+            ));
+        }
+        Ok(Reply::Chosen(path)) => match write(&path, text) {
+            Ok(told) => session.messages.tell(told),
+            Err(why) => session.messages.warn(why),
+        },
+        Ok(Reply::Cancelled) => {}
+        Ok(Reply::Unavailable) | Err(TryRecvError::Disconnected) => {
+            session.messages.warn(NO_DIALOG.to_owned());
+        }
+    }
+    session.inspector.saving.0 = None;
+}
+
+/// What to say where the desktop has no dialogs.
+const NO_DIALOG: &str = "cannot save the rays: this desktop has no file dialog (no portal answers). Copy the command and run it with --json or --obj.";
+
+/// The command that prints the tree of the pixel in the picture on the screen; `sample` is its index
+/// where it is to be one only.
+///
+/// # Errors
+/// There is nothing to name: one line on why.
+pub fn command(session: &Session, sample: Option<u32>) -> Result<CommandLine, String> {
+    let (Some(inspected), Some(scene), Some(camera)) = (
+        &session.inspector.inspected,
+        &session.original,
+        session.camera(),
+    ) else {
+        return Err("cannot copy a command: no pixel is inspected. Click one first.".into());
+    };
+    let Some(path) = &session.path else {
+        return Err(
+            "cannot copy a command: the demo has no file. Open a scene, or save this one.".into(),
+        );
+    };
+    let settings = RenderSettings {
+        integrator: Integrator::Whitted,
+        ..inspected.order.settings.clone()
+    };
+    let background = session.view.background.as_ref();
+    let playback = &session.playback;
+    let mut command = command_line::copy(&Shown {
+        parse: session.request.parse,
+        path,
+        options: &session.request.import,
+        scene,
+        camera: &camera,
+        background: background.unwrap_or(&scene.background),
+        settings: &settings,
+        tone: session.view.tone,
+        time: playback.time,
+        fps: playback.clock.fps,
+        shutter: playback.shutter(),
+        edited: session
+            .document
+            .as_ref()
+            .is_some_and(|document| document.is_changed()),
+    });
+    let line = (command.line).replacen("glimray render", "glimray explain", 1);
+    let [x, y] = inspected.tree.pixel;
+    command.line = format!("{line} --pixel {x},{y}");
+    if let Some(sample) = sample {
+        command.line += &format!(" --sample {sample}");
+    }
+    Ok(command)
+}

@@ -1,0 +1,100 @@
+//! Which parts of the lines in space are behind something, as the second camera sees them: rays of its
+//! own renderer tell how far away the nearest surface is.
+
+use crate::app::advice;
+use crate::viewer::actions::inspector::outside;
+use crate::viewer::model::camera::project;
+use crate::viewer::state::answer::Answer;
+use crate::viewer::state::inspector::PARTS;
+use crate::viewer::state::inspector::Parts;
+use crate::viewer::state::inspector::View;
+use crate::viewer::state::inspector::rows::RayId;
+use crate::viewer::state::session::Session;
+use crate::viewer::worker::progressive_image::FrameRenderer;
+use crate::viewer::worker::request::RenderRequest;
+use glam::{DVec3, dvec2};
+
+/// Most lines that are looked at; those beyond are drawn as if nothing were before them.
+const MOST_LINES: usize = 256;
+/// A part is behind a surface if it is by more than this share of its distance: pixels have an extent.
+const TOLERANCE: f64 = 5e-3;
+
+fn view(session: &Session) -> Option<View> {
+    Some(View {
+        order: session.outside_order()?,
+        filter: session.inspector.filter,
+        tree: session.inspector.tree_count,
+    })
+}
+
+/// What is known about the lines that are shown now.
+pub fn known(session: &Session) -> Option<&Parts> {
+    let (known, parts) = session.inspector.hidden.known.as_ref()?;
+    (view(session)? == *known).then_some(parts)
+}
+
+/// Asks, unless that was done. Only when the picture from outside is finished.
+pub fn ask(session: &mut Session) {
+    let view = view(session);
+    if view.is_none() || view == session.inspector.hidden.asked {
+        return;
+    }
+    let (Some(view), Some(inspected)) = (view, &session.inspector.inspected) else {
+        return;
+    };
+    let reach = session.inspector.outside.reach();
+    let rays = outside::shown(inspected, &view.filter).take(MOST_LINES);
+    let lines = rays.map(|(id, ray)| (id, outside::ends(ray, reach)));
+    let lines: Vec<_> = lines.collect();
+    session.inspector.hidden.asked = Some(view.clone());
+    session.ask(move |studio| match parts(studio, &view.order, &lines) {
+        Ok(parts) => Answer::Hidden(parts),
+        Err(why) => Answer::Failed(why),
+    });
+}
+
+/// Which parts of lines are hidden in the picture that was ordered; `None` if another is there.
+fn parts(
+    studio: &mut FrameRenderer,
+    asked: &RenderRequest,
+    lines: &[(RayId, (DVec3, DVec3))],
+) -> Result<Option<Parts>, String> {
+    let Some((renderer, order)) = &mut studio.outside else {
+        return Ok(None);
+    };
+    let (true, Some(camera)) = (**order == *asked, &order.camera) else {
+        return Ok(None);
+    };
+    let (width, height) = order.settings.size;
+    let size = dvec2(width.into(), height.into());
+    // Where each part is: its line, its place there, its pixel and its distance.
+    let mut places = Vec::new();
+    for (line, (_, (from, to))) in lines.iter().enumerate() {
+        for part in 0..PARTS {
+            let share = (part as f64 + 0.5) / PARTS as f64;
+            let point = from.lerp(*to, share);
+            let at = project(camera, point, size)
+                .filter(|at| at.cmpge(dvec2(0.0, 0.0)).all() && at.cmplt(size).all());
+            if let Some(at) = at {
+                let pixel = [at.x as u32, at.y as u32];
+                places.push((line, part, pixel, point.distance(camera.look_from)));
+            }
+        }
+    }
+    let pixels: Vec<_> = places.iter().map(|(.., pixel, _)| (*pixel, 0..1)).collect();
+    let trees = renderer
+        .explain_pixels(&pixels)
+        .map_err(|error| advice::render(&error))?;
+    let mut parts: Parts = (lines.iter())
+        .map(|(id, _)| (*id, vec![false; PARTS]))
+        .collect();
+    for ((line, part, _, distance), tree) in places.iter().zip(trees) {
+        let first = tree.samples.first().and_then(|sample| sample.rays.first());
+        let hit = first.and_then(|ray| ray.hit.as_ref());
+        let is_hidden = hit.is_some_and(|hit| hit.distance < distance * (1.0 - TOLERANCE));
+        if let Some(of_line) = parts.get_mut(&lines[*line].0) {
+            of_line[*part] = is_hidden;
+        }
+    }
+    Ok(Some(parts))
+}

@@ -1,0 +1,257 @@
+//! The scene and the rays in it seen by a second camera.
+
+use crate::render::{RayKind, TracedRay};
+use crate::scene::Camera;
+use crate::viewer::model::camera::{CameraController, project, project_line, ray_through};
+use crate::viewer::state::inspector::Inspected;
+use crate::viewer::state::inspector::PARTS;
+use crate::viewer::state::inspector::Parts;
+use crate::viewer::state::inspector::rows::{Filter, RayId};
+use crate::viewer::state::session::Session;
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+
+/// Most rays that are drawn.
+pub const MOST_LINES: usize = 8192;
+
+/// How far lines go on outside of the picture, in its pixels.
+const MARGIN: f64 = 16.0;
+/// How much is seen of what is behind something.
+const BEHIND: f32 = 0.3;
+/// Share of the way to the pivot that nothing is drawn in.
+const NEAR: f64 = 1e-3;
+
+/// Takes up a second camera when rays are shown for the first time, beside the first and a little above
+/// it, from where all rays are seen.
+pub fn look_at(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
+    if session.inspector.outside.controller.is_none() {
+        frame(session, bounds);
+        if let Some(controller) = &mut session.inspector.outside.controller {
+            controller.arrive();
+        }
+    }
+}
+
+/// Goes to where all rays that are shown are seen.
+pub fn frame(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
+    let Some(main) = &session.controller else {
+        return;
+    };
+    let camera = main.camera();
+    let inspector = &mut session.inspector;
+    let Some(inspected) = &inspector.inspected else {
+        return;
+    };
+    let extent = extent(inspected, &inspector.filter, &camera, main.scene_radius());
+    let aspect = inspector.outside.shown.map_or(1.0, |(width, height)| {
+        f64::from(width) / f64::from(height.max(1))
+    });
+    let controller = inspector.outside.controller.get_or_insert_with(|| {
+        let mut controller = CameraController::new(&camera, bounds);
+        controller.set_up_axis(main.up_axis());
+        controller.set_fov_y(0.7);
+        if controller.is_orthographic() {
+            controller.toggle_orthographic();
+        }
+        controller.orbit_by(PI / 3.0, -PI / 9.0);
+        controller
+    });
+    controller.frame(extent, aspect);
+}
+
+/// The box round the first camera and all ends of rays that are not too far from it.
+fn extent(inspected: &Inspected, filter: &Filter, camera: &Camera, radius: f64) -> (DVec3, DVec3) {
+    let reach = 4.0 * radius.max(camera.look_from.distance(camera.look_at));
+    let ends = shown(inspected, filter).filter_map(|(_, ray)| ray.end.map(DVec3::from));
+    let near = ends.filter(|end| end.distance(camera.look_from) <= reach);
+    let start = (camera.look_from, camera.look_from);
+    near.fold(start, |(min, max), end| (min.min(end), max.max(end)))
+}
+
+/// The rays that are shown.
+pub fn shown<'a>(
+    inspected: &'a Inspected,
+    filter: &'a Filter,
+) -> impl Iterator<Item = (RayId, &'a TracedRay)> {
+    let samples = filter.samples(inspected);
+    let rays = samples.flat_map(|sample| {
+        let rays = inspected.tree.samples[sample].rays.iter().enumerate();
+        rays.map(move |(ray, traced)| ((sample, ray), traced))
+    });
+    rays.filter(|(id, _)| filter.has(inspected, *id))
+}
+
+/// A ray in the picture of the second camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Which.
+    pub id: RayId,
+    /// What it was sent for.
+    pub kind: RayKind,
+    /// Whether it is a shadow ray that something stops.
+    pub blocked: bool,
+    /// From where, in the picture's pixels from its upper left corner.
+    pub from: DVec2,
+    /// To where.
+    pub to: DVec2,
+    /// How it ends.
+    pub end: End,
+    /// What it is drawn of, from its start on.
+    pub pieces: Vec<Piece>,
+    /// The surface's direction where it ends, as a short line from there.
+    pub normal: Option<DVec2>,
+}
+
+/// A piece of a line, in the picture's pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// From where.
+    pub from: DVec2,
+    /// To where.
+    pub to: DVec2,
+    /// How much of its colour is seen, in 0..=1: all, little behind something, ever less on the way to
+    /// infinity.
+    pub strength: f32,
+}
+
+/// How a line ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// On a surface.
+    Surface,
+    /// At a light.
+    Light,
+    /// It goes on for ever.
+    Nowhere,
+    /// It leaves the picture.
+    Cut,
+}
+
+/// From where to where a ray is drawn. `reach` is how much is of those that go on for ever, in scene
+/// units.
+pub fn ends(ray: &TracedRay, reach: f64) -> (DVec3, DVec3) {
+    let start = DVec3::from(ray.origin);
+    let far = start + reach * DVec3::from(ray.direction);
+    (start, ray.end.map_or(far, DVec3::from))
+}
+
+/// The rays that are shown, as `camera` sees them in a picture of `size`; `reach` is that of [`ends`].
+/// Where it is known what is `hidden`, that is weaker.
+pub fn lines(
+    inspected: &Inspected,
+    filter: &Filter,
+    camera: &Camera,
+    size: DVec2,
+    reach: f64,
+    hidden: Option<&Parts>,
+) -> Vec<Line> {
+    let rays = shown(inspected, filter).take(MOST_LINES);
+    let line = |(id, ray)| {
+        let hidden = hidden.and_then(|hidden| hidden.get(&id));
+        line(id, ray, camera, (size, reach), hidden.map(Vec::as_slice))
+    };
+    rays.filter_map(line).collect()
+}
+
+fn line(
+    id: RayId,
+    ray: &TracedRay,
+    camera: &Camera,
+    (size, reach): (DVec2, f64),
+    hidden: Option<&[bool]>,
+) -> Option<Line> {
+    let near = NEAR * camera.look_from.distance(camera.look_at);
+    let (start, end) = ends(ray, reach);
+    let (from, to) = project_line(camera, (start, end), near, (size, MARGIN))?;
+    let is_cut = project(camera, end, size).is_none_or(|whole| whole.distance(to) > 0.5);
+    let blocked = ray.shadow.as_ref().is_some_and(|shadow| shadow.blocked);
+    let surface = ray.hit.as_ref().filter(|_| ray.shadow.is_none() && !is_cut);
+    let normal = surface.and_then(|hit| {
+        // About as long wherever it is in the picture.
+        let length = 0.05 * camera.look_from.distance(end);
+        let tip = DVec3::from(hit.position) + length * DVec3::from(hit.normal);
+        project(camera, tip, size)
+    });
+    let is_endless = ray.end.is_none();
+    let strength = |part: usize| {
+        let seen = match hidden.and_then(|hidden| hidden.get(part)) {
+            Some(true) => BEHIND,
+            _ => 1.0,
+        };
+        let way = if is_endless {
+            part as f32 / PARTS as f32
+        } else {
+            0.0
+        };
+        seen * (1.0 - way)
+    };
+    let mut pieces = Vec::new();
+    let mut first = 0;
+    while first < PARTS {
+        let own = strength(first);
+        let next = (first..PARTS).find(|&part| strength(part) != own);
+        let next = next.unwrap_or(PARTS);
+        let at = |part: usize| start.lerp(end, part as f64 / PARTS as f64);
+        let piece = project_line(camera, (at(first), at(next)), near, (size, MARGIN));
+        pieces.extend(piece.map(|(from, to)| Piece {
+            from,
+            to,
+            strength: own,
+        }));
+        first = next;
+    }
+    Some(Line {
+        id,
+        kind: ray.kind,
+        blocked,
+        from,
+        to,
+        end: match (ray.end, &ray.shadow) {
+            _ if is_cut => End::Cut,
+            (None, _) => End::Nowhere,
+            (Some(_), Some(_)) if !blocked => End::Light,
+            _ => End::Surface,
+        },
+        pieces,
+        normal,
+    })
+}
+
+/// The first camera as a pyramid: its edges in the picture of the second. `size` is that of the first
+/// camera's picture, `depth` how deep it is in scene units.
+pub fn frustum(
+    first: &Camera,
+    size: DVec2,
+    depth: f64,
+    camera: &Camera,
+    outside: DVec2,
+) -> Vec<(DVec2, DVec2)> {
+    let corners = [
+        DVec2::ZERO,
+        DVec2::new(size.x, 0.0),
+        size,
+        DVec2::new(0.0, size.y),
+    ];
+    let ends = corners.map(|corner| {
+        let (origin, direction) = ray_through(first, corner, size);
+        (origin, origin + depth * direction)
+    });
+    let around = (0..4).map(|k| (ends[k].1, ends[(k + 1) % 4].1));
+    let near = NEAR * camera.look_from.distance(camera.look_at);
+    ends.into_iter()
+        .chain(around)
+        .filter_map(|edge| project_line(camera, edge, near, (outside, MARGIN)))
+        .collect()
+}
+
+/// The line nearest to a position in the picture, not farther than `reach` pixels.
+pub fn nearest(lines: &[Line], position: DVec2, reach: f64) -> Option<RayId> {
+    let distance = |line: &Line| {
+        let way = line.to - line.from;
+        let share = (position - line.from).dot(way) / way.length_squared().max(1e-12);
+        (line.from + way * share.clamp(0.0, 1.0)).distance(position)
+    };
+    let near = lines.iter().map(|line| (distance(line), line.id));
+    let near = near.filter(|(distance, _)| *distance <= reach);
+    near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| id)
+}

@@ -1,0 +1,71 @@
+//! Moving, rotating and scaling as in Blender: a key begins it, the thing follows the pointer without a
+//! button, X, Y and Z limit it to an axis (with Shift: to the plane of the other two), digits say how much,
+//! and Enter or a click ends it. Escape or a right click takes it back.
+
+use crate::viewer::model::bindings::{Action, Preset};
+use crate::viewer::model::modal::Modal;
+use crate::viewer::model::objects;
+use crate::viewer::model::tool::Tool;
+use crate::viewer::state::session::Session;
+use eframe::egui::{Event, Key};
+
+/// Takes up a tool. With Blender's bindings that moves what is selected at once.
+pub fn take(session: &mut Session, tool: Tool) {
+    session.tool = tool;
+    let scene = session.scene().cloned();
+    let time = session.playback.time;
+    let has_place = (session.selection.zip(scene))
+        .is_some_and(|(id, scene)| objects::place(&scene, id, time).is_some());
+    let is_blender = session.preferences.bindings.preset() == Preset::Blender;
+    if is_blender && has_place && session.viewport.is_some() && session.editing.grip.is_none() {
+        session.editing.modal = Some(Modal::default());
+    }
+}
+
+/// Gives a key to the movement that is under way. Whether there is one, which takes all keys.
+pub fn key(session: &mut Session, event: &Event) -> bool {
+    let action = session.preferences.bindings.pressed_by(event);
+    let Some(modal) = &mut session.editing.modal else {
+        return false;
+    };
+    let &Event::Key {
+        key,
+        pressed: true,
+        modifiers,
+        ..
+    } = event
+    else {
+        return true;
+    };
+    let other = match action {
+        Some(Action::MoveTool) => Some(Tool::Move),
+        Some(Action::RotateTool) => Some(Tool::Rotate),
+        Some(Action::ScaleTool) => Some(Tool::Scale),
+        _ => None,
+    };
+    match key {
+        Key::X => modal.limit(0, modifiers.shift),
+        Key::Y => modal.limit(1, modifiers.shift),
+        Key::Z => modal.limit(2, modifiers.shift),
+        Key::Enter => modal.is_confirmed = true,
+        Key::Escape => cancel(session),
+        _ => match other {
+            Some(tool) => {
+                cancel(session);
+                take(session, tool);
+            }
+            None => modal.type_key(key),
+        },
+    }
+    true
+}
+
+/// Takes back what is being dragged, by a handle or without one.
+pub fn cancel(session: &mut Session) {
+    session.editing.grip = None;
+    session.editing.modal = None;
+    if let Some(document) = &mut session.document {
+        document.cancel();
+    }
+    session.moved();
+}

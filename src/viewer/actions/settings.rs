@@ -1,0 +1,110 @@
+//! Keeps what is chosen: applies it to the window, and writes it to the settings file.
+
+use crate::viewer::model::preferences::Theme;
+use crate::viewer::state::dialogs::Dialog;
+use crate::viewer::state::layout::Layout;
+use crate::viewer::state::session::Session;
+use eframe::egui::{self, ThemePreference};
+use std::time::Duration;
+
+/// How long the settings stay unwritten while they change, such as a window that is being resized.
+const PAUSE: Duration = Duration::from_secs(1);
+
+/// Applies the preferences, and writes them when they have changed.
+pub fn update(session: &mut Session, ctx: &egui::Context) {
+    let kept = &mut session.dialogs.kept;
+    if !kept.is_begun {
+        kept.is_begun = true;
+        kept.written = Some(session.preferences.clone());
+        if !session.preferences.hint_seen {
+            session.dialogs.open(Dialog::Hint);
+        }
+    }
+    apply(session, ctx);
+    let kept = &mut session.dialogs.kept;
+    let now = ctx.input(|input| input.time);
+    if kept.looked.is_some_and(|at| now - at < PAUSE.as_secs_f64()) {
+        if kept.written.as_ref() != Some(&session.preferences) {
+            ctx.request_repaint_after(PAUSE);
+        }
+        return;
+    }
+    kept.looked = Some(now);
+    kept.is_due = true;
+    keep_window(session, ctx);
+    write(session);
+}
+
+/// Writes the preferences if they have changed. Trouble is told once.
+pub fn write(session: &mut Session) {
+    let kept = &mut session.dialogs.kept;
+    if kept.written.as_ref() == Some(&session.preferences) {
+        return;
+    }
+    kept.written = Some(session.preferences.clone());
+    match session.store.save(&session.preferences) {
+        Ok(()) => kept.has_failed = false,
+        Err(_) if kept.has_failed => {}
+        Err(why) => {
+            kept.has_failed = true;
+            session
+                .messages
+                .warn(format!("{why} The window goes on without keeping them."));
+        }
+    }
+}
+
+fn apply(session: &mut Session, ctx: &egui::Context) {
+    let preferences = &session.preferences;
+    let wanted = (preferences.theme, preferences.ui_scale);
+    let kept = &mut session.dialogs.kept;
+    if kept.applied == Some(wanted) {
+        return;
+    }
+    kept.applied = Some(wanted);
+    // Its keys are in the table of bindings.
+    ctx.options_mut(|options| options.zoom_with_keyboard = false);
+    ctx.set_theme(match wanted.0 {
+        Theme::System => ThemePreference::System,
+        Theme::Dark => ThemePreference::Dark,
+        Theme::Light => ThemePreference::Light,
+    });
+    ctx.set_zoom_factor(wanted.1);
+}
+
+/// Notes whether the window fills the screen, and else how large it is and where.
+fn keep_window(session: &mut Session, ctx: &egui::Context) {
+    let viewport = ctx.input(|input| input.viewport().clone());
+    let is_minimized = viewport.minimized.unwrap_or(false);
+    if is_minimized || viewport.fullscreen.unwrap_or(false) {
+        return;
+    }
+    let kept = &mut session.preferences;
+    kept.maximized = viewport.maximized.unwrap_or(false);
+    if kept.maximized {
+        return;
+    }
+    // Points of the screen's own scale: with another one the window would grow at each start.
+    let own = |vec: egui::Vec2| (vec * ctx.zoom_factor()).round().into();
+    if let Some(size) = viewport.inner_rect.map(|rect| rect.size())
+        && size.x >= 320.0
+        && size.y >= 240.0
+    {
+        kept.window = Some(own(size));
+    }
+    if let Some(rect) = viewport.outer_rect {
+        kept.window_position = Some(own(rect.min.to_vec2()));
+    }
+}
+
+/// Notes how the panels are arranged, as often as the file is looked after.
+pub fn keep_layout_if_due(session: &mut Session, layout: &Layout) {
+    if std::mem::take(&mut session.dialogs.kept.is_due) {
+        keep_layout(session, layout);
+    }
+}
+
+/// Notes how the panels are arranged.
+pub fn keep_layout(session: &mut Session, layout: &Layout) {
+    session.preferences.set_layout(Some(layout));
+}

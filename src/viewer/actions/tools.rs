@@ -1,0 +1,149 @@
+//! What the mouse does in the picture.
+
+use crate::viewer::actions::answers;
+use crate::viewer::actions::inspector;
+use crate::viewer::model::bindings::Action;
+use crate::viewer::model::camera::CameraController;
+use crate::viewer::model::tool::Drag;
+use crate::viewer::model::tool::Purpose;
+use crate::viewer::model::tool::Tool;
+use crate::viewer::model::viewport::Viewport;
+use crate::viewer::state::session::Session;
+use eframe::egui::{self, LayerId, PointerButton, Pos2};
+
+/// All that a mouse may have.
+const BUTTONS: [PointerButton; 5] = [
+    PointerButton::Primary,
+    PointerButton::Middle,
+    PointerButton::Secondary,
+    PointerButton::Extra1,
+    PointerButton::Extra2,
+];
+
+/// Hands the mouse in the picture to the camera, by the bindings. What a tool or a handle takes for
+/// itself does not come here.
+pub fn navigate(session: &mut Session, response: &egui::Response, viewport: Viewport) {
+    let ctx = &response.ctx;
+    let (modifiers, pointer) = ctx.input(|input| (input.modifiers, input.pointer.interact_pos()));
+    let bindings = session.preferences.bindings.clone();
+    for button in BUTTONS {
+        if response.drag_started_by(button)
+            && let (Some(from), Some(action)) = (pointer, bindings.drag(button, modifiers))
+        {
+            session.drag = Some(Drag { action, from });
+        }
+        if response.double_clicked_by(button) {
+            click(session, bindings.double_click(button, modifiers), pointer);
+        } else if response.clicked_by(button) {
+            click(session, bindings.click(button, modifiers), pointer);
+        }
+    }
+    if !session.clicked.is_empty() {
+        ctx.request_repaint();
+    }
+    if let (Some(drag), Some(to)) = (session.drag, pointer) {
+        let from = to - response.drag_delta();
+        if from != to
+            && let Some(controller) = &mut session.controller
+        {
+            follow(controller, drag, viewport, from, to);
+            session.moved();
+        }
+        if response.drag_stopped() {
+            session.drag = None;
+        }
+    }
+    if response.hovered() {
+        let turned = ctx.input(|input| bindings.wheel(input));
+        wheel(session, &turned, pointer, viewport);
+    }
+}
+
+fn wheel(
+    session: &mut Session,
+    turned: &[(Action, f64)],
+    pointer: Option<Pos2>,
+    viewport: Viewport,
+) {
+    for &(action, steps) in turned {
+        if let Some(controller) = &mut session.controller {
+            let at = pointer
+                .filter(|_| action == Action::ZoomToCursor)
+                .map(|point| controller.point_at(viewport.position(point), viewport.extent()));
+            controller.zoom(steps, at);
+            session.moved();
+        }
+    }
+}
+
+/// Moves the camera by a drag from one point of the screen to another.
+pub fn follow(
+    controller: &mut CameraController,
+    drag: Drag,
+    viewport: Viewport,
+    from: Pos2,
+    to: Pos2,
+) {
+    let size = viewport.extent();
+    let (start, end) = (viewport.position(from), viewport.position(to));
+    let moved = end - start;
+    match drag.action {
+        Action::Orbit => controller.orbit(moved, size),
+        Action::Pan => controller.pan(start, end, size, None),
+        Action::LookAround => controller.look(moved, size),
+        Action::Zoom => controller.drag_zoom(moved, size, None),
+        Action::ZoomToCursor => {
+            let at = controller.point_at(viewport.position(drag.from), size);
+            controller.drag_zoom(moved, size, Some(at));
+        }
+        _ => {}
+    }
+}
+
+/// Carries out a command about what is under the cursor.
+pub fn pick_under_cursor(session: &mut Session, action: Action, ctx: &egui::Context) {
+    let pointer = ctx.pointer_hover_pos();
+    let pointer = pointer.filter(|point| ctx.layer_id_at(*point) == Some(LayerId::background()));
+    match (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point)) {
+        Some(pixel) => pick(session, action, pixel),
+        None => (session.messages).tell("Point at something in the picture first"),
+    }
+}
+
+/// Takes the region tool, or ends the region that there is.
+pub fn toggle_region(session: &mut Session) {
+    session.tool = match session.view.region.take() {
+        Some(_) => Tool::Select,
+        None => Tool::Region,
+    };
+}
+
+/// What a click is bound to; a plain one belongs to the tool.
+fn click(session: &mut Session, action: Option<Action>, pointer: Option<Pos2>) {
+    let pixel = (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point));
+    match (action, pixel) {
+        (Some(action), Some(pixel)) if is_pick(action) => pick(session, action, pixel),
+        (Some(action), _) if !is_pick(action) => session.clicked.push(action),
+        _ => {}
+    }
+}
+
+fn is_pick(action: Action) -> bool {
+    matches!(
+        action,
+        Action::SetPivot | Action::FocusHere | Action::Select
+    )
+}
+
+fn pick(session: &mut Session, action: Action, pixel: [u32; 2]) {
+    let purpose = match action {
+        Action::Select if session.tool == Tool::Inspect => {
+            inspector::inspect(session, pixel);
+            return;
+        }
+        Action::SetPivot => Purpose::Pivot,
+        Action::FocusHere => Purpose::Focus,
+        _ => Purpose::Select,
+    };
+    session.ask(move |studio| answers::pick(studio, pixel, purpose));
+}

@@ -1,0 +1,56 @@
+//! What happens between frames.
+
+use super::{editing, files, inspector};
+use crate::viewer::state::session::Session;
+use eframe::egui;
+
+/// Forgets what was asked of another window's renderer and what was dragged there.
+pub fn reopened(session: &mut Session) {
+    session.dialogs.begin();
+    session.files.begin();
+    session.questions.clear();
+    inspector::begin(session);
+    session.drag = None;
+    session.view.grip = None;
+    session.editing.grip = None;
+    session.editing.modal = None;
+}
+
+/// What happened since the last frame.
+pub fn update(session: &mut Session, ctx: &egui::Context) {
+    let (now, seconds) = ctx.input(|input| (input.time, f64::from(input.stable_dt).min(0.1)));
+    // A frame that is drawn again takes no time.
+    let seconds = if now > session.now { seconds } else { 0.0 };
+    session.now = now;
+    take_scene(session);
+    files::update(session, ctx);
+    inspector::update(session, ctx, seconds);
+    editing::update(session, ctx);
+    let time = session.playback.time;
+    session.playback.advance(seconds);
+    if session.playback.time != time {
+        session.last_motion = now;
+    }
+    if let (Some(controller), Some(document)) = (&mut session.controller, &session.document) {
+        let scene = document.scene();
+        if controller.is_home() && scene.is_animated() {
+            controller.set_home(&scene.frame(session.playback.time).camera);
+        }
+        if controller.advance(seconds) || controller.is_moving() {
+            session.last_motion = now;
+        }
+    }
+}
+
+/// The same while the window is minimised: nothing moves, and rendering goes on.
+pub fn update_hidden(session: &mut Session) {
+    session.last_motion = f64::NEG_INFINITY;
+    session.drag = None;
+    take_scene(session);
+}
+
+fn take_scene(session: &mut Session) {
+    if let Some(opened) = session.take_scene() {
+        files::loaded(session, opened);
+    }
+}

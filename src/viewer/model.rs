@@ -1,0 +1,22 @@
+//! What the window is about, without the window: documents, cameras, shortcuts, preferences. Nothing here draws.
+
+pub mod bindings;
+pub mod camera;
+pub mod command_line;
+pub mod document;
+pub mod file_dialog;
+pub mod handles;
+pub mod listing;
+pub mod loader;
+pub mod messages;
+pub mod modal;
+pub mod objects;
+pub mod outline;
+pub mod playback;
+pub mod preferences;
+pub mod recording;
+pub mod region;
+pub mod tool;
+pub mod view_settings;
+pub mod viewport;
+pub mod watch;

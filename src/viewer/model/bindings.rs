@@ -1,0 +1,367 @@
+//! Which hand does what: the table of bindings, from which lookups, the help sheet and the manual's
+//! table are made.
+
+mod action;
+mod preset;
+mod trigger;
+
+pub use action::{Action, Category, Manner};
+pub use preset::Preset;
+pub use trigger::{Mods, Trigger};
+
+use crate::viewer::model::camera::Flight;
+use eframe::egui::{Event, InputState, Key, MouseWheelUnit, PointerButton};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// What one line, or one point, that a wheel or two fingers moved counts in steps of a wheel.
+const STEPS_OF_LINE: f64 = 1.0;
+const STEPS_OF_POINT: f64 = 1.0 / 50.0;
+const STEPS_OF_PAGE: f64 = 5.0;
+
+/// A preset and what was changed in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bindings {
+    preset: Preset,
+    changed: BTreeMap<Action, Vec<Trigger>>,
+    /// Of both: always in step with them.
+    current: BTreeMap<Action, Vec<Trigger>>,
+}
+
+impl Default for Bindings {
+    fn default() -> Self {
+        Self::new(Preset::default())
+    }
+}
+
+/// Two commands that one trigger would give.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Conflict {
+    /// Of the first command.
+    pub trigger: Trigger,
+    /// Both commands, in the order of the table.
+    pub actions: [Action; 2],
+}
+
+impl Bindings {
+    /// As the preset has them.
+    pub fn new(preset: Preset) -> Self {
+        Self::with(preset, BTreeMap::new())
+    }
+
+    fn with(preset: Preset, changed: BTreeMap<Action, Vec<Trigger>>) -> Self {
+        let mut current = preset.bindings();
+        for (action, triggers) in &changed {
+            current.insert(*action, triggers.clone());
+        }
+        Self {
+            preset,
+            changed,
+            current,
+        }
+    }
+
+    /// What the bindings are based on.
+    pub fn preset(&self) -> Preset {
+        self.preset
+    }
+
+    /// Takes another preset; what was changed stays.
+    pub fn set_preset(&mut self, preset: Preset) {
+        *self = Self::with(preset, std::mem::take(&mut self.changed));
+    }
+
+    /// What gives a command, the usual way first; none for one that is not bound.
+    pub fn triggers(&self, action: Action) -> &[Trigger] {
+        self.current.get(&action).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether a command's triggers are not the preset's.
+    pub fn is_changed(&self, action: Action) -> bool {
+        self.changed.contains_key(&action)
+    }
+
+    /// Binds a command to these and nothing else; to nothing if there are none.
+    ///
+    /// # Errors
+    /// A trigger does not suit the command, such as a key for a drag; then nothing is changed.
+    pub fn set(&mut self, action: Action, triggers: Vec<Trigger>) -> Result<(), String> {
+        if let Some(trigger) = triggers.iter().find(|trigger| !suits(action, trigger)) {
+            return Err(format!(
+                "cannot bind {} ({trigger}): it takes {}",
+                action.name(),
+                match action.manner() {
+                    Manner::Press => "a key, a click or a double click",
+                    Manner::Hold => "a key that is held",
+                    Manner::Motion if zooms(action) => "a drag or the wheel",
+                    Manner::Motion => "a drag",
+                }
+            ));
+        }
+        let mut preset = self.preset.bindings();
+        if preset.remove(&action).unwrap_or_default() == triggers {
+            self.changed.remove(&action);
+        } else {
+            self.changed.insert(action, triggers);
+        }
+        *self = Self::with(self.preset, std::mem::take(&mut self.changed));
+        Ok(())
+    }
+
+    /// Binds a command as the preset does.
+    pub fn reset(&mut self, action: Action) {
+        self.changed.remove(&action);
+        *self = Self::with(self.preset, std::mem::take(&mut self.changed));
+    }
+
+    /// Binds all commands as the preset does.
+    pub fn reset_all(&mut self) {
+        *self = Self::new(self.preset);
+    }
+
+    /// Pairs of commands that cannot be told apart; the one earlier in the table wins.
+    pub fn conflicts(&self) -> Vec<Conflict> {
+        let mut found = Vec::new();
+        for (i, &first) in Action::ALL.iter().enumerate() {
+            for &second in &Action::ALL[i + 1..] {
+                let collides = |trigger: &&Trigger| {
+                    let others = self.triggers(second).iter();
+                    others.clone().any(|other| trigger.collides(other))
+                };
+                let meet = first.is_of_handles() == second.is_of_handles();
+                if let Some(trigger) = self.triggers(first).iter().find(collides).filter(|_| meet) {
+                    found.push(Conflict {
+                        trigger: *trigger,
+                        actions: [first, second],
+                    });
+                }
+            }
+        }
+        found
+    }
+
+    /// The commands other than `action` that have `trigger`, or one that cannot be told from it.
+    pub fn taken_by(&self, trigger: &Trigger, action: Action) -> Vec<Action> {
+        let actions = Action::ALL.iter().copied();
+        let takes = |other: &Action| self.triggers(*other).iter().any(|t| t.collides(trigger));
+        actions
+            .filter(|other| *other != action && other.is_of_handles() == action.is_of_handles())
+            .filter(takes)
+            .collect()
+    }
+
+    /// The command that `trigger` gives.
+    pub fn action_for(&self, trigger: &Trigger) -> Option<Action> {
+        let mut actions = Action::ALL.iter().copied();
+        actions.find(|action| self.triggers(*action).contains(trigger))
+    }
+
+    /// The commands that the keys of this frame give, in the order of their events. Ask only while no
+    /// text is being edited.
+    pub fn pressed(&self, input: &InputState) -> Vec<Action> {
+        let events = input.events.iter();
+        events.filter_map(|event| self.pressed_by(event)).collect()
+    }
+
+    /// The command that one event gives. A key that is kept down gives only what makes sense again and
+    /// again.
+    pub fn pressed_by(&self, event: &Event) -> Option<Action> {
+        let [logical, physical] = Trigger::pressed(event)?;
+        let action = logical
+            .and_then(|trigger| self.action_for(&trigger))
+            .or_else(|| {
+                // Letters are where the layout says.
+                let trigger = physical.filter(|trigger| !is_letter(trigger))?;
+                self.action_for(&trigger)
+            })?;
+        let again = matches!(event, Event::Key { repeat: true, .. });
+        (!again || repeats(action)).then_some(action)
+    }
+
+    /// Where the keys that are held fly to; nowhere without any. Ask only while no text is edited.
+    pub fn flight(&self, input: &InputState) -> Flight {
+        let held = |action| self.is_held(action, input);
+        let axis = |more, less| f64::from(i8::from(held(more)) - i8::from(held(less)));
+        Flight {
+            right: axis(Action::FlyRight, Action::FlyLeft),
+            up: axis(Action::FlyUp, Action::FlyDown),
+            forward: axis(Action::FlyForward, Action::FlyBack),
+            pace: if held(Action::FlyFaster) { 4.0 } else { 1.0 },
+        }
+    }
+
+    /// Whether a command that lasts is being given.
+    pub fn is_held(&self, action: Action, input: &InputState) -> bool {
+        let mods = Mods::from(input.modifiers);
+        self.triggers(action).iter().any(|trigger| match *trigger {
+            Trigger::Hold(key) => !mods.command && !mods.alt && input.key_down(key),
+            Trigger::HoldMods(held) => mods.include(held),
+            _ => false,
+        })
+    }
+
+    /// What a drag does that begins with this button while these are held. What it does stays the same
+    /// until it ends, whatever is held then.
+    pub fn drag(&self, button: PointerButton, mods: impl Into<Mods>) -> Option<Action> {
+        self.action_for(&Trigger::Drag(mods.into(), button))
+    }
+
+    /// What a click does.
+    pub fn click(&self, button: PointerButton, mods: impl Into<Mods>) -> Option<Action> {
+        self.action_for(&Trigger::Click(mods.into(), button))
+    }
+
+    /// What a double click does.
+    pub fn double_click(&self, button: PointerButton, mods: impl Into<Mods>) -> Option<Action> {
+        self.action_for(&Trigger::DoubleClick(mods.into(), button))
+    }
+
+    /// What the wheel does in this frame, and by how many steps, upwards counting more than 0: read
+    /// from its events, because egui takes Ctrl and Shift with the wheel for its own. Two fingers that
+    /// are spread zoom to the cursor.
+    pub fn wheel(&self, input: &InputState) -> Vec<(Action, f64)> {
+        let events = input.events.iter();
+        events.filter_map(|event| self.wheel_by(event)).collect()
+    }
+
+    fn wheel_by(&self, event: &Event) -> Option<(Action, f64)> {
+        match event {
+            Event::MouseWheel {
+                unit,
+                delta,
+                modifiers,
+                ..
+            } => {
+                let action = self.action_for(&Trigger::Wheel(Mods::from(*modifiers)))?;
+                let steps = match unit {
+                    MouseWheelUnit::Line => STEPS_OF_LINE,
+                    MouseWheelUnit::Point => STEPS_OF_POINT,
+                    MouseWheelUnit::Page => STEPS_OF_PAGE,
+                };
+                // With Shift some systems turn it sideways.
+                let moved = if delta.y == 0.0 { delta.x } else { delta.y };
+                (moved != 0.0).then(|| (action, steps * f64::from(moved)))
+            }
+            Event::Zoom(factor) if *factor > 0.0 => {
+                // A step of the wheel is a factor of 1 / 0.85.
+                Some((Action::ZoomToCursor, f64::from(*factor).ln() / 0.1625))
+            }
+            _ => None,
+        }
+    }
+
+    /// All triggers of a command for people, such as `Delete, Backspace`; empty for one that is not
+    /// bound.
+    pub fn label(&self, action: Action) -> String {
+        self.label_on(action, cfg!(target_os = "macos"))
+    }
+
+    fn label_on(&self, action: Action, mac: bool) -> String {
+        let triggers = self.triggers(action).iter();
+        let labels: Vec<_> = triggers.map(|trigger| trigger.label(mac)).collect();
+        labels.join(", ")
+    }
+
+    /// For a settings file: the changed commands by name, each with its triggers.
+    pub fn changes(&self) -> BTreeMap<String, Vec<String>> {
+        let texts = |triggers: &Vec<Trigger>| triggers.iter().map(Trigger::to_string).collect();
+        let changed = self.changed.iter();
+        changed
+            .map(|(action, triggers)| (action.name().to_owned(), texts(triggers)))
+            .collect()
+    }
+
+    /// From a settings file. What cannot be read is left out and said in `notes`, a sentence each.
+    pub fn from_changes(
+        preset: Preset,
+        changes: &BTreeMap<String, Vec<String>>,
+        notes: &mut Vec<String>,
+    ) -> Self {
+        let mut bindings = Self::new(preset);
+        for (name, texts) in changes {
+            let Some(action) = Action::from_name(name) else {
+                notes.push(format!("there is no command `{name}`"));
+                continue;
+            };
+            let triggers = texts.iter().map(|text| text.parse());
+            let set = triggers
+                .collect::<Result<Vec<_>, _>>()
+                .and_then(|triggers| bindings.set(action, triggers));
+            if let Err(why) = set {
+                notes.push(format!("binding of `{name}`: {why}"));
+            }
+        }
+        bindings
+    }
+}
+
+/// All commands and what gives them in each preset, as a table in Markdown.
+pub fn markdown_table() -> String {
+    let presets = Preset::ALL.map(Bindings::new);
+    let mut text = String::from("| | command |");
+    for preset in Preset::ALL {
+        let _ = write!(text, " {} |", preset.title());
+    }
+    text.push_str("\n|---|---|");
+    text.push_str(&"---|".repeat(presets.len()));
+    text.push('\n');
+    let mut last = None;
+    for &action in Action::ALL {
+        let category = action.category();
+        let title = match last {
+            Some(last) if last == category => String::new(),
+            _ => format!("**{}**", category.title()),
+        };
+        last = Some(category);
+        let _ = write!(text, "| {title} | {} |", action.description());
+        for bindings in &presets {
+            let _ = write!(text, " {} |", bindings.label_on(action, false));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn suits(action: Action, trigger: &Trigger) -> bool {
+    use Trigger::{Click, DoubleClick, Drag, Hold, HoldMods, Key, Wheel};
+    match action.manner() {
+        Manner::Press => matches!(trigger, Key(..) | Click(..) | DoubleClick(..)),
+        Manner::Hold => matches!(trigger, Hold(_) | HoldMods(_)),
+        Manner::Motion => {
+            matches!(trigger, Drag(..)) || zooms(action) && matches!(trigger, Wheel(_))
+        }
+    }
+}
+
+/// Whether steps of a wheel make sense for what moves the camera.
+pub fn zooms(action: Action) -> bool {
+    matches!(action, Action::Zoom | Action::ZoomToCursor)
+}
+
+fn is_letter(trigger: &Trigger) -> bool {
+    matches!(trigger, Trigger::Key(_, key) if (Key::A..=Key::Z).contains(key))
+}
+
+/// Whether a key that is kept down gives the command again.
+fn repeats(action: Action) -> bool {
+    use Action as A;
+    matches!(
+        action,
+        A::OrbitLeft
+            | A::OrbitRight
+            | A::OrbitUp
+            | A::OrbitDown
+            | A::ZoomIn
+            | A::ZoomOut
+            | A::RollLeft
+            | A::RollRight
+            | A::ExposureUp
+            | A::ExposureDown
+            | A::StepForward
+            | A::StepBack
+            | A::Undo
+            | A::Redo
+            | A::LargerText
+            | A::SmallerText
+    )
+}

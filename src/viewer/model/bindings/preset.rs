@@ -1,0 +1,245 @@
+//! Sets of bindings for hands that come from elsewhere.
+
+use crate::viewer::model::bindings::{Action, Trigger};
+use std::collections::BTreeMap;
+
+/// A complete set of bindings.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Preset {
+    /// Orbit with the left button, shift with the middle one, zoom with the right one.
+    #[default]
+    Glimray,
+    /// As in Blender: the middle button moves the camera.
+    Blender,
+    /// As in Maya: Alt and a button move the camera.
+    Maya,
+}
+
+impl Preset {
+    /// All, the default first.
+    pub const ALL: [Self; 3] = [Self::Glimray, Self::Blender, Self::Maya];
+
+    /// As settings files have it: never changes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Glimray => "glimray",
+            Self::Blender => "blender",
+            Self::Maya => "maya",
+        }
+    }
+
+    /// For people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Glimray => "Glimray",
+            Self::Blender => "Blender",
+            Self::Maya => "Maya",
+        }
+    }
+
+    /// The one of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|preset| preset.name() == name)
+    }
+
+    /// Its bindings; commands that are not in there have none.
+    pub(super) fn bindings(self) -> BTreeMap<Action, Vec<Trigger>> {
+        let own = match self {
+            Self::Glimray => "",
+            Self::Blender => BLENDER,
+            Self::Maya => MAYA,
+        };
+        let lines = GLIMRAY.lines().chain(own.lines());
+        // Later lines win. Tests see to it that every line is read.
+        lines.filter_map(line).collect()
+    }
+}
+
+pub(super) fn line(line: &str) -> Option<(Action, Vec<Trigger>)> {
+    let (name, triggers) = line.trim().split_once(':')?;
+    let triggers = triggers.split(',').map(str::trim);
+    let triggers = triggers.filter(|trigger| !trigger.is_empty());
+    let triggers = triggers.map(|trigger| trigger.parse().ok());
+    Some((Action::from_name(name)?, triggers.collect::<Option<_>>()?))
+}
+
+// Digits without modifiers are views, as in Blender and many others; debug views have them with Shift.
+pub(super) const GLIMRAY: &str = "
+    orbit: Drag left
+    pan: Drag middle, Shift+Drag left
+    zoom: Wheel, Drag right
+    zoom-to-cursor: Ctrl+Wheel, Ctrl+Drag right
+    look-around: Ctrl+Drag left
+    set-pivot: DoubleClick left
+    focus-here: Click middle
+    orbit-left: Left
+    orbit-right: Right
+    orbit-up: Up
+    orbit-down: Down
+    zoom-in: PageUp
+    zoom-out: PageDown
+    roll-left: Ctrl+Left
+    roll-right: Ctrl+Right
+    level: Shift+Home
+    fly-forward: Hold W
+    fly-back: Hold S
+    fly-left: Hold A
+    fly-right: Hold D
+    fly-up: Hold E
+    fly-down: Hold Q
+    fly-faster: Hold Shift
+    frame-selection: F
+    frame-all: Shift+F
+    view-front: 1
+    view-back: Ctrl+1
+    view-right: 3
+    view-left: Ctrl+3
+    view-top: 7
+    view-bottom: Ctrl+7
+    toggle-orthographic: 5
+    home: Home
+    save-camera: K
+    next-camera: CloseBracket
+    previous-camera: OpenBracket
+    copy-camera: Ctrl+C
+    paste-camera: Ctrl+V
+    integrator-whitted: Shift+1
+    integrator-normals: Shift+2
+    integrator-depth: Shift+3
+    integrator-ids: Shift+4
+    integrator-uv: Shift+5
+    integrator-heat: Shift+6
+    integrator-samples: Shift+7
+    split-wipe: X
+    side-by-side: Shift+X
+    swap-sides: Alt+X
+    exposure-up: Equals, Plus, Shift+Plus
+    exposure-down: Minus
+    exposure-reset: 0
+    next-tone-curve: T
+    next-background: Shift+B
+    pause-render: P
+    restart-render: Shift+P
+    region-render: B
+    more-samples: M
+    fewer-samples: Shift+M
+    play-pause: Space
+    step-forward: Period
+    step-back: Comma
+    first-frame: Alt+Comma
+    last-frame: Alt+Period
+    play-faster: Shift+Period
+    play-slower: Shift+Comma
+    toggle-loop: L
+    toggle-motion-blur: U
+    select: Click left
+    select-mode: C
+    inspect-rays: I
+    move-tool: G
+    rotate-tool: R
+    scale-tool: Z
+    snap-handles: Hold Ctrl
+    fine-handles: Hold Shift
+    select-nothing: Escape
+    toggle-visible: V
+    rename: F2
+    duplicate: Ctrl+D
+    delete: Delete, Backspace
+    undo: Ctrl+Z
+    redo: Ctrl+Shift+Z, Ctrl+Y
+    open: Ctrl+O
+    open-next: Ctrl+PageDown
+    open-previous: Ctrl+PageUp
+    reload: F5, Ctrl+R
+    revert: Shift+F5
+    save-scene: Ctrl+S
+    save-scene-as: Ctrl+Shift+S
+    save-picture: F12, Ctrl+P
+    save-picture-with-overlays: Shift+F12
+    help: H, F1
+    preferences: Ctrl+Comma
+    toggle-panels: N
+    toggle-outline: O
+    toggle-overlays: Shift+O
+    toggle-statistics: Shift+I
+    toggle-theme: F9
+    larger-text: Ctrl+Equals, Ctrl+Plus, Ctrl+Shift+Plus
+    smaller-text: Ctrl+Minus
+    reset-text: Ctrl+0
+    full-screen: F11
+    quit: Ctrl+Q
+";
+
+// S, G and R are its tools, so nothing flies by letters; X deletes.
+pub(super) const BLENDER: &str = "
+    orbit: Drag middle
+    pan: Shift+Drag middle
+    zoom: Wheel, Ctrl+Drag middle
+    zoom-to-cursor: Ctrl+Wheel
+    set-pivot: DoubleClick left, Alt+Click middle
+    orbit-left: 4
+    orbit-right: 6
+    orbit-up: 8
+    orbit-down: 2
+    roll-left: Shift+4
+    roll-right: Shift+6
+    fly-forward:
+    fly-back:
+    fly-left:
+    fly-right:
+    fly-up:
+    fly-down:
+    fly-faster:
+    frame-selection: Period
+    frame-all: Home
+    home: 0
+    integrator-whitted: Alt+1
+    integrator-normals: Alt+2
+    integrator-depth: Alt+3
+    integrator-ids: Alt+4
+    integrator-uv: Alt+5
+    integrator-heat: Alt+6
+    integrator-samples: Alt+7
+    split-wipe: W
+    side-by-side: Shift+W
+    swap-sides: Alt+W
+    exposure-reset: Shift+0
+    region-render: Ctrl+B
+    step-forward: Right
+    step-back: Left
+    first-frame: Shift+Left
+    last-frame: Shift+Right
+    scale-tool: S
+    toggle-visible: H
+    duplicate: Shift+D
+    delete: X, Delete
+    help: F1
+";
+
+// Q, W, E and R are its tools, so nothing flies by letters.
+pub(super) const MAYA: &str = "
+    orbit: Alt+Drag left
+    pan: Alt+Drag middle
+    zoom: Wheel, Alt+Drag right
+    zoom-to-cursor: Ctrl+Wheel, Ctrl+Alt+Drag right
+    fly-forward:
+    fly-back:
+    fly-left:
+    fly-right:
+    fly-up:
+    fly-down:
+    fly-faster:
+    frame-all: A
+    play-pause: Alt+V, Space
+    step-forward: Alt+Period
+    step-back: Alt+Comma
+    first-frame: Shift+Alt+Comma
+    last-frame: Shift+Alt+Period
+    select-mode: Q
+    move-tool: W
+    rotate-tool: E
+    scale-tool: R
+    toggle-visible: Ctrl+H
+    undo: Ctrl+Z, Z
+    redo: Ctrl+Shift+Z, Ctrl+Y, Shift+Z
+";

@@ -1,0 +1,122 @@
+//! What a camera is sent to at once, and glides to.
+
+use crate::scene::Camera;
+use crate::viewer::model::camera::{CameraController, Known, MARGIN, NEAREST, Pose, Side};
+use glam::DVec3;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+impl CameraController {
+    /// Makes `point` the pivot and glides until it is in the middle, without turning or coming nearer.
+    pub fn recentre(&mut self, point: DVec3) {
+        let back = self.upright.orientation(&self.now).z_axis;
+        let depth = (self.now.pivot - point).dot(back) + self.now.distance;
+        let mut start = self.now;
+        if self.orthographic && self.clear {
+            start.pivot += back * (point - start.pivot).dot(back);
+        } else if depth > 0.0 {
+            start.pivot += back * (start.distance - depth);
+            start.distance = depth;
+        } else {
+            return;
+        }
+        self.now = start;
+        self.goal = Pose {
+            pivot: point,
+            ..start
+        };
+    }
+
+    /// Glides to where all of the box is seen in a picture of `aspect` (width over height), its middle
+    /// in the middle, and from as near as that: 5 % of the picture stay free at the edges that it
+    /// comes nearest to.
+    pub fn frame(&mut self, (min, max): (DVec3, DVec3), aspect: f64) {
+        let axes = self.upright.orientation(&self.goal);
+        let center = min.midpoint(max);
+        let upwards = self.tangent() * (1.0 - MARGIN);
+        let (mut distance, mut half_height) = (0.0_f64, 0.0_f64);
+        for corner in 0..8 {
+            let side = |bit: usize| [min[bit], max[bit]][corner >> bit & 1];
+            let p = DVec3::new(side(0), side(1), side(2)) - center;
+            let p = axes.transpose() * p;
+            // As far above the axis as a picture of width 1 would have it above.
+            let off = p.y.abs().max(p.x.abs() / aspect);
+            distance = distance.max(off / upwards + p.z);
+            half_height = half_height.max(off);
+        }
+        self.goal.pivot = center;
+        if half_height > 0.0 || distance > 0.0 {
+            self.goal.height = 2.0 * half_height.max(NEAREST * distance) / (1.0 - MARGIN);
+            self.goal.distance = distance.max(NEAREST * half_height);
+        }
+        self.clear = true;
+    }
+
+    /// Glides to a view from one side, round the same pivot.
+    pub fn look_from(&mut self, side: Side) {
+        let (yaw, pitch) = match side {
+            Side::Front => (0.0, 0.0),
+            Side::Back => (PI, 0.0),
+            Side::Right => (FRAC_PI_2, 0.0),
+            Side::Left => (-FRAC_PI_2, 0.0),
+            Side::Top => (0.0, -FRAC_PI_2),
+            Side::Bottom => (0.0, FRAC_PI_2),
+        };
+        let goal = Pose {
+            yaw,
+            pitch,
+            roll: 0.0,
+            ..self.goal
+        };
+        self.goal = goal.unwound(&self.now);
+        // No full turn of roll is left over.
+        self.now.roll -= self.goal.roll;
+        self.goal.roll = 0.0;
+        self.clear = true;
+    }
+
+    /// Changes between perspective and orthographic. What is at the pivot keeps its size.
+    pub fn toggle_orthographic(&mut self) {
+        let tangent = self.tangent();
+        for pose in [&mut self.now, &mut self.goal] {
+            if self.orthographic {
+                pose.distance = pose.height / (2.0 * tangent);
+            } else {
+                pose.height = 2.0 * tangent * pose.distance;
+            }
+        }
+        self.orthographic = !self.orthographic;
+        self.clear = true;
+    }
+
+    /// Glides back to the scene's own camera.
+    pub fn go_home(&mut self) {
+        self.home.pose = self.go(&self.home.camera.clone());
+    }
+
+    /// Glides to `camera`, which is in world space, and is it exactly on arrival.
+    pub fn go_to(&mut self, camera: &Camera) {
+        let pose = self.go(camera);
+        self.visited = Some(Known {
+            camera: camera.clone(),
+            pose,
+        });
+    }
+
+    fn go(&mut self, camera: &Camera) -> Pose {
+        self.stop();
+        let pose = self.upright.pose(camera).unwound(&self.now);
+        let orthographic = camera.orthographic_height.is_some();
+        if orthographic && !self.orthographic {
+            self.now.height = 2.0 * self.tangent() * self.now.distance;
+        } else if self.orthographic && !orthographic {
+            self.now.distance = self.now.height / (2.0 * (camera.fov_y / 2.0).tan());
+        }
+        self.orthographic = orthographic;
+        self.clear = false;
+        self.fov_y = camera.fov_y;
+        self.lens = camera.lens;
+        self.name.clone_from(&camera.name);
+        self.goal = pose;
+        pose
+    }
+}

@@ -1,0 +1,74 @@
+//! Movement that goes on: gliding and flying.
+
+use crate::viewer::model::camera::{CameraController, Flight, GLIDE, INERTIA};
+use glam::DVec3;
+
+impl CameraController {
+    /// Says where to fly from now on; default is nowhere.
+    pub fn fly(&mut self, flight: Flight) {
+        self.flight = flight;
+    }
+
+    pub(super) fn stop(&mut self) {
+        self.velocity = DVec3::ZERO;
+        self.flight = Flight::default();
+    }
+
+    /// Lets `seconds` go by, 0 or more. Whether the camera moved.
+    pub fn advance(&mut self, seconds: f64) -> bool {
+        let before = (self.now, self.goal);
+        self.glide(seconds);
+        self.drift(seconds);
+        before != (self.now, self.goal)
+    }
+
+    /// Ends all movement where it leads to.
+    pub fn arrive(&mut self) {
+        self.stop();
+        self.now = self.goal;
+    }
+
+    fn glide(&mut self, seconds: f64) {
+        if self.now == self.goal {
+            return;
+        }
+        self.now = (self.now).towards(&self.goal, -(-seconds / GLIDE).exp_m1());
+        if self.now.is_near(&self.goal, self.fov_y) {
+            self.now = self.goal;
+        }
+    }
+
+    /// Flies: the velocity v approaches the wanted one w as w + (v - w) e^(-t / τ), of which this is
+    /// the integral.
+    fn drift(&mut self, seconds: f64) {
+        if !self.is_flying() && self.velocity == DVec3::ZERO {
+            return;
+        }
+        let Flight {
+            right,
+            up,
+            forward,
+            pace,
+        } = self.flight;
+        let speed = 0.5 * self.scene_radius() * pace;
+        let axes = self.upright.orientation(&self.now);
+        let wanted = axes * DVec3::new(right, up, -forward) * speed;
+        let decay = (-seconds / INERTIA).exp();
+        let off = self.velocity - wanted;
+        let mut way = wanted * seconds + off * (INERTIA * (1.0 - decay));
+        self.velocity = wanted + off * decay;
+        if !self.is_flying() && self.velocity.length() < 1e-3 * self.scene_radius() {
+            self.velocity = DVec3::ZERO;
+        }
+        if self.orthographic {
+            // Coming nearer does not show; what is in the picture gets larger in its stead.
+            let ahead = -way.dot(axes.z_axis);
+            let factor = (-ahead / self.scene_radius()).exp();
+            self.now.height *= factor;
+            self.goal.height *= factor;
+            way += axes.z_axis * ahead;
+        }
+        self.now.pivot += way;
+        self.goal.pivot += way;
+    }
+}

@@ -1,0 +1,264 @@
+//! Which flag makes up for which difference.
+
+use crate::app::words::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
+use crate::scene::{Background, Camera, Scene, Shutter};
+use crate::viewer::model::command_line::{Pasted, Shown};
+use glam::DVec3;
+
+/// Something that a line says otherwise than it is shown.
+pub(super) struct Difference {
+    /// In a few words.
+    pub what: &'static str,
+    /// What to add to the line; nothing if no flag can say it.
+    pub flags: Vec<(&'static str, String)>,
+}
+
+/// All differences, those first on which others depend.
+pub(super) fn all(shown: &Shown, scene: &Scene, said: &Pasted) -> impl Iterator<Item = Difference> {
+    let checks = camera(shown, scene, said)
+        .into_iter()
+        .chain(settings(shown, said))
+        .chain(look(shown, said));
+    checks
+        .filter(|(differs, ..)| *differs)
+        .map(|(_, what, flags)| Difference { what, flags })
+}
+
+/// Whether it differs, what it is called, and what would say it.
+type Check = (bool, &'static str, Vec<(&'static str, String)>);
+
+fn one(differs: bool, what: &'static str, flag: &'static str, value: String) -> Check {
+    (differs, what, vec![(flag, value)])
+}
+
+fn camera(shown: &Shown, scene: &Scene, said: &Pasted) -> Vec<Check> {
+    let (wanted, camera) = (shown.camera, &said.camera);
+    let time = one(
+        shown.time != said.time,
+        "the time",
+        "--time",
+        shown.time.to_string(),
+    );
+    // A lens comes only with the camera that has it.
+    let has_lens = |index: &usize| {
+        let mut scene = scene.clone();
+        scene.camera_index = *index;
+        scene.frame(shown.time).camera.lens == wanted.lens
+    };
+    let lens = (wanted.lens != camera.lens)
+        .then(|| (0..scene.cameras.len()).find(has_lens))
+        .flatten();
+    let chosen = lens.map(|index| ("--camera", index.to_string()));
+    let projection = match wanted.orthographic_height {
+        Some(height) => ("--orthographic", height.to_string()),
+        None => ("--fov-y", degrees(wanted.fov_y).to_string()),
+    };
+    vec![
+        time,
+        (
+            wanted.lens != camera.lens,
+            "the camera's lens",
+            chosen.into_iter().collect(),
+        ),
+        place(wanted, camera),
+        (
+            !same_projection(wanted, camera),
+            "the camera's angle of view",
+            vec![projection],
+        ),
+    ]
+}
+
+/// All three at once: what a scene's animation says of one of them must not remain.
+fn place(wanted: &Camera, camera: &Camera) -> Check {
+    let pairs = [
+        (wanted.look_from, camera.look_from, "--look-from"),
+        (wanted.look_at, camera.look_at, "--look-at"),
+        (wanted.up, camera.up, "--up"),
+    ];
+    let differs = pairs.iter().any(|(wanted, said, _)| wanted != said);
+    let flags = pairs.map(|(wanted, _, flag)| (flag, vector(wanted)));
+    (differs, "where the camera is", flags.to_vec())
+}
+
+fn same_projection(a: &Camera, b: &Camera) -> bool {
+    a.orthographic_height == b.orthographic_height
+        && (a.orthographic_height.is_some() || a.fov_y == b.fov_y)
+}
+
+fn settings(shown: &Shown, said: &Pasted) -> Vec<Check> {
+    let (wanted, said) = (shown.settings, &said.settings);
+    let (width, height) = wanted.size;
+    let crop = wanted.crop.map(|edges| edges.map(|edge| edge.to_string()));
+    let crop = crop.map(|edges| ("--crop", edges.join(",")));
+    // A switch: it has no value.
+    let brute_force = wanted
+        .brute_force
+        .then(|| ("--no-bvh", String::new()))
+        .into_iter();
+    vec![
+        one(
+            wanted.size != said.size,
+            "the size",
+            "--size",
+            format!("{width}x{height}"),
+        ),
+        (
+            wanted.crop != said.crop,
+            "the region",
+            crop.into_iter().collect(),
+        ),
+        one(
+            wanted.samples != said.samples,
+            "the samples",
+            "--samples",
+            wanted.samples.to_string(),
+        ),
+        one(
+            wanted.antialias != said.antialias,
+            "where samples lie",
+            "--antialias",
+            ANTIALIAS.word(&wanted.antialias).to_owned(),
+        ),
+        one(
+            wanted.noise != said.noise,
+            "the noise",
+            "--noise",
+            wanted.noise.to_string(),
+        ),
+        one(
+            wanted.filter != said.filter,
+            "the filter",
+            "--filter",
+            FILTERS.word(&wanted.filter).to_owned(),
+        ),
+        one(
+            wanted.filter_radius != said.filter_radius,
+            "the filter's radius",
+            "--filter-radius",
+            wanted.filter_radius.to_string(),
+        ),
+        one(
+            wanted.light_samples != said.light_samples,
+            "the lights' samples",
+            "--light-samples",
+            wanted.light_samples.to_string(),
+        ),
+        one(
+            wanted.integrator != said.integrator,
+            "the integrator",
+            "--integrator",
+            INTEGRATORS.word(&wanted.integrator).to_owned(),
+        ),
+        one(
+            wanted.triangle_test != said.triangle_test,
+            "the triangle test",
+            "--triangle-test",
+            TRIANGLE_TESTS.word(&wanted.triangle_test).to_owned(),
+        ),
+        (
+            wanted.brute_force != said.brute_force,
+            "the search without a tree",
+            brute_force.collect(),
+        ),
+        one(
+            wanted.seed != said.seed,
+            "the seed",
+            "--seed",
+            wanted.seed.to_string(),
+        ),
+        one(
+            wanted.max_depth != said.max_depth,
+            "the depth",
+            "--max-depth",
+            wanted.max_depth.to_string(),
+        ),
+        one(
+            wanted.min_throughput != said.min_throughput,
+            "the least throughput",
+            "--min-throughput",
+            wanted.min_throughput.to_string(),
+        ),
+    ]
+}
+
+fn look(shown: &Shown, said: &Pasted) -> Vec<Check> {
+    let (wanted, tone) = (shown.tone, said.tone);
+    let background = match shown.background {
+        Background::Color(color) => {
+            vec![(
+                "--background",
+                color.to_array().map(|c| c.to_string()).join(","),
+            )]
+        }
+        _ => Vec::new(),
+    };
+    let Shutter { open, close } = shown.shutter;
+    let shutter = if open == 0.0 && close >= 0.0 {
+        close.to_string()
+    } else {
+        format!("{open}..{close}")
+    };
+    vec![
+        (
+            *shown.background != said.background,
+            "the background",
+            background,
+        ),
+        one(
+            wanted.exposure_ev != tone.exposure_ev,
+            "the exposure",
+            "--exposure",
+            wanted.exposure_ev.to_string(),
+        ),
+        one(
+            wanted.curve != tone.curve,
+            "the tone curve",
+            "--tone",
+            TONES.word(&wanted.curve).to_owned(),
+        ),
+        one(
+            wanted.transfer != tone.transfer,
+            "the transfer function",
+            "--transfer",
+            TRANSFERS.word(&wanted.transfer).to_owned(),
+        ),
+        one(
+            shown.fps != said.fps,
+            "the frame rate",
+            "--fps",
+            shown.fps.to_string(),
+        ),
+        one(
+            shown.shutter != said.shutter,
+            "the shutter",
+            "--shutter",
+            shutter,
+        ),
+    ]
+}
+
+fn vector(v: DVec3) -> String {
+    v.to_array().map(|c| c.to_string()).join(",")
+}
+
+/// The number of degrees that leads back to just these radians, if there is one; else the nearest.
+fn degrees(radians: f64) -> f64 {
+    let middle = radians.to_degrees();
+    let near = [
+        middle,
+        middle.next_up(),
+        middle.next_down(),
+        middle.next_up().next_up(),
+        middle.next_down().next_down(),
+    ];
+    let exact = near
+        .into_iter()
+        .find(|degrees| degrees.to_radians() == radians);
+    // Files and people have round numbers, of which several may lead there.
+    let round = (middle * 1e6).round() / 1e6;
+    if round.to_radians() == radians {
+        return round;
+    }
+    exact.unwrap_or(middle)
+}

@@ -1,0 +1,81 @@
+//! The outline as it is shown: made anew when the scene is another one, searched when the words are.
+
+use crate::scene::Scene;
+use crate::viewer::model::objects::Id;
+use crate::viewer::model::outline::{Entry, Outline};
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// An [`Outline`], and what of it is shown.
+#[derive(Default)]
+pub struct Listing {
+    /// The words that are looked for.
+    pub query: String,
+    scene: Option<Arc<Scene>>,
+    outline: Outline,
+    lines: HashMap<Id, usize>,
+    searched: String,
+    /// Indices of the lines that are shown.
+    shown: Vec<usize>,
+}
+
+impl Listing {
+    /// Takes up a scene and the words.
+    pub fn follow(&mut self, scene: &Arc<Scene>) {
+        let is_known = self.lists(scene);
+        if !is_known {
+            self.outline = Outline::of(scene);
+            self.lines = (self.outline.entries.iter().enumerate())
+                .filter_map(|(index, entry)| Some((entry.id?, index)))
+                .collect();
+            self.scene = Some(scene.clone());
+        }
+        if !is_known || self.searched != self.query {
+            self.searched.clone_from(&self.query);
+            self.shown = self.outline.search(&self.query);
+        }
+    }
+
+    fn lists(&self, scene: &Arc<Scene>) -> bool {
+        (self.scene.as_ref()).is_some_and(|known| Arc::ptr_eq(known, scene))
+    }
+
+    /// How many lines are shown.
+    pub fn count(&self) -> usize {
+        self.shown.len()
+    }
+
+    /// Some of the lines that are shown.
+    pub fn rows(&self, range: Range<usize>) -> impl Iterator<Item = &Entry> + '_ {
+        let shown = self.shown.get(range).unwrap_or_default();
+        shown.iter().map(|index| &self.outline.entries[*index])
+    }
+
+    /// At which of the shown lines something is.
+    pub fn row_of(&self, id: Id) -> Option<usize> {
+        let line = self.lines.get(&id)?;
+        self.shown.binary_search(line).ok()
+    }
+
+    /// What something of `scene` is called, where it is that scene that is listed: a hidden outline is
+    /// not kept up.
+    pub fn label(&self, scene: &Arc<Scene>, id: Id) -> Option<&str> {
+        if !self.lists(scene) {
+            return None;
+        }
+        let line = self.lines.get(&id)?;
+        Some(&self.outline.entries[*line].label)
+    }
+
+    /// What is selected some lines on.
+    pub fn step(&self, from: Option<Id>, steps: isize) -> Option<Id> {
+        let things: Vec<Id> = (self.shown.iter())
+            .filter_map(|index| self.outline.entries[*index].id)
+            .collect();
+        let at = from.and_then(|id| things.iter().position(|other| *other == id));
+        let last = things.len().checked_sub(1)? as isize;
+        let next = at.map_or(0, |at| at as isize + steps);
+        things.get(next.clamp(0, last) as usize).copied()
+    }
+}

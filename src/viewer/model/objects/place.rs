@@ -1,0 +1,312 @@
+//! Where an object is in the world, read and set, whatever carries it.
+
+use crate::scene::{Geometry, LightKind, LightProperty, NodeProperty, ObjectRef, Scene, Target};
+use crate::viewer::model::objects::frame::{geometry_in, light_in, of_geometry, of_light};
+use crate::viewer::model::objects::{EditError, Id, check};
+use glam::{DAffine3, DVec3};
+
+/// Numbers beyond this mean nothing to the GPU.
+const LARGEST: f64 = f32::MAX as f64;
+
+/// How an object can be scaled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scaling {
+    /// It has no size.
+    None,
+    /// By one factor.
+    Even,
+    /// By one for each axis.
+    Uneven,
+}
+
+/// What can be changed of where an object is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Freedom {
+    /// Whether it can be moved.
+    pub translate: bool,
+    /// Whether it can be turned.
+    pub rotate: bool,
+    /// How it can be scaled.
+    pub scale: Scaling,
+}
+
+/// What can be changed of where something is; nothing of cameras and materials, which have fields of
+/// their own.
+pub fn freedom(scene: &Scene, id: Id) -> Freedom {
+    let freedom = |translate, rotate, scale| Freedom {
+        translate,
+        rotate,
+        scale,
+    };
+    let drives = |target: Target| (scene.tracks.iter()).any(|t| t.targets.contains(&target));
+    match id {
+        Id::Object(ObjectRef::Instance(_)) => freedom(true, true, Scaling::Uneven),
+        Id::Object(ObjectRef::Shape(index)) => {
+            match scene.shapes.get(index).map(|shape| shape.geometry) {
+                Some(Geometry::Plane { .. }) => freedom(true, true, Scaling::None),
+                _ => freedom(true, true, Scaling::Uneven),
+            }
+        }
+        Id::Object(ObjectRef::Light(index)) => {
+            let Some(light) = scene.lights.get(index) else {
+                return freedom(false, false, Scaling::None);
+            };
+            let stays = !drives(Target::Light(index, LightProperty::Position));
+            let aims = !drives(Target::Light(index, LightProperty::Direction));
+            match light.kind {
+                LightKind::Point { .. } => freedom(stays, false, Scaling::None),
+                LightKind::Directional { .. } => freedom(false, aims, Scaling::None),
+                LightKind::Spot { .. } => freedom(stays, aims, Scaling::None),
+                LightKind::Rectangle { .. } => freedom(stays, true, Scaling::Uneven),
+                LightKind::Disc { .. } => freedom(stays, aims, Scaling::Even),
+                LightKind::Sphere { .. } => freedom(stays, false, Scaling::Even),
+            }
+        }
+        Id::Node(index) => {
+            let drives = |property| drives(Target::Node(index, property));
+            let turns = drives(NodeProperty::Rotation) || drives(NodeProperty::Angles);
+            let scale = match drives(NodeProperty::Scale) {
+                true => Scaling::None,
+                false => Scaling::Uneven,
+            };
+            freedom(!drives(NodeProperty::Translation), !turns, scale)
+        }
+        Id::Camera(_) | Id::Material(_) => freedom(false, false, Scaling::None),
+    }
+}
+
+/// From the object's own space to the world at `time` seconds; `None` for what has no place, or is
+/// not there. Lights shine along the +y of their own space, shapes are canonical in theirs.
+pub fn place(scene: &Scene, id: Id, time: f64) -> Option<DAffine3> {
+    let frame = scene.frame(time);
+    let world_from = |node: Option<usize>| match node {
+        Some(node) => frame.nodes[node].world_from_node,
+        None => DAffine3::IDENTITY,
+    };
+    match id {
+        Id::Object(ObjectRef::Instance(index)) => {
+            let instance = scene.instances.get(index)?;
+            Some(chain(world_from(instance.node), instance.placement))
+        }
+        Id::Object(ObjectRef::Shape(index)) => {
+            let shape = scene.shapes.get(index)?;
+            let own = of_geometry(&shape.geometry);
+            Some(match shape.geometry {
+                // Planes stand still.
+                Geometry::Plane { .. } => own,
+                _ => chain(world_from(shape.node), own),
+            })
+        }
+        Id::Object(ObjectRef::Light(index)) => Some(of_light(&frame.lights.get(index)?.kind)),
+        Id::Node(index) => Some(frame.nodes.get(index)?.world_from_node),
+        Id::Camera(_) | Id::Material(_) => None,
+    }
+}
+
+/// Puts an object where `wanted` says, as [`place`] gives it at `time` seconds. What carries it goes on
+/// to carry it: if that moves, the object keeps its new place in it.
+///
+/// # Errors
+/// The object lacks a freedom that it would take, an animation sets what would change, or nothing
+/// would be left of it. The scene then stays as it is.
+pub fn set_place(scene: &mut Scene, id: Id, wanted: DAffine3, time: f64) -> Result<(), EditError> {
+    check(scene, id)?;
+    let old = place(scene, id, time).ok_or(EditError::Unable {
+        what: "a camera or material",
+        done: "placed like an object",
+        todo: "Change its own fields",
+    })?;
+    if !is_good(wanted) {
+        return Err(EditError::Flat);
+    }
+    refuse_what_is_not_free(scene, id, old, wanted)?;
+    let frame = scene.frame(time);
+    let into = |node: Option<usize>| match node {
+        Some(node) => chain(frame.nodes[node].world_from_node.inverse(), wanted),
+        None => wanted,
+    };
+    match id {
+        Id::Object(ObjectRef::Instance(index)) => {
+            let instance = &mut scene.instances[index];
+            instance.placement = into(instance.node);
+        }
+        Id::Object(ObjectRef::Shape(index)) => {
+            let shape = &mut scene.shapes[index];
+            let own = match shape.geometry {
+                Geometry::Plane { .. } => wanted,
+                _ => into(shape.node),
+            };
+            shape.geometry = geometry_in(&shape.geometry, own);
+        }
+        Id::Object(ObjectRef::Light(index)) => {
+            // A carried light is told by how it changes: carrying may have rounded its shape.
+            let light = &mut scene.lights[index];
+            light.kind = match light.node {
+                None => light_in(&light.kind, old, wanted),
+                Some(node) => {
+                    let node_from_world = frame.nodes[node].world_from_node.inverse();
+                    let change = node_from_world * wanted * old.inverse();
+                    let change = change * frame.nodes[node].world_from_node;
+                    let own = of_light(&light.kind);
+                    let mut now = change * own;
+                    if wanted.matrix3 == old.matrix3 {
+                        now.matrix3 = own.matrix3;
+                    }
+                    light_in(&light.kind, own, now)
+                }
+            };
+        }
+        Id::Node(index) => set_node(scene, index, old, wanted, time)?,
+        Id::Camera(_) | Id::Material(_) => {}
+    }
+    Ok(())
+}
+
+fn set_node(
+    scene: &mut Scene,
+    index: usize,
+    old: DAffine3,
+    wanted: DAffine3,
+    time: f64,
+) -> Result<(), EditError> {
+    let frame = scene.frame(time);
+    let node = &scene.nodes[index];
+    let above = match node.parent {
+        Some(parent) => frame.nodes[parent].world_from_node * node.placement,
+        None => node.placement,
+    };
+    let local = chain(above.inverse(), wanted);
+    let (scale, turn, moved) = local.to_scale_rotation_translation();
+    let told = DAffine3::from_scale_rotation_translation(scale, turn, moved);
+    let size = local
+        .matrix3
+        .to_cols_array()
+        .iter()
+        .fold(0.0, |a: f64, b| a.max(b.abs()));
+    if !told.matrix3.abs_diff_eq(local.matrix3, 1e-9 * size) {
+        return Err(EditError::Unable {
+            what: "a node in what turns and scales unevenly",
+            done: "slanted",
+            todo: "Change what it carries instead",
+        });
+    }
+    let is_moved_only = wanted.matrix3 == old.matrix3;
+    let node = &mut scene.nodes[index];
+    if moved.is_finite() {
+        node.translation = moved;
+    }
+    if !is_moved_only {
+        node.rotation = turn;
+        node.scale = scale;
+    }
+    Ok(())
+}
+
+/// Refuses changes that an object cannot take, or that an animation would undo.
+fn refuse_what_is_not_free(
+    scene: &Scene,
+    id: Id,
+    old: DAffine3,
+    wanted: DAffine3,
+) -> Result<(), EditError> {
+    let free = freedom(scene, id);
+    let (old_scale, old_turn, _) = old.to_scale_rotation_translation();
+    let (scale, turn, _) = wanted.to_scale_rotation_translation();
+    let reach = old
+        .translation
+        .abs()
+        .max_element()
+        .max(old_scale.abs().max_element());
+    let moves = !(wanted.translation).abs_diff_eq(old.translation, 1e-9 * reach.max(1e-9));
+    let turns = turn.dot(old_turn).abs() < 1.0 - 1e-12;
+    let factor = scale / old_scale;
+    let is_even = (factor - factor.x).abs().max_element() < 1e-9;
+    let scales = (factor - 1.0).abs().max_element() > 1e-9;
+    let what = name(scene, id);
+    let unable = |done, todo| Err(EditError::Unable { what, done, todo });
+    let animated = |property| Err(EditError::Animated { property });
+    let light = match id {
+        Id::Object(ObjectRef::Light(index)) => Some(scene.lights[index].kind),
+        _ => None,
+    };
+    if moves && !free.translate {
+        return match light {
+            Some(LightKind::Directional { .. }) => {
+                unable("moved", "It shines from infinitely far: turn it")
+            }
+            Some(_) => animated("position"),
+            None => animated("translation"),
+        };
+    }
+    if turns && !free.rotate {
+        return match light {
+            Some(LightKind::Point { .. } | LightKind::Sphere { .. }) => {
+                unable("turned", "It shines alike to all sides")
+            }
+            Some(_) => animated("direction"),
+            None => animated("rotation"),
+        };
+    }
+    match free.scale {
+        Scaling::None if scales => match id {
+            Id::Node(_) => animated("scale"),
+            _ => unable(
+                "scaled",
+                "It has no size: change its intensity, or its angles",
+            ),
+        },
+        Scaling::Even if scales && !is_even => {
+            unable("scaled unevenly", "Give one factor for all axes")
+        }
+        _ => Ok(()),
+    }
+}
+
+fn name(scene: &Scene, id: Id) -> &'static str {
+    match id {
+        Id::Object(ObjectRef::Instance(_)) => "a mesh",
+        Id::Object(ObjectRef::Shape(index)) => match scene.shapes[index].geometry {
+            Geometry::Plane { .. } => "an endless plane",
+            _ => "a surface",
+        },
+        Id::Object(ObjectRef::Light(index)) => match scene.lights[index].kind {
+            LightKind::Point { .. } => "a point light",
+            LightKind::Directional { .. } => "a directional light",
+            LightKind::Spot { .. } => "a spot light",
+            LightKind::Rectangle { .. } => "a rectangle light",
+            LightKind::Disc { .. } => "a disc light",
+            LightKind::Sphere { .. } => "a sphere light",
+        },
+        Id::Node(_) => "a node",
+        Id::Camera(_) => "a camera",
+        Id::Material(_) => "a material",
+    }
+}
+
+/// Whether something is left that numbers can tell.
+fn is_good(place: DAffine3) -> bool {
+    let columns = [
+        place.matrix3.x_axis,
+        place.matrix3.y_axis,
+        place.matrix3.z_axis,
+    ];
+    let is_in_range = |v: DVec3| v.is_finite() && v.abs().max_element() <= LARGEST;
+    let [x, y, z] = columns.map(DVec3::normalize_or_zero);
+    columns
+        .into_iter()
+        .chain([place.translation])
+        .all(is_in_range)
+        && columns
+            .iter()
+            .all(|v| v.length() >= f64::from(f32::MIN_POSITIVE))
+        && x.cross(y).dot(z).abs() > 1e-12
+}
+
+/// The product, with all digits where one of them changes nothing.
+fn chain(outer: DAffine3, inner: DAffine3) -> DAffine3 {
+    if outer == DAffine3::IDENTITY {
+        inner
+    } else {
+        outer * inner
+    }
+}

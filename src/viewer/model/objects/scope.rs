@@ -1,0 +1,152 @@
+//! What concerns more than one thing, and names.
+
+use crate::scene::{ObjectRef, Scene};
+use crate::viewer::model::objects::{EditError, Id, check, is_visible, set_visible};
+use glam::DVec3;
+
+/// Whether something is in the scene.
+pub fn is_there(scene: &Scene, id: Id) -> bool {
+    check(scene, id).is_ok()
+}
+
+/// The name of something that has one; it may be empty. Objects have none of their own.
+pub fn name(scene: &Scene, id: Id) -> Option<&str> {
+    match id {
+        Id::Object(_) => None,
+        Id::Node(index) => scene.nodes.get(index).map(|node| node.name.as_str()),
+        Id::Camera(index) => scene.cameras.get(index).map(|camera| camera.name.as_str()),
+        Id::Material(index) => (scene.materials.get(index)).map(|material| material.name.as_str()),
+    }
+}
+
+/// Gives something another name.
+///
+/// # Errors
+/// It has none, or is not in the scene.
+pub fn rename(scene: &mut Scene, id: Id, name: &str) -> Result<(), EditError> {
+    check(scene, id)?;
+    let slot = match id {
+        Id::Node(index) => &mut scene.nodes[index].name,
+        Id::Camera(index) => &mut scene.cameras[index].name,
+        Id::Material(index) => &mut scene.materials[index].name,
+        Id::Object(_) => {
+            return Err(EditError::Unable {
+                what: "an object",
+                done: "named",
+                todo: "Name its material, or what carries it",
+            });
+        }
+    };
+    name.trim().clone_into(slot);
+    Ok(())
+}
+
+/// Hides all meshes and shapes but this one, or but those that a node carries. What cannot be hidden
+/// stays.
+pub fn hide_others(scene: &mut Scene, id: Id) {
+    let stays = |scene: &Scene, object: ObjectRef| {
+        Id::Object(object) == id
+            || matches!(id, Id::Node(node) if is_carried_by(scene, object, node))
+    };
+    for object in surfaces(scene) {
+        let id = Id::Object(object);
+        if !stays(scene, object) && is_visible(scene, id) {
+            // Only what an animation switches refuses, and that may go on to show it.
+            let _ = set_visible(scene, id, false);
+        }
+    }
+}
+
+/// Shows all that is hidden at rest, but for what an animation switches.
+pub fn show_all(scene: &mut Scene) {
+    let lights = (0..scene.lights.len()).map(ObjectRef::Light);
+    let objects: Vec<_> = surfaces(scene).into_iter().chain(lights).collect();
+    for index in 0..scene.nodes.len() {
+        if !crate::viewer::model::objects::is_hider(scene, index) {
+            let _ = set_visible(scene, Id::Node(index), true);
+        }
+    }
+    for id in objects.into_iter().map(Id::Object) {
+        if !is_visible(scene, id) {
+            let _ = set_visible(scene, id, true);
+        }
+    }
+}
+
+/// The axis-aligned box (min, max) in the world at `time` seconds, of a node round all that it carries;
+/// `None` for what has no bounds.
+pub fn bounds(scene: &Scene, id: Id, time: f64) -> Option<(DVec3, DVec3)> {
+    match id {
+        Id::Object(object) => scene.bounds_of(object, time),
+        Id::Node(node) => (surfaces(scene).into_iter())
+            .filter(|object| is_carried_by(scene, *object, node))
+            .filter_map(|object| scene.bounds_of(object, time))
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))),
+        Id::Camera(_) | Id::Material(_) => None,
+    }
+}
+
+/// Bounds of what there is to look at, in the world at time 0: all surfaces but lamps, which shine all over
+/// and often stand far away; lamps too where there is nothing else.
+pub fn subject(scene: &Scene) -> Option<(DVec3, DVec3)> {
+    let shines = |material: usize| {
+        let material = scene.materials.get(material);
+        material.is_some_and(|material| material.emission.max_element() > 0.0)
+    };
+    let mut lit = scene.clone();
+    lit.shapes.retain(|shape| !shines(shape.material));
+    lit.instances.retain(|instance| {
+        let mut materials = scene.meshes[instance.mesh].materials.iter();
+        materials.len() == 0 || !materials.all(|material| shines(*material as usize))
+    });
+    lit.bounds().or_else(|| scene.bounds())
+}
+
+fn surfaces(scene: &Scene) -> Vec<ObjectRef> {
+    let instances = (0..scene.instances.len()).map(ObjectRef::Instance);
+    let shapes = (0..scene.shapes.len()).map(ObjectRef::Shape);
+    instances.chain(shapes).collect()
+}
+
+fn is_carried_by(scene: &Scene, object: ObjectRef, node: usize) -> bool {
+    let own = crate::viewer::model::objects::carrier(scene, Id::Object(object));
+    std::iter::successors(own, |&index| scene.nodes[index].parent).any(|index| index == node)
+}
+
+/// What `id` of one scene is in another that one step leads to. In a list that got longer or shorter,
+/// what stands before or behind the change is known by that; `None` for what is gone or cannot be told.
+pub fn same(before: &Scene, after: &Scene, id: Id) -> Option<Id> {
+    Some(match id {
+        Id::Object(ObjectRef::Shape(index)) => {
+            let index = index_after(&before.shapes, &after.shapes, index)?;
+            Id::Object(ObjectRef::Shape(index))
+        }
+        Id::Object(ObjectRef::Instance(index)) => {
+            let index = index_after(&before.instances, &after.instances, index)?;
+            Id::Object(ObjectRef::Instance(index))
+        }
+        Id::Object(ObjectRef::Light(index)) => {
+            let index = index_after(&before.lights, &after.lights, index)?;
+            Id::Object(ObjectRef::Light(index))
+        }
+        Id::Node(index) => Id::Node(index_after(&before.nodes, &after.nodes, index)?),
+        Id::Camera(index) => Id::Camera(index_after(&before.cameras, &after.cameras, index)?),
+        Id::Material(index) => {
+            Id::Material(index_after(&before.materials, &after.materials, index)?)
+        }
+    })
+}
+
+fn index_after<T: PartialEq>(before: &[T], after: &[T], index: usize) -> Option<usize> {
+    if before.len() == after.len() {
+        return Some(index);
+    }
+    let same = |pair: &(&T, &T)| pair.0 == pair.1;
+    let first = before.iter().zip(after).take_while(same).count();
+    if index < first {
+        return Some(index);
+    }
+    let rest = (before[first..].iter().rev()).zip(after[first..].iter().rev());
+    let last = rest.take_while(same).count();
+    (index + last >= before.len()).then(|| index + after.len() - before.len())
+}

@@ -1,0 +1,144 @@
+//! The time of the picture: played, paused, or stepped through, always at a whole frame.
+
+use crate::app::clock;
+use crate::app::clock::Clock;
+use crate::scene::{Scene, Shutter};
+
+/// How much faster, or slower, than by itself the animation can be played.
+pub const MAX_SPEED: f64 = 16.0;
+
+/// Where in the animation we are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Playback {
+    /// Frames per second and shutter.
+    pub clock: Clock,
+    /// In seconds.
+    pub time: f64,
+    /// Whether time goes on.
+    pub is_playing: bool,
+    /// Seconds of the animation in a second, above 0.
+    pub speed: f64,
+    /// Whether it begins again at its end.
+    pub repeats: bool,
+    /// Whether the shutter is open for any time.
+    pub blurs: bool,
+    /// Seconds since the frame that is shown.
+    since_frame: f64,
+    /// In seconds; 0 where nothing changes.
+    duration: f64,
+}
+
+impl Playback {
+    /// Paused at `time`, in seconds.
+    pub fn new(clock: Clock, time: f64) -> Self {
+        Self {
+            clock,
+            time,
+            is_playing: false,
+            speed: 1.0,
+            repeats: true,
+            blurs: true,
+            since_frame: 0.0,
+            duration: 0.0,
+        }
+    }
+
+    /// Takes up how long a scene's animation is.
+    pub fn follow(&mut self, scene: &Scene) {
+        self.duration = clock::duration(scene).unwrap_or(0.0);
+        self.is_playing &= self.duration > 0.0;
+    }
+
+    /// In seconds; 0 where nothing changes.
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// The number of the frame that is shown or was last.
+    pub fn frame(&self) -> u32 {
+        (self.time * self.clock.fps + 1e-6).floor().max(0.0) as u32
+    }
+
+    /// The number of the last one.
+    pub fn last_frame(&self) -> u32 {
+        clock::last_frame(self.duration, self.clock.fps, self.repeats)
+    }
+
+    /// Plays or pauses. One that has come to its end begins again.
+    pub fn toggle(&mut self) {
+        self.is_playing = !self.is_playing && self.duration > 0.0;
+        if self.is_playing && !self.repeats && self.frame() >= self.last_frame() {
+            self.go_to(0);
+        }
+    }
+
+    /// Takes other frames per second, above 0, and stays as near as it can to the moment that is shown.
+    pub fn set_fps(&mut self, fps: f64) {
+        if fps != self.clock.fps {
+            self.clock.fps = fps;
+            let frame = (self.time * fps).round().max(0.0) as u32;
+            self.go_to(frame.min(self.last_frame()));
+        }
+    }
+
+    /// Goes to a frame.
+    pub fn go_to(&mut self, frame: u32) {
+        self.since_frame = 0.0;
+        self.time = f64::from(frame) / self.clock.fps;
+    }
+
+    /// Goes some frames on or back, round the end if it repeats.
+    pub fn step(&mut self, frames: i64) {
+        self.is_playing = false;
+        self.advance_frames(frames);
+    }
+
+    /// Multiplies the speed, within [`MAX_SPEED`].
+    pub fn scale_speed(&mut self, factor: f64) {
+        self.speed = (self.speed * factor).clamp(1.0 / MAX_SPEED, MAX_SPEED);
+    }
+
+    /// Lets `seconds` go by.
+    pub fn advance(&mut self, seconds: f64) {
+        if !self.is_playing {
+            return;
+        }
+        self.since_frame += seconds * self.speed;
+        let frames = (self.since_frame * self.clock.fps).floor();
+        if frames >= 1.0 {
+            let rest = self.since_frame - frames / self.clock.fps;
+            self.advance_frames(frames as i64);
+            self.since_frame = rest;
+        }
+    }
+
+    fn advance_frames(&mut self, frames: i64) {
+        let last = i64::from(self.last_frame());
+        let wanted = i64::from(self.frame()) + frames;
+        let frame = match self.repeats {
+            true => wanted.rem_euclid(last + 1),
+            false => wanted.clamp(0, last),
+        };
+        self.is_playing &= self.repeats || frame < last;
+        self.go_to(frame as u32);
+    }
+
+    /// When the shutter opens and closes, in seconds.
+    pub fn shot(&self) -> (f64, f64) {
+        match self.blurs {
+            true => self.clock.shot(self.time),
+            false => (self.time, self.time),
+        }
+    }
+
+    /// The shutter as the command line has it.
+    pub fn shutter(&self) -> Shutter {
+        match self.blurs {
+            true => self.clock.shutter,
+            false => Shutter {
+                open: 0.0,
+                close: 0.0,
+            },
+        }
+    }
+}

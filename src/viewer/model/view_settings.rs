@@ -1,0 +1,210 @@
+//! How the picture is made and looked at: what a person changes without changing the scene.
+
+use crate::render::{Antialias, Integrator, Levels, RenderSettings, Shows, Tone};
+use crate::scene::{Background, OutputDefaults, ToneCurve};
+use crate::viewer::model::playback::Playback;
+use crate::viewer::model::region::Grip;
+use glam::Vec3;
+
+/// Most samples of a pixel.
+pub const MAX_SAMPLES: u32 = 65_536;
+
+/// Settings of the picture, and what it is compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ViewSettings {
+    /// Of the picture; its size and region only where [`ViewSettings::fits`] says so.
+    pub settings: RenderSettings,
+    /// How the traced picture is developed; debug views stay as they are.
+    pub tone: Tone,
+    /// In place of the scene's.
+    pub background: Option<Background>,
+    /// Whether the picture is as large as there is room for; else it has the size of its settings.
+    pub fits: bool,
+    /// The second look at the same, and how both share the room.
+    pub comparison: Option<Comparison>,
+    /// Part of the picture that is rendered, as shares of its width and height: x0, y0, x1, y1.
+    pub region: Option<[f64; 4]>,
+    /// Whether no more samples are added.
+    pub paused: bool,
+    /// The edge or corner of the region that the mouse holds.
+    pub grip: Option<Grip>,
+    /// What the scene and the command line say, to go back to.
+    pub scene_settings: RenderSettings,
+    /// The same of developing.
+    pub scene_tone: Tone,
+}
+
+/// A second look.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comparison {
+    /// What it shows.
+    pub integrator: Integrator,
+    /// How both share the room.
+    pub sharing: Sharing,
+}
+
+/// How two looks share the room.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sharing {
+    /// One picture, with a line at this share of its width: the first look on its left.
+    Wipe(f32),
+    /// Two pictures.
+    SideBySide,
+}
+
+impl ViewSettings {
+    /// What the scene and the command line say.
+    pub fn new(settings: RenderSettings, tone: Tone, fits: bool) -> Self {
+        Self {
+            scene_settings: settings.clone(),
+            settings,
+            tone,
+            background: None,
+            fits,
+            comparison: None,
+            region: None,
+            paused: false,
+            grip: None,
+            scene_tone: tone,
+        }
+    }
+
+    /// Aims at another number of samples, 1 to [`MAX_SAMPLES`]. One lies in the pixel's centre and several
+    /// are spread, as on the command line, unless the person has chosen otherwise.
+    pub fn set_samples(&mut self, samples: u32) {
+        let usual = |samples| match samples {
+            1 => Antialias::None,
+            _ => Antialias::Stratified,
+        };
+        let settings = &mut self.settings;
+        if settings.antialias == usual(settings.samples) {
+            settings.antialias = usual(samples);
+        }
+        settings.samples = samples.clamp(1, MAX_SAMPLES);
+    }
+
+    /// Compares with another look, or no longer if that is how it is already.
+    pub fn compare(&mut self, sharing: Sharing) {
+        let is_same =
+            |now: Sharing| std::mem::discriminant(&now) == std::mem::discriminant(&sharing);
+        self.comparison = match self.comparison {
+            Some(comparison) if is_same(comparison.sharing) => None,
+            Some(comparison) => Some(Comparison {
+                sharing,
+                ..comparison
+            }),
+            None => Some(Comparison {
+                integrator: match self.settings.integrator {
+                    Integrator::Normals => Integrator::Whitted,
+                    _ => Integrator::Normals,
+                },
+                sharing,
+            }),
+        };
+    }
+
+    /// Multiplies the samples to be reached, within 1 to [`MAX_SAMPLES`].
+    pub fn scale_samples(&mut self, factor: f64) {
+        let samples = f64::from(self.settings.samples) * factor;
+        self.set_samples(samples.clamp(1.0, MAX_SAMPLES.into()) as u32);
+    }
+
+    /// Swaps the two sides of a comparison.
+    pub fn swap_sides(&mut self) {
+        if let Some(Comparison { integrator, .. }) = &mut self.comparison {
+            std::mem::swap(integrator, &mut self.settings.integrator);
+        }
+    }
+
+    /// Takes the next tone curve.
+    pub fn next_tone_curve(&mut self) {
+        self.tone.curve = match self.tone.curve {
+            ToneCurve::None => ToneCurve::Aces,
+            ToneCurve::Aces => ToneCurve::Agx,
+            ToneCurve::Agx => ToneCurve::Reinhard,
+            ToneCurve::Reinhard => ToneCurve::None,
+        };
+    }
+
+    /// Takes the next background: the scene's, black, grey, white.
+    pub fn next_background(&mut self) {
+        let plain = |level: f32| Some(Background::Color(Vec3::splat(level)));
+        self.background = match &self.background {
+            None => plain(0.0),
+            black if *black == plain(0.0) => plain(0.18),
+            grey if *grey == plain(0.18) => plain(1.0),
+            _ => None,
+        };
+    }
+
+    /// What a scene would say to look like this; what scenes do not say, such as the integrator, is not in it.
+    pub fn output(&self, before: &OutputDefaults, playback: &Playback) -> OutputDefaults {
+        let settings = &self.settings;
+        let usual = RenderSettings::from(&OutputDefaults {
+            samples: settings.samples,
+            ..OutputDefaults::default()
+        });
+        OutputDefaults {
+            size: if self.fits {
+                before.size
+            } else {
+                settings.size
+            },
+            samples: settings.samples,
+            antialias: (settings.antialias != usual.antialias).then_some(settings.antialias),
+            filter: settings.filter,
+            filter_radius: (settings.filter_radius != settings.filter.default_radius())
+                .then_some(settings.filter_radius),
+            noise: settings.noise,
+            light_samples: settings.light_samples,
+            max_depth: settings.max_depth,
+            exposure_ev: self.tone.exposure_ev,
+            tone: self.tone.curve,
+            transfer: self.tone.transfer,
+            fps: playback.clock.fps,
+            duration: before.duration,
+            shutter: playback.clock.shutter,
+        }
+    }
+
+    /// How a picture of this integrator is developed.
+    pub fn tone_of(&self, integrator: Integrator) -> Tone {
+        match integrator.entry().shows {
+            Shows::Radiance => self.tone,
+            Shows::Colors | Shows::Quantity(_) => Tone {
+                levels: Levels::Found,
+                ..Tone::LINEAR
+            },
+        }
+    }
+
+    /// The settings of a picture for which there is room of so many pixels.
+    pub fn settings_in(&self, space: (u32, u32), integrator: Integrator) -> RenderSettings {
+        let size = match self.fits {
+            true => (space.0.max(1), space.1.max(1)),
+            false => self.settings.size,
+        };
+        let crop = match self.region {
+            Some(region) => Some(pixels(region, size)),
+            None => self.settings.crop.filter(|_| !self.fits),
+        };
+        RenderSettings {
+            size,
+            crop,
+            integrator,
+            ..self.settings.clone()
+        }
+    }
+}
+
+/// A region in pixels: at least one.
+fn pixels(region: [f64; 4], (width, height): (u32, u32)) -> [u32; 4] {
+    let at = |share: f64, length: u32| (share.clamp(0.0, 1.0) * f64::from(length)).round() as u32;
+    let span = |from: f64, to: f64, length: u32| {
+        let start = at(from.min(to), length).min(length - 1);
+        (start, at(from.max(to), length).max(start + 1))
+    };
+    let (x0, x1) = span(region[0], region[2], width);
+    let (y0, y1) = span(region[1], region[3], height);
+    [x0, y0, x1, y1]
+}

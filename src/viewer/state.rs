@@ -1,0 +1,9 @@
+//! The state of each concern of the window, and the [`session::Session`] that owns them.
+
+pub mod answer;
+pub mod dialogs;
+pub mod editing;
+pub mod files;
+pub mod inspector;
+pub mod layout;
+pub mod session;

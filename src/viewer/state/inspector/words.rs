@@ -1,0 +1,156 @@
+//! A ray in words: one line, and the things to tell about it.
+
+use crate::app::ray_text::{color, kind, short, vector};
+use crate::render::{RayHit, RaySplit, RayTree, ShadowRay, TracedRay};
+use crate::scene::ObjectRef;
+use crate::viewer::model::objects::Id;
+use crate::viewer::state::inspector::Inspected;
+use std::collections::BTreeSet;
+
+/// Everything that rays of a tree met, set out for or were in.
+pub fn met(tree: &RayTree) -> BTreeSet<Id> {
+    let mut met = BTreeSet::new();
+    for ray in tree.samples.iter().flat_map(|sample| &sample.rays) {
+        if let Some(hit) = &ray.hit {
+            met.extend(hit.object.map(Id::Object));
+            met.extend(hit.material.map(Id::Material));
+        }
+        met.extend(ray.shadow.as_ref().map(light_of));
+        met.extend(ray.media.iter().copied().map(Id::Material));
+    }
+    met
+}
+
+fn light_of(shadow: &ShadowRay) -> Id {
+    Id::Object(ObjectRef::Light(shadow.light))
+}
+
+fn object(inspected: &Inspected, hit: &RayHit) -> String {
+    match hit.object {
+        Some(object) => inspected.label(Id::Object(object)).to_owned(),
+        None => format!("primitive {}", hit.primitive),
+    }
+}
+
+/// What a ray is and what it met, in a few words.
+pub fn headline(inspected: &Inspected, ray: &TracedRay) -> String {
+    let word = kind(ray.kind);
+    match (&ray.shadow, &ray.hit) {
+        (Some(shadow), hit) => {
+            let light = inspected.label(light_of(shadow));
+            match hit {
+                Some(hit) if shadow.blocked => {
+                    format!("{light} hidden by {}", object(inspected, hit))
+                }
+                _ if shadow.blocked => format!("{light} gives nothing"),
+                _ if shadow.crossings == 1 => format!("{light} through a surface"),
+                _ if shadow.crossings > 1 => {
+                    format!("{light} through {} surfaces", shadow.crossings)
+                }
+                _ => light.to_owned(),
+            }
+        }
+        (None, Some(hit)) => format!("{word} hits {}", object(inspected, hit)),
+        (None, None) => format!("{word} hits nothing"),
+    }
+}
+
+/// How long a ray is, in scene units; of one that goes on for ever an infinity sign.
+pub fn length(ray: &TracedRay) -> String {
+    let to_light = (ray.shadow.as_ref()).filter(|shadow| !shadow.blocked);
+    let distance = match (to_light, &ray.hit) {
+        (Some(shadow), _) => shadow.distance,
+        (None, Some(hit)) => Some(hit.distance),
+        (None, None) => None,
+    };
+    distance.map_or("∞".to_owned(), short)
+}
+
+/// Everything to tell about a ray: what, and its value.
+pub fn details(inspected: &Inspected, ray: &TracedRay) -> Vec<(&'static str, String)> {
+    let mut told = vec![
+        ("from", vector(ray.origin)),
+        ("direction", vector(ray.direction)),
+    ];
+    if let Some(hit) = ray.hit.as_ref().filter(|_| ray.shadow.is_none()) {
+        surface(inspected, &mut told, hit);
+    }
+    if let Some(shadow) = &ray.shadow {
+        light(inspected, &mut told, shadow, ray.hit.as_ref());
+    }
+    if !ray.media.is_empty() {
+        let names = ray.media.iter().map(|&m| inspected.label(Id::Material(m)));
+        told.push(("inside of", names.collect::<Vec<_>>().join(", ")));
+    }
+    told.push(("share", color(ray.throughput)));
+    if ray.arriving != ray.throughput {
+        told.push(("share at end", color(ray.arriving)));
+    }
+    told.push(("adds", color(ray.contribution)));
+    told
+}
+
+type Told = Vec<(&'static str, String)>;
+
+fn surface(inspected: &Inspected, told: &mut Told, hit: &RayHit) {
+    told.push(("hits", object(inspected, hit)));
+    if let Some(ObjectRef::Instance(_)) = hit.object {
+        told.push(("triangle", hit.primitive.to_string()));
+    }
+    told.push(("at", vector(hit.position)));
+    told.push(("distance", short(hit.distance)));
+    told.push(("normal", vector(hit.normal)));
+    if hit.geometric_normal != hit.normal {
+        told.push(("geometric normal", vector(hit.geometric_normal)));
+    }
+    let side = if hit.outside { "outside" } else { "inside" };
+    told.push(("met from", side.to_owned()));
+    if let Some(material) = hit.material {
+        let name = inspected.label(Id::Material(material));
+        told.push(("material", name.to_owned()));
+    }
+    if let Some(split) = &hit.split {
+        divides(told, split);
+    }
+    told.push(("ambient light", color(hit.ambient)));
+    if hit.emission != [0.0; 3] {
+        told.push(("emission", color(hit.emission)));
+    }
+}
+
+fn divides(told: &mut Told, split: &RaySplit) {
+    if split.reflect == [0.0; 3] && !split.transparent {
+        return;
+    }
+    told.push(("reflects", color(split.reflect)));
+    if split.transparent {
+        told.push(("transmits", color(split.transmit)));
+    }
+    if let Some(reflectance) = split.reflectance {
+        told.push(("Fresnel", short(reflectance)));
+    }
+    if split.total {
+        told.push(("total reflection", "beyond the critical angle".to_owned()));
+    }
+    if !split.boundary {
+        told.push(("no boundary", "the medium goes on".to_owned()));
+    } else if split.transparent {
+        let [front, behind] = split.iors.map(short);
+        told.push(("index of refraction", format!("{front} to {behind}")));
+    }
+}
+
+fn light(inspected: &Inspected, told: &mut Told, shadow: &ShadowRay, hit: Option<&RayHit>) {
+    told.push(("to", inspected.label(light_of(shadow)).to_owned()));
+    let distance = shadow.distance.map_or("infinite".to_owned(), short);
+    told.push(("light's distance", distance));
+    if let Some(hit) = hit.filter(|_| shadow.blocked) {
+        let blocked = format!("{} after {}", object(inspected, hit), short(hit.distance));
+        told.push(("hidden by", blocked));
+    }
+    if shadow.crossings > 0 {
+        told.push(("surfaces met", shadow.crossings.to_string()));
+    }
+    told.push(("comes through", color(shadow.transmittance)));
+    told.push(("without shadow", color(shadow.unshadowed)));
+}

@@ -1,0 +1,252 @@
+//! Which panel is where: tiles that a person can drag, resize and close.
+
+use crate::viewer::model::preferences::Preferences;
+use eframe::egui;
+use egui_tiles::{Container, Linear, LinearDir, Shares, Tile, TileId, Tiles, Tree};
+use serde::{Deserialize, Serialize};
+
+/// A panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Panel {
+    /// The picture.
+    Picture,
+    /// What is in the scene.
+    Outline,
+    /// What is selected.
+    Properties,
+    /// Settings of the picture and how it is developed.
+    Render,
+    /// The rays of a pixel.
+    Rays,
+    /// These rays in the scene, seen from outside.
+    Outside,
+    /// The animation.
+    Time,
+}
+
+impl Panel {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Picture,
+        Self::Outline,
+        Self::Properties,
+        Self::Render,
+        Self::Rays,
+        Self::Outside,
+        Self::Time,
+    ];
+
+    /// What its tab says.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Picture => "Picture",
+            Self::Outline => "Outline",
+            Self::Properties => "Properties",
+            Self::Render => "Render",
+            Self::Rays => "Rays",
+            Self::Outside => "Rays in space",
+            Self::Time => "Time",
+        }
+    }
+}
+
+/// Room that the usual layout is made for, in points.
+const USUAL: [f32; 2] = [1280.0, 750.0];
+/// Room in which panels are not worth their places, in points.
+const LEAST: f32 = 200.0;
+/// The least share of the room that is the picture's, from side to side and from top to bottom.
+const PICTURE: f32 = 0.4;
+
+/// The panels and their places.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Layout {
+    /// The tiles.
+    pub tree: Tree<Panel>,
+    /// Width and height that shares are of, in points.
+    #[serde(default)]
+    room: Option<[f32; 2]>,
+    /// How large tiles beside the picture are to be once there is room for them again.
+    #[serde(default)]
+    wishes: Vec<Wish>,
+    /// The layout before all panels were hidden at once.
+    #[serde(default)]
+    before: Option<Box<Self>>,
+}
+
+/// A tile that had to become smaller than it was.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Wish {
+    tile: TileId,
+    /// Its width or height before, in points.
+    wished: f32,
+    /// What it got. If it has another size by now, someone has resized it since, and that size counts.
+    given: f32,
+}
+
+impl Default for Layout {
+    /// The picture in the middle, what is in the scene on its left, settings on its right.
+    fn default() -> Self {
+        let mut tiles = Tiles::default();
+        let mut pane = |panel| tiles.insert_pane(panel);
+        let (picture, outline) = (pane(Panel::Picture), pane(Panel::Outline));
+        let properties = pane(Panel::Properties);
+        let (render, rays, time) = (pane(Panel::Render), pane(Panel::Rays), pane(Panel::Time));
+        let outside = tiles.insert_pane(Panel::Outside);
+        let upper = tiles.insert_tab_tile(vec![render, rays]);
+        let mut side = Linear::new(LinearDir::Vertical, vec![upper, outside]);
+        side.shares.set_share(upper, 0.6);
+        side.shares.set_share(outside, 0.4);
+        let side = tiles.insert_container(Container::Linear(side));
+        // Until rays are inspected.
+        tiles.set_visible(outside, false);
+        let mut middle = Linear::new(LinearDir::Vertical, vec![picture, time]);
+        middle.shares.set_share(picture, 640.0);
+        middle.shares.set_share(time, 110.0);
+        let middle = tiles.insert_container(Container::Linear(middle));
+        let left = tiles.insert_vertical_tile(vec![outline, properties]);
+        let mut root = Linear::new(LinearDir::Horizontal, vec![left, middle, side]);
+        for (tile, width) in [(left, 264.0), (middle, 730.0), (side, 286.0)] {
+            root.shares.set_share(tile, width);
+        }
+        let root = tiles.insert_container(Container::Linear(root));
+        Self {
+            tree: Tree::new(egui::Id::unique("panels"), root, tiles),
+            room: Some(USUAL),
+            wishes: Vec::new(),
+            before: None,
+        }
+    }
+}
+
+impl Layout {
+    /// As it was kept; the usual one where a panel of this version is not in that.
+    pub fn kept(preferences: &Preferences) -> Self {
+        let kept: Option<Self> = preferences.layout();
+        let is_whole = |layout: &Self| {
+            let is_there = |panel| layout.find(panel).is_some();
+            layout.tree.root().is_some() && Panel::ALL.into_iter().all(is_there)
+        };
+        kept.filter(is_whole).unwrap_or_default()
+    }
+
+    /// Panels beside the picture keep their sizes until the picture would get too little, and get them back
+    /// when there is room again: a larger window is a larger picture.
+    pub fn resize(&mut self, room: [f32; 2]) {
+        // A window that is rolled up or minimised is not for long.
+        if room.iter().any(|length| *length < LEAST) {
+            return;
+        }
+        let Some(before) = self.room.replace(room) else {
+            return;
+        };
+        let (Some(mut tile), true) = (self.find(Panel::Picture), before != room) else {
+            return;
+        };
+        while let Some(parent) = self.tree.tiles.parent_of(tile) {
+            let tiles = &self.tree.tiles;
+            let wishes = &mut self.wishes;
+            let is_visible = |child: TileId| tiles.is_visible(child);
+            if let Some(Tile::Container(Container::Linear(linear))) = tiles.get(parent) {
+                let side = match linear.dir {
+                    LinearDir::Horizontal => 0,
+                    LinearDir::Vertical => 1,
+                };
+                let shares = resized(linear, tile, is_visible, wishes, before[side], room[side]);
+                if let Some(Tile::Container(Container::Linear(linear))) =
+                    self.tree.tiles.get_mut(parent)
+                {
+                    linear.shares = shares;
+                }
+            }
+            tile = parent;
+        }
+    }
+
+    /// Whether a panel is to be seen.
+    pub fn is_visible(&self, panel: Panel) -> bool {
+        self.find(panel).is_some_and(|id| self.tree.is_visible(id))
+    }
+
+    /// Shows a panel or hides it.
+    pub fn set_visible(&mut self, panel: Panel, visible: bool) {
+        if let Some(id) = self.find(panel) {
+            self.tree.set_visible(id, visible);
+            if visible {
+                self.tree.make_active(|tile, _| tile == id);
+            }
+        }
+    }
+
+    /// Hides everything but the picture, or restores the layout that was there before.
+    pub fn toggle_all(&mut self) {
+        let others = || {
+            Panel::ALL
+                .into_iter()
+                .filter(|panel| *panel != Panel::Picture)
+        };
+        if others().any(|panel| self.is_visible(panel)) {
+            self.before = None;
+            self.before = Some(Box::new(self.clone()));
+            others().for_each(|panel| self.set_visible(panel, false));
+        } else if let Some(before) = self.before.take() {
+            *self = *before;
+        } else {
+            // They were hidden one by one.
+            let usual = Self::default();
+            let shown = others().filter(|panel| usual.is_visible(*panel));
+            shown.for_each(|panel| {
+                if let Some(id) = self.find(panel) {
+                    self.tree.set_visible(id, true);
+                }
+            });
+        }
+    }
+
+    fn find(&self, panel: Panel) -> Option<TileId> {
+        self.tree.tiles.find_pane(&panel)
+    }
+}
+
+/// Shares of a row or column that holds the picture in its child `picture`, once its length has changed.
+fn resized(
+    linear: &Linear,
+    picture: TileId,
+    is_visible: impl Fn(TileId) -> bool,
+    wishes: &mut Vec<Wish>,
+    before: f32,
+    now: f32,
+) -> Shares {
+    /// Rounding moves a tile by less, in points.
+    const SAME: f32 = 0.5;
+    let mut shares = linear.shares.clone();
+    let total: f32 = (linear.children.iter())
+        .filter(|child| is_visible(**child))
+        .map(|child| shares[*child])
+        .sum();
+    let points = before / total.max(f32::MIN_POSITIVE);
+    let mut beside = 0.0;
+    let mut wished = Vec::new();
+    for &child in linear.children.iter().filter(|child| **child != picture) {
+        let length = shares[child] * points;
+        let wish = wishes.iter().find(|wish| wish.tile == child);
+        let wish = wish.filter(|wish| (wish.given - length).abs() < SAME);
+        let length = wish.map_or(length, |wish| wish.wished);
+        wished.push((child, length));
+        beside += if is_visible(child) { length } else { 0.0 };
+    }
+    let shrunk = ((1.0 - PICTURE) * now / beside.max(f32::MIN_POSITIVE)).min(1.0);
+    for &(tile, wished) in &wished {
+        let given = wished * shrunk;
+        shares.set_share(tile, given);
+        wishes.retain(|wish| wish.tile != tile);
+        if shrunk < 1.0 {
+            wishes.push(Wish {
+                tile,
+                wished,
+                given,
+            });
+        }
+    }
+    shares.set_share(picture, now - beside * shrunk);
+    shares
+}

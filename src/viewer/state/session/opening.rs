@@ -1,0 +1,217 @@
+//! Reading a scene and putting it on screen, for the first time or anew.
+
+use crate::app::clock::Clock;
+use crate::app::error::AppError;
+use crate::app::overrides::{CameraOverrides, Moment, picture_size};
+use crate::render::{Integrator, RenderSettings};
+use crate::scene::{OutputDefaults, Scene};
+use crate::viewer::model::camera::CameraController;
+use crate::viewer::model::document::Document;
+use crate::viewer::model::loader::{Loader, Trouble};
+use crate::viewer::model::playback::Playback;
+use crate::viewer::model::view_settings::ViewSettings;
+use crate::viewer::state::files::Intent;
+use crate::viewer::state::session::Session;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::SystemTime;
+
+/// What became of a scene that was read.
+pub struct Opened {
+    /// Its file.
+    pub path: PathBuf,
+    /// Whether it was on screen already.
+    pub again: bool,
+    /// The scene's file and those that it refers to, as far as they are known.
+    pub files: Vec<PathBuf>,
+    /// When reading began.
+    pub began: SystemTime,
+    /// Whether it is shown, or why not.
+    pub shown: Result<(), Trouble>,
+}
+
+impl Session {
+    /// Begins to read a scene; the one on screen stays until it is there.
+    pub fn open(&mut self, path: PathBuf) {
+        self.left = self.scene().cloned();
+        self.open_instead(path);
+    }
+
+    /// The same in place of a scene that could not be read.
+    pub fn open_instead(&mut self, path: PathBuf) {
+        let is_own = self.path.as_ref() == Some(&path);
+        self.load(path, false, is_own);
+    }
+
+    /// Whether another scene is being read.
+    pub fn is_opening(&self) -> bool {
+        self.loader.as_ref().is_some_and(|loader| !loader.again)
+    }
+
+    /// Begins to read the scene on screen again; camera, look and time stay.
+    pub fn reload(&mut self) {
+        if let Some(path) = self.path.clone() {
+            self.load(path, true, true);
+        }
+    }
+
+    /// `is_own`: what the command line says of a scene is meant for this one.
+    pub(super) fn load(&mut self, path: PathBuf, again: bool, is_own: bool) {
+        let mut options = self.request.import.clone();
+        if !is_own {
+            options.overrides.clear();
+        }
+        match Loader::new(path, options, again, || {}) {
+            Ok(mut loader) => {
+                loader.is_own = is_own;
+                self.loader = Some(loader);
+            }
+            Err(error) => self.messages.warn(format!("cannot read a scene: {error}.")),
+        }
+    }
+
+    /// Shows a scene that was read, from its own camera and with its own settings.
+    pub(super) fn show(&mut self, original: Scene) -> Result<(), AppError> {
+        let mut scene = original.clone();
+        self.request.overrides.camera.apply(&mut scene)?;
+        let settings = self.settings_of(&scene.output);
+        let overrides = &self.request.overrides;
+        let mut tone = (overrides.tone).tone(&scene.output, Integrator::Whitted, false);
+        if let (None, Some(curve)) = (overrides.tone.curve, self.preferences.tone) {
+            tone.curve = curve;
+        }
+        self.view = ViewSettings::new(settings, tone, overrides.picture.size.is_none());
+        self.crop();
+        let clock = Clock::new(&scene.output, &self.request.overrides.timing);
+        let time = clock.time(&self.request.overrides.moment);
+        self.playback = Playback::new(clock, time);
+        self.playback.follow(&scene);
+        let camera = scene.frame(self.playback.time).camera;
+        self.controller = Some(CameraController::new(&camera, scene.bounds()));
+        self.selection = None;
+        let inspector = std::mem::take(&mut self.inspector);
+        // A name that is being asked for is that of rays of before.
+        self.inspector.saving = inspector.saving;
+        self.original = Some(Arc::new(original));
+        self.document = Some(Document::new(scene));
+        Ok(())
+    }
+
+    /// Makes what the command line crops a region, which can be changed and ended.
+    fn crop(&mut self) {
+        let size = self.view.settings.size;
+        let crop = self.request.overrides.picture.crop;
+        let settings = RenderSettings {
+            crop,
+            size,
+            ..RenderSettings::default()
+        };
+        if let Err(error) = picture_size(&settings) {
+            self.messages.warn(error.to_string());
+            return;
+        }
+        let lengths = [size.0, size.1, size.0, size.1].map(f64::from);
+        self.view.region =
+            crop.map(|edges| std::array::from_fn(|edge| f64::from(edges[edge]) / lengths[edge]));
+    }
+
+    /// How a picture of a scene is made before anything is changed: flags win over preferences, and
+    /// these over the scene.
+    fn settings_of(&self, output: &OutputDefaults) -> RenderSettings {
+        let picture = &self.request.overrides.picture;
+        let mut output = output.clone();
+        output.samples = self.preferences.samples.unwrap_or(output.samples);
+        RenderSettings {
+            // That is a region here.
+            crop: None,
+            ..picture.settings(&output)
+        }
+    }
+
+    /// What the command line says of one scene means nothing in another.
+    fn forget_scene_overrides(&mut self) {
+        let request = &mut self.request;
+        request.overrides.camera = CameraOverrides::default();
+        request.overrides.moment = Moment::default();
+        request.import.overrides.clear();
+    }
+
+    /// Shows a scene that has been read since the last call. The outcome is for `actions::files`.
+    pub fn take_scene(&mut self) -> Option<Opened> {
+        let loaded = self.loader.as_ref().and_then(Loader::outcome)?;
+        let loader = self.loader.take()?;
+        let Loader {
+            path,
+            again,
+            is_own,
+            ..
+        } = loader;
+        if loaded.outcome.is_ok() && !again && self.has_more_changes() {
+            self.files.undecided = Some(Intent::Open(path));
+            return None;
+        }
+        if loaded.outcome.is_ok() && !is_own {
+            self.forget_scene_overrides();
+        }
+        let shown = loaded.outcome.and_then(|scene| {
+            let shown = match again {
+                true => self.show_again(scene),
+                false => self.show(scene),
+            };
+            shown.map_err(|error| Trouble::from(error.to_string()))
+        });
+        Some(Opened {
+            path,
+            again,
+            files: loaded.files,
+            began: loaded.began,
+            shown,
+        })
+    }
+
+    /// Whether there are unsaved changes made since another scene began to be read: nobody was asked
+    /// about these.
+    fn has_more_changes(&mut self) -> bool {
+        let left = self.left.take();
+        let is_left = |scene: &Arc<Scene>| left.as_ref().is_some_and(|l| Arc::ptr_eq(l, scene));
+        self.has_changes() && !self.scene().is_some_and(is_left)
+    }
+
+    /// Shows the scene that is on screen as it was read anew. What the person has chosen stays, and
+    /// what was the scene's own follows it.
+    fn show_again(&mut self, scene: Scene) -> Result<(), AppError> {
+        let (Some(before), Some(mut controller)) = (self.original.clone(), self.controller.clone())
+        else {
+            return self.show(scene);
+        };
+        let (look, playback) = (self.view.clone(), self.playback.clone());
+        let document = self.document.clone();
+        self.show(scene)?;
+        let clock = self.playback.clock;
+        self.playback = playback;
+        self.playback.clock = clock;
+        if let (Some(scene), Some(mut document)) = (self.scene().cloned(), document) {
+            self.playback.follow(&scene);
+            controller.set_bounds(scene.bounds());
+            controller.set_home(&scene.frame(self.playback.time).camera);
+            // What was done before can still be taken back.
+            document.reload(Scene::clone(&scene));
+            self.document = Some(document);
+        }
+        self.controller = Some(controller);
+        let own = std::mem::replace(&mut self.view, look);
+        let integrator = self.view.settings.integrator;
+        let seen = |settings| RenderSettings {
+            integrator,
+            ..settings
+        };
+        if self.view.settings == seen(self.settings_of(&before.output)) {
+            self.view.settings = seen(own.settings);
+        }
+        if self.view.tone == self.view.scene_tone {
+            self.view.tone = own.tone;
+        }
+        self.view.scene_tone = own.scene_tone;
+        Ok(())
+    }
+}

@@ -1,0 +1,8 @@
+//! Panels, dialogs and overlays: what is drawn.
+
+pub(crate) mod context;
+pub(crate) mod dialogs;
+pub(crate) mod overlay;
+pub(crate) mod panels;
+pub(crate) mod tabs;
+pub(crate) mod textures;

@@ -1,0 +1,225 @@
+//! What must be answered before something happens: a name, or what becomes of unsaved changes.
+
+use crate::output::Format;
+use crate::viewer::actions::files;
+use crate::viewer::actions::files::pictures;
+use crate::viewer::state::files::Intent;
+use crate::viewer::state::session::Session;
+use crate::viewer::ui::context::PanelContext;
+use crate::viewer::worker::progressive_image::PictureSlot;
+use eframe::egui::{self, Align2, Button, Key, Modal, RichText, Slider, TextEdit, Ui, vec2};
+use std::path::PathBuf;
+
+/// What a person wants done about unsaved changes.
+pub enum Choice {
+    /// Save them and then do it.
+    Save(Intent),
+    /// Do it all the same.
+    GoOn(Intent),
+}
+
+/// A path to be opened, typed.
+pub fn typed(ctx: &egui::Context, session: &mut Session) {
+    let Some(mut text) = session.files.typed.take() else {
+        return;
+    };
+    let mut path = None;
+    let stays = crate::viewer::ui::dialogs::window(ctx, "Open a path", vec2(440.0, 90.0), |ui| {
+        let field = TextEdit::singleline(&mut text)
+            .hint_text("a scene, a folder of scenes, or a picture of the surroundings")
+            .desired_width(f32::INFINITY);
+        let field = ui.add(field).accessible_name("Path");
+        if text.is_empty() && !field.has_focus() {
+            field.request_focus();
+        }
+        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        ui.add_space(4.0);
+        let is_ready = !text.trim().is_empty();
+        let opened = ui.add_enabled(is_ready, Button::new("Open")).clicked();
+        if is_ready && (opened || entered) {
+            path = Some(PathBuf::from(text.trim()));
+        }
+    });
+    match path {
+        Some(path) => files::open(session, vec![path]),
+        None if stays => session.files.typed = Some(text),
+        None => {}
+    }
+}
+
+/// What the person wants of a picture that is to be saved.
+#[derive(Clone, Copy, PartialEq)]
+enum Wish {
+    Browse,
+    Save { waits: bool },
+}
+
+/// The picture that is to be saved.
+pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
+    let progress = context.shown(PictureSlot::Main).map(|shown| shown.progress);
+    let (width, height) = pictures::size(context.session);
+    let session = &mut *context.session;
+    let Some(sheet) = &mut session.files.saving else {
+        return;
+    };
+    let mut wish = None;
+    let mut is_entered = false;
+    let title = match sheet.overlays {
+        true => "Save the picture with overlays",
+        false => "Save the picture",
+    };
+    let stays = crate::viewer::ui::dialogs::window(ctx, title, vec2(460.0, 150.0), |ui| {
+        ui.horizontal(|ui| {
+            let width = ui.available_width() - 90.0;
+            let field = TextEdit::singleline(&mut sheet.path).desired_width(width);
+            let field = ui.add(field).accessible_name("File");
+            if std::mem::take(&mut sheet.is_new) {
+                field.request_focus();
+            }
+            is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            let button = ui
+                .button("Browse…")
+                .on_hover_text("Ask the desktop for a name");
+            if button.clicked() {
+                wish = Some(Wish::Browse);
+            }
+        });
+        let target = sheet.target();
+        match &target {
+            Err(why) => {
+                ui.colored_label(ui.visuals().error_fg_color, why);
+            }
+            Ok(target) => {
+                ui.horizontal(|ui| {
+                    if !sheet.overlays {
+                        ui.label(format!("{}, {width} × {height} pixels", target.format));
+                    }
+                    if target.format.is_linear() {
+                        ui.weak("linear light, without exposure and tone curve");
+                    }
+                    if target.format == Format::Jpeg {
+                        let slider = Slider::new(&mut sheet.quality, 1..=100).text("Quality");
+                        ui.add(slider)
+                            .on_hover_text("From 1 (smallest) to 100 (best)");
+                    }
+                });
+                if sheet.must_ask(target) {
+                    let text = "There is a file of that name; it would be replaced.";
+                    ui.colored_label(ui.visuals().warn_fg_color, text);
+                }
+            }
+        }
+        let is_done = progress.is_some_and(|progress| progress.is_done);
+        if let Some(progress) = progress.filter(|_| !is_done && !sheet.overlays) {
+            ui.label(format!(
+                "The picture has {} of {} samples so far.",
+                progress.samples, progress.target
+            ));
+        }
+        ui.add_space(6.0);
+        ui.horizontal(|ui| {
+            let replaces = target.as_ref().is_ok_and(|target| sheet.must_ask(target));
+            let (now, later) = match replaces {
+                true => ("Replace", "Replace when finished"),
+                false => ("Save", "Save when finished"),
+            };
+            let is_now = ui.add_enabled(target.is_ok(), Button::new(now)).clicked();
+            // What would replace a file takes more than a key.
+            if is_now || is_entered && target.is_ok() && !replaces {
+                wish = Some(Wish::Save { waits: false });
+            }
+            if !is_done
+                && !sheet.overlays
+                && ui.add_enabled(target.is_ok(), Button::new(later)).clicked()
+            {
+                wish = Some(Wish::Save { waits: true });
+            }
+        });
+    });
+    match wish {
+        Some(Wish::Browse) => pictures::browse(session, ctx),
+        Some(Wish::Save { waits }) => pictures::save(session, waits),
+        None if !stays => session.files.saving = None,
+        None => {}
+    }
+}
+
+/// What becomes of unsaved changes.
+pub fn undecided(ctx: &egui::Context, session: &mut Session) -> Option<Choice> {
+    let intent = session.files.undecided.clone()?;
+    let name = session.title();
+    let (what, lose, keep) = match &intent {
+        Intent::Close => (
+            format!("There are unsaved changes in {name}."),
+            "Close without saving",
+            "Go on working",
+        ),
+        Intent::CloseUnfinished => (
+            "A picture is still to be saved when it is finished.".to_owned(),
+            "Close without that picture",
+            "Go on rendering",
+        ),
+        Intent::Open(path) => (
+            format!(
+                "There are unsaved changes in {name}, and {} is to be opened.",
+                files::short(path)
+            ),
+            "Open without saving",
+            "Go on working",
+        ),
+        Intent::Reload => (
+            format!("There are unsaved changes in {name}, which is to be read again."),
+            "Read it, without my changes",
+            "Keep my changes",
+        ),
+        Intent::Follow => (
+            format!("{name} has changed on the disk, and there are unsaved changes here."),
+            "Read it, without my changes",
+            "Keep my changes",
+        ),
+    };
+    let mut choice = None;
+    let mut is_over = false;
+    Modal::new(egui::Id::unique("unsaved")).show(ctx, |ui: &mut Ui| {
+        ui.set_max_width(380.0);
+        ui.label(RichText::new(what).strong());
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            let has_changes = intent != Intent::CloseUnfinished;
+            if has_changes && ui.button("Save them").clicked() {
+                choice = Some(Choice::Save(intent.clone()));
+                is_over = true;
+            }
+            if ui.button(lose).clicked() {
+                choice = Some(Choice::GoOn(intent));
+            }
+            is_over |= ui.button(keep).clicked();
+        });
+    });
+    if is_over {
+        session.files.undecided = None;
+    }
+    choice
+}
+
+/// Says what a file may be dropped for, while one is held over the window.
+pub fn hovering(ctx: &egui::Context) {
+    if ctx.input(|input| input.raw.hovered_files.is_empty()) {
+        return;
+    }
+    let room = ctx.content_rect();
+    egui::Area::new(egui::Id::unique("hovering"))
+        .order(egui::Order::Tooltip)
+        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
+        .interactable(false)
+        .show(ctx, |ui| {
+            let painter = ui.ctx().layer_painter(egui::LayerId::background());
+            let stroke = egui::Stroke::new(3.0, ui.visuals().selection.stroke.color);
+            painter.rect_stroke(room.shrink(2.0), 4.0, stroke, egui::StrokeKind::Inside);
+            egui::Frame::popup(ui.style()).show(ui, |ui| {
+                ui.heading("Drop it here");
+                ui.label("A scene, a model or a folder is opened.");
+                ui.label("A picture becomes the surroundings.");
+            });
+        });
+}

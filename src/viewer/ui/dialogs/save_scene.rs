@@ -1,0 +1,73 @@
+//! Asks where to save the scene.
+
+use crate::viewer::actions::saving::{is_own, target, write};
+use crate::viewer::ui::context::PanelContext;
+use eframe::egui::{self, Button, Ui};
+
+/// Tells what is in the way of a name, or what becomes of it.
+fn say(ui: &mut Ui, trouble: Option<&str>, is_named: bool, (is_there, is_ours): (bool, bool)) {
+    let note = match (is_there, is_ours) {
+        (true, false) => {
+            "This file is there: it will be written anew, without its comments and its order."
+        }
+        (true, true) => "This file was saved from here before.",
+        _ => "A native scene (.toml); meshes and pictures go into files beside it.",
+    };
+    let trouble = trouble.or((!is_named).then_some("Type a name, such as scene.toml."));
+    ui.add_space(4.0);
+    match trouble {
+        Some(trouble) => ui.colored_label(ui.visuals().error_fg_color, trouble),
+        None => ui.weak(note),
+    };
+    ui.add_space(8.0);
+}
+
+/// The question where to save, over the window, while it is asked.
+pub fn show(ui: &mut egui::Ui, context: &mut PanelContext) {
+    let session = &mut *context.session;
+    let Some(mut saving) = session.editing.saving.take() else {
+        return;
+    };
+    let modal = egui::Modal::new(egui::Id::unique("save scene")).show(ui.ctx(), |ui| {
+        ui.set_width(420.0);
+        ui.heading("Save the scene");
+        ui.add_space(8.0);
+        let label = ui.label("File name");
+        let edit = egui::TextEdit::singleline(&mut saving.name).desired_width(f32::INFINITY);
+        let edit = ui.add(edit).labelled_by(label.id);
+        if std::mem::take(&mut saving.is_new) {
+            edit.request_focus();
+        }
+        if edit.changed() {
+            saving.trouble = None;
+        }
+        let is_entered = edit.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        let path = target(&saving.name);
+        let is_there = path.as_ref().is_some_and(|path| path.exists());
+        let is_ours = is_own(session, path.as_deref());
+        say(
+            ui,
+            saving.trouble.as_deref(),
+            path.is_some(),
+            (is_there, is_ours),
+        );
+        let verb = if is_there { "Replace" } else { "Save" };
+        let mut is_open = true;
+        ui.horizontal(|ui| {
+            let is_clicked = ui.add_enabled(path.is_some(), Button::new(verb)).clicked();
+            // What would replace a person's own file takes more than a key.
+            let is_wanted = is_clicked || is_entered && (!is_there || is_ours);
+            if let Some(path) = path.filter(|_| is_wanted) {
+                match write(session, &path) {
+                    Ok(()) => is_open = false,
+                    Err(why) => saving.trouble = Some(why),
+                }
+            }
+            is_open &= !ui.button("Cancel").clicked();
+        });
+        is_open
+    });
+    if modal.inner && !modal.should_close() {
+        session.editing.saving = Some(saving);
+    }
+}

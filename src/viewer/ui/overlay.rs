@@ -1,0 +1,458 @@
+//! What is drawn over the picture for editing: a box round what is selected, and its handles.
+
+use crate::scene::{Camera, Geometry, LightKind, ObjectRef, Scene};
+use crate::viewer::actions::modal;
+use crate::viewer::model::bindings::Action;
+use crate::viewer::model::handles::{Eye, Grip, Handles, Part};
+use crate::viewer::model::modal::Modal;
+use crate::viewer::model::objects;
+use crate::viewer::model::objects::Id;
+use crate::viewer::model::tool::Tool;
+use crate::viewer::model::viewport::Viewport;
+use crate::viewer::state::session::Session;
+use eframe::egui::{
+    self, Align2, Color32, FontId, Order, Painter, PointerButton, Pos2, Sense, Shape, Stroke,
+    StrokeKind,
+};
+use glam::{DAffine3, DVec3};
+
+/// How long handles are, and how near the pointer must come, in points.
+const LENGTH: f32 = 84.0;
+const SLACK: f32 = 7.0;
+/// Of x, y, z and of all: legible on black and on white.
+const COLORS: [Color32; 3] = [
+    Color32::from_rgb(235, 64, 72),
+    Color32::from_rgb(96, 178, 30),
+    Color32::from_rgb(58, 128, 246),
+];
+const ALL: Color32 = Color32::from_gray(235);
+const HOT: Color32 = Color32::from_rgb(255, 214, 64);
+const SELECTED: Color32 = Color32::from_rgb(255, 160, 32);
+const SHADE: Color32 = Color32::from_black_alpha(110);
+
+/// Draws what belongs to the selection and lets a hand drag its handles. Whether it has the mouse, so
+/// that the camera stays.
+pub fn overlay(
+    session: &mut Session,
+    response: &egui::Response,
+    painter: &Painter,
+    viewport: Viewport,
+) -> bool {
+    let scene = session.scene().cloned();
+    let is_there = |id: &Id| {
+        scene
+            .as_ref()
+            .is_some_and(|scene| objects::is_there(scene, *id))
+    };
+    let (Some(id), Some(scene), Some(camera)) = (
+        session.selection.filter(is_there),
+        scene.clone(),
+        session.camera(),
+    ) else {
+        let_go(session);
+        return false;
+    };
+    if !session.shows_overlays && session.editing.modal.is_none() {
+        return false;
+    }
+    let eye = Eye {
+        camera: &camera,
+        size: viewport.extent(),
+    };
+    let time = session.playback.time;
+    let view = View {
+        painter,
+        viewport,
+        eye,
+    };
+    view.lines(&edges(session, &scene, id, time), SELECTED);
+    let place = objects::place(&scene, id, time);
+    let tool = session.tool;
+    let is_handled = matches!(tool, Tool::Move | Tool::Rotate | Tool::Scale);
+    let (Some(place), true) = (place, is_handled) else {
+        let_go(session);
+        return false;
+    };
+    let pixels = |points: f32| viewport.length(egui::vec2(points, 0.0)).x;
+    let free = objects::freedom(&scene, id);
+    let Some(handles) = Handles::new(tool, place, free, eye, pixels(LENGTH)) else {
+        session.editing.modal = None;
+        return false;
+    };
+    let ctx = &response.ctx;
+    let bindings = &session.preferences.bindings;
+    let (pointer, pressed, is_fine, snaps) = ctx.input(|input| {
+        let pointer = &input.pointer;
+        (
+            pointer.latest_pos(),
+            pointer.press_origin(),
+            bindings.is_held(Action::FineHandles, input),
+            bindings.is_held(Action::SnapHandles, input),
+        )
+    });
+    let part_at = |at: Pos2| handles.part_at(eye, viewport.position(at), pixels(SLACK));
+    if response.drag_started_by(egui::PointerButton::Primary)
+        && let Some(pressed) = pressed
+        && let Some(part) = part_at(pressed)
+    {
+        let grip = Grip::new(part, handles.clone(), place, viewport.position(pressed));
+        session.editing.grip = Some((grip, pressed));
+    }
+    if session.editing.modal.is_some() && session.editing.grip.is_none() {
+        let from = pointer.unwrap_or(viewport.rect.center());
+        let grip = Grip::new(Part::All, handles.clone(), place, viewport.position(from));
+        session.editing.grip = Some((grip, from));
+    }
+    let Some((mut grip, last)) = session.editing.grip.take() else {
+        let hovered = pointer.filter(|_| response.hovered()).and_then(part_at);
+        view.handles(&handles, hovered);
+        if hovered.is_some() {
+            ctx.set_cursor_icon(egui::CursorIcon::Grab);
+        }
+        return false;
+    };
+    let now = pointer.unwrap_or(last);
+    grip.follow(viewport.length(now - last), is_fine);
+    let mut modal = session.editing.modal.take();
+    let dragged = match &modal {
+        Some(modal) => {
+            grip.part = modal.part(&grip.handles);
+            let exact = modal.amount().map(|amount| grip.by(eye, amount));
+            exact.or_else(|| grip.dragged(eye, snaps))
+        }
+        None => grip.dragged(eye, snaps),
+    };
+    let mut shown = handles;
+    if let Some(dragged) = dragged {
+        let is_news = match &mut modal {
+            Some(modal) => modal.place.replace(dragged.place).unwrap_or(place) != dragged.place,
+            None => now != last,
+        };
+        if is_news {
+            let verb = match tool {
+                Tool::Move => "move",
+                Tool::Rotate => "rotate",
+                _ => "scale",
+            };
+            let name = format!("{verb} {}", session.label(id));
+            session.drag_change(&name, |scene| {
+                objects::set_place(scene, id, dragged.place, time)
+            });
+        }
+        shown.origin = dragged.place.translation;
+        let at = now + egui::vec2(18.0, -18.0);
+        match modal
+            .as_ref()
+            .map(Modal::typed)
+            .filter(|typed| !typed.is_empty())
+        {
+            Some(typed) => view.text(at, &format!("{}   [{typed}]", dragged.told)),
+            None => view.text(at, &dragged.told),
+        }
+    }
+    ctx.set_cursor_icon(egui::CursorIcon::Grabbing);
+    view.handles(&shown, Some(grip.part));
+    match modal {
+        Some(modal) if !modal.is_confirmed => {
+            session.editing.grip = Some((grip, now));
+            session.editing.modal = Some(modal);
+        }
+        None if response.dragged_by(egui::PointerButton::Primary) => {
+            session.moved();
+            session.editing.grip = Some((grip, now));
+        }
+        _ => {
+            if let Some(document) = &mut session.document {
+                document.release();
+            }
+        }
+    }
+    true
+}
+
+/// Ends what there is nothing left to do with.
+fn let_go(session: &mut Session) {
+    session.editing.grip = None;
+    session.editing.modal = None;
+}
+
+/// What lines are drawn in.
+struct View<'a> {
+    painter: &'a Painter,
+    viewport: Viewport,
+    eye: Eye<'a>,
+}
+
+impl View<'_> {
+    /// Lines in the world.
+    fn lines(&self, lines: &[[DVec3; 2]], color: Color32) {
+        for ends in lines {
+            if let Some(ends) = self.segment(*ends) {
+                self.painter.line_segment(ends, Stroke::new(3.0, SHADE));
+                self.painter.line_segment(ends, Stroke::new(1.5, color));
+            }
+        }
+    }
+
+    /// A line on the screen, less what is behind the camera.
+    fn segment(&self, [a, b]: [DVec3; 2]) -> Option<[Pos2; 2]> {
+        let (depth_a, depth_b) = (self.eye.depth(a), self.eye.depth(b));
+        let near = 1e-3 * depth_a.abs().max(depth_b.abs());
+        if depth_a.max(depth_b) <= near {
+            return None;
+        }
+        let cut = |from: DVec3, to: DVec3, depth: f64, other: f64| match depth < near {
+            true => from.lerp(to, (near - depth) / (other - depth)),
+            false => from,
+        };
+        let ends = [cut(a, b, depth_a, depth_b), cut(b, a, depth_b, depth_a)];
+        let [a, b] = ends.map(|end| self.eye.project(end));
+        let ends = [a?, b?].map(|at| self.viewport.point(at));
+        // What is far outside would lose its direction in single floats.
+        ends.iter()
+            .all(|p| p.to_vec2().length() < 1e6)
+            .then_some(ends)
+    }
+
+    fn handles(&self, handles: &Handles, hot: Option<Part>) {
+        let mut parts = handles.parts.clone();
+        // The nearest end last.
+        let depth = |part: &Part| match part {
+            Part::Axis(axis) => self
+                .eye
+                .depth(handles.origin + handles.axes[*axis] * handles.reach),
+            Part::All => f64::NEG_INFINITY,
+            _ => self.eye.depth(handles.origin),
+        };
+        parts.sort_by(|a, b| depth(b).total_cmp(&depth(a)));
+        for part in parts {
+            self.handle(handles, part, hot == Some(part));
+        }
+    }
+
+    fn handle(&self, handles: &Handles, part: Part, is_hot: bool) {
+        let own = match part {
+            Part::Axis(axis) | Part::Plane(axis) | Part::Ring(axis) => COLORS[axis],
+            Part::All => ALL,
+        };
+        let color = if is_hot { HOT } else { own };
+        let line = handles.line(part, self.eye);
+        let points: Option<Vec<Pos2>> = (line.iter())
+            .map(|point| Some(self.viewport.point(self.eye.project(*point)?)))
+            .collect();
+        let Some(points) = points else {
+            return;
+        };
+        let stroke = |points: Vec<Pos2>| {
+            let shade = Stroke::new(5.0, SHADE);
+            self.painter.add(Shape::line(points.clone(), shade));
+            self.painter
+                .add(Shape::line(points, Stroke::new(3.0, color)));
+        };
+        match part {
+            Part::Axis(_) => {
+                let (from, to) = (points[0], points[1]);
+                stroke(vec![from, to]);
+                let way = (to - from).normalized();
+                let side = way.rot90();
+                let tip = match handles.tool {
+                    Tool::Scale => {
+                        let (way, side) = (way * 5.0, side * 5.0);
+                        vec![
+                            to + way + side,
+                            to + way - side,
+                            to - way - side,
+                            to - way + side,
+                        ]
+                    }
+                    _ => vec![to + way * 12.0, to + side * 5.5, to - side * 5.5],
+                };
+                let shape = Shape::convex_polygon(tip, color, Stroke::new(1.0, SHADE));
+                self.painter.add(shape);
+            }
+            Part::Plane(_) => {
+                let fill = color.gamma_multiply(if is_hot { 0.8 } else { 0.45 });
+                let shape = Shape::convex_polygon(points, fill, Stroke::new(1.0, color));
+                self.painter.add(shape);
+            }
+            Part::All if points.is_empty() => {
+                if let Some(at) = self.eye.project(handles.origin) {
+                    let at = self.viewport.point(at);
+                    self.painter.circle(at, 6.5, color, Stroke::new(1.5, SHADE));
+                }
+            }
+            Part::Ring(_) | Part::All => stroke(points),
+        }
+    }
+
+    /// A reading beside the pointer.
+    fn text(&self, at: Pos2, text: &str) {
+        let font = FontId::proportional(14.0);
+        let galley = (self.painter).layout_no_wrap(text.to_owned(), font, Color32::WHITE);
+        let rect = Align2::LEFT_BOTTOM.anchor_size(at, galley.size());
+        let back = Color32::from_black_alpha(190);
+        self.painter
+            .rect_filled(rect.expand2(egui::vec2(6.0, 3.0)), 4.0, back);
+        self.painter.galley(rect.min, galley, Color32::WHITE);
+    }
+}
+
+/// Lines round something, in the world.
+fn edges(session: &mut Session, scene: &Scene, id: Id, time: f64) -> Vec<[DVec3; 2]> {
+    let place = objects::place(scene, id, time);
+    match (id, place) {
+        (Id::Object(ObjectRef::Instance(index)), Some(place)) => {
+            let mesh = &scene.meshes[scene.instances[index].mesh];
+            let bounds = session.editing.bounds_of(mesh);
+            bounds.map_or(Vec::new(), |bounds| cuboid(bounds, place))
+        }
+        (Id::Object(ObjectRef::Shape(index)), Some(place)) => {
+            let unit = match scene.shapes[index].geometry {
+                Geometry::Sphere { .. } => Some((DVec3::NEG_ONE, DVec3::ONE)),
+                Geometry::Plane { .. } => {
+                    Some((DVec3::new(-1.0, 0.0, -1.0), DVec3::new(1.0, 0.0, 1.0)))
+                }
+                Geometry::Placed { canonical, .. } => Geometry::Placed {
+                    canonical,
+                    world_from_canonical: DAffine3::IDENTITY,
+                }
+                .bounds(),
+            };
+            unit.map_or(Vec::new(), |bounds| cuboid(bounds, place))
+        }
+        (Id::Object(ObjectRef::Light(index)), Some(_)) => {
+            let frame = scene.frame(time);
+            frame.lights.get(index).map_or(Vec::new(), |light| {
+                lamp(&light.kind, eye_distance(session, &light.kind))
+            })
+        }
+        (Id::Node(_), Some(place)) => {
+            let arm = 0.5;
+            (DVec3::AXES.into_iter())
+                .map(|axis| [-axis * arm, axis * arm].map(|end| place.transform_point3(end)))
+                .collect()
+        }
+        (Id::Camera(index), _) => {
+            let mut scene = scene.clone();
+            scene.camera_index = index;
+            let camera = scene.frame(time).camera;
+            let is_seen_through = session.camera().is_some_and(|seen| seen == camera);
+            match is_seen_through {
+                true => Vec::new(),
+                false => pyramid(&camera),
+            }
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// A length that looks the same wherever the light is.
+fn eye_distance(session: &Session, kind: &LightKind) -> f64 {
+    let at = objects::of_light(kind).translation;
+    let distance = session
+        .camera()
+        .map(|camera| match camera.orthographic_height {
+            Some(height) => height,
+            None => camera.look_from.distance(at),
+        });
+    0.04 * distance.unwrap_or(1.0)
+}
+
+fn cuboid((min, max): (DVec3, DVec3), place: DAffine3) -> Vec<[DVec3; 2]> {
+    let corner = |i: usize| {
+        let side = |bit: usize, axis: usize| if i & bit == 0 { min[axis] } else { max[axis] };
+        place.transform_point3(DVec3::new(side(1, 0), side(2, 1), side(4, 2)))
+    };
+    let edges = (0..8).flat_map(|i| [1, 2, 4].map(|bit| (i, i | bit)));
+    edges
+        .filter(|(a, b)| a != b)
+        .map(|(a, b)| [corner(a), corner(b)])
+        .collect()
+}
+
+/// A star where a light is that has no extent, its surface where it has; and a line the way it shines.
+fn lamp(kind: &LightKind, size: f64) -> Vec<[DVec3; 2]> {
+    let place = objects::of_light(kind);
+    let flat = (DVec3::new(-1.0, 0.0, -1.0), DVec3::new(1.0, 0.0, 1.0));
+    let at = place.translation;
+    let aim = |direction: DVec3, length: f64| [at, at + direction * length];
+    match *kind {
+        LightKind::Directional { .. } => Vec::new(),
+        LightKind::Point { .. } | LightKind::Spot { .. } => {
+            let mut lines: Vec<_> = (DVec3::AXES.into_iter())
+                .map(|axis| [at - axis * size, at + axis * size])
+                .collect();
+            if let LightKind::Spot { direction, .. } = *kind {
+                lines.push(aim(direction, 4.0 * size));
+            }
+            lines
+        }
+        LightKind::Rectangle { edge_u, edge_v, .. } => {
+            let mut lines = cuboid(flat, place);
+            let normal = edge_u.cross(edge_v).normalize_or(DVec3::Y);
+            lines.push(aim(normal, 2.0 * size));
+            lines
+        }
+        LightKind::Disc { normal, .. } => {
+            let mut lines = cuboid(flat, place);
+            lines.push(aim(normal, 2.0 * size));
+            lines
+        }
+        LightKind::Sphere { .. } => cuboid((DVec3::NEG_ONE, DVec3::ONE), place),
+    }
+}
+
+/// A camera's eye and what it sees at a quarter of the way to what it looks at, 3 to 2.
+fn pyramid(camera: &Camera) -> Vec<[DVec3; 2]> {
+    let size = glam::DVec2::new(3.0, 2.0);
+    let length = 0.25 * camera.look_from.distance(camera.look_at);
+    let corners = [(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)].map(|(x, y)| {
+        let at = glam::DVec2::new(x, y);
+        let (from, direction) = crate::viewer::model::camera::ray_through(camera, at, size);
+        (from, from + direction * length)
+    });
+    let next = corners.iter().cycle().skip(1);
+    let rim = corners.iter().zip(next).map(|(a, b)| [a.1, b.1]);
+    let sides = corners.iter().map(|(from, to)| [*from, *to]);
+    sides.chain(rim).collect()
+}
+
+/// Lies over the whole window while a movement is under way: clicks end it and do nothing else.
+pub fn shield(ctx: &egui::Context, session: &mut Session) {
+    if session.editing.modal.is_none() {
+        return;
+    }
+    // Nobody sees where the thing is.
+    if session.viewport.is_none() {
+        modal::cancel(session);
+        return;
+    }
+    let area = egui::Area::new(egui::Id::unique("movement")).order(Order::Foreground);
+    let area = area.fixed_pos(ctx.content_rect().min);
+    let response = area.show(ctx, |ui| {
+        ui.allocate_response(ctx.content_rect().size(), Sense::click_and_drag())
+    });
+    let response = response.inner;
+    let ends = |button| response.clicked_by(button) || response.drag_stopped_by(button);
+    if ends(PointerButton::Secondary) {
+        modal::cancel(session);
+    } else if ends(PointerButton::Primary)
+        && let Some(modal) = &mut session.editing.modal
+    {
+        modal.is_confirmed = true;
+        ctx.request_repaint();
+    }
+}
+
+/// Draws the edges, to be seen on any picture.
+pub fn region_outline(painter: &egui::Painter, viewport: Viewport, region: [u32; 4]) {
+    let rect = viewport.part(region);
+    let dark = Stroke::new(3.0, Color32::from_black_alpha(140));
+    painter.rect_stroke(rect, 0.0, dark, StrokeKind::Middle);
+    painter.rect_stroke(
+        rect,
+        0.0,
+        Stroke::new(1.0, Color32::WHITE),
+        StrokeKind::Middle,
+    );
+}

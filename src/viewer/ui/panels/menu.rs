@@ -1,0 +1,316 @@
+//! The bar at the top, with every command that takes no mouse; and below it what is wrong with the
+//! scene's file.
+
+use crate::viewer::actions::commands;
+use crate::viewer::actions::files;
+use crate::viewer::actions::files::cameras;
+use crate::viewer::model::bindings::Action as A;
+use crate::viewer::model::view_settings::Sharing;
+use crate::viewer::state::dialogs::Dialog;
+use crate::viewer::state::layout::{Layout, Panel};
+use crate::viewer::ui::context::PanelContext;
+use eframe::egui::{self, Button, RichText, Ui};
+
+/// The bar with its menus.
+pub fn menu(ui: &mut Ui, context: &mut PanelContext, layout: &mut Layout) {
+    egui::Panel::top("menu").show(ui, |ui| {
+        egui::MenuBar::new().ui(ui, |ui| {
+            ui.menu_button("File", |ui| {
+                file(&mut Menu {
+                    ui,
+                    context,
+                    layout,
+                })
+            });
+            ui.menu_button("Edit", |ui| {
+                edit(&mut Menu {
+                    ui,
+                    context,
+                    layout,
+                })
+            });
+            ui.menu_button("View", |ui| {
+                view(&mut Menu {
+                    ui,
+                    context,
+                    layout,
+                })
+            });
+            ui.menu_button("Render", |ui| {
+                render(&mut Menu {
+                    ui,
+                    context,
+                    layout,
+                })
+            });
+            ui.menu_button("Window", |ui| {
+                window(&mut Menu {
+                    ui,
+                    context,
+                    layout,
+                })
+            });
+            ui.menu_button("Help", |ui| {
+                help(&mut Menu {
+                    ui,
+                    context,
+                    layout,
+                })
+            });
+        });
+    });
+    crate::viewer::ui::panels::broken::broken(ui, context);
+}
+
+/// What an entry needs.
+struct Menu<'a, 'b> {
+    ui: &'a mut Ui,
+    context: &'a mut PanelContext<'b>,
+    layout: &'a mut Layout,
+}
+
+impl Menu<'_, '_> {
+    /// An entry for a command, with what else gives it on its right.
+    fn entry(&mut self, text: &str, action: A) {
+        self.entry_if(true, text, action);
+    }
+
+    /// The same; grey where there is nothing to do.
+    fn entry_if(&mut self, enabled: bool, text: &str, action: A) {
+        let button = Button::new(text);
+        self.button(enabled, button, action);
+    }
+
+    /// The same for something that is so or not.
+    fn tick(&mut self, is_so: bool, text: &str, action: A) {
+        let button = Button::selectable(is_so, text);
+        self.button(true, button, action);
+    }
+
+    fn button(&mut self, enabled: bool, button: Button, action: A) {
+        let bindings = &self.context.session.preferences.bindings;
+        let mac = cfg!(target_os = "macos");
+        let key = bindings.triggers(action).first().map(|t| t.label(mac));
+        let button = button.shortcut_text(key.unwrap_or_default());
+        let response = self.ui.add_enabled(enabled, button);
+        if response.on_hover_text(action.description()).clicked() {
+            self.ui.close();
+            let ctx = self.ui.ctx().clone();
+            commands::perform(action, self.context.session, self.layout, &ctx);
+        }
+    }
+
+    fn line(&mut self) {
+        self.ui.separator();
+    }
+}
+
+fn file(menu: &mut Menu) {
+    let session = &menu.context.session;
+    let (has_file, has_scene) = (session.path.is_some(), session.scene().is_some());
+    menu.entry("Open…", A::Open);
+    let by_path = menu.ui.button("Open a path…");
+    if by_path
+        .on_hover_text("Type or paste where the file is")
+        .clicked()
+    {
+        menu.ui.close();
+        menu.context.session.files.typed = Some(String::new());
+    }
+    let recent = menu.context.session.preferences.recent.clone();
+    menu.ui.add_enabled_ui(!recent.is_empty(), |ui| {
+        ui.menu_button("Open recent", |ui| {
+            for path in &recent {
+                let name = files::short(path);
+                let folder = path.parent().map(|f| f.display().to_string());
+                let text = format!("{name}   {}", folder.unwrap_or_default());
+                let button = Button::new(text).truncate();
+                if ui
+                    .add(button)
+                    .on_hover_text(path.display().to_string())
+                    .clicked()
+                {
+                    ui.close();
+                    files::open(menu.context.session, vec![path.clone()]);
+                }
+            }
+            ui.separator();
+            if ui.button("Forget them").clicked() {
+                menu.context.session.preferences.recent.clear();
+            }
+        });
+    });
+    menu.entry_if(has_file, "Next scene of the folder", A::OpenNext);
+    menu.entry_if(has_file, "Previous scene of the folder", A::OpenPrevious);
+    menu.entry_if(has_scene, "Reload", A::Reload);
+    menu.line();
+    menu.entry_if(has_scene, "Save the scene", A::SaveScene);
+    menu.entry_if(has_scene, "Save the scene as…", A::SaveSceneAs);
+    menu.entry_if(has_scene, "Revert", A::Revert);
+    menu.line();
+    menu.entry_if(has_scene, "Save the picture…", A::SavePicture);
+    let overlays = A::SavePictureWithOverlays;
+    menu.entry_if(has_scene, "Save the picture with overlays…", overlays);
+    if menu.context.session.files.waits_to_save()
+        && menu.ui.button("Do not save when finished").clicked()
+    {
+        files::pictures::cancel(menu.context.session);
+    }
+    menu.line();
+    menu.entry("Quit", A::Quit);
+}
+
+fn edit(menu: &mut Menu) {
+    let has_selection = menu.context.session.selection.is_some();
+    menu.entry("Undo", A::Undo);
+    menu.entry("Redo", A::Redo);
+    menu.line();
+    menu.entry_if(has_selection, "Rename", A::Rename);
+    menu.entry_if(has_selection, "Duplicate", A::Duplicate);
+    menu.entry_if(has_selection, "Delete", A::Delete);
+    menu.entry_if(has_selection, "Hide or show", A::ToggleVisible);
+    menu.entry_if(has_selection, "Select nothing", A::SelectNothing);
+    menu.line();
+    use crate::viewer::model::tool::Tool;
+    let tool = menu.context.session.tool;
+    menu.tick(tool == Tool::Select, "Selection tool", A::SelectMode);
+    menu.tick(tool == Tool::Move, "Move tool", A::MoveTool);
+    menu.tick(tool == Tool::Rotate, "Rotation tool", A::RotateTool);
+    menu.tick(tool == Tool::Scale, "Scale tool", A::ScaleTool);
+    menu.tick(tool == Tool::Inspect, "Ray inspector", A::InspectRays);
+    menu.line();
+    menu.entry("Copy as command line", A::CopyCamera);
+    menu.entry("Paste a camera", A::PasteCamera);
+    menu.line();
+    menu.entry("Preferences…", A::Preferences);
+}
+
+fn view(menu: &mut Menu) {
+    let has_selection = menu.context.session.selection.is_some();
+    menu.entry_if(has_selection, "Frame the selection", A::FrameSelection);
+    menu.entry("Frame all", A::FrameAll);
+    menu.entry("Scene's camera", A::Home);
+    menu.line();
+    menu.entry("Front", A::ViewFront);
+    menu.entry("Back", A::ViewBack);
+    menu.entry("Right", A::ViewRight);
+    menu.entry("Left", A::ViewLeft);
+    menu.entry("Top", A::ViewTop);
+    menu.entry("Bottom", A::ViewBottom);
+    let controller = menu.context.session.controller.as_ref();
+    let is_orthographic = controller.is_some_and(|controller| controller.is_orthographic());
+    menu.tick(is_orthographic, "Orthographic", A::ToggleOrthographic);
+    menu.entry("Take roll away", A::Level);
+    menu.line();
+    menu.ui.menu_button("Cameras", |ui| {
+        let views = cameras::all(menu.context.session);
+        for view in &views {
+            if ui.button(&view.name).clicked() {
+                ui.close();
+                cameras::go(menu.context.session, &view.camera);
+            }
+        }
+        ui.separator();
+        let mut menu = Menu {
+            ui,
+            context: menu.context,
+            layout: menu.layout,
+        };
+        menu.entry("Keep this camera", A::SaveCamera);
+        menu.entry("Next camera", A::NextCamera);
+        menu.entry("Previous camera", A::PreviousCamera);
+        if menu.ui.button("Rename and delete…").clicked() {
+            menu.ui.close();
+            menu.context.session.dialogs.open(Dialog::Cameras);
+        }
+    });
+    menu.ui.menu_button("Animation", |ui| {
+        let mut menu = Menu {
+            ui,
+            context: menu.context,
+            layout: menu.layout,
+        };
+        let playback = &menu.context.session.playback;
+        let (plays, repeats, blurs) = (playback.is_playing, playback.repeats, playback.blurs);
+        menu.tick(plays, "Play", A::PlayPause);
+        menu.entry("Next frame", A::StepForward);
+        menu.entry("Previous frame", A::StepBack);
+        menu.entry("First frame", A::FirstFrame);
+        menu.entry("Last frame", A::LastFrame);
+        menu.entry("Faster", A::PlayFaster);
+        menu.entry("Slower", A::PlaySlower);
+        menu.tick(repeats, "Loop", A::ToggleLoop);
+        menu.tick(blurs, "Motion blur", A::ToggleMotionBlur);
+    });
+}
+
+fn render(menu: &mut Menu) {
+    let look = &menu.context.session.view;
+    let integrator = look.settings.integrator;
+    let sharing = look.comparison.map(|comparison| comparison.sharing);
+    let (is_paused, has_region) = (look.paused, look.region.is_some());
+    for action in A::ALL {
+        if let Some(shown) = action.integrator() {
+            menu.tick(shown == integrator, shown.entry().title, *action);
+        }
+    }
+    menu.line();
+    let is_wipe = matches!(sharing, Some(Sharing::Wipe(_)));
+    menu.tick(is_wipe, "Compare with a line", A::SplitWipe);
+    let is_beside = sharing == Some(Sharing::SideBySide);
+    menu.tick(is_beside, "Compare side by side", A::SideBySide);
+    menu.entry_if(sharing.is_some(), "Change sides", A::SwapSides);
+    menu.line();
+    menu.entry("Brighter", A::ExposureUp);
+    menu.entry("Darker", A::ExposureDown);
+    menu.entry("Scene's exposure", A::ExposureReset);
+    menu.entry("Next tone curve", A::NextToneCurve);
+    menu.entry("Next background", A::NextBackground);
+    menu.line();
+    menu.tick(is_paused, "Pause", A::PauseRender);
+    menu.entry("Start again", A::RestartRender);
+    menu.tick(has_region, "Region only", A::RegionRender);
+    menu.entry("Twice the samples", A::MoreSamples);
+    menu.entry("Half the samples", A::FewerSamples);
+}
+
+fn window(menu: &mut Menu) {
+    for panel in Panel::ALL {
+        let mut visible = menu.layout.is_visible(panel);
+        if menu.ui.checkbox(&mut visible, panel.title()).changed() {
+            menu.layout.set_visible(panel, visible);
+        }
+    }
+    menu.entry("All panels", A::TogglePanels);
+    if menu.ui.button("Usual arrangement").clicked() {
+        menu.ui.close();
+        *menu.layout = Layout::default();
+    }
+    menu.line();
+    let session = &menu.context.session;
+    let (overlays, statistics) = (session.shows_overlays, session.shows_statistics);
+    menu.tick(overlays, "Overlays", A::ToggleOverlays);
+    menu.tick(statistics, "Statistics", A::ToggleStatistics);
+    menu.line();
+    menu.entry("Dark or light", A::ToggleTheme);
+    menu.entry("Larger", A::LargerText);
+    menu.entry("Smaller", A::SmallerText);
+    menu.entry("Usual size", A::ResetText);
+    menu.entry("Full screen", A::FullScreen);
+}
+
+fn help(menu: &mut Menu) {
+    menu.entry("All bindings", A::Help);
+    for (text, sheet) in [
+        ("First steps", Dialog::Hint),
+        ("What happened", Dialog::Messages),
+    ] {
+        if menu.ui.button(text).clicked() {
+            menu.ui.close();
+            menu.context.session.dialogs.open(sheet);
+        }
+    }
+    menu.line();
+    let version = format!("glimray {}", env!("CARGO_PKG_VERSION"));
+    menu.ui.label(RichText::new(version).weak());
+}

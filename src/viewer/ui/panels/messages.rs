@@ -1,0 +1,46 @@
+//! What happened, in words that go away by themselves.
+
+use crate::viewer::ui::context::PanelContext;
+use eframe::egui::{self, Align2, Area, Frame, Id, RichText};
+
+/// How wide a notice may be, in points.
+const WIDTH: f32 = 380.0;
+
+/// The newest notices, over everything else.
+pub fn messages(ui: &mut egui::Ui, context: &mut PanelContext) {
+    let messages = context.session.messages.current();
+    if messages.is_empty() || context.session.files.is_posing() {
+        return;
+    }
+    if let Some(time) = context.session.messages.next_change() {
+        ui.ctx().request_repaint_after(time);
+    }
+    Area::new(Id::unique("notices"))
+        .anchor(Align2::RIGHT_BOTTOM, [-12.0, -36.0])
+        .order(egui::Order::Foreground)
+        .accessible_name("Notices")
+        .show(ui.ctx(), |ui| {
+            for notice in messages {
+                Frame::popup(ui.style()).show(ui, |ui| {
+                    ui.set_max_width(WIDTH);
+                    ui.horizontal_top(|ui| {
+                        if notice.is_trouble {
+                            let sign = RichText::new("!").color(ui.visuals().warn_fg_color);
+                            ui.label(sign);
+                        }
+                        ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
+                            let button = ui.small_button("×").on_hover_text("Take it away");
+                            let button =
+                                button.accessible_name(format!("Dismiss: {}", notice.text));
+                            if button.clicked() {
+                                context.session.messages.dismiss(&notice.text);
+                            }
+                            ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| {
+                                ui.add(egui::Label::new(&notice.text).wrap());
+                            });
+                        });
+                    });
+                });
+            }
+        });
+}

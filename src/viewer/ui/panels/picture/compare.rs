@@ -1,0 +1,152 @@
+//! Two looks at the same: how they share the room, the line between them and what they are called.
+
+use crate::app::words::INTEGRATORS;
+use crate::render::Integrator;
+use crate::viewer::model::view_settings::{Comparison, Sharing};
+use crate::viewer::model::viewport::Viewport;
+use crate::viewer::ui::context::PanelContext;
+use crate::viewer::ui::panels::words::title;
+use eframe::egui::{
+    self, Align2, Color32, CursorIcon, EventFilter, FontId, Key, Pos2, Rect, Stroke, Vec2, vec2,
+};
+
+/// How near the mouse takes the line, in points.
+const REACH: f32 = 5.0;
+/// What an arrow key moves it by, as a share of the picture's width.
+const STEP: f32 = 0.02;
+
+/// The room of both pictures.
+pub fn spaces(comparison: Option<Comparison>, space: Rect) -> [Rect; 2] {
+    match comparison {
+        Some(Comparison {
+            sharing: Sharing::SideBySide,
+            ..
+        }) => {
+            let (left, right) = space.split_left_right_at_fraction(0.5);
+            [left, right]
+        }
+        _ => [space, space],
+    }
+}
+
+/// Where the second picture may be drawn.
+pub fn clip(sharing: Sharing, space: Rect, viewport: Viewport) -> Rect {
+    match sharing {
+        Sharing::SideBySide => space,
+        Sharing::Wipe(share) => {
+            let mut right = viewport.rect;
+            right.min.x += right.width() * share;
+            right
+        }
+    }
+}
+
+/// The line between both, which can be moved, and their names in the corners.
+pub fn overlay(
+    ui: &mut egui::Ui,
+    context: &mut PanelContext,
+    space: Rect,
+    viewports: [Viewport; 2],
+) {
+    let look = &mut context.session.view;
+    let first = look.settings.integrator;
+    let Some(comparison) = &mut look.comparison else {
+        return;
+    };
+    let painter = ui.painter_at(space);
+    let corners = match &mut comparison.sharing {
+        Sharing::Wipe(share) => {
+            wipe(ui, &painter, share, viewports[0].rect);
+            let rect = viewports[0].rect.intersect(space);
+            [rect.left_top(), rect.right_top()]
+        }
+        Sharing::SideBySide => {
+            let middle = space.center_top();
+            let line = [middle, space.center_bottom()];
+            painter.line_segment(line, Stroke::new(1.0, Color32::from_gray(128)));
+            viewports.map(|viewport| viewport.rect.left_top())
+        }
+    };
+    let is_wipe = matches!(comparison.sharing, Sharing::Wipe(_));
+    let right = if is_wipe {
+        Align2::RIGHT_TOP
+    } else {
+        Align2::LEFT_TOP
+    };
+    label(&painter, corners[0], Align2::LEFT_TOP, first);
+    label(&painter, corners[1], right, comparison.integrator);
+}
+
+/// The line: dragged, or moved by the arrow keys once it has the focus.
+fn wipe(ui: &mut egui::Ui, painter: &egui::Painter, share: &mut f32, rect: Rect) {
+    let at = |share: f32| rect.min.x + rect.width() * share;
+    let area = Rect::from_center_size(
+        Pos2::new(at(*share), rect.center().y),
+        vec2(2.0 * REACH, rect.height()),
+    );
+    let id = ui.scope_id().with("wipe");
+    let response = ui.interact(area, id, egui::Sense::click_and_drag());
+    if let Some(pointer) = response
+        .interact_pointer_pos()
+        .filter(|_| response.dragged())
+    {
+        *share = (pointer.x - rect.min.x) / rect.width().max(1.0);
+    }
+    if response.clicked() {
+        response.request_focus();
+    }
+    let has_focus = response.has_focus();
+    if has_focus {
+        let filter = EventFilter {
+            horizontal_arrows: true,
+            ..EventFilter::default()
+        };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
+        let steps = ui.input_mut(|input| {
+            let count = |key, input: &mut egui::InputState| {
+                input.count_and_consume_key(egui::Modifiers::NONE, key) as f32
+            };
+            count(Key::ArrowRight, input) - count(Key::ArrowLeft, input)
+        });
+        *share += steps * STEP;
+    }
+    *share = share.clamp(0.0, 1.0);
+    let percent = f64::from(*share) * 100.0;
+    response.widget_info(|| egui::WidgetInfo::slider(true, percent, "Line between the looks"));
+    let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
+    let is_taken = response.hovered() || response.dragged() || has_focus;
+    let x = at(*share);
+    let (top, bottom) = (Pos2::new(x, rect.min.y), Pos2::new(x, rect.max.y));
+    let dark = Color32::from_black_alpha(140);
+    painter.line_segment([top, bottom], Stroke::new(3.0, dark));
+    painter.line_segment([top, bottom], Stroke::new(1.0, Color32::WHITE));
+    let knob = Pos2::new(x, rect.center().y);
+    let radius = if is_taken { 9.0 } else { 7.0 };
+    painter.circle(knob, radius, dark, Stroke::new(1.5, Color32::WHITE));
+    for side in [-1.0, 1.0] {
+        let tip = knob + vec2(side * (radius - 3.0), 0.0);
+        for y in [-2.5, 2.5] {
+            let end = tip + vec2(-side * 2.5, y);
+            painter.line_segment([tip, end], Stroke::new(1.2, Color32::WHITE));
+        }
+    }
+    if has_focus {
+        painter.circle_stroke(knob, radius + 2.5, ui.visuals().selection.stroke);
+    }
+}
+
+/// A name in a corner, to be read on any picture.
+fn label(painter: &egui::Painter, corner: Pos2, align: Align2, integrator: Integrator) {
+    let text = title(INTEGRATORS.word(&integrator));
+    let font = FontId::proportional(13.0);
+    let galley = painter.layout_no_wrap(text, font, Color32::WHITE);
+    let margin = Vec2::new(6.0, 3.0);
+    let inward = if align.x() == egui::Align::Max {
+        -8.0
+    } else {
+        8.0
+    };
+    let rect = align.anchor_size(corner + vec2(inward, 8.0), galley.size() + 2.0 * margin);
+    painter.rect_filled(rect, 4.0, Color32::from_black_alpha(160));
+    painter.galley(rect.min + margin, galley, Color32::WHITE);
+}

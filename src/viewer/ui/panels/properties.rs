@@ -1,0 +1,138 @@
+//! What is selected, in numbers; of nothing, the scene itself.
+
+mod camera;
+mod fields;
+mod light;
+mod material;
+mod place;
+mod surroundings;
+
+use crate::scene::ObjectRef;
+use crate::viewer::model::bindings::Action;
+use crate::viewer::model::objects;
+use crate::viewer::model::objects::Id;
+use crate::viewer::model::tool::Tool;
+use crate::viewer::state::session::Session;
+use crate::viewer::ui::context::PanelContext;
+use crate::viewer::ui::panels::icon;
+use eframe::egui::{self, vec2};
+use fields::{Change, Fields};
+
+/// The fields of what is selected.
+pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
+    let session = &mut *context.session;
+    let Some(scene) = session.scene().cloned() else {
+        return;
+    };
+    let mut changes: Vec<Change> = Vec::new();
+    egui::Frame::new().inner_margin(6).show(ui, |ui| {
+        toolbar(ui, session);
+        ui.separator();
+        let area = egui::ScrollArea::both().auto_shrink(false);
+        area.show(ui, |ui| {
+            let selection = session
+                .selection
+                .filter(|id| objects::is_there(&scene, *id));
+            let subject = match selection {
+                Some(id) => session.label(id),
+                None => "the scene".to_owned(),
+            };
+            ui.horizontal(|ui| {
+                if let Some(id) = selection {
+                    let (rect, _) = ui.allocate_exact_size(vec2(16.0, 18.0), egui::Sense::hover());
+                    icon::draw(ui, rect, &scene, id, true);
+                }
+                let title = if selection.is_some() {
+                    &subject
+                } else {
+                    "Scene"
+                };
+                ui.add(
+                    egui::Label::new(egui::RichText::new(title).heading().size(15.0)).truncate(),
+                );
+            });
+            let time = session.playback.time;
+            let fields = &mut Fields {
+                ui,
+                scene: &scene,
+                subject,
+                changes: &mut changes,
+            };
+            match selection {
+                None => surroundings::show(fields, session),
+                Some(Id::Camera(index)) => camera::show(fields, session, index),
+                Some(Id::Material(index)) => material::show(fields, index),
+                Some(id @ Id::Node(_)) => place::show(fields, id, time),
+                Some(id @ Id::Object(ObjectRef::Light(index))) => {
+                    place::show(fields, id, time);
+                    light::show(fields, index);
+                }
+                Some(id @ Id::Object(object)) => {
+                    place::show(fields, id, time);
+                    place::shape(fields, object);
+                    material::of_object(fields, session, object);
+                }
+            }
+        });
+    });
+    let is_going_on = ui.input(|input| input.pointer.any_down());
+    for Change { name, apply } in changes {
+        match is_going_on {
+            true => session.drag_change(&name, apply),
+            false => session.change(&name, apply),
+        };
+    }
+}
+
+/// Tools, and the way back.
+fn toolbar(ui: &mut egui::Ui, session: &mut Session) {
+    let tools = [
+        (Tool::Select, Action::SelectMode, "Select"),
+        (Tool::Move, Action::MoveTool, "Move"),
+        (Tool::Rotate, Action::RotateTool, "Rotate"),
+        (Tool::Scale, Action::ScaleTool, "Scale"),
+    ];
+    let bindings = session.preferences.bindings.clone();
+    let tip = |action: Action| {
+        let keys: Vec<_> = (bindings.triggers(action).iter())
+            .map(ToString::to_string)
+            .collect();
+        match keys.is_empty() {
+            true => action.description().to_owned(),
+            false => format!("{} ({})", action.description(), keys.join(", ")),
+        }
+    };
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        ui.spacing_mut().button_padding.x = 5.0;
+        for (tool, action, text) in tools {
+            let button = ui.selectable_label(session.tool == tool, text);
+            if button.on_hover_text(tip(action)).clicked() {
+                session.tool = tool;
+            }
+        }
+        let (undo, redo) = match &session.document {
+            Some(document) => (
+                document.undo_name().map(str::to_owned),
+                document.redo_name().map(str::to_owned),
+            ),
+            None => (None, None),
+        };
+        for (action, text, sign, name) in [
+            (Action::Undo, "Undo", "↺", undo),
+            (Action::Redo, "Redo", "↻", redo),
+        ] {
+            let button = ui.add_enabled(name.is_some(), egui::Button::new(sign));
+            icon::named(&button, text);
+            let told = match &name {
+                Some(name) => format!("{text} {name}"),
+                None => format!("There is nothing to {}", text.to_lowercase()),
+            };
+            let keys = tip(action);
+            let button = button.on_hover_text(format!("{told}\n{keys}"));
+            if button.on_disabled_hover_text(told).clicked() {
+                session.clicked.push(action);
+            }
+        }
+    });
+}

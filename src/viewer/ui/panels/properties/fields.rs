@@ -1,0 +1,350 @@
+//! Rows of a label and what is set there; every one asks for a change of the scene that has a name.
+
+use crate::scene::{Scene, Target};
+use crate::viewer::model::objects::EditError;
+use crate::viewer::ui::panels::icon::{edge, named};
+use eframe::egui::{self, DragValue, Ui, UiBuilder, vec2};
+use glam::{DVec3, Vec3};
+
+/// Width of labels.
+const LABEL: f32 = 84.0;
+/// Why something cannot be set.
+const DRIVEN: &str = "An animation sets this: change its keys in the scene file.";
+
+/// A change of the scene that someone asked for.
+pub struct Change {
+    /// Such as "change diffuse of glass".
+    pub name: String,
+    /// What to do.
+    pub apply: Box<Apply>,
+}
+
+/// A change, unless it cannot be made.
+type Apply = dyn FnOnce(&mut Scene) -> Result<(), EditError>;
+
+/// What numbers may be, and what one point of a drag changes them by.
+#[derive(Clone, Copy)]
+pub struct Limits {
+    pub least: f64,
+    pub most: f64,
+    /// As a share of the number, or of 1 where it is small.
+    pub speed: f64,
+    /// Written behind it.
+    pub unit: &'static str,
+}
+
+impl Limits {
+    /// Anywhere.
+    pub const LENGTH: Self = Self {
+        least: -1e15,
+        most: 1e15,
+        speed: 0.01,
+        unit: "",
+    };
+    /// What must not be 0.
+    pub const SIZE: Self = Self {
+        least: 1e-9,
+        ..Self::LENGTH
+    };
+    /// What is 0 or more.
+    pub const AMOUNT: Self = Self {
+        least: 0.0,
+        most: 1e9,
+        ..Self::LENGTH
+    };
+    pub const ANGLE: Self = Self {
+        least: -36000.0,
+        most: 36000.0,
+        speed: 0.5,
+        unit: "°",
+    };
+
+    pub const fn between(least: f64, most: f64) -> Self {
+        Self {
+            least,
+            most,
+            ..Self::LENGTH
+        }
+    }
+
+    fn speed_at(&self, value: f64) -> f64 {
+        match self.unit {
+            "°" => self.speed,
+            _ => self.speed * value.abs().clamp(0.1, 1e6),
+        }
+    }
+}
+
+/// Rows of fields that belong to one thing.
+pub struct Fields<'a> {
+    pub ui: &'a mut Ui,
+    pub scene: &'a Scene,
+    /// What the thing is called.
+    pub subject: String,
+    pub changes: &'a mut Vec<Change>,
+}
+
+impl Fields<'_> {
+    /// Asks for a change of one property.
+    pub fn change(
+        &mut self,
+        property: &str,
+        apply: impl FnOnce(&mut Scene) -> Result<(), EditError> + 'static,
+    ) {
+        let property = property.to_lowercase();
+        self.changes.push(Change {
+            name: format!("change {property} of {}", self.subject),
+            apply: Box::new(apply),
+        });
+    }
+
+    fn set<T: 'static>(
+        &mut self,
+        property: &str,
+        value: Option<T>,
+        set: impl FnOnce(&mut Scene, T) + 'static,
+    ) {
+        if let Some(value) = value {
+            self.change(property, move |scene| {
+                set(scene, value);
+                Ok(())
+            });
+        }
+    }
+
+    fn is_driven(&self, target: Option<Target>) -> bool {
+        let mut targets = self.scene.tracks.iter().flat_map(|track| &track.targets);
+        target.is_some_and(|target| targets.any(|other| *other == target))
+    }
+
+    /// A label and what `content` puts behind it.
+    pub fn row<R>(
+        &mut self,
+        label: &str,
+        tip: &str,
+        target: Option<Target>,
+        content: impl FnOnce(&mut Ui, Option<egui::Id>) -> R,
+    ) -> R {
+        let is_driven = self.is_driven(target);
+        self.ui
+            .horizontal(|ui| {
+                let size = vec2(LABEL, ui.spacing().interact_size.y);
+                let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+                let layout = egui::Layout::left_to_right(egui::Align::Center);
+                let mut labelled_by = None;
+                if !label.is_empty() {
+                    let builder = UiBuilder::new().max_rect(rect).layout(layout);
+                    ui.scope_builder(builder, |ui| {
+                        let label = ui.add(egui::Label::new(label).truncate());
+                        labelled_by = Some(label.id);
+                        label.on_hover_text(tip);
+                    });
+                }
+                ui.add_enabled_ui(!is_driven, |ui| content(ui, labelled_by))
+                    .inner
+            })
+            .inner
+    }
+
+    /// A number.
+    pub fn number(
+        &mut self,
+        label: &str,
+        tip: &str,
+        value: f64,
+        limits: Limits,
+        target: Option<Target>,
+        set: impl FnOnce(&mut Scene, f64) + 'static,
+    ) {
+        let value = self.row(label, tip, target, |ui, labelled_by| {
+            let width = ui.available_width();
+            drag(ui, Name::Label(labelled_by), tip, value, limits, width)
+        });
+        self.set(label, value, set);
+    }
+
+    /// Three numbers.
+    pub fn vector(
+        &mut self,
+        label: &str,
+        tip: &str,
+        value: DVec3,
+        limits: Limits,
+        target: Option<Target>,
+        set: impl FnOnce(&mut Scene, DVec3) + 'static,
+    ) {
+        let value = self.vector_value(label, tip, value, limits, target);
+        self.set(label, value, set);
+    }
+
+    /// The same without asking for a change: what it was set to.
+    pub fn vector_value(
+        &mut self,
+        label: &str,
+        tip: &str,
+        value: DVec3,
+        limits: Limits,
+        target: Option<Target>,
+    ) -> Option<DVec3> {
+        self.row(label, tip, target, |ui, _| {
+            ui.spacing_mut().item_spacing.x = 3.0;
+            let width = (ui.available_width() - 6.0) / 3.0;
+            let mut changed = None;
+            for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+                let name = format!("{label} {name}");
+                if let Some(now) = drag(ui, Name::Own(&name), tip, value[axis], limits, width) {
+                    changed.get_or_insert(value)[axis] = now;
+                }
+            }
+            changed
+        })
+    }
+
+    /// A linear colour: its hue by a button, its parts by numbers, which may be more than 1.
+    pub fn color(
+        &mut self,
+        label: &str,
+        tip: &str,
+        value: Vec3,
+        target: Option<Target>,
+        set: impl FnOnce(&mut Scene, Vec3) + 'static,
+    ) {
+        let tip = &format!("{tip}\nLinear red, green and blue (Rec. 709), 0 or more.");
+        let value = self.row(label, tip, target, |ui, _| {
+            ui.spacing_mut().item_spacing.x = 3.0;
+            let button = 22.0;
+            ui.spacing_mut().interact_size.x = button;
+            // egui draws the button's edge in this colour.
+            let edge = edge(ui.visuals());
+            ui.visuals_mut().widgets.inactive.bg_fill = edge;
+            // What is brighter than white keeps its brightness while its hue changes.
+            let scale = value.max_element().max(1.0);
+            let mut shown = (value / scale).to_array();
+            let mut changed = None;
+            let response = ui.color_edit_button_rgb(&mut shown);
+            named(&response, &format!("{label} colour"));
+            if response.on_hover_text(tip).changed() {
+                changed = Some(Vec3::from(shown) * scale);
+            }
+            let width = (ui.available_width() - 6.0) / 3.0;
+            for (part, name) in ["red", "green", "blue"].into_iter().enumerate() {
+                let name = format!("{label} {name}");
+                let own = f64::from(value[part]);
+                if let Some(now) = drag(ui, Name::Own(&name), tip, own, Limits::AMOUNT, width) {
+                    changed.get_or_insert(value)[part] = now as f32;
+                }
+            }
+            changed
+        });
+        self.set(label, value, set);
+    }
+
+    /// On or off.
+    pub fn toggle(
+        &mut self,
+        label: &str,
+        tip: &str,
+        mut value: bool,
+        set: impl FnOnce(&mut Scene, bool) + 'static,
+    ) {
+        let value = self.row("", tip, None, |ui, _| {
+            let response = ui.checkbox(&mut value, label).on_hover_text(tip);
+            response.changed().then_some(value)
+        });
+        self.set(label, value, set);
+    }
+
+    /// One of several.
+    pub fn choice<T: Copy + PartialEq + 'static>(
+        &mut self,
+        label: &str,
+        tip: &str,
+        value: T,
+        options: &[(T, String)],
+        apply: impl FnOnce(&mut Scene, T) -> Result<(), EditError> + 'static,
+    ) {
+        let now = options.iter().find(|(option, _)| *option == value);
+        let now = now.map_or("several", |(_, name)| name);
+        let chosen = self.row(label, tip, None, |ui, labelled_by| {
+            let mut chosen = None;
+            let width = ui.available_width();
+            let response = egui::ComboBox::from_id_salt(label)
+                .width(width)
+                .truncate()
+                .selected_text(now)
+                .show_ui(ui, |ui| {
+                    for (option, name) in options {
+                        if ui.selectable_label(*option == value, name).clicked() {
+                            chosen = Some(*option);
+                        }
+                    }
+                })
+                .response;
+            let response = match labelled_by {
+                Some(id) => response.labelled_by(id),
+                None => response,
+            };
+            response.on_hover_text(tip);
+            chosen.filter(|chosen| *chosen != value)
+        });
+        if let Some(chosen) = chosen {
+            self.change(label, move |scene| apply(scene, chosen));
+        }
+    }
+
+    /// A heading.
+    pub fn heading(&mut self, text: &str) {
+        self.ui.add_space(6.0);
+        self.ui.strong(text);
+    }
+
+    /// Words about what cannot be changed.
+    pub fn note(&mut self, text: &str) {
+        self.ui.weak(text);
+    }
+}
+
+/// What screen readers call a number.
+enum Name<'a> {
+    Own(&'a str),
+    Label(Option<egui::Id>),
+}
+
+/// A number to be dragged or typed; what it was set to.
+fn drag(ui: &mut Ui, name: Name, tip: &str, value: f64, limits: Limits, width: f32) -> Option<f64> {
+    let mut now = value;
+    let widget = DragValue::new(&mut now)
+        .speed(limits.speed_at(value))
+        .range(limits.least..=limits.most)
+        .clamp_existing_to_range(false)
+        .custom_formatter(|value, _| shown(value))
+        .update_while_editing(false)
+        .suffix(limits.unit);
+    let response = ui.add_sized([width, ui.spacing().interact_size.y], widget);
+    let response = match name {
+        Name::Own(name) => {
+            named(&response, name);
+            response
+        }
+        Name::Label(Some(id)) => response.labelled_by(id),
+        Name::Label(None) => response,
+    };
+    let response = response.on_hover_text(tip).on_disabled_hover_text(DRIVEN);
+    // Text that was not touched must not round what it stands for.
+    let is_meant = response.dragged() || shown(value) != shown(now);
+    (response.changed() && is_meant && now.is_finite())
+        .then(|| now.clamp(limits.least, limits.most))
+}
+
+/// A number in few digits.
+pub fn shown(value: f64) -> String {
+    let size = value.abs();
+    let text = match size {
+        0.0 => return "0".into(),
+        _ if !(1e-3..1e6).contains(&size) => return format!("{value:.2e}"),
+        _ if size >= 1000.0 => format!("{value:.1}"),
+        _ if size >= 100.0 => format!("{value:.2}"),
+        _ => format!("{value:.3}"),
+    };
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

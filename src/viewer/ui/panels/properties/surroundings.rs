@@ -1,0 +1,107 @@
+//! What belongs to the scene as a whole.
+
+use crate::scene::{Background, Shadows};
+use crate::viewer::state::session::Session;
+use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
+use glam::Vec3;
+
+/// Background, ambient light, shadows and the camera.
+pub fn show(fields: &mut Fields, session: &mut Session) {
+    fields.note("Nothing is selected: click something in the picture or the outline.");
+    fields.heading("Background");
+    let background = fields.scene.background.clone();
+    if session.view.background.is_some() {
+        fields.note("The picture has another background for now (Render panel).");
+    }
+    let kind = |background: &Background| match background {
+        Background::Color(_) => 0,
+        Background::Gradient { .. } => 1,
+        Background::Picture { .. } => 2,
+    };
+    let now = kind(&background);
+    let mut options = vec![(0, "one colour".to_owned()), (1, "gradient".to_owned())];
+    if now == 2 {
+        options.push((2, "picture".to_owned()));
+    }
+    let tip = "What rays see that hit nothing.";
+    fields.choice("Kind", tip, now, &options, |scene, to| {
+        let mean = match &scene.background {
+            Background::Color(color) => (*color, *color),
+            Background::Gradient { bottom, top } => (*bottom, *top),
+            Background::Picture { .. } => (Vec3::splat(0.5), Vec3::splat(0.5)),
+        };
+        scene.background = match to {
+            0 => Background::Color((mean.0 + mean.1) * 0.5),
+            _ => Background::Gradient {
+                bottom: mean.0,
+                top: mean.1,
+            },
+        };
+        Ok(())
+    });
+    match background {
+        Background::Color(color) => {
+            fields.color("Background", tip, color, None, |scene, to| {
+                scene.background = Background::Color(to);
+            });
+        }
+        Background::Gradient { bottom, top } => {
+            fields.color("Bottom", "Straight down.", bottom, None, |scene, to| {
+                if let Background::Gradient { bottom, .. } = &mut scene.background {
+                    *bottom = to;
+                }
+            });
+            fields.color("Top", "Straight up.", top, None, |scene, to| {
+                if let Background::Gradient { top, .. } = &mut scene.background {
+                    *top = to;
+                }
+            });
+        }
+        Background::Picture {
+            strength, rotation, ..
+        } => {
+            let tip = "What multiplies the picture, 0 or more.";
+            let value = f64::from(strength);
+            fields.number("Strength", tip, value, Limits::AMOUNT, None, |scene, to| {
+                if let Background::Picture { strength, .. } = &mut scene.background {
+                    *strength = to as f32;
+                }
+            });
+            let tip = "Degrees about +Y, counter-clockwise from above.";
+            let degrees = rotation.to_degrees();
+            fields.number("Turned", tip, degrees, Limits::ANGLE, None, |scene, to| {
+                if let Background::Picture { rotation, .. } = &mut scene.background {
+                    *rotation = to.to_radians();
+                }
+            });
+        }
+    }
+    fields.heading("Light everywhere");
+    let tip = "Radiance of the ambient term, which every material multiplies.";
+    let ambient = fields.scene.ambient;
+    fields.color("Ambient", tip, ambient, None, |scene, to| {
+        scene.ambient = to
+    });
+    let tip = "How shadow rays meet what is transparent.";
+    let options = [
+        (Shadows::Opaque, "full shadows".to_owned()),
+        (Shadows::Filtered, "light goes through glass".to_owned()),
+    ];
+    let shadows = fields.scene.shadows;
+    fields.choice("Shadows", tip, shadows, &options, |scene, to| {
+        scene.shadows = to;
+        Ok(())
+    });
+    fields.heading("Camera");
+    let is_home = session
+        .controller
+        .as_ref()
+        .is_none_or(|controller| controller.is_home());
+    let tip = "Make what the picture is seen by the scene's own camera.";
+    let button = eframe::egui::Button::new("Use this camera for the scene");
+    let button = fields.ui.add_enabled(!is_home, button).on_hover_text(tip);
+    let button = button.on_disabled_hover_text("The picture is seen by the scene's own camera.");
+    if button.clicked() {
+        session.keep_camera();
+    }
+}

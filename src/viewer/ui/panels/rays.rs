@@ -1,0 +1,276 @@
+//! The rays of a pixel as a tree that adds up to it.
+
+mod list;
+mod paint;
+pub mod space;
+
+pub use paint::mark;
+
+use crate::app::ray_text::{color, ray_sum, weighted_sum};
+use crate::viewer::actions::inspector;
+use crate::viewer::actions::inspector::export;
+use crate::viewer::model::tool::Tool;
+use crate::viewer::state::inspector::Inspected;
+use crate::viewer::state::inspector::rows;
+use crate::viewer::state::session::Session;
+use crate::viewer::ui::context::PanelContext;
+use eframe::egui::{self, Align, Layout};
+use glam::DVec3;
+
+/// Between controls of a line, so that each line fits the panel's usual width, in points.
+const GAP: f32 = 4.0;
+/// Most bounces whose colours are shown.
+const MOST_SWATCHES: usize = 24;
+
+/// Which pixel, which of its rays, the rays, and what they add up to.
+pub fn rays(ui: &mut egui::Ui, context: &mut PanelContext) {
+    let session = &mut *context.session;
+    let margin = egui::Margin::symmetric(8, 6);
+    egui::Panel::top("which rays")
+        .frame(egui::Frame::NONE.inner_margin(margin))
+        .show_separator_line(true)
+        .show(ui, |ui| {
+            pixel(ui, session);
+            if session.inspector.inspected.is_some() {
+                sample(ui, session);
+                bounces(ui, session);
+            }
+        });
+    if session.inspector.inspected.is_none() {
+        ui.add_space(12.0);
+        ui.vertical_centered(|ui| {
+            ui.weak("Take the ray inspector and click in the picture: here is what the pixel is made of.");
+        });
+        return;
+    }
+    egui::Panel::bottom("sum of rays")
+        .frame(egui::Frame::NONE.inner_margin(margin))
+        .show(ui, |ui| sum(ui, session));
+    egui::CentralPanel::default()
+        .frame(egui::Frame::NONE.inner_margin(margin))
+        .show(ui, |ui| list::list(ui, session));
+}
+
+/// The tool and the pixel.
+fn pixel(ui: &mut egui::Ui, session: &mut Session) {
+    let (width, height) = session.picture_size();
+    ui.horizontal_wrapped(|ui| {
+        let has_tool = session.tool == Tool::Inspect;
+        let tool = ui.selectable_label(has_tool, "Inspect rays");
+        if (tool.on_hover_text("A click in the picture shows the rays of the pixel under it"))
+            .clicked()
+        {
+            session.tool = if has_tool {
+                Tool::Select
+            } else {
+                Tool::Inspect
+            };
+        }
+        let mut pixel = session.inspector.pixel.unwrap_or([width / 2, height / 2]);
+        let mut is_changed = false;
+        for (name, value, length) in [("Column", 0, width), ("Row", 1, height)] {
+            let label = ui.label(name);
+            let drag = egui::DragValue::new(&mut pixel[value]).range(0..=length.saturating_sub(1));
+            let drag = ui.add(drag).labelled_by(label.id);
+            let text =
+                format!("{name} of the pixel, counted from the upper left corner, which is 0");
+            is_changed |= drag.on_hover_text(text).changed();
+        }
+        let again = ui.button("Inspect");
+        let again = again.on_hover_text("Trace the rays of this pixel in the picture as it is now");
+        if again.clicked() || is_changed {
+            inspector::inspect(session, pixel);
+        }
+        let follow = ui.checkbox(&mut session.inspector.follows, "Follow the cursor");
+        follow.on_hover_text("With this tool, show the pixel under the cursor without a click");
+        if session.inspector.is_waiting() {
+            ui.spinner();
+        }
+    });
+    if inspector::is_stale(session) {
+        let colour = ui.visuals().warn_fg_color;
+        ui.colored_label(colour, "The picture has changed since: inspect again.");
+    }
+}
+
+/// Which sample, or all.
+fn sample(ui: &mut egui::Ui, session: &mut Session) {
+    let inspector = &mut session.inspector;
+    let Some(inspected) = &inspector.inspected else {
+        return;
+    };
+    let count = inspected.tree.samples.len();
+    let before = inspector.filter;
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP;
+        let label = ui.label("Sample");
+        let mut shown = inspector.filter.sample.unwrap_or(0);
+        let is_one = inspector.filter.sample.is_some();
+        ui.add_enabled_ui(is_one, |ui| {
+            let step = |ui: &mut egui::Ui, sign: &str, name: &str| {
+                let button = ui.button(sign).on_hover_text(name);
+                button.widget_info(|| {
+                    egui::WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), name)
+                });
+                button.clicked()
+            };
+            if step(ui, "<", "Previous sample") {
+                shown = shown.checked_sub(1).unwrap_or(count - 1);
+            }
+            ui.add(egui::DragValue::new(&mut shown).range(0..=count - 1))
+                .labelled_by(label.id)
+                .on_hover_text("Which of the pixel's samples is shown; the first is 0");
+            if step(ui, ">", "Next sample") {
+                shown = (shown + 1) % count;
+            }
+        });
+        ui.label(format!("of {count}"));
+        let mut all = !is_one;
+        ui.checkbox(&mut all, "All samples")
+            .on_hover_text("Show the rays of every sample of the pixel");
+        inspector.filter.sample = (!all).then_some(shown);
+    });
+    if !inspected.is_final {
+        ui.weak("Adaptive sampling may still add samples to this pixel.");
+    }
+    if inspector.filter != before {
+        inspector.selected = None;
+        inspector.changed();
+    }
+}
+
+/// Up to which bounce rays are shown, and what each of them adds.
+fn bounces(ui: &mut egui::Ui, session: &mut Session) {
+    let exposure = session.view.tone.exposure_ev;
+    let inspector = &mut session.inspector;
+    let Some(inspected) = &inspector.inspected else {
+        return;
+    };
+    let before = inspector.filter;
+    let most = inspected.max_bounces();
+    let sums = rows::by_bounce(inspected, inspector.filter.sample);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP;
+        let label = ui.label("Up to bounce");
+        let mut shown = inspector.filter.bounces.min(most);
+        ui.spacing_mut().slider_width = 48.0;
+        let slider = egui::Slider::new(&mut shown, 0..=most).show_value(false);
+        ui.add_enabled(most > 0, slider)
+            .labelled_by(label.id)
+            .on_hover_text(
+                "How often light may be mirrored or refracted in the rays that are shown",
+            );
+        ui.label(format!("{shown} of {most}"));
+        inspector.filter.bounces = if shown == most { u32::MAX } else { shown };
+        ui.checkbox(&mut inspector.filter.shadows, "Shadow rays")
+            .on_hover_text("Show rays to lights too");
+    });
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        ui.label("Adds")
+            .on_hover_text("Above what a bounce adds, below the sum up to it");
+        let mut sum = DVec3::ZERO;
+        for (bounce, added) in sums.iter().enumerate().take(MOST_SWATCHES) {
+            sum += *added;
+            let shown = inspector.filter.bounces as usize >= bounce;
+            if paint::bounce(ui, (bounce, *added, sum), shown, exposure).clicked() {
+                let is_last = bounce as u32 == most;
+                inspector.filter.bounces = if is_last { u32::MAX } else { bounce as u32 };
+            }
+        }
+    });
+    if inspector.filter != before {
+        inspector.changed();
+    }
+}
+
+/// What the rays add up to, the pixel, and ways to take the tree along.
+fn sum(ui: &mut egui::Ui, session: &mut Session) {
+    let exposure = session.view.tone.exposure_ev;
+    let Some(inspected) = &session.inspector.inspected else {
+        return;
+    };
+    let tree = &inspected.tree;
+    let one = session.inspector.filter.sample;
+    let mut line = |name: String, value: DVec3, hint: &str| {
+        ui.horizontal(|ui| {
+            paint::swatch(ui, value.as_vec3().into(), exposure);
+            ui.label(name).on_hover_text(hint);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let text = color(value.as_vec3().into());
+                let label = ui.add(egui::Label::new(text.as_str()).truncate());
+                label.on_hover_text(format!("{text} (linear radiance: red, green, blue)"));
+            });
+        });
+    };
+    if let Some(sample) = one.and_then(|sample| tree.samples.get(sample)) {
+        let hint = "What all rays of this sample add, shown or not";
+        line(
+            format!("Sum of sample {}", sample.sample),
+            ray_sum(sample),
+            hint,
+        );
+    }
+    let hint = "The weighted mean of what the rays of each sample add";
+    let name = match tree.samples.len() {
+        1 => "Sum of 1 sample".to_owned(),
+        count => format!("Sum of {count} samples"),
+    };
+    line(name, weighted_sum(tree), hint);
+    let [x, y] = tree.pixel;
+    let value = glam::Vec3::from(tree.value).as_dvec3();
+    line(
+        format!("Pixel {x},{y}"),
+        value,
+        "As it is in the finished picture",
+    );
+    let missing: usize = (tree.samples.iter())
+        .map(|sample| sample.ray_count - sample.rays.len())
+        .sum();
+    if missing > 0 {
+        ui.weak(format!(
+            "{missing} more rays are not kept: there was no room."
+        ));
+    }
+    actions(ui, session);
+}
+
+fn actions(ui: &mut egui::Ui, session: &mut Session) {
+    ui.add_space(2.0);
+    ui.horizontal_wrapped(|ui| {
+        let json = ui.button("Save JSON…");
+        if (json.on_hover_text("Save the tree as `glimray explain --json` prints it")).clicked() {
+            export::save(session, export::Format::Json, ui.ctx());
+        }
+        let obj = ui.button("Save OBJ…");
+        if (obj.on_hover_text("Save the rays as lines for 3-D programs")).clicked() {
+            export::save(session, export::Format::Obj, ui.ctx());
+        }
+        let is_stale = inspector::is_stale(session);
+        let copy = ui.add_enabled(!is_stale, egui::Button::new("Copy as command"));
+        let copy = copy
+            .on_hover_text("Copy the command line that prints these rays in a terminal")
+            .on_disabled_hover_text("The picture has changed since: inspect again");
+        if copy.clicked() {
+            copy_command(ui, session);
+        }
+    });
+}
+
+fn copy_command(ui: &egui::Ui, session: &mut Session) {
+    let inspector = &session.inspector;
+    let sample = inspector.filter.sample.zip(inspector.inspected.as_ref());
+    let several = |inspected: &Inspected| inspected.tree.samples.len() > 1;
+    let sample = sample.filter(|(_, inspected)| several(inspected));
+    let sample = sample.map(|(place, inspected)| inspected.tree.samples[place].sample);
+    match export::command(session, sample) {
+        Ok(command) => {
+            ui.ctx().copy_text(command.line);
+            session.messages.tell(match &command.left_out[..] {
+                [] => "copied the command".to_owned(),
+                left_out => format!("copied the command, without {}", left_out.join(", ")),
+            });
+        }
+        Err(why) => session.messages.warn(why),
+    }
+}

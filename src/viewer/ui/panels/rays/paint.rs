@@ -1,0 +1,156 @@
+//! Small signs: what rays look like in the list, in space and in the picture.
+
+use crate::app::ray_text::{color, kind};
+use crate::render::RayKind;
+use crate::viewer::model::tool::Tool;
+use crate::viewer::model::viewport::Viewport;
+use crate::viewer::state::inspector::rows::RayId;
+use crate::viewer::state::session::Session;
+use crate::viewer::ui::panels::icon;
+use eframe::egui::{self, Color32, Rect, Response, Rgba, Sense, Shape, Stroke, StrokeKind, vec2};
+use glam::DVec3;
+
+/// The colour of a ray on a dark ground, or on a light one.
+pub fn colour(kind: RayKind, blocked: bool, is_dark: bool) -> Color32 {
+    let [dark, light] = match kind {
+        RayKind::Shadow if blocked => [(255, 96, 92), (180, 28, 28)],
+        RayKind::Shadow => [(255, 226, 84), (136, 106, 0)],
+        RayKind::Primary => [(240, 240, 240), (48, 48, 48)],
+        RayKind::Reflection => [(255, 160, 56), (178, 88, 0)],
+        RayKind::Refraction => [(84, 190, 255), (0, 104, 178)],
+    };
+    let (red, green, blue) = if is_dark { dark } else { light };
+    Color32::from_rgb(red, green, blue)
+}
+
+/// What linear radiance looks like, brightened by so many stops.
+fn display(linear: [f32; 3], exposure_ev: f32) -> Color32 {
+    let factor = exposure_ev.exp2();
+    let [red, green, blue] = linear.map(|value| (value * factor).clamp(0.0, 1.0));
+    Rgba::from_rgb(red, green, blue).into()
+}
+
+/// A patch of a colour.
+pub fn swatch(ui: &mut egui::Ui, linear: [f32; 3], exposure_ev: f32) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
+    let edge = Stroke::new(1.0, icon::edge(ui.visuals()));
+    ui.painter().rect(
+        rect.shrink(1.0),
+        2.0,
+        display(linear, exposure_ev),
+        edge,
+        StrokeKind::Inside,
+    );
+    response
+}
+
+/// What a bounce adds and the sum up to it, one above the other; a click shows rays up to it.
+pub fn bounce(
+    ui: &mut egui::Ui,
+    (bounce, added, sum): (usize, DVec3, DVec3),
+    shown: bool,
+    exposure_ev: f32,
+) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(22.0, 24.0), Sense::click());
+    let (above, below) = rect.shrink(1.0).split_top_bottom_at_fraction(0.5);
+    let [added, sum] = [added, sum].map(|value| value.as_vec3().into());
+    let painter = ui.painter();
+    painter.rect_filled(above, 0.0, display(added, exposure_ev));
+    painter.rect_filled(below, 0.0, display(sum, exposure_ev));
+    let edge = match (response.hovered() || response.has_focus(), shown) {
+        (true, _) => ui.visuals().widgets.hovered.fg_stroke,
+        (false, true) => Stroke::new(1.0, ui.visuals().selection.bg_fill),
+        (false, false) => Stroke::new(1.0, icon::edge(ui.visuals())),
+    };
+    painter.rect_stroke(rect, 2.0, edge, StrokeKind::Inside);
+    let name = format!("Bounce {bounce}");
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, shown, &name));
+    response.on_hover_text(format!(
+        "{name} adds {}, up to it {} (linear radiance)",
+        color(added),
+        color(sum)
+    ))
+}
+
+/// What opens and closes the branch of a ray.
+pub fn fold(ui: &mut egui::Ui, is_folded: bool, id: RayId, width: f32) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(width, width), Sense::click());
+    let style = ui.style().interact(&response);
+    let center = rect.center();
+    let points = match is_folded {
+        true => [vec2(-2.5, -4.0), vec2(3.5, 0.0), vec2(-2.5, 4.0)],
+        false => [vec2(-4.0, -2.5), vec2(4.0, -2.5), vec2(0.0, 3.5)],
+    };
+    let points = points.map(|off| center + off).to_vec();
+    let ink = style.fg_stroke.color;
+    (ui.painter()).add(Shape::convex_polygon(points, ink, Stroke::NONE));
+    if response.has_focus() {
+        let focus = ui.visuals().selection.stroke;
+        (ui.painter()).rect_stroke(rect, 2.0, focus, StrokeKind::Inside);
+    }
+    let verb = if is_folded { "Unfold" } else { "Fold" };
+    let name = match id {
+        (0, ray) => format!("{verb} ray {ray}"),
+        (sample, ray) => format!("{verb} ray {ray} of sample {sample}"),
+    };
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+    response
+}
+
+/// What kind of ray it is: a disc for the first, an angle for a mirrored one, a bend for a refracted one,
+/// a ring for one that reaches its light, a cross for one that does not.
+pub fn icon(ui: &mut egui::Ui, ray: RayKind, blocked: bool) {
+    let (rect, response) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
+    let stroke = Stroke::new(1.8, colour(ray, blocked, ui.visuals().dark_mode));
+    sign(ui.painter(), rect, ray, blocked, stroke);
+    response.on_hover_text(match (ray, blocked) {
+        (RayKind::Shadow, true) => "shadow ray, blocked",
+        (RayKind::Shadow, false) => "shadow ray that reaches its light",
+        _ => kind(ray),
+    });
+}
+
+fn sign(painter: &egui::Painter, rect: Rect, ray: RayKind, blocked: bool, stroke: Stroke) {
+    let center = rect.center();
+    let at = |x: f32, y: f32| center + vec2(x, y);
+    match ray {
+        RayKind::Primary => _ = painter.circle_filled(center, 4.0, stroke.color),
+        RayKind::Reflection => {
+            _ = painter.line(vec![at(-5.0, -4.0), at(0.0, 4.0), at(5.0, -4.0)], stroke)
+        }
+        RayKind::Refraction => {
+            _ = painter.line(vec![at(-5.0, -4.0), at(0.0, -0.5), at(1.5, 5.0)], stroke)
+        }
+        RayKind::Shadow if blocked => {
+            painter.line_segment([at(-3.5, -3.5), at(3.5, 3.5)], stroke);
+            painter.line_segment([at(-3.5, 3.5), at(3.5, -3.5)], stroke);
+        }
+        RayKind::Shadow => _ = painter.circle_stroke(center, 3.5, stroke),
+    }
+}
+
+/// Marks the inspected pixel in the picture while the inspector is in hand.
+pub fn mark(painter: &egui::Painter, session: &Session, viewport: Viewport) {
+    let is_shown = session.shows_overlays && session.tool == Tool::Inspect;
+    let Some([x, y]) = session.inspector.pixel.filter(|_| is_shown) else {
+        return;
+    };
+    let pixel = viewport.part([x, y, 1, 1]);
+    let frame = pixel.expand(3.0);
+    let center = frame.center();
+    let reach = frame.width() / 2.0;
+    // Dark under light is seen on everything.
+    for (width, ink) in [(3.0, Color32::from_black_alpha(180)), (1.0, Color32::WHITE)] {
+        let stroke = Stroke::new(width, ink);
+        painter.rect_stroke(frame, 1.0, stroke, StrokeKind::Middle);
+        for way in [
+            vec2(1.0, 0.0),
+            vec2(-1.0, 0.0),
+            vec2(0.0, 1.0),
+            vec2(0.0, -1.0),
+        ] {
+            let arm = [center + way * (reach + 2.0), center + way * (reach + 9.0)];
+            painter.line_segment(arm, stroke);
+        }
+    }
+}

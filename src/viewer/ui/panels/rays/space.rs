@@ -1,0 +1,253 @@
+//! The scene from outside, with the rays of a pixel in it.
+
+use crate::render::RayKind;
+use crate::viewer::actions::inspector::hidden;
+use crate::viewer::actions::inspector::outside;
+use crate::viewer::actions::inspector::outside::{End, Line};
+use crate::viewer::actions::tools;
+use crate::viewer::model::bindings::Action;
+use crate::viewer::model::tool::Drag;
+use crate::viewer::model::viewport::Viewport;
+use crate::viewer::state::session::Session;
+use crate::viewer::ui::context::PanelContext;
+use crate::viewer::ui::panels::rays::paint::colour;
+use crate::viewer::worker::progressive_image::PictureSlot;
+use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke, Vec2, vec2};
+use glam::{DVec2, dvec2};
+
+/// How much light of the picture is left, for lines to be seen on it.
+const DIMMED: Color32 = Color32::from_gray(132);
+/// How near the cursor must be to a line, in points.
+const REACH: f32 = 6.0;
+
+/// The picture from outside under the mouse, and the rays on it.
+pub fn outside(ui: &mut egui::Ui, context: &mut PanelContext) {
+    if context.session.inspector.inspected.is_none() {
+        ui.add_space(12.0);
+        ui.vertical_centered(|ui| ui.weak("The rays of a pixel, once one is inspected."));
+        return;
+    }
+    egui::Panel::bottom("outside")
+        .frame(egui::Frame::NONE.inner_margin(egui::Margin::symmetric(8, 4)))
+        .show(ui, |ui| controls(ui, context.session));
+    let pixels_per_point = ui.ctx().pixels_per_point();
+    let space = ui.available_rect_before_wrap();
+    let response = ui.allocate_rect(space, egui::Sense::click_and_drag());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Rays in space"));
+    let pixels = (space.size() * pixels_per_point).max(Vec2::splat(1.0));
+    let size = (pixels.x as u32, pixels.y as u32);
+    let viewport = Viewport::fitting(space, size, pixels_per_point);
+    let painter = ui.painter_at(space);
+    painter.rect_filled(space, 0.0, Color32::from_gray(24));
+    let shown = context.shown(PictureSlot::Outside);
+    let is_done = (shown.as_ref()).is_some_and(|it| it.progress.is_done && !it.progress.is_coarse);
+    if let Some(shown) = shown {
+        let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
+        for screen in [&shown.under, &shown.screen].into_iter().flatten() {
+            let id = context.textures.id(screen, true);
+            painter.image(id, viewport.rect, whole, DIMMED);
+        }
+    }
+    let session = &mut *context.session;
+    session.inspector.outside.space = Some(size);
+    session.inspector.outside.viewport = Some(viewport);
+    if is_done && !session.is_moving() {
+        hidden::ask(session);
+    }
+    let lines = lines(session, viewport);
+    draw_camera(&painter, session, viewport);
+    let highlighted = session.inspector.highlighted();
+    for line in lines.iter().filter(|line| Some(line.id) != highlighted) {
+        draw(
+            &painter,
+            line,
+            viewport,
+            false,
+            session.inspector.outside.normals,
+        );
+    }
+    for line in lines.iter().filter(|line| Some(line.id) == highlighted) {
+        draw(&painter, line, viewport, true, true);
+    }
+    pick(session, &response, viewport, &lines);
+    navigate(session, &response, viewport);
+}
+
+/// The rays in the picture from outside.
+fn lines(session: &Session, viewport: Viewport) -> Vec<Line> {
+    let inspector = &session.inspector;
+    let (Some(inspected), Some(controller)) = (&inspector.inspected, &inspector.outside.controller)
+    else {
+        return Vec::new();
+    };
+    let reach = inspector.outside.reach();
+    let (size, hidden) = (viewport.extent(), hidden::known(session));
+    let camera = controller.camera();
+    outside::lines(inspected, &inspector.filter, &camera, size, reach, hidden)
+}
+
+/// The camera of the inspected picture.
+fn draw_camera(painter: &egui::Painter, session: &Session, viewport: Viewport) {
+    let inspector = &session.inspector;
+    let (Some(inspected), Some(controller)) = (&inspector.inspected, &inspector.outside.controller)
+    else {
+        return;
+    };
+    let order = &inspected.order;
+    let own = || order.scene.frame(order.shot.0).camera;
+    let first = order.camera.clone().unwrap_or_else(own);
+    let (width, height) = order.settings.size;
+    let size = dvec2(width.into(), height.into());
+    let depth = 0.12 * controller.scene_radius();
+    let extent = viewport.extent();
+    for (from, to) in outside::frustum(&first, size, depth, &controller.camera(), extent) {
+        let ends = [from, to].map(|end| viewport.point(end));
+        painter.line_segment(ends, Stroke::new(3.0, Color32::from_black_alpha(120)));
+        painter.line_segment(ends, Stroke::new(1.0, Color32::from_gray(190)));
+    }
+}
+
+fn draw(
+    painter: &egui::Painter,
+    line: &Line,
+    viewport: Viewport,
+    is_highlighted: bool,
+    has_normal: bool,
+) {
+    let ink = colour(line.kind, line.blocked, true);
+    let [from, to] = [line.from, line.to].map(|end| viewport.point(end));
+    let width = if is_highlighted { 3.0 } else { 1.6 };
+    let stroke = Stroke::new(width, ink);
+    let under = match is_highlighted {
+        true => Stroke::new(width + 3.0, Color32::WHITE),
+        false => Stroke::new(width + 1.6, Color32::from_black_alpha(110)),
+    };
+    for piece in &line.pieces {
+        let ends = [piece.from, piece.to].map(|end| viewport.point(end));
+        for stroke in [under, stroke] {
+            let stroke = Stroke::new(stroke.width, stroke.color.gamma_multiply(piece.strength));
+            match line.blocked {
+                true => painter.extend(Shape::dashed_line(&ends, stroke, 6.0, 4.0)),
+                false => _ = painter.line_segment(ends, stroke),
+            }
+        }
+    }
+    arrow(painter, from, to, ink, width);
+    match line.end {
+        End::Surface => _ = painter.circle(to, width + 0.8, ink, Stroke::new(1.0, Color32::BLACK)),
+        End::Light => _ = painter.circle_stroke(to, width + 2.0, stroke),
+        End::Nowhere | End::Cut => {}
+    }
+    if let Some(tip) = line.normal.filter(|_| has_normal) {
+        let tip = viewport.point(tip);
+        painter.line_segment([to, tip], Stroke::new(3.0, Color32::from_black_alpha(120)));
+        painter.line_segment(
+            [to, tip],
+            Stroke::new(1.2, Color32::from_rgb(110, 230, 130)),
+        );
+    }
+}
+
+/// A head in the middle of a line, where there is room.
+fn arrow(painter: &egui::Painter, from: Pos2, to: Pos2, ink: Color32, width: f32) {
+    let way = to - from;
+    if way.length() < 18.0 {
+        return;
+    }
+    let ahead = way.normalized() * (2.5 + 1.5 * width);
+    let aside = vec2(-ahead.y, ahead.x) * 0.6;
+    let tip = from + way * 0.55 + ahead;
+    let points = vec![tip, tip - ahead * 1.8 + aside, tip - ahead * 1.8 - aside];
+    painter.add(Shape::convex_polygon(points, ink, Stroke::NONE));
+}
+
+/// The line under the cursor is the one that the list shows, after a click for good.
+fn pick(session: &mut Session, response: &egui::Response, viewport: Viewport, lines: &[Line]) {
+    let position = |point: Pos2| viewport.position(point);
+    let reach = viewport.length(Vec2::splat(REACH)).x;
+    let under = |point: DVec2| outside::nearest(lines, point, reach);
+    let Some(id) = response.hover_pos().map(position).and_then(under) else {
+        return;
+    };
+    session.inspector.hovers = Some(id);
+    if response.clicked() {
+        session.inspector.select(id);
+    }
+}
+
+/// Hands the mouse to the second camera, by the bindings of the first.
+fn navigate(session: &mut Session, response: &egui::Response, viewport: Viewport) {
+    let ctx = &response.ctx;
+    let (modifiers, pointer) = ctx.input(|input| (input.modifiers, input.pointer.interact_pos()));
+    let bindings = &session.preferences.bindings;
+    let wheel = match response.hovered() {
+        true => ctx.input(|input| bindings.wheel(input)),
+        false => Vec::new(),
+    };
+    let outside = &mut session.inspector.outside;
+    let Some(controller) = &mut outside.controller else {
+        return;
+    };
+    for button in [
+        egui::PointerButton::Primary,
+        egui::PointerButton::Middle,
+        egui::PointerButton::Secondary,
+    ] {
+        if response.drag_started_by(button)
+            && let (Some(from), Some(action)) = (pointer, bindings.drag(button, modifiers))
+        {
+            outside.drag = Some(Drag { action, from });
+        }
+    }
+    if let (Some(drag), Some(to)) = (outside.drag, pointer) {
+        let from = to - response.drag_delta();
+        if from != to {
+            tools::follow(controller, drag, viewport, from, to);
+        }
+        if response.drag_stopped() || !response.dragged() {
+            outside.drag = None;
+        }
+    }
+    for (action, steps) in wheel {
+        let at = pointer
+            .filter(|_| action == Action::ZoomToCursor)
+            .map(|point| controller.point_at(viewport.position(point), viewport.extent()));
+        controller.zoom(steps, at);
+    }
+}
+
+/// Where the second camera goes, what is drawn, and which colour is what.
+fn controls(ui: &mut egui::Ui, session: &mut Session) {
+    ui.horizontal_wrapped(|ui| {
+        let frame = ui.button("Frame rays");
+        if (frame.on_hover_text("Go to where all rays are seen")).clicked() {
+            let bounds = session.bounds();
+            outside::frame(session, bounds);
+        }
+        let same = ui.button("From the camera");
+        if (same.on_hover_text("Look from where the picture is taken")).clicked()
+            && let (Some(camera), Some(controller)) =
+                (session.camera(), &mut session.inspector.outside.controller)
+        {
+            controller.go_to(&camera);
+        }
+        let outside = &mut session.inspector.outside;
+        ui.checkbox(&mut outside.normals, "Normals")
+            .on_hover_text("Draw the direction of each surface where a ray ends");
+        ui.checkbox(&mut outside.plain, "Plain")
+            .on_hover_text("Show the scene by the directions of its surfaces, without light");
+    });
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        for (kind, blocked, name) in [
+            (RayKind::Primary, false, "primary"),
+            (RayKind::Reflection, false, "reflection"),
+            (RayKind::Refraction, false, "refraction"),
+            (RayKind::Shadow, false, "to light"),
+            (RayKind::Shadow, true, "blocked"),
+        ] {
+            crate::viewer::ui::panels::rays::paint::icon(ui, kind, blocked);
+            ui.label(egui::RichText::new(name).small());
+        }
+    });
+}

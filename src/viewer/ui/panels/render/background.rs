@@ -1,0 +1,77 @@
+//! What rays see that hit nothing.
+
+use crate::scene::Background;
+use crate::viewer::ui::context::PanelContext;
+use crate::viewer::ui::panels::words::back;
+use eframe::egui::{self, Ui};
+use glam::Vec3;
+
+/// Linear light of a new background.
+const GREY: Vec3 = Vec3::splat(0.18);
+const SKY: Vec3 = Vec3::new(0.25, 0.45, 0.9);
+
+pub fn background(ui: &mut Ui, context: &mut PanelContext) {
+    let session = &mut context.session;
+    let is_picture = (session.scene())
+        .is_some_and(|scene| matches!(scene.background, Background::Picture { .. }));
+    let look = &mut session.view;
+    let tip = match is_picture {
+        true => "What rays see that hit nothing; the scene has a picture",
+        false => "What rays see that hit nothing",
+    };
+    let name = |background: &Option<Background>| match background {
+        None => "The scene's",
+        Some(Background::Color(_)) => "One colour",
+        Some(Background::Gradient { .. }) => "Gradient",
+        Some(Background::Picture { .. }) => "Picture",
+    };
+    let choices = [
+        None,
+        Some(Background::Color(GREY)),
+        Some(Background::Gradient {
+            bottom: GREY,
+            top: SKY,
+        }),
+    ];
+    let label = ui.label("Background").on_hover_text(tip);
+    let chosen = name(&look.background);
+    ui.horizontal(|ui| {
+        egui::ComboBox::from_id_salt("background")
+            .selected_text(chosen)
+            .show_ui(ui, |ui| {
+                for choice in choices {
+                    let is_chosen = name(&choice) == chosen;
+                    if ui.selectable_label(is_chosen, name(&choice)).clicked() && !is_chosen {
+                        look.background = choice;
+                    }
+                }
+            })
+            .response
+            .labelled_by(label.id)
+            .on_hover_text(tip);
+        if look.background.is_some() && back(ui, "background").clicked() {
+            look.background = None;
+        }
+    });
+    ui.end_row();
+    match &mut look.background {
+        Some(Background::Color(light)) => color(ui, "Colour", light),
+        Some(Background::Gradient { bottom, top }) => {
+            color(ui, "Below", bottom);
+            color(ui, "Above", top);
+        }
+        _ => {}
+    }
+}
+
+fn color(ui: &mut Ui, name: &str, light: &mut Vec3) {
+    let tip = format!("{name}: linear radiance, red, green and blue from 0 to 1");
+    let label = ui.label(name).on_hover_text(&tip);
+    let mut rgb = light.to_array();
+    let response = ui.color_edit_button_rgb(&mut rgb).labelled_by(label.id);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ColorWell, true, name));
+    if response.on_hover_text(tip).changed() {
+        *light = Vec3::from_array(rgb);
+    }
+    ui.end_row();
+}

@@ -1,0 +1,164 @@
+//! How far the picture is, and what it took.
+
+use crate::viewer::model::bindings::Action;
+use crate::viewer::ui::context::PanelContext;
+use crate::viewer::worker::progressive_image::PictureSlot;
+use crate::viewer::worker::progressive_image::{Progress, Shown};
+use eframe::egui::{self, Ui};
+
+/// The bar, and what stops and starts the picture.
+pub fn progress(ui: &mut Ui, context: &mut PanelContext) {
+    let shown = context.shown(PictureSlot::Main);
+    let progress = shown
+        .as_ref()
+        .map(|shown| shown.progress)
+        .unwrap_or_default();
+    let share = if progress.is_coarse {
+        0.0
+    } else {
+        progress.share
+    };
+    let text = match &shown {
+        Some(_) => state(&progress, context.session.view.paused),
+        None => context.session.waiting_for(),
+    };
+    let bar = egui::ProgressBar::new(share as f32).text(text);
+    ui.add(bar)
+        .on_hover_text("Share of the samples of this picture that are done");
+    let key = |action| context.session.preferences.bindings.label(action);
+    let (pause_key, restart_key) = (key(Action::PauseRender), key(Action::RestartRender));
+    ui.horizontal(|ui| {
+        let paused = context.session.view.paused;
+        let (name, tip) = match paused {
+            true => ("Continue", "Go on adding samples"),
+            false => ("Pause", "Add no more samples for now"),
+        };
+        if (ui.button(name))
+            .on_hover_text(format!("{tip} ({pause_key})"))
+            .clicked()
+        {
+            context.session.view.paused = !paused;
+        }
+        let tip = format!("Start the picture again ({restart_key})");
+        if ui.button("Restart").on_hover_text(tip).clicked() {
+            context.session.restart();
+        }
+        let keep = ui.add_enabled(
+            context.session.has_unkept_look(),
+            egui::Button::new("Keep in the scene"),
+        );
+        let tip =
+            "Make samples, developing, background and timing the scene's own, to be saved with it";
+        let keep = keep.on_hover_text(tip);
+        if keep
+            .on_disabled_hover_text("The scene says all of this")
+            .clicked()
+        {
+            context.session.keep_look();
+        }
+    });
+}
+
+/// What the bar says.
+fn state(progress: &Progress, paused: bool) -> String {
+    let Progress {
+        samples, target, ..
+    } = progress;
+    match (progress.is_done, paused) {
+        (true, _) if !progress.is_coarse => format!("done: {target} samples"),
+        (_, true) => format!("paused at {samples} of {target} samples"),
+        _ if progress.is_coarse => "moving".into(),
+        _ => format!("{samples} of {target} samples"),
+    }
+}
+
+/// Times, counts and bytes.
+pub fn figures(ui: &mut Ui, context: &mut PanelContext) {
+    let Some(shown) = context.shown(PictureSlot::Main) else {
+        return;
+    };
+    for (name, tip, value) in rows(&shown) {
+        ui.label(name).on_hover_text(tip);
+        ui.label(value).on_hover_text(tip);
+        ui.end_row();
+    }
+}
+
+fn rows(shown: &Shown) -> Vec<(&'static str, &'static str, String)> {
+    let Shown {
+        progress,
+        stats,
+        adapter,
+        ..
+    } = shown;
+    let mut rows = vec![
+        (
+            "Time",
+            "Seconds of tracing in this picture",
+            seconds(progress.trace_seconds),
+        ),
+        (
+            "Left",
+            "Seconds of tracing until the picture is done, if it goes on like this",
+            remaining(progress).map_or("–".into(), seconds),
+        ),
+        (
+            "Speed",
+            "Camera rays in a second of tracing, in millions",
+            format!("{:.2} M rays/s", progress.rays_per_second / 1e6),
+        ),
+        (
+            "Noise",
+            "Estimated root mean square error of the picture, in parts of white",
+            progress
+                .noise
+                .map_or("–".into(), |noise| format!("{:.2} %", noise * 100.0)),
+        ),
+        ("Adapter", "What renders", adapter.to_string()),
+        (
+            "Submissions",
+            "Pieces of work that the adapter got since the window was opened, and the longest of them in \
+             milliseconds",
+            format!(
+                "{} (longest {:.0} ms)",
+                stats.submissions, stats.longest_submission_ms
+            ),
+        ),
+        (
+            "Memory",
+            "Of the adapter, planned for scene and picture, in MiB",
+            format!("{:.1} MiB", stats.gpu_bytes as f64 / f64::from(1 << 20)),
+        ),
+    ];
+    if stats.nonfinite_samples > 0 {
+        rows.push((
+            "Dropped",
+            "Samples that were not finite",
+            format!("{} samples", stats.nonfinite_samples),
+        ));
+    }
+    if stats.cut_off_trees > 0 {
+        rows.push((
+            "Cut off",
+            "Samples that had too many rays, or passed more than 4 transparent bodies at once: lower the depth, raise the least throughput, or nest fewer bodies",
+            format!("{} samples", stats.cut_off_trees),
+        ));
+    }
+    rows
+}
+
+/// Seconds that are left; `None` before there is anything to go by, and at the end.
+pub fn remaining(progress: &Progress) -> Option<f64> {
+    let is_known = !progress.is_coarse && !progress.is_done && progress.share > 0.0;
+    is_known.then(|| progress.trace_seconds * (1.0 - progress.share) / progress.share)
+}
+
+/// `12.3 s`, or `2 min 5 s`.
+pub fn seconds(seconds: f64) -> String {
+    let whole = seconds.round() as u64;
+    match whole {
+        0..60 => format!("{seconds:.1} s"),
+        60..3600 => format!("{} min {} s", whole / 60, whole % 60),
+        _ => format!("{} h {} min", whole / 3600, whole / 60 % 60),
+    }
+}

@@ -1,0 +1,71 @@
+//! The bar at the bottom: how far the picture is.
+
+use crate::viewer::ui::context::PanelContext;
+use crate::viewer::ui::panels::render::{remaining, seconds};
+use crate::viewer::worker::progressive_image::PictureSlot;
+use eframe::egui;
+
+/// Samples, time, speed and noise of the picture, and how often the window is drawn.
+pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
+    egui::Panel::bottom("status").show(ui, |ui| {
+        ui.horizontal(|ui| {
+            let Some(shown) = context.shown(PictureSlot::Main) else {
+                ui.label(context.session.waiting_for());
+                return;
+            };
+            let progress = shown.progress;
+            let (width, height) = shown.size;
+            ui.label(format!("{width}×{height}"))
+                .on_hover_text("Width and height of the picture in pixels");
+            ui.separator();
+            ui.label(format!("{} of {} samples", progress.samples, progress.target))
+                .on_hover_text("Samples that each pixel has, and is to get");
+            if !context.session.shows_statistics {
+                return;
+            }
+            let left = remaining(&progress)
+                .map(|left| format!(", {} left", seconds(left)))
+                .unwrap_or_default();
+            ui.separator();
+            ui.label(format!("{}{left}", seconds(progress.trace_seconds)))
+                .on_hover_text("Seconds of tracing in this picture, and until it is done");
+            ui.separator();
+            ui.label(format!("{:.2} M rays/s", progress.rays_per_second / 1e6))
+                .on_hover_text("Camera rays in a second of tracing, in millions");
+            if let Some(noise) = progress.noise {
+                ui.separator();
+                ui.label(format!("noise {:.2} %", noise * 100.0)).on_hover_text(
+                    "Estimated root mean square error of the picture, in parts of white",
+                );
+            }
+            // In a narrow window it would lie over the rest.
+            if ui.available_width() < 100.0 {
+                return;
+            }
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                ui.weak(frame_time(ui.ctx())).on_hover_text(
+                    "Mean time between the last frames of the window, which is drawn only when something \
+                     changes, in milliseconds",
+                );
+            });
+        });
+    });
+}
+
+/// The mean of the last frames that followed one another.
+fn frame_time(ctx: &egui::Context) -> String {
+    /// Longer than this the window had nothing to draw, in seconds.
+    const IDLE: f32 = 0.5;
+    /// Share of the newest frame in the mean.
+    const NEWS: f32 = 0.1;
+    let newest = ctx.input(|input| input.unstable_dt);
+    let id = egui::Id::unique("frame time");
+    let mean = ctx.data(|data| data.get_temp::<f32>(id));
+    let mean = match mean {
+        Some(mean) if newest > IDLE => mean,
+        Some(mean) => mean + NEWS * (newest - mean),
+        None => newest,
+    };
+    ctx.data_mut(|data| data.insert_temp(id, mean));
+    format!("{:.0} ms/frame", mean * 1e3)
+}

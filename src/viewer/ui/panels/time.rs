@@ -1,0 +1,155 @@
+//! The animation: played, stepped through, and how frames and time go together.
+
+mod icon;
+
+use crate::scene::Shutter;
+use crate::viewer::model::bindings::Action;
+use crate::viewer::model::playback::{MAX_SPEED, Playback};
+use crate::viewer::ui::context::PanelContext;
+use crate::viewer::ui::panels::words::number;
+use eframe::egui::{self, Ui};
+use icon::{Icon, button};
+
+/// Longest that the shutter can be open, and furthest from a frame's own time, in frames.
+const MAX_SHUTTER: f64 = 16.0;
+
+/// The timeline and what belongs to it.
+pub fn time(ui: &mut Ui, context: &mut PanelContext) {
+    let keys = |action| {
+        let label = context.session.preferences.bindings.label(action);
+        let does = action.description();
+        if label.is_empty() {
+            does.to_owned()
+        } else {
+            format!("{does} ({label})")
+        }
+    };
+    let tips = [
+        Action::FirstFrame,
+        Action::StepBack,
+        Action::PlayPause,
+        Action::StepForward,
+        Action::LastFrame,
+        Action::ToggleLoop,
+        Action::ToggleMotionBlur,
+    ]
+    .map(keys);
+    let before = context.session.playback.clone();
+    egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+        egui::Frame::NONE.inner_margin(6.0).show(ui, |ui| {
+            let playback = &mut context.session.playback;
+            let is_animated = playback.duration() > 0.0;
+            ui.add_enabled_ui(is_animated, |ui| {
+                timeline(ui, playback);
+                ui.horizontal_wrapped(|ui| controls(ui, playback, &tips));
+            });
+            if !is_animated {
+                ui.weak(
+                    "Nothing in this scene moves: give it tracks, and there is time to go through.",
+                );
+            }
+        });
+    });
+    let now = &context.session.playback;
+    if (now.time, now.shot()) != (before.time, before.shot()) {
+        context.session.moved();
+    }
+}
+
+/// Frames from the first to the last, as wide as there is room for.
+fn timeline(ui: &mut Ui, playback: &mut Playback) {
+    let last = playback.last_frame();
+    let mut frame = playback.frame();
+    let text = format!(
+        "frame {frame} of {last}   {:.2} s of {:.2} s",
+        playback.time,
+        playback.duration()
+    );
+    ui.horizontal(|ui| {
+        let tip = "The frame that is shown: drag it, or type its number";
+        let response = number(ui, &mut frame, 0..=last, 0.2, "");
+        name(&response, f64::from(frame), "Frame");
+        response.on_hover_text(tip);
+        let room = ui.available_width() - 210.0;
+        ui.spacing_mut().slider_width = room.max(80.0);
+        let slider = egui::Slider::new(&mut frame, 0..=last.max(1)).show_value(false);
+        let response = ui.add(slider);
+        let value = f64::from(frame);
+        response.widget_info(|| egui::WidgetInfo::slider(ui.is_enabled(), value, "Timeline"));
+        response.on_hover_text(tip);
+        ui.label(text);
+    });
+    if frame != playback.frame() {
+        playback.is_playing = false;
+        playback.go_to(frame.min(last));
+    }
+}
+
+fn controls(ui: &mut Ui, playback: &mut Playback, tips: &[String; 7]) {
+    let [first, back, play, forward, last, repeat, blur] = tips;
+    if button(ui, Icon::First, "First frame", first) {
+        playback.go_to(0);
+    }
+    if button(ui, Icon::Back, "Frame back", back) {
+        playback.step(-1);
+    }
+    let (icon, label) = match playback.is_playing {
+        true => (Icon::Pause, "Pause animation"),
+        false => (Icon::Play, "Play animation"),
+    };
+    if button(ui, icon, label, play) {
+        playback.toggle();
+    }
+    if button(ui, Icon::Forward, "Frame forward", forward) {
+        playback.step(1);
+    }
+    if button(ui, Icon::Last, "Last frame", last) {
+        playback.go_to(playback.last_frame());
+    }
+    ui.separator();
+    let response = number(
+        ui,
+        &mut playback.speed,
+        1.0 / MAX_SPEED..=MAX_SPEED,
+        0.02,
+        " ×",
+    );
+    name(&response, playback.speed, "Speed");
+    response.on_hover_text("Seconds of the animation in a second");
+    ui.checkbox(&mut playback.repeats, "Loop")
+        .on_hover_text(repeat);
+    ui.separator();
+    let mut fps = playback.clock.fps;
+    let response = number(ui, &mut fps, 0.01..=1000.0, 0.1, " fps");
+    name(&response, fps, "Frames per second");
+    response.on_hover_text("Frames of the animation in a second, 0.01 to 1000");
+    playback.set_fps(fps);
+    ui.separator();
+    ui.checkbox(&mut playback.blurs, "Motion blur")
+        .on_hover_text(blur);
+    ui.add_enabled_ui(playback.blurs, |ui| {
+        shutter(ui, &mut playback.clock.shutter)
+    });
+}
+
+fn shutter(ui: &mut Ui, shutter: &mut Shutter) {
+    let Shutter { open, close } = shutter;
+    ui.label("Shutter");
+    let tip = "in frames from the frame's own time, -16 to 16; half a frame is 180°";
+    let response = number(ui, open, -MAX_SHUTTER..=*close, 0.01, "");
+    name(&response, *open, "Shutter opens");
+    response.on_hover_text(format!("When the shutter opens, {tip}"));
+    ui.label("to");
+    let response = number(ui, close, *open..=MAX_SHUTTER, 0.01, " frames");
+    name(&response, *close, "Shutter closes");
+    response.on_hover_text(format!("When it closes, {tip}"));
+}
+
+/// A name for a number that has no label beside it.
+fn name(response: &egui::Response, value: f64, name: &str) {
+    response.widget_info(|| {
+        let mut info = egui::WidgetInfo::drag_value(response.enabled(), value);
+        info.label = Some(name.into());
+        info
+    });
+}

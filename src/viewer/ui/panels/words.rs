@@ -1,0 +1,92 @@
+//! Lines of a panel: a name, what it names, and a way back; and words of the command line for people.
+
+use crate::app::words::Words;
+use eframe::egui::{self, Response, RichText, Ui, WidgetInfo};
+use std::ops::RangeInclusive;
+
+/// A word of the command line as a title: `side-by-side` is `Side by side`.
+pub fn title(word: &str) -> String {
+    match word {
+        // Names that are written otherwise.
+        "srgb" => return "sRGB".into(),
+        "agx" => return "AgX".into(),
+        "aces" | "uv" => return word.to_uppercase(),
+        "moller-trumbore" => return "Möller–Trumbore".into(),
+        "blackman-harris" => return "Blackman–Harris".into(),
+        _ => {}
+    }
+    let spaced = word.replace('-', " ");
+    let mut letters = spaced.chars();
+    match letters.next() {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => spaced,
+    }
+}
+
+/// A line of a two-column grid: a name, its widget, and a button back to `usual` while it is something
+/// else.
+pub fn line<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    (name, tip): (&str, &str),
+    value: &mut T,
+    usual: &T,
+    widget: impl FnOnce(&mut Ui, &mut T) -> Response,
+) {
+    let label = ui.label(name).on_hover_text(tip);
+    ui.horizontal(|ui| {
+        widget(ui, value).labelled_by(label.id).on_hover_text(tip);
+        if value != usual && back(ui, name).clicked() {
+            *value = usual.clone();
+        }
+    });
+    ui.end_row();
+}
+
+/// A button that takes back what the scene says.
+pub fn back(ui: &mut Ui, name: &str) -> Response {
+    let button = ui.add(egui::Button::new(RichText::new("↺")).small().frame(false));
+    let name = format!("Reset {}", name.to_lowercase());
+    let tip = "Take back what the scene says";
+    button.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &name));
+    button.on_hover_text(tip)
+}
+
+/// One of the words of a flag.
+pub fn choice<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    name: &str,
+    words: &'static Words<T>,
+    value: &mut T,
+) -> Response {
+    let chosen = title(words.word(value));
+    egui::ComboBox::from_id_salt(name)
+        .selected_text(chosen)
+        .show_ui(ui, |ui| {
+            for (word, help, known) in words.all() {
+                // Another word for what is there already is of no use in a list.
+                if words.word(known) == *word {
+                    ui.selectable_value(value, known.clone(), title(word))
+                        .on_hover_text(*help);
+                }
+            }
+        })
+        .response
+}
+
+/// A number that can be dragged and typed.
+pub fn number<T: egui::emath::Numeric>(
+    ui: &mut Ui,
+    value: &mut T,
+    range: RangeInclusive<T>,
+    speed: f64,
+    suffix: &str,
+) -> Response {
+    let decimals = if T::INTEGRAL { 0 } else { 5 };
+    ui.add(
+        egui::DragValue::new(value)
+            .range(range)
+            .speed(speed)
+            .max_decimals(decimals)
+            .suffix(suffix),
+    )
+}

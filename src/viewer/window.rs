@@ -1,0 +1,199 @@
+//! The window of the operating system: opened with our device, and opened again when that is lost.
+
+mod events;
+mod presses;
+pub mod viewer;
+
+use crate::app::error::AppError;
+use crate::app::{console, scene_file};
+use crate::gpu::{AdapterChoice, Gpu, GpuError};
+use crate::viewer::actions::settings;
+use crate::viewer::model::preferences::Preferences;
+use crate::viewer::state::session::Session;
+use crate::viewer::window::viewer::Viewer;
+use eframe::UserEvent;
+use eframe::egui;
+use eframe::egui_wgpu::{RendererOptions, WgpuConfiguration, WgpuSetup, WgpuSetupExisting};
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+use winit::event_loop::EventLoop;
+
+/// How often a lost device is replaced within this time before the window stays closed.
+const MAX_LOSSES: usize = 3;
+const RECENT: Duration = Duration::from_secs(600);
+
+/// Shows the session until the person closes the window.
+pub fn run(session: Session, choice: &AdapterChoice) -> Result<(), AppError> {
+    check_display()?;
+    let session = Rc::new(RefCell::new(session));
+    let events = EventLoop::with_user_event().build();
+    let mut events = events.map_err(|error| no_display(reason(&error.to_string())))?;
+    let mut losses = Vec::new();
+    loop {
+        let shown = Gpu::with_all_limits(choice)
+            .map_err(AppError::from)
+            .and_then(|gpu| show(&mut events, &session, &gpu));
+        if let Err(error) = shown {
+            return Err(rescued(&session.borrow(), error));
+        }
+        if !session.borrow_mut().is_to_reopen() {
+            return Ok(());
+        }
+        losses.retain(|loss: &Instant| loss.elapsed() < RECENT);
+        losses.push(Instant::now());
+        if losses.len() > MAX_LOSSES {
+            let count = losses.len() as u32;
+            return Err(rescued(
+                &session.borrow(),
+                GpuError::KeptFailing { count }.into(),
+            ));
+        }
+        let told = "the GPU was lost (driver reset or time-out) and is replaced: the picture starts again.";
+        session.borrow_mut().messages.warn(told.into());
+    }
+}
+
+/// Writes changes that are in no file where the next start of the system may forget them, and says so.
+fn rescued(session: &Session, error: AppError) -> AppError {
+    let Some(scene) = session.scene().filter(|_| session.has_changes()) else {
+        return error;
+    };
+    let name = format!("glimray_rescued_{}.toml", std::process::id());
+    let path = std::env::temp_dir().join(name);
+    match scene_file::save(&path, scene, false) {
+        Ok(_) => console::warning(format_args!(
+            "changes that were not saved are in {}.",
+            path.display()
+        )),
+        Err(why) => console::warning(format_args!("changes could not be saved: {why}")),
+    }
+    error
+}
+
+/// How eframe draws with our device.
+pub fn configuration(gpu: &Gpu) -> WgpuConfiguration {
+    let (instance, adapter, device, queue) = gpu.handles();
+    WgpuConfiguration {
+        wgpu_setup: WgpuSetup::Existing(WgpuSetupExisting {
+            instance,
+            adapter,
+            device,
+            queue,
+        }),
+        ..Default::default()
+    }
+}
+
+/// How it draws: pictures are not to be dithered, their values are those of files.
+pub const OPTIONS: RendererOptions = RendererOptions {
+    dithering: false,
+    ..RendererOptions::PREDICTABLE
+};
+
+/// Width and height of the window at first, in points.
+const SIZE: [f32; 2] = [1280.0, 800.0];
+
+/// Shows the session until the window is closed or the device is lost.
+fn show(
+    events: &mut EventLoop<UserEvent>,
+    session: &Rc<RefCell<Session>>,
+    gpu: &Gpu,
+) -> Result<(), AppError> {
+    let options = eframe::NativeOptions {
+        viewport: place(&session.borrow().preferences)
+            .with_title("glimray")
+            .with_app_id("glimray")
+            .with_min_inner_size([320.0, 240.0])
+            .with_drag_and_drop(true),
+        wgpu_options: configuration(gpu),
+        dithering: false,
+        ..Default::default()
+    };
+    // eframe keeps what becomes of this to itself.
+    let opened = Rc::new(Cell::new(Err("the desktop gave none".to_owned())));
+    let creator = {
+        let (session, gpu, opened) = (session.clone(), gpu.clone(), opened.clone());
+        move |context: &eframe::CreationContext| {
+            bring_in(context);
+            let viewer = Viewer::new(context, gpu, session);
+            let outcome = viewer.as_ref().map(|_| ()).map_err(ToString::to_string);
+            opened.set(outcome);
+            Ok(Box::new(viewer?) as Box<dyn eframe::App>)
+        }
+    };
+    let app = eframe::create_native("glimray", options, Box::new(creator), events);
+    let is_lost =
+        events::run(events, app, gpu).map_err(|error| no_display(reason(&error.to_string())))?;
+    settings::write(&mut session.borrow_mut());
+    if is_lost {
+        session.borrow_mut().lost_device();
+        return Ok(());
+    }
+    opened.replace(Ok(())).map_err(|why| no_display(&why))
+}
+
+/// A window where it was last.
+fn place(kept: &Preferences) -> egui::ViewportBuilder {
+    let size = kept.window.unwrap_or(SIZE);
+    let viewport = egui::ViewportBuilder::default().with_inner_size(size);
+    let viewport = viewport.with_maximized(kept.maximized);
+    match kept.window_position {
+        Some(position) => viewport.with_position(position),
+        None => viewport,
+    }
+}
+
+/// The screen on which the window was may be gone: it comes to where its title can be reached.
+fn bring_in(context: &eframe::CreationContext) {
+    let Some(window) = context.winit_window() else {
+        return;
+    };
+    let Ok(corner) = window.outer_position() else {
+        return;
+    };
+    let middle = corner
+        .x
+        .saturating_add_unsigned(window.outer_size().width / 2);
+    let screens: Vec<_> = window.available_monitors().collect();
+    let shows_title = screens.iter().any(|screen| {
+        let (place, size) = (screen.position(), screen.size());
+        (place.x..place.x.saturating_add_unsigned(size.width)).contains(&middle)
+            && (place.y..place.y.saturating_add_unsigned(size.height)).contains(&corner.y)
+    });
+    if !shows_title && !screens.is_empty() {
+        let corner = egui::ViewportCommand::OuterPosition(egui::Pos2::ZERO);
+        context.egui_ctx.send_viewport_cmd(corner);
+    }
+}
+
+/// Without one of these there is nothing to connect to, and the attempt would only say so in worse
+/// words.
+fn check_display() -> Result<(), AppError> {
+    match has_display() {
+        true => Ok(()),
+        false => Err(no_display("neither DISPLAY nor WAYLAND_DISPLAY is set")),
+    }
+}
+
+/// Whether there seems to be a display that a window could be on.
+pub fn has_display() -> bool {
+    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    !cfg!(target_os = "linux")
+        || ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"]
+            .into_iter()
+            .any(is_set)
+}
+
+/// What winit says without the places in its source that it says it from.
+fn reason(words: &str) -> &str {
+    words.rsplit(": ").next().unwrap_or(words)
+}
+
+fn no_display(why: &str) -> AppError {
+    AppError::NoDisplay(format!(
+        "cannot open a window (no display): {}. Render to a file instead: glimray render SCENE -o \
+         picture.png",
+        why.trim_end_matches('.')
+    ))
+}

@@ -1,0 +1,232 @@
+//! The window's contents: hands what happens to the [`Session`], orders pictures, shows them.
+
+use crate::gpu::Gpu;
+use crate::viewer::actions::commands;
+use crate::viewer::actions::files::pictures;
+use crate::viewer::actions::{settings, update};
+use crate::viewer::state::answer::Answer;
+use crate::viewer::state::layout::Layout;
+use crate::viewer::state::session::Session;
+use crate::viewer::ui::context::PanelContext;
+use crate::viewer::ui::dialogs;
+use crate::viewer::ui::textures::Textures;
+use crate::viewer::ui::{overlay, panels, tabs};
+use crate::viewer::window::presses::Presses;
+use crate::viewer::worker::progressive_image::PictureSlot;
+use crate::viewer::worker::progressive_image::patience;
+use crate::viewer::worker::render_thread::{Fault, RenderRequests, RenderThread};
+use eframe::egui;
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::time::Duration;
+
+/// How often a window that nobody sees looks after what it does.
+const HIDDEN: Duration = Duration::from_millis(200);
+
+/// Orders that follow one another without waiting, once one was waited for in vain.
+const IN_VAIN: u32 = 16;
+
+/// What is drawn in a window, and what renders for it. Lives as long as its device.
+pub struct Viewer {
+    session: Rc<RefCell<Session>>,
+    render: RenderThread<Answer>,
+    textures: Textures,
+    layout: Layout,
+    wanted: Wanted,
+    presses: Presses,
+    /// Whether whoever draws the window begins with [`eframe::App::clear_color`].
+    is_cleared: bool,
+    /// The last frame of the window that there was.
+    last_pass: Option<u64>,
+}
+
+impl Viewer {
+    /// A viewer that draws with `gpu`, which must be the device of `context`.
+    ///
+    /// # Errors
+    /// There is no thread to be had, or eframe does not draw with wgpu.
+    pub fn new(
+        context: &eframe::CreationContext,
+        gpu: Gpu,
+        session: Rc<RefCell<Session>>,
+    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+        context.egui_ctx.set_fonts(fonts());
+        let state = context.wgpu_render_state.clone();
+        let ctx = context.egui_ctx.clone();
+        let wanted = Wanted {
+            orders: RenderRequests::default(),
+            patience: patience(&gpu),
+            until_wait: 0,
+        };
+        let render = RenderThread::new(gpu, move || ctx.request_repaint())?;
+        update::reopened(&mut session.borrow_mut());
+        let layout = Layout::kept(&session.borrow().preferences);
+        Ok(Self {
+            session,
+            render,
+            textures: Textures::new(state.ok_or("eframe does not draw with wgpu")?),
+            layout,
+            wanted,
+            presses: Presses::default(),
+            is_cleared: context.winit_window().is_some(),
+            last_pass: None,
+        })
+    }
+
+    /// Whether there is nothing left to load, to move or to render.
+    pub fn is_settled(&self) -> bool {
+        self.render.is_settled() && self.session.borrow().is_at_rest()
+    }
+
+    /// What the person works on.
+    pub fn session(&self) -> Rc<RefCell<Session>> {
+        self.session.clone()
+    }
+
+    /// Where the panels are.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// What renders.
+    pub fn render_thread(&self) -> &RenderThread<Answer> {
+        &self.render
+    }
+}
+
+impl Drop for Viewer {
+    fn drop(&mut self) {
+        if let Ok(mut session) = self.session.try_borrow_mut() {
+            settings::keep_layout(&mut session, &self.layout);
+        }
+    }
+}
+
+impl eframe::App for Viewer {
+    fn raw_input_hook(&mut self, ctx: &egui::Context, raw: &mut egui::RawInput) {
+        let mut session = self.session.borrow_mut();
+        if let Some(note) = session.recording.pass(ctx, raw) {
+            session.messages.warn(note);
+        }
+        if self.presses.pass(raw) {
+            ctx.request_repaint();
+        }
+    }
+
+    fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
+        let mut session = self.session.borrow_mut();
+        for answer in self.render.answers() {
+            session.take(answer);
+        }
+        match self.render.fault() {
+            Some(Fault::Lost) => {
+                session.lost_device();
+                ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            }
+            Some(Fault::Refused(why)) => session.refused(Some(why)),
+            None => session.refused(None),
+        }
+        // Of a hidden window there are no frames, and its input is still that of the last one.
+        let pass = ctx.cumulative_pass_nr();
+        let is_hidden = self.last_pass.replace(pass) == Some(pass);
+        if is_hidden {
+            update::update_hidden(&mut session);
+        } else {
+            commands::keys(&mut session, &mut self.layout, ctx);
+            update::update(&mut session, ctx);
+        }
+        let shown = self.render.shown(PictureSlot::Main);
+        let progress = shown.map(|shown| shown.progress).unwrap_or_default();
+        pictures::finish(&mut session, progress.is_done);
+        session.set_spent(match progress.is_coarse {
+            true => 0.0,
+            false => progress.trace_seconds,
+        });
+        settings::update(&mut session, ctx);
+        for question in session.questions.drain(..) {
+            self.render.ask(question);
+        }
+        self.wanted.order(&self.render, &session);
+        if session.is_at_rest() && self.presses.is_empty() && session.recording.is_to_close() {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        }
+        if let Some(wait) = session.until_next_frame() {
+            let least = if is_hidden { HIDDEN } else { Duration::ZERO };
+            ctx.request_repaint_after(wait.max(least));
+        }
+    }
+
+    /// The panels' ground: on software, clearing takes less time than filling.
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        if !self.is_cleared {
+            let ground = ui.visuals().panel_fill;
+            ui.painter().rect_filled(ui.max_rect(), 0.0, ground);
+        }
+        let mut session = self.session.borrow_mut();
+        self.textures.begin();
+        let mut context = PanelContext {
+            session: &mut session,
+            render: &self.render,
+            textures: &mut self.textures,
+        };
+        panels::menu(ui, &mut context, &mut self.layout);
+        panels::status(ui, &mut context);
+        tabs::show(ui, &mut self.layout, &mut context);
+        overlay::shield(ui.ctx(), context.session);
+        dialogs::show(ui, &mut context, &mut self.layout);
+        panels::messages(ui, &mut context);
+        self.textures.end();
+        // What a hand has done in this frame is to be seen in this frame.
+        if self.wanted.order(&self.render, &session) {
+            ui.ctx().request_discard("another picture is there");
+        }
+    }
+}
+
+/// What was ordered last, and whether the window waits for it.
+struct Wanted {
+    orders: RenderRequests,
+    /// How long.
+    patience: Duration,
+    /// How many orders it will not.
+    until_wait: u32,
+}
+
+impl Wanted {
+    /// Orders what is wanted now, if that is something else. Whether there is already something to see of
+    /// it: the coarse picture mostly, unless it kept the window waiting in vain of late.
+    fn order(&mut self, render: &RenderThread<Answer>, session: &Session) -> bool {
+        let orders = session.orders();
+        if orders.is_same(&self.orders) {
+            return false;
+        }
+        render.order(orders.clone());
+        self.orders = orders;
+        if self.until_wait > 0 {
+            self.until_wait -= 1;
+            return false;
+        }
+        let is_there = render.wait_for_look(self.patience);
+        if !is_there {
+            self.until_wait = IN_VAIN;
+        }
+        is_there
+    }
+}
+
+/// egui's fonts. Glyphs that the text font lacks, such as arrows, come from the code font first: it suits
+/// text better than the symbol fonts do.
+fn fonts() -> egui::FontDefinitions {
+    let mut fonts = egui::FontDefinitions::default();
+    let code = (fonts.families.get(&egui::FontFamily::Monospace)).cloned();
+    let text = (fonts.families.entry(egui::FontFamily::Proportional)).or_default();
+    if let Some(font) = code.unwrap_or_default().into_iter().next() {
+        text.retain(|other| *other != font);
+        text.insert(text.len().min(1), font);
+    }
+    fonts
+}

@@ -1,0 +1,5 @@
+//! The thread that renders what the session wants.
+
+pub mod progressive_image;
+pub mod render_thread;
+pub mod request;

@@ -1,0 +1,414 @@
+//! One picture that follows its [`RenderRequest`]: coarse while something moves, then in full, sample by
+//! sample, and always on a screen.
+
+mod frame_renderer;
+mod noise;
+mod pace;
+mod packing;
+
+pub use frame_renderer::{FrameRenderer, ImageError, PictureSlot};
+pub use pace::{Pace, patience};
+
+use crate::gpu::Gpu;
+use crate::pack::{self, PackedScene, PackedView};
+use crate::render::{Antialias, RenderSettings, Renderer, Screen, Stats};
+use crate::scene::Frame;
+use crate::viewer::worker::request::RenderRequest;
+use noise::Noise;
+use packing::view;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// The least time between two looks at a picture that has to come to the host for it.
+const DETOUR: Duration = Duration::from_millis(500);
+
+/// What there is to see.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// The picture so far; where it has no sample yet it is transparent.
+    pub screen: Option<Screen>,
+    /// A coarse one of the same or what was before, to lie under it, stretched.
+    pub under: Option<Screen>,
+    /// Whether that is a coarse one, which comes as a whole.
+    pub under_is_coarse: bool,
+    /// While this is a part: the whole picture as it was last, to lie under both.
+    pub whole: Option<Screen>,
+    /// Which part of the picture this is: x, y, width and height in pixels of `size`.
+    pub region: [u32; 4],
+    /// Width and height of the whole picture.
+    pub size: (u32, u32),
+    /// The range of a quantity over which it is shown.
+    pub range: Option<[f32; 2]>,
+    /// How far it is.
+    pub progress: Progress,
+    /// What the renderer has cost since the window was opened.
+    pub stats: Stats,
+    /// Trees that were built or refitted since then.
+    pub trees_built: usize,
+    /// What it renders on.
+    pub adapter: Arc<str>,
+}
+
+/// How far a picture is, and what it took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Progress {
+    /// Samples that every pixel has.
+    pub samples: u32,
+    /// Samples that it is to get.
+    pub target: u32,
+    /// Share of the work that is done, in 0..=1.
+    pub share: f64,
+    /// Seconds of tracing in this picture.
+    pub trace_seconds: f64,
+    /// Camera rays per second of tracing.
+    pub rays_per_second: f64,
+    /// Estimated root mean square error of the developed picture, in levels of 1; `None` before there
+    /// are enough samples, and without antialiasing.
+    pub noise: Option<f64>,
+    /// Whether this is the coarse picture.
+    pub is_coarse: bool,
+    /// Whether it has all its samples.
+    pub is_done: bool,
+}
+
+/// A picture, its renderer and its screens.
+pub struct ProgressiveImage {
+    gpu: Gpu,
+    place: PictureSlot,
+    order: Option<RenderRequest>,
+    /// Whether the picture is to stay coarse.
+    stays_coarse: bool,
+    is_coarse: bool,
+    packed: Option<Arc<PackedScene>>,
+    frames: Vec<Frame>,
+    view: Option<PackedView>,
+    /// Trees that were built or refitted since the window was opened.
+    trees_built: usize,
+    renderer: Option<Renderer>,
+    screen: Option<Screen>,
+    coarse: Option<Screen>,
+    whole: Option<Screen>,
+    /// The range over which the last look was shown.
+    range: Option<[f32; 2]>,
+    is_shown: bool,
+    last_look: Option<Instant>,
+    looks: u64,
+    /// Seconds of work in this picture.
+    busy: f64,
+    pace: Pace,
+    adapter: Arc<str>,
+    spent: Spent,
+    noise: Noise,
+}
+
+/// What the renderer had counted when the picture began.
+#[derive(Clone, Copy, Default)]
+struct Spent {
+    seconds: f64,
+    samples: u64,
+}
+
+impl ProgressiveImage {
+    /// An empty one.
+    pub fn new(gpu: Gpu, place: PictureSlot) -> Self {
+        Self {
+            adapter: gpu.adapter().name.as_str().into(),
+            gpu,
+            place,
+            order: None,
+            stays_coarse: false,
+            is_coarse: false,
+            packed: None,
+            frames: Vec::new(),
+            view: None,
+            trees_built: 0,
+            renderer: None,
+            screen: None,
+            coarse: None,
+            whole: None,
+            range: None,
+            is_shown: true,
+            last_look: None,
+            looks: 0,
+            busy: 0.0,
+            pace: Pace::default(),
+            spent: Spent::default(),
+            noise: Noise::default(),
+        }
+    }
+
+    /// Takes up an order; what of the last one still serves is kept.
+    pub fn follow(
+        &mut self,
+        order: Option<&RenderRequest>,
+        coarse: bool,
+    ) -> Result<(), ImageError> {
+        let Some(order) = order else {
+            let (gpu, place) = (self.gpu.clone(), self.place);
+            if self.order.is_some() {
+                *self = Self::new(gpu, place);
+            }
+            return Ok(());
+        };
+        let before = self.order.clone();
+        let outcome = self.take_up(order, coarse);
+        if outcome.is_err() {
+            // The last picture stays, and passes for nothing else.
+            self.order = before;
+            self.packed = None;
+        }
+        outcome
+    }
+
+    fn take_up(&mut self, order: &RenderRequest, coarse: bool) -> Result<(), ImageError> {
+        let before = self.order.as_ref();
+        let is_other_scene = before.is_none_or(|b| !Arc::ptr_eq(&b.scene, &order.scene));
+        let shows_same = before.is_some_and(|b| b.shows_same(order));
+        let has_settings =
+            before.is_some_and(|b| b.settings == order.settings && b.policy == order.policy);
+        self.stays_coarse = coarse;
+        if before.is_some_and(|before| before.tone != order.tone) {
+            self.is_shown = false;
+            self.noise = Noise::default();
+        }
+        let is_other_shot = before.is_none_or(|before| before.shot != order.shot);
+        let differs_in_samples = before.is_some_and(|b| {
+            let samples = order.settings.samples;
+            RenderSettings {
+                samples,
+                ..b.settings.clone()
+            } == order.settings
+                && b.policy == order.policy
+        });
+        if let Some(before) = self.order.replace(order.clone()) {
+            self.keep_whole(&before.settings, &order.settings);
+        }
+        if shows_same && has_settings && self.renderer.is_some() {
+            // A fine picture that is wanted coarse from now on is good enough until something changes.
+            return Ok(());
+        }
+        if shows_same && differs_in_samples && self.aim_at(order.settings.samples) {
+            return Ok(());
+        }
+        if is_other_scene || self.packed.is_none() {
+            self.pack(order)?;
+        } else if is_other_shot {
+            self.frames = order.scene.motion_samples(order.shot.0, order.shot.1);
+        }
+        // A picture at rest begins coarse too, so that there is something to see at once.
+        self.begin(true)
+    }
+
+    /// Goes on from the samples that there are. Whether that is possible.
+    fn aim_at(&mut self, samples: u32) -> bool {
+        match &mut self.renderer {
+            // All that is to be fine is still to come.
+            Some(_) if self.is_coarse => true,
+            Some(renderer) => renderer.continue_to(samples),
+            None => false,
+        }
+    }
+
+    /// Keeps the picture while only a part of it is rendered. Screens of another part are of no use.
+    fn keep_whole(&mut self, before: &RenderSettings, now: &RenderSettings) {
+        if before.crop == now.crop
+            || before.size != now.size && now.crop.is_some() == before.crop.is_some()
+        {
+            return;
+        }
+        let screen = self.screen.take().filter(|_| !self.is_coarse);
+        let screen = screen.or(self.coarse.take());
+        if before.crop.is_none() {
+            self.whole = screen;
+        } else if now.crop.is_none() {
+            self.coarse = self.whole.take();
+        }
+    }
+
+    fn pack(&mut self, order: &RenderRequest) -> Result<(), ImageError> {
+        let packed = match &self.packed {
+            Some(packed) => pack::scene_from(packed, &order.scene)?,
+            None => pack::scene(&order.scene)?,
+        };
+        self.trees_built += packed.work.total();
+        self.packed = Some(Arc::new(packed));
+        // The scene's own, with its own camera and background: see `view`.
+        self.frames = order.scene.motion_samples(order.shot.0, order.shot.1);
+        Ok(())
+    }
+
+    /// Starts the picture over.
+    fn begin(&mut self, coarse: bool) -> Result<(), ImageError> {
+        let (Some(order), Some(packed)) = (&self.order, &self.packed) else {
+            return Ok(());
+        };
+        let view = view(packed, self.view.as_ref(), &self.frames, order)?;
+        let has_tlas = (self.view.as_ref()).is_some_and(|before| before.shares_tlas(&view));
+        self.trees_built += usize::from(packed.features.instances && !has_tlas);
+        let settings = match coarse {
+            true => pace::coarse(&self.gpu, &mut self.pace, &order.settings),
+            false => order.settings.clone(),
+        };
+        let policy = pace::policy(&self.gpu, order.policy);
+        let packed = packed.clone();
+        match &mut self.renderer {
+            Some(renderer) => renderer.restart(packed, &view, settings, policy)?,
+            None => {
+                let gpu = self.gpu.clone();
+                self.renderer = Some(Renderer::new(gpu, packed, &view, settings, policy)?);
+            }
+        }
+        self.view = Some(view);
+        self.is_coarse = coarse;
+        self.is_shown = false;
+        self.last_look = None;
+        self.busy = 0.0;
+        self.noise = Noise::default();
+        if let Some(renderer) = &self.renderer {
+            let stats = renderer.stats();
+            self.spent = Spent {
+                seconds: stats.trace_seconds,
+                samples: stats.samples,
+            };
+        }
+        Ok(())
+    }
+
+    /// Whether the picture has all its samples and they are on the screen.
+    pub fn is_done(&self) -> bool {
+        let is_traced = self.renderer.as_ref().is_none_or(Renderer::is_done);
+        self.is_shown && is_traced && (self.stays_coarse || !self.is_coarse)
+    }
+
+    /// Whether what there is so far is on a screen.
+    pub fn is_shown(&self) -> bool {
+        self.is_shown
+    }
+
+    /// How often something new was put on a screen.
+    pub fn looks(&self) -> u64 {
+        self.looks
+    }
+
+    /// Whether there is a renderer to ask.
+    pub fn is_ready(&self) -> bool {
+        self.renderer.is_some() && !self.is_coarse
+    }
+
+    /// Whether the main picture is still to begin in full.
+    pub fn is_awaited(&self) -> bool {
+        self.place == PictureSlot::Main && self.renderer.is_some() && self.is_coarse
+    }
+
+    /// How far it is behind others: the lowest comes next.
+    pub fn rank(&self) -> f64 {
+        match &self.renderer {
+            Some(renderer) if !self.is_coarse => renderer.progress(),
+            _ => -1.0,
+        }
+    }
+
+    /// Adds samples for a slice of time and shows them. Those of a `paused` picture are only shown, once
+    /// there are any.
+    pub fn step(&mut self, paused: bool) -> Result<(), ImageError> {
+        let started = Instant::now();
+        let is_traced = self.renderer.as_ref().is_some_and(Renderer::is_done);
+        if self.is_coarse && !self.stays_coarse && is_traced && self.is_shown && !paused {
+            self.begin(false)?;
+        }
+        let (Some(renderer), Some(order)) = (&mut self.renderer, &self.order) else {
+            return Ok(());
+        };
+        let is_held = paused && !self.is_coarse && self.last_look.is_some();
+        if !is_held {
+            renderer.step()?;
+        }
+        let interval = match renderer.shows_directly() {
+            true => pace::between_looks(&self.gpu),
+            false => DETOUR,
+        };
+        let is_due = renderer.is_done()
+            || is_held
+            || self.last_look.is_none_or(|last| last.elapsed() > interval);
+        // A coarse picture comes as a whole.
+        if !is_due || self.is_coarse && !renderer.is_done() {
+            self.is_shown = false;
+            self.busy += started.elapsed().as_secs_f64();
+            return Ok(());
+        }
+        let screen = match self.is_coarse {
+            true => &mut self.coarse,
+            false => &mut self.screen,
+        };
+        let [.., width, height] = renderer.region();
+        let screen = match screen {
+            Some(screen) if screen.size() == (width, height) => screen,
+            _ => screen.insert(renderer.new_screen()?),
+        };
+        self.range = renderer.show(&order.tone, screen)?;
+        self.busy += started.elapsed().as_secs_f64();
+        if self.is_coarse && self.last_look.is_none() {
+            (self.pace).measured(self.busy, u64::from(width) * u64::from(height));
+        }
+        self.is_shown = true;
+        self.last_look = Some(Instant::now());
+        self.looks += 1;
+        self.estimate_noise()
+    }
+
+    /// Looks at the picture each time its samples have doubled.
+    fn estimate_noise(&mut self) -> Result<(), ImageError> {
+        let (Some(renderer), Some(order)) = (&mut self.renderer, &self.order) else {
+            return Ok(());
+        };
+        let samples = renderer.samples_done();
+        let is_estimable = !self.is_coarse
+            && self.place == PictureSlot::Main
+            && order.settings.antialias != Antialias::None;
+        if is_estimable && self.noise.is_due(samples) {
+            self.noise.look(&renderer.develop(&order.tone)?, samples);
+        }
+        Ok(())
+    }
+
+    /// What there is to see.
+    pub fn shown(&self) -> Option<Shown> {
+        let (renderer, order) = (self.renderer.as_ref()?, self.order.as_ref()?);
+        let stats = renderer.stats();
+        let seconds = stats.trace_seconds - self.spent.seconds;
+        let rays = stats.samples - self.spent.samples;
+        let has_picture = !self.is_coarse && self.last_look.is_some();
+        Some(Shown {
+            screen: self.screen.clone().filter(|_| has_picture),
+            under: self.coarse.clone().or(self.screen.clone()),
+            under_is_coarse: self.coarse.is_some(),
+            whole: self.whole.clone(),
+            region: order.settings.region(),
+            size: order.settings.size,
+            range: self.range,
+            progress: Progress {
+                samples: renderer.samples_done(),
+                target: order.settings.samples,
+                share: renderer.progress(),
+                trace_seconds: seconds,
+                rays_per_second: rays as f64 / seconds.max(1e-9),
+                noise: self.noise.estimate(),
+                is_coarse: self.is_coarse,
+                is_done: self.is_done(),
+            },
+            stats: stats.clone(),
+            trees_built: self.trees_built,
+            adapter: self.adapter.clone(),
+        })
+    }
+
+    /// For questions: not while the coarse picture is in the renderer's film.
+    pub fn studio(&mut self) -> Option<FrameRenderer<'_>> {
+        (!self.is_coarse).then_some(())?;
+        Some(FrameRenderer {
+            renderer: self.renderer.as_mut()?,
+            order: self.order.as_ref()?,
+            outside: None,
+        })
+    }
+}

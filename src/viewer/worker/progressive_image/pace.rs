@@ -1,0 +1,127 @@
+//! How coarse a picture must be to come in time, and how work is cut so that the window goes on.
+
+use crate::gpu::Gpu;
+use crate::render::{Antialias, ExecutionPolicy, RenderSettings, Slicing};
+use std::time::Duration;
+
+/// Time that a submission should take while the window goes on: on software the cores that draw the
+/// window are those that trace.
+const SLICE: Duration = Duration::from_millis(8);
+const SLICE_ON_CPU: Duration = Duration::from_millis(30);
+/// Time that a coarse picture should take in all.
+const COARSE: Duration = Duration::from_millis(12);
+const COARSE_ON_CPU: Duration = Duration::from_millis(30);
+/// The least time between two looks at a picture that is being refined. On software the window takes the
+/// cores from what it shows.
+const LOOK: Duration = Duration::from_millis(16);
+const LOOK_ON_CPU: Duration = Duration::from_millis(250);
+/// The longest side that can be one window of the film.
+const MAX_SIDE: u32 = 16384;
+
+/// The coarsest picture has a pixel in this many, along each side.
+const MAX_DIVISOR: u32 = 16;
+/// How much longer than wanted a picture may take before the next one is coarser, and how much of that
+/// time a finer one may be expected to take: between the two nothing changes, so that times that differ
+/// a little do not make the picture flicker.
+const TOO_SLOW: f64 = 1.3;
+const FAST_ENOUGH: f64 = 0.75;
+/// Share of the newest measurement in what is expected.
+const NEWS: f64 = 0.3;
+/// Seconds of a sample before the first measurement: a slow scene on two cores.
+const FIRST_GUESS: f64 = 4e-6;
+
+/// Chooses sizes of coarse pictures by what they took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace {
+    /// Expected of a sample.
+    seconds: f64,
+    is_measured: bool,
+    divisor: u32,
+}
+
+impl Default for Pace {
+    fn default() -> Self {
+        Self {
+            seconds: FIRST_GUESS,
+            is_measured: false,
+            divisor: 1,
+        }
+    }
+}
+
+impl Pace {
+    /// Takes up what a picture of so many samples, at least 1, took in all, in seconds.
+    pub fn measured(&mut self, seconds: f64, samples: u64) {
+        let new = seconds / samples as f64;
+        // Another scene, or another view, is no matter of averages.
+        let is_other = !self.is_measured || new > 2.0 * self.seconds || 2.0 * new < self.seconds;
+        self.seconds = match is_other {
+            true => new,
+            false => self.seconds + NEWS * (new - self.seconds),
+        };
+        self.is_measured = true;
+    }
+
+    /// By what to divide width and height of a picture of so many pixels that should take `wanted`
+    /// seconds.
+    pub fn divisor(&mut self, pixels: u64, wanted: f64) -> u32 {
+        let time = |divisor: u32| pixels as f64 * self.seconds / f64::from(divisor).powi(2);
+        let first_within = |limit: f64| {
+            let mut divisors = 1..MAX_DIVISOR;
+            divisors.find(|d| time(*d) <= limit).unwrap_or(MAX_DIVISOR)
+        };
+        if time(self.divisor) > TOO_SLOW * wanted {
+            self.divisor = first_within(wanted);
+        } else if self.divisor > 1 && time(self.divisor - 1) <= FAST_ENOUGH * wanted {
+            self.divisor = first_within(FAST_ENOUGH * wanted);
+        }
+        self.divisor
+    }
+}
+
+/// How long a frame of the window is worth holding back for the coarse picture: what draws the window would
+/// take its time from it, only to show what was before.
+pub fn patience(gpu: &Gpu) -> Duration {
+    let coarse = if gpu.is_cpu() { COARSE_ON_CPU } else { COARSE };
+    coarse.mul_f64(1.5)
+}
+
+/// How long a picture that is being refined is worth no other look.
+pub fn between_looks(gpu: &Gpu) -> Duration {
+    if gpu.is_cpu() { LOOK_ON_CPU } else { LOOK }
+}
+
+/// Slices that let the window go on.
+pub fn policy(gpu: &Gpu, policy: ExecutionPolicy) -> ExecutionPolicy {
+    let slice = if gpu.is_cpu() { SLICE_ON_CPU } else { SLICE };
+    ExecutionPolicy {
+        slicing: Slicing {
+            target_seconds: slice.as_secs_f64(),
+            tile_side: MAX_SIDE,
+            ..policy.slicing
+        },
+        host_copy: false,
+        ..policy
+    }
+}
+
+/// A smaller picture of one sample, as large as the time allows.
+pub fn coarse(gpu: &Gpu, pace: &mut Pace, settings: &RenderSettings) -> RenderSettings {
+    let time = if gpu.is_cpu() { COARSE_ON_CPU } else { COARSE };
+    let [.., width, height] = settings.region();
+    let pixels = u64::from(width) * u64::from(height);
+    let divisor = pace.divisor(pixels, time.as_secs_f64());
+    let smaller = |length: u32| length.div_ceil(divisor);
+    let antialias = match settings.antialias {
+        Antialias::Adaptive => Antialias::Stratified,
+        other => other,
+    };
+    RenderSettings {
+        size: (smaller(settings.size.0), smaller(settings.size.1)),
+        crop: (settings.crop)
+            .map(|[x0, y0, x1, y1]| [x0 / divisor, y0 / divisor, smaller(x1), smaller(y1)]),
+        samples: 1,
+        antialias,
+        ..settings.clone()
+    }
+}

@@ -1,0 +1,27 @@
+//! What of an order the renderer gets.
+
+use crate::pack::{self, PackedScene, PackedView};
+use crate::scene::Frame;
+use crate::viewer::worker::request::RenderRequest;
+
+/// The frames with the order's camera and background. `previous` is the view before it.
+pub fn view(
+    packed: &PackedScene,
+    previous: Option<&PackedView>,
+    frames: &[Frame],
+    order: &RenderRequest,
+) -> Result<PackedView, pack::PackError> {
+    if order.camera.is_none() && order.background.is_none() {
+        return packed.view_from(previous, frames);
+    }
+    let mut frames = frames.to_vec();
+    for frame in &mut frames {
+        if let Some(camera) = &order.camera {
+            frame.camera = camera.clone();
+        }
+        if let Some(background) = &order.background {
+            frame.background = background.clone();
+        }
+    }
+    packed.view_from(previous, &frames)
+}

@@ -1,0 +1,443 @@
+//! What leaves the repository: the package, the hand-in, the manual pages; and what the files for
+//! building them say of each other.
+
+use crate::animate::place::Place;
+use crate::support::skip::{Need, skip};
+use crate::support::verdict::Verdict;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io::{Cursor, Read};
+use std::path::{Component, Path, PathBuf};
+use std::process::{Command, Output};
+use zip::ZipArchive;
+
+fn read(path: impl AsRef<Path>) -> String {
+    let path = path.as_ref();
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn manifest() -> toml::Table {
+    read("Cargo.toml").parse().expect("TOML")
+}
+
+/// Files that tell people and machines what to run.
+fn instructions() -> Vec<PathBuf> {
+    let names = ["README.md", "CONTRIBUTING.md", "Dockerfile"];
+    let mut found: Vec<_> = names.map(PathBuf::from).into();
+    let mut open = vec![PathBuf::from("docs"), PathBuf::from(".github")];
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            let entries = fs::read_dir(&path).expect("a folder");
+            open.extend(entries.map(|entry| entry.expect("an entry").path()));
+        } else if path.extension().is_some_and(|e| e == "md" || e == "yml") {
+            found.push(path);
+        }
+    }
+    found
+}
+
+/// What stands in `path` as code, which is all of it but in pages: there it is blocks and quotations,
+/// each on lines of its own.
+fn code(path: &Path) -> String {
+    let text = read(path);
+    if path.extension().is_none_or(|extension| extension != "md") {
+        return text;
+    }
+    let parts = text.split("```").enumerate();
+    let parts = parts.map(|(index, part)| match index % 2 {
+        0 => part
+            .split('`')
+            .skip(1)
+            .step_by(2)
+            .collect::<Vec<_>>()
+            .join("\n"),
+        _ => part.to_owned(),
+    });
+    parts.collect::<Vec<_>>().join("\n")
+}
+
+/// The words after each `program` that stands where a command begins.
+fn commands<'a>(code: &'a str, program: &str) -> Vec<Vec<&'a str>> {
+    let starts = code.match_indices(program).filter(|(at, _)| {
+        let line = code[..*at].rsplit('\n').next().unwrap_or_default();
+        let line = line.trim_start_matches([' ', '\t', '-']).trim_end();
+        ["", "run:", "command:", "RUN"].contains(&line) || line.ends_with("&&")
+    });
+    let ends = ['\n', '#', ';', '|', '&'];
+    let rest = starts.map(|(at, _)| code[at + program.len()..].split(ends).next());
+    rest.map(|words| words.unwrap_or_default().split_whitespace().collect())
+        .collect()
+}
+
+#[test]
+fn commands_are_found_where_they_stand() {
+    let text = "    make b NAME=x  # c\n      - run: make d && make e\nRUN make f; we make g.\n";
+    let found: Vec<_> = commands(text, "make ").concat();
+    assert_eq!(found, ["b", "NAME=x", "d", "e", "f"]);
+}
+
+#[test]
+fn every_make_target_that_is_named_is_in_the_makefile() {
+    let makefile = read("Makefile");
+    let (_, phony) = makefile.split_once(".PHONY:").expect("the targets");
+    let targets: BTreeSet<_> = (phony.lines().next().expect("a line"))
+        .split_whitespace()
+        .collect();
+    let mut verdict = Verdict::on("targets");
+    for target in &targets {
+        let has_recipe = makefile.contains(&format!("\n{target}:"));
+        verdict.that(target, has_recipe, || "has no recipe");
+    }
+    for path in instructions() {
+        for words in commands(&code(&path), "make ") {
+            let target = words.first().copied().unwrap_or_default();
+            let name = format!("{}: make {target}", path.display());
+            verdict.that(name, targets.contains(target), || "there is no such target");
+        }
+    }
+    verdict.close();
+}
+
+#[test]
+fn every_profile_and_feature_that_is_named_is_in_the_manifest() {
+    let manifest = manifest();
+    let features = manifest["features"].as_table().expect("features");
+    let profiles = manifest["profile"].as_table().expect("profiles");
+    let mut verdict = Verdict::on("cargo's arguments");
+    for path in instructions() {
+        for words in commands(&code(&path), "cargo ") {
+            let name = |word| format!("{}: {word}", path.display());
+            for pair in words.windows(2) {
+                match pair {
+                    ["--profile", profile] => {
+                        let is_there = profiles.contains_key(*profile);
+                        verdict.that(name(*profile), is_there, || "there is no such profile");
+                    }
+                    ["--features", list] if !list.contains('"') => {
+                        for feature in list.split(',') {
+                            let is_there = features.contains_key(feature);
+                            verdict.that(name(feature), is_there, || "there is no such feature");
+                        }
+                    }
+                    _ => (),
+                }
+            }
+        }
+    }
+    verdict.close();
+}
+
+/// Rust is named by the same version everywhere.
+#[test]
+fn containers_and_workflows_use_the_rust_of_the_manifest() {
+    let manifest = manifest();
+    let version = manifest["package"]["rust-version"].as_str().expect("text");
+    for (path, begin) in [
+        ("Dockerfile", "FROM rust:"),
+        (".github/workflows/ci.yml", "rustup toolchain install "),
+        (".github/workflows/ci.yml", "rustup default "),
+    ] {
+        let text = read(path);
+        let found: Vec<_> = text.split(begin).skip(1).collect();
+        assert!(!found.is_empty(), "{path}: {begin}");
+        for rest in found {
+            let is_end = |c: char| c.is_whitespace() || c == '-';
+            assert_eq!(rest.split(is_end).next(), Some(version), "{path}: {begin}");
+        }
+    }
+}
+
+/// Tests and CI have a profile of their own.
+#[test]
+fn what_users_install_is_optimised_as_a_whole() {
+    let manifest = manifest();
+    let release = manifest["profile"]["release"].as_table().expect("a table");
+    let is_full = |profile: &toml::Table| {
+        let level = profile.get("opt-level").and_then(toml::Value::as_integer);
+        level.is_none_or(|level| level == 3)
+    };
+    assert!(is_full(release), "{release}");
+    if let Some(packages) = release.get("package").and_then(toml::Value::as_table) {
+        for (name, profile) in packages {
+            let profile = profile.as_table().expect("a table");
+            assert!(is_full(profile), "{name}: {profile}");
+        }
+    }
+    assert_eq!(release["lto"].as_str(), Some("thin"));
+    assert_eq!(release["strip"].as_bool(), Some(true));
+}
+
+#[test]
+fn the_changelog_has_the_version_of_the_manifest() {
+    let manifest = manifest();
+    let version = manifest["package"]["version"].as_str().expect("text");
+    let changelog = read("CHANGELOG.md");
+    let newest = changelog.lines().find_map(|line| line.strip_prefix("## "));
+    let newest = newest.and_then(|line| line.split(' ').next());
+    assert_eq!(newest, Some(version));
+}
+
+#[test]
+fn every_command_has_a_manual_page_with_its_flags() {
+    let place = Place::new();
+    fs::create_dir(place.path("man")).expect("a folder");
+    let run = place.run("man man").expect(0);
+    let names = String::from_utf8(run.stdout).expect("text");
+    let help = place.run("--help").expect(0);
+    let help = String::from_utf8(help.stdout).expect("text");
+    let (_, list) = help.split_once("Commands:\n").expect("the commands");
+    let (list, _) = list.split_once("\n\n").expect("their end");
+    // What a command does stands in the same line or below, farther in.
+    let commands = list.lines().filter(|line| !line.starts_with("   "));
+    let commands = commands.filter_map(|line| line.split_whitespace().next());
+    let commands: Vec<_> = commands.filter(|name| *name != "help").collect();
+    assert!(commands.contains(&"render") && commands.len() >= 14);
+    assert_eq!(names.lines().count(), commands.len() + 1, "{names}");
+    let page = |name: &str| String::from_utf8(place.read(name)).expect("text");
+    assert!(page("man/glimray.1").contains(".TH glimray 1"));
+    for command in commands {
+        let text = page(&format!("man/glimray-{command}.1"));
+        let title = format!(".TH glimray\\-{command} 1");
+        assert!(
+            text.replace("glimray-", "glimray\\-").contains(&title),
+            "{text}"
+        );
+    }
+    let render = page("man/glimray-render.1");
+    for flag in ["samples", "max\\-depth", "look\\-from"] {
+        assert!(render.contains(&format!("\\-\\-{flag}")), "{flag}");
+    }
+    place.run("man gone").expect(4);
+}
+
+/// Links to files in a text in Markdown, as it writes them, without places in pages.
+fn links(text: &str) -> Vec<&str> {
+    let parts = text.split("](").skip(1);
+    let links = parts.filter_map(|part| Some(part.split_once(')')?.0));
+    links
+        .filter(|link| !link.contains("://"))
+        .map(|link| link.split('#').next().unwrap_or_default())
+        .filter(|link| !link.is_empty())
+        .collect()
+}
+
+/// `link` in the file `from`, as a path from the root; `None` if it leads out.
+fn target(from: &Path, link: &str) -> Option<String> {
+    let mut parts: Vec<_> = from.parent()?.iter().collect();
+    for part in Path::new(link).components() {
+        match part {
+            Component::Normal(name) => parts.push(name),
+            Component::ParentDir => _ = parts.pop()?,
+            _ => (),
+        }
+    }
+    let path: PathBuf = parts.iter().collect();
+    Some(path.to_str()?.replace('\\', "/"))
+}
+
+/// Whether there is this file among `files`, or one below this folder.
+fn has<'a>(files: impl IntoIterator<Item = &'a String>, path: &str) -> bool {
+    let folder = format!("{}/", path.trim_end_matches('/'));
+    let is_it = |file: &&String| *file == path || file.starts_with(&folder);
+    files.into_iter().any(|file| is_it(&file))
+}
+
+/// Each link of the pages among `files` leads to one of them.
+fn check_links(verdict: &mut Verdict, files: &BTreeMap<String, Vec<u8>>) {
+    for (name, bytes) in files.iter().filter(|(name, _)| name.ends_with(".md")) {
+        let text = String::from_utf8_lossy(bytes);
+        for link in links(&text) {
+            let target = target(Path::new(name), link);
+            let is_there = target.is_some_and(|target| has(files.keys(), &target));
+            verdict.that(format!("{name}: {link}"), is_there, || "is not there");
+        }
+    }
+}
+
+fn cargo(arguments: &[&str]) -> Output {
+    let cargo = std::env::var_os("CARGO").unwrap_or("cargo".into());
+    let output = Command::new(cargo).args(arguments).output().expect("cargo");
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    output
+}
+
+#[test]
+fn the_package_has_what_its_pages_and_tests_need_and_nothing_else() {
+    const PARTS: [&str; 9] = [
+        ".github/",
+        "assets/gallery/",
+        "assets/scenes/",
+        "benches/",
+        "docs/",
+        "examples/",
+        "shaders/",
+        "src/",
+        "tests/",
+    ];
+    const FILES: [&str; 14] = [
+        ".cargo_vcs_info.json",
+        ".dockerignore",
+        ".gitignore",
+        "CHANGELOG.md",
+        "CONTRIBUTING.md",
+        "Cargo.lock",
+        "Cargo.toml",
+        "Cargo.toml.orig",
+        "Dockerfile",
+        "LICENSE-APACHE",
+        "LICENSE-MIT",
+        "Makefile",
+        "README.md",
+        "build.rs",
+    ];
+    let list = cargo(&["package", "--list", "--allow-dirty", "--offline"]).stdout;
+    let list = String::from_utf8(list).expect("UTF-8").replace('\\', "/");
+    let is_made = |name: &&str| name.starts_with(".cargo_vcs") || name.ends_with(".orig");
+    let files: BTreeMap<_, _> = (list.lines())
+        .filter(|name| !is_made(name))
+        .map(|name| (name.to_owned(), fs::read(name).expect(name)))
+        .collect();
+    let mut verdict = Verdict::on("the package");
+    for name in files.keys() {
+        let is_known = FILES.contains(&&**name) || PARTS.iter().any(|part| name.starts_with(part));
+        verdict.that(name, is_known, || "has no business there");
+    }
+    for name in [
+        "LICENSE-MIT",
+        "tests/golden/depth.png",
+        "tests/suite/main.rs",
+    ] {
+        verdict.that(name, has(files.keys(), name), || "is missing");
+    }
+    let pages = files.iter().filter(|(name, _)| name.ends_with(".md"));
+    let pages = pages.map(|(_, bytes)| String::from_utf8_lossy(bytes));
+    let pages = pages.collect::<String>();
+    for picture in files
+        .keys()
+        .filter(|name| name.starts_with("assets/gallery/"))
+    {
+        verdict.that(picture, pages.contains(&**picture), || "is on no page");
+    }
+    check_links(&mut verdict, &files);
+    verdict.close();
+}
+
+/// The files of the hand-in, by their names below its only folder; `None` where there is no checkout.
+fn hand_in() -> Option<BTreeMap<String, Vec<u8>>> {
+    let folder = tempfile::tempdir().expect("a folder");
+    if !Path::new(".git").exists() {
+        skip(Need::Git, "this is no checkout of Git");
+        return None;
+    }
+    let output = Command::new("make")
+        .args(["--no-print-directory", "hand-in", "NAME=Ada-1"])
+        .arg(format!("HAND_IN_FOLDER={}", folder.path().display()))
+        .env_remove("MAKEFLAGS")
+        .output()
+        .expect("make");
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    let bytes = fs::read(folder.path().join("Exercise4-Ada-1.zip")).expect("an archive");
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).expect("an archive");
+    let mut files = BTreeMap::new();
+    for index in 0..archive.len() {
+        let mut file = archive.by_index(index).expect("a file");
+        let name = file.name().expect("a name").into_owned();
+        let below = name.strip_prefix("Exercise4-Ada-1/").expect("the folder");
+        if file.is_file() {
+            let mut bytes = Vec::new();
+            file.read_to_end(&mut bytes).expect("bytes");
+            files.insert(below.to_owned(), bytes);
+        }
+    }
+    Some(files)
+}
+
+#[cfg(unix)]
+#[test]
+fn the_hand_in_needs_nothing_from_outside() {
+    let Some(files) = hand_in() else {
+        return;
+    };
+    let mut verdict = Verdict::on("the hand-in");
+    for name in files.keys() {
+        let is_left_out = [".git/", ".ci/", "target/"]
+            .iter()
+            .any(|part| name.starts_with(part));
+        verdict.that(name, !is_left_out, || "should not be there");
+    }
+    // The same bytes as here, whatever Git does with ends of lines.
+    for (name, bytes) in files.iter().filter(|(name, _)| Path::new(name).exists()) {
+        verdict.that(
+            name,
+            fs::read(name).ok().as_ref() == Some(bytes),
+            || "differs",
+        );
+    }
+    let text = |name: &str| String::from_utf8(files[name].clone()).expect("text");
+    let manifest: toml::Table = text("Cargo.toml").parse().expect("TOML");
+    let package = &manifest["package"];
+    let named = [
+        package["readme"].as_str(),
+        manifest["lib"]["path"].as_str(),
+        manifest["bin"][0]["path"].as_str(),
+        manifest["test"][0]["path"].as_str(),
+        Some("build.rs"),
+        Some("Cargo.lock"),
+    ];
+    for name in named {
+        let name = name.expect("a path");
+        verdict.that(name, files.contains_key(name), || "is not there");
+    }
+    verdict.that(
+        "Cargo.toml",
+        !text("Cargo.toml").contains("path = \"."),
+        || "needs a folder outside",
+    );
+    // Files that are compiled in are named from the root.
+    for (name, bytes) in files.iter().filter(|(name, _)| name.starts_with("src/")) {
+        let code = String::from_utf8_lossy(bytes);
+        for embedded in code.split("\"/assets/").skip(1) {
+            let path = format!("assets/{}", embedded.split('"').next().expect("a path"));
+            verdict.that(name, files.contains_key(&path), || format!("needs {path}"));
+        }
+    }
+    check_links(&mut verdict, &files);
+    verdict.close();
+}
+
+#[cfg(unix)]
+#[test]
+fn the_hand_in_has_what_the_exercise_asks_for() {
+    let Some(files) = hand_in() else {
+        return;
+    };
+    let readme = String::from_utf8_lossy(&files["README.md"]).to_lowercase();
+    for heading in ["level 1", "level 2", "level 3", "problems met"] {
+        assert!(readme.contains(heading), "the readme has no {heading}");
+    }
+    let frames = files.iter().filter(|(name, _)| name.starts_with("frames/"));
+    let frames: Vec<_> = frames.collect();
+    assert!(frames.len() >= 4, "{} frames", frames.len());
+    for (name, bytes) in frames {
+        let format = ::image::guess_format(bytes).expect("a picture");
+        assert_eq!(format, ::image::ImageFormat::Jpeg, "{name}");
+    }
+    assert_eq!(&files["carousel.mp4"][4..8], b"ftyp", "it is no MP4");
+}
+
+#[cfg(unix)]
+#[test]
+fn the_hand_in_wants_a_name_in_one_line() {
+    let output = Command::new("make")
+        .args(["--no-print-directory", "hand-in"])
+        .env_remove("MAKEFLAGS")
+        .env_remove("NAME")
+        .output()
+        .expect("make");
+    assert_eq!(output.status.code(), Some(2));
+    let told = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(told.lines().count(), 1, "{told}");
+    assert!(told.contains("Use `make hand-in NAME=YourName`"), "{told}");
+}
