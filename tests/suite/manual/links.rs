@@ -4,7 +4,7 @@ use super::pages::{Page, book, manual};
 use crate::support::verdict::Verdict;
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// `make docs` builds the pages as deep in the site as they are in the repository, and copies the folders that
 /// they link to beside them. So a link works in both places.
@@ -136,9 +136,10 @@ fn is_identifier(name: &str) -> bool {
 #[test]
 fn names_in_internals_and_recipes_are_in_the_code() {
     let mut code = String::new();
-    let mut open = vec!["src".into(), "shaders".into(), "tests/suite".into()];
+    let mut open = ["src", "shaders", "tests/suite"]
+        .map(PathBuf::from)
+        .to_vec();
     while let Some(path) = open.pop() {
-        let path: std::path::PathBuf = path;
         if path.is_dir() {
             let entries = fs::read_dir(&path).expect("a folder");
             open.extend(entries.map(|entry| entry.expect("an entry").path()));
