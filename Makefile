@@ -29,14 +29,15 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench gallery strips man size hand-in build shaders linker compiler display driver opengl lint features headless wasm
+.PHONY: help demo test bench docs gallery strips man size hand-in build shaders linker compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png (about 4 minutes the first time)'
 	@echo 'make test      format, lints, documentation, all tests (about 20 minutes the first time)'
 	@echo 'make bench     measure speed on built-in scenes'
-	@echo 'make gallery   render the pictures of README.md again'
-	@echo 'make strips    render the strips of the book again'
+	@echo 'make docs      build the manual with mdBook and check its links'
+	@echo 'make gallery   render the pictures of the manual again'
+	@echo 'make strips    render the strips of its page on failures again'
 	@echo 'make shaders   link the kernels again after a change in a shader; the others do so by themselves'
 	@echo 'make man       write the manual pages to $(TARGET)/man'
 	@echo 'make hand-in NAME=YourName'
@@ -60,13 +61,30 @@ test: lint features headless wasm
 bench: build driver
 	$(GLIMRAY) bench
 
-# The commands are those that README.md shows beside each picture; the window's are taken of a real one.
+# The commands are those that README.md and the manual's gallery show with each picture; the pictures of the window
+# are taken of a real one.
 gallery: build driver display
-	@grep -o 'glimray [a-z]* [^`]*-o assets/gallery/[^` ]*' README.md | while read -r _ arguments; do \
+	@grep -oh 'glimray [a-z]* [^`]*-o assets/gallery/[^` ]*' README.md docs/src/guide/gallery.md | while read -r _ arguments; do \
 		echo "glimray $$arguments"; \
 		$(GLIMRAY) $$arguments --quiet || exit; \
 	done
 	$(CARGO) test $(FLAGS) --test suite -- --ignored pictures_of_the_window_for_the_readme
+
+# The pages lie as deep in the site as they do in the repository, and the folders that they link to beside them: a link
+# to a picture or a source works in both places. Tests check the links without mdBook.
+MDBOOK_VERSION := 0.5.4
+TOOLS := $(abspath $(TARGET)/tools)
+SITE := $(abspath $(TARGET)/site)
+LINKED := assets benches examples shaders src tests build.rs
+docs: linker
+	@[ -x $(TOOLS)/bin/mdbook ] || $(CARGO) install mdbook --version $(MDBOOK_VERSION) --locked \
+		--no-default-features --features search --root $(TOOLS)
+	rm -rf $(SITE)
+	mkdir -p $(SITE)
+	$(TOOLS)/bin/mdbook build docs --dest-dir $(SITE)/docs/book
+	cp -R $(LINKED) $(SITE)
+	docs/check-links.sh $(SITE)/docs/book
+	@echo $(SITE)/docs/book/index.html
 
 man: build
 	mkdir -p $(TARGET)/man

@@ -28,6 +28,7 @@ mod kernels;
 mod layout;
 mod lens;
 mod levels;
+mod manual;
 mod messages;
 mod motion_blur;
 mod moving;
@@ -97,5 +98,3 @@ mod view_navigation;
 mod view_objects;
 #[cfg(feature = "viewer")]
 mod view_preferences;
-#[cfg(feature = "viewer")]
-mod view_readme;

@@ -1,6 +1,6 @@
 //! Defaults of scenes: samples per pixel, and the warning about scenes without light.
 
-use super::{folder, scene};
+use super::scene;
 use glimray::export;
 use glimray::import::{self, Options};
 use glimray::scene::Scene;
@@ -93,24 +93,4 @@ fn a_scene_without_light_is_detected() {
         assert!(!native(&text).is_unlit(), "{text}");
     }
     assert!(!scene("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3").is_unlit());
-}
-
-/// The scenes printed in the manual.
-#[test]
-fn the_scenes_in_the_readme_are_lit_and_sampled_well() {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let readme = std::fs::read_to_string(path).expect("README.md");
-    let blocks = readme.split("```toml\n").skip(1);
-    let scenes: Vec<_> = (blocks.filter_map(|block| block.split("```").next()))
-        .filter(|text| text.contains("[[objects]]"))
-        .collect();
-    assert_eq!(scenes.len(), 2);
-    for text in scenes {
-        let folder = folder(&[("a.toml", text.as_bytes())]);
-        let scene = import::load(&folder.path().join("a.toml"));
-        let scene = scene.unwrap_or_else(|error| panic!("{error}\n{text}"));
-        assert_eq!(scene.skipped, [""; 0], "{text}");
-        assert!(!scene.is_unlit(), "{text}");
-        assert!(scene.output.samples >= 16, "{text}");
-    }
 }

@@ -1,0 +1,10 @@
+//! The manual holds: README.md, the book in `docs/` and the READMEs of folders. Their links lead somewhere, their
+//! commands parse, their scenes load, and what is generated is current.
+
+mod commands;
+mod generated;
+mod links;
+mod native_reference;
+mod pages;
+mod scenes;
+mod tables;
