@@ -1,36 +1,36 @@
 @compute @workgroup_size(64, 1, 1)
 fn develop(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let work = package_scene_slice__1work_of(group, lane);
+    let work = package_scene_dispatch__1work_of(group, lane);
     if (work.inside) {
-        let mean = package_lib_filter__1weighted_mean(package_scene_film_gathered(work, package_bindings_tone));
-        let within = work.pixel - vec2u(package_bindings_slice.window_x, package_bindings_slice.window_y);
-        package_bindings_developed[within.y * package_bindings_slice.window_width + within.x] = vec4f(package_lib_quantity_shown(mean, package_bindings_tone), 1.0);
+        let mean = package_lib_filter__1weighted_mean(package_scene_film__2load_weighted_sum(work, package_bindings_tone));
+        let position = work.pixel - vec2u(package_bindings_dispatch.tile_x, package_bindings_dispatch.tile_y);
+        package_bindings_developed[position.y * package_bindings_dispatch.tile_width + position.x] = vec4f(package_lib_quantity_shown(mean, package_bindings_tone), 1.0);
     }
     if (lane == 0u) {
-        atomicAdd(&package_bindings_slice.tiles_done, 1u);
+        atomicAdd(&package_bindings_dispatch.counters.groups_done, 1u);
     }
 }
 
-struct package_scene_slice_Work {
+struct package_scene_dispatch_Work {
     inside: bool,
     film_index: u32,
     pixel: vec2u
 }
 
-fn package_scene_slice__1work_of(group: vec3u, lane: u32) -> package_scene_slice_Work {
-    let index = package_bindings_slice.first_tile + group.y * package_bindings_slice.grid_width + group.x;
-    let tile = package_lib_tile__1permuted_tile(min(index, package_bindings_slice.tile_count - 1u), package_bindings_slice.tile_count, package_bindings_slice.tile_stride);
-    let pixel = package_lib_tile__1window_pixel(tile, lane, package_bindings_slice.tile_columns);
+fn package_scene_dispatch__1work_of(group: vec3u, lane: u32) -> package_scene_dispatch_Work {
+    let index = package_bindings_dispatch.first_group + group.y * package_bindings_dispatch.grid_width + group.x;
+    let visited = package_lib_tile__1permuted_group(min(index, package_bindings_dispatch.group_count - 1u), package_bindings_dispatch.group_count, package_bindings_dispatch.group_stride);
+    let pixel = package_lib_tile__1tile_pixel(visited, lane, package_bindings_dispatch.group_columns);
     if (package_bindings_ADAPTIVE) {
-        let place = package_bindings_film[package_bindings__1FILM_ROWS * (index * 64u + lane) + package_bindings__1SQUARES_ROW];
-        return package_scene_slice_Work(index < package_bindings_slice.end_tile && place.w > 0.0, index * 64u + lane, vec2u(place.yz));
+        let entry = package_bindings_film[package_bindings__1FILM_ROWS * (index * 64u + lane) + package_bindings__1SQUARES_ROW];
+        return package_scene_dispatch_Work(index < package_bindings_dispatch.end_group && entry.w > 0.0, index * 64u + lane, vec2u(entry.yz));
     }
-    let inside = index < package_bindings_slice.end_tile && pixel.x < package_bindings_slice.window_width && pixel.y < package_bindings_slice.window_height;
-    return package_scene_slice_Work(inside, index * 64u + lane, pixel + vec2u(package_bindings_slice.window_x, package_bindings_slice.window_y));
+    let inside = index < package_bindings_dispatch.end_group && pixel.x < package_bindings_dispatch.tile_width && pixel.y < package_bindings_dispatch.tile_height;
+    return package_scene_dispatch_Work(inside, index * 64u + lane, pixel + vec2u(package_bindings_dispatch.tile_x, package_bindings_dispatch.tile_y));
 }
 
 @group(1) @binding(1)
-var<storage, read_write> package_bindings_slice: package_types_PackedSlice;
+var<storage, read_write> package_bindings_dispatch: package_types_PackedDispatch;
 
 @group(2) @binding(0)
 var<storage, read_write> package_bindings_film: array<vec4f>;
@@ -61,18 +61,18 @@ const package_types__1TONE_REINHARD: u32 = 3u;
 
 const package_types__1TRANSFER_SRGB: u32 = 0u;
 
-struct package_types_PackedSlice {
+struct package_types_PackedDispatch {
     picture_width: u32,
     picture_height: u32,
-    window_x: u32,
-    window_y: u32,
-    window_width: u32,
-    window_height: u32,
-    tile_columns: u32,
-    tile_count: u32,
-    tile_stride: u32,
-    first_tile: u32,
-    end_tile: u32,
+    tile_x: u32,
+    tile_y: u32,
+    tile_width: u32,
+    tile_height: u32,
+    group_columns: u32,
+    group_count: u32,
+    group_stride: u32,
+    first_group: u32,
+    end_group: u32,
     grid_width: u32,
     first_sample: u32,
     end_sample: u32,
@@ -80,7 +80,11 @@ struct package_types_PackedSlice {
     max_depth: u32,
     min_throughput: f32,
     light_samples: f32,
-    tiles_done: atomic<u32>,
+    counters: package_types_PackedCounters
+}
+
+struct package_types_PackedCounters {
+    groups_done: atomic<u32>,
     nonfinite_samples: atomic<u32>,
     cut_off_paths: atomic<u32>,
     cut_off_trees: atomic<u32>,
@@ -104,10 +108,10 @@ struct package_types_PackedTone {
     film_rows: u32
 }
 
-const package_lib_tile__1TILE_SIZE: u32 = 8u;
+const package_lib_tile__1GROUP_SIDE: u32 = 8u;
 
-fn package_lib_tile__1permuted_tile(index: u32, tile_count: u32, stride: u32) -> u32 {
-    return (index * stride) % tile_count;
+fn package_lib_tile__1permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
+    return (index * stride) % group_count;
 }
 
 fn package_lib_tile__1morton_8x8(lane: u32) -> vec2u {
@@ -116,8 +120,8 @@ fn package_lib_tile__1morton_8x8(lane: u32) -> vec2u {
     return vec2u(x, y);
 }
 
-fn package_lib_tile__1window_pixel(tile: u32, lane: u32, tile_columns: u32) -> vec2u {
-    return package_lib_tile__1TILE_SIZE * vec2u(tile % tile_columns, tile / tile_columns) + package_lib_tile__1morton_8x8(lane);
+fn package_lib_tile__1tile_pixel(group: u32, lane: u32, group_columns: u32) -> vec2u {
+    return package_lib_tile__1GROUP_SIDE * vec2u(group % group_columns, group / group_columns) + package_lib_tile__1morton_8x8(lane);
 }
 
 fn package_lib_filter__1weighted_mean(sum: vec4f) -> vec3f {
@@ -125,7 +129,7 @@ fn package_lib_filter__1weighted_mean(sum: vec4f) -> vec3f {
     return select(vec3f(0.0), max(sum.xyz / select(1.0, sum.w, usable), vec3f(0.0)), usable);
 }
 
-fn package_scene_film_gathered(work: package_scene_slice_Work, tone: package_types_PackedTone) -> vec4f {
+fn package_scene_film__2load_weighted_sum(work: package_scene_dispatch_Work, tone: package_types_PackedTone) -> vec4f {
     return package_bindings_film[tone.film_rows * work.film_index];
 }
 
@@ -142,9 +146,9 @@ fn package_lib_quantity_shown(mean: vec3f, tone: package_types_PackedTone) -> ve
         return package_lib_tone_develop(vec3f(value), tone);
     }
     if (tone.view == package_types__1VIEW_HEAT) {
-        return package_lib_tone_develop(package_lib_colormap_heat(package_lib_quantity_place(value, tone.range)), tone);
+        return package_lib_tone_develop(package_lib_colormap_heat(package_lib_quantity__2position_in_range(value, tone.range)), tone);
     }
-    let far = package_lib_quantity_place(log2(max(value, 1e-30)), log2(max(tone.range, vec2f(1e-30))));
+    let far = package_lib_quantity__2position_in_range(log2(max(value, 1e-30)), log2(max(tone.range, vec2f(1e-30))));
     return package_lib_tone_develop(vec3f(select(0.0, mix(1.0, package_lib_quantity__1FAR_LEVEL, far), value > 0.0)), tone);
 }
 
@@ -155,7 +159,7 @@ fn package_lib_quantity_quantity(mean: vec3f, view: u32) -> f32 {
     return mean.x;
 }
 
-fn package_lib_quantity_place(value: f32, range: vec2f) -> f32 {
+fn package_lib_quantity__2position_in_range(value: f32, range: vec2f) -> f32 {
     let extent = range.y - range.x;
     return select(0.5, clamp((value - range.x) / max(extent, 1e-30), 0.0, 1.0), extent > 0.0);
 }

@@ -1,31 +1,31 @@
 @compute @workgroup_size(64, 1, 1)
 fn explain(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let index = 64u * (group.y * package_bindings_slice.grid_width + group.x) + lane;
+    let index = 64u * (group.y * package_bindings_dispatch.grid_width + group.x) + lane;
     var probe = package_scene_record__1load_probe(index);
-    let batch = package_scene_slice__1load_batch();
+    let batch = package_scene_dispatch__1load_batch();
     if (probe.pixel_x != package_types_NONE) {
         let pixel = vec2u(probe.pixel_x, probe.pixel_y);
         package_scene_record__1start_record(probe);
         let key = package_types_SampleKey(package_lib_rng__1pixel_key(batch.seed, pixel), probe.sample, 1.0);
-        probe.color = traced(batch, package_scene_slice__1sample_ray(batch, pixel, probe.sample), key).radiance;
-        probe.weight = package_scene_slice__1sample_weight(batch, pixel, probe.sample);
+        probe.color = trace(batch, package_scene_dispatch__1sample_ray(batch, pixel, probe.sample), key).radiance;
+        probe.weight = package_scene_dispatch__1sample_weight(batch, pixel, probe.sample);
         probe.time = package_scene_shutter__1shutter_time;
         probe.cut_off = package_scene__1ray_stack__2cut_off_trees;
         package_scene_record__1store_probe(index, probe);
     }
-    package_scene_slice__1sign_off(lane);
+    package_scene_dispatch__1add_counts(lane);
 }
 
-fn traced(batch: package_scene_slice_Batch, ray: package_types_Ray, key: package_types_SampleKey) -> package_scene_film_Sample {
+fn trace(batch: package_scene_dispatch_Batch, ray: package_types_Ray, key: package_types_SampleKey) -> package_scene_film_Sample {
     var found = package_scene_film_Sample(vec3f(0.0));
     var state = package_scene__1ray_stack__1camera_state(ray, batch.camera_media);
     loop {
         let hit = package_scene_traverse__1closest_hit(state.ray);
-        package_scene_slice__1count_hit(state.kind, hit);
+        package_scene_dispatch__1count_hit(state.kind, hit);
         package_scene_record__1open_ray(state.ray, hit, state.kind, state.throughput, state.media);
         var event = package_scene_optics_ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), package_scene__1ray_stack__1no_ray(), package_scene__1ray_stack__1no_ray());
         if (hit.primitive == package_types_NONE) {
-            let seen = escaping(state) * package_scene_background_background(batch, state.ray.direction);
+            let seen = escaping_throughput(state) * package_scene_background_background(batch, state.ray.direction);
             found.radiance += seen;
             package_scene_record__1record_miss(seen);
         }
@@ -41,7 +41,7 @@ fn traced(batch: package_scene_slice_Batch, ray: package_types_Ray, key: package
             }
             package_scene_record__1record_surface(surface);
             package_scene_record__1record_arriving(event.arriving);
-            let shown = event.arriving * local(batch, state, surface, event, factors[2], key);
+            let shown = event.arriving * local_light(batch, state, surface, event, factors[2], key);
             found.radiance += shown;
         }
         package_scene_record__1close_ray();
@@ -59,7 +59,7 @@ fn traced(batch: package_scene_slice_Batch, ray: package_types_Ray, key: package
     return found;
 }
 
-fn escaping(state: package_scene__1ray_stack_RayState) -> vec3f {
+fn escaping_throughput(state: package_scene__1ray_stack_RayState) -> vec3f {
     var throughput = state.throughput;
     if (package_bindings__1HAS_REFRACTION) {
         throughput *= package_scene_medium_transmittance(package_scene_medium__1medium_of(package_scene_medium_dominant(state.media)), state.ray.t_max);
@@ -67,7 +67,7 @@ fn escaping(state: package_scene__1ray_stack_RayState) -> vec3f {
     return throughput;
 }
 
-fn local(batch: package_scene_slice_Batch, state: package_scene__1ray_stack_RayState, surface: package_types_Surface, event: package_scene_optics_ScatterEvent, glow: vec3f, key: package_types_SampleKey) -> vec3f {
+fn local_light(batch: package_scene_dispatch_Batch, state: package_scene__1ray_stack_RayState, surface: package_types_Surface, event: package_scene_optics_ScatterEvent, glow: vec3f, key: package_types_SampleKey) -> vec3f {
     var lit = surface;
     if (package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) {
         lit.phong.diffuse *= event.diffuse;
@@ -110,7 +110,7 @@ var package_bindings_texels: texture_2d<f32>;
 var<storage, read> package_bindings_frame: package_types_PackedFrame;
 
 @group(1) @binding(1)
-var<storage, read_write> package_bindings_slice: package_types_PackedSlice;
+var<storage, read_write> package_bindings_dispatch: package_types_PackedDispatch;
 
 @group(2) @binding(0)
 var<storage, read_write> package_bindings_records: array<vec4u>;
@@ -126,6 +126,8 @@ override package_bindings__1HAS_PLANES: bool = true;
 override package_bindings__1MIXED_MATERIALS: bool = true;
 
 override package_bindings__1BRUTE_FORCE: bool = false;
+
+override package_bindings__1FIXED_OFFSET: f32 = 0.0;
 
 override package_bindings_STRATIFIED: bool = false;
 
@@ -424,18 +426,18 @@ struct package_types_PackedFrame {
     lights: array<package_types_PackedLight>
 }
 
-struct package_types_PackedSlice {
+struct package_types_PackedDispatch {
     picture_width: u32,
     picture_height: u32,
-    window_x: u32,
-    window_y: u32,
-    window_width: u32,
-    window_height: u32,
-    tile_columns: u32,
-    tile_count: u32,
-    tile_stride: u32,
-    first_tile: u32,
-    end_tile: u32,
+    tile_x: u32,
+    tile_y: u32,
+    tile_width: u32,
+    tile_height: u32,
+    group_columns: u32,
+    group_count: u32,
+    group_stride: u32,
+    first_group: u32,
+    end_group: u32,
     grid_width: u32,
     first_sample: u32,
     end_sample: u32,
@@ -443,7 +445,11 @@ struct package_types_PackedSlice {
     max_depth: u32,
     min_throughput: f32,
     light_samples: f32,
-    tiles_done: atomic<u32>,
+    counters: package_types_PackedCounters
+}
+
+struct package_types_PackedCounters {
+    groups_done: atomic<u32>,
     nonfinite_samples: atomic<u32>,
     cut_off_paths: atomic<u32>,
     cut_off_trees: atomic<u32>,
@@ -764,7 +770,7 @@ fn package_scene_record__1store_ray(index: u32, ray: package_types_PackedRay) {
     }
 }
 
-struct package_scene_slice_RayCounts {
+struct package_scene_dispatch_RayCounts {
     primary: u32,
     primary_hits: u32,
     shadow: u32,
@@ -775,9 +781,9 @@ struct package_scene_slice_RayCounts {
     refraction_hits: u32
 }
 
-var<private> package_scene_slice_counts: package_scene_slice_RayCounts;
+var<private> package_scene_dispatch_counts: package_scene_dispatch_RayCounts;
 
-struct package_scene_slice_Batch {
+struct package_scene_dispatch_Batch {
     camera: package_types_PackedCamera,
     background: vec3f,
     background_top: vec3f,
@@ -796,12 +802,12 @@ struct package_scene_slice_Batch {
     camera_media: vec4u
 }
 
-fn package_scene_slice__1load_batch() -> package_scene_slice_Batch {
-    let picture_size = vec2f(vec2u(package_bindings_slice.picture_width, package_bindings_slice.picture_height));
-    return package_scene_slice_Batch(package_bindings_frame.camera, package_bindings_frame.background, package_bindings_frame.background_top, package_bindings_frame.background_rotation, package_bindings_frame.background_first_texel, vec2u(package_bindings_frame.background_width, package_bindings_frame.background_height), package_bindings_frame.ambient, package_bindings_frame.light_count, picture_size, package_bindings_slice.seed, package_bindings_slice.first_sample, package_bindings_slice.end_sample, package_bindings_slice.max_depth, package_bindings_slice.min_throughput, package_bindings_slice.light_samples, package_bindings_frame.camera_media);
+fn package_scene_dispatch__1load_batch() -> package_scene_dispatch_Batch {
+    let picture_size = vec2f(vec2u(package_bindings_dispatch.picture_width, package_bindings_dispatch.picture_height));
+    return package_scene_dispatch_Batch(package_bindings_frame.camera, package_bindings_frame.background, package_bindings_frame.background_top, package_bindings_frame.background_rotation, package_bindings_frame.background_first_texel, vec2u(package_bindings_frame.background_width, package_bindings_frame.background_height), package_bindings_frame.ambient, package_bindings_frame.light_count, picture_size, package_bindings_dispatch.seed, package_bindings_dispatch.first_sample, package_bindings_dispatch.end_sample, package_bindings_dispatch.max_depth, package_bindings_dispatch.min_throughput, package_bindings_dispatch.light_samples, package_bindings_frame.camera_media);
 }
 
-fn package_scene_slice__1sample_ray(batch: package_scene_slice_Batch, pixel: vec2u, sample: u32) -> package_types_Ray {
+fn package_scene_dispatch__1sample_ray(batch: package_scene_dispatch_Batch, pixel: vec2u, sample: u32) -> package_types_Ray {
     let key = package_lib_rng__1pixel_key(batch.seed, pixel);
     var within = vec2f(0.5);
     if (package_bindings_STRATIFIED) {
@@ -809,9 +815,9 @@ fn package_scene_slice__1sample_ray(batch: package_scene_slice_Batch, pixel: vec
     }
     let position = vec2f(pixel) + within;
     if (package_bindings__1HAS_MOTION || package_bindings__1CAMERA_MOTION || package_bindings__1LIGHT_MOTION) {
-        package_scene_shutter__1shutter_time = package_scene_slice__1sample_time(sample, key);
+        package_scene_shutter__1shutter_time = package_scene_dispatch__1sample_time(sample, key);
     }
-    let camera = package_scene_shutter__1camera_now(batch.camera);
+    let camera = package_scene_shutter__1shutter_camera(batch.camera);
     if (package_bindings__1HAS_LENS && package_bindings_ORTHOGRAPHIC) {
         return package_lib_camera__2parallel_lens_ray(camera, position, batch.picture_size, package_lib_sampling__1stratified_34(sample, key));
     }
@@ -824,59 +830,59 @@ fn package_scene_slice__1sample_ray(batch: package_scene_slice_Batch, pixel: vec
     return package_lib_camera__1camera_ray(camera, position, batch.picture_size);
 }
 
-fn package_scene_slice__1sample_time(sample: u32, key: u32) -> f32 {
+fn package_scene_dispatch__1sample_time(sample: u32, key: u32) -> f32 {
     if (package_bindings__1HAS_LENS) {
         return package_lib_sampling__1stratified_1d(sample, key);
     }
     return package_lib_sampling__1stratified_34(sample, key).x;
 }
 
-fn package_scene_slice__1sample_weight(batch: package_scene_slice_Batch, pixel: vec2u, sample: u32) -> f32 {
+fn package_scene_dispatch__1sample_weight(batch: package_scene_dispatch_Batch, pixel: vec2u, sample: u32) -> f32 {
     if (!package_bindings_STRATIFIED) {
         return 1.0;
     }
     return package_lib_filter__1filter_sign(package_bindings_FILTER, package_lib_sampling__1stratified_2d(sample, package_lib_rng__1pixel_key(batch.seed, pixel)));
 }
 
-fn package_scene_slice__1count_hit(kind: u32, hit: package_types_Hit) {
+fn package_scene_dispatch__1count_hit(kind: u32, hit: package_types_Hit) {
     if (package_bindings__1COUNT_RAYS) {
         let hits = select(0u, 1u, hit.primitive != package_types_NONE);
         if (kind == package_scene__1ray_stack__1KIND_PRIMARY) {
-            package_scene_slice_counts.primary += 1u;
-            package_scene_slice_counts.primary_hits += hits;
+            package_scene_dispatch_counts.primary += 1u;
+            package_scene_dispatch_counts.primary_hits += hits;
         }
         else if (kind == package_scene__1ray_stack__1KIND_REFLECTED) {
-            package_scene_slice_counts.reflection += 1u;
-            package_scene_slice_counts.reflection_hits += hits;
+            package_scene_dispatch_counts.reflection += 1u;
+            package_scene_dispatch_counts.reflection_hits += hits;
         }
         else {
-            package_scene_slice_counts.refraction += 1u;
-            package_scene_slice_counts.refraction_hits += hits;
+            package_scene_dispatch_counts.refraction += 1u;
+            package_scene_dispatch_counts.refraction_hits += hits;
         }
     }
 }
 
-fn package_scene_slice__1sign_off(lane: u32) {
+fn package_scene_dispatch__1add_counts(lane: u32) {
     if (package_bindings__1COUNT_RAYS) {
-        atomicAdd(&package_bindings_slice.primary, package_scene_slice_counts.primary);
-        atomicAdd(&package_bindings_slice.primary_hits, package_scene_slice_counts.primary_hits);
-        atomicAdd(&package_bindings_slice.shadow, package_scene_slice_counts.shadow);
-        atomicAdd(&package_bindings_slice.shadow_blocked, package_scene_slice_counts.shadow_blocked);
+        atomicAdd(&package_bindings_dispatch.counters.primary, package_scene_dispatch_counts.primary);
+        atomicAdd(&package_bindings_dispatch.counters.primary_hits, package_scene_dispatch_counts.primary_hits);
+        atomicAdd(&package_bindings_dispatch.counters.shadow, package_scene_dispatch_counts.shadow);
+        atomicAdd(&package_bindings_dispatch.counters.shadow_blocked, package_scene_dispatch_counts.shadow_blocked);
         if (package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) {
-            atomicAdd(&package_bindings_slice.reflection, package_scene_slice_counts.reflection);
-            atomicAdd(&package_bindings_slice.reflection_hits, package_scene_slice_counts.reflection_hits);
-            atomicAdd(&package_bindings_slice.refraction, package_scene_slice_counts.refraction);
-            atomicAdd(&package_bindings_slice.refraction_hits, package_scene_slice_counts.refraction_hits);
+            atomicAdd(&package_bindings_dispatch.counters.reflection, package_scene_dispatch_counts.reflection);
+            atomicAdd(&package_bindings_dispatch.counters.reflection_hits, package_scene_dispatch_counts.reflection_hits);
+            atomicAdd(&package_bindings_dispatch.counters.refraction, package_scene_dispatch_counts.refraction);
+            atomicAdd(&package_bindings_dispatch.counters.refraction_hits, package_scene_dispatch_counts.refraction_hits);
         }
     }
     if ((package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) && package_scene__1ray_stack__2cut_off_trees > 0u) {
-        atomicAdd(&package_bindings_slice.cut_off_trees, package_scene__1ray_stack__2cut_off_trees);
+        atomicAdd(&package_bindings_dispatch.counters.cut_off_trees, package_scene__1ray_stack__2cut_off_trees);
     }
     if (package_scene_loops__1cut_off) {
-        atomicAdd(&package_bindings_slice.cut_off_paths, 1u);
+        atomicAdd(&package_bindings_dispatch.counters.cut_off_paths, 1u);
     }
     if (lane == 0u) {
-        atomicAdd(&package_bindings_slice.tiles_done, 1u);
+        atomicAdd(&package_bindings_dispatch.counters.groups_done, 1u);
     }
 }
 
@@ -1024,7 +1030,7 @@ const package_scene_traverse_RETURN: u32 = 4294967294u;
 
 var<private> package_scene_traverse_stack: array<u32, package_types__1STACK_SIZE>;
 
-const package_scene_traverse_NEARLY: f32 = 0.0001;
+const package_scene_traverse__1CONTACT_RANGE: f32 = 0.0001;
 
 fn package_scene_traverse__1closest_hit(ray: package_types_Ray) -> package_types_Hit {
     if (package_bindings__1HAS_CONTACT) {
@@ -1033,9 +1039,9 @@ fn package_scene_traverse__1closest_hit(ray: package_types_Ray) -> package_types
     return package_scene_traverse_traverse(ray, false);
 }
 
-fn package_scene_traverse_horizon(ray: package_types_Ray, hit: package_types_Hit) -> f32 {
+fn package_scene_traverse__1search_limit(ray: package_types_Ray, hit: package_types_Hit) -> f32 {
     if (package_bindings__1HAS_CONTACT) {
-        return hit.t + package_scene_traverse_NEARLY * (hit.t + package_lib_numeric__1max_component(abs(ray.origin)));
+        return hit.t + package_scene_traverse__1CONTACT_RANGE * (hit.t + package_lib_numeric__1max_component(abs(ray.origin)));
     }
     return hit.t;
 }
@@ -1061,7 +1067,7 @@ fn package_scene_traverse_traverse(ray: package_types_Ray, any: bool) -> package
 
 fn package_scene_traverse_walk(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, any: bool, start: package_types_Hit) -> package_types_Hit {
     var hit = start;
-    var at = package_scene_primitive_here(ray, shear, package_types__1NO_INSTANCE);
+    var at = package_scene_primitive__1traversal_ray(ray, shear, package_types__1NO_INSTANCE);
     package_scene_traverse_stack[0] = package_scene_traverse_EMPTY;
     var top = 0u;
     var current = 0u;
@@ -1071,7 +1077,7 @@ fn package_scene_traverse_walk(ray: package_types_Ray, shear: package_lib_inters
     loop {
         if (package_bindings__1HAS_INSTANCES) {
             if (current == package_scene_traverse_RETURN) {
-                at = package_scene_primitive_here(ray, shear, package_types__1NO_INSTANCE);
+                at = package_scene_primitive__1traversal_ray(ray, shear, package_types__1NO_INSTANCE);
                 current = package_scene_traverse_stack[top];
                 top -= select(1u, 0u, current == package_scene_traverse_EMPTY);
             }
@@ -1079,7 +1085,7 @@ fn package_scene_traverse_walk(ray: package_types_Ray, shear: package_lib_inters
                 let index = current & package_types__2LEAF_FIRST_MASK;
                 let instance = package_scene_fetch__1load_instance(index);
                 let local = package_scene_instance__1object_ray(ray, package_scene_instance__1space_of(instance));
-                at = package_scene_primitive_here(local, package_lib_intersect__1triangle_watertight__1shear_of(local.direction), index);
+                at = package_scene_primitive__1traversal_ray(local, package_lib_intersect__1triangle_watertight__1shear_of(local.direction), index);
                 top += 1u;
                 package_scene_traverse_stack[top] = package_scene_traverse_RETURN;
                 current = instance.root;
@@ -1088,8 +1094,8 @@ fn package_scene_traverse_walk(ray: package_types_Ray, shear: package_lib_inters
         let is_node = !package_bindings__1HAS_INSTANCES || (current & package_types_LEAF) == 0u;
         if (is_node) {
             loop {
-                let node = package_scene_traverse__1node_now(current);
-                let keys = package_lib_intersect_node_sort4(package_lib_intersect_node__1child_keys(node, at.ray.origin, at.inv, package_scene_traverse_horizon(ray, hit)));
+                let node = package_scene_traverse__2load_current_node(current);
+                let keys = package_lib_intersect_node_sort4(package_lib_intersect_node__1child_keys(node, at.ray.origin, at.inv, package_scene_traverse__1search_limit(ray, hit)));
                 let is_hit = keys < vec4u(package_lib_intersect_node_MISS);
                 let pushed = select(vec4u(0u), vec4u(1u), is_hit);
                 package_scene_traverse_stack[top + 1u] = node.children[keys.w & 3u];
@@ -1140,7 +1146,7 @@ fn package_scene_traverse_walk(ray: package_types_Ray, shear: package_lib_inters
     return hit;
 }
 
-fn package_scene_traverse__1node_now(reference: u32) -> package_types_Node {
+fn package_scene_traverse__2load_current_node(reference: u32) -> package_types_Node {
     if (package_bindings__1HAS_MOTION) {
         return package_scene_fetch__2load_moving_node(reference, package_scene_shutter__1shutter_time);
     }
@@ -1149,18 +1155,18 @@ fn package_scene_traverse__1node_now(reference: u32) -> package_types_Node {
 
 var<private> package_scene_primitive__1runner_up: package_types_Hit;
 
-struct package_scene_primitive_Here {
+struct package_scene_primitive_TraversalRay {
     ray: package_types_Ray,
     inv: vec3f,
     shear: package_lib_intersect__1triangle_watertight_Shear,
     instance: u32
 }
 
-fn package_scene_primitive_here(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, instance: u32) -> package_scene_primitive_Here {
-    return package_scene_primitive_Here(ray, package_lib_numeric__1safe_reciprocal(ray.direction), shear, instance);
+fn package_scene_primitive__1traversal_ray(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, instance: u32) -> package_scene_primitive_TraversalRay {
+    return package_scene_primitive_TraversalRay(ray, package_lib_numeric__1safe_reciprocal(ray.direction), shear, instance);
 }
 
-fn package_scene_primitive_closer(at: package_scene_primitive_Here, hit: package_types_Hit, primitive: u32) -> package_types_Hit {
+fn package_scene_primitive_closer(at: package_scene_primitive_TraversalRay, hit: package_types_Hit, primitive: u32) -> package_types_Hit {
     let candidate = package_scene_primitive__1test_primitive(at.ray, primitive, at.shear);
     var is_lower = primitive < hit.primitive;
     var is_left = primitive == at.ray.leaving;
@@ -1233,24 +1239,24 @@ fn package_lib_camera_across(camera: package_types_PackedCamera, position: vec2f
 }
 
 fn package_lib_camera__1lens_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> package_types_Ray {
-    let off_axis = package_lib_camera__1in_opening(camera, u);
+    let off_axis = package_lib_camera__1aperture_point(camera, u);
     let direction = package_lib_camera_through(camera, position, size) - off_axis / camera.focus_distance;
     return package_types_Ray(camera.origin + off_axis, package_lib_camera__1T_FAR, normalize(direction), package_types_NONE, package_types__1NO_INSTANCE);
 }
 
 fn package_lib_camera__2parallel_lens_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> package_types_Ray {
-    let off_axis = package_lib_camera__1in_opening(camera, u);
+    let off_axis = package_lib_camera__1aperture_point(camera, u);
     let origin = camera.origin + package_lib_camera_across(camera, position, size) + off_axis;
     let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
     return package_types_Ray(origin, package_lib_camera__1T_FAR, normalize(direction), package_types_NONE, package_types__1NO_INSTANCE);
 }
 
-fn package_lib_camera__1in_opening(camera: package_types_PackedCamera, u: vec2f) -> vec3f {
-    var opening = package_lib_warp__2disc_from_square(u);
+fn package_lib_camera__1aperture_point(camera: package_types_PackedCamera, u: vec2f) -> vec3f {
+    var aperture = package_lib_warp__2disc_from_square(u);
     if (camera.blade_count >= 3u) {
-        opening = package_lib_warp__2polygon_from_square(u, camera.blade_count, camera.blade_rotation);
+        aperture = package_lib_warp__2polygon_from_square(u, camera.blade_count, camera.blade_rotation);
     }
-    let p = camera.lens_radius * opening;
+    let p = camera.lens_radius * aperture;
     return p.x * normalize(camera.right) + p.y * normalize(camera.up);
 }
 
@@ -1320,7 +1326,7 @@ fn package_scene_exhaustive__1hit_planes(ray: package_types_Ray, start: package_
 }
 
 fn package_scene_exhaustive__1hit_everything(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, start: package_types_Hit) -> package_types_Hit {
-    let world = package_scene_primitive_here(ray, shear, package_types__1NO_INSTANCE);
+    let world = package_scene_primitive__1traversal_ray(ray, shear, package_types__1NO_INSTANCE);
     var hit = start;
     if (package_bindings__1HAS_TRIANGLES) {
         hit = package_scene_exhaustive__1hit_run(world, hit, package_bindings_frame.first_triangle, package_bindings_frame.triangle_count);
@@ -1333,14 +1339,14 @@ fn package_scene_exhaustive__1hit_everything(ray: package_types_Ray, shear: pack
         for (; index < package_bindings_frame.instance_count; index += 1u) {
             let instance = package_scene_fetch__1load_instance(index);
             let local = package_scene_instance__1object_ray(ray, package_scene_instance__1space_of(instance));
-            hit = package_scene_exhaustive__1hit_run(package_scene_primitive_here(local, package_lib_intersect__1triangle_watertight__1shear_of(local.direction), index), hit, instance.first, instance.count);
+            hit = package_scene_exhaustive__1hit_run(package_scene_primitive__1traversal_ray(local, package_lib_intersect__1triangle_watertight__1shear_of(local.direction), index), hit, instance.first, instance.count);
         }
         package_scene_loops__1cut_off |= index < package_bindings_frame.instance_count;
     }
     return hit;
 }
 
-fn package_scene_exhaustive__1hit_run(at: package_scene_primitive_Here, start: package_types_Hit, first: u32, count: u32) -> package_types_Hit {
+fn package_scene_exhaustive__1hit_run(at: package_scene_primitive_TraversalRay, start: package_types_Hit, first: u32, count: u32) -> package_types_Hit {
     var hit = start;
     var index = 0u;
     for (; index < count; index += 1u) {
@@ -1562,7 +1568,7 @@ fn package_scene_shape__1test_shape(ray: package_types_Ray, index: u32) -> packa
     if ((package_bindings__1SHAPE_KINDS & package_scene_shape_GLOBES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_GLOBES || shape.kind == package_types__1SHAPE_GLOBE)) {
         candidate = package_lib_intersect_globe__1intersect_globe(ray, shape.position, shape.row_y, shape.size0);
     }
-    let local = package_lib_form__1form_ray(ray, shape);
+    let local = package_lib_canonical__1canonical_ray(ray, shape);
     if ((package_bindings__1SHAPE_KINDS & package_scene_shape_DISCS) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_DISCS || shape.kind == package_types__1SHAPE_DISC)) {
         candidate = package_lib_intersect_disc__1intersect_disc(local, shape.size0);
     }
@@ -1584,9 +1590,9 @@ fn package_scene_shape__1test_shape(ray: package_types_Ray, index: u32) -> packa
     return candidate;
 }
 
-fn package_scene_shape__1form_point(shape: package_types_PackedShape, reached: vec3f, part: f32) -> package_lib_form_FormPoint {
-    let p = package_lib_form__1form_vector(shape, reached - shape.position);
-    var point: package_lib_form_FormPoint;
+fn package_scene_shape__1canonical_point(shape: package_types_PackedShape, reached: vec3f, part: f32) -> package_lib_canonical_CanonicalPoint {
+    let p = package_lib_canonical__1canonical_vector(shape, reached - shape.position);
+    var point: package_lib_canonical_CanonicalPoint;
     if ((package_bindings__1SHAPE_KINDS & package_scene_shape_DISCS) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_DISCS || shape.kind == package_types__1SHAPE_DISC)) {
         point = package_lib_intersect_disc__1disc_point(p);
     }
@@ -1658,30 +1664,30 @@ fn package_lib_intersect_globe__1intersect_globe(ray: package_types_Ray, anchor:
     return package_types_Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_globe__1globe_point(shape: package_types_PackedShape, reached: vec3f) -> package_lib_form_PlacedPoint {
+fn package_lib_intersect_globe__1globe_point(shape: package_types_PackedShape, reached: vec3f) -> package_lib_canonical_PlacedPoint {
     let w = reached - shape.position;
     let f = shape.row_y + shape.size0 * w;
     let height = (shape.size0 * dot(w, w) + 2.0 * dot(shape.row_y, w)) / (1.0 + length(f));
     let ng = package_lib_numeric__1normalize_or(f, shape.row_y);
     let p = reached - height * ng;
-    return package_lib_form_PlacedPoint(p, ng, 16.0 * package_lib_numeric_ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
+    return package_lib_canonical_PlacedPoint(p, ng, 16.0 * package_lib_numeric_ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
 }
 
-const package_lib_form__1TWO_PI: f32 = 6.2831855;
+const package_lib_canonical__1TWO_PI: f32 = 6.2831855;
 
-struct package_lib_form_FormPoint {
+struct package_lib_canonical_CanonicalPoint {
     p: vec3f,
     n: vec3f,
     uv: vec2f
 }
 
-struct package_lib_form_PlacedPoint {
+struct package_lib_canonical_PlacedPoint {
     p: vec3f,
     ng: vec3f,
     error: vec3f
 }
 
-struct package_lib_form_Approach {
+struct package_lib_canonical_Approach {
     origin: vec3f,
     start: f32,
     direction: vec3f,
@@ -1689,15 +1695,15 @@ struct package_lib_form_Approach {
     near: bool
 }
 
-fn package_lib_form__1form_vector(shape: package_types_PackedShape, v: vec3f) -> vec3f {
+fn package_lib_canonical__1canonical_vector(shape: package_types_PackedShape, v: vec3f) -> vec3f {
     return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
 }
 
-fn package_lib_form__1form_ray(ray: package_types_Ray, shape: package_types_PackedShape) -> package_types_Ray {
-    return package_types_Ray(package_lib_form__1form_vector(shape, ray.origin - shape.position), ray.t_max, package_lib_form__1form_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+fn package_lib_canonical__1canonical_ray(ray: package_types_Ray, shape: package_types_PackedShape) -> package_types_Ray {
+    return package_types_Ray(package_lib_canonical__1canonical_vector(shape, ray.origin - shape.position), ray.t_max, package_lib_canonical__1canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
 }
 
-fn package_lib_form_approach(ray: package_types_Ray, center: vec3f, reach: f32) -> package_lib_form_Approach {
+fn package_lib_canonical_approach(ray: package_types_Ray, center: vec3f, reach: f32) -> package_lib_canonical_Approach {
     let size = abs(ray.direction);
     let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
     let scaled = ray.direction / largest;
@@ -1707,14 +1713,14 @@ fn package_lib_form_approach(ray: package_types_Ray, center: vec3f, reach: f32) 
     let origin = ray.origin + start * direction;
     let off = abs(origin - center);
     let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
-    return package_lib_form_Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
+    return package_lib_canonical_Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
 }
 
-fn package_lib_form__1approached_t(near: package_lib_form_Approach, s: f32) -> f32 {
+fn package_lib_canonical__1approached_t(near: package_lib_canonical_Approach, s: f32) -> f32 {
     return (near.start + s) * near.t_per_length;
 }
 
-fn package_lib_form__1placed_point(shape: package_types_PackedShape, reached: vec3f, point: package_lib_form_FormPoint) -> package_lib_form_PlacedPoint {
+fn package_lib_canonical__1placed_point(shape: package_types_PackedShape, reached: vec3f, point: package_lib_canonical_CanonicalPoint) -> package_lib_canonical_PlacedPoint {
     let inv_lengths = 1.0 / vec3f(length(shape.row_x), length(shape.row_y), length(shape.row_z));
     let x = shape.row_x * inv_lengths.x;
     let y = shape.row_y * inv_lengths.y;
@@ -1726,27 +1732,27 @@ fn package_lib_form__1placed_point(shape: package_types_PackedShape, reached: ve
     let column_y = scale.y * cross(z, x);
     let column_z = scale.z * cross(x, y);
     let q = reached - shape.position;
-    let way = point.p - package_lib_form__1form_vector(shape, q);
+    let way = point.p - package_lib_canonical__1canonical_vector(shape, q);
     let p = reached + (way.x * column_x + way.y * column_y + way.z * column_z);
     let size = vec3f(dot(abs(shape.row_x), abs(q)), dot(abs(shape.row_y), abs(q)), dot(abs(shape.row_z), abs(q))) + 1.0;
     let reach = size.x * abs(column_x) + size.y * abs(column_y) + size.z * abs(column_z);
     let normal = point.n.x * shape.row_x + point.n.y * shape.row_y + point.n.z * shape.row_z;
-    return package_lib_form_PlacedPoint(p, package_lib_numeric__1normalize_or(normal, y), package_lib_offset__1placed_error(p, shape.position, reach));
+    return package_lib_canonical_PlacedPoint(p, package_lib_numeric__1normalize_or(normal, y), package_lib_offset__1placed_error(p, shape.position, reach));
 }
 
-fn package_lib_form_longitude(x: f32, z: f32) -> f32 {
+fn package_lib_canonical_longitude(x: f32, z: f32) -> f32 {
     let on_axis = (x == 0.0) & (z == 0.0);
-    return saturate(0.5 + atan2(x, select(z, 1.0, on_axis)) / package_lib_form__1TWO_PI);
+    return saturate(0.5 + atan2(x, select(z, 1.0, on_axis)) / package_lib_canonical__1TWO_PI);
 }
 
-fn package_lib_form__1sphere_uv(n: vec3f) -> vec2f {
+fn package_lib_canonical__1sphere_uv(n: vec3f) -> vec2f {
     let off_axis = length(n.xz);
     let at_center = (off_axis == 0.0) & (n.y == 0.0);
     let latitude = atan2(n.y, select(off_axis, 1.0, at_center));
-    return vec2f(package_lib_form_longitude(n.x, n.z), saturate(0.5 + 2.0 * latitude / package_lib_form__1TWO_PI));
+    return vec2f(package_lib_canonical_longitude(n.x, n.z), saturate(0.5 + 2.0 * latitude / package_lib_canonical__1TWO_PI));
 }
 
-fn package_lib_form_outwards(v: vec2f) -> vec2f {
+fn package_lib_canonical_outwards(v: vec2f) -> vec2f {
     let size = length(v);
     let usable = size > 1e-18;
     return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
@@ -1760,8 +1766,8 @@ fn package_lib_intersect_disc__1intersect_disc(ray: package_types_Ray, hole: f32
     return package_types_Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_disc__1disc_point(p: vec3f) -> package_lib_form_FormPoint {
-    return package_lib_form_FormPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+fn package_lib_intersect_disc__1disc_point(p: vec3f) -> package_lib_canonical_CanonicalPoint {
+    return package_lib_canonical_CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
 fn package_lib_intersect_rectangle__1intersect_rectangle(ray: package_types_Ray) -> package_types_Candidate {
@@ -1773,8 +1779,8 @@ fn package_lib_intersect_rectangle__1intersect_rectangle(ray: package_types_Ray)
     return package_types_Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_rectangle__1rectangle_point(p: vec3f) -> package_lib_form_FormPoint {
-    return package_lib_form_FormPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+fn package_lib_intersect_rectangle__1rectangle_point(p: vec3f) -> package_lib_canonical_CanonicalPoint {
+    return package_lib_canonical_CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
 fn package_lib_intersect_box__1intersect_box(ray: package_types_Ray) -> package_types_Candidate {
@@ -1798,7 +1804,7 @@ fn package_lib_intersect_box__1intersect_box(ray: package_types_Ray) -> package_
     return package_types_Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
 }
 
-fn package_lib_intersect_box__1box_point(p: vec3f, side: f32) -> package_lib_form_FormPoint {
+fn package_lib_intersect_box__1box_point(p: vec3f, side: f32) -> package_lib_canonical_CanonicalPoint {
     let code = u32(side + 0.5);
     let positive = code >= 3u;
     let axis = code - select(0u, 3u, positive);
@@ -1807,7 +1813,7 @@ fn package_lib_intersect_box__1box_point(p: vec3f, side: f32) -> package_lib_for
     let place = select(p, n, n != vec3f(0.0));
     let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
     let up = select(p.y, -sign * p.z, axis == 1u);
-    return package_lib_form_FormPoint(place, n, saturate(0.5 + 0.5 * vec2f(right, up)));
+    return package_lib_canonical_CanonicalPoint(place, n, saturate(0.5 + 0.5 * vec2f(right, up)));
 }
 
 const package_lib_intersect_cone_FAR: f32 = 1e30;
@@ -1819,7 +1825,7 @@ const package_lib_intersect_cone_BOTTOM: f32 = 1.0;
 const package_lib_intersect_cone_TOP: f32 = 2.0;
 
 fn package_lib_intersect_cone__1intersect_cone(ray: package_types_Ray, bottom: f32, top: f32, capped: bool) -> package_types_Candidate {
-    let near = package_lib_form_approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
+    let near = package_lib_canonical_approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
     let o = near.origin;
     let d = near.direction;
     let slope = top - bottom;
@@ -1861,7 +1867,7 @@ fn package_lib_intersect_cone__1intersect_cone(ray: package_types_Ray, bottom: f
     let is_side = select(leaves_side, enters_side, takes_enter);
     let end = select(package_lib_intersect_cone_BOTTOM, package_lib_intersect_cone_TOP, (d.y > 0.0) != takes_enter);
     let s = select(rough, package_lib_intersect_cone_polish(o, d, bottom, slope, rough), is_side);
-    let t = package_lib_form__1approached_t(near, s);
+    let t = package_lib_canonical__1approached_t(near, s);
     return package_types_Candidate(hit & (t > 0.0), t, select(end, package_lib_intersect_cone_SIDE, is_side), 0.0);
 }
 
@@ -1874,21 +1880,21 @@ fn package_lib_intersect_cone_polish(o: vec3f, d: vec3f, bottom: f32, slope: f32
     return s - clamp(select(0.0, step, usable), -0.001, 0.001);
 }
 
-fn package_lib_intersect_cone__1cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> package_lib_form_FormPoint {
+fn package_lib_intersect_cone__1cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> package_lib_canonical_CanonicalPoint {
     let slope = top - bottom;
-    let out = package_lib_form_outwards(p.xz);
+    let out = package_lib_canonical_outwards(p.xz);
     if (part < 0.5) {
         let y = saturate(p.y);
         let radius = bottom + slope * y;
         let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
-        return package_lib_form_FormPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(package_lib_form_longitude(p.x, p.z), y));
+        return package_lib_canonical_CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(package_lib_canonical_longitude(p.x, p.z), y));
     }
     let is_top = part > 1.5;
     let radius = select(bottom, top, is_top);
     let flat = out * min(length(p.xz), radius);
     let sign = select(-1.0, 1.0, is_top);
     let uv = vec2f(flat.x, -sign * flat.y) / max(radius, 1e-18);
-    return package_lib_form_FormPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate(0.5 + 0.5 * uv));
+    return package_lib_canonical_CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate(0.5 + 0.5 * uv));
 }
 
 const package_lib_intersect_torus__1MOST_ROUNDS: u32 = 40u;
@@ -1917,8 +1923,8 @@ fn package_lib_intersect_torus__1cubic_zeros(p: f32, q: f32) -> vec3f {
     let usable = size > 1e-10;
     let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
     let angle = acos(cosine) / 3.0;
-    let a = package_lib_intersect_torus_polish(2.0 * size * cos(angle + package_lib_form__1TWO_PI / 3.0), p, q);
-    let b = package_lib_intersect_torus_polish(2.0 * size * cos(angle - package_lib_form__1TWO_PI / 3.0), p, q);
+    let a = package_lib_intersect_torus_polish(2.0 * size * cos(angle + package_lib_canonical__1TWO_PI / 3.0), p, q);
+    let b = package_lib_intersect_torus_polish(2.0 * size * cos(angle - package_lib_canonical__1TWO_PI / 3.0), p, q);
     let c = package_lib_intersect_torus_polish(2.0 * size * cos(angle), p, q);
     let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
     return select(three, vec3f(one), discriminant > 0.0);
@@ -1926,7 +1932,7 @@ fn package_lib_intersect_torus__1cubic_zeros(p: f32, q: f32) -> vec3f {
 
 fn package_lib_intersect_torus__1intersect_torus(ray: package_types_Ray, minor: f32) -> package_types_Candidate {
     let outer = 1.0 + minor;
-    let near = package_lib_form_approach(ray, vec3f(0.0), 1.5 * outer);
+    let near = package_lib_canonical_approach(ray, vec3f(0.0), 1.5 * outer);
     let o = near.origin;
     let d = near.direction;
     let middle = -dot(o, d);
@@ -1944,7 +1950,7 @@ fn package_lib_intersect_torus__1intersect_torus(ray: package_types_Ray, minor: 
     let last = select(select(select(cuts.w, cuts.z, changes.z), cuts.y, changes.y), cuts.x, changes.x);
     let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
     let s = package_lib_intersect_torus__1root_between(o, d, minor, select(last, first, found), last, outside);
-    let t = package_lib_form__1approached_t(near, s);
+    let t = package_lib_canonical__1approached_t(near, s);
     return package_types_Candidate(found & (t > 0.0), t, 0.0, 0.0);
 }
 
@@ -1980,24 +1986,24 @@ fn package_lib_intersect_torus__1root_between(o: vec3f, d: vec3f, minor: f32, fi
     return s;
 }
 
-fn package_lib_intersect_torus__1torus_point(p: vec3f, minor: f32) -> package_lib_form_FormPoint {
-    let out = package_lib_form_outwards(p.xz);
-    let tube = package_lib_form_outwards(vec2f(length(p.xz) - 1.0, p.y));
+fn package_lib_intersect_torus__1torus_point(p: vec3f, minor: f32) -> package_lib_canonical_CanonicalPoint {
+    let out = package_lib_canonical_outwards(p.xz);
+    let tube = package_lib_canonical_outwards(vec2f(length(p.xz) - 1.0, p.y));
     let n = vec3f(tube.x * out.x, tube.y, tube.x * out.y);
     let ring = 1.0 + minor * tube.x;
     let place = vec3f(ring * out.x, minor * tube.y, ring * out.y);
-    return package_lib_form_FormPoint(place, n, vec2f(package_lib_form_longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / package_lib_form__1TWO_PI)));
+    return package_lib_canonical_CanonicalPoint(place, n, vec2f(package_lib_canonical_longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / package_lib_canonical__1TWO_PI)));
 }
 
 fn package_lib_intersect_ellipsoid__1intersect_ellipsoid(ray: package_types_Ray) -> package_types_Candidate {
-    let near = package_lib_form_approach(ray, vec3f(0.0), 1.5);
+    let near = package_lib_canonical_approach(ray, vec3f(0.0), 1.5);
     let found = package_lib_intersect_sphere__1intersect_sphere(package_types_Ray(near.origin, ray.t_max, near.direction, package_types_NONE, ray.leaving_instance), vec3f(0.0), 1.0);
-    return package_types_Candidate(near.near & found.hit, package_lib_form__1approached_t(near, found.t), 0.0, 0.0);
+    return package_types_Candidate(near.near & found.hit, package_lib_canonical__1approached_t(near, found.t), 0.0, 0.0);
 }
 
-fn package_lib_intersect_ellipsoid__1ellipsoid_point(p: vec3f) -> package_lib_form_FormPoint {
+fn package_lib_intersect_ellipsoid__1ellipsoid_point(p: vec3f) -> package_lib_canonical_CanonicalPoint {
     let n = package_lib_numeric__1normalize_or(p, vec3f(0.0, 1.0, 0.0));
-    return package_lib_form_FormPoint(n, n, package_lib_form__1sphere_uv(n));
+    return package_lib_canonical_CanonicalPoint(n, n, package_lib_canonical__1sphere_uv(n));
 }
 
 fn package_scene_instance__1space_of(instance: package_types_PackedInstance) -> package_lib_motion_Space {
@@ -2086,7 +2092,7 @@ fn package_lib_motion__1light_between(a: package_types_PackedLight, b: package_t
 
 var<private> package_scene_shutter__1shutter_time: f32 = 0.0;
 
-fn package_scene_shutter__1camera_now(still: package_types_PackedCamera) -> package_types_PackedCamera {
+fn package_scene_shutter__1shutter_camera(still: package_types_PackedCamera) -> package_types_PackedCamera {
     if (package_bindings__1CAMERA_MOTION) {
         let moment = package_lib_motion__1moment_of(package_scene_shutter__1shutter_time, package_bindings_frame.camera_key_count);
         return package_lib_motion__1camera_between(package_scene_fetch__1load_camera(moment.key), package_scene_fetch__1load_camera(moment.key + 1u), moment.fraction);
@@ -2094,7 +2100,7 @@ fn package_scene_shutter__1camera_now(still: package_types_PackedCamera) -> pack
     return still;
 }
 
-fn package_scene_shutter__1light_now(index: u32, light_count: u32) -> package_types_PackedLight {
+fn package_scene_shutter__1shutter_light(index: u32, light_count: u32) -> package_types_PackedLight {
     if (package_bindings__1LIGHT_MOTION) {
         let moment = package_lib_motion__1moment_of(package_scene_shutter__1shutter_time, package_bindings_frame.light_key_count);
         let place = moment.key * light_count + index;
@@ -2162,7 +2168,7 @@ struct package_scene_optics_Weights {
     highlight: vec3f
 }
 
-fn package_scene_optics_scatter(batch: package_scene_slice_Batch, state: package_scene__1ray_stack_RayState, distance: f32, contact: package_scene_contact_Contact, factors: mat3x3f) -> package_scene_optics_ScatterEvent {
+fn package_scene_optics_scatter(batch: package_scene_dispatch_Batch, state: package_scene__1ray_stack_RayState, distance: f32, contact: package_scene_contact_Contact, factors: mat3x3f) -> package_scene_optics_ScatterEvent {
     let surface = contact.surface;
     let direction = state.ray.direction;
     let optics = package_scene_fetch__1load_optics(surface.material);
@@ -2175,7 +2181,7 @@ fn package_scene_optics_scatter(batch: package_scene_slice_Batch, state: package
     if (package_bindings__1HAS_REFRACTION) {
         var here = package_scene_medium_dominant(state.media);
         if (transparent) {
-            here = package_scene_medium_travelled(state.media, surface.material, surface.outside);
+            here = package_scene_medium__1medium_before(state.media, surface.material, surface.outside);
             media = package_scene_contact__1media_behind(state.media, contact);
             let behind = package_scene_medium_dominant(media);
             ior_behind = package_scene_medium__1medium_of(behind).ior;
@@ -2212,16 +2218,13 @@ fn package_scene_optics_scatter(batch: package_scene_slice_Batch, state: package
     var reflected_ray = package_scene__1ray_stack__1no_ray();
     var refracted_ray = package_scene__1ray_stack__1no_ray();
     let deeper = state.depth < batch.max_depth;
-    if (package_bindings__1HAS_REFLECTION && deeper && package_scene_optics_matters(batch, arriving * reflect)) {
+    if (package_bindings__1HAS_REFLECTION && deeper && package_scene_optics__2is_worth_tracing(batch, arriving * reflect)) {
         let way = package_lib_fresnel_mirrored(direction, n);
-        let is_flat = surface.leaving != package_types_NONE;
-        let origin = package_lib_offset_retreat(surface.p, surface.error, surface.ng, state.ray, distance, is_flat);
-        let ray = package_types_Ray(origin, package_lib_camera__1T_FAR, way, surface.leaving, surface.instance);
+        let ray = package_scene_surface__1mirrored_ray(surface, way, package_lib_camera__1T_FAR, state.ray, distance);
         reflected_ray = package_scene__1ray_stack_RayState(ray, arriving * reflect, state.media, state.depth + 1u, package_scene__1ray_stack__1KIND_REFLECTED, 2u * state.node);
     }
-    if (package_bindings__1HAS_REFRACTION && transparent && (deeper || !is_boundary) && package_scene_optics_matters(batch, arriving * transmit)) {
-        let origin = package_lib_offset__1offset_origin(surface.p, surface.error, surface.ng, straight);
-        let ray = package_types_Ray(origin, package_lib_camera__1T_FAR, straight, surface.leaving, surface.instance);
+    if (package_bindings__1HAS_REFRACTION && transparent && (deeper || !is_boundary) && package_scene_optics__2is_worth_tracing(batch, arriving * transmit)) {
+        let ray = package_scene_surface__1leaving_ray(surface, straight, package_lib_camera__1T_FAR);
         refracted_ray = package_scene__1ray_stack_RayState(ray, arriving * transmit, media, select(state.depth, state.depth + 1u, is_boundary), package_scene__1ray_stack__1KIND_REFRACTED, 2u * state.node + 1u);
     }
     let sends = any(reflected_ray.throughput > vec3f(0.0));
@@ -2237,7 +2240,7 @@ fn package_scene_optics__1boundary_at(flags: u32, cos_i: f32, eta: f32) -> packa
     return package_lib_fresnel_fresnel(cos_i, eta);
 }
 
-fn package_scene_optics_matters(batch: package_scene_slice_Batch, throughput: vec3f) -> bool {
+fn package_scene_optics__2is_worth_tracing(batch: package_scene_dispatch_Batch, throughput: vec3f) -> bool {
     let mean = dot(throughput, vec3f(1.0 / 3.0));
     return (mean > 0.0) & (mean >= batch.min_throughput);
 }
@@ -2284,16 +2287,16 @@ fn package_scene_medium_transmittance(medium: package_types_Medium, distance: f3
     return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
 }
 
-fn package_scene_medium_crossed(media: vec4u, material: u32, entering: bool) -> vec4u {
+fn package_scene_medium__1cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
     return select(package_lib_media_left(media, material), package_lib_media_entered(media, material), vec4<bool>(entering));
 }
 
-fn package_scene_medium_travelled(media: vec4u, material: u32, entering: bool) -> u32 {
+fn package_scene_medium__1medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
     let started_inside = !entering & !package_lib_media_contains(media, material);
     return select(package_scene_medium_dominant(media), material, started_inside);
 }
 
-fn package_scene_background_background(batch: package_scene_slice_Batch, direction: vec3f) -> vec3f {
+fn package_scene_background_background(batch: package_scene_dispatch_Batch, direction: vec3f) -> vec3f {
     if (package_bindings_BACKGROUND == package_types__1BACKGROUND_GRADIENT) {
         return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
     }
@@ -2367,7 +2370,7 @@ fn package_scene_contact__1contact_at(ray: package_types_Ray, hit: package_types
             second_wanted = package_bindings__1HAS_REFRACTION && package_bindings__1HAS_CONTACT && package_scene_contact__1is_near(ray, hit, surface);
         }
         else {
-            contact = package_scene_contact_joined(contact, surface, package_scene_contact__2is_one_body(hit, package_scene_primitive__1runner_up));
+            contact = package_scene_contact_merge(contact, surface, package_scene_contact__2is_same_volume(hit, package_scene_primitive__1runner_up));
             second_wanted = false;
         }
         first = false;
@@ -2386,12 +2389,12 @@ fn package_scene_contact__1media_behind(media: vec4u, contact: package_scene_con
     if (contact.surface.outside && !package_lib_media__1has_room(behind)) {
         package_scene__1ray_stack__1cut_tree();
     }
-    behind = package_scene_medium_crossed(behind, contact.surface.material, contact.surface.outside);
+    behind = package_scene_medium__1cross_surface(behind, contact.surface.material, contact.surface.outside);
     if (package_bindings__1HAS_CONTACT && contact.touching != package_types_NONE) {
         if (contact.enters_touching && !package_lib_media__1has_room(behind)) {
             package_scene__1ray_stack__1cut_tree();
         }
-        behind = package_scene_medium_crossed(behind, contact.touching, contact.enters_touching);
+        behind = package_scene_medium__1cross_surface(behind, contact.touching, contact.enters_touching);
     }
     return behind;
 }
@@ -2399,19 +2402,19 @@ fn package_scene_contact__1media_behind(media: vec4u, contact: package_scene_con
 fn package_scene_contact__1is_near(ray: package_types_Ray, hit: package_types_Hit, surface: package_types_Surface) -> bool {
     let gap = (package_scene_primitive__1runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
     let reach = package_lib_numeric__1max_component(abs(surface.p)) + hit.t;
-    return package_scene_primitive__1runner_up.primitive != package_types_NONE && gap <= package_scene_contact_NEAR * reach && package_scene_contact__1is_clear(surface);
+    return package_scene_primitive__1runner_up.primitive != package_types_NONE && gap <= package_scene_contact_NEAR * reach && package_scene_contact__1is_transparent(surface);
 }
 
-fn package_scene_contact__1is_clear(surface: package_types_Surface) -> bool {
+fn package_scene_contact__1is_transparent(surface: package_types_Surface) -> bool {
     return any(package_scene_fetch__1load_optics(surface.material).transmit > vec3f(0.0));
 }
 
-fn package_scene_contact_joined(contact: package_scene_contact_Contact, second: package_types_Surface, is_one_body: bool) -> package_scene_contact_Contact {
+fn package_scene_contact_merge(contact: package_scene_contact_Contact, second: package_types_Surface, is_same_volume: bool) -> package_scene_contact_Contact {
     let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
-    let is_other = !(is_alike & is_one_body);
+    let is_other = !(is_alike & is_same_volume);
     let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
     var both = contact;
-    if (together && package_scene_contact__1is_clear(second)) {
+    if (together && package_scene_contact__1is_transparent(second)) {
         both.touching = second.material;
         both.enters_touching = second.outside;
     }
@@ -2422,7 +2425,7 @@ fn package_scene_contact_joined(contact: package_scene_contact_Contact, second: 
     return both;
 }
 
-fn package_scene_contact__2is_one_body(first: package_types_Hit, second: package_types_Hit) -> bool {
+fn package_scene_contact__2is_same_volume(first: package_types_Hit, second: package_types_Hit) -> bool {
     let are_triangles = package_bindings__1HAS_TRIANGLES && ((first.primitive | second.primitive) & package_types_SHAPE) == 0u;
     if (!are_triangles || first.instance != second.instance) {
         return false;
@@ -2513,7 +2516,7 @@ fn package_scene_surface__1triangle_surface(ray: package_types_Ray, hit: package
     }
     let ng = package_lib_numeric__1normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
     let n = package_lib_numeric__1normalize_or(normals * vec3f(b0, b1, b2), ng);
-    return package_types_Surface(corners * vec3f(b0, b1, b2), select(n, -n, package_scene_surface_turns(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, package_lib_offset__1triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, package_types__1NO_INSTANCE);
+    return package_types_Surface(corners * vec3f(b0, b1, b2), select(n, -n, package_scene_surface__1must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, package_lib_offset__1triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, package_types__1NO_INSTANCE);
 }
 
 fn package_scene_surface__1shape_surface(ray: package_types_Ray, hit: package_types_Hit) -> package_types_Surface {
@@ -2528,39 +2531,57 @@ fn package_scene_surface__1shape_surface(ray: package_types_Ray, hit: package_ty
         if (package_bindings__1HAS_TEXTURES) {
             plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
         }
-        return package_types_Surface(p, select(ng, -ng, package_scene_surface_turns(material.flags, 1.0, dot(ng, ray.direction))), ng, package_lib_offset__1plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, package_types__1NO_INSTANCE);
+        return package_types_Surface(p, select(ng, -ng, package_scene_surface__1must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, package_lib_offset__1plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, package_types__1NO_INSTANCE);
     }
     if (!package_scene_shape__1is_round(shape.kind)) {
-        let point = package_scene_shape__1form_point(shape, reached, hit.b1);
-        let placed = package_lib_form__1placed_point(shape, reached, point);
+        let point = package_scene_shape__1canonical_point(shape, reached, hit.b1);
+        let placed = package_lib_canonical__1placed_point(shape, reached, point);
         let ng = placed.ng;
-        return package_types_Surface(placed.p, select(ng, -ng, package_scene_surface_turns(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(package_types_NONE, hit.primitive, package_scene_shape__1is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, package_types__1NO_INSTANCE);
+        return package_types_Surface(placed.p, select(ng, -ng, package_scene_surface__1must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(package_types_NONE, hit.primitive, package_scene_shape__1is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, package_types__1NO_INSTANCE);
     }
     let placed = package_scene_surface__1sphere_point(shape, reached, ray.direction);
     let ng = placed.ng;
     let outside = dot(ng, ray.direction) <= 0.0;
     var uv = vec2f(0.0);
     if (package_bindings__1HAS_TEXTURES) {
-        uv = package_lib_form__1sphere_uv(ng);
+        uv = package_lib_canonical__1sphere_uv(ng);
     }
-    return package_types_Surface(placed.p, select(ng, -ng, package_scene_surface_turns(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, package_types_NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, package_types__1NO_INSTANCE);
+    return package_types_Surface(placed.p, select(ng, -ng, package_scene_surface__1must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, package_types_NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, package_types__1NO_INSTANCE);
 }
 
-fn package_scene_surface__1sphere_point(shape: package_types_PackedShape, reached: vec3f, direction: vec3f) -> package_lib_form_PlacedPoint {
+fn package_scene_surface__1sphere_point(shape: package_types_PackedShape, reached: vec3f, direction: vec3f) -> package_lib_canonical_PlacedPoint {
     if ((package_bindings__1SHAPE_KINDS & package_scene_shape_GLOBES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_GLOBES || shape.kind == package_types__1SHAPE_GLOBE)) {
         return package_lib_intersect_globe__1globe_point(shape, reached);
     }
     let ng = package_lib_numeric__1normalize_or(reached - shape.position, -direction);
-    return package_lib_form_PlacedPoint(shape.position + shape.size0 * ng, ng, package_lib_offset__1sphere_error(shape.position, shape.size0));
+    return package_lib_canonical_PlacedPoint(shape.position + shape.size0 * ng, ng, package_lib_offset__1sphere_error(shape.position, shape.size0));
 }
 
-fn package_scene_surface_turns(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
+fn package_scene_surface__1must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
     let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
     return (flags & package_types__2MATERIAL_TWO_SIDED) != 0u && faces_away;
 }
 
 fn package_scene_surface__1mix_phong(p0: package_types_Phong, p1: package_types_Phong, p2: package_types_Phong, b0: f32, b1: f32, b2: f32) -> package_types_Phong {
     return package_types_Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+}
+
+fn package_scene_surface__1leaving_ray(surface: package_types_Surface, direction: vec3f, t_max: f32) -> package_types_Ray {
+    if (package_bindings__1FIXED_OFFSET > 0.0) {
+        let origin = package_lib_offset__1fixed_origin(surface.p, surface.ng, direction, package_bindings__1FIXED_OFFSET);
+        return package_types_Ray(origin, t_max, direction, package_types_NONE, surface.instance);
+    }
+    let origin = package_lib_offset__1offset_origin(surface.p, surface.error, surface.ng, direction);
+    return package_types_Ray(origin, t_max, direction, surface.leaving, surface.instance);
+}
+
+fn package_scene_surface__1mirrored_ray(surface: package_types_Surface, direction: vec3f, t_max: f32, arriving: package_types_Ray, distance: f32) -> package_types_Ray {
+    if (package_bindings__1FIXED_OFFSET > 0.0) {
+        return package_scene_surface__1leaving_ray(surface, direction, t_max);
+    }
+    let is_flat = surface.leaving != package_types_NONE;
+    let origin = package_lib_offset__1mirrored_origin(surface.p, surface.error, surface.ng, arriving, distance, is_flat);
+    return package_types_Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
 fn package_lib_offset__1triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
@@ -2585,11 +2606,14 @@ fn package_lib_offset_clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
 }
 
 fn package_lib_offset__1offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
-    let distance = package_lib_offset_clearance(p, error, ng);
+    return package_lib_offset__1fixed_origin(p, ng, direction, package_lib_offset_clearance(p, error, ng));
+}
+
+fn package_lib_offset__1fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
     return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
 }
 
-fn package_lib_offset_retreat(p: vec3f, error: vec3f, ng: vec3f, arriving: package_types_Ray, distance: f32, is_flat: bool) -> vec3f {
+fn package_lib_offset__1mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: package_types_Ray, distance: f32, is_flat: bool) -> vec3f {
     let height = package_lib_offset_clearance(p, error, ng);
     let slope = dot(ng, arriving.direction);
     let back = height / max(abs(slope), 1e-6);
@@ -2781,7 +2805,7 @@ fn package_lib_fresnel_refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f3
     return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
-fn package_scene_direct_shade(batch: package_scene_slice_Batch, surface: package_types_Surface, v: vec3f, key: package_types_SampleKey, media: vec4u) -> vec3f {
+fn package_scene_direct_shade(batch: package_scene_dispatch_Batch, surface: package_types_Surface, v: vec3f, key: package_types_SampleKey, media: vec4u) -> vec3f {
     var color = batch.ambient * surface.phong.ambient;
     package_scene_record__1record_ambient(color);
     if (!package_bindings__1HAS_LIGHTS) {
@@ -2789,7 +2813,7 @@ fn package_scene_direct_shade(batch: package_scene_slice_Batch, surface: package
     }
     var index = 0u;
     loop {
-        let light = package_scene_shutter__1light_now(index, batch.light_count);
+        let light = package_scene_shutter__1shutter_light(index, batch.light_count);
         package_scene_record__1open_light(index, 1.0);
         if (package_bindings__2HAS_AREA_LIGHTS) {
             color += package_scene_direct_sampled(batch, surface, v, light, package_types_SampleKey(package_lib_rng__1hash_combine(key.hash, index), key.index, key.weight), media);
@@ -2806,7 +2830,7 @@ fn package_scene_direct_shade(batch: package_scene_slice_Batch, surface: package
     return color;
 }
 
-fn package_scene_direct_sampled(batch: package_scene_slice_Batch, surface: package_types_Surface, v: vec3f, light: package_types_PackedLight, key: package_types_SampleKey, media: vec4u) -> vec3f {
+fn package_scene_direct_sampled(batch: package_scene_dispatch_Batch, surface: package_types_Surface, v: vec3f, light: package_types_PackedLight, key: package_types_SampleKey, media: vec4u) -> vec3f {
     let has_extent = light.kind >= package_types__1LIGHT_RECTANGLE;
     let wanted = max(round(f32(light.sample_count) * batch.light_samples * key.weight), 1.0);
     let count = select(1u, u32(wanted), has_extent);
@@ -2832,13 +2856,12 @@ fn package_scene_direct_direct(surface: package_types_Surface, v: vec3f, arrivin
     let reflected = arriving.radiance * package_lib_phong_phong(surface.phong, surface.n, arriving.direction, v);
     var color = vec3f(0.0);
     if (any(reflected > vec3f(0.0))) {
-        let origin = package_lib_offset__1offset_origin(surface.p, surface.error, surface.ng, arriving.direction);
-        let distance = max(arriving.distance - dot(origin - surface.p, arriving.direction), 0.0);
-        let ray = package_types_Ray(origin, distance, arriving.direction, surface.leaving, surface.instance);
+        var ray = package_scene_surface__1leaving_ray(surface, arriving.direction, arriving.distance);
+        ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
         let through = package_scene_shadow__1light_through(ray, media);
         if (package_bindings__1COUNT_RAYS) {
-            package_scene_slice_counts.shadow += 1u;
-            package_scene_slice_counts.shadow_blocked += select(0u, 1u, all(through == vec3f(0.0)));
+            package_scene_dispatch_counts.shadow += 1u;
+            package_scene_dispatch_counts.shadow_blocked += select(0u, 1u, all(through == vec3f(0.0)));
         }
         package_scene_record__1record_shadow(ray, reflected, through);
         color = through * reflected;
@@ -3022,7 +3045,7 @@ fn package_lib_phong_phong(coefficients: package_types_Phong, n: vec3f, l: vec3f
     return select(vec3f(0.0), lit, cos_l > 0.0);
 }
 
-const package_scene_shadow__1MOST_CROSSINGS: u32 = 64u;
+const package_scene_shadow__1MAX_CROSSINGS: u32 = 64u;
 
 fn package_scene_shadow__1light_through(ray: package_types_Ray, media: vec4u) -> vec3f {
     package_scene_record__1open_shadow(ray.t_max);
@@ -3038,19 +3061,19 @@ fn package_scene_shadow_filtered(shadow_ray: package_types_Ray, start: vec4u) ->
     var media = start;
     var transmitted = vec3f(1.0);
     var crossings = 0u;
-    var on_its_way = true;
+    var is_unfinished = true;
     loop {
         let hit = package_scene_traverse__1closest_hit(ray);
         if (hit.primitive == package_types_NONE) {
             transmitted *= package_scene_medium_transmittance(package_scene_medium__1medium_of(package_scene_medium_dominant(media)), hit.t);
-            on_its_way = false;
+            is_unfinished = false;
         }
         else {
             let contact = package_scene_contact__1contact_at(ray, hit);
             package_scene_record__1record_met(package_scene_record_seen, shadow_ray.t_max - ray.t_max);
             let surface = contact.surface;
             let optics = package_scene_fetch__1load_optics(surface.material);
-            let here = package_scene_medium_travelled(media, surface.material, surface.outside);
+            let here = package_scene_medium__1medium_before(media, surface.material, surface.outside);
             media = package_scene_contact__1media_behind(media, contact);
             let behind = package_scene_medium_dominant(media);
             var through = package_scene_texture__1texture_optics(surface)[1] * optics.transmit * package_scene_medium_transmittance(package_scene_medium__1medium_of(here), hit.t);
@@ -3060,19 +3083,18 @@ fn package_scene_shadow_filtered(shadow_ray: package_types_Ray, start: vec4u) ->
                 through *= 1.0 - package_lib_fresnel_fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
             }
             transmitted *= through;
-            let origin = package_lib_offset__1offset_origin(surface.p, surface.error, surface.ng, ray.direction);
             let rest = ray.t_max - hit.t;
-            ray = package_types_Ray(origin, rest, ray.direction, surface.leaving, surface.instance);
-            on_its_way = any(transmitted > vec3f(0.0)) & (rest > 0.0);
+            ray = package_scene_surface__1leaving_ray(surface, ray.direction, rest);
+            is_unfinished = any(transmitted > vec3f(0.0)) & (rest > 0.0);
         }
         crossings += 1u;
         continuing {
         
-            break if !on_its_way | (crossings >= package_scene_shadow__1MOST_CROSSINGS);
+            break if !is_unfinished | (crossings >= package_scene_shadow__1MAX_CROSSINGS);
         }
     }
-    package_scene_loops__1cut_off |= on_its_way & (crossings < package_scene_shadow__1MOST_CROSSINGS);
-    return select(transmitted, vec3f(0.0), on_its_way);
+    package_scene_loops__1cut_off |= is_unfinished & (crossings < package_scene_shadow__1MAX_CROSSINGS);
+    return select(transmitted, vec3f(0.0), is_unfinished);
 }
 
 const package_lib_filter_PI: f32 = 3.14159265;
