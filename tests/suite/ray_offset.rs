@@ -6,7 +6,8 @@ use glam::{DAffine3, DQuat, DVec3, Vec3, dvec3};
 use glimray::image::Image;
 use glimray::render::{RayOffset, RenderSettings};
 use glimray::scene::{
-    Attenuation, Background, Camera, Form, Geometry, Light, LightKind, Material, Scene, Shape,
+    Attenuation, Background, Camera, CanonicalShape, Geometry, Light, LightKind, Material, Scene,
+    Shape,
 };
 
 /// White surfaces in the light of a sun that shines in `direction`.
@@ -48,8 +49,8 @@ fn box_on_a_floor(height: f64, slope: f64) -> Scene {
     let center = dvec3(-0.025, height / 2.0, 0.0);
     scene.shapes.push(Shape {
         geometry: Geometry::Placed {
-            form: Form::Box,
-            world_from_form: DAffine3::from_scale_rotation_translation(
+            canonical: CanonicalShape::Box,
+            world_from_canonical: DAffine3::from_scale_rotation_translation(
                 half,
                 DQuat::IDENTITY,
                 center,

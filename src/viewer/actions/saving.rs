@@ -8,7 +8,7 @@ use crate::viewer::state::session::Session;
 use std::path::{Path, PathBuf};
 
 /// Saves where the scene was saved before, else asks.
-pub(super) fn save(session: &mut Session) {
+pub fn save(session: &mut Session) {
     match session.path.clone() {
         Some(path) if is_own(session, Some(&path)) => {
             if let Err(why) = write(session, &path) {
@@ -20,7 +20,7 @@ pub(super) fn save(session: &mut Session) {
 }
 
 /// Asks for a name.
-pub(super) fn ask(session: &mut Session) {
+pub fn ask(session: &mut Session) {
     if session.scene().is_none() {
         return;
     }
