@@ -4,5 +4,7 @@ pub(crate) mod context;
 pub(crate) mod dialogs;
 pub(crate) mod overlay;
 pub(crate) mod panels;
+pub(crate) mod region;
+pub(crate) mod shield;
 pub(crate) mod tabs;
 pub(crate) mod textures;

@@ -411,7 +411,7 @@ fn native_scenes_and_flags_have_orthographic_cameras() {
     };
     let (code, text) = run("inspect a.toml");
     assert!(
-        code == Some(0) && text.contains("orthographic, 2.5 high"),
+        code == Some(0) && text.contains("orthographic, view height 2.5"),
         "{text}"
     );
     let (_, text) = run("inspect a.toml --json");

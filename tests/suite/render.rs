@@ -570,7 +570,7 @@ fn the_message_of_the_loop_limit_names_what_is_too_much() {
             layers(5000),
             sized(8, 8),
             "(very many surfaces in one place",
-            "duplicates",
+            "duplicate",
         ),
     ];
     for (scene, settings, cause, remedy) in rows {

@@ -432,7 +432,7 @@ fn inspect_lists_textures_and_pictures() {
     let text = inspect(&[]);
     for line in [
         "noise over world, ",
-        "picture over world, number 0",
+        "picture over world, picture 0",
         "128×128 texels",
     ] {
         assert!(text.contains(line), "{line} in\n{text}");

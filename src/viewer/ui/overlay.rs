@@ -1,7 +1,6 @@
 //! What is drawn over the picture for editing: a box round what is selected, and its handles.
 
 use crate::scene::{Camera, Geometry, LightKind, ObjectRef, Scene};
-use crate::viewer::actions::modal;
 use crate::viewer::model::bindings::Action;
 use crate::viewer::model::handles::{Eye, Grip, Handles, Part};
 use crate::viewer::model::modal::Modal;
@@ -10,10 +9,7 @@ use crate::viewer::model::objects::Id;
 use crate::viewer::model::tool::Tool;
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::state::session::Session;
-use eframe::egui::{
-    self, Align2, Color32, FontId, Order, Painter, PointerButton, Pos2, Sense, Shape, Stroke,
-    StrokeKind,
-};
+use eframe::egui::{self, Align2, Color32, FontId, Painter, Pos2, Shape, Stroke};
 use glam::{DAffine3, DVec3};
 
 /// How long handles are, and how near the pointer must come, in points.
@@ -415,44 +411,4 @@ fn pyramid(camera: &Camera) -> Vec<[DVec3; 2]> {
     let rim = corners.iter().zip(next).map(|(a, b)| [a.1, b.1]);
     let sides = corners.iter().map(|(from, to)| [*from, *to]);
     sides.chain(rim).collect()
-}
-
-/// Lies over the whole window while a movement is under way: clicks end it and do nothing else.
-pub fn shield(ctx: &egui::Context, session: &mut Session) {
-    if session.editing.modal.is_none() {
-        return;
-    }
-    // Nobody sees where the thing is.
-    if session.viewport.is_none() {
-        modal::cancel(session);
-        return;
-    }
-    let area = egui::Area::new(egui::Id::unique("movement")).order(Order::Foreground);
-    let area = area.fixed_pos(ctx.content_rect().min);
-    let response = area.show(ctx, |ui| {
-        ui.allocate_response(ctx.content_rect().size(), Sense::click_and_drag())
-    });
-    let response = response.inner;
-    let ends = |button| response.clicked_by(button) || response.drag_stopped_by(button);
-    if ends(PointerButton::Secondary) {
-        modal::cancel(session);
-    } else if ends(PointerButton::Primary)
-        && let Some(modal) = &mut session.editing.modal
-    {
-        modal.is_confirmed = true;
-        ctx.request_repaint();
-    }
-}
-
-/// Draws the edges, to be seen on any picture.
-pub fn region_outline(painter: &egui::Painter, viewport: Viewport, region: [u32; 4]) {
-    let rect = viewport.part(region);
-    let dark = Stroke::new(3.0, Color32::from_black_alpha(140));
-    painter.rect_stroke(rect, 0.0, dark, StrokeKind::Middle);
-    painter.rect_stroke(
-        rect,
-        0.0,
-        Stroke::new(1.0, Color32::WHITE),
-        StrokeKind::Middle,
-    );
 }

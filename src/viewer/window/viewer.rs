@@ -10,7 +10,7 @@ use crate::viewer::state::session::Session;
 use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::dialogs;
 use crate::viewer::ui::textures::Textures;
-use crate::viewer::ui::{overlay, panels, tabs};
+use crate::viewer::ui::{panels, shield, tabs};
 use crate::viewer::window::presses::Presses;
 use crate::viewer::worker::progressive_image::PictureSlot;
 use crate::viewer::worker::progressive_image::patience;
@@ -176,7 +176,7 @@ impl eframe::App for Viewer {
         panels::menu(ui, &mut context, &mut self.layout);
         panels::status(ui, &mut context);
         tabs::show(ui, &mut self.layout, &mut context);
-        overlay::shield(ui.ctx(), context.session);
+        shield::show(ui.ctx(), context.session);
         dialogs::show(ui, &mut context, &mut self.layout);
         panels::messages(ui, &mut context);
         self.textures.end();

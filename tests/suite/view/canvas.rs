@@ -557,7 +557,7 @@ fn a_picture_is_finished_while_the_window_draws_nothing() {
 
 #[test]
 fn a_window_without_room_renders_nothing_and_comes_back() {
-    let mut window = Window::open(&["--samples", "1"]);
+    let mut window = Window::open(&["assets/scenes/sphere.scene", "--samples", "1"]);
     window.settle();
     let size = window.shown().size;
     window.session().set_space((0, 0));
@@ -574,7 +574,7 @@ fn a_window_without_room_renders_nothing_and_comes_back() {
 
 #[test]
 fn a_finer_screen_gets_a_picture_of_as_many_pixels_more() {
-    let mut window = Window::open(&["--samples", "1"]);
+    let mut window = Window::open(&["assets/scenes/sphere.scene", "--samples", "1"]);
     window.settle();
     let (width, height) = window.shown().size;
     let viewports = &mut window.harness.input_mut().viewports;

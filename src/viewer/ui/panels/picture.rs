@@ -9,8 +9,8 @@ use crate::viewer::actions::tools;
 use crate::viewer::model::bindings::Action;
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::overlay;
 use crate::viewer::ui::panels::rays;
+use crate::viewer::ui::{self, overlay};
 use crate::viewer::worker::progressive_image::PictureSlot;
 use crate::viewer::worker::progressive_image::Shown;
 use eframe::egui::{self, Color32, Pos2, Rect, RichText, Vec2};
@@ -167,6 +167,6 @@ fn draw(painter: &egui::Painter, context: &mut PanelContext, shown: &Shown, view
         }
     }
     if context.session.view.region.is_some() {
-        overlay::region_outline(painter, viewport, shown.region);
+        ui::region::outline(painter, viewport, shown.region);
     }
 }
