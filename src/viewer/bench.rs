@@ -159,7 +159,7 @@ impl Stage {
         let gpu = Gpu::with_all_limits(&request.adapter)?;
         let (wake, news) = channel();
         let wake = move || {
-            // Fails only when nobody waits any more.
+            // Fails only if the receiver is gone.
             let _ = wake.send(());
         };
         let thread = RenderThread::new(gpu, wake)

@@ -1,4 +1,4 @@
-//! The window of the operating system: opened with our device, and opened again when that is lost.
+//! The native window: opened with our device, and reopened when the device is lost.
 
 mod events;
 mod presses;
@@ -19,11 +19,11 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 use winit::event_loop::EventLoop;
 
-/// How often a lost device is replaced within this time before the window stays closed.
+/// Maximum number of device losses within this time before the program ends.
 const MAX_LOSSES: usize = 3;
 const RECENT: Duration = Duration::from_secs(600);
 
-/// Shows the session until the person closes the window.
+/// Runs the window until the user closes it.
 pub fn run(session: Session, choice: &AdapterChoice) -> Result<(), AppError> {
     check_display()?;
     let session = Rc::new(RefCell::new(session));
@@ -49,12 +49,13 @@ pub fn run(session: Session, choice: &AdapterChoice) -> Result<(), AppError> {
                 GpuError::KeptFailing { count }.into(),
             ));
         }
-        let told = "the GPU was lost (driver reset or time-out) and is replaced: the picture starts again.";
+        let told =
+            "the GPU was lost (driver reset or timeout) and is reopened. Rendering restarts.";
         session.borrow_mut().messages.warn(told.into());
     }
 }
 
-/// Writes changes that are in no file where the next start of the system may forget them, and says so.
+/// Writes unsaved changes to a temporary file and reports its path.
 fn rescued(session: &Session, error: AppError) -> AppError {
     let Some(scene) = session.scene().filter(|_| session.has_changes()) else {
         return error;
@@ -63,15 +64,15 @@ fn rescued(session: &Session, error: AppError) -> AppError {
     let path = std::env::temp_dir().join(name);
     match scene_file::save(&path, scene, false) {
         Ok(_) => console::warning(format_args!(
-            "changes that were not saved are in {}.",
+            "unsaved changes were written to {}.",
             path.display()
         )),
-        Err(why) => console::warning(format_args!("changes could not be saved: {why}")),
+        Err(why) => console::warning(format_args!("unsaved changes could not be written: {why}")),
     }
     error
 }
 
-/// How eframe draws with our device.
+/// Configures eframe to draw with our device.
 pub fn configuration(gpu: &Gpu) -> WgpuConfiguration {
     let (instance, adapter, device, queue) = gpu.handles();
     WgpuConfiguration {
@@ -85,16 +86,16 @@ pub fn configuration(gpu: &Gpu) -> WgpuConfiguration {
     }
 }
 
-/// How it draws: pictures are not to be dithered, their values are those of files.
+/// Draw options. Dithering is off so that pictures keep the values of saved files.
 pub const OPTIONS: RendererOptions = RendererOptions {
     dithering: false,
     ..RendererOptions::PREDICTABLE
 };
 
-/// Width and height of the window at first, in points.
+/// Initial size of the window, in points.
 const SIZE: [f32; 2] = [1280.0, 800.0];
 
-/// Shows the session until the window is closed or the device is lost.
+/// Runs the window until it is closed or the device is lost.
 fn show(
     events: &mut EventLoop<UserEvent>,
     session: &Rc<RefCell<Session>>,
@@ -110,8 +111,8 @@ fn show(
         dithering: false,
         ..Default::default()
     };
-    // eframe keeps what becomes of this to itself.
-    let opened = Rc::new(Cell::new(Err("the desktop gave none".to_owned())));
+    // eframe does not return the outcome of the creator.
+    let opened = Rc::new(Cell::new(Err("the desktop opened none".to_owned())));
     let creator = {
         let (session, gpu, opened) = (session.clone(), gpu.clone(), opened.clone());
         move |context: &eframe::CreationContext| {
@@ -133,7 +134,7 @@ fn show(
     opened.replace(Ok(())).map_err(|why| no_display(&why))
 }
 
-/// A window where it was last.
+/// Restores the window's position and size.
 fn place(kept: &Preferences) -> egui::ViewportBuilder {
     let size = kept.window.unwrap_or(SIZE);
     let viewport = egui::ViewportBuilder::default().with_inner_size(size);
@@ -144,7 +145,7 @@ fn place(kept: &Preferences) -> egui::ViewportBuilder {
     }
 }
 
-/// The screen on which the window was may be gone: it comes to where its title can be reached.
+/// The window's screen may be gone; the position is limited so that its title bar stays reachable.
 fn bring_in(context: &eframe::CreationContext) {
     let Some(window) = context.winit_window() else {
         return;
@@ -167,8 +168,7 @@ fn bring_in(context: &eframe::CreationContext) {
     }
 }
 
-/// Without one of these there is nothing to connect to, and the attempt would only say so in worse
-/// words.
+/// Without one of these variables the connection fails, with a less helpful message.
 fn check_display() -> Result<(), AppError> {
     match has_display() {
         true => Ok(()),
@@ -176,7 +176,7 @@ fn check_display() -> Result<(), AppError> {
     }
 }
 
-/// Whether there seems to be a display that a window could be on.
+/// Whether a display seems to be available.
 pub fn has_display() -> bool {
     let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     !cfg!(target_os = "linux")
@@ -185,7 +185,7 @@ pub fn has_display() -> bool {
             .any(is_set)
 }
 
-/// What winit says without the places in its source that it says it from.
+/// The text of a winit error without source locations.
 fn reason(words: &str) -> &str {
     words.rsplit(": ").next().unwrap_or(words)
 }

@@ -538,7 +538,7 @@ fn the_manuals_table_has_every_command_once() {
         orbit[1..6],
         [
             "**Camera**",
-            "Go round the pivot",
+            "Orbit around the pivot",
             "left drag",
             "middle drag",
             "Alt+left drag"

@@ -351,9 +351,9 @@ fn what_a_line_cannot_say_is_named() {
     assert_eq!(
         left_out,
         [
-            "where the camera is",
+            "the camera position",
             "the background",
-            "what was changed in the scene and not saved"
+            "unsaved changes of the scene"
         ]
     );
     assert_eq!(line, "glimray render scene.toml --samples 8");

@@ -1,4 +1,4 @@
-//! What the window asks of the renderer, and what comes back.
+//! Questions to the render thread and their answers.
 
 use crate::app::advice;
 use crate::scene::ObjectRef;
@@ -11,7 +11,7 @@ use crate::viewer::state::session::Session;
 use crate::viewer::worker::progressive_image::FrameRenderer;
 use glam::DVec3;
 
-/// What is under a pixel of the picture.
+/// Picks the object under a pixel of the picture.
 pub fn pick(studio: &mut FrameRenderer, pixel: [u32; 2], purpose: Purpose) -> Answer {
     match studio.renderer.explain(pixel, 0..1) {
         Ok(tree) => {
@@ -27,7 +27,7 @@ pub fn pick(studio: &mut FrameRenderer, pixel: [u32; 2], purpose: Purpose) -> An
 }
 
 impl Session {
-    /// Takes up what the render thread answered.
+    /// Handles an answer of the render thread.
     pub fn take(&mut self, answer: Answer) {
         match answer {
             Answer::Picked { purpose, hit } => self.picked(purpose, hit),
@@ -54,7 +54,7 @@ impl Session {
             (Purpose::Select, hit) => {
                 self.selection = hit.and_then(|(_, object)| object).map(Id::Object);
             }
-            (_, None) => self.messages.tell("there is nothing under the cursor"),
+            (_, None) => self.messages.tell("Nothing is under the cursor"),
         }
     }
 }

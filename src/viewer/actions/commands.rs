@@ -1,4 +1,4 @@
-//! Every command of the viewer, wherever it comes from: a key, a menu, a button.
+//! Dispatches all commands, whether from keys, menus or buttons.
 
 use crate::viewer::actions::{dialogs, editing, files, inspector, modal, saving, tools};
 use crate::viewer::model::bindings::Action;
@@ -13,13 +13,13 @@ use eframe::egui::{self, ViewportCommand};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// What a key turns or rolls the camera by.
+/// Angle of orbit and roll commands, in radians.
 const TURN: f64 = PI / 12.0;
-/// What a key brightens by, in stops.
+/// Exposure step, in stops.
 const EXPOSURE_STEP: f32 = 1.0 / 3.0;
 
-/// Does what clicks and keys ask for; keys only where no text is edited, no question is asked and no menu
-/// is open.
+/// Performs the commands of clicks and keys. Keys are ignored while text is edited, a question is asked or a
+/// menu is open.
 pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
     for action in std::mem::take(&mut session.clicked) {
         perform(action, session, layout, ctx);
@@ -49,10 +49,10 @@ pub fn keys(session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
     }
 }
 
-/// Carries out one command.
+/// Performs a command.
 pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: &egui::Context) {
     match action {
-        // Drags, wheels and held keys are read where they act.
+        // Drags, wheels and held keys are handled where they apply.
         Action::Orbit
         | Action::Pan
         | Action::Zoom
@@ -156,7 +156,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::SavePictureWithOverlays if session.viewport.is_none() => {
             session
                 .messages
-                .tell("The picture is hidden: show its panel first");
+                .tell("The picture is hidden. Show its panel first");
         }
         Action::SavePictureWithOverlays => files::pictures::open(session, true),
         Action::Help => session.dialogs.toggle(Dialog::Shortcuts),
@@ -180,7 +180,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
     }
 }
 
-/// Moves the camera, where there is one.
+/// Changes the camera if there is one.
 fn camera(session: &mut Session, change: impl FnOnce(&mut CameraController)) {
     if let Some(controller) = &mut session.controller {
         change(controller);

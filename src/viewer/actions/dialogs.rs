@@ -5,10 +5,11 @@ use crate::viewer::state::dialogs::Dialog;
 use crate::viewer::state::session::Session;
 use eframe::egui::{self, Key};
 
-/// Whether keys are for a sheet, or leave a field, and give no commands. Escape ends a question.
+/// Whether keys belong to a dialog or leave a field, so that they perform no commands. Escape closes a
+/// question.
 pub fn take_keys(session: &mut Session, ctx: &egui::Context) -> bool {
     let is_escape = ctx.input(|input| input.key_pressed(Key::Escape));
-    // This one sees to Escape itself.
+    // These handle Escape themselves.
     if session.editing.is_asking() || session.dialogs.bindings.awaits() {
         return true;
     }
@@ -22,7 +23,7 @@ pub fn take_keys(session: &mut Session, ctx: &egui::Context) -> bool {
     is_escape && session.dialogs.had_keyboard
 }
 
-/// Closes the uppermost dialog. Whether there was one.
+/// Closes the uppermost dialog. Returns whether there was one.
 pub fn close_uppermost(session: &mut Session) -> bool {
     let files = &mut session.files;
     if files.undecided.take().is_some() || files.saving.take().is_some() {
@@ -40,17 +41,17 @@ pub fn close_uppermost(session: &mut Session) -> bool {
     }
 }
 
-/// What follows when a dialog is closed.
+/// Called when a dialog is closed.
 pub fn closed(session: &mut Session, sheet: Dialog) {
     if sheet == Dialog::Hint {
         session.preferences.hint_seen = true;
     }
 }
 
-/// Gives a command another trigger, or one more.
+/// Replaces the trigger of a command, or adds one.
 ///
 /// # Errors
-/// Another command has it, or it does not suit the command: why, in a sentence.
+/// Another command has the trigger, or it does not suit this command: why, in a sentence.
 pub fn rebind(
     session: &mut Session,
     action: Action,
@@ -61,7 +62,7 @@ pub fn rebind(
     let taken = bindings.taken_by(&trigger, action);
     if let Some(other) = taken.first() {
         return Err(format!(
-            "{} is taken: {}. Change that first.",
+            "{} is already used by “{}”. Change that shortcut first.",
             trigger.label(cfg!(target_os = "macos")),
             other.description()
         ));

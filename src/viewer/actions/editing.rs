@@ -1,8 +1,7 @@
-//! Changing the scene: the commands, and what panels keep from frame to frame.
+//! Commands that edit the scene, and the focus of the outline.
 
 use crate::app::overrides;
 use crate::scene::{Camera, Scene};
-use crate::viewer::model::bindings::Action;
 use crate::viewer::model::document::Document;
 use crate::viewer::model::objects;
 use crate::viewer::model::objects::{EditError, Id};
@@ -12,7 +11,7 @@ use crate::viewer::state::session::Session;
 use eframe::egui::{self, Key, Modifiers};
 use std::sync::Arc;
 
-/// Whether arrow keys go through the outline, which takes them, and other keys to commands.
+/// Whether the outline handles arrow keys. Other keys perform commands.
 pub fn keys(session: &mut Session, ctx: &egui::Context) -> bool {
     if !has_list_focus(session, ctx) {
         return false;
@@ -26,20 +25,20 @@ pub fn keys(session: &mut Session, ctx: &egui::Context) -> bool {
     true
 }
 
-/// Whether the outline has the keyboard focus: nothing else has it, and no line is being renamed.
+/// Whether the outline has the keyboard focus: nothing else has it, and no row is being renamed.
 pub fn has_list_focus(session: &Session, ctx: &egui::Context) -> bool {
     let editing = &session.editing;
     editing.renaming.is_none() && holds_focus(editing.list_focus, ctx)
 }
 
-/// Whether the line of the outline that had the focus still has it, or at least nothing else has: a line
-/// that is scrolled out of sight loses it.
+/// Whether the outline's focused row still has the focus, or nothing else has it: a row that is scrolled out
+/// of view loses it.
 pub fn holds_focus(line: Option<egui::Id>, ctx: &egui::Context) -> bool {
     let focused = ctx.memory(|memory| memory.focused());
     line.is_some() && (focused.is_none() || focused == line)
 }
 
-/// What changes of the scene bring with them.
+/// Updates everything that depends on the scene after an edit.
 pub fn update(session: &mut Session, ctx: &egui::Context) {
     let Some(document) = &mut session.document else {
         return;
@@ -65,7 +64,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
             session.selection = None;
         }
     }
-    // Every vertex may have to be looked at: not while something is dragged.
+    // Visits every vertex, so it is postponed while something is dragged.
     if session.editing.owes_bounds && !session.is_moving() {
         session.editing.owes_bounds = false;
         if let Some(controller) = &mut session.controller {
@@ -74,17 +73,17 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     }
 }
 
-/// Does something with what is selected, or says that nothing is.
+/// Applies an edit to the selection, or reports that nothing is selected.
 pub fn with_selection(session: &mut Session, act: impl FnOnce(&mut Session, Id)) {
     match session.selection {
         Some(id) => act(session, id),
         None => session
             .messages
-            .tell("Nothing is selected: click something"),
+            .tell("Nothing is selected. Click an object first"),
     }
 }
 
-/// Hides or shows what is selected.
+/// Hides or shows the selection.
 pub fn toggle_visible(session: &mut Session) {
     with_selection(session, |session, id| {
         let scene = session.scene().cloned();
@@ -93,7 +92,7 @@ pub fn toggle_visible(session: &mut Session) {
     });
 }
 
-/// Takes back all changes since the scene was opened, as a step that can be undone.
+/// Reverts all changes since the scene was opened, in a step that can be undone.
 pub fn revert(session: &mut Session) {
     let Some(document) = &mut session.document else {
         return;
@@ -107,7 +106,7 @@ pub fn revert(session: &mut Session) {
     session.moved();
     session
         .messages
-        .tell("Reverted all changes; Undo restores them");
+        .tell("All changes reverted. Undo restores them");
 }
 
 /// Undoes the last change.
@@ -115,7 +114,7 @@ pub fn undo(session: &mut Session) {
     step(session, false);
 }
 
-/// Redoes what was undone last.
+/// Redoes the last undone change.
 pub fn redo(session: &mut Session) {
     step(session, true);
 }
@@ -129,7 +128,7 @@ fn step(session: &mut Session, again: bool) {
         true => (document.redo(), "Redid", "redo"),
         false => (document.undo(), "Undid", "undo"),
     };
-    // Indices may stand for other things now.
+    // Indices may refer to different objects now.
     let is_other = done.as_deref().is_some_and(Document::replaces);
     let after = document.scene();
     let selected = session.selection.filter(|_| !is_other);
@@ -137,14 +136,14 @@ fn step(session: &mut Session, again: bool) {
     session.editing.renaming = None;
     session.messages.tell(match done {
         Some(name) => format!("{did} {name}"),
-        None => format!("There is nothing to {undone}"),
+        None => format!("Nothing to {undone}"),
     });
     session.moved();
 }
 
 impl Session {
-    /// Changes the scene in one step, which `name` names in words such as "move sphere 3", or tells why
-    /// that is not possible.
+    /// Changes the scene in one step. `name` describes it, such as "move sphere 3". Reports an error as a
+    /// message.
     pub fn change<T>(
         &mut self,
         name: &str,
@@ -154,8 +153,8 @@ impl Session {
         self.tell_of(name, changed)
     }
 
-    /// The same as part of a drag, which is one step until the mouse is let go. `change` gets the scene
-    /// as it was when that began.
+    /// Changes the scene as part of a drag, which is one step until the button is released. `change` gets
+    /// the scene from before the drag.
     pub fn drag_change<T>(
         &mut self,
         name: &str,
@@ -178,7 +177,7 @@ impl Session {
         }
     }
 
-    /// What something is called.
+    /// The label of something.
     pub fn label(&self, id: Id) -> String {
         let Some(scene) = self.scene() else {
             return String::new();
@@ -196,7 +195,7 @@ impl Session {
         self.change(&name, |scene| objects::set_visible(scene, id, visible));
     }
 
-    /// Hides all other objects and nodes that carry none of what stays.
+    /// Hides all other objects.
     pub fn hide_others(&mut self, id: Id) {
         let name = format!("hide all but {}", self.label(id));
         self.change(&name, |scene| {
@@ -205,15 +204,15 @@ impl Session {
         });
     }
 
-    /// Shows all that is hidden.
+    /// Shows all hidden objects.
     pub fn show_all(&mut self) {
-        self.change("show everything", |scene| {
+        self.change("show all", |scene| {
             objects::show_all(scene);
             Ok(())
         });
     }
 
-    /// Makes another one, which is selected then.
+    /// Duplicates something and selects the copy.
     pub fn duplicate(&mut self, id: Id) {
         let label = self.label(id);
         let name = format!("duplicate {label}");
@@ -221,8 +220,8 @@ impl Session {
             self.selection = Some(copy);
             let has_place = matches!(copy, Id::Object(_));
             self.messages.tell(match has_place {
-                true => format!("The copy stands where {label} is: drag it away"),
-                false => format!("Made a copy of {label}"),
+                true => format!("Duplicated in place"),
+                false => format!("Duplicated {label}"),
             });
             if has_place {
                 self.tool = Tool::Move;
@@ -230,7 +229,7 @@ impl Session {
         }
     }
 
-    /// Takes something out of the scene.
+    /// Deletes something.
     pub fn remove(&mut self, id: Id) {
         let name = format!("delete {}", self.label(id));
         if self
@@ -241,7 +240,7 @@ impl Session {
         }
     }
 
-    /// Begins to rename what is selected, if it has a name.
+    /// Starts to rename the selection, if it has a name.
     pub fn begin_rename(&mut self) {
         if let (Some(id), Some(scene)) = (self.selection, self.scene())
             && let Some(name) = objects::name(scene, id)
@@ -249,14 +248,14 @@ impl Session {
             self.editing.renaming = Some((id, name.to_owned()));
         } else if let Some(id) = self.selection {
             let told = format!(
-                "{} has no name of its own: materials, cameras and nodes do",
+                "{} has no name of its own. Rename its material or node",
                 self.label(id)
             );
             self.messages.tell(told);
         }
     }
 
-    /// Comes as near as shows all of something; a camera is looked through.
+    /// Frames something; a camera is looked through.
     pub fn frame(&mut self, id: Id) {
         self.selection = Some(id);
         let (width, height) = self.picture_size();
@@ -277,7 +276,7 @@ impl Session {
         self.moved();
     }
 
-    /// Makes what the picture is seen by the scene's own camera.
+    /// Sets the scene's camera to the current view.
     pub fn keep_camera(&mut self) {
         let Some(camera) = self.camera() else {
             return;
@@ -295,7 +294,7 @@ impl Session {
     }
 }
 
-/// A camera as the world has it at `time`.
+/// A camera in world space at `time`.
 pub fn camera_in_world(scene: &Scene, index: usize, time: f64) -> Camera {
     let mut scene = scene.clone();
     scene.camera_index = index;

@@ -1,4 +1,4 @@
-//! Scenes and pictures on the disk: opening, dropping, watching, saving.
+//! Files: opening, dropping, watching and saving scenes and pictures.
 
 pub mod cameras;
 mod closing;
@@ -10,7 +10,6 @@ use crate::app::advice;
 use crate::app::overrides::CameraOverrides;
 use crate::import;
 use crate::scene::Background;
-use crate::viewer::model::bindings::Action;
 use crate::viewer::model::file_dialog::{Reply, Request, ends_in};
 use crate::viewer::model::watch::Change;
 use crate::viewer::state::files::Broken;
@@ -22,12 +21,12 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::SystemTime;
 
-/// Opens the next scene of the folder, or the previous with −1.
+/// Opens the next scene in the folder, or the previous one with −1.
 pub fn open_next(session: &mut Session, step: isize) {
     dropped::step(session, step);
 }
 
-/// Reads the scene again; the built-in scene is only rendered again.
+/// Reloads the scene; the built-in scene is only restarted.
 pub fn reload(session: &mut Session) {
     match session.path.is_some() {
         true => intend(session, Intent::Reload),
@@ -35,7 +34,7 @@ pub fn reload(session: &mut Session) {
     }
 }
 
-/// Takes the camera out of a pasted command line.
+/// Pastes the camera of a command line.
 pub fn paste_camera(session: &mut Session, ctx: &egui::Context) {
     match pasted(ctx) {
         Some(text) => cameras::paste(session, &text),
@@ -55,7 +54,7 @@ fn pasted(ctx: &egui::Context) -> Option<String> {
     })
 }
 
-/// Does what may lose unsaved changes, or asks first.
+/// Performs an action that discards unsaved changes, after asking if there are any.
 pub fn intend(session: &mut Session, intent: Intent) {
     match session.has_changes() {
         true => session.files.undecided = Some(intent),
@@ -63,12 +62,12 @@ pub fn intend(session: &mut Session, intent: Intent) {
     }
 }
 
-/// Does it, whatever is lost.
+/// Performs it without asking.
 pub fn go_on(session: &mut Session, intent: Intent) {
     session.files.undecided = None;
     match intent {
         Intent::Open(path) => session.open(path),
-        // The scene that is being opened takes its place.
+        // The scene that is being opened replaces it.
         Intent::Reload | Intent::Follow if session.is_opening() => {}
         Intent::Reload | Intent::Follow => {
             if session.files.have_changed() {
@@ -87,12 +86,12 @@ pub fn go_on(session: &mut Session, intent: Intent) {
     }
 }
 
-/// Opens whatever it is: a scene, a folder of scenes, or a picture of the surroundings.
+/// Opens a scene, a folder of scenes, or an environment image.
 pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
     dropped::open(session, paths);
 }
 
-/// Asks the desktop for something to open.
+/// Opens a file dialog.
 pub fn ask(session: &mut Session, ctx: &egui::Context) {
     if session.files.asked.is_some() {
         return;
@@ -102,14 +101,14 @@ pub fn ask(session: &mut Session, ctx: &egui::Context) {
     let request = Request {
         saves: false,
         kind: None,
-        title: "Open a scene, a model or a picture of the surroundings".to_owned(),
+        title: "Open a scene, a model or an environment image".to_owned(),
         folder: folder.or_else(recent).map(Path::to_owned),
         name: None,
     };
     session.files.asked = Some(session.files.dialogs.ask(request, ctx));
 }
 
-/// What happened to files since the last frame.
+/// Handles changes of files since the last frame.
 pub fn update(session: &mut Session, ctx: &egui::Context) {
     take_reply(session);
     let drops: Vec<PathBuf> = ctx.input(|input| {
@@ -129,7 +128,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     }
     take_environment(session);
     follow(session, ctx);
-    pictures::update(session, ctx);
+    pictures::update(session);
     screenshot::update(session, ctx);
     closing::close(session, ctx);
     name(session, ctx);
@@ -151,10 +150,10 @@ fn take_reply(session: &mut Session) {
     session.files.asked = None;
 }
 
-/// What to say where the desktop has no dialogs.
-pub const NO_DIALOG: &str = "this desktop has no file dialog (no portal answers). Type the path, or drop a file on the window.";
+/// Message for desktops without file dialogs.
+pub const NO_DIALOG: &str = "No file dialog is available on this desktop (no portal answers). Type the path, or drop a file onto the window.";
 
-/// Reads a picture of the surroundings.
+/// Loads an environment image.
 fn surround(session: &mut Session, path: PathBuf) {
     let (sender, receiver) = channel();
     let from = path.clone();
@@ -166,7 +165,7 @@ fn surround(session: &mut Session, path: PathBuf) {
         Ok(_) => session.files.environment = Some((path, receiver)),
         Err(error) => session
             .messages
-            .warn(format!("cannot read a picture: {error}.")),
+            .warn(format!("Cannot read the image: {error}.")),
     }
 }
 
@@ -179,13 +178,13 @@ fn take_environment(session: &mut Session) {
         Err(TryRecvError::Empty) => return,
         Err(TryRecvError::Disconnected) => {
             let path = path.display();
-            let why = format!("internal fault (reading {path}). Please report it.");
+            let why = format!("Internal error while reading {path}. Please report it.");
             session.messages.warn(why);
         }
         Ok(Err(error)) => session.messages.warn(advice::import(&error)),
         Ok(Ok(picture)) => {
             session.view.background = None;
-            session.edit("Change the background", |scene| {
+            session.edit("change the background", |scene| {
                 scene.pictures.push(picture);
                 scene.background = Background::Picture {
                     picture: scene.pictures.len() - 1,
@@ -195,14 +194,16 @@ fn take_environment(session: &mut Session) {
             });
             session.moved();
             let name = short(&path);
-            session.messages.tell(format!("{name} is all round now"));
+            session
+                .messages
+                .tell(format!("{name} is now the environment"));
             session.files.surroundings.push(path);
         }
     }
     session.files.environment = None;
 }
 
-/// Takes up what became of a scene that was read.
+/// Handles the result of loading a scene.
 pub fn loaded(session: &mut Session, opened: Opened) {
     let Opened {
         path,
@@ -223,11 +224,9 @@ pub fn loaded(session: &mut Session, opened: Opened) {
             if let Some(said) = session.files.said.take() {
                 session.messages.tell(said);
             } else if again {
-                session
-                    .messages
-                    .tell(format!("read {} again", short(&path)));
+                session.messages.tell(format!("Reloaded {}", short(&path)));
             }
-            // What is wrong with another file is not mended by this one.
+            // Keeps the error of a different file.
             (session.files.broken).take_if(|broken| !again || broken.path == path);
             session.path = Some(path);
         }
@@ -242,7 +241,7 @@ pub fn loaded(session: &mut Session, opened: Opened) {
                 path: path.clone(),
                 trouble,
             });
-            // What was never on screen is watched only if nothing else is.
+            // A scene that was never shown is watched only if nothing else is.
             if !again && !is_first {
                 return;
             }
@@ -253,10 +252,9 @@ pub fn loaded(session: &mut Session, opened: Opened) {
     session.files.to_watch = Some((files, began));
 }
 
-/// Takes up that the scene was saved to these files, that of the scene last: they are watched from now
-/// on, as they are.
+/// Called after the scene was saved to these files, its own file last: they are watched from now on.
 pub fn saved(session: &mut Session, files: Vec<PathBuf>) {
-    // The file has what the command line said of the scene.
+    // The file contains the overrides of the command line now.
     session.original = session.scene().cloned();
     session.request.overrides.camera = CameraOverrides::default();
     session.request.import.overrides.clear();
@@ -267,14 +265,14 @@ pub fn saved(session: &mut Session, files: Vec<PathBuf>) {
     session.files.to_watch = Some((files, SystemTime::now()));
 }
 
-/// Reads the scene again when its files have changed.
+/// Reloads the scene when its files have changed.
 fn follow(session: &mut Session, ctx: &egui::Context) {
     if let Some((files, since)) = session.files.to_watch.take() {
         let waker = ctx.clone();
         let followed = (session.files.watch).follow(&files, since, move || waker.request_repaint());
         if let Err(why) = followed {
             session.messages.warn(format!(
-                "cannot watch the scene's files: {why}. Read the scene again by hand when they change."
+                "Cannot watch the scene's files: {why}. Reload the scene manually when they change."
             ));
         }
     }
@@ -297,8 +295,8 @@ fn follow(session: &mut Session, ctx: &egui::Context) {
         session.files.watch.accept();
         if !was_gone {
             session.messages.warn(format!(
-                "{} was deleted or moved: the last picture stays, and the scene is read again when it \
-                 comes back",
+                "{} was deleted or moved. The last picture stays visible, and the scene reloads when the \
+                 file returns.",
                 path.display()
             ));
         }
@@ -309,7 +307,7 @@ fn follow(session: &mut Session, ctx: &egui::Context) {
     intend(session, Intent::Follow);
 }
 
-/// Writes what is on screen into the window's title.
+/// Updates the window's title.
 fn name(session: &mut Session, ctx: &egui::Context) {
     let mark = if session.has_changes() { "*" } else { "" };
     let title = format!("{}{mark} · glimray", session.title());
@@ -319,18 +317,18 @@ fn name(session: &mut Session, ctx: &egui::Context) {
     }
 }
 
-/// A file's own name, for sentences.
+/// The file name without its folder, for messages.
 pub fn short(path: &Path) -> String {
     let name = path.file_name().unwrap_or(path.as_os_str());
     name.to_string_lossy().into_owned()
 }
 
-/// Whether a file's name is one of a scene.
+/// Whether the file name is that of a scene.
 fn is_scene(path: &Path) -> bool {
     ends_in(path, import::SCENE_ENDINGS)
 }
 
-/// Whether a file's name is one of a picture.
+/// Whether the file name is that of an image.
 fn is_picture(path: &Path) -> bool {
     ends_in(path, import::PICTURE_ENDINGS)
 }

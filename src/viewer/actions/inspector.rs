@@ -1,4 +1,4 @@
-//! The rays of a pixel, made visible: which pixel it is, what it is made of, and what of it is shown.
+//! The ray inspector: requests the rays of a pixel and shows them.
 
 pub mod export;
 pub mod hidden;
@@ -16,14 +16,14 @@ use crate::viewer::worker::progressive_image::{FrameRenderer, PictureSlot};
 use crate::viewer::worker::request::RenderRequest;
 use eframe::egui;
 
-/// Takes the inspector's tool and shows its panels.
+/// Activates the inspector and shows its panels.
 pub fn open(session: &mut Session, layout: &mut Layout) {
     session.tool = Tool::Inspect;
     layout.set_visible(Panel::Rays, true);
     layout.set_visible(Panel::Outside, true);
 }
 
-/// Asks again what another renderer was asked, which is gone.
+/// Repeats the request of a lost renderer.
 pub fn begin(session: &mut Session) {
     let inspector = &mut session.inspector;
     inspector.is_wanted |= std::mem::take(&mut inspector.is_asked);
@@ -31,8 +31,7 @@ pub fn begin(session: &mut Session) {
     ask(session);
 }
 
-/// Asks for the rays of a pixel of the picture. Of several that are asked for before there is an answer,
-/// only the last is.
+/// Requests the rays of a pixel. Only the last of several pending requests is answered.
 pub fn inspect(session: &mut Session, pixel: [u32; 2]) {
     session.inspector.pixel = Some(pixel);
     session.inspector.is_wanted = true;
@@ -53,7 +52,7 @@ fn rays(studio: &mut FrameRenderer, pixel: [u32; 2]) -> Result<Inspected, String
     if count == 0 {
         let [x, y] = pixel;
         return Err(format!(
-            "no rays for pixel {x},{y}: it is not in the picture, or has no sample yet."
+            "No rays for pixel {x},{y}: it is outside the picture or has no sample yet."
         ));
     }
     let tree = studio.renderer.explain(pixel, 0..count);
@@ -62,11 +61,11 @@ fn rays(studio: &mut FrameRenderer, pixel: [u32; 2]) -> Result<Inspected, String
     Ok(Inspected::new(tree, studio.order.clone(), is_final))
 }
 
-/// Takes up what the render thread answered.
+/// Handles the answer of the render thread.
 pub fn take(session: &mut Session, outcome: Result<Box<Inspected>, String>) {
     let bounds = session.bounds();
     let inspector = &mut session.inspector;
-    // What was asked of a scene that is gone by now is not wanted any more.
+    // Answers for a scene that is gone are dropped.
     if !std::mem::take(&mut inspector.is_asked) {
         return;
     }
@@ -87,7 +86,7 @@ pub fn take(session: &mut Session, outcome: Result<Box<Inspected>, String>) {
     ask(session);
 }
 
-/// What happened since the last frame.
+/// Called every frame.
 pub fn update(session: &mut Session, ctx: &egui::Context, seconds: f64) {
     export::update(session);
     let inspector = &mut session.inspector;
@@ -101,7 +100,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context, seconds: f64) {
     }
 }
 
-/// Inspects the pixel under the cursor, where that is asked for.
+/// Inspects the pixel under the cursor if that is enabled.
 pub fn follow(session: &mut Session, response: &egui::Response, viewport: Viewport) {
     if session.tool != Tool::Inspect || !session.inspector.follows || session.drag.is_some() {
         return;
@@ -112,7 +111,7 @@ pub fn follow(session: &mut Session, response: &egui::Response, viewport: Viewpo
     }
 }
 
-/// Whether the picture is not the one any more whose rays there are.
+/// Whether the picture has changed since the rays were traced.
 pub fn is_stale(session: &Session) -> bool {
     let inspected = session.inspector.inspected.as_ref();
     let orders = session.orders();

@@ -1,29 +1,28 @@
-//! Keeping the window's settings in the scene.
+//! Saves the window's settings to the scene.
 
 use crate::scene::OutputDefaults;
 use crate::viewer::state::session::Session;
 
 impl Session {
-    /// What the scene would have to say to look as it is shown; `None` if it does.
+    /// The output defaults that the scene would need; `None` if it has them.
     fn unkept(&self) -> Option<OutputDefaults> {
         let before = &self.scene()?.output;
         let output = self.view.output(before, &self.playback);
         (output != *before || self.view.background.is_some()).then_some(output)
     }
 
-    /// Whether the picture is made otherwise than the scene says.
+    /// Whether view settings differ from the scene.
     pub fn has_unkept_look(&self) -> bool {
         self.unkept().is_some()
     }
 
-    /// Makes how the picture is made and developed the scene's own, background and timing included, to be
-    /// saved with it.
+    /// Stores render settings, tone mapping, background and timing in the scene.
     pub fn keep_look(&mut self) {
         let Some(output) = self.unkept() else {
             return;
         };
         let background = self.view.background.take();
-        self.change("keep the settings in the scene", |scene| {
+        self.change("save settings to scene", |scene| {
             scene.output = output;
             scene.background = background.unwrap_or(scene.background.clone());
             Ok(())

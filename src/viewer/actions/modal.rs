@@ -1,6 +1,6 @@
-//! Moving, rotating and scaling as in Blender: a key begins it, the thing follows the pointer without a
-//! button, X, Y and Z limit it to an axis (with Shift: to the plane of the other two), digits say how much,
-//! and Enter or a click ends it. Escape or a right click takes it back.
+//! Modal transforms as in Blender: a key starts them, the object follows the pointer without a button, X, Y
+//! and Z constrain the axis (with Shift the plane), digits set the amount, and Enter or a click confirms.
+//! Escape or a right click cancels.
 
 use crate::viewer::model::bindings::{Action, Preset};
 use crate::viewer::model::modal::Modal;
@@ -9,7 +9,7 @@ use crate::viewer::model::tool::Tool;
 use crate::viewer::state::session::Session;
 use eframe::egui::{Event, Key};
 
-/// Takes up a tool. With Blender's bindings that moves what is selected at once.
+/// Activates a tool. With Blender's bindings, that starts a modal transform of the selection.
 pub fn take(session: &mut Session, tool: Tool) {
     session.tool = tool;
     let scene = session.scene().cloned();
@@ -22,7 +22,7 @@ pub fn take(session: &mut Session, tool: Tool) {
     }
 }
 
-/// Gives a key to the movement that is under way. Whether there is one, which takes all keys.
+/// Passes a key to the modal transform. Returns whether there is one, which consumes all keys.
 pub fn key(session: &mut Session, event: &Event) -> bool {
     let action = session.preferences.bindings.pressed_by(event);
     let Some(modal) = &mut session.editing.modal else {
@@ -60,7 +60,7 @@ pub fn key(session: &mut Session, event: &Event) -> bool {
     true
 }
 
-/// Takes back what is being dragged, by a handle or without one.
+/// Cancels a drag or a modal transform.
 pub fn cancel(session: &mut Session) {
     session.editing.grip = None;
     session.editing.modal = None;

@@ -1,4 +1,4 @@
-//! Rendering only a part of the picture: a rectangle that the mouse draws, and whose edges it can move.
+//! The render region: draws a rectangle and drags its edges.
 
 use crate::viewer::model::region::Grip;
 use crate::viewer::model::tool::Tool;
@@ -7,12 +7,12 @@ use crate::viewer::state::session::Session;
 use eframe::egui::{self, CursorIcon, PointerButton, Pos2};
 use glam::DVec2;
 
-/// How near to an edge the mouse takes it, in points.
+/// Distance within which an edge can be dragged, in points.
 const REACH: f32 = 6.0;
-/// The smallest region that was meant, in pixels of the picture.
+/// Minimum size of a region, in pixels of the picture.
 const LEAST: f64 = 4.0;
 
-/// Gives the mouse to the region where it is the region's. Whether it is.
+/// Handles the mouse for the region. Returns whether it is consumed.
 pub fn follow(session: &mut Session, response: &egui::Response, viewport: Viewport) -> bool {
     let (pointer, pressed_at) =
         (response.ctx).input(|input| (input.pointer.interact_pos(), input.pointer.press_origin()));
@@ -63,7 +63,7 @@ pub fn follow(session: &mut Session, response: &egui::Response, viewport: Viewpo
     false
 }
 
-/// Puts the edges in order, and lets go of a region that nobody can have meant.
+/// Sorts the edges and discards a region that is too small.
 fn finish(session: &mut Session, viewport: Viewport) {
     session.view.grip = None;
     let Some([x0, y0, x1, y1]) = session.view.region else {
@@ -80,7 +80,7 @@ fn finish(session: &mut Session, viewport: Viewport) {
     }
 }
 
-/// The edges of a region that are within reach of a point.
+/// The edges of a region within reach of a point.
 fn edges([x0, y0, x1, y1]: [f64; 4], at: Pos2, viewport: Viewport) -> Option<[bool; 4]> {
     let extent = viewport.extent();
     let corner = |x: f64, y: f64| viewport.point(DVec2::new(x, y) * extent);

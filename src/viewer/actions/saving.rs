@@ -7,7 +7,7 @@ use crate::viewer::state::editing::Saving;
 use crate::viewer::state::session::Session;
 use std::path::{Path, PathBuf};
 
-/// Saves where the scene was saved before, else asks.
+/// Saves to the file that was saved before, else asks.
 pub fn save(session: &mut Session) {
     match session.path.clone() {
         Some(path) if is_own(session, Some(&path)) => {
@@ -19,7 +19,7 @@ pub fn save(session: &mut Session) {
     }
 }
 
-/// Asks for a name.
+/// Asks for a file name.
 pub fn ask(session: &mut Session) {
     if session.scene().is_none() {
         return;
@@ -32,6 +32,10 @@ pub fn ask(session: &mut Session) {
     });
 }
 
+/// Saves the scene as `path`, with its meshes and images in files next to it.
+///
+/// # Errors
+/// The scene uses that file, or it cannot be written: why, in a sentence.
 pub fn write(session: &mut Session, path: &Path) -> Result<(), String> {
     let is_scene = session
         .path
@@ -40,7 +44,7 @@ pub fn write(session: &mut Session, path: &Path) -> Result<(), String> {
     if !is_scene && session.files.inputs().contain(path) {
         let path = path.display();
         return Err(format!(
-            "cannot save the scene ({path}): it reads that file. Choose another name."
+            "Cannot save the scene ({path}): it uses that file. Choose another name."
         ));
     }
     let Some(document) = &mut session.document else {
@@ -56,18 +60,18 @@ pub fn write(session: &mut Session, path: &Path) -> Result<(), String> {
     files::saved(session, written);
     session.messages.tell(match beside {
         0 => format!("Saved {}", path.display()),
-        1 => format!("Saved {} and a file beside it", path.display()),
-        _ => format!("Saved {} and {beside} files beside it", path.display()),
+        1 => format!("Saved {} and one asset file", path.display()),
+        _ => format!("Saved {} and {beside} asset files", path.display()),
     });
     Ok(())
 }
 
-/// Whether a file is as it was written from here.
+/// Whether a file was saved from this window.
 pub fn is_own(session: &Session, path: Option<&Path>) -> bool {
     path.is_some() && session.editing.written.as_deref() == path && !session.files.have_changed()
 }
 
-/// The file of a name, which may be typed without its ending; `None` if there is no name yet.
+/// The path of a name, which may be typed without its extension; `None` if it is empty.
 pub fn target(name: &str) -> Option<PathBuf> {
     let name = name.trim();
     let path = PathBuf::from(name);

@@ -1,4 +1,4 @@
-//! Keeps what is chosen: applies it to the window, and writes it to the settings file.
+//! Applies the preferences to the window and writes them to the settings file.
 
 use crate::viewer::model::preferences::Theme;
 use crate::viewer::state::dialogs::Dialog;
@@ -7,7 +7,7 @@ use crate::viewer::state::session::Session;
 use eframe::egui::{self, ThemePreference};
 use std::time::Duration;
 
-/// How long the settings stay unwritten while they change, such as a window that is being resized.
+/// Delay before changes are written, such as those of a window that is being resized.
 const PAUSE: Duration = Duration::from_secs(1);
 
 /// Applies the preferences, and writes them when they have changed.
@@ -35,7 +35,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     write(session);
 }
 
-/// Writes the preferences if they have changed. Trouble is told once.
+/// Writes the preferences if they have changed. An error is reported once.
 pub fn write(session: &mut Session) {
     let kept = &mut session.dialogs.kept;
     if kept.written.as_ref() == Some(&session.preferences) {
@@ -47,9 +47,9 @@ pub fn write(session: &mut Session) {
         Err(_) if kept.has_failed => {}
         Err(why) => {
             kept.has_failed = true;
-            session
-                .messages
-                .warn(format!("{why} The window goes on without keeping them."));
+            session.messages.warn(format!(
+                "{why} Changes to settings will be lost when the window closes."
+            ));
         }
     }
 }
@@ -62,7 +62,7 @@ fn apply(session: &mut Session, ctx: &egui::Context) {
         return;
     }
     kept.applied = Some(wanted);
-    // Its keys are in the table of bindings.
+    // The table of bindings has keys for this.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
     ctx.set_theme(match wanted.0 {
         Theme::System => ThemePreference::System,
@@ -72,7 +72,7 @@ fn apply(session: &mut Session, ctx: &egui::Context) {
     ctx.set_zoom_factor(wanted.1);
 }
 
-/// Notes whether the window fills the screen, and else how large it is and where.
+/// Stores whether the window is maximized, else its size and position.
 fn keep_window(session: &mut Session, ctx: &egui::Context) {
     let viewport = ctx.input(|input| input.viewport().clone());
     let is_minimized = viewport.minimized.unwrap_or(false);
@@ -84,7 +84,7 @@ fn keep_window(session: &mut Session, ctx: &egui::Context) {
     if kept.maximized {
         return;
     }
-    // Points of the screen's own scale: with another one the window would grow at each start.
+    // In points of the screen's own scale; otherwise the window would grow at each start.
     let own = |vec: egui::Vec2| (vec * ctx.zoom_factor()).round().into();
     if let Some(size) = viewport.inner_rect.map(|rect| rect.size())
         && size.x >= 320.0
@@ -97,14 +97,14 @@ fn keep_window(session: &mut Session, ctx: &egui::Context) {
     }
 }
 
-/// Notes how the panels are arranged, as often as the file is looked after.
+/// Stores the layout of the panels when the settings file is due.
 pub fn keep_layout_if_due(session: &mut Session, layout: &Layout) {
     if std::mem::take(&mut session.dialogs.kept.is_due) {
         keep_layout(session, layout);
     }
 }
 
-/// Notes how the panels are arranged.
+/// Stores the layout of the panels.
 pub fn keep_layout(session: &mut Session, layout: &Layout) {
     session.preferences.set_layout(Some(layout));
 }

@@ -1,4 +1,4 @@
-//! What the mouse does in the picture.
+//! The mouse in the picture.
 
 use crate::viewer::actions::answers;
 use crate::viewer::actions::inspector;
@@ -11,7 +11,7 @@ use crate::viewer::model::viewport::Viewport;
 use crate::viewer::state::session::Session;
 use eframe::egui::{self, LayerId, PointerButton, Pos2};
 
-/// All that a mouse may have.
+/// All mouse buttons.
 const BUTTONS: [PointerButton; 5] = [
     PointerButton::Primary,
     PointerButton::Middle,
@@ -20,8 +20,7 @@ const BUTTONS: [PointerButton; 5] = [
     PointerButton::Extra2,
 ];
 
-/// Hands the mouse in the picture to the camera, by the bindings. What a tool or a handle takes for
-/// itself does not come here.
+/// Passes the mouse in the picture to the camera. Input consumed by a tool or a handle does not get here.
 pub fn navigate(session: &mut Session, response: &egui::Response, viewport: Viewport) {
     let ctx = &response.ctx;
     let (modifiers, pointer) = ctx.input(|input| (input.modifiers, input.pointer.interact_pos()));
@@ -100,17 +99,17 @@ pub fn follow(
     }
 }
 
-/// Carries out a command about what is under the cursor.
+/// Performs a command at the point under the cursor.
 pub fn pick_under_cursor(session: &mut Session, action: Action, ctx: &egui::Context) {
     let pointer = ctx.pointer_hover_pos();
     let pointer = pointer.filter(|point| ctx.layer_id_at(*point) == Some(LayerId::background()));
     match (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point)) {
         Some(pixel) => pick(session, action, pixel),
-        None => (session.messages).tell("Point at something in the picture first"),
+        None => (session.messages).tell("Move the cursor over the picture first"),
     }
 }
 
-/// Takes the region tool, or ends the region that there is.
+/// Activates the region tool, or clears the region.
 pub fn toggle_region(session: &mut Session) {
     session.tool = match session.view.region.take() {
         Some(_) => Tool::Select,
@@ -118,7 +117,7 @@ pub fn toggle_region(session: &mut Session) {
     };
 }
 
-/// What a click is bound to; a plain one belongs to the tool.
+/// The command of a click; a click without modifiers belongs to the tool.
 fn click(session: &mut Session, action: Option<Action>, pointer: Option<Pos2>) {
     let pixel = (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point));
     match (action, pixel) {

@@ -1,10 +1,10 @@
-//! What happens between frames.
+//! Per-frame updates.
 
 use super::{editing, files, inspector};
 use crate::viewer::state::session::Session;
 use eframe::egui;
 
-/// Forgets what was asked of another window's renderer and what was dragged there.
+/// Drops requests and drags of the previous window.
 pub fn reopened(session: &mut Session) {
     session.dialogs.begin();
     session.files.begin();
@@ -16,7 +16,7 @@ pub fn reopened(session: &mut Session) {
     session.editing.modal = None;
 }
 
-/// What happened since the last frame.
+/// Called every frame.
 pub fn update(session: &mut Session, ctx: &egui::Context) {
     let (now, seconds) = ctx.input(|input| (input.time, f64::from(input.stable_dt).min(0.1)));
     // A frame that is drawn again takes no time.
@@ -42,7 +42,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     }
 }
 
-/// The same while the window is minimised: nothing moves, and rendering goes on.
+/// Called while the window is minimised: rendering continues, without motion.
 pub fn update_hidden(session: &mut Session) {
     session.last_motion = f64::NEG_INFINITY;
     session.drag = None;

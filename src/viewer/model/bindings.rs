@@ -1,5 +1,5 @@
-//! Which hand does what: the table of bindings, from which lookups, the help sheet and the manual's
-//! table are made.
+//! The table of keyboard and mouse bindings. Lookups, the shortcuts dialog and the table in the manual are
+//! made from it.
 
 mod action;
 mod preset;
@@ -14,17 +14,17 @@ use eframe::egui::{Event, InputState, Key, MouseWheelUnit, PointerButton};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// What one line, or one point, that a wheel or two fingers moved counts in steps of a wheel.
+/// Converts lines or points of wheel and trackpad scrolling into wheel steps.
 const STEPS_OF_LINE: f64 = 1.0;
 const STEPS_OF_POINT: f64 = 1.0 / 50.0;
 const STEPS_OF_PAGE: f64 = 5.0;
 
-/// A preset and what was changed in it.
+/// A preset and the changes made to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bindings {
     preset: Preset,
     changed: BTreeMap<Action, Vec<Trigger>>,
-    /// Of both: always in step with them.
+    /// The preset with the changes applied.
     current: BTreeMap<Action, Vec<Trigger>>,
 }
 
@@ -34,17 +34,17 @@ impl Default for Bindings {
     }
 }
 
-/// Two commands that one trigger would give.
+/// Two commands with the same trigger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Conflict {
-    /// Of the first command.
+    /// The trigger of the first command.
     pub trigger: Trigger,
     /// Both commands, in the order of the table.
     pub actions: [Action; 2],
 }
 
 impl Bindings {
-    /// As the preset has them.
+    /// The unchanged bindings of a preset.
     pub fn new(preset: Preset) -> Self {
         Self::with(preset, BTreeMap::new())
     }
@@ -61,38 +61,38 @@ impl Bindings {
         }
     }
 
-    /// What the bindings are based on.
+    /// The preset that the bindings are based on.
     pub fn preset(&self) -> Preset {
         self.preset
     }
 
-    /// Takes another preset; what was changed stays.
+    /// Switches to another preset; changes are kept.
     pub fn set_preset(&mut self, preset: Preset) {
         *self = Self::with(preset, std::mem::take(&mut self.changed));
     }
 
-    /// What gives a command, the usual way first; none for one that is not bound.
+    /// The triggers of a command, the primary one first; empty if it has none.
     pub fn triggers(&self, action: Action) -> &[Trigger] {
         self.current.get(&action).map_or(&[], Vec::as_slice)
     }
 
-    /// Whether a command's triggers are not the preset's.
+    /// Whether a command's triggers differ from the preset's.
     pub fn is_changed(&self, action: Action) -> bool {
         self.changed.contains_key(&action)
     }
 
-    /// Binds a command to these and nothing else; to nothing if there are none.
+    /// Replaces the triggers of a command; an empty list removes them.
     ///
     /// # Errors
-    /// A trigger does not suit the command, such as a key for a drag; then nothing is changed.
+    /// A trigger does not suit the command, such as a key for a drag. Nothing is changed then.
     pub fn set(&mut self, action: Action, triggers: Vec<Trigger>) -> Result<(), String> {
         if let Some(trigger) = triggers.iter().find(|trigger| !suits(action, trigger)) {
             return Err(format!(
-                "cannot bind {} ({trigger}): it takes {}",
+                "cannot assign {trigger} to “{}”: it requires {}",
                 action.name(),
                 match action.manner() {
                     Manner::Press => "a key, a click or a double click",
-                    Manner::Hold => "a key that is held",
+                    Manner::Hold => "a key to hold",
                     Manner::Motion if zooms(action) => "a drag or the wheel",
                     Manner::Motion => "a drag",
                 }
@@ -108,18 +108,18 @@ impl Bindings {
         Ok(())
     }
 
-    /// Binds a command as the preset does.
+    /// Restores the preset's triggers of a command.
     pub fn reset(&mut self, action: Action) {
         self.changed.remove(&action);
         *self = Self::with(self.preset, std::mem::take(&mut self.changed));
     }
 
-    /// Binds all commands as the preset does.
+    /// Restores the preset's triggers of all commands.
     pub fn reset_all(&mut self) {
         *self = Self::new(self.preset);
     }
 
-    /// Pairs of commands that cannot be told apart; the one earlier in the table wins.
+    /// Pairs of commands with ambiguous triggers; the earlier one in the table wins.
     pub fn conflicts(&self) -> Vec<Conflict> {
         let mut found = Vec::new();
         for (i, &first) in Action::ALL.iter().enumerate() {
@@ -140,7 +140,7 @@ impl Bindings {
         found
     }
 
-    /// The commands other than `action` that have `trigger`, or one that cannot be told from it.
+    /// The other commands that have `trigger`, or one that is ambiguous with it.
     pub fn taken_by(&self, trigger: &Trigger, action: Action) -> Vec<Action> {
         let actions = Action::ALL.iter().copied();
         let takes = |other: &Action| self.triggers(*other).iter().any(|t| t.collides(trigger));
@@ -150,21 +150,20 @@ impl Bindings {
             .collect()
     }
 
-    /// The command that `trigger` gives.
+    /// The command that `trigger` performs.
     pub fn action_for(&self, trigger: &Trigger) -> Option<Action> {
         let mut actions = Action::ALL.iter().copied();
         actions.find(|action| self.triggers(*action).contains(trigger))
     }
 
-    /// The commands that the keys of this frame give, in the order of their events. Ask only while no
-    /// text is being edited.
+    /// The commands of the keys in this frame, in the order of their events. Call this only while no text is
+    /// being edited.
     pub fn pressed(&self, input: &InputState) -> Vec<Action> {
         let events = input.events.iter();
         events.filter_map(|event| self.pressed_by(event)).collect()
     }
 
-    /// The command that one event gives. A key that is kept down gives only what makes sense again and
-    /// again.
+    /// The command of one event. Key repeat counts only for commands that can repeat.
     pub fn pressed_by(&self, event: &Event) -> Option<Action> {
         let [logical, physical] = Trigger::pressed(event)?;
         let action = logical
@@ -178,7 +177,7 @@ impl Bindings {
         (!again || repeats(action)).then_some(action)
     }
 
-    /// Where the keys that are held fly to; nowhere without any. Ask only while no text is edited.
+    /// The direction to fly in, from the keys that are held. Call this only while no text is being edited.
     pub fn flight(&self, input: &InputState) -> Flight {
         let held = |action| self.is_held(action, input);
         let axis = |more, less| f64::from(i8::from(held(more)) - i8::from(held(less)));
@@ -190,7 +189,7 @@ impl Bindings {
         }
     }
 
-    /// Whether a command that lasts is being given.
+    /// Whether a continuous command is active.
     pub fn is_held(&self, action: Action, input: &InputState) -> bool {
         let mods = Mods::from(input.modifiers);
         self.triggers(action).iter().any(|trigger| match *trigger {
@@ -200,25 +199,24 @@ impl Bindings {
         })
     }
 
-    /// What a drag does that begins with this button while these are held. What it does stays the same
-    /// until it ends, whatever is held then.
+    /// The command of a drag that starts with this button and these modifiers. It stays the same until the
+    /// drag ends.
     pub fn drag(&self, button: PointerButton, mods: impl Into<Mods>) -> Option<Action> {
         self.action_for(&Trigger::Drag(mods.into(), button))
     }
 
-    /// What a click does.
+    /// The command of a click.
     pub fn click(&self, button: PointerButton, mods: impl Into<Mods>) -> Option<Action> {
         self.action_for(&Trigger::Click(mods.into(), button))
     }
 
-    /// What a double click does.
+    /// The command of a double click.
     pub fn double_click(&self, button: PointerButton, mods: impl Into<Mods>) -> Option<Action> {
         self.action_for(&Trigger::DoubleClick(mods.into(), button))
     }
 
-    /// What the wheel does in this frame, and by how many steps, upwards counting more than 0: read
-    /// from its events, because egui takes Ctrl and Shift with the wheel for its own. Two fingers that
-    /// are spread zoom to the cursor.
+    /// The commands of the wheel in this frame and their steps, positive upwards. They are read from the raw
+    /// events, because egui handles the wheel with Ctrl and Shift itself. A pinch zooms to the cursor.
     pub fn wheel(&self, input: &InputState) -> Vec<(Action, f64)> {
         let events = input.events.iter();
         events.filter_map(|event| self.wheel_by(event)).collect()
@@ -238,20 +236,19 @@ impl Bindings {
                     MouseWheelUnit::Point => STEPS_OF_POINT,
                     MouseWheelUnit::Page => STEPS_OF_PAGE,
                 };
-                // With Shift some systems turn it sideways.
+                // With Shift, some systems scroll horizontally.
                 let moved = if delta.y == 0.0 { delta.x } else { delta.y };
                 (moved != 0.0).then(|| (action, steps * f64::from(moved)))
             }
             Event::Zoom(factor) if *factor > 0.0 => {
-                // A step of the wheel is a factor of 1 / 0.85.
+                // One step is a factor of 1 / 0.85.
                 Some((Action::ZoomToCursor, f64::from(*factor).ln() / 0.1625))
             }
             _ => None,
         }
     }
 
-    /// All triggers of a command for people, such as `Delete, Backspace`; empty for one that is not
-    /// bound.
+    /// All triggers of a command as text, such as `Delete, Backspace`; empty if it has none.
     pub fn label(&self, action: Action) -> String {
         self.label_on(action, cfg!(target_os = "macos"))
     }
@@ -262,7 +259,7 @@ impl Bindings {
         labels.join(", ")
     }
 
-    /// For a settings file: the changed commands by name, each with its triggers.
+    /// The changed commands by name with their triggers, for a settings file.
     pub fn changes(&self) -> BTreeMap<String, Vec<String>> {
         let texts = |triggers: &Vec<Trigger>| triggers.iter().map(Trigger::to_string).collect();
         let changed = self.changed.iter();
@@ -271,7 +268,8 @@ impl Bindings {
             .collect()
     }
 
-    /// From a settings file. What cannot be read is left out and said in `notes`, a sentence each.
+    /// Reads changes from a settings file. Invalid ones are left out and reported in `notes`, one clause
+    /// each.
     pub fn from_changes(
         preset: Preset,
         changes: &BTreeMap<String, Vec<String>>,
@@ -280,7 +278,7 @@ impl Bindings {
         let mut bindings = Self::new(preset);
         for (name, texts) in changes {
             let Some(action) = Action::from_name(name) else {
-                notes.push(format!("there is no command `{name}`"));
+                notes.push(format!("unknown command `{name}`"));
                 continue;
             };
             let triggers = texts.iter().map(|text| text.parse());
@@ -288,14 +286,14 @@ impl Bindings {
                 .collect::<Result<Vec<_>, _>>()
                 .and_then(|triggers| bindings.set(action, triggers));
             if let Err(why) = set {
-                notes.push(format!("binding of `{name}`: {why}"));
+                notes.push(format!("shortcut of `{name}`: {why}"));
             }
         }
         bindings
     }
 }
 
-/// All commands and what gives them in each preset, as a table in Markdown.
+/// All commands with their triggers in each preset, as a Markdown table.
 pub fn markdown_table() -> String {
     let presets = Preset::ALL.map(Bindings::new);
     let mut text = String::from("| | command |");
@@ -333,7 +331,7 @@ fn suits(action: Action, trigger: &Trigger) -> bool {
     }
 }
 
-/// Whether steps of a wheel make sense for what moves the camera.
+/// Whether the wheel can trigger a camera motion.
 pub fn zooms(action: Action) -> bool {
     matches!(action, Action::Zoom | Action::ZoomToCursor)
 }
@@ -342,7 +340,7 @@ fn is_letter(trigger: &Trigger) -> bool {
     matches!(trigger, Trigger::Key(_, key) if (Key::A..=Key::Z).contains(key))
 }
 
-/// Whether a key that is kept down gives the command again.
+/// Whether key repeat performs the command again.
 fn repeats(action: Action) -> bool {
     use Action as A;
     matches!(

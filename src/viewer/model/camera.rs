@@ -1,13 +1,11 @@
-//! The camera that a person moves: a pose that follows the hand at once, and glides to what is
-//! jumped to. Nothing here draws or knows a window; positions in the picture are in any unit, from its
-//! upper left corner, y down.
+//! The interactive camera: drags apply immediately, jumps are animated. This module neither draws nor knows
+//! a window. Positions in the picture are in any unit, from its upper left corner, y down.
 //!
-//! * What is smooth approaches its goal as e^(-t / τ), which does not depend on how time is cut into
-//!   frames.
-//! * A camera that was not touched, or has come home, is the scene's own to the last bit, and so is
-//!   every number of one that was pasted.
-//! * Orthographic pictures that a person asks for are taken from in front of everything; only a scene's
-//!   own orthographic camera cuts what is behind it.
+//! * Smooth motion approaches its goal as e^(-t / τ), independent of the frame rate.
+//! * An untouched camera, or one that has returned home, is bit-identical to the scene's camera. A pasted
+//! camera keeps every number exactly.
+//! * Orthographic views chosen in the window are taken from in front of all geometry. Only a scene's own
+//! orthographic camera clips what is behind it.
 
 mod goals;
 mod motion;
@@ -21,21 +19,21 @@ use crate::scene::{Camera, Lens};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Seconds in which all but 1/e of a glide is done.
+/// Time constant of animated jumps, in seconds.
 const GLIDE: f64 = 0.08;
-/// The same for getting under way and stopping when flying.
+/// Time constant of acceleration and deceleration while flying, in seconds.
 const INERTIA: f64 = 0.12;
-/// What one step of the wheel multiplies distances by.
+/// Factor on the distance per wheel step.
 const WHEEL: f64 = 0.85;
-/// Powers of e by which a drag over the whole height of the picture zooms.
+/// Exponent of the zoom for a drag over the whole height of the picture.
 const DRAG_ZOOM: f64 = 3.0;
-/// Share of the picture that stays free round what is framed.
+/// Margin around framed geometry, as a fraction of the picture.
 const MARGIN: f64 = 0.05;
-/// How near and how far away the pivot may be, in radii of the scene.
+/// Smallest and largest distance of the pivot, in scene radii.
 const NEAREST: f64 = 1e-6;
 const FARTHEST: f64 = 1e4;
 
-/// A view along an axis. "Front" looks along −Z where +Y is up, and along +Y where +Z is.
+/// A view along an axis. "Front" looks along −Z with +Y up, and along +Y with +Z up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// From the front.
@@ -52,7 +50,7 @@ pub enum Side {
     Bottom,
 }
 
-/// Where someone wants to fly: each component in [-1, 1], and how fast.
+/// The direction to fly in: each component in [-1, 1], and a speed factor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Flight {
     /// To the camera's right.
@@ -61,34 +59,34 @@ pub struct Flight {
     pub up: f64,
     /// Along the viewing direction.
     pub forward: f64,
-    /// Factor on the speed, above 0; at 1 it takes two seconds to cross the scene's radius.
+    /// Factor on the speed, above 0. At 1, flying across the scene's radius takes two seconds.
     pub pace: f64,
 }
 
-/// A camera, and where it is on its way to.
+/// A camera with its current pose and its goal.
 #[derive(Clone, Debug)]
 pub struct CameraController {
     upright: Upright,
     now: Pose,
     goal: Pose,
-    /// Of the flight, in world space.
+    /// Velocity of the flight, in world space.
     velocity: DVec3,
     flight: Flight,
     fov_y: f64,
     orthographic: bool,
-    /// Whether an orthographic eye stands off so far that everything is before it.
+    /// Whether an orthographic eye is moved back so that everything is in front of it.
     clear: bool,
     lens: Option<Lens>,
     name: String,
-    /// Where Home leads to.
+    /// The camera that Home returns to.
     home: Known,
-    /// The last camera that was gone to.
+    /// The camera of the last jump.
     visited: Option<Known>,
-    /// Of what there is to see.
+    /// Radius of the visible geometry.
     bounds: Option<(DVec3, DVec3)>,
 }
 
-/// A camera that came from elsewhere, and what this rig is like when it is exactly there.
+/// A camera that was set exactly, and the pose that stands for it.
 #[derive(Clone, Debug)]
 struct Known {
     camera: Camera,
@@ -96,8 +94,8 @@ struct Known {
 }
 
 impl CameraController {
-    /// A rig that starts at `camera`, which is in world space, as in [`crate::scene::Frame`].
-    /// `bounds` are those of what there is to see: flying and limits go by their size.
+    /// A controller that starts at `camera`, which is in world space, as in [`crate::scene::Frame`].
+    /// `bounds` are those of the visible geometry; flying speed and limits depend on their size.
     pub fn new(camera: &Camera, bounds: Option<(DVec3, DVec3)>) -> Self {
         let upright = Upright::of(camera);
         let pose = upright.pose(camera);
@@ -121,12 +119,12 @@ impl CameraController {
         }
     }
 
-    /// The camera as it is now, in world space.
+    /// The current camera, in world space.
     pub fn camera(&self) -> Camera {
         self.camera_at(&self.now)
     }
 
-    /// The camera as it will be when all movement has ended.
+    /// The camera after all motion has ended.
     pub fn destination(&self) -> Camera {
         self.camera_at(&self.goal)
     }
@@ -162,7 +160,7 @@ impl CameraController {
             && camera.lens == self.lens
     }
 
-    /// From the eye to the pivot.
+    /// Distance from the eye to the pivot.
     fn stand_off(&self, pose: &Pose) -> f64 {
         match self.bounds {
             Some((min, max)) if self.orthographic && self.clear => {
@@ -173,12 +171,12 @@ impl CameraController {
         }
     }
 
-    /// Half the picture's height at the distance 1.
+    /// Half the height of the view at distance 1.
     fn tangent(&self) -> f64 {
         (self.fov_y / 2.0).tan()
     }
 
-    /// Height of what is seen at `depth` along the viewing direction.
+    /// Height of the view at `depth` along the viewing direction.
     fn span(&self, pose: &Pose, depth: f64) -> f64 {
         if self.orthographic {
             pose.height
@@ -187,13 +185,13 @@ impl CameraController {
         }
     }
 
-    /// Half the diagonal of what there is to see, above 0.
+    /// Half the diagonal of the visible geometry, above 0.
     pub fn scene_radius(&self) -> f64 {
         let radius = self.bounds.map(|(min, max)| (max - min).length() / 2.0);
         (radius.filter(|radius| *radius > 0.0)).unwrap_or(self.home.pose.distance)
     }
 
-    /// What the camera goes round.
+    /// The pivot in world space.
     pub fn pivot(&self) -> DVec3 {
         self.goal.pivot
     }
@@ -203,12 +201,12 @@ impl CameraController {
         self.orthographic
     }
 
-    /// What is up, of unit length.
+    /// The up axis, of unit length.
     pub fn up_axis(&self) -> DVec3 {
         self.upright.axis
     }
 
-    /// Whether the camera will be elsewhere after the next [`CameraController::advance`].
+    /// Whether [`CameraController::advance`] will still move the camera.
     pub fn is_moving(&self) -> bool {
         self.now != self.goal || self.velocity != DVec3::ZERO || self.is_flying()
     }
@@ -225,19 +223,19 @@ impl CameraController {
         self.is_at(&self.home, &self.now) && self.is_at(&self.home, &self.goal)
     }
 
-    /// Tells what there is to see, after it has changed.
+    /// Updates the bounds of the visible geometry.
     pub fn set_bounds(&mut self, bounds: Option<(DVec3, DVec3)>) {
         self.bounds = bounds;
     }
 
-    /// Tells that the scene's own camera is `camera` now, because time went on or the scene was
-    /// edited. A rig at home stays at home; one that has been moved stays where it is.
+    /// Sets the scene's own camera, after a change of time or an edit. A controller at home follows it; one
+    /// that has been moved stays.
     pub fn set_home(&mut self, camera: &Camera) {
         if self.home.camera == *camera {
             return;
         }
         if self.is_home() {
-            // Who is about to fly away is not held back.
+            // A flight that is about to start is not held back.
             *self = Self {
                 velocity: self.velocity,
                 flight: self.flight,
@@ -252,7 +250,7 @@ impl CameraController {
         }
     }
 
-    /// Chooses what is up, upright at once.
+    /// Chooses the up axis and levels the camera at once.
     pub fn set_up_axis(&mut self, axis: DVec3) {
         let camera = self.destination();
         self.upright = Upright::new(axis);
@@ -261,15 +259,15 @@ impl CameraController {
             ..self.upright.pose(&camera)
         };
         self.now = self.goal;
-        // What was known is known by other angles now.
+        // Exact cameras were stored relative to the old axis.
         self.home.pose = self.upright.pose(&self.home.camera);
         self.visited = None;
     }
 
-    /// Sets the vertical field of view in radians, in (0, π); what is at the pivot keeps its size.
+    /// Sets the vertical field of view in radians, in (0, π). The size of objects at the pivot is preserved.
     pub fn set_fov_y(&mut self, fov_y: f64) {
         let before = self.tangent();
-        // Whole numbers of the unit in which files and flags have it: what is copied is exact.
+        // Rounded to the unit of files and flags, so that copies are exact.
         let degrees = fov_y.to_degrees().clamp(0.1, 170.0);
         self.fov_y = degrees.to_radians();
         let factor = before / self.tangent();
@@ -279,7 +277,7 @@ impl CameraController {
         }
     }
 
-    /// Makes what is as far away as `point` sharp; without a lens everything is.
+    /// Focuses on the depth of `point`. Without a lens this has no effect.
     pub fn focus_on(&mut self, point: DVec3) {
         let camera = self.camera();
         let forward = (camera.look_at - camera.look_from).normalize_or(DVec3::NEG_Z);
@@ -291,7 +289,7 @@ impl CameraController {
         }
     }
 
-    /// Goes round the pivot by a drag in a picture of `size`: half a turn for its height.
+    /// Orbits around the pivot by a drag in a picture of `size`: its height is half a turn.
     pub fn orbit(&mut self, drag: DVec2, size: DVec2) {
         let turn = -PI * drag / size.y;
         for pose in [&mut self.now, &mut self.goal] {
@@ -299,12 +297,12 @@ impl CameraController {
         }
     }
 
-    /// Goes round the pivot by angles in radians, gliding.
+    /// Orbits around the pivot by angles in radians, animated.
     pub fn orbit_by(&mut self, yaw: f64, pitch: f64) {
         self.goal.turn(yaw, pitch);
     }
 
-    /// Looks about from where the eye is; the picture's edge-to-edge angle for its height.
+    /// Looks around from the eye: the picture's height is its vertical field of view.
     pub fn look(&mut self, drag: DVec2, size: DVec2) {
         let turn = -self.fov_y * drag / size.y;
         let upright = self.upright;
@@ -318,13 +316,13 @@ impl CameraController {
         }
     }
 
-    /// Turns the camera about its viewing direction, counter-clockwise, by radians.
+    /// Rolls the camera about its viewing direction, counter-clockwise, in radians.
     pub fn roll(&mut self, angle: f64) {
         self.now.roll += angle;
         self.goal.roll += angle;
     }
 
-    /// Glides back to where up is up.
+    /// Levels the horizon, animated.
     pub fn level(&mut self) {
         let level = Pose {
             roll: 0.0,
@@ -334,8 +332,8 @@ impl CameraController {
         self.goal.roll = 0.0;
     }
 
-    /// Shifts the camera so that what was at `from` is at `to`: `anchor`, a point in world space, if
-    /// one is known, else what lies as deep as the pivot.
+    /// Pans so that the point at `from` moves to `to`: `anchor`, a point in world space, if given, else the
+    /// point at the depth of the pivot.
     pub fn pan(&mut self, from: DVec2, to: DVec2, size: DVec2, anchor: Option<DVec3>) {
         let axes = self.upright.orientation(&self.now);
         let depth = anchor
@@ -348,8 +346,8 @@ impl CameraController {
         self.goal.pivot += shift;
     }
 
-    /// Zooms by steps of a wheel, gliding; more than 0 is nearer. `at` is what stays where it is in the
-    /// picture: `None` is the middle.
+    /// Zooms by wheel steps, animated; positive is nearer. `at` is the point that stays fixed in the
+    /// picture, `None` the centre.
     pub fn zoom(&mut self, steps: f64, at: Option<DVec3>) {
         let factor = self.allowed(WHEEL.powf(steps));
         let mut goal = self.goal;
@@ -357,7 +355,7 @@ impl CameraController {
         self.goal = goal;
     }
 
-    /// Zooms by a drag upwards in a picture of `size`, at once.
+    /// Zooms by an upward drag in a picture of `size`, at once.
     pub fn drag_zoom(&mut self, drag: DVec2, size: DVec2, at: Option<DVec3>) {
         let factor = self.allowed((DRAG_ZOOM * drag.y / size.y).exp());
         let (mut now, mut goal) = (self.now, self.goal);
@@ -366,7 +364,7 @@ impl CameraController {
         (self.now, self.goal) = (now, goal);
     }
 
-    /// The point at `cursor` as deep as the pivot: for zooming to the cursor where no surface is.
+    /// The point at `cursor` at the depth of the pivot: for zooming to the cursor where there is no surface.
     pub fn point_at(&self, cursor: DVec2, size: DVec2) -> DVec3 {
         let axes = self.upright.orientation(&self.goal);
         let span = self.span(&self.goal, self.goal.distance);
@@ -374,7 +372,7 @@ impl CameraController {
         self.goal.pivot + axes.x_axis * off.x - axes.y_axis * off.y
     }
 
-    /// The factor, if it leads not too near and not too far; else one that leads just there.
+    /// The factor, limited to the range of distances.
     fn allowed(&self, factor: f64) -> f64 {
         let radius = self.scene_radius().max(self.home.pose.distance);
         let at = if self.orthographic {
@@ -387,13 +385,13 @@ impl CameraController {
         factor.clamp(least, most)
     }
 
-    /// Multiplies what lies between the eye and the point `at` by a factor: all directions to that
-    /// point stay as they are.
+    /// Scales the distance between the eye and the point `at` by a factor. Directions to that point stay the
+    /// same.
     fn scale(&self, pose: &mut Pose, factor: f64, at: Option<DVec3>) {
         let mut way = at.map_or(DVec3::ZERO, |point| pose.pivot - point);
         if self.orthographic {
             pose.height *= factor;
-            // Depth makes no difference there; the pivot keeps its own.
+            // Depth has no effect in orthographic views; the pivot keeps its depth.
             way = way.reject_from(self.upright.orientation(pose).z_axis);
         } else {
             pose.distance *= factor;

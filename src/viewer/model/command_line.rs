@@ -1,7 +1,7 @@
-//! What is on the screen as a command line that makes the same picture, and the way back.
+//! Converts the current view to a command line that renders the same picture, and back.
 //!
-//! Nothing here knows by itself what flags mean: a line is read by the program's own command line and
-//! applied to the scene as `render` would, and flags are added until the outcome is what was shown.
+//! This module does not know the meaning of flags: a line is parsed by the program's own command line and
+//! applied to the scene as `render` does. Flags are added until the result matches the view.
 
 mod flags;
 
@@ -12,32 +12,32 @@ use crate::scene::{Background, Camera, Scene, Shutter, Target};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-/// What is on the screen.
+/// The current view.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown<'a> {
-    /// The program's command line.
+    /// The parser of the program's command line.
     pub parse: ParsePicture,
     /// The scene's file.
     pub path: &'a Path,
-    /// What `--set` and `--allow-dir` gave the importer.
+    /// The importer options from `--set` and `--allow-dir`.
     pub options: &'a crate::import::Options,
-    /// As the importer made it: no flags applied.
+    /// The scene as imported, without flags.
     pub scene: &'a Scene,
-    /// In world space, at that time.
+    /// The camera in world space at that time.
     pub camera: &'a Camera,
-    /// What rays see that hit nothing.
+    /// The background.
     pub background: &'a Background,
-    /// How it is traced.
+    /// The render settings.
     pub settings: &'a RenderSettings,
-    /// How it is developed.
+    /// The tone mapping.
     pub tone: Tone,
-    /// In seconds.
+    /// The time in seconds.
     pub time: f64,
     /// Frames per second.
     pub fps: f64,
-    /// When the shutter is open, in frames.
+    /// The shutter interval, in frames.
     pub shutter: Shutter,
-    /// Whether the scene was changed since it was read.
+    /// Whether the scene has been edited since it was read.
     pub edited: bool,
 }
 
@@ -46,39 +46,40 @@ pub struct Shown<'a> {
 pub struct CommandLine {
     /// `glimray render …`, quoted where needed.
     pub line: String,
-    /// What the line cannot say, a few words each: without these it makes another picture.
+    /// What the line cannot express, a few words each. If this is not empty, the line renders a different
+    /// picture.
     pub left_out: Vec<String>,
 }
 
-/// What a command line says.
+/// The contents of a command line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pasted {
-    /// The scene's file; `None` if the line names none.
+    /// The scene's file; `None` if the line has none.
     pub path: Option<PathBuf>,
-    /// In world space, at that time.
+    /// The camera in world space at that time.
     pub camera: Camera,
-    /// What rays see that hit nothing.
+    /// The background.
     pub background: Background,
-    /// How it is traced.
+    /// The render settings.
     pub settings: RenderSettings,
-    /// How a PNG is developed.
+    /// The tone mapping of a PNG.
     pub tone: Tone,
-    /// In seconds.
+    /// The time in seconds.
     pub time: f64,
     /// Frames per second.
     pub fps: f64,
-    /// When the shutter is open, in frames.
+    /// The shutter interval, in frames.
     pub shutter: Shutter,
 }
 
-/// The line that `glimray render` makes a PNG from that shows what is `shown`: the file and what
-/// differs from its defaults.
+/// The line with which `glimray render` reproduces `shown` as a PNG: the file, and flags for all differences
+/// from its defaults.
 pub fn copy(shown: &Shown) -> CommandLine {
     let scene = without_geometry(shown.scene);
     let mut left_out = Vec::new();
     let mut words = vec!["glimray".to_owned(), "render".to_owned(), file(shown.path)];
     if shown.path.to_str().is_none() {
-        left_out.push("the file's name, which is not Unicode".to_owned());
+        left_out.push("the file name, which is not Unicode".to_owned());
     }
     for set in &shown.options.overrides {
         words.extend(["--set".to_owned(), set.clone()]);
@@ -87,7 +88,7 @@ pub fn copy(shown: &Shown) -> CommandLine {
         words.extend(["--allow-dir".to_owned(), file(folder)]);
     }
     let mut tried: Vec<&str> = Vec::new();
-    // One flag may change what others are by default, so each is added to what the line says so far.
+    // A flag may change the defaults of others, so each is added to the line so far.
     while let Some(difference) = outcome(shown.parse, &words, &scene)
         .ok()
         .and_then(|said| flags::all(shown, &scene, &said).find(|d| !tried.contains(&d.what)))
@@ -98,7 +99,7 @@ pub fn copy(shown: &Shown) -> CommandLine {
             words.push(flag.to_owned());
             words.extend(Some(value).filter(|value| !value.is_empty()));
         }
-        // Beyond what the flag takes.
+        // Outside the range of the flag.
         if outcome(shown.parse, &words, &scene).is_err() {
             words.truncate(length);
         }
@@ -107,7 +108,7 @@ pub fn copy(shown: &Shown) -> CommandLine {
         left_out.extend(flags::all(shown, &scene, &said).map(|d| d.what.to_owned()));
     }
     if shown.edited {
-        left_out.push("what was changed in the scene and not saved".to_owned());
+        left_out.push("unsaved changes of the scene".to_owned());
     }
     let quoted: Vec<_> = words.iter().map(|word| quoted(word)).collect();
     CommandLine {
@@ -116,15 +117,15 @@ pub fn copy(shown: &Shown) -> CommandLine {
     }
 }
 
-/// What a line says about a picture of `scene`. It may be a whole command or only flags.
+/// Applies a line to `scene`. It may be a complete command or only flags.
 ///
 /// # Errors
-/// It is no command of this program, or one that it would refuse: one line on why.
+/// It is not a command of this program, or its arguments are invalid: why, in one line.
 pub fn paste(parse: ParsePicture, line: &str, scene: &Scene) -> Result<Pasted, String> {
-    // Lines that go on in the next one.
+    // Line continuations.
     let line = line.replace("\\\n", " ");
     let Some(words) = shlex::split(line.trim().trim_start_matches('$')) else {
-        return Err("cannot read the command line: a quotation has no end".to_owned());
+        return Err("Cannot read the command line: a quotation mark is not closed".to_owned());
     };
     let is_program = |word: &String| Path::new(word).file_stem().is_some_and(|s| s == "glimray");
     let mut words = match words.iter().position(is_program) {
@@ -134,14 +135,16 @@ pub fn paste(parse: ParsePicture, line: &str, scene: &Scene) -> Result<Pasted, S
             start.into_iter().chain(words).collect()
         }
         None => {
-            return Err("cannot paste: what was copied is no `glimray` command line".to_owned());
+            return Err(
+                "Cannot paste: the clipboard does not contain a `glimray` command line".to_owned(),
+            );
         }
     };
     words[0] = "glimray".to_owned();
     outcome(parse, &words, &without_geometry(scene))
 }
 
-/// Stands in for the scene where a line has none; no file has that name.
+/// Stands for the scene in a line without one; no file has this name.
 const NO_FILE: &str = "\n";
 
 fn outcome(parse: ParsePicture, words: &[String], scene: &Scene) -> Result<Pasted, String> {
@@ -166,7 +169,7 @@ fn outcome(parse: ParsePicture, words: &[String], scene: &Scene) -> Result<Paste
     })
 }
 
-/// What cameras and settings depend on: flags are tried on it more than once.
+/// Cameras and settings depend on these; flags are tried on it repeatedly.
 pub fn without_geometry(scene: &Scene) -> Scene {
     let mut tracks = scene.tracks.clone();
     for track in &mut tracks {
@@ -184,17 +187,17 @@ pub fn without_geometry(scene: &Scene) -> Scene {
     }
 }
 
-/// A word as shells take it. Numbers and their commas stay as they are, which `shlex` would quote.
+/// Quotes a word for a shell. Numbers with commas stay unquoted; `shlex` would quote them.
 fn quoted(word: &str) -> Cow<'_, str> {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
         return word.into();
     }
-    // Only what no file's name and no flag contains cannot be quoted.
+    // Only NUL cannot be quoted, which neither file names nor flags contain.
     shlex::try_quote(word).unwrap_or_default()
 }
 
-/// A file's name that is no flag.
+/// A file name that is not mistaken for a flag.
 fn file(path: &Path) -> String {
     let text = path.to_string_lossy();
     if text.starts_with('-') {

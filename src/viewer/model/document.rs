@@ -1,6 +1,6 @@
-//! The scene that is being edited, and the way back.
+//! The scene that is being edited, with undo and redo.
 //!
-//! A step keeps the scene as it was before: that is cheap, because meshes and pictures are shared.
+//! A step stores the previous scene. This is cheap because meshes and images are shared.
 
 use crate::scene::{
     Camera, Instance, Light, Material, Mesh, Node, Picture, Scene, Shape, Texture, Track,
@@ -8,39 +8,39 @@ use crate::scene::{
 use std::mem::size_of;
 use std::sync::Arc;
 
-/// How many steps can be taken back.
+/// Maximum number of undo steps.
 const MAX_STEPS: usize = 1000;
 
-/// Bytes that all steps may hold together, about; the last one is always kept.
+/// Approximate limit in bytes for all steps; the last step is always kept.
 const MAX_BYTES: usize = 256 << 20;
 
-/// Names of steps after which there may be an altogether different scene.
+/// Names of steps that replace the whole scene.
 const REVERT: &str = "revert";
 const RELOAD: &str = "reload";
 
-/// A scene, what was done to it, and whether that is saved.
+/// A scene, its history, and whether it is saved.
 #[derive(Clone, Debug)]
 pub struct Document {
     scene: Arc<Scene>,
     saved: Arc<Scene>,
     done: Vec<Step>,
     undone: Vec<Step>,
-    /// The last step goes on: [`Document::drag`] adds to it.
+    /// Whether the last step is still being dragged: [`Document::drag`] extends it.
     is_dragging: bool,
     max_bytes: usize,
 }
 
-/// An edit: the scene before it, or after it if it was undone.
+/// An edit: the scene before it, or after it once it is undone.
 #[derive(Clone, Debug)]
 struct Step {
     name: String,
     scene: Arc<Scene>,
-    /// About.
+    /// Approximate size in bytes.
     bytes: usize,
 }
 
 impl Document {
-    /// A scene as it is in its file.
+    /// A document for a scene as read from its file.
     pub fn new(scene: Scene) -> Self {
         let scene = Arc::new(scene);
         Self {
@@ -53,18 +53,17 @@ impl Document {
         }
     }
 
-    /// The same with a limit on the bytes that all steps may hold together, about.
+    /// The same with a limit in bytes for all steps, approximately.
     pub fn with_memory(self, max_bytes: usize) -> Self {
         Self { max_bytes, ..self }
     }
 
-    /// The scene as it is now. Another one after every change, so that whoever keeps it sees by
-    /// [`Arc::ptr_eq`] whether there was any.
+    /// The current scene. Every change makes a new one, so [`Arc::ptr_eq`] detects changes.
     pub fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
 
-    /// Changes the scene in one step, which `name` names in words such as "move sphere 3".
+    /// Changes the scene in one step. `name` describes it, such as "move sphere 3".
     pub fn edit<T>(&mut self, name: &str, change: impl FnOnce(&mut Scene) -> T) -> T {
         let (scene, result) = changed(&self.scene, change);
         self.release();
@@ -72,10 +71,10 @@ impl Document {
         result
     }
 
-    /// Changes the scene in one step, or leaves it as it is.
+    /// Changes the scene in one step, or leaves it unchanged.
     ///
     /// # Errors
-    /// That of `change`.
+    /// The error of `change`.
     pub fn try_edit<T, E>(
         &mut self,
         name: &str,
@@ -89,12 +88,12 @@ impl Document {
         result
     }
 
-    /// Changes the scene as one of many changes that together are one step, as long as a handle is
-    /// dragged or a key held: all until [`Document::release`]. `change` gets the scene as it was when
-    /// that began, so that it can go by how far the mouse is from there.
+    /// Changes the scene as part of one step while a handle is dragged or a key is held, until
+    /// [`Document::release`]. `change` gets the scene from before the drag, so that it can apply the total
+    /// motion.
     ///
     /// # Errors
-    /// That of `change`; the scene then stays as it is.
+    /// The error of `change`; the scene stays unchanged.
     pub fn drag<T, E>(
         &mut self,
         name: &str,
@@ -115,12 +114,12 @@ impl Document {
         Ok(result)
     }
 
-    /// Ends what [`Document::drag`] began: the next change is a step of its own.
+    /// Ends a drag: the next change is a new step.
     pub fn release(&mut self) {
         self.is_dragging = false;
     }
 
-    /// Takes back what [`Document::drag`] did since it began, and forgets it.
+    /// Reverts the current drag and discards its step.
     pub fn cancel(&mut self) {
         if std::mem::take(&mut self.is_dragging)
             && let Some(step) = self.done.pop()
@@ -129,7 +128,7 @@ impl Document {
         }
     }
 
-    /// Takes the last step back and returns its name; `None` if there is none.
+    /// Undoes the last step and returns its name; `None` if there is none.
     pub fn undo(&mut self) -> Option<String> {
         self.release();
         let step = self.done.pop()?;
@@ -141,7 +140,7 @@ impl Document {
         Some(step.name)
     }
 
-    /// Does the last step again that was taken back and returns its name; `None` if there is none.
+    /// Redoes the last undone step and returns its name; `None` if there is none.
     pub fn redo(&mut self) -> Option<String> {
         self.release();
         let step = self.undone.pop()?;
@@ -153,38 +152,38 @@ impl Document {
         Some(step.name)
     }
 
-    /// What [`Document::undo`] would take back.
+    /// The name of the step that [`Document::undo`] reverts.
     pub fn undo_name(&self) -> Option<&str> {
         self.done.last().map(|step| step.name.as_str())
     }
 
-    /// What [`Document::redo`] would do again.
+    /// The name of the step that [`Document::redo`] repeats.
     pub fn redo_name(&self) -> Option<&str> {
         self.undone.last().map(|step| step.name.as_str())
     }
 
-    /// Whether a step of that name puts another scene in the place of the one there is.
+    /// Whether a step of that name replaces the whole scene.
     pub fn replaces(name: &str) -> bool {
         [REVERT, RELOAD].contains(&name)
     }
 
-    /// How many steps can be taken back.
+    /// Number of steps that can be undone.
     pub fn undo_count(&self) -> usize {
         self.done.len()
     }
 
-    /// Whether the scene is another one than that last saved or loaded.
+    /// Whether the scene has unsaved changes.
     pub fn is_changed(&self) -> bool {
         !Arc::ptr_eq(&self.scene, &self.saved)
     }
 
-    /// Says that the scene was saved as it is now.
+    /// Marks the current scene as saved.
     pub fn mark_saved(&mut self) {
         self.release();
         self.saved = self.scene.clone();
     }
 
-    /// Back to the scene as it was last saved or loaded, in a step that can itself be taken back.
+    /// Reverts to the saved scene, in a step that can be undone.
     pub fn revert(&mut self) {
         if self.is_changed() {
             self.release();
@@ -193,8 +192,8 @@ impl Document {
         }
     }
 
-    /// Takes the scene from its file anew: that is the saved state now. What was done before can be
-    /// taken back still.
+    /// Replaces the scene by a new version from its file, which is the saved state. Earlier steps can still
+    /// be undone.
     pub fn reload(&mut self, scene: Scene) {
         self.release();
         let scene = Arc::new(scene);
@@ -232,7 +231,7 @@ fn changed<T>(scene: &Scene, change: impl FnOnce(&mut Scene) -> T) -> (Scene, T)
     (scene, result)
 }
 
-/// Bytes that keeping `scene` takes where `next` is kept anyway, about.
+/// Approximate bytes needed to keep `scene` in addition to `next`.
 fn own_bytes(scene: &Scene, next: &Scene) -> usize {
     fn of<T>(list: &[T]) -> usize {
         size_of_val(list)

@@ -1,4 +1,4 @@
-//! The desktop's own dialogs, asked without waiting for them. Tests answer in their place.
+//! Native file dialogs, opened without blocking. Tests replace them.
 
 use crate::import;
 use eframe::egui;
@@ -6,66 +6,66 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-/// Nobody closes a dialog this soon: one that did not come up did.
+/// A reply this soon means that the dialog did not open.
 const NOBODY: Duration = Duration::from_millis(150);
 
-/// What files of a kind are called together, and how their names may end.
+/// A kind of files: its title and the file name extensions.
 pub type Kind = (&'static str, &'static [&'static str]);
 
-/// Pictures as they are saved.
+/// The formats of saved pictures.
 pub const PICTURES: Kind = ("Pictures", &["png", "jpg", "jpeg", "exr", "hdr"]);
 
-/// What a dialog is to find out.
+/// A request for a file name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Request {
-    /// Whether a new file is wanted, rather than one that is there.
+    /// Whether a new file is saved rather than an existing one opened.
     pub saves: bool,
-    /// What a new file is called and how its name may end.
+    /// The kind of the new file.
     pub kind: Option<Kind>,
-    /// What it is for.
+    /// The title of the dialog.
     pub title: String,
-    /// Where to begin.
+    /// The folder to start in.
     pub folder: Option<PathBuf>,
-    /// What to suggest.
+    /// The suggested name.
     pub name: Option<String>,
 }
 
-/// What it found out.
+/// The reply of a dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reply {
-    /// A file; for a new one the person has agreed to replace what has that name.
+    /// The chosen file. For a new one, replacing an existing file was confirmed.
     Chosen(PathBuf),
-    /// None is wanted.
+    /// The dialog was cancelled.
     Cancelled,
-    /// There is no such dialog on this desktop.
+    /// No dialog is available on this desktop.
     Unavailable,
 }
 
-/// Who is asked.
+/// The source of replies.
 pub struct FileDialogs(Box<Ask>);
 
-/// Asks, and says where the reply will come.
+/// Opens a dialog and returns the channel of its reply.
 type Ask = dyn Fn(Request, &egui::Context) -> Receiver<Reply>;
 
 impl Default for FileDialogs {
-    /// The desktop.
+    /// The native dialogs.
     fn default() -> Self {
         Self(Box::new(desktop))
     }
 }
 
 impl FileDialogs {
-    /// Someone who answers at once.
+    /// Dialogs that reply at once, for tests.
     pub fn answering(answer: impl Fn(Request) -> Reply + 'static) -> Self {
         Self(Box::new(move |request, _| {
             let (sender, receiver) = channel();
-            // The receiver is right here.
+            // The receiver still exists here.
             let _ = sender.send(answer(request));
             receiver
         }))
     }
 
-    /// Asks; the reply comes some time later, and `ctx` is woken for it.
+    /// Opens a dialog. The reply comes later and requests a repaint of `ctx`.
     pub fn ask(&self, request: Request, ctx: &egui::Context) -> Receiver<Reply> {
         (self.0)(request, ctx)
     }
@@ -85,7 +85,7 @@ fn desktop(request: Request, ctx: &egui::Context) -> Receiver<Reply> {
     }
     let (sender, receiver) = channel();
     let ctx = ctx.clone();
-    // On a Mac the dialog must be made here, and may be waited for anywhere.
+    // macOS requires that dialogs are created on this thread; waiting works anywhere.
     let answer: Box<dyn FnOnce() -> Option<rfd::FileHandle> + Send> = match request.saves {
         true => {
             if let Some((name, endings)) = request.kind {
@@ -97,9 +97,9 @@ fn desktop(request: Request, ctx: &egui::Context) -> Receiver<Reply> {
         false => {
             let endings = [import::SCENE_ENDINGS, import::PICTURE_ENDINGS].concat();
             let dialog = dialog
-                .add_filter("Scenes, models and pictures", &endings)
+                .add_filter("Scenes, models and images", &endings)
                 .add_filter("Scenes and models", import::SCENE_ENDINGS)
-                .add_filter("Pictures of the surroundings", import::PICTURE_ENDINGS)
+                .add_filter("Environment images", import::PICTURE_ENDINGS)
                 .pick_file();
             Box::new(move || pollster::block_on(dialog))
         }
@@ -115,14 +115,14 @@ fn desktop(request: Request, ctx: &egui::Context) -> Receiver<Reply> {
         let _ = sender.send(reply);
         ctx.request_repaint();
     };
-    // Without a thread the sender is dropped, and that is taken for a dialog that is not there.
+    // Without a thread the sender is dropped, which counts as an unavailable dialog.
     let _ = std::thread::Builder::new()
         .name("dialog".into())
         .spawn(wait);
     receiver
 }
 
-/// Whether this desktop can have dialogs at all: on Linux they come over its bus, or from a program.
+/// Whether this desktop can show dialogs: on Linux they need a session bus or zenity.
 fn has_dialogs() -> bool {
     if !cfg!(target_os = "linux") {
         return true;
@@ -135,7 +135,7 @@ fn has_dialogs() -> bool {
     has_bus || std::env::split_paths(&path).any(is_there)
 }
 
-/// Whether a file's name ends in one of these, in upper or lower case.
+/// Whether a file name has one of these extensions, ignoring case.
 pub fn ends_in(path: &Path, endings: &[&str]) -> bool {
     let ending = path.extension().map(|e| e.to_ascii_lowercase());
     ending.is_some_and(|found| endings.iter().any(|known| *known == found))

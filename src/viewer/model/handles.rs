@@ -1,6 +1,6 @@
-//! Arrows, rings and boxes by which a hand moves, turns and scales what is selected: where they are,
-//! which one is under the pointer, and what dragging it makes of a place. Nothing here draws or knows a
-//! window; positions in the picture are its pixels from the upper left corner, y down.
+//! Handles for moving, rotating and scaling the selection: their geometry, hit testing and dragging. This
+//! module neither draws nor knows a window. Positions are in pixels of the picture from its upper left
+//! corner, y down.
 
 mod amounts;
 
@@ -11,59 +11,59 @@ use crate::viewer::model::tool::Tool;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// Lines that a ring is drawn and met by.
+/// Segments of a ring.
 const RING_LINES: usize = 64;
-/// Where the squares of planes begin and end, as shares of the reach.
+/// Start and end of the plane squares, as fractions of the handle length.
 const SQUARE: (f64, f64) = (0.28, 0.46);
-/// The ring round the line of sight, in reaches.
+/// Radius of the view ring, as a factor on the handle length.
 const OUTER: f64 = 1.2;
-/// Sine of the angle between a plane and the line of sight below which the plane tells nothing.
+/// Sine of the angle between plane and viewing direction below which a plane handle is unusable.
 const EDGE_ON: f64 = 0.15;
-/// With Ctrl, turns go by this and factors by this.
+/// Snapping steps for angles and factors.
 const SNAP_ANGLE: f64 = PI / 12.0;
 const SNAP_FACTOR: f64 = 0.1;
-/// With Shift, this share of the hand's way counts.
+/// Fraction of the motion that counts in fine mode.
 const FINE: f64 = 0.1;
 
-/// One of the handles. Axes are 0, 1 and 2; that of a plane is its normal.
+/// A handle. Axes are 0, 1 and 2; a plane is named by its normal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// Along an axis.
     Axis(usize),
-    /// In the plane of the other two.
+    /// In the plane perpendicular to an axis.
     Plane(usize),
-    /// Round an axis.
+    /// Around an axis.
     Ring(usize),
-    /// In the plane of the picture, round the line of sight, or evenly.
+    /// In the plane of the picture, around the viewing direction, or uniformly.
     All,
 }
 
-/// Through what the handles are seen.
+/// The view in which the handles are used.
 #[derive(Clone, Copy, Debug)]
 pub struct Eye<'a> {
-    /// In the world.
+    /// The camera in world space.
     pub camera: &'a Camera,
-    /// Of the picture, in its pixels.
+    /// Size of the picture in pixels.
     pub size: DVec2,
 }
 
 impl Eye<'_> {
-    /// Where a point is in the picture; `None` behind the camera.
+    /// Projects a point into the picture; `None` behind the camera.
     pub fn project(&self, point: DVec3) -> Option<DVec2> {
         project(self.camera, point, self.size)
     }
 
-    /// Unit direction of the middle of the picture.
+    /// The viewing direction, of unit length.
     pub fn forward(&self) -> DVec3 {
         (self.camera.look_at - self.camera.look_from).normalize_or(DVec3::NEG_Z)
     }
 
-    /// How far a point is from the camera along the middle ray; 0 or less behind it.
+    /// Depth of a point along the viewing direction; 0 or less behind the camera.
     pub fn depth(&self, point: DVec3) -> f64 {
         (point - self.camera.look_from).dot(self.forward())
     }
 
-    /// What a pixel is as wide as at a point, in scene units.
+    /// The size of a pixel at a point, in scene units.
     pub fn pixel_at(&self, point: DVec3) -> f64 {
         let height = match self.camera.orthographic_height {
             Some(height) => height,
@@ -72,7 +72,7 @@ impl Eye<'_> {
         height / self.size.y
     }
 
-    /// Unit direction in which a point is seen.
+    /// Unit direction from the camera to a point.
     fn toward(&self, point: DVec3) -> DVec3 {
         match self.camera.orthographic_height {
             Some(_) => self.forward(),
@@ -81,24 +81,24 @@ impl Eye<'_> {
     }
 }
 
-/// The handles of something that is selected.
+/// The handles of the selection.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Handles {
     /// What they do: [`Tool::Move`], [`Tool::Rotate`] or [`Tool::Scale`].
     pub tool: Tool,
-    /// Where they meet.
+    /// Their common origin.
     pub origin: DVec3,
-    /// Unit axes: the world's, but those of the thing itself for scaling.
+    /// Unit axes: the world's, or the object's own for scaling.
     pub axes: [DVec3; 3],
-    /// How long they are, in scene units.
+    /// Length of the handles in scene units.
     pub reach: f64,
-    /// Those that there are.
+    /// The available handles.
     pub parts: Vec<Part>,
 }
 
 impl Handles {
-    /// The handles of a thing at `place` that are `length` pixels long in the picture; `None` where it is
-    /// behind the camera or there is nothing to do with this tool.
+    /// The handles of an object at `place`, `length` pixels long in the picture; `None` behind the camera or
+    /// if the tool does not apply.
     pub fn new(
         tool: Tool,
         place: DAffine3,
@@ -129,7 +129,7 @@ impl Handles {
             Tool::Scale => axes.map(own),
             _ => DVec3::AXES,
         };
-        // A square that is seen from its edge lies over an arrow, and leads nowhere.
+        // A square seen edge-on would cover an arrow and cannot be dragged.
         let toward = eye.toward(origin);
         parts.retain(|part| match part {
             Part::Plane(axis) => axes[*axis].dot(toward).abs() > EDGE_ON,
@@ -144,8 +144,8 @@ impl Handles {
         })
     }
 
-    /// The corners of a handle's line in the world, from the origin outwards; those of a plane's square;
-    /// none for what is a spot at the origin.
+    /// The points of a handle in world space: from the origin outwards, or the corners of a plane's square;
+    /// empty for the spot at the origin.
     pub fn line(&self, part: Part, eye: Eye) -> Vec<DVec3> {
         match part {
             Part::Axis(axis) => vec![self.origin, self.origin + self.axes[axis] * self.reach],
@@ -173,7 +173,7 @@ impl Handles {
         (0..=RING_LINES).map(point).collect()
     }
 
-    /// The handle under `pointer`, or not farther than `slack` pixels from it.
+    /// The handle within `slack` pixels of `pointer`.
     pub fn part_at(&self, eye: Eye, pointer: DVec2, slack: f64) -> Option<Part> {
         let mut nearest: Option<(f64, f64, Part)> = None;
         for &part in &self.parts {
@@ -181,7 +181,7 @@ impl Handles {
             let points: Vec<DVec2> = line.iter().filter_map(|p| eye.project(*p)).collect();
             let (distance, depth) = match part {
                 Part::All if line.is_empty() => {
-                    // A spot is met more easily than the lines that begin at it.
+                    // The spot has priority over the lines that start at it.
                     let spot = eye.project(self.origin)?;
                     ((spot.distance(pointer) - slack).max(0.0), f64::NEG_INFINITY)
                 }
@@ -206,32 +206,32 @@ impl Handles {
     }
 }
 
-/// A handle in the hand.
+/// A handle that is being dragged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grip {
-    /// Which one.
+    /// The handle.
     pub part: Part,
-    /// As they were when it was taken.
+    /// The handles when the drag started.
     pub handles: Handles,
-    /// Where the thing was then.
+    /// The object's transform when the drag started.
     pub start: DAffine3,
-    /// Where the pointer was then.
+    /// The pointer when the drag started.
     from: DVec2,
-    /// Where it is, less what Shift holds back.
+    /// The effective pointer, with fine motion applied.
     to: DVec2,
 }
 
-/// What a drag has come to.
+/// The result of a drag.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dragged {
-    /// Where the thing is to be.
+    /// The new transform of the object.
     pub place: DAffine3,
-    /// In words, such as "x +0.25".
+    /// A description, such as "x +0.25".
     pub told: String,
 }
 
 impl Grip {
-    /// Takes a handle of a thing that is at `start`.
+    /// Starts to drag a handle of an object at `start`.
     pub fn new(part: Part, handles: Handles, start: DAffine3, pointer: DVec2) -> Self {
         Self {
             part,
@@ -242,13 +242,13 @@ impl Grip {
         }
     }
 
-    /// Goes with the pointer, `fine` a tenth of the way.
+    /// Moves by a pointer motion; `fine` applies a tenth of it.
     pub fn follow(&mut self, moved: DVec2, fine: bool) {
         self.to += moved * if fine { FINE } else { 1.0 };
     }
 
-    /// What has become of the thing; `None` where the pointer leads nowhere, such as to the horizon of a
-    /// plane. `snap` goes by whole steps.
+    /// The resulting transform; `None` where the pointer has no solution, such as beyond the horizon of a
+    /// plane. `snap` rounds to whole steps.
     pub fn dragged(&self, eye: Eye, snap: bool) -> Option<Dragged> {
         match self.handles.tool {
             Tool::Move => self.moved(eye, snap),
@@ -262,7 +262,7 @@ impl Grip {
         ray_through(eye.camera, position, eye.size)
     }
 
-    /// How far along an axis the hand went.
+    /// Distance dragged along an axis.
     fn along(&self, eye: Eye, axis: DVec3) -> Option<(f64, f64)> {
         let at = |position| nearest_on_line(self.ray(eye, position), self.handles.origin, axis);
         Some((at(self.from)?, at(self.to)?))
@@ -315,7 +315,7 @@ impl Grip {
             let arm = |position| Some(on_plane(self.ray(eye, position), origin, axis)? - origin);
             angle_between(arm(self.from)?, arm(self.to)?, axis)
         } else {
-            // Seen from its edge a ring is a line along which the hand rolls it.
+            // A ring seen edge-on is dragged as a line.
             let toward = eye.toward(origin);
             let at = |position| on_plane(self.ray(eye, position), origin, toward);
             let way = at(self.to)? - at(self.from)?;
@@ -333,7 +333,7 @@ impl Grip {
                 let (from, to) = self.along(eye, self.handles.axes[axis])?;
                 to / from
             }
-            // To the right and up is larger: as far as the handles reach doubles it.
+            // Right and up enlarge: one handle length doubles the size.
             _ => {
                 let way = self.to - self.from;
                 let length = self.handles.reach / eye.pixel_at(self.handles.origin);
@@ -347,8 +347,8 @@ impl Grip {
     }
 }
 
-/// Where on the line through `point` along the unit vector `axis` a ray passes nearest; `None` where
-/// they are parallel.
+/// The parameter of the point on the line through `point` along the unit vector `axis` that is closest to a
+/// ray; `None` if they are parallel.
 pub fn nearest_on_line(
     (from, direction): (DVec3, DVec3),
     point: DVec3,
@@ -360,18 +360,18 @@ pub fn nearest_on_line(
     (sin_squared > 1e-6).then(|| (cos * off.dot(direction) - off.dot(axis)) / sin_squared)
 }
 
-/// Where a ray meets a plane ahead of it.
+/// Intersection of a ray with a plane ahead of it.
 pub fn on_plane((from, direction): (DVec3, DVec3), point: DVec3, normal: DVec3) -> Option<DVec3> {
     let t = (point - from).dot(normal) / direction.dot(normal);
     (t.is_finite() && t > 0.0).then(|| from + direction * t)
 }
 
-/// Radians in (−π, π] from one arm to another, counter-clockwise where the axis points at one.
+/// Angle in (−π, π] between two vectors, counter-clockwise as seen against the axis.
 pub fn angle_between(from: DVec3, to: DVec3, axis: DVec3) -> f64 {
     axis.dot(from.cross(to)).atan2(from.dot(to))
 }
 
-/// How far `point` is from a line from `a` to `b`.
+/// Distance of `point` from the segment from `a` to `b`.
 fn distance_to(a: DVec2, b: DVec2, point: DVec2) -> f64 {
     let along = b - a;
     let share = (point - a).dot(along) / along.length_squared();

@@ -1,4 +1,4 @@
-//! The outline as it is shown: made anew when the scene is another one, searched when the words are.
+//! The visible rows of the outline, updated when the scene or the search changes.
 
 use crate::scene::Scene;
 use crate::viewer::model::objects::Id;
@@ -7,21 +7,21 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// An [`Outline`], and what of it is shown.
+/// An [`Outline`] and its visible rows.
 #[derive(Default)]
 pub struct Listing {
-    /// The words that are looked for.
+    /// The search text.
     pub query: String,
     scene: Option<Arc<Scene>>,
     outline: Outline,
     lines: HashMap<Id, usize>,
     searched: String,
-    /// Indices of the lines that are shown.
+    /// Indices of the visible rows.
     shown: Vec<usize>,
 }
 
 impl Listing {
-    /// Takes up a scene and the words.
+    /// Updates the rows for a scene and a search text.
     pub fn follow(&mut self, scene: &Arc<Scene>) {
         let is_known = self.lists(scene);
         if !is_known {
@@ -41,25 +41,24 @@ impl Listing {
         (self.scene.as_ref()).is_some_and(|known| Arc::ptr_eq(known, scene))
     }
 
-    /// How many lines are shown.
+    /// Number of visible rows.
     pub fn count(&self) -> usize {
         self.shown.len()
     }
 
-    /// Some of the lines that are shown.
+    /// A range of the visible rows.
     pub fn rows(&self, range: Range<usize>) -> impl Iterator<Item = &Entry> + '_ {
         let shown = self.shown.get(range).unwrap_or_default();
         shown.iter().map(|index| &self.outline.entries[*index])
     }
 
-    /// At which of the shown lines something is.
+    /// Index of something among the visible rows.
     pub fn row_of(&self, id: Id) -> Option<usize> {
         let line = self.lines.get(&id)?;
         self.shown.binary_search(line).ok()
     }
 
-    /// What something of `scene` is called, where it is that scene that is listed: a hidden outline is
-    /// not kept up.
+    /// The label of something in `scene` if that is the scene listed. A hidden outline is not updated.
     pub fn label(&self, scene: &Arc<Scene>, id: Id) -> Option<&str> {
         if !self.lists(scene) {
             return None;
@@ -68,7 +67,7 @@ impl Listing {
         Some(&self.outline.entries[*line].label)
     }
 
-    /// What is selected some lines on.
+    /// The item some rows after the selection.
     pub fn step(&self, from: Option<Id>, steps: isize) -> Option<Id> {
         let things: Vec<Id> = (self.shown.iter())
             .filter_map(|index| self.outline.entries[*index].id)

@@ -1,4 +1,4 @@
-//! Reading scenes while the window goes on.
+//! Loads scenes in the background.
 
 use crate::app::advice;
 use crate::import::{self, Fault, ImportError};
@@ -8,43 +8,44 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::SystemTime;
 
-/// A scene that is being read on a thread of its own.
+/// A scene that is loading on its own thread.
 pub struct Loader {
+    /// The file.
     pub path: PathBuf,
-    /// Whether it is the one on screen, of which camera, look and time stay.
+    /// Whether it is a reload, which keeps camera, view settings and time.
     pub again: bool,
-    /// Whether what the command line says of a scene is meant for it.
+    /// Whether the flags of the command line apply to it.
     pub is_own: bool,
     outcome: Receiver<Loaded>,
 }
 
-/// What came of it.
+/// The result of loading.
 pub struct Loaded {
-    /// The scene, or why there is none.
+    /// The scene, or why it cannot be read.
     pub outcome: Result<Scene, Trouble>,
-    /// The scene's file and those that it refers to, as far as they are known.
+    /// The scene's file and the files that it refers to, as far as known.
     pub files: Vec<PathBuf>,
-    /// When it was begun: what was written later may not be in it.
+    /// When loading started: later changes may be missing.
     pub began: SystemTime,
 }
 
-/// Why a scene was refused.
+/// Why a scene cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Trouble {
-    /// In one line.
+    /// The error in one line.
     pub message: String,
-    /// What the file says there.
+    /// The line of the file with the error.
     pub line: Option<SourceLine>,
 }
 
-/// The line of a file that is at fault, or the part of it that matters.
+/// The line of a file that contains the error, or the relevant part of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceLine {
-    /// Counted from 1.
+    /// Line number, from 1.
     pub number: usize,
-    /// Without its end.
+    /// The text without its line end.
     pub text: String,
-    /// Bytes of `text` to point at.
+    /// Byte range of the error in `text`.
     pub span: Range<usize>,
 }
 
@@ -74,7 +75,7 @@ fn source_line(fault: &Fault) -> Option<SourceLine> {
 }
 
 impl Loader {
-    /// Begins to read; `wake` is called when it is done.
+    /// Starts loading; `wake` is called at the end.
     pub fn new(
         path: PathBuf,
         options: import::Options,
@@ -89,7 +90,7 @@ impl Loader {
                 let began = SystemTime::now();
                 let (scene, files) = import::load_watched(&from, &options);
                 let outcome = scene.map_err(|error| Trouble::from(&error));
-                // Nobody waits any more when the window was closed meanwhile.
+                // The window may have been closed meanwhile.
                 let _ = sender.send(Loaded {
                     outcome,
                     files,
@@ -105,14 +106,14 @@ impl Loader {
         })
     }
 
-    /// What was read, once it is.
+    /// The result, once loading has finished.
     pub fn outcome(&self) -> Option<Loaded> {
         match self.outcome.try_recv() {
             Ok(loaded) => Some(loaded),
             Err(TryRecvError::Empty) => None,
             Err(TryRecvError::Disconnected) => {
                 let path = self.path.display();
-                let why = format!("internal fault (reading {path}). Please report it.");
+                let why = format!("Internal error while reading {path}. Please report it.");
                 Some(Loaded {
                     outcome: Err(why.into()),
                     files: vec![self.path.clone()],

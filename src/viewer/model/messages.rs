@@ -1,39 +1,51 @@
-//! What happened: each notice for as long as it takes to read, and all of them in a list.
+//! Messages of the window: shown for as long as it takes to read them, and kept in a list.
 
 use std::time::{Duration, Instant};
 
-/// How long the shortest notice stays, and how long it takes to read a character more.
+/// Minimum time on screen, and the extra time per character.
 const STAY: Duration = Duration::from_secs(5);
 const READING: Duration = Duration::from_millis(60);
 
-/// Most notices that are kept.
+/// Maximum number of messages kept.
 pub const MOST: usize = 200;
 
-/// Something that happened.
+/// A message.
 #[derive(Clone, Debug)]
 pub struct Message {
-    /// In a line or two.
+    /// One or two lines of text.
     pub text: String,
-    /// Whether something went wrong.
+    /// Whether it reports a problem.
     pub is_trouble: bool,
-    /// When.
+    /// When it was added.
     pub since: Instant,
     is_read: bool,
 }
 
-/// Notices, the newest last.
+/// `text` with a capital first letter. Errors of the library start with a lower-case word, because the
+/// command line prints them after `error:`. File names at the start stay as they are.
+pub fn sentence(text: &str) -> String {
+    let word = text.split_whitespace().next().unwrap_or_default();
+    match word.chars().next() {
+        Some(first) if word.chars().all(char::is_alphabetic) => {
+            first.to_uppercase().chain(text.chars().skip(1)).collect()
+        }
+        _ => text.to_owned(),
+    }
+}
+
+/// Messages, the newest last.
 #[derive(Default)]
 pub struct Messages {
     messages: Vec<Message>,
 }
 
 impl Messages {
-    /// Tells of trouble, once while it is to be seen.
+    /// Adds a warning. A visible message with the same text is replaced.
     pub fn warn(&mut self, text: String) {
-        self.add(text, true);
+        self.add(sentence(&text), true);
     }
 
-    /// The same for what is no trouble.
+    /// Adds a message that is not a warning.
     pub fn tell(&mut self, text: impl Into<String>) {
         self.add(text.into(), false);
     }
@@ -51,32 +63,32 @@ impl Messages {
         });
     }
 
-    /// Those that are to be seen now.
+    /// The messages that are visible now.
     pub fn current(&self) -> Vec<Message> {
         let messages = self.messages.iter();
         messages.filter(|n| n.rest().is_some()).cloned().collect()
     }
 
-    /// How long it takes until one of them goes away.
+    /// Time until the next visible message expires.
     pub fn next_change(&self) -> Option<Duration> {
         self.messages.iter().filter_map(Message::rest).min()
     }
 
-    /// Takes a notice away that was read.
+    /// Hides a message.
     pub fn dismiss(&mut self, text: &str) {
         for notice in &mut self.messages {
             notice.is_read |= notice.text == text;
         }
     }
 
-    /// All that are kept, the oldest first.
+    /// All messages, the oldest first.
     pub fn all(&self) -> &[Message] {
         &self.messages
     }
 }
 
 impl Message {
-    /// How long it will be seen yet.
+    /// Remaining time on screen.
     fn rest(&self) -> Option<Duration> {
         let stay = STAY + READING * u32::try_from(self.text.chars().count()).unwrap_or(u32::MAX);
         (!self.is_read)

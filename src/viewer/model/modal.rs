@@ -1,25 +1,25 @@
-//! A movement that a key began: its limit and the number typed so far.
+//! A move, rotation or scale started by a key: its constraint and the number typed.
 
 use super::handles::{Handles, Part};
 use super::tool::Tool;
 use eframe::egui::Key;
 use glam::DAffine3;
 
-/// A movement that a key began.
+/// A move, rotation or scale started by a key.
 #[derive(Clone, Debug, Default)]
 pub struct Modal {
-    /// The axis of the limit, and whether that is the plane across it.
+    /// The constrained axis, and whether the constraint is the plane perpendicular to it.
     limit: Option<(usize, bool)>,
-    /// A number so far.
+    /// The typed number.
     typed: String,
-    /// Where the thing was put last.
+    /// The last transform that was set.
     pub place: Option<DAffine3>,
-    /// Whether it ends with the next place.
+    /// Whether it ends with the next update.
     pub is_confirmed: bool,
 }
 
 impl Modal {
-    /// The handle that does the same. Where the thing has no such freedom, that for all directions.
+    /// The equivalent handle. Without that freedom, the handle for all directions.
     pub fn part(&self, handles: &Handles) -> Part {
         let wanted = match (handles.tool, self.limit) {
             (_, None) => Part::All,
@@ -38,17 +38,20 @@ impl Modal {
         self.typed.parse().ok()
     }
 
-    /// The number as far as it was typed.
+    /// The typed text.
     pub fn typed(&self) -> &str {
         &self.typed
     }
 
+    /// Constrains the edit to an axis (0 to 2 for x to z), or with `is_plane` to the plane perpendicular to
+    /// it. The same constraint again removes it.
     pub fn limit(&mut self, axis: usize, is_plane: bool) {
-        // The second time it is taken back.
+        // The same constraint again removes it.
         let limit = Some((axis, is_plane));
         self.limit = if self.limit == limit { None } else { limit };
     }
 
+    /// Types a digit, a decimal point or a minus sign, which toggles the sign. Backspace deletes.
     pub fn type_key(&mut self, key: Key) {
         match key {
             Key::Minus => match self.typed.strip_prefix('-') {

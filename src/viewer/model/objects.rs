@@ -1,5 +1,4 @@
-//! What can be done to one object of a scene: read and set where it is, hide it, remove it, make
-//! another, give it a material.
+//! Edits of one object: transform, visibility, removal, duplication and material.
 
 mod frame;
 mod place;
@@ -12,12 +11,12 @@ pub use scope::{bounds, hide_others, is_there, name, rename, same, show_all, sub
 use crate::scene::{Node, ObjectRef, Scene, Target};
 use std::sync::Arc;
 
-/// Something in a scene that can be selected. Indices are those of the scene's lists.
+/// A selectable part of a scene. Indices are those of the scene's lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Id {
-    /// What has a place and is seen or shines.
+    /// An instance, shape or light.
     Object(ObjectRef),
-    /// What carries others.
+    /// A node, the parent of other objects.
     Node(usize),
     /// A camera.
     Camera(usize),
@@ -25,19 +24,19 @@ pub enum Id {
     Material(usize),
 }
 
-/// Why an edit is not possible: a clause, and what to do.
+/// Why an edit is not possible: a clause, and how to proceed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EditError {
-    /// It is not in the scene any more.
-    #[error("it is not in the scene any more. Select another one.")]
+    /// It is no longer in the scene.
+    #[error("it is no longer in the scene. Select another object.")]
     Gone,
     /// An animation sets the property.
-    #[error("an animation moves it: its {property} has keys. Edit the keys, or what carries it.")]
+    #[error("its {property} is animated. Edit the keys or its parent node.")]
     Animated {
         /// Such as "translation".
         property: &'static str,
     },
-    /// The thing has no such freedom.
+    /// The object does not support this edit.
     #[error("{what} cannot be {done}. {todo}.")]
     Unable {
         /// Such as "a point light".
@@ -47,29 +46,27 @@ pub enum EditError {
         /// What to do instead.
         todo: &'static str,
     },
-    /// What carries it decides.
-    #[error("what carries it, {carrier}, is hidden. Show that.")]
+    /// A hidden parent decides.
+    #[error("its parent {carrier} is hidden. Show the parent.")]
     CarrierHidden {
         /// The name of the node.
         carrier: String,
     },
-    /// Nothing would be left of it.
-    #[error(
-        "nothing would be left of it, or it would reach out of range. Give a scale other than 0."
-    )]
+    /// The result would be degenerate.
+    #[error("the scale must not be 0 and the result must stay in range.")]
     Flat,
     /// A list must not become empty.
-    #[error("a scene has at least one {what}. Add another one first.")]
+    #[error("a scene needs at least one {what}. Add another one first.")]
     Last {
         /// Such as "camera".
         what: &'static str,
     },
 }
 
-/// The name that nodes have which only hide what they carry.
+/// The name of nodes that only hide their children.
 const HIDER: &str = "hidden";
 
-/// Whether a node is there only to hide what it carries.
+/// Whether a node exists only to hide its children.
 pub fn is_hider(scene: &Scene, index: usize) -> bool {
     let node = &scene.nodes[index];
     let plain = Node {
@@ -91,7 +88,7 @@ fn is_animated(scene: &Scene, node: usize) -> bool {
     targets.any(|target| matches!(*target, Target::Node(index, _) if index == node))
 }
 
-/// What carries something, past nodes that only hide.
+/// The parent of something, skipping nodes that only hide.
 pub fn shown_carrier(scene: &Scene, mut node: Option<usize>) -> Option<usize> {
     while let Some(index) = node.filter(|&index| is_hider(scene, index)) {
         node = scene.nodes[index].parent;
@@ -99,7 +96,7 @@ pub fn shown_carrier(scene: &Scene, mut node: Option<usize>) -> Option<usize> {
     node
 }
 
-/// Index into the scene's nodes of what carries something.
+/// Index of the parent node.
 pub fn carrier(scene: &Scene, id: Id) -> Option<usize> {
     match id {
         Id::Object(ObjectRef::Instance(index)) => scene.instances.get(index)?.node,
@@ -111,7 +108,7 @@ pub fn carrier(scene: &Scene, id: Id) -> Option<usize> {
     }
 }
 
-/// Whether something is there at rest: whether no node hides it.
+/// Whether something is visible at rest: no node hides it.
 pub fn is_visible(scene: &Scene, id: Id) -> bool {
     if matches!(id, Id::Camera(_) | Id::Material(_)) {
         return true;
@@ -124,11 +121,11 @@ pub fn is_visible(scene: &Scene, id: Id) -> bool {
         .all(|index| scene.nodes[index].visible)
 }
 
-/// Shows or hides something at rest. Instances, shapes and lights have no switch of their own: they
-/// are hung on a node that hides them, which a scene file keeps.
+/// Shows or hides something at rest. Instances, shapes and lights have no visibility of their own: they
+/// become children of a hiding node, which a scene file stores.
 ///
 /// # Errors
-/// It is carried by what is hidden, an animation switches it, or it can never be seen.
+/// Its parent is hidden, its visibility is animated, or it can never be visible.
 pub fn set_visible(scene: &mut Scene, id: Id, visible: bool) -> Result<(), EditError> {
     check(scene, id)?;
     if let Id::Node(index) = id {
@@ -145,7 +142,7 @@ pub fn set_visible(scene: &mut Scene, id: Id, visible: bool) -> Result<(), EditE
         return Err(EditError::Unable {
             what: "a camera or material",
             done: "hidden",
-            todo: "Hide what has a place",
+            todo: "Hide an object instead",
         });
     };
     let now = carrier(scene, id);
@@ -184,7 +181,7 @@ fn unused_name(scene: &Scene) -> String {
     names.find(is_free).unwrap_or_default()
 }
 
-/// Removes hiding nodes that carry nothing from the end of the list, where no index changes.
+/// Removes hiding nodes without children from the end of the list, so that no index changes.
 fn remove_idle_hiders(scene: &mut Scene) {
     while let Some(last) = scene.nodes.len().checked_sub(1) {
         let carries = |node: Option<usize>| node == Some(last);
@@ -203,7 +200,7 @@ fn remove_idle_hiders(scene: &mut Scene) {
     }
 }
 
-/// Where an object says what carries it.
+/// The field that holds an object's parent.
 fn slot(scene: &mut Scene, object: ObjectRef) -> &mut Option<usize> {
     match object {
         ObjectRef::Instance(index) => &mut scene.instances[index].node,
@@ -212,7 +209,7 @@ fn slot(scene: &mut Scene, object: ObjectRef) -> &mut Option<usize> {
     }
 }
 
-/// Refuses what is not in the scene.
+/// Rejects what is not in the scene.
 fn check(scene: &Scene, id: Id) -> Result<(), EditError> {
     let (index, count) = match id {
         Id::Object(ObjectRef::Instance(index)) => (index, scene.instances.len()),
@@ -228,10 +225,10 @@ fn check(scene: &Scene, id: Id) -> Result<(), EditError> {
     }
 }
 
-/// Removes an object, or a camera if there are others. Those behind it in the scene's list move up.
+/// Removes an object, or a camera if there are others. Later entries of the list move up.
 ///
 /// # Errors
-/// It is the last camera, or something that others are made of: a node or a material.
+/// It is the last camera, or a node or material, which others use.
 pub fn remove(scene: &mut Scene, id: Id) -> Result<(), EditError> {
     check(scene, id)?;
     match id {
@@ -257,9 +254,9 @@ pub fn remove(scene: &mut Scene, id: Id) -> Result<(), EditError> {
         }
         Id::Node(_) | Id::Material(_) => {
             return Err(EditError::Unable {
-                what: "a node or material, which others are made of,",
+                what: "a node or material in use",
                 done: "removed",
-                todo: "Remove or change what uses it",
+                todo: "Remove or change the objects that use it",
             });
         }
     }
@@ -267,7 +264,7 @@ pub fn remove(scene: &mut Scene, id: Id) -> Result<(), EditError> {
     Ok(())
 }
 
-/// The index that `at` has once `removed` is gone; `None` for that itself.
+/// The index that `at` has after `removed` is gone; `None` for `removed` itself.
 fn without(at: usize, removed: usize) -> Option<usize> {
     match at.cmp(&removed) {
         std::cmp::Ordering::Less => Some(at),
@@ -276,7 +273,7 @@ fn without(at: usize, removed: usize) -> Option<usize> {
     }
 }
 
-/// Renames what tracks drive; what becomes `None` is driven no more.
+/// Renumbers the targets of tracks; tracks without a target are removed.
 fn retarget(scene: &mut Scene, rename: impl Fn(Target) -> Option<Target>) {
     for track in &mut scene.tracks {
         let targets = std::mem::take(&mut track.targets);
@@ -285,7 +282,7 @@ fn retarget(scene: &mut Scene, rename: impl Fn(Target) -> Option<Target>) {
     scene.tracks.retain(|track| !track.targets.is_empty());
 }
 
-/// Adds another one of an object, camera or material in the same place, which moves as it does.
+/// Duplicates an object, camera or material in place, including its animation.
 ///
 /// # Errors
 /// It is a node.
@@ -319,7 +316,7 @@ pub fn duplicate(scene: &mut Scene, id: Id) -> Result<Id, EditError> {
             return Err(EditError::Unable {
                 what: "a node",
                 done: "duplicated",
-                todo: "Duplicate what it carries",
+                todo: "Duplicate its objects",
             });
         }
     };
@@ -344,10 +341,10 @@ pub fn duplicate(scene: &mut Scene, id: Id) -> Result<Id, EditError> {
     Ok(copy)
 }
 
-/// Gives all of an object a material. A mesh that stands elsewhere too is copied first.
+/// Assigns a material to a whole object. A mesh that is shared is copied first.
 ///
 /// # Errors
-/// It is a light, or no such material is there.
+/// It is a light, or the material does not exist.
 pub fn assign(scene: &mut Scene, object: ObjectRef, material: usize) -> Result<(), EditError> {
     check(scene, Id::Object(object))?;
     check(scene, Id::Material(material))?;
@@ -375,7 +372,7 @@ pub fn assign(scene: &mut Scene, object: ObjectRef, material: usize) -> Result<(
             return Err(EditError::Unable {
                 what: "a light",
                 done: "given a material",
-                todo: "Change its colour",
+                todo: "Change its colour instead",
             });
         }
     }

@@ -1,33 +1,33 @@
-//! What is in a scene as a list of lines, indented as what carries what.
+//! The contents of a scene as rows, indented by hierarchy.
 
 use crate::scene::{CanonicalShape, Geometry, LightKind, ObjectRef, Scene};
 use crate::viewer::model::objects;
 use crate::viewer::model::objects::Id;
 use std::collections::BTreeMap;
 
-/// A line of an [`Outline`].
+/// A row of an [`Outline`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// What it stands for; `None` for headings.
+    /// The item; `None` for headings.
     pub id: Option<Id>,
     /// Such as "sphere 3 (glass)".
     pub label: String,
     /// How far it is indented: 0 for headings.
     pub depth: usize,
-    /// Whether it can be seen at rest; true for what can never be seen.
+    /// Whether it is visible at rest; true for items without visibility.
     pub visible: bool,
 }
 
-/// All of a scene: objects as what carries them, then lights, cameras and materials. Numbers in labels
-/// count from 1 within a kind, in the scene's order.
+/// All of a scene: objects by hierarchy, then lights, cameras and materials. Numbers in labels count from 1
+/// within a kind, in the scene's order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Outline {
-    /// From top to bottom; what is carried stands below what carries it.
+    /// From top to bottom; children below their parent.
     pub entries: Vec<Entry>,
 }
 
 impl Outline {
-    /// That of a scene.
+    /// The outline of a scene.
     pub fn of(scene: &Scene) -> Self {
         let mut outline = Self::default();
         let labels = Labels::of(scene);
@@ -50,7 +50,7 @@ impl Outline {
             hang(shape.node, Id::Object(ObjectRef::Shape(index)));
         }
         outline.heading("Objects");
-        // By a list of what is still to come instead of recursion: nodes may be carried very deep.
+        // With an explicit stack, because nodes may be nested deeply.
         let mut open: Vec<(usize, Id)> = Vec::new();
         let mut put = |open: &mut Vec<(usize, Id)>, depth, node| {
             let below = carried.remove(&node).unwrap_or_default();
@@ -75,12 +75,12 @@ impl Outline {
         outline
     }
 
-    /// The lines whose labels contain all words of `query`, in any case, and those that they hang on,
-    /// by their indices. All lines if there are no words.
+    /// Indices of the rows whose labels contain all words of `query`, ignoring case, and of their ancestors.
+    /// All rows if there are no words.
     pub fn search(&self, query: &str) -> Vec<usize> {
         let words: Vec<String> = query.split_whitespace().map(str::to_lowercase).collect();
         let mut found = Vec::new();
-        // The last line of each depth, as long as it is above the next one.
+        // The last row of each depth while it is an ancestor of the next one.
         let mut above: Vec<usize> = Vec::new();
         for (index, entry) in self.entries.iter().enumerate() {
             above.truncate(entry.depth);
@@ -99,7 +99,7 @@ impl Outline {
         found
     }
 
-    /// The line of something, by its index.
+    /// Index of the row of an item.
     pub fn position(&self, id: Id) -> Option<usize> {
         self.entries.iter().position(|entry| entry.id == Some(id))
     }
@@ -127,12 +127,12 @@ fn light(index: usize) -> Id {
     Id::Object(ObjectRef::Light(index))
 }
 
-/// The label of one thing; a list of them is quicker by [`Outline::of`].
+/// The label of one item; for many, [`Outline::of`] is faster.
 pub fn label(scene: &Scene, id: Id) -> String {
     Labels::of(scene).of_id(scene, id)
 }
 
-/// The labels of some things; what is not in the scene has none.
+/// The labels of some items; those that are not in the scene have none.
 pub fn labels(scene: &Scene, ids: impl IntoIterator<Item = Id>) -> BTreeMap<Id, String> {
     let labels = Labels::of(scene);
     ids.into_iter()
@@ -141,7 +141,7 @@ pub fn labels(scene: &Scene, ids: impl IntoIterator<Item = Id>) -> BTreeMap<Id, 
         .collect()
 }
 
-/// The numbers of things within their kinds.
+/// The numbers of items within their kinds.
 struct Labels {
     shapes: Vec<usize>,
     instances: Vec<usize>,
@@ -200,7 +200,7 @@ impl Labels {
     }
 }
 
-/// For each of `kinds` how many of the same there are up to it.
+/// For each entry of `kinds`, how many equal ones there are up to it.
 fn numbers<'a>(kinds: impl Iterator<Item = &'a str>) -> Vec<usize> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     kinds
@@ -212,8 +212,8 @@ fn numbers<'a>(kinds: impl Iterator<Item = &'a str>) -> Vec<usize> {
         .collect()
 }
 
-/// What an instance of a mesh is called, less its number. Every mesh in a file has a name: where it had
-/// none, it was saved as "mesh 2" or the like, which stands for no name here, so that saving renames nothing.
+/// The label of a mesh instance, without its number. Files store a name for every mesh: unnamed ones are
+/// saved as "mesh 2" and the like, which counts as unnamed here so that saving renames nothing.
 fn kind_of_mesh(name: &str) -> &str {
     let number = name.strip_prefix("mesh ");
     let is_numbered =

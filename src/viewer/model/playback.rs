@@ -1,30 +1,30 @@
-//! The time of the picture: played, paused, or stepped through, always at a whole frame.
+//! Playback of the animation; the time is always at a whole frame.
 
 use crate::app::clock;
 use crate::app::clock::Clock;
 use crate::scene::{Scene, Shutter};
 
-/// How much faster, or slower, than by itself the animation can be played.
+/// Limit of the playback speed, as a factor in both directions.
 pub const MAX_SPEED: f64 = 16.0;
 
-/// Where in the animation we are.
+/// The state of playback.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Playback {
     /// Frames per second and shutter.
     pub clock: Clock,
-    /// In seconds.
+    /// The current time in seconds.
     pub time: f64,
-    /// Whether time goes on.
+    /// Whether the animation is playing.
     pub is_playing: bool,
-    /// Seconds of the animation in a second, above 0.
+    /// Playback speed: animation seconds per second, above 0.
     pub speed: f64,
-    /// Whether it begins again at its end.
+    /// Whether it loops.
     pub repeats: bool,
-    /// Whether the shutter is open for any time.
+    /// Whether motion blur is on.
     pub blurs: bool,
-    /// Seconds since the frame that is shown.
+    /// Seconds since the current frame started.
     since_frame: f64,
-    /// In seconds; 0 where nothing changes.
+    /// Duration in seconds; 0 without animation.
     duration: f64,
 }
 
@@ -43,28 +43,28 @@ impl Playback {
         }
     }
 
-    /// Takes up how long a scene's animation is.
+    /// Sets the duration of a scene's animation.
     pub fn follow(&mut self, scene: &Scene) {
         self.duration = clock::duration(scene).unwrap_or(0.0);
         self.is_playing &= self.duration > 0.0;
     }
 
-    /// In seconds; 0 where nothing changes.
+    /// Duration in seconds; 0 without animation.
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// The number of the frame that is shown or was last.
+    /// Index of the current frame.
     pub fn frame(&self) -> u32 {
         (self.time * self.clock.fps + 1e-6).floor().max(0.0) as u32
     }
 
-    /// The number of the last one.
+    /// Index of the last frame.
     pub fn last_frame(&self) -> u32 {
         clock::last_frame(self.duration, self.clock.fps, self.repeats)
     }
 
-    /// Plays or pauses. One that has come to its end begins again.
+    /// Plays or pauses. At the end of the animation it restarts.
     pub fn toggle(&mut self) {
         self.is_playing = !self.is_playing && self.duration > 0.0;
         if self.is_playing && !self.repeats && self.frame() >= self.last_frame() {
@@ -72,7 +72,7 @@ impl Playback {
         }
     }
 
-    /// Takes other frames per second, above 0, and stays as near as it can to the moment that is shown.
+    /// Changes the frame rate, above 0, and moves to the nearest frame.
     pub fn set_fps(&mut self, fps: f64) {
         if fps != self.clock.fps {
             self.clock.fps = fps;
@@ -81,13 +81,13 @@ impl Playback {
         }
     }
 
-    /// Goes to a frame.
+    /// Moves to a frame.
     pub fn go_to(&mut self, frame: u32) {
         self.since_frame = 0.0;
         self.time = f64::from(frame) / self.clock.fps;
     }
 
-    /// Goes some frames on or back, round the end if it repeats.
+    /// Moves by some frames, wrapping around if it loops.
     pub fn step(&mut self, frames: i64) {
         self.is_playing = false;
         self.advance_frames(frames);
@@ -98,7 +98,7 @@ impl Playback {
         self.speed = (self.speed * factor).clamp(1.0 / MAX_SPEED, MAX_SPEED);
     }
 
-    /// Lets `seconds` go by.
+    /// Advances by `seconds`.
     pub fn advance(&mut self, seconds: f64) {
         if !self.is_playing {
             return;
@@ -131,7 +131,7 @@ impl Playback {
         }
     }
 
-    /// The shutter as the command line has it.
+    /// The shutter as a flag of the command line.
     pub fn shutter(&self) -> Shutter {
         match self.blurs {
             true => self.clock.shutter,

@@ -237,7 +237,7 @@ impl Preferences {
             toml::Value::Table(cameras.collect::<toml::Table>()),
         );
         format!(
-            "# What `glimray view` keeps. It writes this file anew when something changes.\n\n{table}"
+            "# Settings of `glimray view`, which rewrites this file when a setting changes.\n\n{table}"
         )
     }
 }
@@ -246,11 +246,13 @@ impl Preferences {
 #[derive(Debug, thiserror::Error)]
 pub enum PreferencesError {
     /// The platform has no place for them.
-    #[error("cannot keep the settings: there is no home folder. Name one in {FOLDER_VARIABLE}.")]
+    #[error(
+        "cannot save the settings: there is no home folder. Name a folder in {FOLDER_VARIABLE}."
+    )]
     NoFolder,
     /// The folder could not be made, or the old file not be put aside.
     #[error(
-        "cannot keep the settings ({}): {}. Make the folder writable, or name another one in {FOLDER_VARIABLE}.",
+        "cannot save the settings ({}): {}. Make the folder writable, or name another one in {FOLDER_VARIABLE}.",
         path.display(),
         output::reason(source)
     )]
@@ -262,7 +264,7 @@ pub enum PreferencesError {
     },
     /// The file that is there could be neither read nor put aside, and may be of worth.
     #[error(
-        "cannot keep the settings ({}): the file that is there cannot be read, and is left as it is. Make it readable, or name another folder in {FOLDER_VARIABLE}.",
+        "cannot save the settings ({}): the existing file cannot be read and is not replaced. Make it readable, or name another folder in {FOLDER_VARIABLE}.",
         path.display()
     )]
     Unread {
@@ -334,10 +336,10 @@ impl Store {
         }
         let mut lines = Vec::new();
         let kept = match self.put_aside(&path) {
-            Ok(kept) => format!("The file as it was is now {}.", kept.display()),
+            Ok(kept) => format!("The old file is now {}.", kept.display()),
             Err(error) => {
                 lines.push(error.to_string());
-                "The file was left as it is.".to_owned()
+                "The file is unchanged.".to_owned()
             }
         };
         let more = match notes.len() - 1 {
@@ -370,7 +372,7 @@ impl Store {
         self.is_unread = kept.is_none();
         let what = match kept {
             Some(kept) => format!("It is now {}", kept.display()),
-            None => "It is left as it is, and nothing is kept".to_owned(),
+            None => "It is unchanged, and settings are not saved".to_owned(),
         };
         let (path, why) = (path.display(), output::reason(error));
         format!("cannot read the settings ({path}): {why}. {what}; the defaults are in use.")

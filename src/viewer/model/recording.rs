@@ -1,5 +1,4 @@
-//! What a person does in the window, written to a file and done again: one line of JSON for each event
-//! of egui, with its time.
+//! Records and replays user input: one line of JSON per egui event, with its time.
 
 use crate::app::error::AppError;
 use crate::app::inputs::Inputs;
@@ -25,20 +24,20 @@ struct Line {
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum What {
-    /// Of a mouse or a keyboard, as egui has it.
+    /// A mouse or keyboard event of egui.
     Event(Event),
     /// A file dropped on the window.
     Drop(PathBuf),
-    /// Room in the window, in points.
+    /// Size of the window's contents, in points.
     Size([f32; 2]),
 }
 
-/// What is recorded, and what is played.
+/// A recording in progress, a replay, or both.
 #[derive(Default)]
 pub struct InputRecording {
     recorder: Option<Recorder>,
     replay: Option<Replay>,
-    /// Where frames have no time of their own.
+    /// Duration of a frame when times are ignored.
     clock: f64,
 }
 
@@ -52,16 +51,16 @@ struct Recorder {
 struct Replay {
     lines: VecDeque<Line>,
     start: Option<f64>,
-    /// Whether times are of no matter.
+    /// Whether times are ignored.
     is_fast: bool,
     closes: bool,
 }
 
 impl InputRecording {
-    /// What the flags ask for.
+    /// Opens the files of the flags.
     ///
     /// # Errors
-    /// The recording cannot be read, or there cannot be one here.
+    /// The recording cannot be read, or the file cannot be written.
     pub fn new(request: &RecordingRequest) -> Result<Self, AppError> {
         let replay = match &request.replay {
             None => None,
@@ -83,20 +82,19 @@ impl InputRecording {
         })
     }
 
-    /// Whether there is still something to play.
+    /// Whether there are events left to replay.
     pub fn is_playing(&self) -> bool {
         self.replay.as_ref().is_some_and(|r| !r.lines.is_empty())
     }
 
-    /// Whether all has been played, and the window is to close then. Asked once.
+    /// Whether the replay has ended and the window should close. True only once.
     pub fn is_to_close(&mut self) -> bool {
         self.replay
             .as_mut()
             .is_some_and(|replay| replay.lines.is_empty() && std::mem::take(&mut replay.closes))
     }
 
-    /// Before each frame: puts what was recorded in the place of what happens, and records it. What went
-    /// wrong, once.
+    /// Called before each frame: replaces the input by the replay and records it. Returns an error once.
     pub fn pass(&mut self, ctx: &egui::Context, raw: &mut RawInput) -> Option<String> {
         self.clock += f64::from(raw.predicted_dt);
         let now = raw.time.unwrap_or(self.clock);
@@ -114,8 +112,8 @@ impl InputRecording {
     }
 }
 
-/// Whether nothing is lost at `path` but an older recording, whose lines are JSON objects. Scenes and
-/// what they name are not: which files those are is not known yet.
+/// Whether `path` may be overwritten: it is empty or an older recording, whose lines are JSON objects.
+/// Scenes and their assets are protected this way, because they are not known yet.
 fn is_free(path: &Path) -> bool {
     if !path.is_file() {
         return true;
@@ -123,7 +121,7 @@ fn is_free(path: &Path) -> bool {
     let Ok(mut file) = File::open(path) else {
         return true;
     };
-    // Stays as it is where the file is empty.
+    // Default for an empty file.
     let mut first = *b"{";
     file.read(&mut first).is_ok() && first == *b"{"
 }
@@ -139,7 +137,7 @@ impl Recorder {
         }
         let file = File::create(path).map_err(|error| {
             AppError::Unwritable(format!(
-                "cannot record ({}): {}. Name a file in a folder that can be written to.",
+                "cannot record ({}): {}. Name a file in a writable folder.",
                 path.display(),
                 reason(&error)
             ))
@@ -170,13 +168,13 @@ impl Recorder {
             serde_json::to_writer(&mut self.out, &Line { time, what })?;
             self.out.write_all(b"\n")?;
         }
-        // A window that ends badly is what recordings are for.
+        // Flushed each frame, because recordings are most useful when the window crashes.
         self.out.flush()
     }
 }
 
 impl Replay {
-    /// Gives what is due; if times are of no matter, what came at the next one.
+    /// The events that are due; when times are ignored, those of the next recorded frame.
     fn feed(&mut self, now: f64, ctx: &egui::Context, raw: &mut RawInput) {
         let elapsed = now - *self.start.get_or_insert(now);
         let until = match (self.is_fast, self.lines.front()) {
@@ -221,7 +219,7 @@ fn read(path: &Path) -> Result<VecDeque<Line>, AppError> {
             line => format!("{}:{line}", path.display()),
         };
         AppError::Refused(format!(
-            "cannot replay ({place}): {why}. Give a file that --record has written."
+            "cannot replay ({place}): {why}. Use a file written by --record."
         ))
     };
     let file = File::open(path).map_err(|error| refuse(0, reason(&error)))?;
@@ -243,7 +241,7 @@ fn read(path: &Path) -> Result<VecDeque<Line>, AppError> {
             return Err(refuse(
                 number,
                 format!(
-                    "its time, {} s, is before that of the line above",
+                    "its time, {} s, is before the time of the line above",
                     line.time
                 ),
             ));
@@ -252,12 +250,12 @@ fn read(path: &Path) -> Result<VecDeque<Line>, AppError> {
         lines.push_back(line);
     }
     match lines.is_empty() {
-        true => Err(refuse(0, "nothing is recorded in it".into())),
+        true => Err(refuse(0, "it contains no events".into())),
         false => Ok(lines),
     }
 }
 
-/// The reason without the place, which serde_json counts in a text of one line.
+/// The reason without the position, which serde_json counts within the line.
 fn plain(error: &serde_json::Error) -> String {
     let text = error.to_string();
     text.split(" at line ").next().unwrap_or(&text).to_owned()

@@ -1,9 +1,9 @@
-//! What the mouse does in the picture where it does not move the camera.
+//! The tools of the mouse in the picture.
 
 use super::bindings::Action;
 use eframe::egui::Pos2;
 
-/// What a click or a drag in the picture does, where it is not the camera's.
+/// The action of a click or drag that is not bound to the camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tool {
     /// A click selects what is under it.
@@ -11,32 +11,32 @@ pub enum Tool {
     Select,
     /// A click shows the rays of the pixel under it.
     Inspect,
-    /// A drag chooses the region to be rendered.
+    /// A drag selects the render region.
     Region,
-    /// Handles move what is selected.
+    /// Handles move the selection.
     Move,
-    /// Handles rotate what is selected.
+    /// Handles rotate the selection.
     Rotate,
-    /// Handles scale what is selected.
+    /// Handles scale the selection.
     Scale,
 }
 
-/// Why someone wants to know what is under a pixel.
+/// The purpose of a pick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// To go round it.
+    /// Set the pivot.
     Pivot,
-    /// To make it sharp.
+    /// Set the focus.
     Focus,
-    /// To select it.
+    /// Select it.
     Select,
 }
 
-/// What is being dragged in the picture.
+/// A drag in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drag {
-    /// Chosen when it began.
+    /// The action, chosen when it started.
     pub action: Action,
-    /// Where it began, on the screen.
+    /// The current position on the screen.
     pub from: Pos2,
 }

@@ -1,4 +1,4 @@
-//! How the picture is made and looked at: what a person changes without changing the scene.
+//! Render and view settings that do not change the scene.
 
 use crate::render::{Antialias, Integrator, Levels, RenderSettings, Shows, Tone};
 use crate::scene::{Background, OutputDefaults, ToneCurve};
@@ -6,54 +6,54 @@ use crate::viewer::model::playback::Playback;
 use crate::viewer::model::region::Grip;
 use glam::Vec3;
 
-/// Most samples of a pixel.
+/// Maximum samples per pixel.
 pub const MAX_SAMPLES: u32 = 65_536;
 
-/// Settings of the picture, and what it is compared with.
+/// The settings of the picture and of its comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewSettings {
-    /// Of the picture; its size and region only where [`ViewSettings::fits`] says so.
+    /// Render settings; size and region apply only if [`ViewSettings::fits`] is off.
     pub settings: RenderSettings,
-    /// How the traced picture is developed; debug views stay as they are.
+    /// Tone mapping of the full render; debug views ignore it.
     pub tone: Tone,
-    /// In place of the scene's.
+    /// Overrides the scene's background.
     pub background: Option<Background>,
-    /// Whether the picture is as large as there is room for; else it has the size of its settings.
+    /// Whether the picture has the size of its panel; else the size of the settings.
     pub fits: bool,
-    /// The second look at the same, and how both share the room.
+    /// The second view and the layout of the comparison.
     pub comparison: Option<Comparison>,
-    /// Part of the picture that is rendered, as shares of its width and height: x0, y0, x1, y1.
+    /// The render region as fractions of width and height: x0, y0, x1, y1.
     pub region: Option<[f64; 4]>,
-    /// Whether no more samples are added.
+    /// Whether rendering is paused.
     pub paused: bool,
-    /// The edge or corner of the region that the mouse holds.
+    /// The edge or corner of the region that is being dragged.
     pub grip: Option<Grip>,
-    /// What the scene and the command line say, to go back to.
+    /// The settings of the scene and the command line, to return to.
     pub scene_settings: RenderSettings,
-    /// The same of developing.
+    /// The tone mapping of the scene and the command line.
     pub scene_tone: Tone,
 }
 
-/// A second look.
+/// The second view of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
-    /// What it shows.
+    /// Its view mode.
     pub integrator: Integrator,
-    /// How both share the room.
+    /// The layout.
     pub sharing: Sharing,
 }
 
-/// How two looks share the room.
+/// The layout of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sharing {
-    /// One picture, with a line at this share of its width: the first look on its left.
+    /// One picture with a divider at this fraction of its width; the first view is on the left.
     Wipe(f32),
-    /// Two pictures.
+    /// Two pictures side by side.
     SideBySide,
 }
 
 impl ViewSettings {
-    /// What the scene and the command line say.
+    /// The settings of the scene and the command line.
     pub fn new(settings: RenderSettings, tone: Tone, fits: bool) -> Self {
         Self {
             scene_settings: settings.clone(),
@@ -69,8 +69,8 @@ impl ViewSettings {
         }
     }
 
-    /// Aims at another number of samples, 1 to [`MAX_SAMPLES`]. One lies in the pixel's centre and several
-    /// are spread, as on the command line, unless the person has chosen otherwise.
+    /// Sets the target samples, 1 to [`MAX_SAMPLES`]. A single sample lies at the pixel centre and several
+    /// are stratified, as on the command line, unless the user has chosen otherwise.
     pub fn set_samples(&mut self, samples: u32) {
         let usual = |samples| match samples {
             1 => Antialias::None,
@@ -83,7 +83,7 @@ impl ViewSettings {
         settings.samples = samples.clamp(1, MAX_SAMPLES);
     }
 
-    /// Compares with another look, or no longer if that is how it is already.
+    /// Starts a comparison, or ends it if it has this layout already.
     pub fn compare(&mut self, sharing: Sharing) {
         let is_same =
             |now: Sharing| std::mem::discriminant(&now) == std::mem::discriminant(&sharing);
@@ -103,7 +103,7 @@ impl ViewSettings {
         };
     }
 
-    /// Multiplies the samples to be reached, within 1 to [`MAX_SAMPLES`].
+    /// Multiplies the target samples, within 1 to [`MAX_SAMPLES`].
     pub fn scale_samples(&mut self, factor: f64) {
         let samples = f64::from(self.settings.samples) * factor;
         self.set_samples(samples.clamp(1.0, MAX_SAMPLES.into()) as u32);
@@ -116,7 +116,7 @@ impl ViewSettings {
         }
     }
 
-    /// Takes the next tone curve.
+    /// Selects the next tone curve.
     pub fn next_tone_curve(&mut self) {
         self.tone.curve = match self.tone.curve {
             ToneCurve::None => ToneCurve::Aces,
@@ -126,7 +126,7 @@ impl ViewSettings {
         };
     }
 
-    /// Takes the next background: the scene's, black, grey, white.
+    /// Cycles the background: the scene's, black, grey, white.
     pub fn next_background(&mut self) {
         let plain = |level: f32| Some(Background::Color(Vec3::splat(level)));
         self.background = match &self.background {
@@ -137,7 +137,8 @@ impl ViewSettings {
         };
     }
 
-    /// What a scene would say to look like this; what scenes do not say, such as the integrator, is not in it.
+    /// The output defaults of a scene that looks like this. Settings that scenes do not store, such as the
+    /// integrator, are left out.
     pub fn output(&self, before: &OutputDefaults, playback: &Playback) -> OutputDefaults {
         let settings = &self.settings;
         let usual = RenderSettings::from(&OutputDefaults {
@@ -167,7 +168,7 @@ impl ViewSettings {
         }
     }
 
-    /// How a picture of this integrator is developed.
+    /// The tone mapping of an integrator's pictures.
     pub fn tone_of(&self, integrator: Integrator) -> Tone {
         match integrator.entry().shows {
             Shows::Radiance => self.tone,
@@ -178,7 +179,7 @@ impl ViewSettings {
         }
     }
 
-    /// The settings of a picture for which there is room of so many pixels.
+    /// The render settings for a panel of that many pixels.
     pub fn settings_in(&self, space: (u32, u32), integrator: Integrator) -> RenderSettings {
         let size = match self.fits {
             true => (space.0.max(1), space.1.max(1)),

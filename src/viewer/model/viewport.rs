@@ -1,24 +1,24 @@
-//! Where the picture is in the window.
+//! The position of the picture in the window.
 
 use eframe::egui::{Pos2, Rect, Vec2};
 use glam::{DVec2, dvec2};
 
-/// The rectangle of a picture on the screen, and the picture's own size.
+/// The rectangle of a picture on the screen, and its size in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewport {
-    /// Of the whole picture, in points.
+    /// The whole picture, in points.
     pub rect: Rect,
     /// Width and height in the picture's pixels.
     pub size: (u32, u32),
 }
 
 impl Viewport {
-    /// A picture of `size` in the middle of `space`, as large as it is on the screen's pixels, or smaller
-    /// where that is too large; its corner is on one of them.
+    /// A picture of `size` centred in `space`, at one picture pixel per screen pixel, or smaller if it does
+    /// not fit. Its corner is aligned to screen pixels.
     pub fn fitting(space: Rect, size: (u32, u32), pixels_per_point: f32) -> Self {
         let pixels = Vec2::new(size.0 as f32, size.1 as f32);
         let available = space.size() * pixels_per_point;
-        // What differs by less than a pixel is the same: sizes in points are not whole pixels.
+        // Differences below a pixel are ignored: sizes in points are not whole pixels.
         let scale = ((available + Vec2::splat(1.0)) / pixels)
             .min_elem()
             .min(1.0);
@@ -31,7 +31,7 @@ impl Viewport {
         }
     }
 
-    /// Whether each of its pixels is one of the screen's.
+    /// Whether picture pixels match screen pixels exactly.
     pub fn is_exact(&self, pixels_per_point: f32) -> bool {
         (self.rect.width() * pixels_per_point - self.size.0 as f32).abs() < 0.5
     }
@@ -41,26 +41,26 @@ impl Viewport {
         dvec2(self.size.0.into(), self.size.1.into())
     }
 
-    /// The position in the picture, in its pixels from the upper left corner, of a point on the screen.
+    /// Converts a point on the screen to a position in the picture, in pixels from its upper left corner.
     pub fn position(&self, point: Pos2) -> DVec2 {
         let off = point - self.rect.min;
         self.length(off)
     }
 
-    /// The same for a distance.
+    /// Converts a distance on the screen to pixels of the picture.
     pub fn length(&self, length: Vec2) -> DVec2 {
         let scale = f64::from(self.size.0) / f64::from(self.rect.width());
         dvec2(length.x.into(), length.y.into()) * scale
     }
 
-    /// The point on the screen of a position in the picture.
+    /// Converts a position in the picture to a point on the screen.
     pub fn point(&self, position: DVec2) -> Pos2 {
         let scale = f64::from(self.rect.width()) / f64::from(self.size.0);
         let off = position * scale;
         self.rect.min + Vec2::new(off.x as f32, off.y as f32)
     }
 
-    /// The rectangle on the screen of a part of the picture: x, y, width, height in its pixels.
+    /// The screen rectangle of a part of the picture: x, y, width and height in its pixels.
     pub fn part(&self, [x, y, width, height]: [u32; 4]) -> Rect {
         let corner = dvec2(x.into(), y.into());
         let extent = dvec2(width.into(), height.into());

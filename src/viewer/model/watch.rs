@@ -1,5 +1,5 @@
-//! Tells when files have changed. Folders are watched rather than files: programs replace files when
-//! they save, and a file that is gone may come back.
+//! Detects changes of files. Folders are watched rather than files, because programs replace files when they
+//! save, and a deleted file may return.
 
 use notify::event::ModifyKind;
 use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher};
@@ -9,40 +9,40 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant, SystemTime};
 
-/// Programs save in several steps: this long after the last one the file is read.
+/// Programs save in several steps: delay after the last event before the file is read.
 pub const DEBOUNCE: Duration = Duration::from_millis(50);
 
-/// How often a file that is gone is looked for, because its folder may be gone too.
+/// Interval for polling a deleted file, whose folder may be gone too.
 const SEARCH: Duration = Duration::from_millis(500);
 
-/// When a file was written, and its length; `None` for one that is not there.
+/// Modification time and length of a file; `None` if it does not exist.
 type Stamp = Option<(SystemTime, u64)>;
 
-/// Files, and whether they are as they were.
+/// Watched files and their last known state.
 #[derive(Default)]
 pub struct Watch {
     watcher: Option<(RecommendedWatcher, Receiver<PathBuf>)>,
     folders: BTreeSet<PathBuf>,
     stamps: BTreeMap<PathBuf, Stamp>,
-    /// When the last thing happened to one of them.
+    /// Time of the last event.
     news: Option<Instant>,
     searched: Option<Instant>,
 }
 
-/// What happened to the files.
+/// A change of the watched files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// Nothing that matters.
+    /// No relevant change.
     None,
-    /// Something is going on; look again after so long.
+    /// Changes are in progress; check again after this time.
     Wait(Duration),
-    /// They are not as they were.
+    /// Files have changed.
     Changed,
 }
 
 impl Watch {
-    /// Watches these from now on. What was written after `since` counts as changed, unless it was watched
-    /// before. `wake` is called from another thread when something happens.
+    /// Watches these files from now on. Files written after `since` count as changed, unless they were
+    /// watched before. `wake` is called from another thread on events.
     ///
     /// # Errors
     /// The system cannot watch a folder: why, in a few words.
@@ -87,7 +87,7 @@ impl Watch {
                 };
                 if is_change {
                     let sent = event.paths.into_iter().map(|path| sender.send(path));
-                    // Nobody listens to a watcher that is about to be dropped.
+                    // The receiver may be gone.
                     sent.for_each(drop);
                     wake();
                 }
@@ -103,12 +103,12 @@ impl Watch {
         failure.map_or(Ok(()), Err)
     }
 
-    /// What is watched.
+    /// The watched files.
     pub fn files(&self) -> Vec<PathBuf> {
         self.stamps.keys().cloned().collect()
     }
 
-    /// Takes the files as they are now for how they were: before they are read again.
+    /// Accepts the current state of the files as known, before they are read again.
     pub fn accept(&mut self) {
         for (file, known) in &mut self.stamps {
             *known = stamp(file);
@@ -116,12 +116,12 @@ impl Watch {
         self.news = None;
     }
 
-    /// What has happened.
+    /// The changes since the last call.
     pub fn look(&mut self) -> Change {
         if let Some((_, receiver)) = &self.watcher {
             let names: BTreeSet<_> = self.stamps.keys().filter_map(|f| f.file_name()).collect();
             for path in receiver.try_iter() {
-                // The folder itself counts, which may have gone with the file.
+                // The folder itself counts: it may be deleted together with the file.
                 if path.file_name().is_some_and(|name| names.contains(name))
                     || self.folders.contains(&path)
                 {
@@ -133,7 +133,7 @@ impl Watch {
         if is_missing && self.searched.is_none_or(|at| at.elapsed() >= SEARCH) {
             self.searched = Some(Instant::now());
             if self.has_changed() && self.news.is_none() {
-                // A folder that was made anew is another one to the system.
+                // The system treats a recreated folder as a different one.
                 self.folders.clear();
                 self.news = Some(Instant::now());
             }
@@ -152,12 +152,12 @@ impl Watch {
         }
     }
 
-    /// Whether something has happened of which it is not known yet what.
+    /// Whether there are events that have not been evaluated.
     pub fn is_busy(&self) -> bool {
         self.news.is_some()
     }
 
-    /// Whether a file is not as it was, told or not.
+    /// Whether a file differs from its known state.
     pub fn has_changed(&self) -> bool {
         self.stamps
             .iter()
@@ -170,7 +170,7 @@ fn stamp(file: &Path) -> Stamp {
     Some((found.modified().ok()?, found.len()))
 }
 
-/// With its folder as it really is, which is what the system will name; the file itself may be a link.
+/// With its canonical folder, which is the path that the system reports; the file itself may be a link.
 fn absolute(file: &Path) -> PathBuf {
     let file = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
     match (file.parent().map(fs::canonicalize), file.file_name()) {
@@ -182,7 +182,9 @@ fn absolute(file: &Path) -> PathBuf {
 fn reason(error: &notify::Error) -> String {
     match &error.kind {
         notify::ErrorKind::Io(error) => crate::output::reason(error),
-        notify::ErrorKind::MaxFilesWatch => "too many files are watched on this system".to_owned(),
+        notify::ErrorKind::MaxFilesWatch => {
+            "the system's limit of watched files is reached".to_owned()
+        }
         other => format!("{other:?}"),
     }
 }

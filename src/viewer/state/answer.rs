@@ -6,25 +6,24 @@ use crate::viewer::state::files::Taken;
 use crate::viewer::state::inspector::{Inspected, Parts};
 use glam::DVec3;
 
-/// What a question to the render thread brought back.
+/// The result of a question to the render thread.
 #[derive(Debug)]
 pub enum Answer {
-    /// What is under a pixel.
+    /// The object under a pixel.
     Picked {
-        /// What it was asked for.
+        /// The purpose of the pick.
         purpose: Purpose,
-        /// The point on the nearest surface, in the world, and what it belongs to; `None` where there is
-        /// nothing.
+        /// The point on the nearest surface, in world space, and its object; `None` for the background.
         hit: Option<(DVec3, Option<ObjectRef>)>,
     },
     /// The rays of a pixel, or why there are none.
     Rays(Result<Box<Inspected>, String>),
-    /// Which parts of lines are behind something, seen from outside; `None` if that picture is not there.
+    /// The hidden parts of rays in the ray view; `None` if another view is shown.
     Hidden(Option<Parts>),
-    /// What was to be done is done.
+    /// No result.
     Nothing,
     /// The picture so far, for a file.
     Picture(Box<Taken>),
-    /// It cannot be told.
+    /// An error message.
     Failed(String),
 }

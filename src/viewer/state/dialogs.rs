@@ -1,60 +1,61 @@
-//! Which dialogs are open, and what is being done in them.
+//! The state of dialogs.
 
 use crate::viewer::model::bindings::Action;
 use crate::viewer::model::preferences::{Preferences, Theme};
 use eframe::egui::Rect;
 use std::collections::BTreeMap;
 
-/// Something that lies over the window.
+/// A dialog over the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialog {
-    /// All bindings.
+    /// Keyboard shortcuts.
     Shortcuts,
     /// Theme, scale and defaults.
     Preferences,
-    /// What to do first.
+    /// The hint of the first run.
     Hint,
-    /// All notices.
+    /// All messages.
     Messages,
-    /// The cameras that were kept.
+    /// Bookmarked views.
     Cameras,
 }
 
-/// Which sheets are open, and what is being done in them.
+/// The open dialogs and their state.
 #[derive(Default)]
 pub struct Dialogs {
     pub(in crate::viewer) open: Vec<Dialog>,
-    /// The sheet of bindings.
+    /// The state of the shortcuts dialog.
     pub bindings: ShortcutsDialog,
     pub(in crate::viewer) names: Names,
     pub(in crate::viewer) is_resetting: bool,
-    /// Whether a field had the keyboard in the last frame: egui takes that away before Escape is seen.
+    /// Whether a field had the keyboard in the last frame: egui clears the focus before Escape is seen.
     pub(in crate::viewer) had_keyboard: bool,
     pub(in crate::viewer) kept: Kept,
 }
 
 impl Dialogs {
-    /// Whether a sheet is open.
+    /// Whether a dialog is open.
     pub fn is_open(&self, sheet: Dialog) -> bool {
         self.open.contains(&sheet)
     }
 
-    /// Opens a sheet, over the others.
+    /// Opens a dialog, above the others.
     pub fn open(&mut self, sheet: Dialog) {
         self.close(sheet);
         self.open.push(sheet);
     }
 
-    /// Closes a sheet.
+    /// Closes a dialog.
     pub fn close(&mut self, sheet: Dialog) {
         self.open.retain(|known| *known != sheet);
     }
 
-    /// Tells that the window is another one, which nothing was told yet.
+    /// Resets what was applied to the previous window.
     pub fn begin(&mut self) {
         self.kept.forget_window();
     }
 
+    /// Opens a dialog, or closes it if it is open.
     pub fn toggle(&mut self, sheet: Dialog) {
         match self.is_open(sheet) {
             true => self.close(sheet),
@@ -63,51 +64,53 @@ impl Dialogs {
     }
 }
 
-/// Names that are being typed, by what they were.
+/// Edited names by their previous names.
 pub type Names = BTreeMap<String, String>;
 
-/// What is being done in the sheet.
+/// The state of the shortcuts dialog.
 #[derive(Default)]
 pub struct ShortcutsDialog {
     pub(in crate::viewer) search: String,
-    /// The command that waits for a key, and whether it keeps those that it has.
+    /// The command that waits for a trigger.
     pub(in crate::viewer) capture: Option<Capture>,
-    /// Why the last key was refused.
+    /// Why the last trigger was rejected.
     pub(in crate::viewer) refusal: Option<(Action, String)>,
 }
 
+/// A command that waits for its new trigger.
 #[derive(Clone, Copy)]
 pub struct Capture {
     pub(in crate::viewer) action: Action,
     pub(in crate::viewer) adds: bool,
-    /// Where buttons and the wheel count, on the screen.
+    /// Screen area in which buttons and the wheel count.
     pub(in crate::viewer) place: Option<Rect>,
-    /// The click that began it is over.
+    /// Whether the click that started it is over.
     pub(in crate::viewer) is_ready: bool,
 }
 
 impl ShortcutsDialog {
-    /// Whether a command waits for a key.
+    /// Whether a command waits for a trigger.
     pub fn awaits(&self) -> bool {
         self.capture.is_some()
     }
 }
 
-/// What is known of the settings file.
+/// The state of the settings file.
 #[derive(Default)]
 pub struct Kept {
     pub(in crate::viewer) written: Option<Preferences>,
-    /// By the window's clock, in seconds.
+    /// Time of the last check, by the window's clock in seconds.
     pub(in crate::viewer) looked: Option<f64>,
     pub(in crate::viewer) has_failed: bool,
     pub(in crate::viewer) is_begun: bool,
-    /// Whether the panels are to be noted.
+    /// Whether the layout must be stored.
     pub(in crate::viewer) is_due: bool,
-    /// As the window was told.
+    /// The theme and scale applied to the window.
     pub(in crate::viewer) applied: Option<(Theme, f32)>,
 }
 
 impl Kept {
+    /// Applies theme and scale again, because the window was created again.
     pub fn forget_window(&mut self) {
         self.applied = None;
     }

@@ -1,4 +1,4 @@
-//! What is being edited.
+//! The state of editing.
 
 use crate::scene::{Camera, Mesh, Scene};
 use crate::viewer::model::handles::Grip;
@@ -10,38 +10,37 @@ use glam::DVec3;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What is being changed, and what was.
+/// The state of edits and of the outline.
 pub struct Editing {
-    /// What is in the scene, line by line.
+    /// The rows of the outline.
     pub listing: Listing,
-    /// A handle in the hand, and where the pointer was last.
+    /// The dragged handle and the last pointer position.
     pub grip: Option<(Grip, Pos2)>,
-    /// A movement without a button, which then holds the grip.
+    /// A modal transform, which holds the grip.
     pub modal: Option<Modal>,
-    /// What is being renamed, and its name so far.
+    /// The item being renamed and its edited name.
     pub renaming: Option<(Id, String)>,
-    /// The line of the outline that had the focus in the last frame: arrow keys go through the outline
-    /// from there.
+    /// The outline row that had the focus in the last frame, from which arrow keys move.
     pub list_focus: Option<egui::Id>,
-    /// The selection that the outline has brought into sight.
+    /// The last selection that the outline has scrolled to.
     pub seen_selection: Option<Id>,
-    /// From where to where the outline is in sight, in points from its beginning.
+    /// The visible range of the outline, in points from its start.
     pub seen_lines: egui::Rangef,
-    /// Asks where a scene is to be saved.
+    /// The dialog that asks where to save the scene.
     pub(in crate::viewer) saving: Option<Saving>,
-    /// What was written here, and so is not a person's own text.
+    /// The file saved from this window, which may be replaced without asking.
     pub(in crate::viewer) written: Option<PathBuf>,
-    /// The scene that all else was told of.
+    /// The last scene that dependents were updated for.
     pub(in crate::viewer) known: Option<Arc<Scene>>,
-    /// The camera that it is seen by.
+    /// The scene's camera in world space.
     pub(in crate::viewer) home: Option<Camera>,
-    /// Whether bounds are still to be told.
+    /// Whether bounds must still be updated.
     pub(in crate::viewer) owes_bounds: bool,
-    /// The box of a mesh, which is looked for once.
+    /// Cached bounds of a mesh.
     pub(in crate::viewer) mesh_box: Option<(Arc<Mesh>, Bounds)>,
 }
 
-/// The least and the greatest corner of a box; `None` of what has none.
+/// Minimum and maximum corner of a box; `None` without bounds.
 type Bounds = Option<(DVec3, DVec3)>;
 
 impl Default for Editing {
@@ -65,12 +64,12 @@ impl Default for Editing {
 }
 
 impl Editing {
-    /// Whether a name for the scene is asked for.
+    /// Whether the save dialog is open.
     pub fn is_asking(&self) -> bool {
         self.saving.is_some()
     }
 
-    /// Notes that the scene's file is not, or no longer, one that was written here.
+    /// Called when the scene's file is no longer one that was saved from this window.
     pub fn forget_written(&mut self) {
         self.written = None;
     }
@@ -88,10 +87,10 @@ impl Editing {
     }
 }
 
-/// A question where to save.
+/// The dialog that asks where to save the scene.
 pub struct Saving {
     pub(in crate::viewer) name: String,
-    /// What stands in the way of that name.
+    /// Why the name is invalid.
     pub(in crate::viewer) trouble: Option<String>,
     pub(in crate::viewer) is_new: bool,
 }

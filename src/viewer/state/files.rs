@@ -1,4 +1,4 @@
-//! What the window has to do with files: what is open, watched, asked for and being written.
+//! The state of files: open, watched, requested and being written.
 
 use crate::app::inputs::Inputs;
 use crate::image::Image;
@@ -15,81 +15,81 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::SystemTime;
 
-/// A picture, or why it cannot be read.
+/// An image, or why it cannot be read.
 pub type PictureRead = Result<Arc<Picture>, ImportError>;
 
-/// What the window has to do with files.
+/// The state of files.
 #[derive(Default)]
 pub struct Files {
-    /// Who is asked for names.
+    /// The source of file dialogs.
     pub dialogs: FileDialogs,
-    /// The scene that was refused, until it is mended.
+    /// The scene that could not be read.
     pub broken: Option<Broken>,
-    /// A name that is being typed, of what is to be opened.
+    /// The typed path of a file to open.
     pub typed: Option<String>,
-    /// The picture that is about to be saved.
+    /// The dialog for saving the picture.
     pub saving: Option<SaveDialog>,
-    /// What waits until the person says what becomes of unsaved changes.
+    /// The action that waits for an answer about unsaved changes.
     pub undecided: Option<Intent>,
-    /// The reply to what is to be opened.
+    /// The pending reply of the open dialog.
     pub(in crate::viewer) asked: Option<Receiver<Reply>>,
-    /// What to try next when a scene cannot be read, and what to say when one is.
+    /// Scenes to try next if one cannot be read, and the message if one can.
     pub(in crate::viewer) candidates: VecDeque<PathBuf>,
     pub(in crate::viewer) said: Option<String>,
     pub(in crate::viewer) pending: Pending,
-    /// Surroundings that are being read, and where they will come.
+    /// The environment image that is loading.
     pub(in crate::viewer) environment: Option<(PathBuf, Receiver<PictureRead>)>,
-    /// Pictures of surroundings that were read.
+    /// Environment images loaded so far.
     pub(in crate::viewer) surroundings: Vec<PathBuf>,
     pub(in crate::viewer) watch: Watch,
-    /// What to watch from now on.
+    /// The files to watch from now on.
     pub(in crate::viewer) to_watch: Option<(Vec<PathBuf>, SystemTime)>,
-    /// Whether the scene's file is not there any more.
+    /// Whether the scene's file does not exist any more.
     pub(in crate::viewer) is_gone: bool,
-    /// For how many frames yet what is pasted is a camera: none comes from an empty clipboard.
+    /// Number of frames in which a paste is taken as a camera; an empty clipboard gives none.
     pub(in crate::viewer) awaits_paste: u8,
     pub(in crate::viewer) may_close: bool,
     pub(in crate::viewer) title: String,
 }
 
-/// A scene that was refused.
+/// A scene that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Broken {
     /// Its file.
     pub path: PathBuf,
-    /// Why.
+    /// The error.
     pub trouble: Trouble,
 }
 
-/// Something that would lose unsaved changes.
+/// An action that discards unsaved changes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Intent {
-    /// To open another scene.
+    /// Open another scene.
     Open(PathBuf),
-    /// To read the scene again.
+    /// Reload the scene.
     Reload,
-    /// To read the scene again, because its file has changed.
+    /// Reload the scene because its file has changed.
     Follow,
-    /// To close the window.
+    /// Close the window.
     Close,
-    /// To close it although a picture is to be saved that is not finished.
+    /// Close the window although a picture waits to be saved.
     CloseUnfinished,
 }
 
 impl Files {
-    /// Tells that the window is another one, which nothing was told yet.
+    /// Resets what was applied to the previous window.
     pub fn begin(&mut self) {
         self.title.clear();
         self.pending.begin();
         let files = self.watch.files();
         if !files.is_empty() {
             self.to_watch = Some((files, SystemTime::now()));
-            // The old one would wake a window that is gone.
+            // The old watcher would wake a closed window.
             self.watch = Watch::default();
         }
     }
 
-    /// Whether something is under way that will change what is to be seen or told.
+    /// Whether pending work will change the window.
     pub fn is_busy(&self) -> bool {
         self.watch.is_busy()
             || self.to_watch.is_some()
@@ -97,17 +97,17 @@ impl Files {
             || self.pending.is_writing()
     }
 
-    /// Whether someone else has changed a file of the scene and it was not read again yet.
+    /// Whether a file of the scene has changed and was not reloaded yet.
     pub fn have_changed(&self) -> bool {
         self.watch.has_changed()
     }
 
-    /// What the scene on screen comes from, which no picture may replace.
+    /// The input files of the scene, which no picture may replace.
     pub fn inputs(&self) -> Inputs {
         Inputs::new(self.watch.files().iter().chain(&self.surroundings))
     }
 
-    /// Whether the window is about to be photographed, so that nothing should lie over the picture.
+    /// Whether a screenshot is about to be taken, so that nothing may cover the picture.
     pub fn is_posing(&self) -> bool {
         self.pending.is_posing()
     }
@@ -118,56 +118,56 @@ impl Files {
     }
 }
 
-/// Where a picture goes.
+/// The target of a saved picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Target {
     /// The file.
     pub path: PathBuf,
-    /// By its ending.
+    /// The format, from the extension.
     pub format: Format,
-    /// Of a JPEG, 1 to 100.
+    /// JPEG quality, 1 to 100.
     pub quality: u8,
-    /// Whether a file of that name is to be replaced.
+    /// Whether an existing file may be replaced.
     pub replaces: bool,
 }
 
-/// What a person says about a picture that is to be saved.
+/// The dialog for saving a picture.
 pub struct SaveDialog {
-    /// The file, as it is typed.
+    /// The typed path.
     pub path: String,
-    /// Of a JPEG, 1 to 100.
+    /// JPEG quality, 1 to 100.
     pub quality: u8,
-    /// Whether what is drawn over the picture is part of it.
+    /// Whether overlays are included.
     pub overlays: bool,
-    /// Whether the name is yet to be put under the keys.
+    /// Whether the field has not been focused yet.
     pub is_new: bool,
-    /// What no picture may replace: the files of the scene.
+    /// The input files of the scene, which no picture may replace.
     pub(in crate::viewer) inputs: Inputs,
-    /// The name that a dialog gave, after asking whether to replace what is there.
+    /// The path from a file dialog, which has confirmed replacing it.
     pub(in crate::viewer) agreed: Option<PathBuf>,
     pub(in crate::viewer) asked: Option<Receiver<Reply>>,
 }
 
-/// A picture for a file, and what is said about it.
+/// A picture from the render thread, with its target.
 #[derive(Debug)]
 pub struct Taken {
-    /// `None` while it is not finished, if it is to be.
+    /// `None` if it should be finished but is not.
     pub(in crate::viewer) image: Result<Option<Image>, String>,
     pub(in crate::viewer) samples: u32,
     pub(in crate::viewer) of: u32,
     pub(in crate::viewer) target: Target,
-    /// When it waits to be finished: for which scene, counted.
+    /// For a picture that waits: the index of its scene.
     pub(in crate::viewer) waits: Option<u32>,
 }
 
-/// What is on its way to the disk.
+/// Pictures on their way to the disk.
 #[derive(Default)]
 pub struct Pending {
-    /// To be saved when the picture is finished.
+    /// Pictures to be saved when finished.
     pub(in crate::viewer) waiting: Vec<Target>,
-    /// For which scene, counted.
+    /// Index of the current scene.
     pub(in crate::viewer) turn: u32,
-    /// How many are asked of the render thread.
+    /// Number of requests to the render thread.
     pub(in crate::viewer) asked: u32,
     pub(in crate::viewer) pose: Option<Pose>,
     pub(in crate::viewer) writing: Vec<Receiver<Result<String, String>>>,
@@ -176,47 +176,50 @@ pub struct Pending {
 }
 
 impl Pending {
-    /// Tells that the renderer is another one, which answers nothing that the last one was asked.
+    /// Drops the requests of the previous renderer.
     pub fn begin(&mut self) {
         self.asked = 0;
         self.pose = None;
     }
 
+    /// Whether a picture is being fetched or written.
     pub fn is_writing(&self) -> bool {
         !self.writing.is_empty() || self.asked > 0 || self.pose.is_some()
     }
 
+    /// Whether the window is about to be captured.
     pub fn is_posing(&self) -> bool {
         self.pose.is_some()
     }
 
+    /// Whether a picture is to be saved when it is finished.
     pub fn waits(&self) -> bool {
         !self.waiting.is_empty()
     }
 }
 
 impl SaveDialog {
-    /// Where it would go, or why it cannot.
+    /// The target, or why it is invalid.
     pub fn target(&self) -> Result<Target, String> {
         let path = PathBuf::from(self.path.trim());
         if path.as_os_str().is_empty() {
-            return Err("Type a name, such as picture.png.".to_owned());
+            return Err("Enter a name, such as picture.png.".to_owned());
         }
         let Some(format) = Format::from_path(&path) else {
             return Err(format!("The name must end in one of {}.", Format::ENDINGS));
         };
         if self.overlays && format.is_linear() {
-            return Err("What is drawn over the picture fits .png and .jpg only.".to_owned());
+            return Err("Overlays can only be saved as .png or .jpg.".to_owned());
         }
         if path.is_dir() {
-            return Err("That is a folder.".to_owned());
+            return Err("This is a folder.".to_owned());
         }
         let folder = (path.parent()).filter(|folder| !folder.as_os_str().is_empty());
         if folder.is_some_and(|folder| !folder.is_dir()) {
-            return Err("There is no such folder.".to_owned());
+            return Err("The folder does not exist.".to_owned());
         }
         if self.inputs.contain(&path) {
-            return Err("The scene reads that file. Choose another name.".to_owned());
+            return Err("The scene uses this file. Choose another name.".to_owned());
         }
         Ok(Target {
             replaces: path.exists(),
@@ -226,16 +229,16 @@ impl SaveDialog {
         })
     }
 
-    /// Whether a file would be replaced that the person was not asked about.
+    /// Whether replacing an existing file must be confirmed.
     pub fn must_ask(&self, target: &Target) -> bool {
         target.replaces && self.agreed.as_ref() != Some(&target.path)
     }
 }
 
-/// Frames that sheets and notices need to be out of the way.
+/// Number of frames until dialogs and messages are hidden.
 const FRAMES: u32 = 2;
 
-/// A photograph that is being taken.
+/// A screenshot in progress.
 pub struct Pose {
     pub(in crate::viewer) target: Target,
     pub(in crate::viewer) frames: u32,
@@ -243,6 +246,7 @@ pub struct Pose {
 }
 
 impl Pose {
+    /// Prepares a screenshot of the picture with its overlays for `target`.
     pub fn new(target: Target) -> Self {
         Self {
             target,

@@ -1,4 +1,4 @@
-//! The pixel whose rays are inspected, and what of them is shown.
+//! The state of the ray inspector.
 
 use crate::render::{RayTree, TracedRay};
 use crate::viewer::model::camera::CameraController;
@@ -15,26 +15,26 @@ use rows::{Filter, RayId, Row};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::mpsc::Receiver;
 
-/// Length of a ray that goes on for ever, in radii of the scene.
+/// Drawn length of infinite rays, in scene radii.
 const ENDLESS: f64 = 0.6;
 
-/// A pixel's rays, and the picture that they are of.
+/// The rays of a pixel and their request.
 #[derive(Debug)]
 pub struct Inspected {
-    /// Every ray of every sample.
+    /// All rays of all samples.
     pub tree: RayTree,
-    /// The picture.
+    /// The request of the picture.
     pub order: RenderRequest,
-    /// Whether the pixel had all its samples; else adaptive sampling may add some.
+    /// Whether the pixel was finished; else adaptive sampling may add samples.
     pub is_final: bool,
-    /// How often the light of each ray was mirrored or refracted before: by sample and ray.
+    /// The number of bounces before each ray, by sample and ray.
     pub bounces: Vec<Vec<u32>>,
-    /// What the outline calls all that they met.
+    /// The outline's labels of all objects hit.
     pub(in crate::viewer) labels: BTreeMap<Id, String>,
 }
 
 impl Inspected {
-    /// The tree of a picture.
+    /// Prepares the tree of a picture.
     pub fn new(tree: RayTree, order: RenderRequest, is_final: bool) -> Self {
         let bounces = tree.samples.iter().map(rows::bounces).collect();
         let labels = outline::labels(&order.scene, words::met(&tree));
@@ -47,50 +47,50 @@ impl Inspected {
         }
     }
 
-    /// What something is called that its rays met.
+    /// The label of an object that was hit.
     pub fn label(&self, id: Id) -> &str {
         self.labels.get(&id).map_or("something", String::as_str)
     }
 
-    /// One of its rays.
+    /// A ray of the tree.
     pub fn ray(&self, (sample, ray): RayId) -> Option<&TracedRay> {
         self.tree.samples.get(sample)?.rays.get(ray)
     }
 
-    /// The most bounces before a ray.
+    /// The maximum number of bounces.
     pub fn max_bounces(&self) -> u32 {
         self.bounces.iter().flatten().copied().max().unwrap_or(0)
     }
 }
 
-/// Which pixel is inspected, its rays, and what of them is shown.
+/// The inspected pixel, its rays, and the filter.
 #[derive(Default)]
 pub struct Inspector {
-    /// The pixel that was asked for last: column and row.
+    /// The last requested pixel: column and row.
     pub pixel: Option<[u32; 2]>,
-    /// What came of it.
+    /// Its rays, or the error.
     pub inspected: Option<Inspected>,
-    /// Which rays are shown.
+    /// The filter of visible rays.
     pub filter: Filter,
-    /// Those whose rays are not.
+    /// Collapsed rays.
     pub folded: BTreeSet<RayId>,
-    /// The ray that is told about.
+    /// The selected ray.
     pub selected: Option<RayId>,
-    /// The ray under the cursor, in the last frame.
+    /// The ray under the cursor in the last frame.
     pub hovered: Option<RayId>,
-    /// The same in this frame.
+    /// The ray under the cursor in this frame.
     pub hovers: Option<RayId>,
-    /// Whether the list is to be scrolled to the one that is selected.
+    /// Whether the list must scroll to the selection.
     pub scrolls: bool,
     /// Whether the pixel under the cursor is inspected without a click.
     pub follows: bool,
-    /// The scene from outside.
+    /// The ray view.
     pub outside: Outside,
-    /// What of the lines there is behind something.
+    /// The hidden parts of rays in the ray view.
     pub hidden: Hidden,
-    /// How many trees there were.
+    /// Number of trees so far.
     pub tree_count: u32,
-    /// What happens to files that are saved.
+    /// The state of exports.
     pub saving: Saving,
     pub(in crate::viewer) rows: Option<Vec<Row>>,
     pub(in crate::viewer) is_asked: bool,
@@ -98,7 +98,7 @@ pub struct Inspector {
 }
 
 impl Inspector {
-    /// The lines of the list; made anew after [`Self::changed`].
+    /// The rows of the list, updated after [`Self::changed`].
     pub fn rows(&mut self) -> &[Row] {
         let Self {
             inspected,
@@ -113,12 +113,12 @@ impl Inspector {
         })
     }
 
-    /// Says that the list has other lines by now.
+    /// Marks the rows as outdated.
     pub fn changed(&mut self) {
         self.rows = None;
     }
 
-    /// Hides the rays that a ray sent, or shows them.
+    /// Collapses or expands the children of a ray.
     pub fn fold(&mut self, id: RayId) {
         if !self.folded.remove(&id) {
             self.folded.insert(id);
@@ -126,7 +126,7 @@ impl Inspector {
         self.changed();
     }
 
-    /// Hides everything but the samples' first rays, or nothing.
+    /// Collapses everything below the camera rays, or expands everything.
     pub fn fold_all(&mut self, is_folded: bool) {
         self.folded.clear();
         if let Some(inspected) = self.inspected.as_ref().filter(|_| is_folded) {
@@ -139,13 +139,13 @@ impl Inspector {
         self.changed();
     }
 
-    /// Tells about a ray, or no longer if it is told about already.
+    /// Selects a ray, or deselects it.
     pub fn toggle(&mut self, id: RayId) {
         self.selected = (self.selected != Some(id)).then_some(id);
         self.changed();
     }
 
-    /// Tells about a ray and brings it into the list.
+    /// Selects a ray and scrolls to it.
     pub fn select(&mut self, id: RayId) {
         let Some(inspected) = &self.inspected else {
             return;
@@ -160,41 +160,41 @@ impl Inspector {
         self.changed();
     }
 
-    /// The ray to be seen before others.
+    /// The highlighted ray.
     pub fn highlighted(&self) -> Option<RayId> {
         self.hovered.or(self.selected)
     }
 
-    /// Whether an answer is on its way.
+    /// Whether an answer is pending.
     pub fn is_waiting(&self) -> bool {
         self.is_asked
     }
 }
 
-/// Parts that a line has.
+/// Number of parts per ray.
 pub const PARTS: usize = 24;
 
-/// By line, whether each of its parts is hidden, from its start on.
+/// For each ray, whether each of its parts is hidden, from its start.
 pub type Parts = HashMap<RayId, Vec<bool>>;
 
-/// What is known, and what was asked.
+/// The known result and the pending request.
 #[derive(Default)]
 pub struct Hidden {
     pub(in crate::viewer) known: Option<(View, Parts)>,
     pub(in crate::viewer) asked: Option<View>,
 }
 
-/// What the answer depends on.
+/// The inputs of the result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
     pub(in crate::viewer) order: RenderRequest,
     pub(in crate::viewer) filter: Filter,
-    /// Which of the trees that there were.
+    /// The index of the tree.
     pub(in crate::viewer) tree: u32,
 }
 
 impl Hidden {
-    /// Takes up an answer; `None` if it was not for the picture that it was asked about.
+    /// Stores an answer; `None` if the view has changed meanwhile.
     pub fn take(&mut self, parts: Option<Parts>) {
         match (self.asked.clone(), parts) {
             (Some(view), Some(parts)) => self.known = Some((view, parts)),
@@ -203,27 +203,27 @@ impl Hidden {
     }
 }
 
-/// The second camera and its picture.
+/// The ray view.
 #[derive(Default)]
 pub struct Outside {
-    /// The camera; `None` before there were rays to look at.
+    /// Its camera; `None` before there are rays.
     pub controller: Option<CameraController>,
-    /// Where the picture is; `None` before it was drawn.
+    /// Its viewport; `None` before it was drawn.
     pub viewport: Option<Viewport>,
-    /// Whether the scene is shown by its normals only.
+    /// Whether the scene is shaded by its normals.
     pub plain: bool,
-    /// Whether directions of surfaces are drawn.
+    /// Whether surface normals are drawn.
     pub normals: bool,
-    /// Room for it in pixels, in this frame; nothing where it was not drawn.
+    /// Its size in pixels in this frame; `None` if it was not drawn.
     pub space: Option<(u32, u32)>,
-    /// The same in the last frame.
+    /// Its size in the last frame.
     pub(in crate::viewer) shown: Option<(u32, u32)>,
-    /// What is dragged in it.
+    /// The current drag.
     pub drag: Option<Drag>,
 }
 
 impl Outside {
-    /// How much is drawn of a ray that goes on for ever, in scene units.
+    /// The drawn length of infinite rays, in scene units.
     pub fn reach(&self) -> f64 {
         let radius = self
             .controller
@@ -232,7 +232,7 @@ impl Outside {
         ENDLESS * radius
     }
 
-    /// Lets time go by. Whether the camera moves.
+    /// Advances time. Returns whether the camera moves.
     pub fn advance(&mut self, seconds: f64) -> bool {
         self.shown = self.space.take();
         let Some(controller) = &mut self.controller else {
@@ -242,6 +242,6 @@ impl Outside {
     }
 }
 
-/// A text that waits for a file's name.
+/// An export that waits for a file name.
 #[derive(Default)]
 pub struct Saving(pub Option<(Receiver<Reply>, String)>);

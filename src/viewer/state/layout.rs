@@ -1,4 +1,4 @@
-//! Which panel is where: tiles that a person can drag, resize and close.
+//! The layout of panels: tiles that can be dragged, resized and closed.
 
 use crate::viewer::model::preferences::Preferences;
 use eframe::egui;
@@ -8,19 +8,19 @@ use serde::{Deserialize, Serialize};
 /// A panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Panel {
-    /// The picture.
+    /// The rendered picture.
     Picture,
-    /// What is in the scene.
+    /// The contents of the scene.
     Outline,
-    /// What is selected.
+    /// The properties of the selection.
     Properties,
-    /// Settings of the picture and how it is developed.
+    /// Render settings and tone mapping.
     Render,
     /// The rays of a pixel.
     Rays,
-    /// These rays in the scene, seen from outside.
+    /// The ray view.
     Outside,
-    /// The animation.
+    /// The time panel.
     Time,
 }
 
@@ -36,7 +36,7 @@ impl Panel {
         Self::Time,
     ];
 
-    /// What its tab says.
+    /// The title of its tab.
     pub fn title(self) -> &'static str {
         match self {
             Self::Picture => "Picture",
@@ -50,41 +50,41 @@ impl Panel {
     }
 }
 
-/// Room that the usual layout is made for, in points.
+/// Window size of the default layout, in points.
 const USUAL: [f32; 2] = [1280.0, 750.0];
-/// Room in which panels are not worth their places, in points.
+/// Window size below which side panels are not restored, in points.
 const LEAST: f32 = 200.0;
-/// The least share of the room that is the picture's, from side to side and from top to bottom.
+/// Minimum fraction of the picture, horizontally and vertically.
 const PICTURE: f32 = 0.4;
 
-/// The panels and their places.
+/// The panels and their layout.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Layout {
     /// The tiles.
     pub tree: Tree<Panel>,
-    /// Width and height that shares are of, in points.
+    /// Size of the area that the fractions refer to, in points.
     #[serde(default)]
     room: Option<[f32; 2]>,
-    /// How large tiles beside the picture are to be once there is room for them again.
+    /// Preferred sizes of side panels, restored when there is room.
     #[serde(default)]
     wishes: Vec<Wish>,
-    /// The layout before all panels were hidden at once.
+    /// The layout before all panels were hidden.
     #[serde(default)]
     before: Option<Box<Self>>,
 }
 
-/// A tile that had to become smaller than it was.
+/// A tile that was shrunk.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Wish {
     tile: TileId,
-    /// Its width or height before, in points.
+    /// Its previous width or height, in points.
     wished: f32,
-    /// What it got. If it has another size by now, someone has resized it since, and that size counts.
+    /// Its reduced size. A different current size means that the user has resized it since.
     given: f32,
 }
 
 impl Default for Layout {
-    /// The picture in the middle, what is in the scene on its left, settings on its right.
+    /// The default layout: the picture in the middle, the outline on the left, settings on the right.
     fn default() -> Self {
         let mut tiles = Tiles::default();
         let mut pane = |panel| tiles.insert_pane(panel);
@@ -97,7 +97,7 @@ impl Default for Layout {
         side.shares.set_share(upper, 0.6);
         side.shares.set_share(outside, 0.4);
         let side = tiles.insert_container(Container::Linear(side));
-        // Until rays are inspected.
+        // Hidden until rays are inspected.
         tiles.set_visible(outside, false);
         let mut middle = Linear::new(LinearDir::Vertical, vec![picture, time]);
         middle.shares.set_share(picture, 640.0);
@@ -119,7 +119,7 @@ impl Default for Layout {
 }
 
 impl Layout {
-    /// As it was kept; the usual one where a panel of this version is not in that.
+    /// The saved layout; the default one if a panel of this version is missing.
     pub fn kept(preferences: &Preferences) -> Self {
         let kept: Option<Self> = preferences.layout();
         let is_whole = |layout: &Self| {
@@ -129,10 +129,10 @@ impl Layout {
         kept.filter(is_whole).unwrap_or_default()
     }
 
-    /// Panels beside the picture keep their sizes until the picture would get too little, and get them back
-    /// when there is room again: a larger window is a larger picture.
+    /// Side panels keep their sizes until the picture becomes too small, and regain them when there is room:
+    /// a larger window shows a larger picture.
     pub fn resize(&mut self, room: [f32; 2]) {
-        // A window that is rolled up or minimised is not for long.
+        // A minimised window is temporary.
         if room.iter().any(|length| *length < LEAST) {
             return;
         }
@@ -162,7 +162,7 @@ impl Layout {
         }
     }
 
-    /// Whether a panel is to be seen.
+    /// Whether a panel is visible.
     pub fn is_visible(&self, panel: Panel) -> bool {
         self.find(panel).is_some_and(|id| self.tree.is_visible(id))
     }
@@ -177,7 +177,7 @@ impl Layout {
         }
     }
 
-    /// Hides everything but the picture, or restores the layout that was there before.
+    /// Hides everything except the picture, or restores the previous layout.
     pub fn toggle_all(&mut self) {
         let others = || {
             Panel::ALL
@@ -191,7 +191,7 @@ impl Layout {
         } else if let Some(before) = self.before.take() {
             *self = *before;
         } else {
-            // They were hidden one by one.
+            // They were hidden individually.
             let usual = Self::default();
             let shown = others().filter(|panel| usual.is_visible(*panel));
             shown.for_each(|panel| {
@@ -207,7 +207,7 @@ impl Layout {
     }
 }
 
-/// Shares of a row or column that holds the picture in its child `picture`, once its length has changed.
+/// Fractions of a row or column with the picture as child `picture`, after its length has changed.
 fn resized(
     linear: &Linear,
     picture: TileId,
@@ -216,7 +216,7 @@ fn resized(
     before: f32,
     now: f32,
 ) -> Shares {
-    /// Rounding moves a tile by less, in points.
+    /// Tolerance for rounding, in points.
     const SAME: f32 = 0.5;
     let mut shares = linear.shares.clone();
     let total: f32 = (linear.children.iter())

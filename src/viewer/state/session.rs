@@ -1,4 +1,4 @@
-//! What the person works on: everything that outlives a lost device.
+//! The session: all state that outlives a lost device.
 
 pub mod opening;
 mod orders;
@@ -36,68 +36,68 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Seconds after the last movement until the picture is made in full.
+/// Delay after the last motion before the full-resolution picture starts, in seconds.
 const SETTLE: f64 = 0.12;
 
-/// The shortest time between two frames that something moves in, and between two looks at what others do.
+/// Minimum interval between frames during motion, and between polls of other threads.
 const FRAME: Duration = Duration::from_millis(8);
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Everything about the window but what is on the GPU.
+/// The state of the window, except for GPU resources.
 pub struct Session {
-    /// What there is to tell.
+    /// The messages.
     pub messages: Messages,
-    /// What is kept between runs.
+    /// The preferences.
     pub preferences: Preferences,
-    /// Where it is kept.
+    /// The settings file.
     pub store: Store,
-    /// The scene as it is edited; `None` before there is one.
+    /// The edited scene; `None` before there is one.
     pub document: Option<Document>,
-    /// As it was read, no flags applied.
+    /// The scene as read, without flags.
     pub original: Option<Arc<Scene>>,
     /// The scene's file; `None` for the demo.
     pub path: Option<PathBuf>,
-    /// How the picture is made.
+    /// View settings.
     pub view: ViewSettings,
-    /// When it is.
+    /// The animation.
     pub playback: Playback,
-    /// The camera under the person's hands.
+    /// The interactive camera.
     pub controller: Option<CameraController>,
-    /// What a click in the picture does.
+    /// The active tool.
     pub tool: Tool,
-    /// What the mouse drags in the picture.
+    /// The current drag in the picture.
     pub drag: Option<Drag>,
-    /// What is selected.
+    /// The selection.
     pub selection: Option<Id>,
-    /// Commands that clicks gave, for the next frame.
+    /// Commands of clicked buttons, for the next frame.
     pub clicked: Vec<Action>,
-    /// Where the picture is in the window; `None` where it is not to be seen.
+    /// The viewport of the picture; `None` if it is hidden.
     pub viewport: Option<Viewport>,
-    /// Whether the figures of the render are to be seen.
+    /// Whether statistics are visible.
     pub shows_statistics: bool,
-    /// Whether anything is drawn over the picture.
+    /// Whether overlays are visible.
     pub shows_overlays: bool,
-    /// What the window has to do with files.
+    /// The state of files.
     pub files: Files,
-    /// What is being changed.
+    /// The state of editing.
     pub editing: Editing,
-    /// The rays of a pixel.
+    /// The ray inspector.
     pub inspector: Inspector,
-    /// What lies over the window.
+    /// The dialogs.
     pub dialogs: Dialogs,
-    /// What the person does, recorded or played.
+    /// Recording or replay of input.
     pub recording: InputRecording,
-    /// What the window was opened with; what it says of one scene is dropped with that scene.
+    /// The arguments of the window; those for one scene are dropped with it.
     pub request: ViewRequest,
     /// Questions that wait for the render thread.
     pub questions: Vec<Question<Answer>>,
     pub(in crate::viewer) loader: Option<Loader>,
-    /// The scene that may be lost to the one that is being opened.
+    /// The scene that may be replaced by the one being opened.
     pub(in crate::viewer) left: Option<Arc<Scene>>,
-    /// How often the picture was started over.
+    /// Number of restarts of the picture.
     pub(in crate::viewer) restarts: u32,
     room: Room,
-    /// When something moved last, in egui's time; and what egui's time is.
+    /// Time of the last motion, and the current time of egui.
     pub(in crate::viewer) last_motion: f64,
     pub(in crate::viewer) now: f64,
     pub(in crate::viewer) is_device_lost: bool,
@@ -105,7 +105,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// A session that is about to read its scene. `store` is where preferences are.
+    /// A session that is about to load its scene. `store` is the settings file.
     pub fn new(request: ViewRequest, mut store: Store) -> Result<Self, AppError> {
         let (preferences, notes) = store.load();
         let mut messages = Messages::default();
@@ -157,59 +157,59 @@ impl Session {
         Ok(session)
     }
 
-    /// Tells that the picture is changing, and so is coarse for a while.
+    /// Marks the picture as moving, so that previews are rendered for a while.
     pub fn moved(&mut self) {
         self.last_motion = self.now;
     }
 
-    /// Whether the picture is changing.
+    /// Whether the picture is moving.
     pub fn is_moving(&self) -> bool {
         self.now - self.last_motion < SETTLE || self.drag.is_some()
     }
 
-    /// The camera that the picture is seen by, in the world.
+    /// The current camera, in world space.
     pub fn camera(&self) -> Option<Camera> {
         self.controller.as_ref().map(CameraController::camera)
     }
 
-    /// Starts the picture over.
+    /// Restarts the picture.
     pub fn restart(&mut self) {
         self.restarts += 1;
     }
 
-    /// Bounds of all there is, in the world.
+    /// Bounds of the scene, in world space.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         self.scene().and_then(|scene| scene.bounds())
     }
 
-    /// Bounds of what there is to look at, in the world.
+    /// Bounds of the visible geometry, in world space.
     pub fn subject(&self) -> Option<(DVec3, DVec3)> {
         self.scene().and_then(|scene| objects::subject(scene))
     }
 
-    /// Bounds of what is selected, in the world.
+    /// Bounds of the selection, in world space.
     pub fn selection_bounds(&self) -> Option<(DVec3, DVec3)> {
         objects::bounds(self.scene()?, self.selection?, self.playback.time)
     }
 
-    /// The scene as it is edited; `None` before there is one.
+    /// The edited scene; `None` before there is one.
     pub fn scene(&self) -> Option<&Arc<Scene>> {
         self.document.as_ref().map(Document::scene)
     }
 
-    /// Whether there are changes that are in no file.
+    /// Whether there are unsaved changes.
     pub fn has_changes(&self) -> bool {
         self.document.as_ref().is_some_and(Document::is_changed)
     }
 
-    /// Changes the scene, as one step that can be undone.
+    /// Changes the scene in one step that can be undone.
     pub fn edit(&mut self, name: &str, change: impl FnOnce(&mut Scene)) {
         if let Some(document) = &mut self.document {
             document.edit(name, change);
         }
     }
 
-    /// Asks the render thread for something as soon as there is a picture.
+    /// Sends a question to the render thread as soon as there is a picture.
     pub fn ask(&mut self, question: impl FnOnce(&mut FrameRenderer) -> Answer + Send + 'static) {
         self.questions.push(Box::new(question));
     }
@@ -221,27 +221,27 @@ impl Session {
             .size
     }
 
-    /// What a window without a picture waits for.
+    /// Status text of a window without a picture.
     pub fn waiting_for(&self) -> String {
         match &self.loader {
-            Some(loader) => format!("reading {}", loader.path.display()),
-            None if self.document.is_none() => "no scene is open".into(),
-            None => "preparing".into(),
+            Some(loader) => format!("Loading {}", loader.path.display()),
+            None if self.document.is_none() => "No scene is open".into(),
+            None => "Preparing".into(),
         }
     }
 
-    /// Whether there is no scene, and none is being read.
+    /// Whether no scene is open or loading.
     pub fn is_empty(&self) -> bool {
         self.document.is_none() && self.loader.is_none()
     }
 
-    /// The name of what is on screen.
+    /// The name of the scene.
     pub fn title(&self) -> String {
         let name = self.path.as_deref().and_then(Path::file_name);
         name.map_or("demo".into(), |name| name.to_string_lossy().into_owned())
     }
 
-    /// Whether nothing moves and nothing is being read.
+    /// Whether nothing is moving or loading.
     pub fn is_at_rest(&self) -> bool {
         self.loader.is_none()
             && self.questions.is_empty()
@@ -251,8 +251,8 @@ impl Session {
             && !self.recording.is_playing()
     }
 
-    /// How long the window may sleep before something happens by itself; `None` until a person or another
-    /// thread wakes it. On software each frame that shows nothing new delays the one that does.
+    /// How long the window may sleep before something happens; `None` until there is input or another thread
+    /// wakes it. On software, each unnecessary frame delays the next useful one.
     pub fn until_next_frame(&self) -> Option<Duration> {
         let glides = self
             .controller
@@ -269,28 +269,28 @@ impl Session {
         if self.loader.is_some() || self.files.is_busy() {
             return Some(LOOK);
         }
-        // Nothing settles while a button is held.
+        // Not while a button is held.
         let settles = self.last_motion + SETTLE - self.now;
         let is_due = settles > 0.0 && self.drag.is_none();
         is_due.then(|| Duration::from_secs_f64(settles.min(SETTLE)).max(FRAME))
     }
 
-    /// Notes that the window must be opened again on another device.
+    /// Requests that the window is opened again on a new device.
     pub fn lost_device(&mut self) {
         self.is_device_lost = true;
     }
 
-    /// Whether it must.
+    /// Whether the window must be opened again.
     pub fn is_device_lost(&self) -> bool {
         self.is_device_lost
     }
 
-    /// Whether it must; asked once.
+    /// Whether the window must be opened again; clears the request.
     pub fn is_to_reopen(&mut self) -> bool {
         std::mem::take(&mut self.is_device_lost)
     }
 
-    /// Notes why what is wanted cannot be rendered; `None` while it can.
+    /// Sets the render error; `None` if rendering works.
     pub fn refused(&mut self, why: Option<String>) {
         if self.refusal != why {
             if let Some(why) = &why {

@@ -1,4 +1,4 @@
-//! What panels and dialogs draw with.
+//! The context of panels and dialogs.
 
 use super::textures::Textures;
 use crate::viewer::state::answer::Answer;
@@ -6,18 +6,18 @@ use crate::viewer::state::session::Session;
 use crate::viewer::worker::progressive_image::{PictureSlot, Shown};
 use crate::viewer::worker::render_thread::RenderThread;
 
-/// What panels work with.
+/// The context of panels and dialogs.
 pub struct PanelContext<'a> {
-    /// What the person works on.
+    /// The session.
     pub session: &'a mut Session,
-    /// What renders it.
+    /// The render thread.
     pub render: &'a RenderThread<Answer>,
-    /// Pictures for egui.
+    /// Textures for egui.
     pub textures: &'a mut Textures,
 }
 
 impl PanelContext<'_> {
-    /// What there is to see at a place.
+    /// The published picture of a slot.
     pub fn shown(&self, place: PictureSlot) -> Option<Shown> {
         self.render.shown(place)
     }

@@ -1,5 +1,5 @@
-//! What lies over the window for a while: the sheet of bindings, the preferences, the first hint,
-//! questions; and the keeping of what is chosen there.
+//! Draws the dialogs over the window: keyboard shortcuts, preferences, the hint of the first run, messages,
+//! bookmarks and questions.
 
 mod bindings;
 mod cameras;
@@ -19,7 +19,7 @@ use crate::viewer::state::layout::Layout;
 use crate::viewer::ui::context::PanelContext;
 use eframe::egui;
 
-/// Draws those that are open.
+/// Draws the open dialogs.
 pub fn show(ui: &mut egui::Ui, context: &mut PanelContext, layout: &mut Layout) {
     if context.session.files.is_posing() {
         return;
@@ -45,7 +45,7 @@ pub fn show(ui: &mut egui::Ui, context: &mut PanelContext, layout: &mut Layout) 
         match intent {
             questions::Choice::Save(intent) => {
                 commands::perform(Action::SaveScene, context.session, layout, &ctx);
-                // Where that needs a name first, what was wanted can be asked for again.
+                // If saving needs a name first, the action is dropped; the user can repeat it.
                 if !context.session.has_changes() {
                     files::go_on(context.session, intent);
                 }
@@ -59,7 +59,7 @@ pub fn show(ui: &mut egui::Ui, context: &mut PanelContext, layout: &mut Layout) 
     settings::keep_layout_if_due(context.session, layout);
 }
 
-/// A sheet in the middle of the window. Whether it stays.
+/// Draws a dialog in the centre of the window. Returns whether it stays open.
 fn window(
     ctx: &egui::Context,
     title: &str,

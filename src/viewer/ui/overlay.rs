@@ -1,4 +1,4 @@
-//! What is drawn over the picture for editing: a box round what is selected, and its handles.
+//! Editing overlays of the picture: the outline of the selection and its handles.
 
 use crate::scene::{Camera, Geometry, LightKind, ObjectRef, Scene};
 use crate::viewer::model::bindings::Action;
@@ -12,10 +12,10 @@ use crate::viewer::state::session::Session;
 use eframe::egui::{self, Align2, Color32, FontId, Painter, Pos2, Shape, Stroke};
 use glam::{DAffine3, DVec3};
 
-/// How long handles are, and how near the pointer must come, in points.
+/// Length of handles, and the distance for hit testing, in points.
 const LENGTH: f32 = 84.0;
 const SLACK: f32 = 7.0;
-/// Of x, y, z and of all: legible on black and on white.
+/// Colours of x, y and z: legible on black and on white.
 const COLORS: [Color32; 3] = [
     Color32::from_rgb(235, 64, 72),
     Color32::from_rgb(96, 178, 30),
@@ -26,8 +26,7 @@ const HOT: Color32 = Color32::from_rgb(255, 214, 64);
 const SELECTED: Color32 = Color32::from_rgb(255, 160, 32);
 const SHADE: Color32 = Color32::from_black_alpha(110);
 
-/// Draws what belongs to the selection and lets a hand drag its handles. Whether it has the mouse, so
-/// that the camera stays.
+/// Draws the selection and its handles, and handles drags of them. Returns whether the mouse is consumed.
 pub fn overlay(
     session: &mut Session,
     response: &egui::Response,
@@ -166,13 +165,13 @@ pub fn overlay(
     true
 }
 
-/// Ends what there is nothing left to do with.
+/// Ends drags without a selection.
 fn let_go(session: &mut Session) {
     session.editing.grip = None;
     session.editing.modal = None;
 }
 
-/// What lines are drawn in.
+/// The view that lines are drawn in.
 struct View<'a> {
     painter: &'a Painter,
     viewport: Viewport,
@@ -180,7 +179,7 @@ struct View<'a> {
 }
 
 impl View<'_> {
-    /// Lines in the world.
+    /// Draws lines in world space.
     fn lines(&self, lines: &[[DVec3; 2]], color: Color32) {
         for ends in lines {
             if let Some(ends) = self.segment(*ends) {
@@ -190,7 +189,7 @@ impl View<'_> {
         }
     }
 
-    /// A line on the screen, less what is behind the camera.
+    /// Projects a line, clipped at the camera.
     fn segment(&self, [a, b]: [DVec3; 2]) -> Option<[Pos2; 2]> {
         let (depth_a, depth_b) = (self.eye.depth(a), self.eye.depth(b));
         let near = 1e-3 * depth_a.abs().max(depth_b.abs());
@@ -204,7 +203,7 @@ impl View<'_> {
         let ends = [cut(a, b, depth_a, depth_b), cut(b, a, depth_b, depth_a)];
         let [a, b] = ends.map(|end| self.eye.project(end));
         let ends = [a?, b?].map(|at| self.viewport.point(at));
-        // What is far outside would lose its direction in single floats.
+        // Points far outside would lose their direction in single precision.
         ends.iter()
             .all(|p| p.to_vec2().length() < 1e6)
             .then_some(ends)
@@ -212,7 +211,7 @@ impl View<'_> {
 
     fn handles(&self, handles: &Handles, hot: Option<Part>) {
         let mut parts = handles.parts.clone();
-        // The nearest end last.
+        // The nearest part is drawn last.
         let depth = |part: &Part| match part {
             Part::Axis(axis) => self
                 .eye
@@ -281,7 +280,7 @@ impl View<'_> {
         }
     }
 
-    /// A reading beside the pointer.
+    /// Draws text beside the pointer.
     fn text(&self, at: Pos2, text: &str) {
         let font = FontId::proportional(14.0);
         let galley = (self.painter).layout_no_wrap(text.to_owned(), font, Color32::WHITE);
@@ -293,7 +292,7 @@ impl View<'_> {
     }
 }
 
-/// Lines round something, in the world.
+/// The outline of something, in world space.
 fn edges(session: &mut Session, scene: &Scene, id: Id, time: f64) -> Vec<[DVec3; 2]> {
     let place = objects::place(scene, id, time);
     match (id, place) {
@@ -342,7 +341,7 @@ fn edges(session: &mut Session, scene: &Scene, id: Id, time: f64) -> Vec<[DVec3;
     }
 }
 
-/// A length that looks the same wherever the light is.
+/// A length that appears constant at any distance.
 fn eye_distance(session: &Session, kind: &LightKind) -> f64 {
     let at = objects::of_light(kind).translation;
     let distance = session
@@ -366,7 +365,7 @@ fn cuboid((min, max): (DVec3, DVec3), place: DAffine3) -> Vec<[DVec3; 2]> {
         .collect()
 }
 
-/// A star where a light is that has no extent, its surface where it has; and a line the way it shines.
+/// The outline of a light: a star without extent, else its surface, and a line in its direction.
 fn lamp(kind: &LightKind, size: f64) -> Vec<[DVec3; 2]> {
     let place = objects::of_light(kind);
     let flat = (DVec3::new(-1.0, 0.0, -1.0), DVec3::new(1.0, 0.0, 1.0));
@@ -398,7 +397,7 @@ fn lamp(kind: &LightKind, size: f64) -> Vec<[DVec3; 2]> {
     }
 }
 
-/// A camera's eye and what it sees at a quarter of the way to what it looks at, 3 to 2.
+/// The frustum of a camera, a quarter as deep as its view distance, with aspect 3:2.
 fn pyramid(camera: &Camera) -> Vec<[DVec3; 2]> {
     let size = glam::DVec2::new(3.0, 2.0);
     let length = 0.25 * camera.look_from.distance(camera.look_at);

@@ -1,4 +1,4 @@
-//! What the window is made of: one file for each panel, one function in it.
+//! The panels: one file and one function each.
 
 mod broken;
 mod icon;

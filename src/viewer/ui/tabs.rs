@@ -12,7 +12,7 @@ pub fn show(ui: &mut egui::Ui, layout: &mut Layout, context: &mut PanelContext) 
         .frame(egui::Frame::NONE)
         .show(ui, |ui| {
             layout.resize(ui.available_size().into());
-            // The picture panel says where it is when it is drawn.
+            // The picture panel sets it when it is drawn.
             context.session.viewport = None;
             layout.tree.ui(&mut Tabs { context }, ui);
         });

@@ -1,11 +1,11 @@
-//! Screens as egui knows them.
+//! Registers screens as egui textures.
 
 use crate::render::Screen;
 use eframe::egui::TextureId;
 use eframe::egui_wgpu::RenderState;
 use eframe::wgpu::FilterMode;
 
-/// Which screens egui can draw. Those that a frame has no use for are let go.
+/// Screens registered with egui. Those unused in a frame are released.
 pub struct Textures {
     state: RenderState,
     known: Vec<Known>,
@@ -26,14 +26,14 @@ impl Textures {
         }
     }
 
-    /// Before the first [`Self::id`] of a frame.
+    /// Called before the first [`Self::id`] of a frame.
     pub fn begin(&mut self) {
         for known in &mut self.known {
             known.is_used = false;
         }
     }
 
-    /// What egui draws a screen by; smooth between pixels, or not.
+    /// The texture of a screen, with linear or nearest filtering.
     pub fn id(&mut self, screen: &Screen, is_smooth: bool) -> TextureId {
         let filter = match is_smooth {
             true => FilterMode::Linear,
@@ -55,7 +55,7 @@ impl Textures {
         id
     }
 
-    /// After the last one.
+    /// Called after the last use in a frame.
     pub fn end(&mut self) {
         let mut renderer = self.state.renderer.write();
         self.known.retain(|known| {

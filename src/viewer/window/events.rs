@@ -1,5 +1,5 @@
-//! What the window system says, handed to eframe piece by piece: a device that is lost in the middle of a
-//! frame costs that window and not the program.
+//! Runs eframe's event loop with a panic handler: if the device is lost during a frame, only that window
+//! closes.
 
 use crate::gpu::{self, Gpu, GpuError};
 use eframe::{EframeWinitApplication, UserEvent};
@@ -10,8 +10,8 @@ use winit::event_loop::{ActiveEventLoop, EventLoop};
 use winit::platform::run_on_demand::EventLoopExtRunOnDemand;
 use winit::window::WindowId;
 
-/// Runs `app`, which draws with `gpu`, until its window is closed. Returns whether the device was lost
-/// meanwhile and eframe stumbled over it.
+/// Runs `app`, which draws with `gpu`, until its window is closed. Returns whether eframe panicked because
+/// the device was lost.
 ///
 /// # Errors
 /// The window system failed.
@@ -27,13 +27,13 @@ pub fn run(
     };
     events.run_app_on_demand(&mut guarded)?;
     let Guarded { app, is_lost, .. } = guarded;
-    // What a frame has left half done may panic again when it is put away: not within the first panic, which
-    // would end the program.
+    // Dropping a half-finished frame may panic again. That must not happen during the first panic, which
+    // would abort the process.
     let put_away = gpu::surviving_loss(gpu, || drop(app));
     Ok(is_lost || matches!(put_away, Err(GpuError::Lost)))
 }
 
-/// eframe, which gets no more events once it has panicked over a lost device.
+/// Wraps eframe, which gets no more events after it has panicked.
 struct Guarded<'a> {
     app: EframeWinitApplication<'a>,
     gpu: &'a Gpu,

@@ -1,22 +1,22 @@
-//! Gives egui one press or release of a mouse button in a frame. In each frame egui looks once for the widget
-//! under the pointer, where the pointer is at the end of that frame. If a frame held a press and the start
-//! of a quick drag, the press would land on whatever lies where the drag has got to.
+//! Passes at most one press or release of a mouse button per frame to egui. egui hit-tests once per frame,
+//! at the pointer position at the end of the frame: with a press and the start of a quick drag in one frame,
+//! the press would hit the wrong widget.
 
 use eframe::egui::{Event, RawInput};
 
-/// Events that wait for the next frame.
+/// Events deferred to the next frame.
 #[derive(Default)]
 pub struct Presses {
     waiting: Vec<Event>,
 }
 
 impl Presses {
-    /// Whether every event has had its frame.
+    /// Whether all events have been passed on.
     pub fn is_empty(&self) -> bool {
         self.waiting.is_empty()
     }
 
-    /// Leaves in `raw` the events of one frame and keeps the others. Whether there are any.
+    /// Keeps the events of one frame in `raw` and defers the others. Returns whether there are any.
     pub fn pass(&mut self, raw: &mut RawInput) -> bool {
         let mut events = std::mem::take(&mut self.waiting);
         events.append(&mut raw.events);
@@ -26,8 +26,8 @@ impl Presses {
     }
 }
 
-/// How many of the events are for one frame: no movement after a press or release, and no release after a
-/// movement, so that the drag is seen before it ends.
+/// Number of events for one frame: no motion after a press or release, and no release after motion, so that
+/// the drag is seen before it ends.
 fn one_frame(events: &[Event]) -> usize {
     let (mut has_button, mut has_moved) = (false, false);
     for (index, event) in events.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The window's contents: hands what happens to the [`Session`], orders pictures, shows them.
+//! The contents of the window: passes input to the [`Session`], requests pictures and draws them.
 
 use crate::gpu::Gpu;
 use crate::viewer::actions::commands;
@@ -20,13 +20,13 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Duration;
 
-/// How often a window that nobody sees looks after what it does.
+/// Interval of updates while the window is hidden.
 const HIDDEN: Duration = Duration::from_millis(200);
 
-/// Orders that follow one another without waiting, once one was waited for in vain.
+/// Number of requests sent without waiting, after one wait has timed out.
 const IN_VAIN: u32 = 16;
 
-/// What is drawn in a window, and what renders for it. Lives as long as its device.
+/// The session, its render thread and the drawing state. Lives as long as its device.
 pub struct Viewer {
     session: Rc<RefCell<Session>>,
     render: RenderThread<Answer>,
@@ -34,9 +34,9 @@ pub struct Viewer {
     layout: Layout,
     wanted: Wanted,
     presses: Presses,
-    /// Whether whoever draws the window begins with [`eframe::App::clear_color`].
+    /// Whether the window is cleared with [`eframe::App::clear_color`] first.
     is_cleared: bool,
-    /// The last frame of the window that there was.
+    /// Index of the last frame drawn.
     last_pass: Option<u64>,
 }
 
@@ -44,7 +44,7 @@ impl Viewer {
     /// A viewer that draws with `gpu`, which must be the device of `context`.
     ///
     /// # Errors
-    /// There is no thread to be had, or eframe does not draw with wgpu.
+    /// The render thread cannot be started, or eframe does not use wgpu.
     pub fn new(
         context: &eframe::CreationContext,
         gpu: Gpu,
@@ -73,7 +73,7 @@ impl Viewer {
         })
     }
 
-    /// Whether there is nothing left to load, to move or to render.
+    /// Whether loading, motion and rendering have finished.
     pub fn is_settled(&self) -> bool {
         self.render.is_settled() && self.session.borrow().is_at_rest()
     }
@@ -83,12 +83,12 @@ impl Viewer {
         self.session.clone()
     }
 
-    /// Where the panels are.
+    /// The layout of the panels.
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
 
-    /// What renders.
+    /// The render thread.
     pub fn render_thread(&self) -> &RenderThread<Answer> {
         &self.render
     }
@@ -126,7 +126,7 @@ impl eframe::App for Viewer {
             Some(Fault::Refused(why)) => session.refused(Some(why)),
             None => session.refused(None),
         }
-        // Of a hidden window there are no frames, and its input is still that of the last one.
+        // A hidden window draws no frames; its input is that of the last one.
         let pass = ctx.cumulative_pass_nr();
         let is_hidden = self.last_pass.replace(pass) == Some(pass);
         if is_hidden {
@@ -156,7 +156,7 @@ impl eframe::App for Viewer {
         }
     }
 
-    /// The panels' ground: on software, clearing takes less time than filling.
+    /// Colour behind the panels: on software, clearing is faster than filling.
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.panel_fill.to_normalized_gamma_f32()
     }
@@ -180,25 +180,25 @@ impl eframe::App for Viewer {
         dialogs::show(ui, &mut context, &mut self.layout);
         panels::messages(ui, &mut context);
         self.textures.end();
-        // What a hand has done in this frame is to be seen in this frame.
+        // Input of this frame is shown in this frame.
         if self.wanted.order(&self.render, &session) {
-            ui.ctx().request_discard("another picture is there");
+            ui.ctx().request_discard("a new picture is available");
         }
     }
 }
 
-/// What was ordered last, and whether the window waits for it.
+/// The last request, and whether the window waits for it.
 struct Wanted {
     orders: RenderRequests,
-    /// How long.
+    /// Maximum time to wait.
     patience: Duration,
-    /// How many orders it will not.
+    /// Number of requests not to wait for.
     until_wait: u32,
 }
 
 impl Wanted {
-    /// Orders what is wanted now, if that is something else. Whether there is already something to see of
-    /// it: the coarse picture mostly, unless it kept the window waiting in vain of late.
+    /// Sends the current request if it has changed. Waits for its first picture, mostly the coarse one,
+    /// unless recent waits timed out.
     fn order(&mut self, render: &RenderThread<Answer>, session: &Session) -> bool {
         let orders = session.orders();
         if orders.is_same(&self.orders) {
@@ -218,8 +218,8 @@ impl Wanted {
     }
 }
 
-/// egui's fonts. Glyphs that the text font lacks, such as arrows, come from the code font first: it suits
-/// text better than the symbol fonts do.
+/// egui's fonts. Glyphs missing in the text font, such as arrows, come from the monospace font first, which
+/// fits better than the symbol fonts.
 fn fonts() -> egui::FontDefinitions {
     let mut fonts = egui::FontDefinitions::default();
     let code = (fonts.families.get(&egui::FontFamily::Monospace)).cloned();

@@ -1,5 +1,5 @@
-//! One picture that follows its [`RenderRequest`]: coarse while something moves, then in full, sample by
-//! sample, and always on a screen.
+//! A picture that follows its [`RenderRequest`]: a coarse preview while something moves, then progressive
+//! refinement at full resolution.
 
 mod frame_renderer;
 mod noise;
@@ -19,81 +19,81 @@ use packing::view;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The least time between two looks at a picture that has to come to the host for it.
+/// Minimum interval between presentations of a picture that passes through the host.
 const DETOUR: Duration = Duration::from_millis(500);
 
-/// What there is to see.
+/// What the window can draw.
 #[derive(Clone, Debug)]
 pub struct Shown {
-    /// The picture so far; where it has no sample yet it is transparent.
+    /// The picture so far; transparent where it has no samples yet.
     pub screen: Option<Screen>,
-    /// A coarse one of the same or what was before, to lie under it, stretched.
+    /// A coarse preview or the previous picture, drawn stretched below it.
     pub under: Option<Screen>,
-    /// Whether that is a coarse one, which comes as a whole.
+    /// Whether `under` is a coarse preview, which is always complete.
     pub under_is_coarse: bool,
-    /// While this is a part: the whole picture as it was last, to lie under both.
+    /// While a region is rendered: the last whole picture, drawn below both.
     pub whole: Option<Screen>,
-    /// Which part of the picture this is: x, y, width and height in pixels of `size`.
+    /// The rendered part: x, y, width and height in pixels of `size`.
     pub region: [u32; 4],
     /// Width and height of the whole picture.
     pub size: (u32, u32),
-    /// The range of a quantity over which it is shown.
+    /// The displayed range of a quantity.
     pub range: Option<[f32; 2]>,
-    /// How far it is.
+    /// The progress.
     pub progress: Progress,
-    /// What the renderer has cost since the window was opened.
+    /// Renderer statistics since the window was opened.
     pub stats: Stats,
-    /// Trees that were built or refitted since then.
+    /// Number of BVH builds and refits since then.
     pub trees_built: usize,
-    /// What it renders on.
+    /// The adapter.
     pub adapter: Arc<str>,
 }
 
-/// How far a picture is, and what it took.
+/// Progress and timing of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Progress {
-    /// Samples that every pixel has.
+    /// Samples per pixel so far.
     pub samples: u32,
-    /// Samples that it is to get.
+    /// Target samples per pixel.
     pub target: u32,
-    /// Share of the work that is done, in 0..=1.
+    /// Fraction of the work that is done, in 0..=1.
     pub share: f64,
-    /// Seconds of tracing in this picture.
+    /// Seconds of tracing so far.
     pub trace_seconds: f64,
     /// Camera rays per second of tracing.
     pub rays_per_second: f64,
-    /// Estimated root mean square error of the developed picture, in levels of 1; `None` before there
-    /// are enough samples, and without antialiasing.
+    /// Estimated root mean square error of the tone-mapped picture, as a fraction of white; `None` before
+    /// there are enough samples, and without antialiasing.
     pub noise: Option<f64>,
-    /// Whether this is the coarse picture.
+    /// Whether this is the coarse preview.
     pub is_coarse: bool,
-    /// Whether it has all its samples.
+    /// Whether it has reached its target samples.
     pub is_done: bool,
 }
 
-/// A picture, its renderer and its screens.
+/// A picture with its renderer and screens.
 pub struct ProgressiveImage {
     gpu: Gpu,
     place: PictureSlot,
     order: Option<RenderRequest>,
-    /// Whether the picture is to stay coarse.
+    /// Whether only the coarse preview is wanted.
     stays_coarse: bool,
     is_coarse: bool,
     packed: Option<Arc<PackedScene>>,
     frames: Vec<Frame>,
     view: Option<PackedView>,
-    /// Trees that were built or refitted since the window was opened.
+    /// Number of BVH builds and refits since the window was opened.
     trees_built: usize,
     renderer: Option<Renderer>,
     screen: Option<Screen>,
     coarse: Option<Screen>,
     whole: Option<Screen>,
-    /// The range over which the last look was shown.
+    /// The displayed range of the last presentation.
     range: Option<[f32; 2]>,
     is_shown: bool,
     last_look: Option<Instant>,
     looks: u64,
-    /// Seconds of work in this picture.
+    /// Seconds of work on this picture.
     busy: f64,
     pace: Pace,
     adapter: Arc<str>,
@@ -101,7 +101,7 @@ pub struct ProgressiveImage {
     noise: Noise,
 }
 
-/// What the renderer had counted when the picture began.
+/// The renderer's statistics when the picture started.
 #[derive(Clone, Copy, Default)]
 struct Spent {
     seconds: f64,
@@ -137,7 +137,7 @@ impl ProgressiveImage {
         }
     }
 
-    /// Takes up an order; what of the last one still serves is kept.
+    /// Applies a request and keeps the results that are still valid.
     pub fn follow(
         &mut self,
         order: Option<&RenderRequest>,
@@ -153,7 +153,7 @@ impl ProgressiveImage {
         let before = self.order.clone();
         let outcome = self.take_up(order, coarse);
         if outcome.is_err() {
-            // The last picture stays, and passes for nothing else.
+            // Keep the last image, but do not treat it as this request's result.
             self.order = before;
             self.packed = None;
         }
@@ -184,7 +184,7 @@ impl ProgressiveImage {
             self.keep_whole(&before.settings, &order.settings);
         }
         if shows_same && has_settings && self.renderer.is_some() {
-            // A fine picture that is wanted coarse from now on is good enough until something changes.
+            // A full-resolution picture is kept when only a preview is wanted, until something changes.
             return Ok(());
         }
         if shows_same && differs_in_samples && self.aim_at(order.settings.samples) {
@@ -195,21 +195,22 @@ impl ProgressiveImage {
         } else if is_other_shot {
             self.frames = order.scene.motion_samples(order.shot.0, order.shot.1);
         }
-        // A picture at rest begins coarse too, so that there is something to see at once.
+        // Start with a preview even at rest, so that something is visible at once.
         self.begin(true)
     }
 
-    /// Goes on from the samples that there are. Whether that is possible.
+    /// Continues from the existing samples. Returns whether that is possible.
     fn aim_at(&mut self, samples: u32) -> bool {
         match &mut self.renderer {
-            // All that is to be fine is still to come.
+            // Restarts the full-resolution picture.
             Some(_) if self.is_coarse => true,
             Some(renderer) => renderer.continue_to(samples),
             None => false,
         }
     }
 
-    /// Keeps the picture while only a part of it is rendered. Screens of another part are of no use.
+    /// Keeps the whole picture while only a region of it is rendered. Screens of another region are
+    /// discarded.
     fn keep_whole(&mut self, before: &RenderSettings, now: &RenderSettings) {
         if before.crop == now.crop
             || before.size != now.size && now.crop.is_some() == before.crop.is_some()
@@ -232,12 +233,12 @@ impl ProgressiveImage {
         };
         self.trees_built += packed.work.total();
         self.packed = Some(Arc::new(packed));
-        // The scene's own, with its own camera and background: see `view`.
+        // The scene's own frames, with the request's camera and background: see `view`.
         self.frames = order.scene.motion_samples(order.shot.0, order.shot.1);
         Ok(())
     }
 
-    /// Starts the picture over.
+    /// Restarts the picture.
     fn begin(&mut self, coarse: bool) -> Result<(), ImageError> {
         let (Some(order), Some(packed)) = (&self.order, &self.packed) else {
             return Ok(());
@@ -274,33 +275,33 @@ impl ProgressiveImage {
         Ok(())
     }
 
-    /// Whether the picture has all its samples and they are on the screen.
+    /// Whether the picture is finished and presented.
     pub fn is_done(&self) -> bool {
         let is_traced = self.renderer.as_ref().is_none_or(Renderer::is_done);
         self.is_shown && is_traced && (self.stays_coarse || !self.is_coarse)
     }
 
-    /// Whether what there is so far is on a screen.
+    /// Whether the current samples have been presented.
     pub fn is_shown(&self) -> bool {
         self.is_shown
     }
 
-    /// How often something new was put on a screen.
+    /// Number of presentations.
     pub fn looks(&self) -> u64 {
         self.looks
     }
 
-    /// Whether there is a renderer to ask.
+    /// Whether a renderer exists for questions.
     pub fn is_ready(&self) -> bool {
         self.renderer.is_some() && !self.is_coarse
     }
 
-    /// Whether the main picture is still to begin in full.
+    /// Whether the full-resolution main picture has not started yet.
     pub fn is_awaited(&self) -> bool {
         self.place == PictureSlot::Main && self.renderer.is_some() && self.is_coarse
     }
 
-    /// How far it is behind others: the lowest comes next.
+    /// Priority among pictures: the lowest comes first.
     pub fn rank(&self) -> f64 {
         match &self.renderer {
             Some(renderer) if !self.is_coarse => renderer.progress(),
@@ -308,8 +309,8 @@ impl ProgressiveImage {
         }
     }
 
-    /// Adds samples for a slice of time and shows them. Those of a `paused` picture are only shown, once
-    /// there are any.
+    /// Adds samples for one time slice and presents them. A `paused` picture is only presented, once it has
+    /// samples.
     pub fn step(&mut self, paused: bool) -> Result<(), ImageError> {
         let started = Instant::now();
         let is_traced = self.renderer.as_ref().is_some_and(Renderer::is_done);
@@ -330,7 +331,7 @@ impl ProgressiveImage {
         let is_due = renderer.is_done()
             || is_held
             || self.last_look.is_none_or(|last| last.elapsed() > interval);
-        // A coarse picture comes as a whole.
+        // A preview is always presented complete.
         if !is_due || self.is_coarse && !renderer.is_done() {
             self.is_shown = false;
             self.busy += started.elapsed().as_secs_f64();
@@ -356,7 +357,7 @@ impl ProgressiveImage {
         self.estimate_noise()
     }
 
-    /// Looks at the picture each time its samples have doubled.
+    /// Estimates the noise each time the samples have doubled.
     fn estimate_noise(&mut self) -> Result<(), ImageError> {
         let (Some(renderer), Some(order)) = (&mut self.renderer, &self.order) else {
             return Ok(());
@@ -371,7 +372,7 @@ impl ProgressiveImage {
         Ok(())
     }
 
-    /// What there is to see.
+    /// What the window can draw.
     pub fn shown(&self) -> Option<Shown> {
         let (renderer, order) = (self.renderer.as_ref()?, self.order.as_ref()?);
         let stats = renderer.stats();
@@ -402,7 +403,7 @@ impl ProgressiveImage {
         })
     }
 
-    /// For questions: not while the coarse picture is in the renderer's film.
+    /// For questions; `None` while the renderer's film holds the preview.
     pub fn studio(&mut self) -> Option<FrameRenderer<'_>> {
         (!self.is_coarse).then_some(())?;
         Some(FrameRenderer {

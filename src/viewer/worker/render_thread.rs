@@ -1,8 +1,8 @@
-//! The thread that renders while the window goes on: it follows the newest [`RenderRequest`]s, adds samples a
-//! time slice at a time, and puts what there is on screens that the window shows.
+//! The render thread: it follows the newest [`RenderRequest`]s, adds samples one time slice at a time, and
+//! publishes pictures for the window.
 //!
-//! Nothing here waits for the window, and the window waits for nothing here: orders replace one another,
-//! and the window takes what was published last.
+//! The thread and the window never block each other: requests replace earlier ones, and the window draws
+//! what was published last.
 
 use crate::gpu::{Gpu, GpuError};
 use crate::render::RenderError;
@@ -14,34 +14,34 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// What the window wants at the moment.
+/// The current requests of the window.
 #[derive(Clone, Default)]
 pub struct RenderRequests {
-    /// By [`PictureSlot`]; `None` where nothing is shown.
+    /// By [`PictureSlot`]; `None` for unused slots.
     pub pictures: [Option<RenderRequest>; 3],
-    /// Whether something moves, so that a coarse picture now is worth more than a fine one later.
+    /// Whether something moves, so that a preview is preferred to a full-resolution picture.
     pub coarse: bool,
-    /// Whether nothing more is to be added.
+    /// Whether rendering is paused.
     pub paused: bool,
 }
 
 impl RenderRequests {
-    /// Whether both want the same.
+    /// Whether both contain the same requests.
     pub fn is_same(&self, other: &Self) -> bool {
         (self.coarse, self.paused) == (other.coarse, other.paused)
             && self.pictures == other.pictures
     }
 }
 
-/// A question that needs a renderer, and the answer to it.
+/// A question that needs a renderer, answered on the thread.
 pub type Question<A> = Box<dyn FnOnce(&mut FrameRenderer) -> A + Send>;
 
-/// What went wrong.
+/// An error of the thread.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// The device is gone; all that was on it must be made again on another.
+    /// The device is lost; all GPU resources must be created again.
     Lost,
-    /// This scene or these settings cannot be rendered; the last picture stays.
+    /// The scene or settings cannot be rendered; the last picture stays.
     Refused(String),
 }
 
@@ -53,19 +53,19 @@ struct State<A> {
     fault: Option<Fault>,
     is_settled: bool,
     is_closing: bool,
-    /// How often something was wanted.
+    /// Generation of the current requests.
     wishes: u64,
-    /// The last wish of which there is something to see.
+    /// The last generation with a published picture.
     seen: u64,
-    /// Whether the window waits for that, and needs no other frame for it.
+    /// Whether the window waits for it and needs no other wake-up.
     is_awaited: bool,
 }
 
 struct Shared<A> {
     state: Mutex<State<A>>,
-    /// For the thread: there is something to do.
+    /// Signals the thread that there is work.
     news: Condvar,
-    /// For the window: there is something to see, or nothing to wait for.
+    /// Signals the window that there is a picture, or no reason to wait.
     looks: Condvar,
 }
 
@@ -75,14 +75,14 @@ impl<A> Shared<A> {
     }
 }
 
-/// The window's end of the thread, which ends with it. Questions are answered by values of `A`.
+/// The window's handle of the thread, which ends when it is dropped. `A` is the type of answers.
 pub struct RenderThread<A: Send + 'static> {
     shared: Arc<Shared<A>>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl<A: Send + 'static> RenderThread<A> {
-    /// Starts the thread. `wake` is called when there is something new to see.
+    /// Starts the thread. `wake` is called when something new can be drawn.
     pub fn new(gpu: Gpu, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let shared = Arc::new(Shared {
             state: Mutex::new(State {
@@ -117,7 +117,7 @@ impl<A: Send + 'static> RenderThread<A> {
         })
     }
 
-    /// Replaces what is wanted.
+    /// Replaces the requests.
     pub fn order(&self, orders: RenderRequests) {
         let mut state = self.shared.lock();
         state.orders = orders;
@@ -127,8 +127,8 @@ impl<A: Send + 'static> RenderThread<A> {
         self.shared.news.notify_one();
     }
 
-    /// Waits until there is something to see of what was ordered last, so that it is in the next frame of
-    /// the window and not in the one after. Whether that came in time, or there is nothing to wait for.
+    /// Waits until the last requests have a published picture, so that the next frame of the window shows
+    /// it. Returns whether it is available in time, or there is nothing to wait for.
     pub fn wait_for_look(&self, patience: Duration) -> bool {
         let goes_on = |state: &mut State<A>| {
             state.is_awaited =
@@ -140,7 +140,7 @@ impl<A: Send + 'static> RenderThread<A> {
         waited.is_ok_and(|(mut state, _)| !std::mem::take(&mut state.is_awaited))
     }
 
-    /// Asks something of the main picture's renderer; not before there is one.
+    /// Sends a question to the main picture's renderer; it waits until there is one.
     pub fn ask(&self, question: impl FnOnce(&mut FrameRenderer) -> A + Send + 'static) {
         let mut state = self.shared.lock();
         state.questions.push(Box::new(question));
@@ -150,23 +150,22 @@ impl<A: Send + 'static> RenderThread<A> {
         self.shared.news.notify_one();
     }
 
-    /// What was answered since the last call.
+    /// The answers since the last call.
     pub fn answers(&self) -> Vec<A> {
         std::mem::take(&mut self.shared.lock().answers)
     }
 
-    /// What there is to see at a place.
+    /// The published picture of a slot.
     pub fn shown(&self, place: PictureSlot) -> Option<Shown> {
         self.shared.lock().shown[place as usize].clone()
     }
 
-    /// What went wrong with what is wanted now.
+    /// The error of the current requests.
     pub fn fault(&self) -> Option<Fault> {
         self.shared.lock().fault.clone()
     }
 
-    /// Whether nothing is left to do: all pictures have their samples or wait, every question has its
-    /// answer.
+    /// Whether nothing is left to do: all pictures are finished or paused, and every question is answered.
     pub fn is_settled(&self) -> bool {
         self.shared.lock().is_settled
     }
@@ -177,17 +176,17 @@ impl<A: Send + 'static> Drop for RenderThread<A> {
         self.shared.lock().is_closing = true;
         self.shared.news.notify_one();
         if let Some(thread) = self.thread.take() {
-            // A thread that panicked has nothing more to say.
+            // A thread that panicked publishes nothing more.
             let _ = thread.join();
         }
     }
 }
 
-/// The thread's own.
+/// The state of the thread itself.
 struct Painter {
     /// In the order of [`PictureSlot::ALL`].
     canvases: [ProgressiveImage; 3],
-    /// The orders that cannot be followed, so as not to try them again and again.
+    /// Requests that failed, to avoid retrying them.
     refused: Option<[Option<RenderRequest>; 3]>,
 }
 
@@ -197,7 +196,7 @@ impl Painter {
         loop {
             let (orders, questions) = {
                 let mut state = shared.lock();
-                // Questions that cannot be answered yet wait for the next wish too.
+                // Questions that cannot be answered yet wait for the next requests too.
                 while !state.is_closing && state.is_settled && state.wishes == known {
                     state = (shared.news.wait(state)).unwrap_or_else(PoisonError::into_inner);
                 }
@@ -230,7 +229,7 @@ impl Painter {
                     state.is_settled = !is_busy && !has_news && !waits;
                 }
                 Err(fault) => {
-                    // After a refusal what there was before goes on.
+                    // After an error, the previous picture continues.
                     state.is_settled = !has_news && (fault == Fault::Lost || was_refused);
                     if fault != Fault::Lost {
                         self.refused = Some(orders.pictures);
@@ -254,7 +253,7 @@ impl Painter {
         self.canvases.iter().map(ProgressiveImage::looks).sum()
     }
 
-    /// Takes up the orders; those that can be followed are, whatever becomes of the others.
+    /// Applies the requests; one that fails does not affect the others.
     fn follow(&mut self, orders: &RenderRequests) -> Result<(), ImageError> {
         let mut outcome = Ok(());
         for (canvas, place) in self.canvases.iter_mut().zip(PictureSlot::ALL) {
@@ -264,7 +263,7 @@ impl Painter {
         outcome
     }
 
-    /// Follows the orders and does the next piece of work. Whether there is more.
+    /// Applies the requests and does the next piece of work. Returns whether there is more.
     #[allow(
         clippy::type_complexity,
         reason = "three lists that only this file sees"
@@ -293,7 +292,7 @@ impl Painter {
                 None => unanswered.push(question),
             }
         }
-        // Questions are about the picture in full: a paused one goes on until it has begun.
+        // Questions refer to the full-resolution picture: a paused one continues until it has started.
         let is_asked = !unanswered.is_empty();
         let is_held =
             |canvas: &ProgressiveImage| orders.paused && !(is_asked && canvas.is_awaited());
@@ -301,7 +300,7 @@ impl Painter {
             true => !canvas.is_shown(),
             false => !canvas.is_done(),
         };
-        // What is behind comes first: of two pictures side by side neither waits for the other.
+        // The picture with the least progress comes first, so that both sides of a comparison advance.
         let waiting = self.canvases.iter_mut().filter(|canvas| has_work(canvas));
         if let Some(canvas) = waiting.min_by(|a, b| a.rank().total_cmp(&b.rank())) {
             let is_held = is_held(canvas);

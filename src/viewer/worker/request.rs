@@ -1,27 +1,27 @@
-//! What a picture in the window follows from.
+//! The request of a picture in the window.
 
 use crate::render::{ExecutionPolicy, RenderSettings, Tone};
 use crate::scene::{Background, Camera, Scene};
 use std::sync::Arc;
 
-/// Everything that determines a picture, as on the command line.
+/// All inputs of a picture, as on the command line.
 #[derive(Clone, Debug)]
 pub struct RenderRequest {
-    /// Told apart from others by its address: an edit makes another one.
+    /// Compared by address: every edit makes a new one.
     pub scene: Arc<Scene>,
-    /// How often it was asked for anew.
+    /// Number of restarts.
     pub restarts: u32,
-    /// In place of the scene's, in the world.
+    /// Overrides the scene's camera, in world space.
     pub camera: Option<Camera>,
-    /// In place of the scene's.
+    /// Overrides the scene's background.
     pub background: Option<Background>,
     /// When the shutter opens and closes, in seconds.
     pub shot: (f64, f64),
-    /// Of the picture in full.
+    /// The full-resolution size.
     pub settings: RenderSettings,
-    /// How it is made; the window sees to its slices.
+    /// The render settings; the worker chooses the time slices.
     pub policy: ExecutionPolicy,
-    /// How it is developed.
+    /// The tone mapping.
     pub tone: Tone,
 }
 
@@ -35,7 +35,7 @@ impl PartialEq for RenderRequest {
 }
 
 impl RenderRequest {
-    /// Whether both look at the same.
+    /// Whether both show the same scene and view.
     pub fn shows_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.restarts == other.restarts

@@ -377,7 +377,7 @@ fn enter_replaces_no_file_of_a_person_and_writes_none_without_a_name() {
         enter_name(&mut window, &format!("{}{name}", folder.path().display()));
         window
             .harness
-            .get_by_label("Type a name, such as scene.toml.");
+            .get_by_label("Enter a name, such as scene.toml.");
         window.harness.get_by_label("Cancel").click();
         window.settle();
     }
@@ -454,7 +454,10 @@ fn settings_of_the_picture_are_kept_in_the_scene_when_they_are_wanted_there() {
         look.background = Some(Background::Color(vec3(0.5, 0.25, 0.125)));
     }
     window.settle();
-    window.harness.get_by_label("Keep in the scene").click();
+    window
+        .harness
+        .get_by_label("Save settings to scene")
+        .click();
     window.settle();
     let kept = scene(&window);
     assert_eq!((kept.output.samples, kept.output.exposure_ev), (2, 0.5));
@@ -500,7 +503,7 @@ fn the_camera_under_the_hand_can_become_the_scenes_own() {
     let seen = window.camera();
     window
         .harness
-        .get_by_label("Use this camera for the scene")
+        .get_by_label("Set scene camera from view")
         .click_accesskit();
     window.settle();
     let own = scene(&window).frame(0.0).camera;

@@ -206,7 +206,7 @@ fn a_changed_file_is_read_again_and_the_camera_stays() {
     let (camera, before) = (window.camera(), picture(&mut window));
     replace(&place.path("one.toml"), &scene("1.5"));
     wait(&mut window, "the scene is read again", |w| {
-        has_notice(w, "read one.toml again")
+        has_notice(w, "Reloaded one.toml")
     });
     assert_eq!(window.camera(), camera);
     assert_eq!(window.session.borrow().view.tone.exposure_ev, 1.5);
@@ -226,7 +226,7 @@ fn a_changed_file_that_the_scene_refers_to_is_read_again() {
     let before = picture(&mut window);
     replace(&place.path("tri.obj"), &obj("1.9"));
     wait(&mut window, "the scene is read again", |w| {
-        has_notice(w, "read one.toml again")
+        has_notice(w, "Reloaded one.toml")
     });
     assert!(
         picture(&mut window) != before,
@@ -262,7 +262,7 @@ fn a_broken_edit_shows_its_line_and_keeps_the_last_good_picture_until_it_is_mend
         assert!(shown.text.contains("\"much\""), "{shown:?}");
         assert!(shown.text[shown.span.clone()].contains("much"), "{shown:?}");
     }
-    window.harness.get_by_label("Read it again");
+    window.harness.get_by_label("Reload");
     assert!(
         picture(&mut window) == before,
         "the last good picture went away"
@@ -286,7 +286,7 @@ fn a_deleted_file_is_one_notice_and_is_taken_up_when_it_comes_back() {
     assert_eq!(message(&window), None);
     fs::write(place.path("one.toml"), scene("2")).expect("a file");
     wait(&mut window, "it is read again", |w| {
-        has_notice(w, "read one.toml again")
+        has_notice(w, "Reloaded one.toml")
     });
     assert!(
         picture(&mut window) != before,
@@ -363,7 +363,7 @@ fn no_picture_is_saved_over_a_file_that_the_scene_reads() {
         sheet.path = path.to_string_lossy().into_owned();
         sheet.target().err()
     };
-    let says = Some("The scene reads that file. Choose another name.".to_owned());
+    let says = Some("The scene uses this file. Choose another name.".to_owned());
     assert_eq!(refusal(&window, &place.path("new.png")), None);
     assert_eq!(refusal(&window, &paint), says);
     window.harness.run_steps(3);
@@ -518,7 +518,7 @@ fn an_empty_clipboard_leaves_the_next_paste_to_text() {
     window.harness.event(egui::Event::Paste(text.clone()));
     window.harness.run_steps(2);
     assert_eq!(window.session().files.typed, Some(text));
-    assert!(!has_notice(&window, "took the camera"));
+    assert!(!has_notice(&window, "Pasted the camera"));
 }
 
 #[test]
@@ -544,7 +544,7 @@ fn kept_cameras_come_after_the_scenes_own_and_outlive_the_window() {
     assert_eq!(window.camera().look_from, kept.look_from);
     glimray::viewer::actions::settings::write(&mut window.session());
     let text = fs::read_to_string(window.settings.path().join("viewer.toml")).expect("a file");
-    assert!(text.contains("Camera 1"), "{text}");
+    assert!(text.contains("View 1"), "{text}");
 }
 
 #[test]
@@ -557,7 +557,7 @@ fn unsaved_changes_are_asked_about_before_another_scene_is_opened() {
     window.settle();
     drop_files(&mut window, &[place.path("two.toml")]);
     assert_eq!(title(&window), "one.toml");
-    window.harness.get_by_label("Go on working").click();
+    window.harness.get_by_label("Cancel").click();
     window.harness.run_steps(2);
     assert_eq!(title(&window), "one.toml");
     drop_files(&mut window, &[place.path("two.toml")]);
@@ -676,7 +676,7 @@ fn a_picture_that_waits_is_not_made_of_another_scene() {
     save_later(&mut window, std::slice::from_ref(&path));
     drop_files(&mut window, &[place.path("two.toml")]);
     assert_eq!(title(&window), "two.toml");
-    assert!(has_notice(&window, "one.png is not written"));
+    assert!(has_notice(&window, "one.png was not saved"));
     assert!(!window.session().files.waits_to_save() && !path.exists());
 }
 
@@ -715,8 +715,8 @@ fn closing_asks_about_a_picture_that_waits() {
     save_later(&mut window, &[place.path("one.png")]);
     assert!(close(&mut window).contains(&egui::ViewportCommand::CancelClose));
     window.harness.run_steps(2);
-    window.harness.get_by_label("Close without that picture");
-    assert!(window.harness.query_by_label("Save them").is_none());
+    window.harness.get_by_label("Close without saving it");
+    assert!(window.harness.query_by_label("Save").is_none());
 }
 
 #[test]
@@ -806,8 +806,8 @@ fn a_file_that_cannot_be_read_leaves_its_error_and_an_empty_window_that_says_so(
         found.next().is_some()
     };
     assert!(has(&window, "Drop a scene here"));
-    assert!(has(&window, "no scene is open"));
-    assert!(!has(&window, "preparing"), "it waits for nothing");
+    assert!(has(&window, "No scene is open"));
+    assert!(!has(&window, "Preparing"), "it waits for nothing");
     assert!(!has(&window, "0 of 0 samples"));
     files::open(&mut window.session(), vec![place.path("one.toml")]);
     window.settle();
@@ -824,7 +824,7 @@ fn while_a_scene_is_read_the_panel_names_it_and_counts_no_samples() {
     let waiting = window.session().waiting_for();
     if window.session().scene().is_none() {
         assert!(
-            waiting.starts_with("reading ") && waiting.contains("one.toml"),
+            waiting.starts_with("Loading ") && waiting.contains("one.toml"),
             "{waiting}"
         );
     }

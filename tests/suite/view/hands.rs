@@ -136,6 +136,6 @@ fn a_picture_that_is_not_to_be_seen_is_not_photographed() {
     window.harness.run_steps(3);
     let session = window.session();
     assert!(session.files.saving.is_none());
-    let told = "The picture is not to be seen: show its panel first";
+    let told = "The picture is hidden. Show its panel first";
     assert!(session.messages.all().iter().any(|n| n.text == told));
 }

@@ -92,7 +92,7 @@ fn a_changed_value_has_a_way_back_to_the_scene() {
 fn every_setting_of_the_picture_is_in_the_panel_under_its_name() {
     let window = open();
     for name in [
-        "Integrator",
+        "View mode",
         "Compare",
         "Samples",
         "Antialias",
@@ -105,7 +105,7 @@ fn every_setting_of_the_picture_is_in_the_panel_under_its_name() {
         "Min throughput",
         "Triangle test",
         "Brute force",
-        "Fits the window",
+        "Fit to window",
         "Width",
         "Height",
         "Exposure",
@@ -167,10 +167,7 @@ fn the_line_of_a_split_wipe_is_moved_by_mouse_and_by_keys() {
         before.look_from,
         "the camera moved too"
     );
-    window
-        .harness
-        .get_by_label("Line between the looks")
-        .focus();
+    window.harness.get_by_label("Comparison wipe").focus();
     window.harness.step();
     let start = share(&window);
     window.harness.key_press(Key::ArrowRight);

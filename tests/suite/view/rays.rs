@@ -97,17 +97,17 @@ fn branches_fold_and_unfold_by_name() {
         found.is_some()
     };
     assert!(shows(&window, "Ray 1: "));
-    window.harness.get_by_label("Fold ray 0").click();
+    window.harness.get_by_label("Collapse ray 0").click();
     window.settle();
     assert!(!shows(&window, "Ray 1: "));
     assert!(shows(&window, "Ray 0: "));
-    window.harness.get_by_label("Unfold ray 0").click();
+    window.harness.get_by_label("Expand ray 0").click();
     window.settle();
     assert!(shows(&window, "Ray 1: "));
-    window.harness.get_by_label("Fold all").click();
+    window.harness.get_by_label("Collapse all").click();
     window.settle();
     assert!(!shows(&window, "Ray 1: "));
-    window.harness.get_by_label("Unfold all").click();
+    window.harness.get_by_label("Expand all").click();
     window.settle();
     assert!(shows(&window, "Ray 1: "));
     // A ray tells about itself once it is chosen.
@@ -217,7 +217,7 @@ fn the_last_pixel_that_is_asked_for_is_the_one_that_is_shown() {
 
 #[test]
 fn the_tree_stays_and_says_so_when_the_picture_changes() {
-    const STALE: &str = "The picture has changed since: inspect again.";
+    const STALE: &str = "The picture has changed. Inspect again.";
     let mut window = open_glass([31, 18]);
     assert!(window.harness.query_by_label(STALE).is_none());
     window
@@ -272,7 +272,7 @@ fn what_is_saved_is_what_the_command_prints() {
         assert!(obj.as_bytes() == std::fs::read(&lines).expect("lines"));
         let copy = folder.path().join("copy.json");
         let told = export::write(&copy, &json).expect("a file");
-        assert!(told.starts_with("saved "), "{told}");
+        assert!(told.starts_with("Saved "), "{told}");
         assert!(std::fs::read(&copy).expect("a file") == printed.stdout);
     }
 }

@@ -158,8 +158,8 @@ fn what_is_no_recording_is_refused_with_its_line() {
     let folder = tempfile::tempdir().expect("a folder");
     let good = r#"{"time":1.0,"event":"PointerGone"}"#;
     for (text, why) in [
-        ("", "nothing is recorded"),
-        ("\n\n", "nothing is recorded"),
+        ("", "contains no events"),
+        ("\n\n", "contains no events"),
         ("{}", ":1): missing field `time`"),
         (
             &format!("{good}\n{good}\nrubbish"),

@@ -28,7 +28,7 @@ fn rebind(window: &mut Window, action: Action, modifiers: egui::Modifiers, key: 
         window.harness.key_press(egui::Key::F1);
         window.harness.run_steps(2);
     }
-    window.harness.get_by_label("Search bindings").focus();
+    window.harness.get_by_label("Search shortcuts").focus();
     window.harness.step();
     let name = action.name().to_owned();
     window.harness.event(egui::Event::Text(name));
@@ -175,7 +175,7 @@ fn settings_that_cannot_be_written_are_one_notice() {
         .messages
         .all()
         .iter()
-        .filter(|n| n.text.contains("cannot keep"));
+        .filter(|n| n.text.contains("Cannot save the settings"));
     assert_eq!(told.count(), 1);
 }
 
@@ -185,7 +185,7 @@ fn menu_entries_do_what_their_keys_do() {
     window.harness.get_by_label("Window").click();
     window.harness.run_steps(3);
     window.harness.get_by_label_contains("Full screen");
-    window.harness.get_by_label_contains("Larger").click();
+    window.harness.get_by_label_contains("Zoom in").click();
     window.harness.run_steps(3);
     assert_eq!(window.session().preferences.ui_scale, 1.1);
 }

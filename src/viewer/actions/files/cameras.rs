@@ -1,4 +1,4 @@
-//! Cameras: kept, gone to, copied as a command line and taken out of one.
+//! Cameras and bookmarks, and copying and pasting them as command lines.
 
 use crate::scene::Camera;
 use crate::viewer::actions::files::short;
@@ -10,28 +10,28 @@ use crate::viewer::worker::progressive_image::PictureSlot;
 use eframe::egui;
 use std::path::{Path, PathBuf};
 
-/// Under which name the cameras of the demo are kept; no file has it.
+/// The key of the demo's bookmarks; no file has this name.
 const DEMO: &str = "/glimray demo/";
-/// And by which it goes in a command line.
+/// The demo's file name in a command line.
 const DEMO_FILE: &str = "showcase.toml";
 
-/// Under which name the cameras of what is on screen are kept.
+/// The key of the current scene's bookmarks.
 pub fn key(session: &Session) -> PathBuf {
     session.path.clone().unwrap_or_else(|| DEMO.into())
 }
 
-/// A camera that one can go to.
+/// A camera of the scene or a bookmark.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    /// For people.
+    /// Its label.
     pub name: String,
-    /// In the world, at this time.
+    /// The camera in world space at the current time.
     pub camera: Camera,
-    /// Whether a person kept it, rather than the scene.
+    /// Whether it is a bookmark.
     pub is_kept: bool,
 }
 
-/// The scene's cameras as they are at this time, then those that were kept.
+/// The scene's cameras at the current time, then the bookmarks.
 pub fn all(session: &Session) -> Vec<View> {
     let Some(scene) = session.scene() else {
         return Vec::new();
@@ -41,7 +41,7 @@ pub fn all(session: &Session) -> Vec<View> {
         scene.camera_index = index;
         let camera = scene.frame(session.playback.time).camera;
         let name = match camera.name.is_empty() {
-            true => format!("Scene camera {index}"),
+            true => format!("Scene camera {}", index + 1),
             false => camera.name.clone(),
         };
         View {
@@ -60,7 +60,7 @@ pub fn all(session: &Session) -> Vec<View> {
     cameras
 }
 
-/// Keeps what the picture is seen by, under a name that is free.
+/// Bookmarks the current view under a free name.
 pub fn keep(session: &mut Session) {
     let Some(camera) = session.camera() else {
         return;
@@ -69,17 +69,17 @@ pub fn keep(session: &mut Session) {
     let names = session.preferences.cameras_of(&key).iter().map(|c| &c.name);
     let names: Vec<_> = names.cloned().collect();
     let mut number = names.len() + 1;
-    while names.contains(&format!("Camera {number}")) {
+    while names.contains(&format!("View {number}")) {
         number += 1;
     }
-    let name = format!("Camera {number}");
-    session.messages.tell(format!("kept as {name}"));
+    let name = format!("View {number}");
+    session.messages.tell(format!("Bookmarked as {name}"));
     session
         .preferences
         .keep_camera(&key, SavedCamera { name, camera });
 }
 
-/// Gives a camera that was kept another name, if that is free. Whether it is.
+/// Renames a bookmark if the name is free. Returns whether it is.
 pub fn rename(session: &mut Session, name: &str, to: &str) -> bool {
     let (key, to) = (key(session), to.trim());
     let mut kept = session.preferences.cameras_of(&key).to_vec();
@@ -104,13 +104,13 @@ pub fn rename(session: &mut Session, name: &str, to: &str) -> bool {
     true
 }
 
-/// Drops a camera that was kept.
+/// Deletes a bookmark.
 pub fn delete(session: &mut Session, name: &str) {
     let key = key(session);
     session.preferences.drop_camera(&key, name);
 }
 
-/// Glides to a camera.
+/// Moves to a camera, animated.
 pub fn go(session: &mut Session, camera: &Camera) {
     if let Some(controller) = &mut session.controller {
         controller.go_to(camera);
@@ -118,7 +118,7 @@ pub fn go(session: &mut Session, camera: &Camera) {
     session.moved();
 }
 
-/// Goes so many cameras further.
+/// Moves to the next or previous camera.
 pub fn step(session: &mut Session, places: isize) {
     let cameras = all(session);
     let Some(destination) = session
@@ -133,7 +133,7 @@ pub fn step(session: &mut Session, places: isize) {
     let count = cameras.len() as isize;
     let next = match here {
         Some(_) if count == 1 => {
-            let text = "there is no other camera; keep some, and go from one to the next";
+            let text = "There is no other camera. Bookmark views to switch between them";
             session.messages.tell(text);
             return;
         }
@@ -147,7 +147,7 @@ pub fn step(session: &mut Session, places: isize) {
     }
 }
 
-/// Whether both see the same, whatever they are called.
+/// Whether both show the same view, whatever their names.
 fn same_view(a: &Camera, b: &Camera) -> bool {
     let unnamed = |camera: &Camera| Camera {
         name: String::new(),
@@ -158,11 +158,11 @@ fn same_view(a: &Camera, b: &Camera) -> bool {
     unnamed(a) == unnamed(b)
 }
 
-/// Copies what is on screen as a command line.
+/// Copies the current view as a command line.
 pub fn copy(session: &mut Session, ctx: &egui::Context) {
     let orders = session.orders();
     let Some(order) = &orders.pictures[PictureSlot::Main as usize] else {
-        session.messages.tell("there is no picture yet");
+        session.messages.tell("There is no picture yet");
         return;
     };
     let (Some(original), Some(camera)) = (&session.original, session.camera()) else {
@@ -185,22 +185,22 @@ pub fn copy(session: &mut Session, ctx: &egui::Context) {
     };
     let mut copied = command_line::copy(&shown);
     if path.is_none() {
-        let text = "the scene itself, which is the demo's and in no file";
+        let text = "the built-in demo scene, which has no file";
         copied.left_out.push(text.to_owned());
     }
     ctx.copy_text(copied.line.clone());
     match copied.left_out.as_slice() {
         [] => session
             .messages
-            .tell("copied a command line that makes this picture"),
+            .tell("Copied a command line that renders this picture"),
         left_out => session.messages.warn(format!(
-            "copied a command line. It cannot say: {}",
+            "Copied a command line. It cannot express: {}",
             left_out.join("; ")
         )),
     }
 }
 
-/// Takes camera and time out of a command line.
+/// Pastes camera and time from a command line.
 pub fn paste(session: &mut Session, text: &str) {
     let Some(original) = &session.original else {
         return;
@@ -217,8 +217,8 @@ pub fn paste(session: &mut Session, text: &str) {
         None => path != Path::new(DEMO_FILE),
     };
     let told = match pasted.path.filter(is_other) {
-        Some(path) => format!("took the camera of {}", short(&path)),
-        None => "took the camera".to_owned(),
+        Some(path) => format!("Pasted the camera of {}", short(&path)),
+        None => "Pasted the camera".to_owned(),
     };
     session.messages.tell(told);
     session.playback.time = pasted.time.max(0.0);

@@ -1,11 +1,11 @@
-//! The end of the window, and what would be lost with it.
+//! Closing the window.
 
 use crate::viewer::state::files::Intent;
 use crate::viewer::state::session::Session;
 use eframe::egui::{self, ViewportCommand};
 
-/// Asks about what would be lost when the window is to be closed, and waits for pictures that are being
-/// written, unless the person asks once more.
+/// Asks about unsaved changes before closing, and waits for pictures that are being written unless the user
+/// closes again.
 pub(super) fn close(session: &mut Session, ctx: &egui::Context) {
     if session.is_device_lost() {
         return;
@@ -23,7 +23,7 @@ pub(super) fn close(session: &mut Session, ctx: &egui::Context) {
         false => (session.files.waits_to_save()).then_some(Intent::CloseUnfinished),
     };
     if intent.is_some() {
-        // A window that is minimised would ask unseen.
+        // A minimised window would hide the question.
         for command in [
             ViewportCommand::CancelClose,
             ViewportCommand::Minimized(false),

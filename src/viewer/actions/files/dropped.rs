@@ -1,4 +1,4 @@
-//! What to do with files that come by name: dropped, chosen, or next in the folder.
+//! Opens files by name: dropped, chosen, or next in the folder.
 
 use crate::viewer::actions::files::{intend, is_picture, is_scene, short, surround};
 use crate::viewer::state::files::Intent;
@@ -6,8 +6,8 @@ use crate::viewer::state::session::Session;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-/// Opens the first scene among the files and folders, or puts the first picture all round. Where
-/// there are several, says which it was.
+/// Opens the first scene among the files and folders, or uses the first image as the environment. Reports
+/// which one if there are several.
 pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
     let mut scenes = VecDeque::new();
     for path in &paths {
@@ -20,7 +20,7 @@ pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
     let pictures: Vec<&PathBuf> = paths.iter().filter(|path| is_picture(path)).collect();
     let count = scenes.len();
     if let Some(first) = scenes.pop_front() {
-        session.files.said = (count > 1).then(|| format!("opened the first of {count} scenes"));
+        session.files.said = (count > 1).then(|| format!("Opened the first of {count} scenes"));
         session.files.candidates = scenes;
         intend(session, Intent::Open(first));
         return;
@@ -28,34 +28,42 @@ pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
     if let Some(first) = pictures.first() {
         if session.scene().is_none() {
             session.messages.warn(format!(
-                "cannot put {} round the scene: there is none yet. Open a scene first.",
+                "Cannot use {} as the environment: no scene is open. Open a scene first.",
                 short(first)
             ));
             return;
         }
         if pictures.len() > 1 {
-            let text = format!("took the first of {} pictures", pictures.len());
+            let text = format!("Used the first of {} images", pictures.len());
             session.messages.tell(text);
         }
         surround(session, first.to_path_buf());
         return;
     }
     let what = match paths.as_slice() {
-        [one] if one.is_dir() => format!("{}): there is no scene in the folder", one.display()),
-        [one] if !one.exists() => format!("{}): there is no such file", one.display()),
-        [one] => format!("{}): it is neither a scene nor a picture", one.display()),
-        _ => format!("{} files): none is a scene or a picture", paths.len()),
+        [one] if one.is_dir() => format!("{}: the folder contains no scenes", one.display()),
+        [one] if !one.exists() => format!("{}: the file does not exist", one.display()),
+        [one] => format!("{}: {} isn't supported", one.display(), kind(one)),
+        _ => format!("{} files: none is a supported scene or image", paths.len()),
     };
     session.messages.warn(format!(
-        "cannot open this ({what}. Scenes end in .toml, .scene, .nff or .obj, pictures in .hdr, .exr, \
-         .png or .jpg."
+        "Cannot open {what}. Convert to .toml, .scene, .nff or .obj for scenes and models, or to .hdr, \
+         .exr, .png or .jpg for images."
     ));
 }
 
-/// Opens the scene that is so many places further on in the folder; what cannot be read is passed over.
+/// The extension of a file with its dot, such as `.glb`.
+fn kind(path: &Path) -> String {
+    match path.extension() {
+        Some(ending) => format!(".{}", ending.to_string_lossy()),
+        None => "a file without an extension".to_owned(),
+    }
+}
+
+/// Opens the scene `places` further in the folder; unreadable scenes are skipped.
 pub fn step(session: &mut Session, places: isize) {
     let Some(path) = session.path.clone() else {
-        session.messages.tell("the demo is in no folder");
+        session.messages.tell("The demo scene is not in a folder");
         return;
     };
     let folder = match path.parent() {
@@ -67,7 +75,7 @@ pub fn step(session: &mut Session, places: isize) {
         .iter()
         .position(|scene| scene.file_name() == path.file_name());
     if let Some(here) = here {
-        // From the next one on, all round, and not this one.
+        // From the next one on, wrapping around, without the current one.
         scenes.rotate_left(here);
         scenes.remove(0);
     }
@@ -78,7 +86,7 @@ pub fn step(session: &mut Session, places: isize) {
     let Some(next) = scenes.pop_front() else {
         session
             .messages
-            .tell("there is no other scene in this folder");
+            .tell("There is no other scene in this folder");
         return;
     };
     session.files.said = None;
@@ -86,7 +94,7 @@ pub fn step(session: &mut Session, places: isize) {
     intend(session, Intent::Open(next));
 }
 
-/// The scenes in a folder by their names, not in folders below.
+/// The scenes directly in a folder, sorted by name.
 fn scenes_in(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut scenes: Vec<PathBuf> = entries

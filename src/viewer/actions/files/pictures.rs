@@ -1,4 +1,4 @@
-//! The picture on screen → a file, as `glimray render` would write it.
+//! Saves the picture to a file, as `glimray render` would.
 
 use crate::app::advice;
 use crate::image::Image;
@@ -17,10 +17,10 @@ use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// Opens the sheet, with a name that is free.
+/// Opens the dialog with a free name.
 pub fn open(session: &mut Session, overlays: bool) {
     if session.scene().is_none() {
-        session.messages.tell("there is no picture yet");
+        session.messages.tell("There is no picture yet");
         return;
     }
     let path = free_name(session).to_string_lossy().into_owned();
@@ -35,7 +35,7 @@ pub fn open(session: &mut Session, overlays: bool) {
     });
 }
 
-/// The scene's name and the lowest number that is free, where the last picture went.
+/// The scene's name with the lowest free number, in the folder of the last picture.
 fn free_name(session: &Session) -> PathBuf {
     let scene = session.path.as_deref();
     let stem = scene.and_then(Path::file_stem).unwrap_or("demo".as_ref());
@@ -54,7 +54,7 @@ fn free_name(session: &Session) -> PathBuf {
     name(number)
 }
 
-/// Asks the desktop for a name.
+/// Opens a file dialog for the name.
 pub fn browse(session: &mut Session, ctx: &egui::Context) {
     let Some(sheet) = &mut session.files.saving else {
         return;
@@ -71,7 +71,7 @@ pub fn browse(session: &mut Session, ctx: &egui::Context) {
     sheet.asked = Some(session.files.dialogs.ask(request, ctx));
 }
 
-/// Saves what the sheet says, now or when the picture is finished.
+/// Saves with the dialog's settings, now or when the picture is finished.
 pub fn save(session: &mut Session, waits: bool) {
     let Some(sheet) = session.files.saving.take() else {
         return;
@@ -90,9 +90,9 @@ pub fn save(session: &mut Session, waits: bool) {
         pending.pose = Some(Pose::new(target));
     } else if waits {
         let name = short(&target.path);
-        session.messages.tell(format!(
-            "{name} will be written when the picture is finished"
-        ));
+        session
+            .messages
+            .tell(format!("{name} will be saved when the picture is finished"));
         let waiting = &mut session.files.pending.waiting;
         waiting.retain(|other| other.path != target.path);
         waiting.push(target);
@@ -101,12 +101,12 @@ pub fn save(session: &mut Session, waits: bool) {
     }
 }
 
-/// Forgets pictures that wait to be finished.
+/// Cancels pictures that wait to be finished.
 pub fn cancel(session: &mut Session) {
     session.files.pending.waiting.clear();
 }
 
-/// The same, because another scene was opened; tells of each.
+/// Cancels them because another scene was opened, with a message for each.
 pub(super) fn abandon(session: &mut Session) {
     for target in &session.files.pending.waiting {
         session.messages.warn(not_finished(target));
@@ -117,13 +117,13 @@ pub(super) fn abandon(session: &mut Session) {
 
 fn not_finished(target: &Target) -> String {
     format!(
-        "{} is not written: another scene was opened before the picture was finished. Open the first \
+        "{} was not saved: another scene was opened before the picture was finished. Open the first \
          one again to save it.",
         target.path.display()
     )
 }
 
-/// Asks the render thread for the picture.
+/// Requests the picture from the render thread.
 fn ask(session: &mut Session, target: Target, waits: Option<u32>) {
     let integrator = session.view.settings.integrator;
     let Some(scene) = session.scene() else {
@@ -160,11 +160,11 @@ fn take(studio: &mut FrameRenderer, target: Target, waits: Option<u32>, linear: 
     Answer::Picture(Box::new(taken))
 }
 
-/// Takes up what the render thread answered.
+/// Handles the picture from the render thread.
 pub fn taken(session: &mut Session, taken: Taken) {
     let pending = &mut session.files.pending;
     pending.asked = pending.asked.saturating_sub(1);
-    // It may be the picture of another scene by now.
+    // Another scene may be open by now.
     if taken.waits.is_some_and(|turn| turn != pending.turn) {
         session.messages.warn(not_finished(&taken.target));
         return;
@@ -187,7 +187,7 @@ pub fn taken(session: &mut Session, taken: Taken) {
     write(session, image, taken.target, how_far);
 }
 
-/// Writes on a thread of its own.
+/// Writes on a separate thread.
 pub(super) fn write(session: &mut Session, image: Image, target: Target, how_far: String) {
     let (sender, receiver) = channel();
     let work = move || {
@@ -199,7 +199,7 @@ pub(super) fn write(session: &mut Session, image: Image, target: Target, how_far
         };
         let written = output::save_with(&target.path, &image, &options);
         let outcome = match written {
-            Ok(()) => Ok(format!("wrote {}{how_far}", target.path.display())),
+            Ok(()) => Ok(format!("Saved {}{how_far}", target.path.display())),
             Err(error) => Err(error.to_string()),
         };
         // The window may have been closed meanwhile.
@@ -209,12 +209,12 @@ pub(super) fn write(session: &mut Session, image: Image, target: Target, how_far
         Ok(_) => session.files.pending.writing.push(receiver),
         Err(error) => session
             .messages
-            .warn(format!("cannot write a picture: {error}.")),
+            .warn(format!("Cannot save the picture: {error}.")),
     }
 }
 
-/// What became of pictures since the last frame.
-pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
+/// Handles results of saving since the last frame.
+pub(super) fn update(session: &mut Session) {
     take_reply(session);
     let messages = &mut session.messages;
     session.files.pending.writing.retain(|receiver| {
@@ -223,14 +223,15 @@ pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
             Ok(Err(why)) => messages.warn(why),
             Err(TryRecvError::Empty) => return true,
             Err(TryRecvError::Disconnected) => {
-                messages.warn("internal fault (writing a picture). Please report it.".to_owned());
+                messages
+                    .warn("Internal error while saving a picture. Please report it.".to_owned());
             }
         }
         false
     });
 }
 
-/// Saves a picture that waited, when what is on screen is finished.
+/// Saves the next waiting picture when the current one is finished.
 pub fn finish(session: &mut Session, is_done: bool) {
     let pending = &mut session.files.pending;
     if is_done && pending.asked == 0 && !pending.waiting.is_empty() {
@@ -264,7 +265,7 @@ fn take_reply(session: &mut Session) {
     sheet.asked = None;
 }
 
-/// The picture on screen is of these many pixels.
+/// Size of the picture in pixels.
 pub fn size(session: &Session) -> (u32, u32) {
     let orders = session.orders();
     let order = orders.pictures[PictureSlot::Main as usize].as_ref();

@@ -1,4 +1,4 @@
-//! The picture with what is drawn over it: a photograph of the window, cut to the picture.
+//! Saves the picture with its overlays: a screenshot of the window, cropped to the picture.
 
 use crate::image::Image;
 use crate::viewer::actions::files::pictures;
@@ -6,7 +6,7 @@ use crate::viewer::state::session::Session;
 use eframe::egui::{self, ColorImage, Rect};
 use std::sync::mpsc::{TryRecvError, channel};
 
-/// Takes the photograph, and takes it up.
+/// Requests the screenshot and handles its result.
 pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
     let Some(mut pose) = session.files.pending.pose.take() else {
         return;
@@ -30,7 +30,7 @@ pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
     match shot.try_recv() {
         Ok(image) => {
             let Some(view) = session.viewport else {
-                let why = "the picture is not to be seen. Show its panel, and save it again.";
+                let why = "the picture is hidden. Show its panel and save again.";
                 session.messages.warn(why.to_owned());
                 return;
             };
@@ -39,13 +39,13 @@ pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
         }
         Err(TryRecvError::Empty) => session.files.pending.pose = Some(pose),
         Err(TryRecvError::Disconnected) => {
-            let why = "the window cannot be photographed here. Save the picture without overlays.";
+            let why = "screenshots are not supported here. Save the picture without overlays.";
             session.messages.warn(why.to_owned());
         }
     }
 }
 
-/// The part of the window that is in `rect`, which is in points.
+/// Crops the window to `rect`, which is in points.
 fn cut(window: &ColorImage, rect: Rect, pixels_per_point: f32) -> Image {
     let [width, height] = window.size;
     let at = |length: f32, most: usize| {

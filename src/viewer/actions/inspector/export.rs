@@ -1,4 +1,4 @@
-//! The rays of a pixel for other programs: as `glimray explain` writes them, and the command that does.
+//! Exports the rays of a pixel as `glimray explain` does, and copies its command line.
 
 use crate::app::{ray_lines, ray_text};
 use crate::output;
@@ -12,19 +12,19 @@ use eframe::egui;
 use std::path::Path;
 use std::sync::mpsc::TryRecvError;
 
-/// What a tree is saved as.
+/// A file format for a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// What `glimray explain --json` prints.
+    /// The output of `glimray explain --json`.
     Json,
-    /// The lines that `glimray explain --obj` writes.
+    /// The lines of `glimray explain --obj`.
     Obj,
 }
 
-/// The tree as a text.
+/// Formats the tree.
 ///
 /// # Errors
-/// As `explain::json`, as one line.
+/// As for `explain::json`, in one line.
 pub fn text(inspected: &Inspected, format: Format) -> Result<String, String> {
     match format {
         Format::Json => ray_text::json(&inspected.tree, inspected.order.settings.size)
@@ -33,7 +33,7 @@ pub fn text(inspected: &Inspected, format: Format) -> Result<String, String> {
     }
 }
 
-/// Asks for a file's name and writes the tree there; a notice says what came of it.
+/// Asks for a file name and writes the tree; a message reports the result.
 pub fn save(session: &mut Session, format: Format, ctx: &egui::Context) {
     let Some(inspected) = &session.inspector.inspected else {
         return;
@@ -61,18 +61,18 @@ pub fn save(session: &mut Session, format: Format, ctx: &egui::Context) {
     session.inspector.saving.0 = Some((reply, text));
 }
 
-/// Writes a text and says so.
+/// Writes a text and returns a message.
 ///
 /// # Errors
-/// The file cannot be written: one line on why.
+/// The file cannot be written: why, in one line.
 pub fn write(path: &Path, text: &str) -> Result<String, String> {
     match output::write(path, text.as_bytes(), true) {
-        Ok(()) => Ok(format!("saved {}", path.display())),
+        Ok(()) => Ok(format!("Saved {}", path.display())),
         Err(error) => Err(error.to_string()),
     }
 }
 
-/// Takes up the name of a file since the last frame, and tells what became of it.
+/// Handles the reply of the file dialog.
 pub fn update(session: &mut Session) {
     let Some((reply, text)) = &session.inspector.saving.0 else {
         return;
@@ -82,7 +82,7 @@ pub fn update(session: &mut Session) {
         Ok(Reply::Chosen(path)) if session.files.inputs().contain(&path) => {
             let path = path.display();
             session.messages.warn(format!(
-                "cannot save the rays ({path}): the scene reads that file. Choose another name."
+                "Cannot save the rays ({path}): the scene uses that file. Choose another name."
             ));
         }
         Ok(Reply::Chosen(path)) => match write(&path, text) {
@@ -97,25 +97,25 @@ pub fn update(session: &mut Session) {
     session.inspector.saving.0 = None;
 }
 
-/// What to say where the desktop has no dialogs.
-const NO_DIALOG: &str = "cannot save the rays: this desktop has no file dialog (no portal answers). Copy the command and run it with --json or --obj.";
+/// Message for desktops without file dialogs.
+const NO_DIALOG: &str = "Cannot save the rays: no file dialog is available on this desktop (no portal answers). Copy the command and run it with --json or --obj.";
 
-/// The command that prints the tree of the pixel in the picture on the screen; `sample` is its index
-/// where it is to be one only.
+/// The command that prints the tree of the inspected pixel; `sample` limits it to one sample.
 ///
 /// # Errors
-/// There is nothing to name: one line on why.
+/// No pixel is inspected or the scene has no file: why, in one line.
 pub fn command(session: &Session, sample: Option<u32>) -> Result<CommandLine, String> {
     let (Some(inspected), Some(scene), Some(camera)) = (
         &session.inspector.inspected,
         &session.original,
         session.camera(),
     ) else {
-        return Err("cannot copy a command: no pixel is inspected. Click one first.".into());
+        return Err("Cannot copy the command: no pixel is inspected. Click one first.".into());
     };
     let Some(path) = &session.path else {
         return Err(
-            "cannot copy a command: the demo has no file. Open a scene, or save this one.".into(),
+            "Cannot copy the command: the demo scene has no file. Open a scene, or save this one."
+                .into(),
         );
     };
     let settings = RenderSettings {

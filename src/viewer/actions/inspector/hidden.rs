@@ -1,5 +1,4 @@
-//! Which parts of the lines in space are behind something, as the second camera sees them: rays of its
-//! own renderer tell how far away the nearest surface is.
+//! Finds the hidden parts of rays in the ray view, by tracing visibility rays with its renderer.
 
 use crate::app::advice;
 use crate::viewer::actions::inspector::outside;
@@ -14,9 +13,9 @@ use crate::viewer::worker::progressive_image::FrameRenderer;
 use crate::viewer::worker::request::RenderRequest;
 use glam::{DVec3, dvec2};
 
-/// Most lines that are looked at; those beyond are drawn as if nothing were before them.
+/// Maximum number of rays tested; others are drawn as visible.
 const MOST_LINES: usize = 256;
-/// A part is behind a surface if it is by more than this share of its distance: pixels have an extent.
+/// Relative depth tolerance: pixels have an extent.
 const TOLERANCE: f64 = 5e-3;
 
 fn view(session: &Session) -> Option<View> {
@@ -27,13 +26,13 @@ fn view(session: &Session) -> Option<View> {
     })
 }
 
-/// What is known about the lines that are shown now.
+/// The result for the rays shown now.
 pub fn known(session: &Session) -> Option<&Parts> {
     let (known, parts) = session.inspector.hidden.known.as_ref()?;
     (view(session)? == *known).then_some(parts)
 }
 
-/// Asks, unless that was done. Only when the picture from outside is finished.
+/// Requests visibility once the ray view is finished, unless that was done.
 pub fn ask(session: &mut Session) {
     let view = view(session);
     if view.is_none() || view == session.inspector.hidden.asked {
@@ -53,7 +52,7 @@ pub fn ask(session: &mut Session) {
     });
 }
 
-/// Which parts of lines are hidden in the picture that was ordered; `None` if another is there.
+/// The hidden parts for the requested view; `None` if another view is shown.
 fn parts(
     studio: &mut FrameRenderer,
     asked: &RenderRequest,
@@ -67,7 +66,7 @@ fn parts(
     };
     let (width, height) = order.settings.size;
     let size = dvec2(width.into(), height.into());
-    // Where each part is: its line, its place there, its pixel and its distance.
+    // Each part: its ray, its index, its pixel and its distance.
     let mut places = Vec::new();
     for (line, (_, (from, to))) in lines.iter().enumerate() {
         for part in 0..PARTS {

@@ -1,4 +1,4 @@
-//! The scene and the rays in it seen by a second camera.
+//! The ray view: the scene and the inspected rays, seen by a second camera.
 
 use crate::render::{RayKind, TracedRay};
 use crate::scene::Camera;
@@ -11,18 +11,18 @@ use crate::viewer::state::session::Session;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Most rays that are drawn.
+/// Maximum number of rays drawn.
 pub const MOST_LINES: usize = 8192;
 
-/// How far lines go on outside of the picture, in its pixels.
+/// Clipping margin around the picture, in pixels.
 const MARGIN: f64 = 16.0;
-/// How much is seen of what is behind something.
+/// Opacity of hidden parts.
 const BEHIND: f32 = 0.3;
-/// Share of the way to the pivot that nothing is drawn in.
+/// Near distance for clipping, as a fraction of the distance to the pivot.
 const NEAR: f64 = 1e-3;
 
-/// Takes up a second camera when rays are shown for the first time, beside the first and a little above
-/// it, from where all rays are seen.
+/// Creates the second camera when rays are shown for the first time, beside and slightly above the first
+/// camera, so that all rays are visible.
 pub fn look_at(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
     if session.inspector.outside.controller.is_none() {
         frame(session, bounds);
@@ -32,7 +32,7 @@ pub fn look_at(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
     }
 }
 
-/// Goes to where all rays that are shown are seen.
+/// Frames all visible rays.
 pub fn frame(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
     let Some(main) = &session.controller else {
         return;
@@ -59,7 +59,7 @@ pub fn frame(session: &mut Session, bounds: Option<(DVec3, DVec3)>) {
     controller.frame(extent, aspect);
 }
 
-/// The box round the first camera and all ends of rays that are not too far from it.
+/// Bounding box of the first camera and of all ray ends that are not too far away.
 fn extent(inspected: &Inspected, filter: &Filter, camera: &Camera, radius: f64) -> (DVec3, DVec3) {
     let reach = 4.0 * radius.max(camera.look_from.distance(camera.look_at));
     let ends = shown(inspected, filter).filter_map(|(_, ray)| ray.end.map(DVec3::from));
@@ -68,7 +68,7 @@ fn extent(inspected: &Inspected, filter: &Filter, camera: &Camera, radius: f64) 
     near.fold(start, |(min, max), end| (min.min(end), max.max(end)))
 }
 
-/// The rays that are shown.
+/// The visible rays.
 pub fn shown<'a>(
     inspected: &'a Inspected,
     filter: &'a Filter,
@@ -81,62 +81,60 @@ pub fn shown<'a>(
     rays.filter(|(id, _)| filter.has(inspected, *id))
 }
 
-/// A ray in the picture of the second camera.
+/// A ray in the ray view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Which.
+    /// The ray.
     pub id: RayId,
-    /// What it was sent for.
+    /// Its kind.
     pub kind: RayKind,
-    /// Whether it is a shadow ray that something stops.
+    /// Whether it is a blocked shadow ray.
     pub blocked: bool,
-    /// From where, in the picture's pixels from its upper left corner.
+    /// Start, in pixels from the upper left corner of the picture.
     pub from: DVec2,
-    /// To where.
+    /// End, in pixels.
     pub to: DVec2,
     /// How it ends.
     pub end: End,
-    /// What it is drawn of, from its start on.
+    /// The pieces to draw, from the start.
     pub pieces: Vec<Piece>,
-    /// The surface's direction where it ends, as a short line from there.
+    /// The end point of the surface normal.
     pub normal: Option<DVec2>,
 }
 
-/// A piece of a line, in the picture's pixels.
+/// A piece of a ray, in pixels of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    /// From where.
+    /// Start.
     pub from: DVec2,
-    /// To where.
+    /// End.
     pub to: DVec2,
-    /// How much of its colour is seen, in 0..=1: all, little behind something, ever less on the way to
-    /// infinity.
+    /// Opacity in 0..=1: reduced where hidden, and fading out towards infinity.
     pub strength: f32,
 }
 
-/// How a line ends.
+/// How a ray ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
     /// On a surface.
     Surface,
     /// At a light.
     Light,
-    /// It goes on for ever.
+    /// It is infinite.
     Nowhere,
-    /// It leaves the picture.
+    /// It is clipped at the edge of the picture.
     Cut,
 }
 
-/// From where to where a ray is drawn. `reach` is how much is of those that go on for ever, in scene
-/// units.
+/// Start and end of a ray in the world. `reach` is the drawn length of infinite rays, in scene units.
 pub fn ends(ray: &TracedRay, reach: f64) -> (DVec3, DVec3) {
     let start = DVec3::from(ray.origin);
     let far = start + reach * DVec3::from(ray.direction);
     (start, ray.end.map_or(far, DVec3::from))
 }
 
-/// The rays that are shown, as `camera` sees them in a picture of `size`; `reach` is that of [`ends`].
-/// Where it is known what is `hidden`, that is weaker.
+/// The visible rays as seen by `camera` in a picture of `size`; `reach` is that of [`ends`]. Parts known to
+/// be `hidden` are drawn weaker.
 pub fn lines(
     inspected: &Inspected,
     filter: &Filter,
@@ -167,7 +165,7 @@ fn line(
     let blocked = ray.shadow.as_ref().is_some_and(|shadow| shadow.blocked);
     let surface = ray.hit.as_ref().filter(|_| ray.shadow.is_none() && !is_cut);
     let normal = surface.and_then(|hit| {
-        // About as long wherever it is in the picture.
+        // Approximately the same length anywhere in the picture.
         let length = 0.05 * camera.look_from.distance(end);
         let tip = DVec3::from(hit.position) + length * DVec3::from(hit.normal);
         project(camera, tip, size)
@@ -217,8 +215,8 @@ fn line(
     })
 }
 
-/// The first camera as a pyramid: its edges in the picture of the second. `size` is that of the first
-/// camera's picture, `depth` how deep it is in scene units.
+/// The frustum of the first camera: its edges in the second camera's picture. `size` is that of the first
+/// camera's picture, `depth` the depth of the frustum in scene units.
 pub fn frustum(
     first: &Camera,
     size: DVec2,
@@ -244,7 +242,7 @@ pub fn frustum(
         .collect()
 }
 
-/// The line nearest to a position in the picture, not farther than `reach` pixels.
+/// The ray closest to a position in the picture, within `reach` pixels.
 pub fn nearest(lines: &[Line], position: DVec2, reach: f64) -> Option<RayId> {
     let distance = |line: &Line| {
         let way = line.to - line.from;

@@ -1,25 +1,25 @@
-//! Every command of the viewer.
+//! The table of every command in the viewer.
 
 use crate::render::Integrator;
 
-/// What commands have to do with each other; the order of the table.
+/// Groups of commands, in the order of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Category {
-    /// Moving the camera.
+    /// Camera motion.
     Camera,
-    /// Views and cameras kept.
+    /// Standard views, cameras and bookmarks.
     Views,
-    /// What is shown of the scene.
+    /// View mode, comparison, exposure and background.
     ViewSettings,
-    /// The work on the picture.
+    /// Progress and region of the render.
     Rendering,
-    /// Time.
+    /// Playback.
     Time,
-    /// Changing the scene.
+    /// Selection, tools and edits of the scene.
     Editing,
-    /// Scenes and pictures.
+    /// Opening and saving scenes and pictures.
     Files,
-    /// The window itself.
+    /// Panels, overlays, theme and size of the interface.
     Window,
 }
 
@@ -36,12 +36,12 @@ impl Category {
         Self::Window,
     ];
 
-    /// As a heading.
+    /// Heading of the group.
     pub fn title(self) -> &'static str {
         match self {
             Self::Camera => "Camera",
             Self::Views => "Views",
-            Self::ViewSettings => "Look",
+            Self::ViewSettings => "View mode",
             Self::Rendering => "Rendering",
             Self::Time => "Time",
             Self::Editing => "Editing",
@@ -51,14 +51,14 @@ impl Category {
     }
 }
 
-/// How a command is given.
+/// How a command is triggered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Manner {
-    /// Once, when a key is pressed; at most a click of the mouse.
+    /// Once, by a key press or a mouse click.
     Press,
-    /// As long as a key is held.
+    /// For as long as a key is held.
     Hold,
-    /// With the mouse: a drag or a wheel.
+    /// By a mouse drag or the wheel.
     Motion,
 }
 
@@ -74,22 +74,22 @@ macro_rules! actions {
             /// All, in the order of the table.
             pub const ALL: &[Self] = &[$($(Self::$action,)*)*];
 
-            /// As settings files have it: never changes.
+            /// Identifier in settings files. It never changes.
             pub fn name(self) -> &'static str {
                 match self { $($(Self::$action => $name,)*)* }
             }
 
-            /// What it does, in one line without a full stop.
+            /// What the command does: one line without a full stop.
             pub fn description(self) -> &'static str {
                 match self { $($(Self::$action => $text,)*)* }
             }
 
-            /// Where it stands in the table.
+            /// Its group in the table.
             pub fn category(self) -> Category {
                 match self { $($(Self::$action => Category::$category,)*)* }
             }
 
-            /// How it is given.
+            /// How it is triggered.
             pub fn manner(self) -> Manner {
                 match self { $($(Self::$action => Manner::$manner,)*)* }
             }
@@ -99,138 +99,138 @@ macro_rules! actions {
 
 actions! {
     Camera {
-        Orbit "orbit" Motion "Go round the pivot",
-        Pan "pan" Motion "Shift the camera; the pivot stays under the hand",
-        Zoom "zoom" Motion "Come nearer or go away",
-        ZoomToCursor "zoom-to-cursor" Motion "Come nearer to what is under the cursor, or go away from it",
-        LookAround "look-around" Motion "Turn the camera where it is",
-        SetPivot "set-pivot" Press "Make the point under the cursor the pivot, and centre it",
-        FocusHere "focus-here" Press "Make what is as far away as the point under the cursor sharp",
-        OrbitLeft "orbit-left" Press "Go round the pivot to the left by 15°",
-        OrbitRight "orbit-right" Press "Go round the pivot to the right by 15°",
-        OrbitUp "orbit-up" Press "Go over the pivot by 15°",
-        OrbitDown "orbit-down" Press "Go under the pivot by 15°",
-        ZoomIn "zoom-in" Press "Come nearer by a step",
-        ZoomOut "zoom-out" Press "Go away by a step",
-        RollLeft "roll-left" Press "Roll the camera to the left by 15°",
-        RollRight "roll-right" Press "Roll the camera to the right by 15°",
-        Level "level" Press "Take all roll away",
-        FlyForward "fly-forward" Hold "Fly ahead",
-        FlyBack "fly-back" Hold "Fly backwards",
-        FlyLeft "fly-left" Hold "Fly to the left",
-        FlyRight "fly-right" Hold "Fly to the right",
-        FlyUp "fly-up" Hold "Fly upwards",
-        FlyDown "fly-down" Hold "Fly downwards",
+        Orbit "orbit" Motion "Orbit around the pivot",
+        Pan "pan" Motion "Pan",
+        Zoom "zoom" Motion "Zoom",
+        ZoomToCursor "zoom-to-cursor" Motion "Zoom to the cursor",
+        LookAround "look-around" Motion "Look around",
+        SetPivot "set-pivot" Press "Set the pivot to the point under the cursor and centre it",
+        FocusHere "focus-here" Press "Focus on the point under the cursor",
+        OrbitLeft "orbit-left" Press "Orbit left by 15°",
+        OrbitRight "orbit-right" Press "Orbit right by 15°",
+        OrbitUp "orbit-up" Press "Orbit up by 15°",
+        OrbitDown "orbit-down" Press "Orbit down by 15°",
+        ZoomIn "zoom-in" Press "Zoom in",
+        ZoomOut "zoom-out" Press "Zoom out",
+        RollLeft "roll-left" Press "Roll left by 15°",
+        RollRight "roll-right" Press "Roll right by 15°",
+        Level "level" Press "Level horizon",
+        FlyForward "fly-forward" Hold "Fly forward",
+        FlyBack "fly-back" Hold "Fly backward",
+        FlyLeft "fly-left" Hold "Fly left",
+        FlyRight "fly-right" Hold "Fly right",
+        FlyUp "fly-up" Hold "Fly up",
+        FlyDown "fly-down" Hold "Fly down",
         FlyFaster "fly-faster" Hold "Fly four times as fast",
     }
     Views {
-        FrameSelection "frame-selection" Press "Show all of what is selected, or of the scene",
-        FrameAll "frame-all" Press "Show all of the scene",
-        ViewFront "view-front" Press "View from the front",
-        ViewBack "view-back" Press "View from behind",
-        ViewRight "view-right" Press "View from the right",
-        ViewLeft "view-left" Press "View from the left",
-        ViewTop "view-top" Press "View from above",
-        ViewBottom "view-bottom" Press "View from below",
-        ToggleOrthographic "toggle-orthographic" Press "Change between perspective and orthographic",
-        Home "home" Press "Go back to the scene's camera",
-        SaveCamera "save-camera" Press "Keep this camera",
-        NextCamera "next-camera" Press "Go to the next camera of the scene, or kept one",
-        PreviousCamera "previous-camera" Press "Go to the one before",
-        CopyCamera "copy-camera" Press "Copy what is seen as a command line",
-        PasteCamera "paste-camera" Press "Take the camera out of a command line",
+        FrameSelection "frame-selection" Press "Frame the selection, or the whole scene",
+        FrameAll "frame-all" Press "Frame the whole scene",
+        ViewFront "view-front" Press "Front view",
+        ViewBack "view-back" Press "Back view",
+        ViewRight "view-right" Press "Right view",
+        ViewLeft "view-left" Press "Left view",
+        ViewTop "view-top" Press "Top view",
+        ViewBottom "view-bottom" Press "Bottom view",
+        ToggleOrthographic "toggle-orthographic" Press "Switch between perspective and orthographic",
+        Home "home" Press "Return to the scene's camera",
+        SaveCamera "save-camera" Press "Bookmark view",
+        NextCamera "next-camera" Press "Next camera or bookmark",
+        PreviousCamera "previous-camera" Press "Previous camera or bookmark",
+        CopyCamera "copy-camera" Press "Copy the view as a command line",
+        PasteCamera "paste-camera" Press "Paste the camera from a command line",
     }
     ViewSettings {
-        IntegratorWhitted "integrator-whitted" Press "Show the picture",
+        IntegratorWhitted "integrator-whitted" Press "Show the full render",
         IntegratorNormals "integrator-normals" Press "Show shading normals",
-        IntegratorDepth "integrator-depth" Press "Show distances",
-        IntegratorIds "integrator-ids" Press "Show each primitive in its own colour",
+        IntegratorDepth "integrator-depth" Press "Show depth",
+        IntegratorIds "integrator-ids" Press "Show primitive IDs",
         IntegratorUv "integrator-uv" Press "Show texture coordinates",
-        IntegratorHeat "integrator-heat" Press "Show how much of the tree rays visit",
-        IntegratorSamples "integrator-samples" Press "Show how many samples pixels got",
-        SplitWipe "split-wipe" Press "Compare two looks in one picture, with a line to drag",
-        SideBySide "side-by-side" Press "Compare two looks side by side",
-        SwapSides "swap-sides" Press "Change over the two looks",
-        ExposureUp "exposure-up" Press "Brighten by a third of a stop",
-        ExposureDown "exposure-down" Press "Darken by a third of a stop",
-        ExposureReset "exposure-reset" Press "Take back the scene's own exposure",
-        NextToneCurve "next-tone-curve" Press "Take the next tone curve",
-        NextBackground "next-background" Press "Take the next background",
+        IntegratorHeat "integrator-heat" Press "Show the BVH heatmap",
+        IntegratorSamples "integrator-samples" Press "Show samples per pixel",
+        SplitWipe "split-wipe" Press "Compare two views with a wipe",
+        SideBySide "side-by-side" Press "Compare two views side by side",
+        SwapSides "swap-sides" Press "Swap comparison sides",
+        ExposureUp "exposure-up" Press "Increase exposure by a third of a stop",
+        ExposureDown "exposure-down" Press "Decrease exposure by a third of a stop",
+        ExposureReset "exposure-reset" Press "Reset to the scene's exposure",
+        NextToneCurve "next-tone-curve" Press "Next tone curve",
+        NextBackground "next-background" Press "Next background",
     }
     Rendering {
-        PauseRender "pause-render" Press "Pause the render, or go on",
-        RestartRender "restart-render" Press "Start the picture again",
-        RegionRender "region-render" Press "Render a region only: drag it, or end it",
-        MoreSamples "more-samples" Press "Double the samples to be reached",
-        FewerSamples "fewer-samples" Press "Halve the samples to be reached",
+        PauseRender "pause-render" Press "Pause or resume rendering",
+        RestartRender "restart-render" Press "Restart rendering",
+        RegionRender "region-render" Press "Render a region, or clear it",
+        MoreSamples "more-samples" Press "Double the target samples",
+        FewerSamples "fewer-samples" Press "Halve the target samples",
     }
     Time {
-        PlayPause "play-pause" Press "Play the animation, or pause it",
-        StepForward "step-forward" Press "Go a frame on",
-        StepBack "step-back" Press "Go a frame back",
-        FirstFrame "first-frame" Press "Go to the first frame",
-        LastFrame "last-frame" Press "Go to the last frame",
-        PlayFaster "play-faster" Press "Play twice as fast",
-        PlaySlower "play-slower" Press "Play half as fast",
-        ToggleLoop "toggle-loop" Press "Play for ever, or once",
-        ToggleMotionBlur "toggle-motion-blur" Press "Motion blur on or off",
+        PlayPause "play-pause" Press "Play or pause",
+        StepForward "step-forward" Press "Next frame",
+        StepBack "step-back" Press "Previous frame",
+        FirstFrame "first-frame" Press "First frame",
+        LastFrame "last-frame" Press "Last frame",
+        PlayFaster "play-faster" Press "Double the playback speed",
+        PlaySlower "play-slower" Press "Halve the playback speed",
+        ToggleLoop "toggle-loop" Press "Toggle looping",
+        ToggleMotionBlur "toggle-motion-blur" Press "Toggle motion blur",
     }
     Editing {
-        Select "select" Press "Select what is under the cursor",
-        SelectMode "select-mode" Press "Take the selection tool",
-        InspectRays "inspect-rays" Press "Take the ray inspector: a click shows a pixel's rays",
-        MoveTool "move-tool" Press "Move what is selected",
-        RotateTool "rotate-tool" Press "Rotate what is selected",
-        ScaleTool "scale-tool" Press "Scale what is selected",
-        SnapHandles "snap-handles" Hold "Drag a handle in whole steps",
-        FineHandles "fine-handles" Hold "Drag a handle at a tenth of the pace",
-        SelectNothing "select-nothing" Press "Leave the tool, or select nothing",
-        ToggleVisible "toggle-visible" Press "Hide or show what is selected",
-        Rename "rename" Press "Rename what is selected",
-        Duplicate "duplicate" Press "Duplicate what is selected",
-        Delete "delete" Press "Delete what is selected",
+        Select "select" Press "Select the object under the cursor",
+        SelectMode "select-mode" Press "Select tool",
+        InspectRays "inspect-rays" Press "Ray inspector: click a pixel to show its rays",
+        MoveTool "move-tool" Press "Move tool",
+        RotateTool "rotate-tool" Press "Rotate tool",
+        ScaleTool "scale-tool" Press "Scale tool",
+        SnapHandles "snap-handles" Hold "Snap while dragging a handle",
+        FineHandles "fine-handles" Hold "Drag a handle at a tenth of the speed",
+        SelectNothing "select-nothing" Press "Leave the tool, or deselect",
+        ToggleVisible "toggle-visible" Press "Hide or show the selection",
+        Rename "rename" Press "Rename the selection",
+        Duplicate "duplicate" Press "Duplicate the selection",
+        Delete "delete" Press "Delete the selection",
         Undo "undo" Press "Undo",
         Redo "redo" Press "Redo",
     }
     Files {
-        Open "open" Press "Open a scene, a model or a picture of the surroundings",
-        OpenNext "open-next" Press "Open the next scene of the folder",
-        OpenPrevious "open-previous" Press "Open the one before",
-        Reload "reload" Press "Read the scene again",
-        Revert "revert" Press "Throw all changes away",
+        Open "open" Press "Open a scene, a model or an environment image",
+        OpenNext "open-next" Press "Open the next scene in the folder",
+        OpenPrevious "open-previous" Press "Open the previous scene in the folder",
+        Reload "reload" Press "Reload the scene",
+        Revert "revert" Press "Revert all changes",
         SaveScene "save-scene" Press "Save the scene",
-        SaveSceneAs "save-scene-as" Press "Save the scene under another name",
+        SaveSceneAs "save-scene-as" Press "Save the scene as a new file",
         SavePicture "save-picture" Press "Save the picture",
-        SavePictureWithOverlays "save-picture-with-overlays" Press "Save the picture with what is drawn over it",
+        SavePictureWithOverlays "save-picture-with-overlays" Press "Save the picture with overlays",
     }
     Window {
-        Help "help" Press "Show all bindings",
-        Preferences "preferences" Press "Show the preferences",
+        Help "help" Press "Show keyboard shortcuts",
+        Preferences "preferences" Press "Show preferences",
         TogglePanels "toggle-panels" Press "Show or hide all panels",
         ToggleOutline "toggle-outline" Press "Show or hide the outline",
-        ToggleOverlays "toggle-overlays" Press "Show or hide what is drawn over the picture",
-        ToggleStatistics "toggle-statistics" Press "Show or hide the figures of the render",
-        ToggleTheme "toggle-theme" Press "Change between dark and light",
-        LargerText "larger-text" Press "Make everything larger",
-        SmallerText "smaller-text" Press "Make everything smaller",
-        ResetText "reset-text" Press "Take back the screen's own scale",
-        FullScreen "full-screen" Press "Full screen on or off",
+        ToggleOverlays "toggle-overlays" Press "Show or hide overlays",
+        ToggleStatistics "toggle-statistics" Press "Show or hide statistics",
+        ToggleTheme "toggle-theme" Press "Switch between dark and light",
+        LargerText "larger-text" Press "Zoom the interface in",
+        SmallerText "smaller-text" Press "Zoom the interface out",
+        ResetText "reset-text" Press "Reset the interface zoom",
+        FullScreen "full-screen" Press "Toggle full screen",
         Quit "quit" Press "Close the window",
     }
 }
 
 impl Action {
-    /// Whether it is given while a handle is dragged, when keys that fly or move the camera do not.
+    /// Whether it modifies a handle drag. Fly and camera keys are ignored during one.
     pub fn is_of_handles(self) -> bool {
         matches!(self, Self::SnapHandles | Self::FineHandles)
     }
 
-    /// What it shows, by the integrator's name.
+    /// The integrator that it switches to.
     pub fn integrator(self) -> Option<Integrator> {
         Integrator::named(self.name().strip_prefix("integrator-")?)
     }
 
-    /// The one of that name.
+    /// The action with that name in settings files.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL
             .iter()

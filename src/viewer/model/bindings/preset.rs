@@ -1,4 +1,4 @@
-//! Sets of bindings for hands that come from elsewhere.
+//! Bindings that match other programs.
 
 use crate::viewer::model::bindings::{Action, Trigger};
 use std::collections::BTreeMap;
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// A complete set of bindings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Preset {
-    /// Orbit with the left button, shift with the middle one, zoom with the right one.
+    /// Orbit with the left, pan with the middle and zoom with the right button.
     #[default]
     Glimray,
     /// As in Blender: the middle button moves the camera.
@@ -19,7 +19,7 @@ impl Preset {
     /// All, the default first.
     pub const ALL: [Self; 3] = [Self::Glimray, Self::Blender, Self::Maya];
 
-    /// As settings files have it: never changes.
+    /// Identifier in settings files. It never changes.
     pub fn name(self) -> &'static str {
         match self {
             Self::Glimray => "glimray",
@@ -28,7 +28,7 @@ impl Preset {
         }
     }
 
-    /// For people.
+    /// Name in the window.
     pub fn title(self) -> &'static str {
         match self {
             Self::Glimray => "Glimray",
@@ -37,12 +37,12 @@ impl Preset {
         }
     }
 
-    /// The one of that name.
+    /// The preset with that name in settings files.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|preset| preset.name() == name)
     }
 
-    /// Its bindings; commands that are not in there have none.
+    /// The preset's bindings; commands that are missing have no trigger.
     pub(super) fn bindings(self) -> BTreeMap<Action, Vec<Trigger>> {
         let own = match self {
             Self::Glimray => "",
@@ -50,7 +50,7 @@ impl Preset {
             Self::Maya => MAYA,
         };
         let lines = GLIMRAY.lines().chain(own.lines());
-        // Later lines win. Tests see to it that every line is read.
+        // Later lines win. A test checks that every line takes effect.
         lines.filter_map(line).collect()
     }
 }
@@ -63,7 +63,7 @@ pub(super) fn line(line: &str) -> Option<(Action, Vec<Trigger>)> {
     Some((Action::from_name(name)?, triggers.collect::<Option<_>>()?))
 }
 
-// Digits without modifiers are views, as in Blender and many others; debug views have them with Shift.
+// Digits without modifiers select views, as in Blender and other programs. Debug views need Shift.
 pub(super) const GLIMRAY: &str = "
     orbit: Drag left
     pan: Drag middle, Shift+Drag left
@@ -170,7 +170,7 @@ pub(super) const GLIMRAY: &str = "
     quit: Ctrl+Q
 ";
 
-// S, G and R are its tools, so nothing flies by letters; X deletes.
+// S, G and R are tools in this preset, so no letters fly; X deletes.
 pub(super) const BLENDER: &str = "
     orbit: Drag middle
     pan: Shift+Drag middle
@@ -216,7 +216,7 @@ pub(super) const BLENDER: &str = "
     help: F1
 ";
 
-// Q, W, E and R are its tools, so nothing flies by letters.
+// Q, W, E and R are tools in this preset, so no letters fly.
 pub(super) const MAYA: &str = "
     orbit: Alt+Drag left
     pan: Alt+Drag middle

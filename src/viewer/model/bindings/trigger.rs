@@ -1,10 +1,10 @@
-//! What a hand does: keys, buttons and the wheel, and how that is written.
+//! Triggers: keys, mouse buttons and the wheel, with their text form.
 
 use eframe::egui::{Event, Key, Modifiers, PointerButton};
 use std::fmt;
 use std::str::FromStr;
 
-/// Keys that are held while another is pressed. `command` is Ctrl, and ⌘ on a Mac.
+/// Modifier keys. `command` is Ctrl, or ⌘ on a Mac.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Mods {
     /// Ctrl, or ⌘.
@@ -16,14 +16,14 @@ pub struct Mods {
 }
 
 impl Mods {
-    /// None.
+    /// No modifiers.
     pub const NONE: Self = Self {
         command: false,
         shift: false,
         alt: false,
     };
 
-    /// Whether these are held, whatever else is.
+    /// Whether all of these are held; others may be held too.
     pub fn include(self, others: Self) -> bool {
         (self.command || !others.command)
             && (self.shift || !others.shift)
@@ -41,34 +41,34 @@ impl From<Modifiers> for Mods {
     }
 }
 
-/// Something that a hand does.
+/// A key, mouse or wheel input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trigger {
-    /// A key is pressed while just these are held.
+    /// A key is pressed with exactly these modifiers.
     Key(Mods, Key),
-    /// A key is held, whether with Shift or without.
+    /// A key is held, with or without Shift.
     Hold(Key),
-    /// These are held.
+    /// Modifiers are held.
     HoldMods(Mods),
-    /// A button is pressed, moved and released.
+    /// A button is pressed, dragged and released.
     Drag(Mods, PointerButton),
-    /// A button is pressed and released without moving.
+    /// A button is clicked.
     Click(Mods, PointerButton),
-    /// The same twice.
+    /// A button is double-clicked.
     DoubleClick(Mods, PointerButton),
-    /// The wheel is turned, or two fingers are moved.
+    /// The wheel is turned, or two fingers scroll.
     Wheel(Mods),
 }
 
 impl Trigger {
-    /// The key press that `event` is, as the keyboard's layout has it, and as it is where the layout
-    /// has that key elsewhere: Shift and 1 is `!` on many.
+    /// The key presses that `event` stands for: by the keyboard layout and by the physical key where they
+    /// differ. On many layouts Shift+1 is `!`.
     pub(super) fn pressed(event: &Event) -> Option<[Option<Self>; 2]> {
         let command = Mods {
             command: true,
             ..Mods::NONE
         };
-        // The window system's own words for three keys, which come instead of them.
+        // The window system sends these events instead of three of the shortcuts.
         let clipboard = |key| Some([Some(Self::Key(command, key)), None]);
         match event {
             Event::Copy => clipboard(Key::C),
@@ -91,7 +91,7 @@ impl Trigger {
         }
     }
 
-    /// Whether one hand cannot do both without doing either.
+    /// Whether two triggers are ambiguous.
     pub(super) fn collides(&self, other: &Self) -> bool {
         let key = |trigger: &Self, held: &Self| match (trigger, held) {
             (Self::Key(mods, pressed), Self::Hold(key)) => {
@@ -102,7 +102,7 @@ impl Trigger {
         self == other || key(self, other) || key(other, self)
     }
 
-    /// For people, such as `Ctrl+Shift+Z`; `mac` writes ⌘⇧Z.
+    /// Text for the window, such as `Ctrl+Shift+Z`; `mac` uses symbols such as ⌘⇧Z.
     pub fn label(&self, mac: bool) -> String {
         let with = |mods: Mods, what: String| {
             let mods = if mac {
@@ -181,8 +181,8 @@ fn button_name(button: PointerButton) -> &'static str {
         .map_or("left", |(_, name)| name)
 }
 
-/// As settings files have it, the same on every system: `Ctrl+Shift+Z`, `Hold W`, `Drag left`,
-/// `Ctrl+Wheel`, `DoubleClick left`.
+/// Text for settings files, the same on every system: `Ctrl+Shift+Z`, `Hold W`, `Drag left`, `Ctrl+Wheel`,
+/// `DoubleClick left`.
 impl fmt::Display for Trigger {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match *self {
@@ -208,7 +208,7 @@ impl fmt::Display for Trigger {
 impl FromStr for Trigger {
     type Err = String;
 
-    /// Reads what [`fmt::Display`] writes, in any case of letters.
+    /// Parses the output of [`fmt::Display`], ignoring case.
     fn from_str(text: &str) -> Result<Self, String> {
         let refuse = |what: &str| {
             Err(format!(
@@ -241,19 +241,19 @@ impl FromStr for Trigger {
             ("click", Some((button, _)), _) => Ok(Self::Click(mods, *button)),
             ("doubleclick", Some((button, _)), _) => Ok(Self::DoubleClick(mods, *button)),
             ("drag" | "click" | "doubleclick", None, _) => {
-                refuse("the buttons are left, right, middle, fourth and fifth")
+                refuse("buttons are left, right, middle, fourth and fifth")
             }
             ("wheel", _, None) => Ok(Self::Wheel(mods)),
             (_, _, None) => match key(last) {
                 Some(key) => Ok(Self::Key(mods, key)),
-                None => refuse("there is no such key"),
+                None => refuse("unknown key"),
             },
-            _ => refuse("there are words too many"),
+            _ => refuse("too many words"),
         }
     }
 }
 
-/// The modifiers before the last `+`, and what follows them.
+/// Splits the modifiers before the last `+` from the rest.
 fn split_mods(text: &str) -> (Mods, &str) {
     let mut mods = Mods::NONE;
     let mut rest = text;

@@ -1,4 +1,4 @@
-//! What a camera is sent to at once, and glides to.
+//! Animated jumps of the camera.
 
 use crate::scene::Camera;
 use crate::viewer::model::camera::{CameraController, Known, MARGIN, NEAREST, Pose, Side};
@@ -6,7 +6,7 @@ use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 impl CameraController {
-    /// Makes `point` the pivot and glides until it is in the middle, without turning or coming nearer.
+    /// Makes `point` the pivot and moves it to the centre without rotating or zooming.
     pub fn recentre(&mut self, point: DVec3) {
         let back = self.upright.orientation(&self.now).z_axis;
         let depth = (self.now.pivot - point).dot(back) + self.now.distance;
@@ -26,9 +26,8 @@ impl CameraController {
         };
     }
 
-    /// Glides to where all of the box is seen in a picture of `aspect` (width over height), its middle
-    /// in the middle, and from as near as that: 5 % of the picture stay free at the edges that it
-    /// comes nearest to.
+    /// Frames the box in a picture of `aspect` (width over height): centred, as near as possible, with a
+    /// margin of 5 % at the tightest edges.
     pub fn frame(&mut self, (min, max): (DVec3, DVec3), aspect: f64) {
         let axes = self.upright.orientation(&self.goal);
         let center = min.midpoint(max);
@@ -51,7 +50,7 @@ impl CameraController {
         self.clear = true;
     }
 
-    /// Glides to a view from one side, round the same pivot.
+    /// Switches to a view from one side around the same pivot.
     pub fn look_from(&mut self, side: Side) {
         let (yaw, pitch) = match side {
             Side::Front => (0.0, 0.0),
@@ -68,13 +67,13 @@ impl CameraController {
             ..self.goal
         };
         self.goal = goal.unwound(&self.now);
-        // No full turn of roll is left over.
+        // Avoids a remaining full turn of roll.
         self.now.roll -= self.goal.roll;
         self.goal.roll = 0.0;
         self.clear = true;
     }
 
-    /// Changes between perspective and orthographic. What is at the pivot keeps its size.
+    /// Toggles between perspective and orthographic. The size of objects at the pivot is preserved.
     pub fn toggle_orthographic(&mut self) {
         let tangent = self.tangent();
         for pose in [&mut self.now, &mut self.goal] {
@@ -88,12 +87,12 @@ impl CameraController {
         self.clear = true;
     }
 
-    /// Glides back to the scene's own camera.
+    /// Returns to the scene's own camera.
     pub fn go_home(&mut self) {
         self.home.pose = self.go(&self.home.camera.clone());
     }
 
-    /// Glides to `camera`, which is in world space, and is it exactly on arrival.
+    /// Moves to `camera`, which is in world space, and matches it exactly on arrival.
     pub fn go_to(&mut self, camera: &Camera) {
         let pose = self.go(camera);
         self.visited = Some(Known {

@@ -1,10 +1,10 @@
-//! Movement that goes on: gliding and flying.
+//! Continuous motion: animated jumps and flying.
 
 use crate::viewer::model::camera::{CameraController, Flight, GLIDE, INERTIA};
 use glam::DVec3;
 
 impl CameraController {
-    /// Says where to fly from now on; default is nowhere.
+    /// Sets the direction to fly in; the default stops.
     pub fn fly(&mut self, flight: Flight) {
         self.flight = flight;
     }
@@ -14,7 +14,7 @@ impl CameraController {
         self.flight = Flight::default();
     }
 
-    /// Lets `seconds` go by, 0 or more. Whether the camera moved.
+    /// Advances by `seconds`, 0 or more. Returns whether the camera moved.
     pub fn advance(&mut self, seconds: f64) -> bool {
         let before = (self.now, self.goal);
         self.glide(seconds);
@@ -22,7 +22,7 @@ impl CameraController {
         before != (self.now, self.goal)
     }
 
-    /// Ends all movement where it leads to.
+    /// Finishes all motion at its goal.
     pub fn arrive(&mut self) {
         self.stop();
         self.now = self.goal;
@@ -38,8 +38,7 @@ impl CameraController {
         }
     }
 
-    /// Flies: the velocity v approaches the wanted one w as w + (v - w) e^(-t / τ), of which this is
-    /// the integral.
+    /// Integrates the flight: the velocity v approaches the target w as w + (v - w) e^(-t / τ).
     fn drift(&mut self, seconds: f64) {
         if !self.is_flying() && self.velocity == DVec3::ZERO {
             return;
@@ -61,7 +60,7 @@ impl CameraController {
             self.velocity = DVec3::ZERO;
         }
         if self.orthographic {
-            // Coming nearer does not show; what is in the picture gets larger in its stead.
+            // Moving closer does not change an orthographic view, so its height is scaled instead.
             let ahead = -way.dot(axes.z_axis);
             let factor = (-ahead / self.scene_radius()).exp();
             self.now.height *= factor;

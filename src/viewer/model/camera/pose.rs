@@ -1,36 +1,35 @@
-//! Where a camera is, as angles about a pivot: what can be dragged without rolling, and without a
-//! pole to get stuck at.
+//! The pose of a camera as angles around a pivot, which can be dragged without roll or gimbal lock.
 
 use crate::scene::Camera;
 use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Of a viewing direction with "up": how near to parallel they may be and still say which way is up.
+/// Sine of the angle between viewing direction and up axis below which the up direction is undefined.
 const POLE: f64 = 1e-3;
 
-/// A camera's place relative to the point that it goes round. Angles are radians, lengths scene units.
+/// A camera's pose relative to its pivot. Angles are in radians, lengths in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// In the middle of the picture, in world space.
+    /// The pivot: the centre of the picture, in world space.
     pub pivot: DVec3,
-    /// From the eye to the pivot, above 0.
+    /// Distance from the eye to the pivot, above 0.
     pub distance: f64,
-    /// About the upward axis, counter-clockwise from above. Counts turns.
+    /// Yaw about the up axis, counter-clockwise from above. Counts full turns.
     pub yaw: f64,
-    /// Of the viewing direction above the level plane, in [-π/2, π/2].
+    /// Pitch of the viewing direction above the horizontal plane, in [-π/2, π/2].
     pub pitch: f64,
-    /// Of the camera about its viewing direction, counter-clockwise as the camera sees itself.
+    /// Roll about the viewing direction, counter-clockwise as seen by the camera.
     pub roll: f64,
-    /// What an orthographic picture shows from its lower to its upper edge, above 0.
+    /// Height of an orthographic view, above 0.
     pub height: f64,
 }
 
-/// What is up, and from where yaw is counted.
+/// The up axis, and the origin of yaw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Upright {
-    /// Of unit length.
+    /// The up axis, of unit length.
     pub axis: DVec3,
-    /// From a space in which up is +Y.
+    /// Rotation from a space with +Y up.
     world_from_level: DQuat,
 }
 
@@ -44,8 +43,8 @@ impl Upright {
         }
     }
 
-    /// The axis about which a person will want to orbit who is shown what `camera` shows: the one of
-    /// the six along the world's axes of which the camera's own "up" is the projection, else +Y.
+    /// The up axis that suits orbiting from `camera`: the one of the six world axes whose projection is the
+    /// camera's up direction, else +Y.
     pub fn of(camera: &Camera) -> Self {
         let up = camera.up.normalize_or(DVec3::Y);
         if up.dot(DVec3::Z) > 1.0 - 1e-9 {
@@ -69,13 +68,13 @@ impl Upright {
         Self::new(candidates.into_iter().find(is_level).unwrap_or(DVec3::Y))
     }
 
-    /// Where the camera is, with `look_at` as its pivot.
+    /// The pose of a camera, with `look_at` as the pivot.
     pub fn pose(&self, camera: &Camera) -> Pose {
         let level_from_world = self.world_from_level.inverse();
         let reach = camera.look_at - camera.look_from;
         let forward = reach.normalize_or(DVec3::NEG_Z);
         let up = forward.cross(camera.up).cross(forward).normalize_or(
-            // A camera that looks along its "up" has none; any will do.
+            // A camera that looks along its up vector has no defined right axis; any will do.
             forward.any_orthonormal_vector(),
         );
         let (f, u) = (level_from_world * forward, level_from_world * up);
@@ -87,7 +86,7 @@ impl Upright {
             let level = level_orientation(yaw, pitch, 0.0);
             roll = (-u.dot(level.x_axis)).atan2(u.dot(level.y_axis));
         } else {
-            // Straight up or down: what is up in the picture tells where it came from.
+            // Looking straight up or down, the camera's up vector gives the yaw.
             yaw = (u.x * pitch.signum()).atan2(u.z * pitch.signum());
             roll = 0.0;
         }
@@ -110,8 +109,8 @@ impl Upright {
         DMat3::from_quat(self.world_from_level) * level_orientation(pose.yaw, pose.pitch, pose.roll)
     }
 
-    /// An "up" for a camera at `pose`: the axis itself where that is clear, so that numbers stay
-    /// plain.
+    /// An up vector for a camera at `pose`: the axis itself where that is defined, so that numbers stay
+    /// simple.
     pub fn up(&self, pose: &Pose) -> DVec3 {
         if pose.roll == 0.0 && pose.pitch.cos() > POLE {
             self.axis
@@ -126,7 +125,7 @@ fn level_orientation(yaw: f64, pitch: f64, roll: f64) -> DMat3 {
 }
 
 impl Pose {
-    /// The pose that is a share `k` of the way from this one to `goal`.
+    /// Interpolates from this pose to `goal` by `k` in [0, 1].
     pub(super) fn towards(&self, goal: &Self, k: f64) -> Self {
         let mix = |a: f64, b: f64| a + (b - a) * k;
         Self {
@@ -139,7 +138,7 @@ impl Pose {
         }
     }
 
-    /// Whether nobody would see the difference: it is below half a pixel of a picture of a thousand.
+    /// Whether the difference is invisible: below half a pixel in a picture 1000 pixels high.
     pub(super) fn is_near(&self, other: &Self, fov_y: f64) -> bool {
         const SHARE: f64 = 5e-4;
         let angle = SHARE * fov_y.min(1.0);
@@ -153,7 +152,7 @@ impl Pose {
             && (self.roll - other.roll).abs() <= angle
     }
 
-    /// The same with angles that are reached from `start` by the shorter way round.
+    /// The same pose with angles reached from `start` the shorter way round.
     pub(super) fn unwound(self, start: &Self) -> Self {
         let near = |angle: f64, to: f64| angle + ((to - angle) / TAU).round() * TAU;
         Self {
@@ -163,7 +162,7 @@ impl Pose {
         }
     }
 
-    /// Turns by yaw and pitch, not beyond the poles.
+    /// Rotates by yaw and pitch, limited at the poles.
     pub(super) fn turn(&mut self, yaw: f64, pitch: f64) {
         self.yaw += yaw;
         self.pitch = (self.pitch + pitch).clamp(-FRAC_PI_2, FRAC_PI_2);

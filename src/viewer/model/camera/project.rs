@@ -1,4 +1,4 @@
-//! Between a picture and the world, as the renderer's cameras have it.
+//! Projection between picture and world, matching the renderer's cameras.
 
 use crate::scene::Camera;
 use glam::{DMat3, DVec2, DVec3};
@@ -12,7 +12,7 @@ fn axes(camera: &Camera) -> DMat3 {
     DMat3::from_cols(right, right.cross(forward), -forward)
 }
 
-/// Where `point` is in a picture of `size`, from its upper left corner, y down; `None` behind the
+/// The position of `point` in a picture of `size`, from its upper left corner, y down; `None` behind the
 /// camera.
 pub fn project(camera: &Camera, point: DVec3, size: DVec2) -> Option<DVec2> {
     let p = axes(camera).transpose() * (point - camera.look_from);
@@ -25,8 +25,8 @@ pub fn project(camera: &Camera, point: DVec3, size: DVec2) -> Option<DVec2> {
     Some(size / 2.0 + DVec2::new(p.x, -p.y) / span * size.y)
 }
 
-/// The part of the line from `from` to `to` that is at least `near` before the camera, in a picture of
-/// `size` as [`project`] has it, cut off at `margin` outside of the picture; `None` if nothing is left.
+/// Projects the line from `from` to `to` as [`project`] does, clipped at depth `near` and at `margin`
+/// outside the picture; `None` if nothing is left.
 pub fn project_line(
     camera: &Camera,
     (from, to): (DVec3, DVec3),
@@ -46,7 +46,7 @@ pub fn project_line(
     clip(a, b, DVec2::splat(-margin), size + margin)
 }
 
-/// The part of the line from `a` to `b` that is in a rectangle, by Liang and Barsky.
+/// Clips the line from `a` to `b` to a rectangle (Liang and Barsky).
 fn clip(a: DVec2, b: DVec2, min: DVec2, max: DVec2) -> Option<(DVec2, DVec2)> {
     let way = b - a;
     let (mut first, mut last) = (0.0_f64, 1.0_f64);
@@ -64,8 +64,8 @@ fn clip(a: DVec2, b: DVec2, min: DVec2, max: DVec2) -> Option<(DVec2, DVec2)> {
     (first <= last).then(|| (a + way * first, a + way * last))
 }
 
-/// The ray through `position` in a picture of `size`: origin and direction of unit length. A lens is
-/// taken as a pinhole.
+/// The ray through `position` in a picture of `size`: origin and direction of unit length. A lens is treated
+/// as a pinhole.
 pub fn ray_through(camera: &Camera, position: DVec2, size: DVec2) -> (DVec3, DVec3) {
     let axes = axes(camera);
     let off = (position - size / 2.0) / size.y;

@@ -1,19 +1,19 @@
-//! Which flag makes up for which difference.
+//! The flag for each difference.
 
 use crate::app::words::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
 use crate::scene::{Background, Camera, Scene, Shutter};
 use crate::viewer::model::command_line::{Pasted, Shown};
 use glam::DVec3;
 
-/// Something that a line says otherwise than it is shown.
+/// A difference between a line and the view.
 pub(super) struct Difference {
-    /// In a few words.
+    /// Its name, in a few words.
     pub what: &'static str,
-    /// What to add to the line; nothing if no flag can say it.
+    /// The flags to add; empty if no flag can express it.
     pub flags: Vec<(&'static str, String)>,
 }
 
-/// All differences, those first on which others depend.
+/// All differences; those that others depend on come first.
 pub(super) fn all(shown: &Shown, scene: &Scene, said: &Pasted) -> impl Iterator<Item = Difference> {
     let checks = camera(shown, scene, said)
         .into_iter()
@@ -24,7 +24,7 @@ pub(super) fn all(shown: &Shown, scene: &Scene, said: &Pasted) -> impl Iterator<
         .map(|(_, what, flags)| Difference { what, flags })
 }
 
-/// Whether it differs, what it is called, and what would say it.
+/// Whether the values differ, the name, and the flags that set it.
 type Check = (bool, &'static str, Vec<(&'static str, String)>);
 
 fn one(differs: bool, what: &'static str, flag: &'static str, value: String) -> Check {
@@ -39,7 +39,7 @@ fn camera(shown: &Shown, scene: &Scene, said: &Pasted) -> Vec<Check> {
         "--time",
         shown.time.to_string(),
     );
-    // A lens comes only with the camera that has it.
+    // A lens is only available through the camera that has it.
     let has_lens = |index: &usize| {
         let mut scene = scene.clone();
         scene.camera_index = *index;
@@ -69,7 +69,7 @@ fn camera(shown: &Shown, scene: &Scene, said: &Pasted) -> Vec<Check> {
     ]
 }
 
-/// All three at once: what a scene's animation says of one of them must not remain.
+/// All three at once, because animated values must not remain.
 fn place(wanted: &Camera, camera: &Camera) -> Check {
     let pairs = [
         (wanted.look_from, camera.look_from, "--look-from"),
@@ -78,7 +78,7 @@ fn place(wanted: &Camera, camera: &Camera) -> Check {
     ];
     let differs = pairs.iter().any(|(wanted, said, _)| wanted != said);
     let flags = pairs.map(|(wanted, _, flag)| (flag, vector(wanted)));
-    (differs, "where the camera is", flags.to_vec())
+    (differs, "the camera position", flags.to_vec())
 }
 
 fn same_projection(a: &Camera, b: &Camera) -> bool {
@@ -91,7 +91,7 @@ fn settings(shown: &Shown, said: &Pasted) -> Vec<Check> {
     let (width, height) = wanted.size;
     let crop = wanted.crop.map(|edges| edges.map(|edge| edge.to_string()));
     let crop = crop.map(|edges| ("--crop", edges.join(",")));
-    // A switch: it has no value.
+    // A switch without a value.
     let brute_force = wanted
         .brute_force
         .then(|| ("--no-bvh", String::new()))
@@ -116,13 +116,13 @@ fn settings(shown: &Shown, said: &Pasted) -> Vec<Check> {
         ),
         one(
             wanted.antialias != said.antialias,
-            "where samples lie",
+            "the sample placement",
             "--antialias",
             ANTIALIAS.word(&wanted.antialias).to_owned(),
         ),
         one(
             wanted.noise != said.noise,
-            "the noise",
+            "the noise limit",
             "--noise",
             wanted.noise.to_string(),
         ),
@@ -140,7 +140,7 @@ fn settings(shown: &Shown, said: &Pasted) -> Vec<Check> {
         ),
         one(
             wanted.light_samples != said.light_samples,
-            "the lights' samples",
+            "the light samples",
             "--light-samples",
             wanted.light_samples.to_string(),
         ),
@@ -164,7 +164,7 @@ fn settings(shown: &Shown, said: &Pasted) -> Vec<Check> {
         ),
         (
             wanted.brute_force != said.brute_force,
-            "the search without a tree",
+            "brute force",
             brute_force.collect(),
         ),
         one(
@@ -181,7 +181,7 @@ fn settings(shown: &Shown, said: &Pasted) -> Vec<Check> {
         ),
         one(
             wanted.min_throughput != said.min_throughput,
-            "the least throughput",
+            "the minimum throughput",
             "--min-throughput",
             wanted.min_throughput.to_string(),
         ),
@@ -248,7 +248,7 @@ fn vector(v: DVec3) -> String {
     v.to_array().map(|c| c.to_string()).join(",")
 }
 
-/// The number of degrees that leads back to just these radians, if there is one; else the nearest.
+/// The number of degrees that converts back to exactly these radians, if there is one; else the nearest.
 fn degrees(radians: f64) -> f64 {
     let middle = radians.to_degrees();
     let near = [
@@ -261,7 +261,7 @@ fn degrees(radians: f64) -> f64 {
     let exact = near
         .into_iter()
         .find(|degrees| degrees.to_radians() == radians);
-    // Files and people have round numbers, of which several may lead there.
+    // Prefers round numbers among several that convert to the same radians.
     let round = (middle * 1e6).round() / 1e6;
     if round.to_radians() == radians {
         return round;

@@ -1,15 +1,15 @@
-//! What becomes of a thing that is moved, turned or scaled by so much, by hand or by a number.
+//! The result of a move, rotation or scale by an amount, dragged or typed.
 
 use crate::viewer::model::handles::{Dragged, Eye, Grip, Part};
 use crate::viewer::model::tool::Tool;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// The least that one drag scales by.
+/// Smallest scale factor of a drag.
 const LEAST: f64 = 0.01;
 
 impl Grip {
-    /// The place for an exact amount, wherever the pointer is: scene units along the axis of the handle (x for
-    /// the one that moves all ways, the first of both for a plane), degrees, or a factor.
+    /// The transform for an exact amount, independent of the pointer: scene units along the handle's axis (x
+    /// for the free handle, the first axis of a plane), degrees, or a factor.
     pub fn by(&self, eye: Eye, amount: f64) -> Dragged {
         let axes = self.handles.axes;
         match (self.handles.tool, self.part) {

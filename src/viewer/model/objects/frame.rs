@@ -1,10 +1,10 @@
-//! The frames of reference of shapes and lights: their own origin, axes and size as one map.
+//! Canonical frames of shapes and lights: origin, axes and size as one map.
 
 use crate::scene::{CanonicalShape, Geometry, LightKind};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-/// What brings the canonical surface into place: a unit sphere, a plane y = 0 that faces +y, or the
-/// [`CanonicalShape`] itself.
+/// The transform of the canonical surface: a unit sphere, a plane y = 0 that faces +y, or the
+/// [`CanonicalShape`].
 pub fn of_geometry(geometry: &Geometry) -> DAffine3 {
     match *geometry {
         Geometry::Sphere { center, radius } => {
@@ -21,8 +21,8 @@ pub fn of_geometry(geometry: &Geometry) -> DAffine3 {
     }
 }
 
-/// The surface in another place. A sphere that is turned or scaled unevenly becomes an ellipsoid,
-/// which keeps that; of a plane only where it is and faces is taken.
+/// The surface with another transform. A sphere that is rotated or unevenly scaled becomes an ellipsoid. For
+/// a plane, only position and normal are used.
 pub(super) fn geometry_in(geometry: &Geometry, place: DAffine3) -> Geometry {
     match *geometry {
         Geometry::Sphere { .. } => {
@@ -48,8 +48,8 @@ pub(super) fn geometry_in(geometry: &Geometry, place: DAffine3) -> Geometry {
     }
 }
 
-/// What brings a canonical light into place, one that shines along +y: a point, a unit disc, a unit
-/// sphere, or a square |x|, |z| ≤ 1.
+/// The transform of the canonical light, which shines along +y: a point, a unit disc, a unit sphere, or a
+/// square |x|, |z| ≤ 1.
 pub fn of_light(kind: &LightKind) -> DAffine3 {
     let along = |direction: DVec3| DMat3::from_quat(DQuat::from_rotation_arc(DVec3::Y, direction));
     let at = DAffine3::from_mat3_translation;
@@ -81,7 +81,7 @@ pub fn of_light(kind: &LightKind) -> DAffine3 {
     }
 }
 
-/// The light in another place. Where its axes are those of `was`, nothing but its place changes.
+/// The light with another transform. If the axes equal those of `was`, only the position changes.
 pub(super) fn light_in(kind: &LightKind, was: DAffine3, place: DAffine3) -> LightKind {
     let is_moved_only = was.matrix3 == place.matrix3;
     let moved = place.translation;

@@ -1,37 +1,36 @@
-//! Where an object is in the world, read and set, whatever carries it.
+//! Reads and sets the world transform of an object, whatever its parents.
 
 use crate::scene::{Geometry, LightKind, LightProperty, NodeProperty, ObjectRef, Scene, Target};
 use crate::viewer::model::objects::frame::{geometry_in, light_in, of_geometry, of_light};
 use crate::viewer::model::objects::{EditError, Id, check};
 use glam::{DAffine3, DVec3};
 
-/// Numbers beyond this mean nothing to the GPU.
+/// Larger numbers overflow on the GPU.
 const LARGEST: f64 = f32::MAX as f64;
 
 /// How an object can be scaled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scaling {
-    /// It has no size.
+    /// It cannot be scaled.
     None,
-    /// By one factor.
+    /// By one factor for all axes.
     Even,
-    /// By one for each axis.
+    /// By a factor for each axis.
     Uneven,
 }
 
-/// What can be changed of where an object is.
+/// The freedoms of an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Freedom {
-    /// Whether it can be moved.
+    /// Whether it can be translated.
     pub translate: bool,
-    /// Whether it can be turned.
+    /// Whether it can be rotated.
     pub rotate: bool,
     /// How it can be scaled.
     pub scale: Scaling,
 }
 
-/// What can be changed of where something is; nothing of cameras and materials, which have fields of
-/// their own.
+/// The freedoms of an object; none for cameras and materials, which have properties of their own.
 pub fn freedom(scene: &Scene, id: Id) -> Freedom {
     let freedom = |translate, rotate, scale| Freedom {
         translate,
@@ -75,8 +74,8 @@ pub fn freedom(scene: &Scene, id: Id) -> Freedom {
     }
 }
 
-/// From the object's own space to the world at `time` seconds; `None` for what has no place, or is
-/// not there. Lights shine along the +y of their own space, shapes are canonical in theirs.
+/// The transform from the object's own space to the world at `time` seconds; `None` if it has no transform
+/// or is not in the scene. Lights shine along the +y of their own space; shapes are canonical in theirs.
 pub fn place(scene: &Scene, id: Id, time: f64) -> Option<DAffine3> {
     let frame = scene.frame(time);
     let world_from = |node: Option<usize>| match node {
@@ -92,7 +91,7 @@ pub fn place(scene: &Scene, id: Id, time: f64) -> Option<DAffine3> {
             let shape = scene.shapes.get(index)?;
             let own = of_geometry(&shape.geometry);
             Some(match shape.geometry {
-                // Planes stand still.
+                // Planes cannot be animated.
                 Geometry::Plane { .. } => own,
                 _ => chain(world_from(shape.node), own),
             })
@@ -103,18 +102,18 @@ pub fn place(scene: &Scene, id: Id, time: f64) -> Option<DAffine3> {
     }
 }
 
-/// Puts an object where `wanted` says, as [`place`] gives it at `time` seconds. What carries it goes on
-/// to carry it: if that moves, the object keeps its new place in it.
+/// Sets the world transform of an object to `wanted`, as [`place`] returns it at `time` seconds. Its parent
+/// stays the same: if that is animated, the transform relative to it changes.
 ///
 /// # Errors
-/// The object lacks a freedom that it would take, an animation sets what would change, or nothing
-/// would be left of it. The scene then stays as it is.
+/// The object lacks the required freedom, an animation sets the property, or the result would be degenerate.
+/// The scene then stays unchanged.
 pub fn set_place(scene: &mut Scene, id: Id, wanted: DAffine3, time: f64) -> Result<(), EditError> {
     check(scene, id)?;
     let old = place(scene, id, time).ok_or(EditError::Unable {
         what: "a camera or material",
-        done: "placed like an object",
-        todo: "Change its own fields",
+        done: "transformed",
+        todo: "Edit its properties",
     })?;
     if !is_good(wanted) {
         return Err(EditError::Flat);
@@ -139,7 +138,8 @@ pub fn set_place(scene: &mut Scene, id: Id, wanted: DAffine3, time: f64) -> Resu
             shape.geometry = geometry_in(&shape.geometry, own);
         }
         Id::Object(ObjectRef::Light(index)) => {
-            // A carried light is told by how it changes: carrying may have rounded its shape.
+            // The change is applied to a light with a parent, because its parent's transform may have
+            // rounded its shape.
             let light = &mut scene.lights[index];
             light.kind = match light.node {
                 None => light_in(&light.kind, old, wanted),
@@ -185,9 +185,9 @@ fn set_node(
         .fold(0.0, |a: f64, b| a.max(b.abs()));
     if !told.matrix3.abs_diff_eq(local.matrix3, 1e-9 * size) {
         return Err(EditError::Unable {
-            what: "a node in what turns and scales unevenly",
-            done: "slanted",
-            todo: "Change what it carries instead",
+            what: "a node with a rotated, unevenly scaled parent",
+            done: "sheared",
+            todo: "Transform its objects instead",
         });
     }
     let is_moved_only = wanted.matrix3 == old.matrix3;
@@ -202,7 +202,7 @@ fn set_node(
     Ok(())
 }
 
-/// Refuses changes that an object cannot take, or that an animation would undo.
+/// Rejects changes that an object does not support, or that an animation would override.
 fn refuse_what_is_not_free(
     scene: &Scene,
     id: Id,
@@ -232,7 +232,7 @@ fn refuse_what_is_not_free(
     if moves && !free.translate {
         return match light {
             Some(LightKind::Directional { .. }) => {
-                unable("moved", "It shines from infinitely far: turn it")
+                unable("moved", "It is infinitely far away. Rotate it")
             }
             Some(_) => animated("position"),
             None => animated("translation"),
@@ -241,7 +241,7 @@ fn refuse_what_is_not_free(
     if turns && !free.rotate {
         return match light {
             Some(LightKind::Point { .. } | LightKind::Sphere { .. }) => {
-                unable("turned", "It shines alike to all sides")
+                unable("rotated", "It shines equally in all directions")
             }
             Some(_) => animated("direction"),
             None => animated("rotation"),
@@ -252,11 +252,11 @@ fn refuse_what_is_not_free(
             Id::Node(_) => animated("scale"),
             _ => unable(
                 "scaled",
-                "It has no size: change its intensity, or its angles",
+                "It has no size. Change its intensity or its angles",
             ),
         },
         Scaling::Even if scales && !is_even => {
-            unable("scaled unevenly", "Give one factor for all axes")
+            unable("scaled unevenly", "Use the same factor for all axes")
         }
         _ => Ok(()),
     }
@@ -266,7 +266,7 @@ fn name(scene: &Scene, id: Id) -> &'static str {
     match id {
         Id::Object(ObjectRef::Instance(_)) => "a mesh",
         Id::Object(ObjectRef::Shape(index)) => match scene.shapes[index].geometry {
-            Geometry::Plane { .. } => "an endless plane",
+            Geometry::Plane { .. } => "an infinite plane",
             _ => "a surface",
         },
         Id::Object(ObjectRef::Light(index)) => match scene.lights[index].kind {
@@ -283,7 +283,7 @@ fn name(scene: &Scene, id: Id) -> &'static str {
     }
 }
 
-/// Whether something is left that numbers can tell.
+/// Whether the transform is finite and not degenerate.
 fn is_good(place: DAffine3) -> bool {
     let columns = [
         place.matrix3.x_axis,
@@ -302,7 +302,7 @@ fn is_good(place: DAffine3) -> bool {
         && x.cross(y).dot(z).abs() > 1e-12
 }
 
-/// The product, with all digits where one of them changes nothing.
+/// The product; exact where one factor is the identity.
 fn chain(outer: DAffine3, inner: DAffine3) -> DAffine3 {
     if outer == DAffine3::IDENTITY {
         inner

@@ -1,4 +1,4 @@
-//! What concerns more than one thing, and names.
+//! Names, and operations on several objects.
 
 use crate::scene::{ObjectRef, Scene};
 use crate::viewer::model::objects::{EditError, Id, check, is_visible, set_visible};
@@ -9,7 +9,7 @@ pub fn is_there(scene: &Scene, id: Id) -> bool {
     check(scene, id).is_ok()
 }
 
-/// The name of something that has one; it may be empty. Objects have none of their own.
+/// The name of something; may be empty. Objects have no names of their own.
 pub fn name(scene: &Scene, id: Id) -> Option<&str> {
     match id {
         Id::Object(_) => None,
@@ -19,10 +19,10 @@ pub fn name(scene: &Scene, id: Id) -> Option<&str> {
     }
 }
 
-/// Gives something another name.
+/// Renames something.
 ///
 /// # Errors
-/// It has none, or is not in the scene.
+/// It has no name, or is not in the scene.
 pub fn rename(scene: &mut Scene, id: Id, name: &str) -> Result<(), EditError> {
     check(scene, id)?;
     let slot = match id {
@@ -32,8 +32,8 @@ pub fn rename(scene: &mut Scene, id: Id, name: &str) -> Result<(), EditError> {
         Id::Object(_) => {
             return Err(EditError::Unable {
                 what: "an object",
-                done: "named",
-                todo: "Name its material, or what carries it",
+                done: "renamed",
+                todo: "Rename its material or its node",
             });
         }
     };
@@ -41,8 +41,8 @@ pub fn rename(scene: &mut Scene, id: Id, name: &str) -> Result<(), EditError> {
     Ok(())
 }
 
-/// Hides all meshes and shapes but this one, or but those that a node carries. What cannot be hidden
-/// stays.
+/// Hides all meshes and shapes except this one, or except those below a node. Objects that cannot be hidden
+/// stay.
 pub fn hide_others(scene: &mut Scene, id: Id) {
     let stays = |scene: &Scene, object: ObjectRef| {
         Id::Object(object) == id
@@ -51,13 +51,13 @@ pub fn hide_others(scene: &mut Scene, id: Id) {
     for object in surfaces(scene) {
         let id = Id::Object(object);
         if !stays(scene, object) && is_visible(scene, id) {
-            // Only what an animation switches refuses, and that may go on to show it.
+            // Only animated visibility is rejected, and the animation may show the object again.
             let _ = set_visible(scene, id, false);
         }
     }
 }
 
-/// Shows all that is hidden at rest, but for what an animation switches.
+/// Shows everything that is hidden at rest, except where visibility is animated.
 pub fn show_all(scene: &mut Scene) {
     let lights = (0..scene.lights.len()).map(ObjectRef::Light);
     let objects: Vec<_> = surfaces(scene).into_iter().chain(lights).collect();
@@ -73,8 +73,8 @@ pub fn show_all(scene: &mut Scene) {
     }
 }
 
-/// The axis-aligned box (min, max) in the world at `time` seconds, of a node round all that it carries;
-/// `None` for what has no bounds.
+/// The axis-aligned bounding box (min, max) in the world at `time` seconds, of a node with its descendants;
+/// `None` without bounds.
 pub fn bounds(scene: &Scene, id: Id, time: f64) -> Option<(DVec3, DVec3)> {
     match id {
         Id::Object(object) => scene.bounds_of(object, time),
@@ -86,8 +86,8 @@ pub fn bounds(scene: &Scene, id: Id, time: f64) -> Option<(DVec3, DVec3)> {
     }
 }
 
-/// Bounds of what there is to look at, in the world at time 0: all surfaces but lamps, which shine all over
-/// and often stand far away; lamps too where there is nothing else.
+/// Bounds of the visible geometry in the world at time 0: all surfaces except area lights, which may be far
+/// away. Includes them if there is nothing else.
 pub fn subject(scene: &Scene) -> Option<(DVec3, DVec3)> {
     let shines = |material: usize| {
         let material = scene.materials.get(material);
@@ -113,8 +113,8 @@ fn is_carried_by(scene: &Scene, object: ObjectRef, node: usize) -> bool {
     std::iter::successors(own, |&index| scene.nodes[index].parent).any(|index| index == node)
 }
 
-/// What `id` of one scene is in another that one step leads to. In a list that got longer or shorter,
-/// what stands before or behind the change is known by that; `None` for what is gone or cannot be told.
+/// The counterpart of `id` in a scene that differs by one step. In a list that changed its length, entries
+/// before and after the change are matched; `None` if it is gone or ambiguous.
 pub fn same(before: &Scene, after: &Scene, id: Id) -> Option<Id> {
     Some(match id {
         Id::Object(ObjectRef::Shape(index)) => {

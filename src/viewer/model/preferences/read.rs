@@ -17,7 +17,7 @@ pub(super) fn read(bytes: &[u8]) -> (Preferences, Vec<String>) {
             Ok(table) => fill(&mut preferences, table, &mut notes),
             Err(error) => notes.push(place(text, &error)),
         },
-        Err(_) => notes.push("it is not text in UTF-8".to_owned()),
+        Err(_) => notes.push("it is not UTF-8 text".to_owned()),
     }
     (preferences, notes)
 }
@@ -26,7 +26,7 @@ pub(super) fn read(bytes: &[u8]) -> (Preferences, Vec<String>) {
 fn place(text: &str, error: &toml::de::Error) -> String {
     let start = error.span().map_or(0, |span| span.start).min(text.len());
     let line = text.as_bytes()[..start].iter().filter(|b| **b == b'\n');
-    let why = error.message().lines().next().unwrap_or("it is broken");
+    let why = error.message().lines().next().unwrap_or("invalid TOML");
     format!("line {}: {why}", line.count() + 1)
 }
 
@@ -35,13 +35,13 @@ fn fill(preferences: &mut Preferences, mut table: Table, notes: &mut Vec<String>
     if let Some(name) = take::<String>(&mut table, "theme", notes) {
         match Theme::ALL.into_iter().find(|theme| theme.name() == name) {
             Some(theme) => it.theme = theme,
-            None => notes.push(format!("there is no theme `{name}`")),
+            None => notes.push(format!("unknown theme `{name}`")),
         }
     }
     if let Some(scale) = take::<f32>(&mut table, "ui_scale", notes) {
         match (0.5..=4.0).contains(&scale) {
             true => it.ui_scale = scale,
-            false => notes.push(format!("`ui_scale` is from 0.5 to 4, not {scale}")),
+            false => notes.push(format!("`ui_scale` must be 0.5 to 4, not {scale}")),
         }
     }
     if let Some(seen) = take(&mut table, "hint_seen", notes) {
@@ -50,25 +50,25 @@ fn fill(preferences: &mut Preferences, mut table: Table, notes: &mut Vec<String>
     if let Some(samples) = take::<i64>(&mut table, "samples", notes) {
         match u32::try_from(samples) {
             Ok(count @ 1..=65_536) => it.samples = Some(count),
-            _ => notes.push(format!("`samples` are from 1 to 65536, not {samples}")),
+            _ => notes.push(format!("`samples` must be 1 to 65536, not {samples}")),
         }
     }
     if let Some(word) = take::<String>(&mut table, "tone", notes) {
         it.tone = TONES.value(&word);
         if it.tone.is_none() {
-            notes.push(format!("there is no tone curve `{word}`"));
+            notes.push(format!("unknown tone curve `{word}`"));
         }
     }
     if let Some(size) = take::<[f32; 2]>(&mut table, "window", notes) {
         match size.iter().all(|side| (50.0..=100_000.0).contains(side)) {
             true => it.window = Some(size),
-            false => notes.push("`window` is no size of a window".to_owned()),
+            false => notes.push("`window` is not a valid size".to_owned()),
         }
     }
     if let Some(position) = take::<[f32; 2]>(&mut table, "window_position", notes) {
         match position.iter().all(|at| at.abs() <= 100_000.0) {
             true => it.window_position = Some(position),
-            false => notes.push("`window_position` is no place on a desktop".to_owned()),
+            false => notes.push("`window_position` is not a valid position".to_owned()),
         }
     }
     if let Some(maximized) = take(&mut table, "maximized", notes) {
@@ -104,7 +104,7 @@ fn read_bindings(mut table: Table, notes: &mut Vec<String>) -> Bindings {
     let name = take::<String>(&mut table, "preset", notes);
     let preset = name.map_or(Preset::default(), |name| {
         Preset::from_name(&name).unwrap_or_else(|| {
-            notes.push(format!("there is no preset `{name}`"));
+            notes.push(format!("unknown preset `{name}`"));
             Preset::default()
         })
     });
@@ -121,7 +121,7 @@ fn read_bindings(mut table: Table, notes: &mut Vec<String>) -> Bindings {
 
 fn read_cameras(it: &mut Preferences, scene: String, list: Value, notes: &mut Vec<String>) {
     let Value::Array(list) = list else {
-        notes.push(format!("the cameras of `{scene}` are no list"));
+        notes.push(format!("the cameras of `{scene}` are not a list"));
         return;
     };
     let mut cameras = Vec::new();
@@ -142,7 +142,7 @@ fn take<T: DeserializeOwned>(table: &mut Table, name: &str, notes: &mut Vec<Stri
     match value.try_into() {
         Ok(value) => Some(value),
         Err(error) => {
-            let why = error.message().lines().next().unwrap_or("it is broken");
+            let why = error.message().lines().next().unwrap_or("invalid TOML");
             notes.push(format!("`{name}`: {why}"));
             None
         }
@@ -151,6 +151,6 @@ fn take<T: DeserializeOwned>(table: &mut Table, name: &str, notes: &mut Vec<Stri
 
 fn unknown(rest: &Table, notes: &mut Vec<String>) {
     for name in rest.keys() {
-        notes.push(format!("there is no setting `{name}`"));
+        notes.push(format!("unknown setting `{name}`"));
     }
 }

@@ -63,7 +63,7 @@ impl SavedCamera {
     pub(super) fn from_toml(value: Value) -> Result<Self, String> {
         let first = |error: toml::de::Error| {
             let message = error.message().lines().next();
-            message.unwrap_or("it is broken").to_owned()
+            message.unwrap_or("invalid TOML").to_owned()
         };
         let entry: Entry = value.try_into().map_err(first)?;
         let [look_from, look_at, up] =
@@ -71,14 +71,14 @@ impl SavedCamera {
         let forward = (look_at - look_from).try_normalize();
         let is_clear = forward.is_some_and(|f| f.cross(up.normalize_or_zero()).length() > 1e-9);
         if !is_clear {
-            return Err("it looks nowhere".to_owned());
+            return Err("its direction is undefined".to_owned());
         }
         if !(entry.fov_y > 0.0 && entry.fov_y < PI) {
-            return Err("`fov_y` is between 0 and pi".to_owned());
+            return Err("`fov_y` must be between 0 and pi".to_owned());
         }
         let is_size = |size: f64| size.is_finite() && size > 0.0;
         if !entry.orthographic.is_none_or(is_size) {
-            return Err("`orthographic` is more than 0".to_owned());
+            return Err("`orthographic` must be above 0".to_owned());
         }
         let lens = entry.lens.map(|lens| Lens {
             radius: lens.radius,
@@ -87,7 +87,7 @@ impl SavedCamera {
             blade_rotation: lens.blade_rotation,
         });
         if !lens.is_none_or(|lens| is_size(lens.radius) && is_size(lens.focus_distance)) {
-            return Err("its lens has no size".to_owned());
+            return Err("its lens must have a size above 0".to_owned());
         }
         Ok(Self {
             name: entry.name,

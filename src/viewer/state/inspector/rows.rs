@@ -1,4 +1,4 @@
-//! A ray tree as the lines of a list, of which some are shown; and what its bounces add up to.
+//! The rows of a ray tree, and the contribution of each bounce.
 
 use crate::render::{RayKind, SampleTree, TracedRay};
 use crate::viewer::state::inspector::Inspected;
@@ -6,17 +6,17 @@ use crate::viewer::state::inspector::words;
 use glam::{DVec3, Vec3};
 use std::collections::BTreeSet;
 
-/// A ray: place of its sample among those of the pixel, and its own in the sample.
+/// A ray: the index of its sample in the pixel, and its index in the sample.
 pub type RayId = (usize, usize);
 
-/// Which rays are shown.
+/// The filter of visible rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Filter {
-    /// Those of one sample, by its place; else of all.
+    /// The index of the only visible sample; `None` for all.
     pub sample: Option<usize>,
-    /// Those whose light was mirrored or refracted at most so often before.
+    /// Maximum number of bounces before a ray.
     pub bounces: u32,
-    /// Those to lights too.
+    /// Whether shadow rays are visible.
     pub shadows: bool,
 }
 
@@ -31,7 +31,7 @@ impl Default for Filter {
 }
 
 impl Filter {
-    /// Whether a ray is shown.
+    /// Whether a ray is visible.
     pub fn has(&self, inspected: &Inspected, (sample, ray): RayId) -> bool {
         let bounces = inspected.bounces[sample][ray];
         let kind = inspected.tree.samples[sample].rays[ray].kind;
@@ -40,7 +40,7 @@ impl Filter {
             && (self.shadows || kind != RayKind::Shadow)
     }
 
-    /// The samples that are shown.
+    /// The visible samples.
     pub fn samples(&self, inspected: &Inspected) -> std::ops::Range<usize> {
         match self.sample {
             Some(sample) => sample..sample + 1,
@@ -49,7 +49,7 @@ impl Filter {
     }
 }
 
-/// A line of the list.
+/// A row of the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Row {
     /// A sample's heading.
@@ -58,23 +58,23 @@ pub enum Row {
     Ray {
         /// Which.
         id: RayId,
-        /// How far it is set in.
+        /// Indentation level.
         level: usize,
-        /// Whether rays that it sent can be shown below it.
+        /// Whether it has visible children.
         has_children: bool,
     },
-    /// One of the things to tell about a ray.
+    /// A property of a ray.
     Detail {
-        /// Which ray.
+        /// The ray.
         id: RayId,
-        /// How far it is set in.
+        /// Indentation level.
         level: usize,
-        /// Which thing.
+        /// The index of the property.
         place: usize,
     },
 }
 
-/// The lines of the list, from the top.
+/// The rows of the list, from the top.
 pub fn rows(
     inspected: &Inspected,
     filter: &Filter,
@@ -88,7 +88,7 @@ pub fn rows(
             rows.push(Row::Sample(sample));
         }
         let rays = &inspected.tree.samples[sample].rays;
-        // Of its own, as a tree may be deep.
+        // An explicit stack, because a tree may be deep.
         let mut ahead = vec![(0, usize::from(has_headings))];
         while let Some((ray, level)) = ahead.pop() {
             let id = (sample, ray);
@@ -115,8 +115,7 @@ pub fn rows(
     rows
 }
 
-/// How often the light of each ray of a sample was mirrored or refracted before. A ray to a light counts
-/// as the one that sent it.
+/// The number of bounces before each ray of a sample. A shadow ray has the number of its parent.
 pub fn bounces(sample: &SampleTree) -> Vec<u32> {
     let mut bounces: Vec<u32> = Vec::with_capacity(sample.rays.len());
     for ray in &sample.rays {
@@ -127,7 +126,7 @@ pub fn bounces(sample: &SampleTree) -> Vec<u32> {
     bounces
 }
 
-/// What the rays of each bounce add, as linear radiance: of one sample, or of the pixel by the weights of
+/// The contribution of each bounce as linear radiance: of one sample, or of the pixel with the weights of
 /// its samples.
 pub fn by_bounce(inspected: &Inspected, sample: Option<usize>) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; inspected.max_bounces() as usize + 1];

@@ -1,4 +1,4 @@
-//! A ray in words: one line, and the things to tell about it.
+//! Describes a ray: a headline and its properties.
 
 use crate::app::ray_text::{color, kind, short, vector};
 use crate::render::{RayHit, RaySplit, RayTree, ShadowRay, TracedRay};
@@ -7,7 +7,7 @@ use crate::viewer::model::objects::Id;
 use crate::viewer::state::inspector::Inspected;
 use std::collections::BTreeSet;
 
-/// Everything that rays of a tree met, set out for or were in.
+/// All objects and materials that rays of a tree hit, target or pass through.
 pub fn met(tree: &RayTree) -> BTreeSet<Id> {
     let mut met = BTreeSet::new();
     for ray in tree.samples.iter().flat_map(|sample| &sample.rays) {
@@ -32,7 +32,7 @@ fn object(inspected: &Inspected, hit: &RayHit) -> String {
     }
 }
 
-/// What a ray is and what it met, in a few words.
+/// The headline of a ray.
 pub fn headline(inspected: &Inspected, ray: &TracedRay) -> String {
     let word = kind(ray.kind);
     match (&ray.shadow, &ray.hit) {
@@ -40,10 +40,10 @@ pub fn headline(inspected: &Inspected, ray: &TracedRay) -> String {
             let light = inspected.label(light_of(shadow));
             match hit {
                 Some(hit) if shadow.blocked => {
-                    format!("{light} hidden by {}", object(inspected, hit))
+                    format!("{light} blocked by {}", object(inspected, hit))
                 }
-                _ if shadow.blocked => format!("{light} gives nothing"),
-                _ if shadow.crossings == 1 => format!("{light} through a surface"),
+                _ if shadow.blocked => format!("{light} contributes nothing"),
+                _ if shadow.crossings == 1 => format!("{light} through 1 surface"),
                 _ if shadow.crossings > 1 => {
                     format!("{light} through {} surfaces", shadow.crossings)
                 }
@@ -51,11 +51,11 @@ pub fn headline(inspected: &Inspected, ray: &TracedRay) -> String {
             }
         }
         (None, Some(hit)) => format!("{word} hits {}", object(inspected, hit)),
-        (None, None) => format!("{word} hits nothing"),
+        (None, None) => format!("{word} hits background"),
     }
 }
 
-/// How long a ray is, in scene units; of one that goes on for ever an infinity sign.
+/// Length of a ray in scene units; an infinity sign for infinite rays.
 pub fn length(ray: &TracedRay) -> String {
     let to_light = (ray.shadow.as_ref()).filter(|shadow| !shadow.blocked);
     let distance = match (to_light, &ray.hit) {
@@ -66,10 +66,10 @@ pub fn length(ray: &TracedRay) -> String {
     distance.map_or("∞".to_owned(), short)
 }
 
-/// Everything to tell about a ray: what, and its value.
+/// The properties of a ray: name and value.
 pub fn details(inspected: &Inspected, ray: &TracedRay) -> Vec<(&'static str, String)> {
     let mut told = vec![
-        ("from", vector(ray.origin)),
+        ("origin", vector(ray.origin)),
         ("direction", vector(ray.direction)),
     ];
     if let Some(hit) = ray.hit.as_ref().filter(|_| ray.shadow.is_none()) {
@@ -80,13 +80,13 @@ pub fn details(inspected: &Inspected, ray: &TracedRay) -> Vec<(&'static str, Str
     }
     if !ray.media.is_empty() {
         let names = ray.media.iter().map(|&m| inspected.label(Id::Material(m)));
-        told.push(("inside of", names.collect::<Vec<_>>().join(", ")));
+        told.push(("inside", names.collect::<Vec<_>>().join(", ")));
     }
-    told.push(("share", color(ray.throughput)));
+    told.push(("throughput", color(ray.throughput)));
     if ray.arriving != ray.throughput {
-        told.push(("share at end", color(ray.arriving)));
+        told.push(("throughput at end", color(ray.arriving)));
     }
-    told.push(("adds", color(ray.contribution)));
+    told.push(("contribution", color(ray.contribution)));
     told
 }
 
@@ -97,14 +97,14 @@ fn surface(inspected: &Inspected, told: &mut Told, hit: &RayHit) {
     if let Some(ObjectRef::Instance(_)) = hit.object {
         told.push(("triangle", hit.primitive.to_string()));
     }
-    told.push(("at", vector(hit.position)));
+    told.push(("position", vector(hit.position)));
     told.push(("distance", short(hit.distance)));
     told.push(("normal", vector(hit.normal)));
     if hit.geometric_normal != hit.normal {
         told.push(("geometric normal", vector(hit.geometric_normal)));
     }
     let side = if hit.outside { "outside" } else { "inside" };
-    told.push(("met from", side.to_owned()));
+    told.push(("side", side.to_owned()));
     if let Some(material) = hit.material {
         let name = inspected.label(Id::Material(material));
         told.push(("material", name.to_owned()));
@@ -133,7 +133,7 @@ fn divides(told: &mut Told, split: &RaySplit) {
         told.push(("total reflection", "beyond the critical angle".to_owned()));
     }
     if !split.boundary {
-        told.push(("no boundary", "the medium goes on".to_owned()));
+        told.push(("no boundary", "same medium on both sides".to_owned()));
     } else if split.transparent {
         let [front, behind] = split.iors.map(short);
         told.push(("index of refraction", format!("{front} to {behind}")));
@@ -143,14 +143,14 @@ fn divides(told: &mut Told, split: &RaySplit) {
 fn light(inspected: &Inspected, told: &mut Told, shadow: &ShadowRay, hit: Option<&RayHit>) {
     told.push(("to", inspected.label(light_of(shadow)).to_owned()));
     let distance = shadow.distance.map_or("infinite".to_owned(), short);
-    told.push(("light's distance", distance));
+    told.push(("light distance", distance));
     if let Some(hit) = hit.filter(|_| shadow.blocked) {
         let blocked = format!("{} after {}", object(inspected, hit), short(hit.distance));
-        told.push(("hidden by", blocked));
+        told.push(("blocked by", blocked));
     }
     if shadow.crossings > 0 {
-        told.push(("surfaces met", shadow.crossings.to_string()));
+        told.push(("surfaces crossed", shadow.crossings.to_string()));
     }
-    told.push(("comes through", color(shadow.transmittance)));
-    told.push(("without shadow", color(shadow.unshadowed)));
+    told.push(("transmittance", color(shadow.transmittance)));
+    told.push(("unshadowed", color(shadow.unshadowed)));
 }

@@ -1,4 +1,4 @@
-//! Reading a scene and putting it on screen, for the first time or anew.
+//! Loads a scene and shows it.
 
 use crate::app::clock::Clock;
 use crate::app::error::AppError;
@@ -16,46 +16,46 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::SystemTime;
 
-/// What became of a scene that was read.
+/// The result of loading a scene.
 pub struct Opened {
     /// Its file.
     pub path: PathBuf,
-    /// Whether it was on screen already.
+    /// Whether it is a reload.
     pub again: bool,
-    /// The scene's file and those that it refers to, as far as they are known.
+    /// The scene's file and the files that it refers to, as far as known.
     pub files: Vec<PathBuf>,
-    /// When reading began.
+    /// When loading started.
     pub began: SystemTime,
     /// Whether it is shown, or why not.
     pub shown: Result<(), Trouble>,
 }
 
 impl Session {
-    /// Begins to read a scene; the one on screen stays until it is there.
+    /// Starts to load a scene; the current one stays until it is ready.
     pub fn open(&mut self, path: PathBuf) {
         self.left = self.scene().cloned();
         self.open_instead(path);
     }
 
-    /// The same in place of a scene that could not be read.
+    /// Starts to load another scene in place of one that cannot be read.
     pub fn open_instead(&mut self, path: PathBuf) {
         let is_own = self.path.as_ref() == Some(&path);
         self.load(path, false, is_own);
     }
 
-    /// Whether another scene is being read.
+    /// Whether another scene is loading.
     pub fn is_opening(&self) -> bool {
         self.loader.as_ref().is_some_and(|loader| !loader.again)
     }
 
-    /// Begins to read the scene on screen again; camera, look and time stay.
+    /// Reloads the current scene; camera, view settings and time are kept.
     pub fn reload(&mut self) {
         if let Some(path) = self.path.clone() {
             self.load(path, true, true);
         }
     }
 
-    /// `is_own`: what the command line says of a scene is meant for this one.
+    /// `is_own`: whether the flags of the command line apply to this scene.
     pub(super) fn load(&mut self, path: PathBuf, again: bool, is_own: bool) {
         let mut options = self.request.import.clone();
         if !is_own {
@@ -66,11 +66,13 @@ impl Session {
                 loader.is_own = is_own;
                 self.loader = Some(loader);
             }
-            Err(error) => self.messages.warn(format!("cannot read a scene: {error}.")),
+            Err(error) => self
+                .messages
+                .warn(format!("Cannot read the scene: {error}.")),
         }
     }
 
-    /// Shows a scene that was read, from its own camera and with its own settings.
+    /// Shows a loaded scene with its own camera and settings.
     pub(super) fn show(&mut self, original: Scene) -> Result<(), AppError> {
         let mut scene = original.clone();
         self.request.overrides.camera.apply(&mut scene)?;
@@ -90,14 +92,14 @@ impl Session {
         self.controller = Some(CameraController::new(&camera, scene.bounds()));
         self.selection = None;
         let inspector = std::mem::take(&mut self.inspector);
-        // A name that is being asked for is that of rays of before.
+        // A pending export belongs to rays of the previous scene.
         self.inspector.saving = inspector.saving;
         self.original = Some(Arc::new(original));
         self.document = Some(Document::new(scene));
         Ok(())
     }
 
-    /// Makes what the command line crops a region, which can be changed and ended.
+    /// Turns a crop of the command line into a region, which can be edited and cleared.
     fn crop(&mut self) {
         let size = self.view.settings.size;
         let crop = self.request.overrides.picture.crop;
@@ -115,20 +117,19 @@ impl Session {
             crop.map(|edges| std::array::from_fn(|edge| f64::from(edges[edge]) / lengths[edge]));
     }
 
-    /// How a picture of a scene is made before anything is changed: flags win over preferences, and
-    /// these over the scene.
+    /// The initial view settings of a scene: flags override preferences, which override the scene.
     fn settings_of(&self, output: &OutputDefaults) -> RenderSettings {
         let picture = &self.request.overrides.picture;
         let mut output = output.clone();
         output.samples = self.preferences.samples.unwrap_or(output.samples);
         RenderSettings {
-            // That is a region here.
+            // The crop becomes a region.
             crop: None,
             ..picture.settings(&output)
         }
     }
 
-    /// What the command line says of one scene means nothing in another.
+    /// Flags of one scene do not apply to another.
     fn forget_scene_overrides(&mut self) {
         let request = &mut self.request;
         request.overrides.camera = CameraOverrides::default();
@@ -136,7 +137,7 @@ impl Session {
         request.import.overrides.clear();
     }
 
-    /// Shows a scene that has been read since the last call. The outcome is for `actions::files`.
+    /// Shows a scene that has finished loading. `actions::files` handles the result.
     pub fn take_scene(&mut self) -> Option<Opened> {
         let loaded = self.loader.as_ref().and_then(Loader::outcome)?;
         let loader = self.loader.take()?;
@@ -169,16 +170,15 @@ impl Session {
         })
     }
 
-    /// Whether there are unsaved changes made since another scene began to be read: nobody was asked
-    /// about these.
+    /// Whether the current scene has been edited since another one started to load: the user was not asked
+    /// about those changes.
     fn has_more_changes(&mut self) -> bool {
         let left = self.left.take();
         let is_left = |scene: &Arc<Scene>| left.as_ref().is_some_and(|l| Arc::ptr_eq(l, scene));
         self.has_changes() && !self.scene().is_some_and(is_left)
     }
 
-    /// Shows the scene that is on screen as it was read anew. What the person has chosen stays, and
-    /// what was the scene's own follows it.
+    /// Shows a reloaded scene. The user's choices stay, and the scene's own values are updated.
     fn show_again(&mut self, scene: Scene) -> Result<(), AppError> {
         let (Some(before), Some(mut controller)) = (self.original.clone(), self.controller.clone())
         else {
@@ -194,7 +194,7 @@ impl Session {
             self.playback.follow(&scene);
             controller.set_bounds(scene.bounds());
             controller.set_home(&scene.frame(self.playback.time).camera);
-            // What was done before can still be taken back.
+            // Earlier steps can still be undone.
             document.reload(Scene::clone(&scene));
             self.document = Some(document);
         }

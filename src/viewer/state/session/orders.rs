@@ -1,4 +1,4 @@
-//! The pictures that the session wants.
+//! The render requests of the session.
 
 use super::Session;
 use crate::render::{Antialias, Integrator, RenderSettings};
@@ -6,11 +6,11 @@ use crate::viewer::worker::progressive_image::PictureSlot;
 use crate::viewer::worker::render_thread::RenderRequests;
 use crate::viewer::worker::request::RenderRequest;
 
-/// Samples of the picture behind them.
+/// Samples per pixel of the ray view.
 const SAMPLES: u32 = 4;
 
 impl Session {
-    /// The pictures that are wanted now.
+    /// The current render requests.
     pub fn orders(&self) -> RenderRequests {
         let mut orders = RenderRequests {
             coarse: self.is_moving(),
@@ -40,7 +40,7 @@ impl Session {
         })
     }
 
-    /// The order for the picture behind the rays, while it is visible.
+    /// The request of the ray view while it is visible.
     pub fn outside_order(&self) -> Option<RenderRequest> {
         let outside = &self.inspector.outside;
         let (controller, size) = (outside.controller.as_ref()?, outside.shown?);

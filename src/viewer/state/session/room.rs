@@ -1,32 +1,32 @@
-//! Room for the picture: taken up when the picture begins, so that what was gathered outlasts a window of
-//! another size or scale.
+//! The size of the picture panel. A picture in progress keeps its size, so that its samples outlast a resize
+//! of the window.
 
 use crate::viewer::state::session::Session;
 use crate::viewer::worker::request::RenderRequest;
 
-/// Seconds of tracing that are not thrown away because there is other room now.
+/// Seconds of tracing beyond which a resize does not restart the picture.
 const WORTH_KEEPING: f64 = 2.0;
 
-/// How much room there is, and how much of it the picture has.
+/// The size of the panel, and the size that the picture uses.
 #[derive(Default)]
 pub(super) struct Room {
-    /// Taken by the picture that is under way, in pixels.
+    /// The size of the current picture, in pixels.
     pub taken: (u32, u32),
-    /// What was ordered for it last.
+    /// Its last request.
     ordered: Option<RenderRequest>,
-    /// Seconds of tracing in that picture so far.
+    /// Its seconds of tracing so far.
     spent: f64,
     is_told: bool,
 }
 
 impl Session {
-    /// The seconds of tracing in the picture so far; 0 while it is coarse.
+    /// Sets the seconds of tracing so far; 0 for a preview.
     pub fn set_spent(&mut self, seconds: f64) {
         self.room.spent = seconds;
     }
 
-    /// Room for pictures, in pixels. One that fits the window takes it when it begins, or if little is lost
-    /// by beginning again.
+    /// Sets the size of the panel, in pixels. A picture that fits the panel adopts it when it starts, or if
+    /// restarting loses little.
     pub fn set_space(&mut self, pixels: (u32, u32)) {
         if self.room.taken != pixels && !self.is_worth_keeping() {
             self.room.taken = pixels;
@@ -35,8 +35,7 @@ impl Session {
         if is_kept && !self.room.is_told {
             let (width, height) = self.room.taken;
             self.messages.tell(format!(
-                "The picture keeps its {width}×{height} pixels and its samples. Started again, it takes \
-                 the room that there is now."
+                "Showing {width}×{height}. Restart rendering to fit the panel."
             ));
         }
         self.room.is_told = is_kept;

@@ -1,28 +1,30 @@
-//! The sheet of all bindings: made from the table, searched, and changed.
+//! The dialog of keyboard shortcuts: generated from the table, with a search, editable.
 
 use crate::viewer::actions::dialogs;
 use crate::viewer::model::bindings::{Action, Category, Manner, Mods, Preset, Trigger, zooms};
+use crate::viewer::model::messages::sentence;
 use crate::viewer::state::dialogs::Capture;
 use crate::viewer::state::session::Session;
 use eframe::egui::{
     self, Align, Button, Event, Key, Label, Layout, Pos2, Rect, RichText, TextEdit, Ui, Vec2, vec2,
 };
 
-/// A small button of a row, and what is between two, in points.
+/// Size of the small buttons of a row, and the gap between them, in points.
 const SMALL: Vec2 = vec2(24.0, 18.0);
 const GAP: f32 = 4.0;
 
-/// Draws it. Whether it stays.
+/// Draws the dialog. Returns whether it stays open.
 pub fn show(ctx: &egui::Context, session: &mut Session) -> bool {
     capture(ctx, session);
-    let stays = crate::viewer::ui::dialogs::window(ctx, "Bindings", vec2(620.0, 520.0), |ui| {
-        head(ui, session);
-        ui.separator();
-        let search = session.dialogs.bindings.search.to_lowercase();
-        egui::ScrollArea::vertical()
-            .auto_shrink([false, false])
-            .show(ui, |ui| table(ui, session, &search));
-    });
+    let stays =
+        crate::viewer::ui::dialogs::window(ctx, "Keyboard shortcuts", vec2(620.0, 520.0), |ui| {
+            head(ui, session);
+            ui.separator();
+            let search = session.dialogs.bindings.search.to_lowercase();
+            egui::ScrollArea::vertical()
+                .auto_shrink([false, false])
+                .show(ui, |ui| table(ui, session, &search));
+        });
     if !stays {
         session.dialogs.bindings.capture = None;
     }
@@ -35,7 +37,7 @@ fn head(ui: &mut Ui, session: &mut Session) {
         let field = TextEdit::singleline(search)
             .hint_text("Search")
             .desired_width(200.0);
-        ui.add(field).accessible_name("Search bindings");
+        ui.add(field).accessible_name("Search shortcuts");
         let mut preset = session.preferences.bindings.preset();
         egui::ComboBox::from_label("Preset")
             .selected_text(preset.title())
@@ -51,7 +53,7 @@ fn head(ui: &mut Ui, session: &mut Session) {
             let has_changes = !session.preferences.bindings.changes().is_empty();
             let button = ui.add_enabled(has_changes, Button::new("Reset all"));
             if button
-                .on_hover_text("Take back the preset's bindings")
+                .on_hover_text("Restore the preset's shortcuts")
                 .clicked()
             {
                 session.preferences.bindings.reset_all();
@@ -63,7 +65,7 @@ fn head(ui: &mut Ui, session: &mut Session) {
     for conflict in conflicts.iter().take(3) {
         let [first, second] = conflict.actions.map(Action::description);
         let trigger = conflict.trigger.label(cfg!(target_os = "macos"));
-        let text = format!("{trigger} is twice in the table: {first} (this counts), {second}");
+        let text = format!("{trigger} is assigned twice: {first} (takes effect), {second}");
         ui.colored_label(ui.visuals().warn_fg_color, text);
     }
 }
@@ -88,11 +90,11 @@ fn table(ui: &mut Ui, session: &mut Session, search: &str) {
     }
     if is_empty {
         ui.add_space(12.0);
-        ui.weak("No command has these words.");
+        ui.weak("No matching commands.");
     }
 }
 
-/// Whether all words are in what a command does, in its name, its place or its keys.
+/// Whether the description, name, category or shortcuts of a command contain all words.
 fn matches(session: &Session, action: Action, search: &str) -> bool {
     let text = format!(
         "{} {} {} {}",
@@ -109,7 +111,7 @@ fn row(ui: &mut Ui, session: &mut Session, action: Action) {
     let what = action.description();
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = GAP;
-        // A row that is wider than there is room for would make all those below wider.
+        // A row wider than the dialog would widen all rows below.
         let width = ui.available_width();
         let size = vec2(width * 0.58, ui.spacing().interact_size.y);
         let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
@@ -137,8 +139,8 @@ fn row(ui: &mut Ui, session: &mut Session, action: Action) {
         let width = (ui.available_width() - 3.0 * (SMALL.x + GAP)).max(40.0);
         let button = Button::new(text).truncate();
         let hover = match label.is_empty() {
-            true => "Bind it".to_owned(),
-            false => format!("{label}: change it"),
+            true => "Assign a shortcut".to_owned(),
+            false => format!("Change {label}"),
         };
         let place = ui.add_sized(vec2(width, SMALL.y), button);
         if named(place, "Change", what).on_hover_text(hover).clicked() {
@@ -151,7 +153,7 @@ fn row(ui: &mut Ui, session: &mut Session, action: Action) {
         };
         let more = small(ui, true, "+");
         if named(more, "Add to", what)
-            .on_hover_text("One more way to give it")
+            .on_hover_text("Add another shortcut")
             .clicked()
         {
             session.dialogs.bindings.capture = Some(begin(true));
@@ -159,15 +161,15 @@ fn row(ui: &mut Ui, session: &mut Session, action: Action) {
         }
         let none = small(ui, !label.is_empty(), "×");
         if named(none, "Unbind", what)
-            .on_hover_text("Bind it to nothing")
+            .on_hover_text("Remove the shortcut")
             .clicked()
         {
-            // Nothing suits every command.
+            // An empty list suits every command.
             let _ = session.preferences.bindings.set(action, Vec::new());
         }
         let reset = small(ui, is_changed, "↺");
         if named(reset, "Reset", what)
-            .on_hover_text("As the preset has it")
+            .on_hover_text("Restore the preset's shortcut")
             .clicked()
         {
             session.preferences.bindings.reset(action);
@@ -176,7 +178,7 @@ fn row(ui: &mut Ui, session: &mut Session, action: Action) {
     if let Some((refused, why)) = &session.dialogs.bindings.refusal
         && *refused == action
     {
-        ui.colored_label(ui.visuals().error_fg_color, why);
+        ui.colored_label(ui.visuals().error_fg_color, sentence(why));
     }
 }
 
@@ -184,22 +186,22 @@ fn named(response: egui::Response, verb: &str, what: &str) -> egui::Response {
     response.accessible_name(format!("{verb}: {what}"))
 }
 
-/// The place where the new key is waited for.
+/// The field that waits for the new trigger.
 fn awaiting(ui: &mut Ui, session: &mut Session, mut capture: Capture) {
     let text = match capture.action.manner() {
         Manner::Press => "Press a key, or click here",
-        Manner::Hold => "Press the key to be held",
+        Manner::Hold => "Press the key to hold",
         Manner::Motion if zooms(capture.action) => "Press a button or turn the wheel here",
         Manner::Motion => "Press a button here",
     };
     let button = Button::new(RichText::new(text).italics());
     let response = ui.add_enabled(false, button);
-    ui.weak("Escape: leave it");
+    ui.weak("Escape cancels");
     capture.place = Some(response.rect);
     session.dialogs.bindings.capture = Some(capture);
 }
 
-/// Takes the key that is waited for.
+/// Captures the new trigger.
 fn capture(ctx: &egui::Context, session: &mut Session) {
     let Some(mut capture) = session.dialogs.bindings.capture else {
         return;
@@ -224,7 +226,7 @@ fn capture(ctx: &egui::Context, session: &mut Session) {
     }
 }
 
-/// What an event binds a command to; `Some(None)` is Escape, which leaves it as it is.
+/// The trigger of an event; `Some(None)` is Escape, which cancels.
 fn trigger(
     event: &Event,
     manner: Manner,
@@ -253,7 +255,7 @@ fn trigger(
             modifiers,
             ..
         } => key(Mods::from(*modifiers), *pressed),
-        // The window system's own words for three keys, which come instead of them.
+        // The window system sends these events instead of three of the shortcuts.
         Event::Copy => key(command, Key::C),
         Event::Cut => key(command, Key::X),
         Event::Paste(_) => key(command, Key::V),
@@ -267,7 +269,7 @@ fn trigger(
             Manner::Motion => Some(Some(Trigger::Drag(Mods::from(*modifiers), *button))),
             Manner::Hold => None,
         },
-        // A click elsewhere leaves it too.
+        // A click elsewhere cancels too.
         Event::PointerButton { pressed: true, .. } => Some(None),
         Event::MouseWheel { modifiers, .. }
             if manner == Manner::Motion && pointer.is_some_and(is_in_place) =>

@@ -1,21 +1,21 @@
-//! What to do first.
+//! The hint of the first run.
 
 use crate::viewer::model::bindings::Action;
 use crate::viewer::state::dialogs::Dialog;
 use crate::viewer::state::session::Session;
 use eframe::egui::{self, Align2, Grid, RichText};
 
-/// What is worth knowing, in the order in which one needs it.
+/// The first commands to learn.
 const FIRST: [(Action, &str); 6] = [
-    (Action::Orbit, "go round"),
-    (Action::Pan, "shift"),
-    (Action::Zoom, "come nearer"),
-    (Action::SetPivot, "go round what is there"),
-    (Action::FrameAll, "see all of it"),
-    (Action::Help, "all bindings"),
+    (Action::Orbit, "Orbit"),
+    (Action::Pan, "Pan"),
+    (Action::Zoom, "Zoom"),
+    (Action::SetPivot, "Set the pivot under the cursor"),
+    (Action::FrameAll, "Frame the whole scene"),
+    (Action::Help, "Show keyboard shortcuts"),
 ];
 
-/// Draws it. Whether it stays.
+/// Draws the dialog. Returns whether it stays open.
 pub fn show(ctx: &egui::Context, session: &mut Session) -> bool {
     let mut stays = true;
     let opens = egui::Window::new("First steps")
@@ -35,15 +35,15 @@ pub fn show(ctx: &egui::Context, session: &mut Session) -> bool {
                             ui.end_row();
                         }
                     }
-                    ui.label(RichText::new("drop a file").strong());
-                    ui.label("open a scene, a model or a picture of the surroundings");
+                    ui.label(RichText::new("Drop a file").strong());
+                    ui.label("Open a scene, a model or an environment image");
                     ui.end_row();
                 });
             ui.add_space(4.0);
             ui.horizontal(|ui| {
                 stays = !ui.button("Got it").clicked();
-                ui.button("Other hands…")
-                    .on_hover_text("Blender's or Maya's bindings")
+                ui.button("Blender or Maya controls…")
+                    .on_hover_text("Choose the shortcuts of Blender or Maya")
                     .clicked()
             })
             .inner

@@ -1,14 +1,14 @@
-//! All that was told.
+//! The list of all messages.
 
 use crate::viewer::state::session::Session;
 use eframe::egui::{self, Label, RichText, vec2};
 
-/// Draws it. Whether it stays.
+/// Draws the dialog. Returns whether it stays open.
 pub fn show(ctx: &egui::Context, session: &mut Session) -> bool {
-    crate::viewer::ui::dialogs::window(ctx, "What happened", vec2(520.0, 360.0), |ui| {
+    crate::viewer::ui::dialogs::window(ctx, "Messages", vec2(520.0, 360.0), |ui| {
         let messages = session.messages.all();
         if messages.is_empty() {
-            ui.weak("Nothing yet.");
+            ui.weak("No messages yet.");
         }
         egui::ScrollArea::vertical()
             .auto_shrink([false, true])

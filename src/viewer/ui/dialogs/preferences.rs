@@ -1,4 +1,4 @@
-//! The preferences: how the window looks, whose hands it serves, and what scenes begin with.
+//! The preferences: theme, interface scale, shortcuts, and defaults of new scenes.
 
 use crate::app::words::TONES;
 use crate::scene::ToneCurve;
@@ -9,10 +9,10 @@ use crate::viewer::state::layout::Layout;
 use crate::viewer::state::session::Session;
 use eframe::egui::{self, ComboBox, DragValue, Grid, Slider, vec2};
 
-/// What scenes get where they are to get samples of the person's choice.
+/// Default when the user overrides a scene's samples.
 const SAMPLES: u32 = 16;
 
-/// Draws it. Whether it stays.
+/// Draws the dialog. Returns whether it stays open.
 pub fn show(ctx: &egui::Context, session: &mut Session, layout: &mut Layout) -> bool {
     let mut is_resetting = session.dialogs.is_resetting;
     let mut is_reset = false;
@@ -27,22 +27,22 @@ pub fn show(ctx: &egui::Context, session: &mut Session, layout: &mut Layout) -> 
             });
         ui.separator();
         match session.store.path() {
-            Some(path) => ui.weak(format!("Kept in {}", path.display())),
-            None => ui.weak("Kept nowhere: there is no home folder."),
+            Some(path) => ui.weak(format!("Saved in {}", path.display())),
+            None => ui.weak("Not saved: there is no home folder."),
         };
         ui.add_space(4.0);
         if is_resetting {
-            ui.label("Everything: bindings, panels, recent files, kept cameras?");
+            ui.label("Reset everything, including shortcuts, panels, recent files and bookmarks?");
             ui.horizontal(|ui| {
                 is_reset = ui.button("Reset everything now").clicked();
-                if ui.button("Keep everything").clicked() || is_reset {
+                if ui.button("Cancel").clicked() || is_reset {
                     is_resetting = false;
                 }
             });
         } else {
             let button = ui.button("Reset everything…");
             is_resetting = button
-                .on_hover_text("The old settings file is kept under another name")
+                .on_hover_text("The old settings file is kept as a backup")
                 .clicked();
         }
     });
@@ -53,14 +53,12 @@ pub fn show(ctx: &egui::Context, session: &mut Session, layout: &mut Layout) -> 
     stays
 }
 
-/// Everything as on the first day.
+/// Resets all settings.
 pub fn reset(session: &mut Session, layout: &mut Layout) {
     match session.store.reset() {
         Ok(preferences) => {
             session.preferences = preferences;
-            session
-                .messages
-                .tell("all settings are as on the first day");
+            session.messages.tell("All settings were reset");
         }
         Err(why) => {
             session.preferences = Default::default();
@@ -77,7 +75,7 @@ fn appearance(ui: &mut egui::Ui, session: &mut Session) {
     ui.horizontal(|ui| {
         for theme in Theme::ALL {
             let text = match theme {
-                Theme::System => "As the desktop",
+                Theme::System => "Follow the system",
                 Theme::Dark => "Dark",
                 Theme::Light => "Light",
             };
@@ -90,11 +88,12 @@ fn appearance(ui: &mut egui::Ui, session: &mut Session) {
     let slider = Slider::new(&mut percent, 50.0..=400.0)
         .step_by(5.0)
         .suffix(" %");
-    // Its number is labelled by the slider, which needs a name of its own for that.
+    // The slider labels its number, but needs a name of its own for that.
     let slider = ui.add(slider.logarithmic(true)).accessible_name("Scale");
-    // While it is dragged the scale of what is dragged must not change.
-    let slider =
-        slider.on_hover_text("Size of everything but the picture, in percent of the screen's own");
+    // Applied after the drag: scaling the slider during the drag would feed back.
+    let slider = slider.on_hover_text(
+        "Interface zoom relative to the screen's scale, in percent. The picture is not scaled",
+    );
     let id = ui.scope_id().with("scale");
     if slider.dragged() {
         ui.data_mut(|data| data.insert_temp(id, percent));
@@ -107,7 +106,7 @@ fn appearance(ui: &mut egui::Ui, session: &mut Session) {
 }
 
 fn hands(ui: &mut egui::Ui, session: &mut Session) {
-    ui.label("Bindings");
+    ui.label("Keyboard shortcuts");
     ui.horizontal(|ui| {
         let mut preset = session.preferences.bindings.preset();
         for other in Preset::ALL {
@@ -116,7 +115,11 @@ fn hands(ui: &mut egui::Ui, session: &mut Session) {
         if preset != session.preferences.bindings.preset() {
             session.preferences.bindings.set_preset(preset);
         }
-        if ui.button("Change…").on_hover_text("All bindings").clicked() {
+        if ui
+            .button("Change…")
+            .on_hover_text("Show all keyboard shortcuts")
+            .clicked()
+        {
             session.dialogs.open(Dialog::Shortcuts);
         }
     });
@@ -127,7 +130,7 @@ fn defaults(ui: &mut egui::Ui, session: &mut Session) {
     let preferences = &mut session.preferences;
     ui.label("Samples");
     ui.horizontal(|ui| {
-        ui.radio_value(&mut preferences.samples, None, "As the scene says");
+        ui.radio_value(&mut preferences.samples, None, "From the scene");
         let mut is_own = preferences.samples.is_some();
         if ui.radio(is_own, "Always").clicked() {
             preferences.samples = Some(SAMPLES);
@@ -137,7 +140,7 @@ fn defaults(ui: &mut egui::Ui, session: &mut Session) {
         let field = DragValue::new(&mut samples).range(1..=65_536);
         let response = ui.add_enabled(is_own, field).accessible_name("Samples");
         if response
-            .on_hover_text("Samples per pixel, in scenes opened from now on")
+            .on_hover_text("Samples per pixel for scenes opened from now on")
             .changed()
         {
             preferences.samples = Some(samples);
@@ -146,7 +149,7 @@ fn defaults(ui: &mut egui::Ui, session: &mut Session) {
     ui.end_row();
     let label = ui.label("Tone curve");
     let name = |tone: Option<ToneCurve>| match tone {
-        None => "as the scene says",
+        None => "From the scene",
         Some(curve) => TONES.word(&curve),
     };
     let response = ComboBox::from_id_salt("tone")
@@ -162,7 +165,7 @@ fn defaults(ui: &mut egui::Ui, session: &mut Session) {
                 ui.selectable_value(&mut preferences.tone, Some(curve), name(Some(curve)));
             }
         });
-    let hover = "Of scenes opened from now on";
+    let hover = "For scenes opened from now on";
     response.response.labelled_by(label.id).on_hover_text(hover);
     ui.end_row();
 }

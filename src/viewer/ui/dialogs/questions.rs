@@ -1,4 +1,4 @@
-//! What must be answered before something happens: a name, or what becomes of unsaved changes.
+//! Questions that must be answered first: file names and unsaved changes.
 
 use crate::output::Format;
 use crate::viewer::actions::files;
@@ -10,15 +10,15 @@ use crate::viewer::worker::progressive_image::PictureSlot;
 use eframe::egui::{self, Align2, Button, Key, Modal, RichText, Slider, TextEdit, Ui, vec2};
 use std::path::PathBuf;
 
-/// What a person wants done about unsaved changes.
+/// The user's decision about unsaved changes.
 pub enum Choice {
-    /// Save them and then do it.
+    /// Save, then continue.
     Save(Intent),
-    /// Do it all the same.
+    /// Continue without saving.
     GoOn(Intent),
 }
 
-/// A path to be opened, typed.
+/// The dialog for a typed path to open.
 pub fn typed(ctx: &egui::Context, session: &mut Session) {
     let Some(mut text) = session.files.typed.take() else {
         return;
@@ -26,7 +26,7 @@ pub fn typed(ctx: &egui::Context, session: &mut Session) {
     let mut path = None;
     let stays = crate::viewer::ui::dialogs::window(ctx, "Open a path", vec2(440.0, 90.0), |ui| {
         let field = TextEdit::singleline(&mut text)
-            .hint_text("a scene, a folder of scenes, or a picture of the surroundings")
+            .hint_text("A scene, a folder of scenes, or an environment image")
             .desired_width(f32::INFINITY);
         let field = ui.add(field).accessible_name("Path");
         if text.is_empty() && !field.has_focus() {
@@ -47,14 +47,14 @@ pub fn typed(ctx: &egui::Context, session: &mut Session) {
     }
 }
 
-/// What the person wants of a picture that is to be saved.
+/// The user's choice in the save dialog.
 #[derive(Clone, Copy, PartialEq)]
 enum Wish {
     Browse,
     Save { waits: bool },
 }
 
-/// The picture that is to be saved.
+/// The dialog for saving the picture.
 pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
     let progress = context.shown(PictureSlot::Main).map(|shown| shown.progress);
     let (width, height) = pictures::size(context.session);
@@ -77,9 +77,7 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
                 field.request_focus();
             }
             is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            let button = ui
-                .button("Browse…")
-                .on_hover_text("Ask the desktop for a name");
+            let button = ui.button("Browse…").on_hover_text("Choose a file");
             if button.clicked() {
                 wish = Some(Wish::Browse);
             }
@@ -95,7 +93,7 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
                         ui.label(format!("{}, {width} × {height} pixels", target.format));
                     }
                     if target.format.is_linear() {
-                        ui.weak("linear light, without exposure and tone curve");
+                        ui.weak("linear radiance, without exposure or tone mapping");
                     }
                     if target.format == Format::Jpeg {
                         let slider = Slider::new(&mut sheet.quality, 1..=100).text("Quality");
@@ -104,7 +102,7 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
                     }
                 });
                 if sheet.must_ask(target) {
-                    let text = "There is a file of that name; it would be replaced.";
+                    let text = "A file with this name exists and will be replaced.";
                     ui.colored_label(ui.visuals().warn_fg_color, text);
                 }
             }
@@ -112,7 +110,7 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
         let is_done = progress.is_some_and(|progress| progress.is_done);
         if let Some(progress) = progress.filter(|_| !is_done && !sheet.overlays) {
             ui.label(format!(
-                "The picture has {} of {} samples so far.",
+                "{} of {} samples so far.",
                 progress.samples, progress.target
             ));
         }
@@ -124,7 +122,7 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
                 false => ("Save", "Save when finished"),
             };
             let is_now = ui.add_enabled(target.is_ok(), Button::new(now)).clicked();
-            // What would replace a file takes more than a key.
+            // Replacing a file requires a click, not just Enter.
             if is_now || is_entered && target.is_ok() && !replaces {
                 wish = Some(Wish::Save { waits: false });
             }
@@ -144,38 +142,38 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
     }
 }
 
-/// What becomes of unsaved changes.
+/// The question about unsaved changes.
 pub fn undecided(ctx: &egui::Context, session: &mut Session) -> Option<Choice> {
     let intent = session.files.undecided.clone()?;
     let name = session.title();
     let (what, lose, keep) = match &intent {
         Intent::Close => (
-            format!("There are unsaved changes in {name}."),
+            format!("{name} has unsaved changes."),
             "Close without saving",
-            "Go on working",
+            "Cancel",
         ),
         Intent::CloseUnfinished => (
-            "A picture is still to be saved when it is finished.".to_owned(),
-            "Close without that picture",
-            "Go on rendering",
+            "A picture is still waiting to be saved when it is finished.".to_owned(),
+            "Close without saving it",
+            "Continue rendering",
         ),
         Intent::Open(path) => (
             format!(
-                "There are unsaved changes in {name}, and {} is to be opened.",
+                "{name} has unsaved changes. Save them before opening {}?",
                 files::short(path)
             ),
             "Open without saving",
-            "Go on working",
+            "Cancel",
         ),
         Intent::Reload => (
-            format!("There are unsaved changes in {name}, which is to be read again."),
-            "Read it, without my changes",
-            "Keep my changes",
+            format!("{name} has unsaved changes. Reloading discards them."),
+            "Reload",
+            "Cancel",
         ),
         Intent::Follow => (
-            format!("{name} has changed on the disk, and there are unsaved changes here."),
-            "Read it, without my changes",
-            "Keep my changes",
+            format!("{name} has changed on disk and has unsaved changes here."),
+            "Reload",
+            "Cancel",
         ),
     };
     let mut choice = None;
@@ -186,7 +184,7 @@ pub fn undecided(ctx: &egui::Context, session: &mut Session) -> Option<Choice> {
         ui.add_space(8.0);
         ui.horizontal(|ui| {
             let has_changes = intent != Intent::CloseUnfinished;
-            if has_changes && ui.button("Save them").clicked() {
+            if has_changes && ui.button("Save").clicked() {
                 choice = Some(Choice::Save(intent.clone()));
                 is_over = true;
             }
@@ -202,7 +200,7 @@ pub fn undecided(ctx: &egui::Context, session: &mut Session) -> Option<Choice> {
     choice
 }
 
-/// Says what a file may be dropped for, while one is held over the window.
+/// Explains what can be dropped while a file is held over the window.
 pub fn hovering(ctx: &egui::Context) {
     if ctx.input(|input| input.raw.hovered_files.is_empty()) {
         return;
@@ -217,9 +215,9 @@ pub fn hovering(ctx: &egui::Context) {
             let stroke = egui::Stroke::new(3.0, ui.visuals().selection.stroke.color);
             painter.rect_stroke(room.shrink(2.0), 4.0, stroke, egui::StrokeKind::Inside);
             egui::Frame::popup(ui.style()).show(ui, |ui| {
-                ui.heading("Drop it here");
-                ui.label("A scene, a model or a folder is opened.");
-                ui.label("A picture becomes the surroundings.");
+                ui.heading("Drop to open");
+                ui.label("Scenes, models and folders are opened.");
+                ui.label("An image becomes the environment.");
             });
         });
 }

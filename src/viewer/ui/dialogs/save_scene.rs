@@ -1,19 +1,19 @@
-//! Asks where to save the scene.
+//! The dialog for saving the scene.
 
 use crate::viewer::actions::saving::{is_own, target, write};
 use crate::viewer::ui::context::PanelContext;
 use eframe::egui::{self, Button, Ui};
 
-/// Tells what is in the way of a name, or what becomes of it.
+/// Shows why a name is invalid, or what saving will do.
 fn say(ui: &mut Ui, trouble: Option<&str>, is_named: bool, (is_there, is_ours): (bool, bool)) {
     let note = match (is_there, is_ours) {
         (true, false) => {
-            "This file is there: it will be written anew, without its comments and its order."
+            "This file exists and will be rewritten. Its comments and order will be lost."
         }
-        (true, true) => "This file was saved from here before.",
-        _ => "A native scene (.toml); meshes and pictures go into files beside it.",
+        (true, true) => "This file was saved from this window.",
+        _ => "A native scene (.toml). Meshes and images are saved as files next to it.",
     };
-    let trouble = trouble.or((!is_named).then_some("Type a name, such as scene.toml."));
+    let trouble = trouble.or((!is_named).then_some("Enter a name, such as scene.toml."));
     ui.add_space(4.0);
     match trouble {
         Some(trouble) => ui.colored_label(ui.visuals().error_fg_color, trouble),
@@ -22,7 +22,7 @@ fn say(ui: &mut Ui, trouble: Option<&str>, is_named: bool, (is_there, is_ours): 
     ui.add_space(8.0);
 }
 
-/// The question where to save, over the window, while it is asked.
+/// Draws the dialog while it is open.
 pub fn show(ui: &mut egui::Ui, context: &mut PanelContext) {
     let session = &mut *context.session;
     let Some(mut saving) = session.editing.saving.take() else {
@@ -55,7 +55,7 @@ pub fn show(ui: &mut egui::Ui, context: &mut PanelContext) {
         let mut is_open = true;
         ui.horizontal(|ui| {
             let is_clicked = ui.add_enabled(path.is_some(), Button::new(verb)).clicked();
-            // What would replace a person's own file takes more than a key.
+            // Replacing another file requires a click, not just Enter.
             let is_wanted = is_clicked || is_entered && (!is_there || is_ours);
             if let Some(path) = path.filter(|_| is_wanted) {
                 match write(session, &path) {

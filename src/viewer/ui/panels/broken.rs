@@ -1,13 +1,14 @@
-//! What is wrong with the scene's file, until it is mended: the last good picture stays below.
+//! Shows the error of a scene that cannot be read, above the last valid picture.
 
 use crate::viewer::actions::files;
 use crate::viewer::model::loader::SourceLine;
+use crate::viewer::model::messages::sentence;
 use crate::viewer::state::files::Intent;
 use crate::viewer::ui::context::PanelContext;
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, Color32, FontId, RichText, Stroke, Ui};
 
-/// A bar with the message, the line at fault and what can be done.
+/// A bar with the message, the line with the error and possible actions.
 pub fn broken(ui: &mut Ui, context: &mut PanelContext) {
     let Some(broken) = context.session.files.broken.clone() else {
         return;
@@ -18,7 +19,8 @@ pub fn broken(ui: &mut Ui, context: &mut PanelContext) {
         ui.horizontal_wrapped(|ui| {
             let color = ui.visuals().error_fg_color;
             ui.label(RichText::new("!").color(color));
-            ui.add(egui::Label::new(RichText::new(&broken.trouble.message).color(color)).wrap());
+            let message = sentence(&broken.trouble.message);
+            ui.add(egui::Label::new(RichText::new(message).color(color)).wrap());
         });
         if let Some(line) = &broken.trouble.line {
             let job = source(line, ui);
@@ -28,10 +30,10 @@ pub fn broken(ui: &mut Ui, context: &mut PanelContext) {
                 .show(ui, |ui| ui.add(egui::Label::new(job).extend()));
         }
         ui.horizontal(|ui| {
-            if is_shown && ui.button("Read it again").clicked() {
+            if is_shown && ui.button("Reload").clicked() {
                 files::intend(context.session, Intent::Reload);
             }
-            if ui.button("Copy the message").clicked() {
+            if ui.button("Copy message").clicked() {
                 ui.ctx().copy_text(broken.trouble.message.clone());
             }
             if ui.button("Dismiss").clicked() {
@@ -39,8 +41,8 @@ pub fn broken(ui: &mut Ui, context: &mut PanelContext) {
             }
             if is_shown {
                 let text = match context.session.scene() {
-                    Some(_) => "The last good picture stays; the scene is read again when the file changes.",
-                    None => "The scene is read again when the file changes.",
+                    Some(_) => "The last valid picture stays visible. The scene reloads when the file changes.",
+                    None => "The scene reloads when the file changes.",
                 };
                 ui.weak(text);
             }
@@ -49,7 +51,7 @@ pub fn broken(ui: &mut Ui, context: &mut PanelContext) {
     });
 }
 
-/// The line with its number, what is at fault underlined.
+/// The line with its number, the error underlined.
 fn source(line: &SourceLine, ui: &Ui) -> LayoutJob {
     let visuals = ui.visuals();
     let font = FontId::monospace(egui::TextStyle::Monospace.resolve(ui.style()).size);
@@ -71,7 +73,7 @@ fn source(line: &SourceLine, ui: &Ui) -> LayoutJob {
     );
     let part = |range| line.text.get(range).unwrap_or_default();
     job.append(part(0..line.span.start), 0.0, plain.clone());
-    // What is missing at a line's end has no width.
+    // An error at the end of a line has no width.
     match line.span.is_empty() {
         true => job.append("^", 0.0, fault),
         false => job.append(part(line.span.clone()), 0.0, fault),

@@ -1,27 +1,27 @@
-//! Small signs for kinds of things, painted, so that no font has to have them; and names of widgets.
+//! Icons for kinds of objects, painted because fonts lack them; and accessible names of widgets.
 
 use crate::scene::{CanonicalShape, Geometry, LightKind, ObjectRef, Scene};
 use crate::viewer::model::objects::Id;
 use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke, vec2};
 use glam::Vec3;
 
-/// What screen readers call a widget that has no text of its own.
+/// Sets the accessible name of a widget without text.
 pub fn named(response: &egui::Response, name: &str) {
     let _ = (response.ctx).accesskit_node_builder(response.id, |node| node.set_label(name));
 }
 
-/// The edge of a patch of any colour: it is seen on the panel behind it, however pale or dark the patch is.
+/// The outline of a colour swatch, visible on the panel whatever the colour.
 pub fn edge(visuals: &egui::Visuals) -> Color32 {
     visuals.weak_text_color()
 }
 
-/// A linear colour on the screen; what is brighter than white is white.
+/// A linear colour for the screen, clamped to white.
 pub fn on_screen(color: Vec3) -> Color32 {
     let [r, g, b] = color.to_array().map(|c| c.clamp(0.0, 1.0));
     egui::Rgba::from_rgb(r, g, b).into()
 }
 
-/// The sign of a thing, in the colour that it has.
+/// Draws the icon of something, in its own colour.
 pub fn draw(ui: &egui::Ui, rect: Rect, scene: &Scene, id: Id, visible: bool) {
     let rect = Rect::from_center_size(rect.center(), vec2(11.0, 11.0));
     let line = match visible {
@@ -104,7 +104,7 @@ pub fn draw(ui: &egui::Ui, rect: Rect, scene: &Scene, id: Id, visible: bool) {
 fn own_color(scene: &Scene, id: Id) -> Option<Vec3> {
     let of_material = |index: usize| {
         let material = scene.materials.get(index)?;
-        // What is all mirror or glass has a colour there.
+        // Pure mirrors and glass have their colour there.
         let colors = [
             material.emission,
             material.diffuse,
@@ -130,7 +130,7 @@ fn own_color(scene: &Scene, id: Id) -> Option<Vec3> {
     }
 }
 
-/// The switch of what can be seen: an open or a closed eye.
+/// The visibility toggle: an open or a closed eye.
 pub fn eye(ui: &mut egui::Ui, rect: Rect, is_open: bool) -> egui::Response {
     let id = ui.scope_id().with("visible");
     let response = ui.interact(rect.expand(2.0), id, egui::Sense::click());

@@ -1,5 +1,4 @@
-//! The bar at the top, with every command that takes no mouse; and below it what is wrong with the
-//! scene's file.
+//! The menu bar, and below it the error of the scene's file.
 
 use crate::viewer::actions::commands;
 use crate::viewer::actions::files;
@@ -11,7 +10,7 @@ use crate::viewer::state::layout::{Layout, Panel};
 use crate::viewer::ui::context::PanelContext;
 use eframe::egui::{self, Button, RichText, Ui};
 
-/// The bar with its menus.
+/// Draws the menu bar.
 pub fn menu(ui: &mut Ui, context: &mut PanelContext, layout: &mut Layout) {
     egui::Panel::top("menu").show(ui, |ui| {
         egui::MenuBar::new().ui(ui, |ui| {
@@ -62,7 +61,7 @@ pub fn menu(ui: &mut Ui, context: &mut PanelContext, layout: &mut Layout) {
     crate::viewer::ui::panels::broken::broken(ui, context);
 }
 
-/// What an entry needs.
+/// The context of a menu.
 struct Menu<'a, 'b> {
     ui: &'a mut Ui,
     context: &'a mut PanelContext<'b>,
@@ -70,18 +69,18 @@ struct Menu<'a, 'b> {
 }
 
 impl Menu<'_, '_> {
-    /// An entry for a command, with what else gives it on its right.
+    /// An entry for a command with its shortcut.
     fn entry(&mut self, text: &str, action: A) {
         self.entry_if(true, text, action);
     }
 
-    /// The same; grey where there is nothing to do.
+    /// An entry that can be disabled.
     fn entry_if(&mut self, enabled: bool, text: &str, action: A) {
         let button = Button::new(text);
         self.button(enabled, button, action);
     }
 
-    /// The same for something that is so or not.
+    /// An entry with a check mark.
     fn tick(&mut self, is_so: bool, text: &str, action: A) {
         let button = Button::selectable(is_so, text);
         self.button(true, button, action);
@@ -109,9 +108,9 @@ fn file(menu: &mut Menu) {
     let session = &menu.context.session;
     let (has_file, has_scene) = (session.path.is_some(), session.scene().is_some());
     menu.entry("Open…", A::Open);
-    let by_path = menu.ui.button("Open a path…");
+    let by_path = menu.ui.button("Open path…");
     if by_path
-        .on_hover_text("Type or paste where the file is")
+        .on_hover_text("Type or paste the path of a file")
         .clicked()
     {
         menu.ui.close();
@@ -135,24 +134,24 @@ fn file(menu: &mut Menu) {
                 }
             }
             ui.separator();
-            if ui.button("Forget them").clicked() {
+            if ui.button("Clear list").clicked() {
                 menu.context.session.preferences.recent.clear();
             }
         });
     });
-    menu.entry_if(has_file, "Next scene of the folder", A::OpenNext);
-    menu.entry_if(has_file, "Previous scene of the folder", A::OpenPrevious);
+    menu.entry_if(has_file, "Next scene in folder", A::OpenNext);
+    menu.entry_if(has_file, "Previous scene in folder", A::OpenPrevious);
     menu.entry_if(has_scene, "Reload", A::Reload);
     menu.line();
-    menu.entry_if(has_scene, "Save the scene", A::SaveScene);
-    menu.entry_if(has_scene, "Save the scene as…", A::SaveSceneAs);
+    menu.entry_if(has_scene, "Save scene", A::SaveScene);
+    menu.entry_if(has_scene, "Save scene as…", A::SaveSceneAs);
     menu.entry_if(has_scene, "Revert", A::Revert);
     menu.line();
-    menu.entry_if(has_scene, "Save the picture…", A::SavePicture);
+    menu.entry_if(has_scene, "Save picture…", A::SavePicture);
     let overlays = A::SavePictureWithOverlays;
-    menu.entry_if(has_scene, "Save the picture with overlays…", overlays);
+    menu.entry_if(has_scene, "Save picture with overlays…", overlays);
     if menu.context.session.files.waits_to_save()
-        && menu.ui.button("Do not save when finished").clicked()
+        && menu.ui.button("Cancel saving when finished").clicked()
     {
         files::pictures::cancel(menu.context.session);
     }
@@ -169,27 +168,27 @@ fn edit(menu: &mut Menu) {
     menu.entry_if(has_selection, "Duplicate", A::Duplicate);
     menu.entry_if(has_selection, "Delete", A::Delete);
     menu.entry_if(has_selection, "Hide or show", A::ToggleVisible);
-    menu.entry_if(has_selection, "Select nothing", A::SelectNothing);
+    menu.entry_if(has_selection, "Deselect", A::SelectNothing);
     menu.line();
     use crate::viewer::model::tool::Tool;
     let tool = menu.context.session.tool;
-    menu.tick(tool == Tool::Select, "Selection tool", A::SelectMode);
+    menu.tick(tool == Tool::Select, "Select tool", A::SelectMode);
     menu.tick(tool == Tool::Move, "Move tool", A::MoveTool);
-    menu.tick(tool == Tool::Rotate, "Rotation tool", A::RotateTool);
+    menu.tick(tool == Tool::Rotate, "Rotate tool", A::RotateTool);
     menu.tick(tool == Tool::Scale, "Scale tool", A::ScaleTool);
     menu.tick(tool == Tool::Inspect, "Ray inspector", A::InspectRays);
     menu.line();
     menu.entry("Copy as command line", A::CopyCamera);
-    menu.entry("Paste a camera", A::PasteCamera);
+    menu.entry("Paste camera", A::PasteCamera);
     menu.line();
     menu.entry("Preferences…", A::Preferences);
 }
 
 fn view(menu: &mut Menu) {
     let has_selection = menu.context.session.selection.is_some();
-    menu.entry_if(has_selection, "Frame the selection", A::FrameSelection);
+    menu.entry_if(has_selection, "Frame selection", A::FrameSelection);
     menu.entry("Frame all", A::FrameAll);
-    menu.entry("Scene's camera", A::Home);
+    menu.entry("Scene camera", A::Home);
     menu.line();
     menu.entry("Front", A::ViewFront);
     menu.entry("Back", A::ViewBack);
@@ -200,7 +199,7 @@ fn view(menu: &mut Menu) {
     let controller = menu.context.session.controller.as_ref();
     let is_orthographic = controller.is_some_and(|controller| controller.is_orthographic());
     menu.tick(is_orthographic, "Orthographic", A::ToggleOrthographic);
-    menu.entry("Take roll away", A::Level);
+    menu.entry("Level horizon", A::Level);
     menu.line();
     menu.ui.menu_button("Cameras", |ui| {
         let views = cameras::all(menu.context.session);
@@ -216,10 +215,10 @@ fn view(menu: &mut Menu) {
             context: menu.context,
             layout: menu.layout,
         };
-        menu.entry("Keep this camera", A::SaveCamera);
+        menu.entry("Bookmark view", A::SaveCamera);
         menu.entry("Next camera", A::NextCamera);
         menu.entry("Previous camera", A::PreviousCamera);
-        if menu.ui.button("Rename and delete…").clicked() {
+        if menu.ui.button("Manage bookmarks…").clicked() {
             menu.ui.close();
             menu.context.session.dialogs.open(Dialog::Cameras);
         }
@@ -256,22 +255,22 @@ fn render(menu: &mut Menu) {
     }
     menu.line();
     let is_wipe = matches!(sharing, Some(Sharing::Wipe(_)));
-    menu.tick(is_wipe, "Compare with a line", A::SplitWipe);
+    menu.tick(is_wipe, "Compare with a wipe", A::SplitWipe);
     let is_beside = sharing == Some(Sharing::SideBySide);
     menu.tick(is_beside, "Compare side by side", A::SideBySide);
-    menu.entry_if(sharing.is_some(), "Change sides", A::SwapSides);
+    menu.entry_if(sharing.is_some(), "Swap sides", A::SwapSides);
     menu.line();
-    menu.entry("Brighter", A::ExposureUp);
-    menu.entry("Darker", A::ExposureDown);
-    menu.entry("Scene's exposure", A::ExposureReset);
+    menu.entry("Increase exposure", A::ExposureUp);
+    menu.entry("Decrease exposure", A::ExposureDown);
+    menu.entry("Reset exposure", A::ExposureReset);
     menu.entry("Next tone curve", A::NextToneCurve);
     menu.entry("Next background", A::NextBackground);
     menu.line();
     menu.tick(is_paused, "Pause", A::PauseRender);
-    menu.entry("Start again", A::RestartRender);
-    menu.tick(has_region, "Region only", A::RegionRender);
-    menu.entry("Twice the samples", A::MoreSamples);
-    menu.entry("Half the samples", A::FewerSamples);
+    menu.entry("Restart", A::RestartRender);
+    menu.tick(has_region, "Render region", A::RegionRender);
+    menu.entry("Double samples", A::MoreSamples);
+    menu.entry("Halve samples", A::FewerSamples);
 }
 
 fn window(menu: &mut Menu) {
@@ -282,7 +281,7 @@ fn window(menu: &mut Menu) {
         }
     }
     menu.entry("All panels", A::TogglePanels);
-    if menu.ui.button("Usual arrangement").clicked() {
+    if menu.ui.button("Reset layout").clicked() {
         menu.ui.close();
         *menu.layout = Layout::default();
     }
@@ -292,18 +291,18 @@ fn window(menu: &mut Menu) {
     menu.tick(overlays, "Overlays", A::ToggleOverlays);
     menu.tick(statistics, "Statistics", A::ToggleStatistics);
     menu.line();
-    menu.entry("Dark or light", A::ToggleTheme);
-    menu.entry("Larger", A::LargerText);
-    menu.entry("Smaller", A::SmallerText);
-    menu.entry("Usual size", A::ResetText);
+    menu.entry("Toggle dark and light", A::ToggleTheme);
+    menu.entry("Zoom in", A::LargerText);
+    menu.entry("Zoom out", A::SmallerText);
+    menu.entry("Reset zoom", A::ResetText);
     menu.entry("Full screen", A::FullScreen);
 }
 
 fn help(menu: &mut Menu) {
-    menu.entry("All bindings", A::Help);
+    menu.entry("Keyboard shortcuts", A::Help);
     for (text, sheet) in [
         ("First steps", Dialog::Hint),
-        ("What happened", Dialog::Messages),
+        ("Messages", Dialog::Messages),
     ] {
         if menu.ui.button(text).clicked() {
             menu.ui.close();

@@ -1,12 +1,12 @@
-//! What happened, in words that go away by themselves.
+//! Shows messages until they expire.
 
 use crate::viewer::ui::context::PanelContext;
 use eframe::egui::{self, Align2, Area, Frame, Id, RichText};
 
-/// How wide a notice may be, in points.
+/// Maximum width of a message, in points.
 const WIDTH: f32 = 380.0;
 
-/// The newest notices, over everything else.
+/// Draws the visible messages above everything else.
 pub fn messages(ui: &mut egui::Ui, context: &mut PanelContext) {
     let messages = context.session.messages.current();
     if messages.is_empty() || context.session.files.is_posing() {
@@ -29,7 +29,7 @@ pub fn messages(ui: &mut egui::Ui, context: &mut PanelContext) {
                             ui.label(sign);
                         }
                         ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
-                            let button = ui.small_button("×").on_hover_text("Take it away");
+                            let button = ui.small_button("×").on_hover_text("Dismiss");
                             let button =
                                 button.accessible_name(format!("Dismiss: {}", notice.text));
                             if button.clicked() {

@@ -1,4 +1,4 @@
-//! What is in the scene, line by line.
+//! The outline of the scene.
 
 use crate::viewer::actions::editing;
 use crate::viewer::model::bindings::Action;
@@ -10,12 +10,12 @@ use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::panels::icon;
 use eframe::egui::{self, Key, Rect, RichText, UiBuilder, vec2};
 
-/// By how much a line is indented for each level.
+/// Indentation per level.
 const INDENT: f32 = 12.0;
-/// Of icons and switches.
+/// Width of icons and toggles.
 const ICON: f32 = 16.0;
 
-/// What a person asked of a line.
+/// An action of the user on a row.
 enum Wish {
     Select(Id),
     Frame(Id),
@@ -27,7 +27,7 @@ enum Wish {
     ShowAll,
 }
 
-/// The outline, and below it what of the scene is missing.
+/// The outline, and below it the problems of the import.
 pub fn outline(ui: &mut egui::Ui, context: &mut PanelContext) {
     let session = &mut *context.session;
     let Some(scene) = session.scene().cloned() else {
@@ -38,10 +38,10 @@ pub fn outline(ui: &mut egui::Ui, context: &mut PanelContext) {
         let search = egui::TextEdit::singleline(&mut session.editing.listing.query)
             .hint_text("Search")
             .desired_width(f32::INFINITY);
-        let search = ui.add(search).on_hover_text("Words that labels contain");
+        let search = ui.add(search).on_hover_text("Filter by name");
         icon::named(&search, "Search the outline");
         ui.add_space(2.0);
-        // While something is dragged nothing comes or goes.
+        // The rows do not change during a drag.
         let is_dragging = ui.input(|input| input.pointer.any_down());
         if !is_dragging || session.editing.listing.count() == 0 {
             session.editing.listing.follow(&scene);
@@ -71,10 +71,10 @@ fn lines(
     let row_height = ui.spacing().interact_size.y;
     let selection = session.selection;
     let mut area = egui::ScrollArea::vertical()
-        .id_salt("lines of the outline")
+        .id_salt("outline rows")
         .auto_shrink([false, false])
         .max_height(height);
-    // What was selected elsewhere comes into sight.
+    // Scrolls to a selection made elsewhere.
     let row = selection.and_then(|id| session.editing.listing.row_of(id));
     if session.editing.seen_selection != selection {
         session.editing.seen_selection = selection;
@@ -89,7 +89,7 @@ fn lines(
     }
     let count = session.editing.listing.count();
     if count == 0 {
-        ui.weak("Nothing has such a label");
+        ui.weak("No matches");
     }
     let had_focus = session.editing.list_focus.take();
     let output = area.show_rows(ui, row_height, count, |ui, range| {
@@ -174,8 +174,8 @@ fn line(
     if response.double_clicked() {
         wishes.push(Wish::Frame(id));
     }
-    // Arrow keys go on from the line that was clicked. The focus follows the selection from line to line,
-    // and is never taken from a widget outside the list.
+    // Arrow keys continue from the clicked row. The focus follows the selection and is never taken from a
+    // widget outside the list.
     let follows = is_selected && editing::holds_focus(had_focus, ui.ctx());
     if response.clicked() || follows && !response.has_focus() {
         response.request_focus();
@@ -220,7 +220,7 @@ fn menu(
         }
     };
     match id {
-        Id::Camera(_) => item(ui, "Look through it", Wish::Frame(id)),
+        Id::Camera(_) => item(ui, "Look through", Wish::Frame(id)),
         Id::Material(_) => {}
         _ => item(ui, "Frame", Wish::Frame(id)),
     }
@@ -269,7 +269,7 @@ fn grant(session: &mut Session, wish: Wish) {
     }
 }
 
-/// What the importer left out, at the end.
+/// The problems of the import.
 fn skipped(ui: &mut egui::Ui, skipped: &[String]) {
     let title = match skipped.len() {
         1 => "1 part is missing or was repaired".to_owned(),

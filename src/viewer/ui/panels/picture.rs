@@ -1,4 +1,4 @@
-//! The picture, and the camera under the mouse.
+//! The picture panel, with camera navigation by mouse.
 
 mod compare;
 mod legend;
@@ -21,10 +21,10 @@ const WHOLE: Rect = Rect {
     max: Pos2::new(1.0, 1.0),
 };
 
-/// The rest of the picture while only a region is rendered.
+/// Tint of the picture outside the rendered region.
 const DIMMED: Color32 = Color32::from_gray(90);
 
-/// Draws the picture so far, and what it is compared with, and hands the mouse to the tools.
+/// Draws the picture and its comparison, and passes the mouse to the tools.
 pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     let pixels_per_point = ui.ctx().pixels_per_point();
     let space = ui.available_rect_before_wrap();
@@ -72,7 +72,7 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     }
 }
 
-/// What the levels of the pictures stand for.
+/// The colour legends of the pictures.
 fn legends(ui: &egui::Ui, context: &PanelContext, space: Rect, viewports: [Viewport; 2]) {
     let painter = ui.painter_at(space);
     let look = &context.session.view;
@@ -87,7 +87,7 @@ fn legends(ui: &egui::Ui, context: &PanelContext, space: Rect, viewports: [Viewp
     }
 }
 
-/// What to do where there is no scene.
+/// The hint without a scene.
 fn empty(ui: &mut egui::Ui, context: &PanelContext, space: Rect) {
     let key = context.session.preferences.bindings.label(Action::Open);
     let key = match key.is_empty() {
@@ -100,12 +100,12 @@ fn empty(ui: &mut egui::Ui, context: &PanelContext, space: Rect) {
     ui.put(area, label);
 }
 
-/// Of two pictures side by side the mouse is in one: as long as a button is down in that where it was
-/// pressed.
+/// Of two pictures side by side, the mouse belongs to the one under it; while a button is held, to the one
+/// where it was pressed.
 fn used_at(response: &egui::Response) -> Option<Pos2> {
     let origin = response.ctx.input(|input| input.pointer.press_origin());
     let id = response.id.with("pressed at");
-    // It is over in the frame in which the button is let go, and a drag is not yet.
+    // The press origin is gone in the frame of the release, while the drag still continues.
     let before = response.ctx.data_mut(|data| {
         let before: Option<Option<Pos2>> = data.get_temp(id);
         data.insert_temp(id, origin);
@@ -114,20 +114,19 @@ fn used_at(response: &egui::Response) -> Option<Pos2> {
     origin.or(before).or(response.hover_pos())
 }
 
-/// Whether every pixel of the picture shows something. On software each layer that is not drawn beneath is
-/// time for the picture.
+/// Whether every pixel of the picture is opaque. On software, each layer that is not drawn below saves time.
 fn is_opaque(shown: &Shown) -> bool {
     let is_whole = shown.whole.is_none() && shown.region == [0, 0, shown.size.0, shown.size.1];
     is_whole && (shown.under_is_coarse || has_samples(shown))
 }
 
-/// Whether every pixel of the fine picture has a sample.
+/// Whether every pixel of the full-resolution picture has a sample.
 fn has_samples(shown: &Shown) -> bool {
     let progress = &shown.progress;
     progress.samples > 0 && !progress.is_coarse && shown.screen.is_some()
 }
 
-/// Fills what of `space` is not in `covered`.
+/// Fills `space` outside `covered`.
 fn surround(painter: &egui::Painter, space: Rect, covered: Rect, color: Color32) {
     let covered = covered.intersect(space);
     if !covered.is_positive() {
@@ -158,7 +157,7 @@ fn draw(painter: &egui::Painter, context: &mut PanelContext, shown: &Shown, view
         let id = context.textures.id(whole, true);
         painter.image(id, viewport.rect, WHOLE, DIMMED);
     }
-    // A picture of other proportions than there is room for by now is stretched until the next one.
+    // A picture of another aspect ratio is stretched until the next one.
     let under = shown.under.as_ref().filter(|_| !has_samples(shown));
     for (screen, is_smooth) in [(under, true), (shown.screen.as_ref(), !is_exact)] {
         if let Some(screen) = screen {

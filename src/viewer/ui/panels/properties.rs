@@ -1,4 +1,4 @@
-//! What is selected, in numbers; of nothing, the scene itself.
+//! The properties of the selection, or of the scene if nothing is selected.
 
 mod camera;
 mod fields;
@@ -18,7 +18,7 @@ use crate::viewer::ui::panels::icon;
 use eframe::egui::{self, vec2};
 use fields::{Change, Fields};
 
-/// The fields of what is selected.
+/// Draws the properties of the selection.
 pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
     let session = &mut *context.session;
     let Some(scene) = session.scene().cloned() else {
@@ -84,7 +84,7 @@ pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
     }
 }
 
-/// Tools, and the way back.
+/// Tools, undo and redo.
 fn toolbar(ui: &mut egui::Ui, session: &mut Session) {
     let tools = [
         (Tool::Select, Action::SelectMode, "Select"),
@@ -126,7 +126,7 @@ fn toolbar(ui: &mut egui::Ui, session: &mut Session) {
             icon::named(&button, text);
             let told = match &name {
                 Some(name) => format!("{text} {name}"),
-                None => format!("There is nothing to {}", text.to_lowercase()),
+                None => format!("Nothing to {}", text.to_lowercase()),
             };
             let keys = tip(action);
             let button = button.on_hover_text(format!("{told}\n{keys}"));

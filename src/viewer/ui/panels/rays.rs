@@ -1,4 +1,4 @@
-//! The rays of a pixel as a tree that adds up to it.
+//! The rays of a pixel as a tree with their contributions.
 
 mod list;
 mod paint;
@@ -17,12 +17,12 @@ use crate::viewer::ui::context::PanelContext;
 use eframe::egui::{self, Align, Layout};
 use glam::DVec3;
 
-/// Between controls of a line, so that each line fits the panel's usual width, in points.
+/// Gap between controls, so that each line fits the default width of the panel, in points.
 const GAP: f32 = 4.0;
-/// Most bounces whose colours are shown.
+/// Maximum number of bounces with swatches.
 const MOST_SWATCHES: usize = 24;
 
-/// Which pixel, which of its rays, the rays, and what they add up to.
+/// The pixel, the filter, the rays and their sum.
 pub fn rays(ui: &mut egui::Ui, context: &mut PanelContext) {
     let session = &mut *context.session;
     let margin = egui::Margin::symmetric(8, 6);
@@ -39,7 +39,7 @@ pub fn rays(ui: &mut egui::Ui, context: &mut PanelContext) {
     if session.inspector.inspected.is_none() {
         ui.add_space(12.0);
         ui.vertical_centered(|ui| {
-            ui.weak("Take the ray inspector and click in the picture: here is what the pixel is made of.");
+            ui.weak("Use the ray inspector and click the picture to see the rays of a pixel.");
         });
         return;
     }
@@ -51,15 +51,13 @@ pub fn rays(ui: &mut egui::Ui, context: &mut PanelContext) {
         .show(ui, |ui| list::list(ui, session));
 }
 
-/// The tool and the pixel.
+/// The inspector tool and the pixel.
 fn pixel(ui: &mut egui::Ui, session: &mut Session) {
     let (width, height) = session.picture_size();
     ui.horizontal_wrapped(|ui| {
         let has_tool = session.tool == Tool::Inspect;
         let tool = ui.selectable_label(has_tool, "Inspect rays");
-        if (tool.on_hover_text("A click in the picture shows the rays of the pixel under it"))
-            .clicked()
-        {
+        if (tool.on_hover_text("Click a pixel in the picture to show its rays")).clicked() {
             session.tool = if has_tool {
                 Tool::Select
             } else {
@@ -72,28 +70,27 @@ fn pixel(ui: &mut egui::Ui, session: &mut Session) {
             let label = ui.label(name);
             let drag = egui::DragValue::new(&mut pixel[value]).range(0..=length.saturating_sub(1));
             let drag = ui.add(drag).labelled_by(label.id);
-            let text =
-                format!("{name} of the pixel, counted from the upper left corner, which is 0");
+            let text = format!("{name} of the pixel, from 0 at the upper left corner");
             is_changed |= drag.on_hover_text(text).changed();
         }
         let again = ui.button("Inspect");
-        let again = again.on_hover_text("Trace the rays of this pixel in the picture as it is now");
+        let again = again.on_hover_text("Trace the rays of this pixel in the current picture");
         if again.clicked() || is_changed {
             inspector::inspect(session, pixel);
         }
         let follow = ui.checkbox(&mut session.inspector.follows, "Follow the cursor");
-        follow.on_hover_text("With this tool, show the pixel under the cursor without a click");
+        follow.on_hover_text("With this tool, inspect the pixel under the cursor without a click");
         if session.inspector.is_waiting() {
             ui.spinner();
         }
     });
     if inspector::is_stale(session) {
         let colour = ui.visuals().warn_fg_color;
-        ui.colored_label(colour, "The picture has changed since: inspect again.");
+        ui.colored_label(colour, "The picture has changed. Inspect again.");
     }
 }
 
-/// Which sample, or all.
+/// The sample filter.
 fn sample(ui: &mut egui::Ui, session: &mut Session) {
     let inspector = &mut session.inspector;
     let Some(inspected) = &inspector.inspected else {
@@ -119,7 +116,7 @@ fn sample(ui: &mut egui::Ui, session: &mut Session) {
             }
             ui.add(egui::DragValue::new(&mut shown).range(0..=count - 1))
                 .labelled_by(label.id)
-                .on_hover_text("Which of the pixel's samples is shown; the first is 0");
+                .on_hover_text("Index of the sample, from 0");
             if step(ui, ">", "Next sample") {
                 shown = (shown + 1) % count;
             }
@@ -139,7 +136,7 @@ fn sample(ui: &mut egui::Ui, session: &mut Session) {
     }
 }
 
-/// Up to which bounce rays are shown, and what each of them adds.
+/// The bounce filter, with the contribution of each bounce.
 fn bounces(ui: &mut egui::Ui, session: &mut Session) {
     let exposure = session.view.tone.exposure_ev;
     let inspector = &mut session.inspector;
@@ -157,18 +154,16 @@ fn bounces(ui: &mut egui::Ui, session: &mut Session) {
         let slider = egui::Slider::new(&mut shown, 0..=most).show_value(false);
         ui.add_enabled(most > 0, slider)
             .labelled_by(label.id)
-            .on_hover_text(
-                "How often light may be mirrored or refracted in the rays that are shown",
-            );
+            .on_hover_text("Hide rays after more reflections and refractions than this");
         ui.label(format!("{shown} of {most}"));
         inspector.filter.bounces = if shown == most { u32::MAX } else { shown };
         ui.checkbox(&mut inspector.filter.shadows, "Shadow rays")
-            .on_hover_text("Show rays to lights too");
+            .on_hover_text("Show shadow rays");
     });
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
-        ui.label("Adds")
-            .on_hover_text("Above what a bounce adds, below the sum up to it");
+        ui.label("Contribution")
+            .on_hover_text("Top: the contribution of a bounce. Bottom: the sum up to it");
         let mut sum = DVec3::ZERO;
         for (bounce, added) in sums.iter().enumerate().take(MOST_SWATCHES) {
             sum += *added;
@@ -184,7 +179,7 @@ fn bounces(ui: &mut egui::Ui, session: &mut Session) {
     }
 }
 
-/// What the rays add up to, the pixel, and ways to take the tree along.
+/// The sum of the rays, the pixel, and the exports.
 fn sum(ui: &mut egui::Ui, session: &mut Session) {
     let exposure = session.view.tone.exposure_ev;
     let Some(inspected) = &session.inspector.inspected else {
@@ -204,14 +199,14 @@ fn sum(ui: &mut egui::Ui, session: &mut Session) {
         });
     };
     if let Some(sample) = one.and_then(|sample| tree.samples.get(sample)) {
-        let hint = "What all rays of this sample add, shown or not";
+        let hint = "Sum over all rays of this sample, including hidden ones";
         line(
             format!("Sum of sample {}", sample.sample),
             ray_sum(sample),
             hint,
         );
     }
-    let hint = "The weighted mean of what the rays of each sample add";
+    let hint = "Weighted mean over all samples";
     let name = match tree.samples.len() {
         1 => "Sum of 1 sample".to_owned(),
         count => format!("Sum of {count} samples"),
@@ -222,15 +217,13 @@ fn sum(ui: &mut egui::Ui, session: &mut Session) {
     line(
         format!("Pixel {x},{y}"),
         value,
-        "As it is in the finished picture",
+        "The value in the finished picture",
     );
     let missing: usize = (tree.samples.iter())
         .map(|sample| sample.ray_count - sample.rays.len())
         .sum();
     if missing > 0 {
-        ui.weak(format!(
-            "{missing} more rays are not kept: there was no room."
-        ));
+        ui.weak(format!("{missing} more rays did not fit into the buffer."));
     }
     actions(ui, session);
 }
@@ -239,18 +232,19 @@ fn actions(ui: &mut egui::Ui, session: &mut Session) {
     ui.add_space(2.0);
     ui.horizontal_wrapped(|ui| {
         let json = ui.button("Save JSON…");
-        if (json.on_hover_text("Save the tree as `glimray explain --json` prints it")).clicked() {
+        if (json.on_hover_text("Save the tree in the format of `glimray explain --json`")).clicked()
+        {
             export::save(session, export::Format::Json, ui.ctx());
         }
         let obj = ui.button("Save OBJ…");
-        if (obj.on_hover_text("Save the rays as lines for 3-D programs")).clicked() {
+        if (obj.on_hover_text("Save the rays as lines for 3D applications")).clicked() {
             export::save(session, export::Format::Obj, ui.ctx());
         }
         let is_stale = inspector::is_stale(session);
         let copy = ui.add_enabled(!is_stale, egui::Button::new("Copy as command"));
         let copy = copy
-            .on_hover_text("Copy the command line that prints these rays in a terminal")
-            .on_disabled_hover_text("The picture has changed since: inspect again");
+            .on_hover_text("Copy the command line that prints these rays")
+            .on_disabled_hover_text("The picture has changed. Inspect again");
         if copy.clicked() {
             copy_command(ui, session);
         }
@@ -267,8 +261,11 @@ fn copy_command(ui: &egui::Ui, session: &mut Session) {
         Ok(command) => {
             ui.ctx().copy_text(command.line);
             session.messages.tell(match &command.left_out[..] {
-                [] => "copied the command".to_owned(),
-                left_out => format!("copied the command, without {}", left_out.join(", ")),
+                [] => "Copied the command".to_owned(),
+                left_out => format!(
+                    "Copied the command. It cannot express: {}",
+                    left_out.join(", ")
+                ),
             });
         }
         Err(why) => session.messages.warn(why),

@@ -1,4 +1,4 @@
-//! Settings of the picture: what is computed, how finely, how large, and how it is developed.
+//! Render settings: view mode, sampling, size and tone mapping.
 
 mod background;
 mod figures;
@@ -14,24 +14,24 @@ use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::panels::words::{choice, line, number};
 use eframe::egui::{self, Ui};
 
-/// Width of the column of names, in points, so that all sections line up.
+/// Width of the label column, in points, so that all sections line up.
 const NAMES: f32 = 96.0;
 
-/// Everything about the picture that is not in the scene.
+/// Draws all settings that are not part of the scene.
 pub fn render(ui: &mut Ui, context: &mut PanelContext) {
     egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         egui::Frame::NONE.inner_margin(6.0).show(ui, |ui| {
             figures::progress(ui, context);
             ui.separator();
-            section(ui, "Shown", |ui| shown(ui, context));
+            section(ui, "Display", |ui| shown(ui, context));
             section(ui, "Sampling", |ui| samples(ui, &mut context.session.view));
             section(ui, "Rays", |ui| rays(ui, &mut context.session.view));
             section(ui, "Size", |ui| size::size(ui, context));
-            section(ui, "Developing", |ui| {
+            section(ui, "Tone mapping", |ui| {
                 developing(ui, &mut context.session.view)
             });
-            section(ui, "Surroundings", |ui| background::background(ui, context));
-            section(ui, "Figures", |ui| figures::figures(ui, context));
+            section(ui, "Environment", |ui| background::background(ui, context));
+            section(ui, "Statistics", |ui| figures::figures(ui, context));
         });
     });
 }
@@ -48,22 +48,22 @@ fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
         });
 }
 
-/// What there is to see, and what it is compared with.
+/// The view mode and its comparison.
 fn shown(ui: &mut Ui, context: &mut PanelContext) {
     let key = |action| match context.session.preferences.bindings.label(action) {
         label if label.is_empty() => String::new(),
         label => format!(" ({label})"),
     };
-    let swap = format!("Change over the two looks{}", key(Action::SwapSides));
+    let swap = format!("Swap comparison sides{}", key(Action::SwapSides));
     let comparing = format!(
-        "A second look at the same: behind a line to drag{}, or side by side{}",
+        "Show a second view mode: with a wipe{} or side by side{}",
         key(Action::SplitWipe),
         key(Action::SideBySide)
     );
     let look = &mut context.session.view;
     line(
         ui,
-        ("Integrator", "What is computed for a ray"),
+        ("View mode", "What is computed for each camera ray"),
         &mut look.settings.integrator,
         &look.scene_settings.integrator,
         |ui, value| choice(ui, "integrator", &INTEGRATORS, value),
@@ -97,7 +97,7 @@ fn shown(ui: &mut Ui, context: &mut PanelContext) {
     if let Some(Comparison { integrator, .. }) = &mut look.comparison {
         let label = ui
             .label("Compared with")
-            .on_hover_text("What the second look shows");
+            .on_hover_text("View mode of the other side");
         ui.horizontal(|ui| {
             choice(ui, "second", &INTEGRATORS, integrator).labelled_by(label.id);
             if ui.button("Swap").on_hover_text(swap).clicked() {
@@ -114,17 +114,21 @@ fn samples(ui: &mut Ui, look: &mut ViewSettings) {
     let mut samples = before;
     line(
         ui,
-        ("Samples", "Samples of each pixel to be reached, 1 to 65536"),
+        ("Samples", "Target samples per pixel, 1 to 65536"),
         &mut samples,
         &usual.samples,
         |ui, value| {
             let response = number(ui, value, 1..=MAX_SAMPLES, 0.25, "");
-            if ui.button("½").on_hover_text("Halve the samples").clicked() {
+            if ui
+                .button("½")
+                .on_hover_text("Halve the target samples")
+                .clicked()
+            {
                 *value = (*value / 2).max(1);
             }
             if ui
                 .button("×2")
-                .on_hover_text("Double the samples")
+                .on_hover_text("Double the target samples")
                 .clicked()
             {
                 *value = (*value * 2).min(MAX_SAMPLES);
@@ -138,7 +142,7 @@ fn samples(ui: &mut Ui, look: &mut ViewSettings) {
     let settings = &mut look.settings;
     line(
         ui,
-        ("Antialias", "Where in a pixel its samples lie"),
+        ("Antialias", "Placement of samples in a pixel"),
         &mut settings.antialias,
         &usual.antialias,
         |ui, value| choice(ui, "antialias", &ANTIALIAS, value),
@@ -148,20 +152,20 @@ fn samples(ui: &mut Ui, look: &mut ViewSettings) {
         ui,
         (
             "Noise",
-            "Adaptive sampling goes on where the estimated error is more than this, in parts of white",
+            "Adaptive sampling continues where the estimated error exceeds this fraction of white",
         ),
         &mut settings.noise,
         &usual.noise,
         |ui, value| {
             ui.add_enabled_ui(is_adaptive, |ui| number(ui, value, 1e-6..=1.0, 0.0005, ""))
                 .inner
-                .on_disabled_hover_text("Only adaptive sampling has a limit of noise")
+                .on_disabled_hover_text("Only used by adaptive sampling")
         },
     );
     let before = settings.filter;
     line(
         ui,
-        ("Filter", "What samples round a pixel are weighted by"),
+        ("Filter", "Reconstruction filter"),
         &mut settings.filter,
         &usual.filter,
         |ui, value| choice(ui, "filter", &FILTERS, value),
@@ -178,10 +182,7 @@ fn samples(ui: &mut Ui, look: &mut ViewSettings) {
     };
     line(
         ui,
-        (
-            "Filter radius",
-            "How far the filter reaches, 0.01 to 16 pixels",
-        ),
+        ("Filter radius", "Radius of the filter, 0.01 to 16 pixels"),
         &mut settings.filter_radius,
         &usual_radius,
         |ui, value| number(ui, value, 0.01..=16.0, 0.01, " px"),
@@ -190,7 +191,7 @@ fn samples(ui: &mut Ui, look: &mut ViewSettings) {
         ui,
         (
             "Light samples",
-            "Multiplies the samples of every area light, 0.001 to 1000",
+            "Factor on the samples of every area light, 0.001 to 1000",
         ),
         &mut settings.light_samples,
         &usual.light_samples,
@@ -198,7 +199,7 @@ fn samples(ui: &mut Ui, look: &mut ViewSettings) {
     );
     line(
         ui,
-        ("Seed", "Chooses the random numbers"),
+        ("Seed", "Seed of the random numbers"),
         &mut settings.seed,
         &usual.seed,
         |ui, value| number(ui, value, 0..=u32::MAX, 0.1, ""),
@@ -212,7 +213,7 @@ fn rays(ui: &mut Ui, look: &mut ViewSettings) {
         ui,
         (
             "Max depth",
-            "Bounces after the first hit, 0 to 1000; 0 is local shading only",
+            "Bounces after the first hit, 0 to 1000. 0 is local shading only",
         ),
         &mut settings.max_depth,
         &usual.max_depth,
@@ -222,7 +223,7 @@ fn rays(ui: &mut Ui, look: &mut ViewSettings) {
         ui,
         (
             "Min throughput",
-            "Mirrored and refracted rays are sent whose share in the sample is at least this, 0 to 1",
+            "Terminate reflection and refraction rays below this throughput, 0 to 1",
         ),
         &mut settings.min_throughput,
         &usual.min_throughput,
@@ -230,7 +231,7 @@ fn rays(ui: &mut Ui, look: &mut ViewSettings) {
     );
     line(
         ui,
-        ("Triangle test", "How rays meet triangles"),
+        ("Triangle test", "Ray–triangle intersection algorithm"),
         &mut settings.triangle_test,
         &usual.triangle_test,
         |ui, value| choice(ui, "triangle test", &TRIANGLE_TESTS, value),
@@ -239,7 +240,7 @@ fn rays(ui: &mut Ui, look: &mut ViewSettings) {
         ui,
         (
             "Brute force",
-            "Try every primitive for every ray: the same picture, slowly",
+            "Test every primitive for every ray, without the BVH. Same picture, much slower",
         ),
         &mut settings.brute_force,
         &usual.brute_force,
@@ -247,7 +248,7 @@ fn rays(ui: &mut Ui, look: &mut ViewSettings) {
     );
 }
 
-/// None of these costs a ray.
+/// These settings do not retrace the picture.
 fn developing(ui: &mut Ui, look: &mut ViewSettings) {
     let usual = look.scene_tone;
     let tone = &mut look.tone;
@@ -255,7 +256,7 @@ fn developing(ui: &mut Ui, look: &mut ViewSettings) {
         ui,
         (
             "Exposure",
-            "Brightens the picture by 2 to this power, -64 to 64 stops",
+            "Exposure in stops, -64 to 64. Each stop doubles the brightness",
         ),
         &mut tone.exposure_ev,
         &usual.exposure_ev,
@@ -266,17 +267,14 @@ fn developing(ui: &mut Ui, look: &mut ViewSettings) {
     );
     line(
         ui,
-        (
-            "Tone curve",
-            "How bright light becomes a colour of the screen",
-        ),
+        ("Tone curve", "Maps radiance to display colours"),
         &mut tone.curve,
         &usual.curve,
         |ui, value| choice(ui, "tone curve", &TONES, value),
     );
     line(
         ui,
-        ("Transfer", "How the values are encoded"),
+        ("Transfer", "Transfer function of the output"),
         &mut tone.transfer,
         &usual.transfer,
         |ui, value| choice(ui, "transfer", &TRANSFERS, value),

@@ -1,11 +1,11 @@
-//! The bar at the bottom: how far the picture is.
+//! The status bar.
 
 use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::panels::render::{remaining, seconds};
 use crate::viewer::worker::progressive_image::PictureSlot;
 use eframe::egui;
 
-/// Samples, time, speed and noise of the picture, and how often the window is drawn.
+/// Samples, time, speed and noise of the picture, and the frame time of the window.
 pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
     egui::Panel::bottom("status").show(ui, |ui| {
         ui.horizontal(|ui| {
@@ -19,7 +19,7 @@ pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
                 .on_hover_text("Width and height of the picture in pixels");
             ui.separator();
             ui.label(format!("{} of {} samples", progress.samples, progress.target))
-                .on_hover_text("Samples that each pixel has, and is to get");
+                .on_hover_text("Samples per pixel so far, and the target");
             if !context.session.shows_statistics {
                 return;
             }
@@ -28,17 +28,17 @@ pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
                 .unwrap_or_default();
             ui.separator();
             ui.label(format!("{}{left}", seconds(progress.trace_seconds)))
-                .on_hover_text("Seconds of tracing in this picture, and until it is done");
+                .on_hover_text("Seconds of tracing so far, and until the picture is done");
             ui.separator();
             ui.label(format!("{:.2} M rays/s", progress.rays_per_second / 1e6))
-                .on_hover_text("Camera rays in a second of tracing, in millions");
+                .on_hover_text("Camera rays per second of tracing, in millions");
             if let Some(noise) = progress.noise {
                 ui.separator();
                 ui.label(format!("noise {:.2} %", noise * 100.0)).on_hover_text(
-                    "Estimated root mean square error of the picture, in parts of white",
+                    "Estimated root mean square error as a fraction of white",
                 );
             }
-            // In a narrow window it would lie over the rest.
+            // In a narrow window it would overlap the rest.
             if ui.available_width() < 100.0 {
                 return;
             }
@@ -52,11 +52,11 @@ pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
     });
 }
 
-/// The mean of the last frames that followed one another.
+/// The moving average of consecutive frame times.
 fn frame_time(ctx: &egui::Context) -> String {
-    /// Longer than this the window had nothing to draw, in seconds.
+    /// Longer intervals mean that the window was idle, in seconds.
     const IDLE: f32 = 0.5;
-    /// Share of the newest frame in the mean.
+    /// Weight of the newest frame in the average.
     const NEWS: f32 = 0.1;
     let newest = ctx.input(|input| input.unstable_dt);
     let id = egui::Id::unique("frame time");

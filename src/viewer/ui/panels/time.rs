@@ -1,4 +1,4 @@
-//! The animation: played, stepped through, and how frames and time go together.
+//! The time panel: playback, timeline, frame rate and shutter.
 
 mod icon;
 
@@ -10,10 +10,10 @@ use crate::viewer::ui::panels::words::number;
 use eframe::egui::{self, Ui};
 use icon::{Icon, button};
 
-/// Longest that the shutter can be open, and furthest from a frame's own time, in frames.
+/// Maximum shutter time, and maximum distance from the frame's time, in frames.
 const MAX_SHUTTER: f64 = 16.0;
 
-/// The timeline and what belongs to it.
+/// Draws the timeline and its controls.
 pub fn time(ui: &mut Ui, context: &mut PanelContext) {
     let keys = |action| {
         let label = context.session.preferences.bindings.label(action);
@@ -44,9 +44,7 @@ pub fn time(ui: &mut Ui, context: &mut PanelContext) {
                 ui.horizontal_wrapped(|ui| controls(ui, playback, &tips));
             });
             if !is_animated {
-                ui.weak(
-                    "Nothing in this scene moves: give it tracks, and there is time to go through.",
-                );
+                ui.weak("No animation");
             }
         });
     });
@@ -56,7 +54,7 @@ pub fn time(ui: &mut Ui, context: &mut PanelContext) {
     }
 }
 
-/// Frames from the first to the last, as wide as there is room for.
+/// The timeline of all frames, at full width.
 fn timeline(ui: &mut Ui, playback: &mut Playback) {
     let last = playback.last_frame();
     let mut frame = playback.frame();
@@ -66,7 +64,7 @@ fn timeline(ui: &mut Ui, playback: &mut Playback) {
         playback.duration()
     );
     ui.horizontal(|ui| {
-        let tip = "The frame that is shown: drag it, or type its number";
+        let tip = "Current frame: drag, or enter a number";
         let response = number(ui, &mut frame, 0..=last, 0.2, "");
         name(&response, f64::from(frame), "Frame");
         response.on_hover_text(tip);
@@ -90,7 +88,7 @@ fn controls(ui: &mut Ui, playback: &mut Playback, tips: &[String; 7]) {
     if button(ui, Icon::First, "First frame", first) {
         playback.go_to(0);
     }
-    if button(ui, Icon::Back, "Frame back", back) {
+    if button(ui, Icon::Back, "Previous frame", back) {
         playback.step(-1);
     }
     let (icon, label) = match playback.is_playing {
@@ -100,7 +98,7 @@ fn controls(ui: &mut Ui, playback: &mut Playback, tips: &[String; 7]) {
     if button(ui, icon, label, play) {
         playback.toggle();
     }
-    if button(ui, Icon::Forward, "Frame forward", forward) {
+    if button(ui, Icon::Forward, "Next frame", forward) {
         playback.step(1);
     }
     if button(ui, Icon::Last, "Last frame", last) {
@@ -115,14 +113,14 @@ fn controls(ui: &mut Ui, playback: &mut Playback, tips: &[String; 7]) {
         " ×",
     );
     name(&response, playback.speed, "Speed");
-    response.on_hover_text("Seconds of the animation in a second");
+    response.on_hover_text("Playback speed: animation seconds per second");
     ui.checkbox(&mut playback.repeats, "Loop")
         .on_hover_text(repeat);
     ui.separator();
     let mut fps = playback.clock.fps;
     let response = number(ui, &mut fps, 0.01..=1000.0, 0.1, " fps");
     name(&response, fps, "Frames per second");
-    response.on_hover_text("Frames of the animation in a second, 0.01 to 1000");
+    response.on_hover_text("Frames per second of animation, 0.01 to 1000");
     playback.set_fps(fps);
     ui.separator();
     ui.checkbox(&mut playback.blurs, "Motion blur")
@@ -135,17 +133,17 @@ fn controls(ui: &mut Ui, playback: &mut Playback, tips: &[String; 7]) {
 fn shutter(ui: &mut Ui, shutter: &mut Shutter) {
     let Shutter { open, close } = shutter;
     ui.label("Shutter");
-    let tip = "in frames from the frame's own time, -16 to 16; half a frame is 180°";
+    let tip = "in frames relative to the frame's time, -16 to 16. Half a frame is 180°";
     let response = number(ui, open, -MAX_SHUTTER..=*close, 0.01, "");
     name(&response, *open, "Shutter opens");
     response.on_hover_text(format!("When the shutter opens, {tip}"));
     ui.label("to");
     let response = number(ui, close, *open..=MAX_SHUTTER, 0.01, " frames");
     name(&response, *close, "Shutter closes");
-    response.on_hover_text(format!("When it closes, {tip}"));
+    response.on_hover_text(format!("When the shutter closes, {tip}"));
 }
 
-/// A name for a number that has no label beside it.
+/// Sets the accessible name of a number without a label.
 fn name(response: &egui::Response, value: f64, name: &str) {
     response.widget_info(|| {
         let mut info = egui::WidgetInfo::drag_value(response.enabled(), value);

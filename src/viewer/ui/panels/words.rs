@@ -1,13 +1,13 @@
-//! Lines of a panel: a name, what it names, and a way back; and words of the command line for people.
+//! Rows of settings with a reset button, and titles of command-line words.
 
 use crate::app::words::Words;
 use eframe::egui::{self, Response, RichText, Ui, WidgetInfo};
 use std::ops::RangeInclusive;
 
-/// A word of the command line as a title: `side-by-side` is `Side by side`.
+/// The title of a command-line word: `side-by-side` becomes `Side by side`.
 pub fn title(word: &str) -> String {
     match word {
-        // Names that are written otherwise.
+        // Proper names.
         "srgb" => return "sRGB".into(),
         "agx" => return "AgX".into(),
         "aces" | "uv" => return word.to_uppercase(),
@@ -23,8 +23,7 @@ pub fn title(word: &str) -> String {
     }
 }
 
-/// A line of a two-column grid: a name, its widget, and a button back to `usual` while it is something
-/// else.
+/// A row of a two-column grid: a label, a widget, and a reset button while the value differs from `usual`.
 pub fn line<T: PartialEq + Clone>(
     ui: &mut Ui,
     (name, tip): (&str, &str),
@@ -42,16 +41,16 @@ pub fn line<T: PartialEq + Clone>(
     ui.end_row();
 }
 
-/// A button that takes back what the scene says.
+/// A button that resets to the scene's value.
 pub fn back(ui: &mut Ui, name: &str) -> Response {
     let button = ui.add(egui::Button::new(RichText::new("↺")).small().frame(false));
     let name = format!("Reset {}", name.to_lowercase());
-    let tip = "Take back what the scene says";
+    let tip = "Reset to the scene's value";
     button.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &name));
     button.on_hover_text(tip)
 }
 
-/// One of the words of a flag.
+/// A choice among the words of a flag.
 pub fn choice<T: PartialEq + Clone>(
     ui: &mut Ui,
     name: &str,
@@ -63,7 +62,7 @@ pub fn choice<T: PartialEq + Clone>(
         .selected_text(chosen)
         .show_ui(ui, |ui| {
             for (word, help, known) in words.all() {
-                // Another word for what is there already is of no use in a list.
+                // Aliases of the same value are left out.
                 if words.word(known) == *word {
                     ui.selectable_value(value, known.clone(), title(word))
                         .on_hover_text(*help);
@@ -73,7 +72,7 @@ pub fn choice<T: PartialEq + Clone>(
         .response
 }
 
-/// A number that can be dragged and typed.
+/// A number that can be dragged or typed.
 pub fn number<T: egui::emath::Numeric>(
     ui: &mut Ui,
     value: &mut T,

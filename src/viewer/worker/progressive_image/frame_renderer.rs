@@ -1,54 +1,53 @@
-//! What others know of a picture that follows its order: where it is shown, what a question gets to see
-//! of it, and what can go wrong.
+//! The interface of a progressive image: its slot, access for questions, and its errors.
 
 use crate::app::advice;
 use crate::image::Image;
 use crate::render::{RenderError, RenderSettings, Renderer, Tone};
 use crate::viewer::worker::request::RenderRequest;
 
-/// Where a picture is shown.
+/// The slot of a picture in the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureSlot {
-    /// The picture itself.
+    /// The main picture.
     Main,
-    /// What it is compared with.
+    /// The second picture of a comparison.
     Beside,
-    /// The scene from outside, behind drawn rays.
+    /// The scene behind the rays in the ray view.
     Outside,
 }
 
 impl PictureSlot {
-    /// All of them; those that are rendered first come first.
+    /// All slots in rendering order.
     pub const ALL: [Self; 3] = [Self::Outside, Self::Beside, Self::Main];
 }
 
-/// What a question gets to see.
+/// The renderers that a question can use.
 pub struct FrameRenderer<'a> {
-    /// The renderer of the main picture, which is at rest between two steps.
+    /// The renderer of the main picture, idle between two steps.
     pub renderer: &'a mut Renderer,
-    /// What it was last asked for.
+    /// The request of the main picture.
     pub order: &'a RenderRequest,
-    /// The same of the picture from outside, where there is one in full.
+    /// The renderer and request of the ray view, if it is at full resolution.
     pub outside: Option<(&'a mut Renderer, &'a RenderRequest)>,
 }
 
 impl FrameRenderer<'_> {
-    /// The picture so far and the samples in it.
+    /// The picture so far and its number of samples.
     pub fn image(&mut self, tone: &Tone) -> Result<(Image, u32), RenderError> {
         let samples = self.renderer.samples_done();
         Ok((self.renderer.develop(tone)?, samples))
     }
 
-    /// The settings of the picture in full.
+    /// The full-resolution settings of the picture.
     pub fn settings(&self) -> &RenderSettings {
         &self.order.settings
     }
 }
 
-/// Why an order cannot be followed.
+/// Why a request fails.
 #[derive(Debug, thiserror::Error)]
 pub enum ImageError {
-    /// The scene cannot be laid out.
+    /// The scene cannot be packed.
     #[error(transparent)]
     Pack(#[from] crate::pack::PackError),
     /// It cannot be rendered.

@@ -1,9 +1,9 @@
-//! How far a picture may be from what it tends to.
+//! Estimates the noise of a picture.
 
 use crate::image::Image;
 
-/// Two looks at the same picture tell its noise: of n samples the mean differs from that of the first
-/// m by a variance of σ²(1/m − 1/n), and its own is σ²/n.
+/// Two states of the same picture give its noise: the mean of n samples differs from that of the first m
+/// with a variance of σ²(1/m − 1/n), and its own variance is σ²/n.
 #[derive(Default)]
 pub struct Noise {
     samples: u32,
@@ -12,17 +12,17 @@ pub struct Noise {
 }
 
 impl Noise {
-    /// Whether another look is worth its time: each time the samples have doubled.
+    /// Whether a new estimate is due: each time the samples have doubled.
     pub fn is_due(&self, samples: u32) -> bool {
         samples >= 1.max(2 * self.samples)
     }
 
-    /// Root mean square error of the picture that was looked at last, in levels of 1.
+    /// Root mean square error of the last state, as a fraction of white.
     pub fn estimate(&self) -> Option<f64> {
         self.estimate
     }
 
-    /// Takes a look at a picture of so many samples.
+    /// Adds a state of a picture with so many samples.
     pub fn look(&mut self, image: &Image, samples: u32) {
         let level = |[r, g, b, _]: &[f32; 4]| {
             [r, g, b]

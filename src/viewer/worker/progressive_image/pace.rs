@@ -1,39 +1,38 @@
-//! How coarse a picture must be to come in time, and how work is cut so that the window goes on.
+//! Chooses the resolution of previews and the length of time slices.
 
 use crate::gpu::Gpu;
 use crate::render::{Antialias, ExecutionPolicy, RenderSettings, Slicing};
 use std::time::Duration;
 
-/// Time that a submission should take while the window goes on: on software the cores that draw the
-/// window are those that trace.
+/// Target time of a submission while the window is active: on software, the cores that draw the window also
+/// trace.
 const SLICE: Duration = Duration::from_millis(8);
 const SLICE_ON_CPU: Duration = Duration::from_millis(30);
-/// Time that a coarse picture should take in all.
+/// Target time of a preview.
 const COARSE: Duration = Duration::from_millis(12);
 const COARSE_ON_CPU: Duration = Duration::from_millis(30);
-/// The least time between two looks at a picture that is being refined. On software the window takes the
-/// cores from what it shows.
+/// Minimum interval between presentations during refinement. On software, drawing the window slows down
+/// rendering.
 const LOOK: Duration = Duration::from_millis(16);
 const LOOK_ON_CPU: Duration = Duration::from_millis(250);
-/// The longest side that can be one window of the film.
+/// Maximum side length of a film tile.
 const MAX_SIDE: u32 = 16384;
 
-/// The coarsest picture has a pixel in this many, along each side.
+/// Maximum downscaling of a preview along each side.
 const MAX_DIVISOR: u32 = 16;
-/// How much longer than wanted a picture may take before the next one is coarser, and how much of that
-/// time a finer one may be expected to take: between the two nothing changes, so that times that differ
-/// a little do not make the picture flicker.
+/// Hysteresis: how far a preview may exceed the target before the next one is coarser, and the fraction of
+/// the target below which it becomes finer. Small variations do not make the picture flicker.
 const TOO_SLOW: f64 = 1.3;
 const FAST_ENOUGH: f64 = 0.75;
-/// Share of the newest measurement in what is expected.
+/// Weight of the newest measurement in the average.
 const NEWS: f64 = 0.3;
-/// Seconds of a sample before the first measurement: a slow scene on two cores.
+/// Estimated seconds per sample before the first measurement: a slow scene on two cores.
 const FIRST_GUESS: f64 = 4e-6;
 
-/// Chooses sizes of coarse pictures by what they took.
+/// Chooses the resolution of previews from measured times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {
-    /// Expected of a sample.
+    /// Estimated seconds per sample.
     seconds: f64,
     is_measured: bool,
     divisor: u32,
@@ -50,10 +49,10 @@ impl Default for Pace {
 }
 
 impl Pace {
-    /// Takes up what a picture of so many samples, at least 1, took in all, in seconds.
+    /// Adds a measurement: samples, at least 1, and their total seconds.
     pub fn measured(&mut self, seconds: f64, samples: u64) {
         let new = seconds / samples as f64;
-        // Another scene, or another view, is no matter of averages.
+        // A different scene or view resets the average.
         let is_other = !self.is_measured || new > 2.0 * self.seconds || 2.0 * new < self.seconds;
         self.seconds = match is_other {
             true => new,
@@ -62,8 +61,7 @@ impl Pace {
         self.is_measured = true;
     }
 
-    /// By what to divide width and height of a picture of so many pixels that should take `wanted`
-    /// seconds.
+    /// Divisor of width and height for a picture of so many pixels that should take `wanted` seconds.
     pub fn divisor(&mut self, pixels: u64, wanted: f64) -> u32 {
         let time = |divisor: u32| pixels as f64 * self.seconds / f64::from(divisor).powi(2);
         let first_within = |limit: f64| {
@@ -79,19 +77,19 @@ impl Pace {
     }
 }
 
-/// How long a frame of the window is worth holding back for the coarse picture: what draws the window would
-/// take its time from it, only to show what was before.
+/// Maximum time to delay a window frame for its preview. Drawing the window meanwhile would slow down the
+/// preview, only to show the old picture.
 pub fn patience(gpu: &Gpu) -> Duration {
     let coarse = if gpu.is_cpu() { COARSE_ON_CPU } else { COARSE };
     coarse.mul_f64(1.5)
 }
 
-/// How long a picture that is being refined is worth no other look.
+/// Minimum interval between presentations during refinement.
 pub fn between_looks(gpu: &Gpu) -> Duration {
     if gpu.is_cpu() { LOOK_ON_CPU } else { LOOK }
 }
 
-/// Slices that let the window go on.
+/// Time slices that keep the window responsive.
 pub fn policy(gpu: &Gpu, policy: ExecutionPolicy) -> ExecutionPolicy {
     let slice = if gpu.is_cpu() { SLICE_ON_CPU } else { SLICE };
     ExecutionPolicy {
@@ -105,7 +103,7 @@ pub fn policy(gpu: &Gpu, policy: ExecutionPolicy) -> ExecutionPolicy {
     }
 }
 
-/// A smaller picture of one sample, as large as the time allows.
+/// A smaller picture with one sample per pixel that fits the time.
 pub fn coarse(gpu: &Gpu, pace: &mut Pace, settings: &RenderSettings) -> RenderSettings {
     let time = if gpu.is_cpu() { COARSE_ON_CPU } else { COARSE };
     let [.., width, height] = settings.region();

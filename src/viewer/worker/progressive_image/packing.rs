@@ -1,10 +1,10 @@
-//! What of an order the renderer gets.
+//! Packs a request for the renderer.
 
 use crate::pack::{self, PackedScene, PackedView};
 use crate::scene::Frame;
 use crate::viewer::worker::request::RenderRequest;
 
-/// The frames with the order's camera and background. `previous` is the view before it.
+/// The frames with the request's camera and background. `previous` is the view before it.
 pub fn view(
     packed: &PackedScene,
     previous: Option<&PackedView>,

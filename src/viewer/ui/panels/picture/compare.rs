@@ -1,4 +1,4 @@
-//! Two looks at the same: how they share the room, the line between them and what they are called.
+//! The comparison of two views: layout, wipe line and labels.
 
 use crate::app::words::INTEGRATORS;
 use crate::render::Integrator;
@@ -10,12 +10,12 @@ use eframe::egui::{
     self, Align2, Color32, CursorIcon, EventFilter, FontId, Key, Pos2, Rect, Stroke, Vec2, vec2,
 };
 
-/// How near the mouse takes the line, in points.
+/// Distance within which the line can be dragged, in points.
 const REACH: f32 = 5.0;
-/// What an arrow key moves it by, as a share of the picture's width.
+/// Step of an arrow key, as a fraction of the picture's width.
 const STEP: f32 = 0.02;
 
-/// The room of both pictures.
+/// The areas of both pictures.
 pub fn spaces(comparison: Option<Comparison>, space: Rect) -> [Rect; 2] {
     match comparison {
         Some(Comparison {
@@ -29,7 +29,7 @@ pub fn spaces(comparison: Option<Comparison>, space: Rect) -> [Rect; 2] {
     }
 }
 
-/// Where the second picture may be drawn.
+/// The area in which the second picture is drawn.
 pub fn clip(sharing: Sharing, space: Rect, viewport: Viewport) -> Rect {
     match sharing {
         Sharing::SideBySide => space,
@@ -41,7 +41,7 @@ pub fn clip(sharing: Sharing, space: Rect, viewport: Viewport) -> Rect {
     }
 }
 
-/// The line between both, which can be moved, and their names in the corners.
+/// Draws the wipe line, which can be dragged, and the labels in the corners.
 pub fn overlay(
     ui: &mut egui::Ui,
     context: &mut PanelContext,
@@ -77,7 +77,7 @@ pub fn overlay(
     label(&painter, corners[1], right, comparison.integrator);
 }
 
-/// The line: dragged, or moved by the arrow keys once it has the focus.
+/// The wipe line: dragged, or moved by arrow keys while it has the focus.
 fn wipe(ui: &mut egui::Ui, painter: &egui::Painter, share: &mut f32, rect: Rect) {
     let at = |share: f32| rect.min.x + rect.width() * share;
     let area = Rect::from_center_size(
@@ -112,7 +112,7 @@ fn wipe(ui: &mut egui::Ui, painter: &egui::Painter, share: &mut f32, rect: Rect)
     }
     *share = share.clamp(0.0, 1.0);
     let percent = f64::from(*share) * 100.0;
-    response.widget_info(|| egui::WidgetInfo::slider(true, percent, "Line between the looks"));
+    response.widget_info(|| egui::WidgetInfo::slider(true, percent, "Comparison wipe"));
     let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
     let is_taken = response.hovered() || response.dragged() || has_focus;
     let x = at(*share);
@@ -135,7 +135,7 @@ fn wipe(ui: &mut egui::Ui, painter: &egui::Painter, share: &mut f32, rect: Rect)
     }
 }
 
-/// A name in a corner, to be read on any picture.
+/// A label in a corner, legible on any picture.
 fn label(painter: &egui::Painter, corner: Pos2, align: Align2, integrator: Integrator) {
     let text = title(INTEGRATORS.word(&integrator));
     let font = FontId::proportional(13.0);

@@ -1,4 +1,4 @@
-//! The colour bar of a view that shows a quantity, with its range and its unit.
+//! The colour legend of a view that shows a quantity, with its range and unit.
 
 use crate::app::legend::{number, sentence, stops};
 use crate::render::{Integrator, Quantity};
@@ -8,12 +8,12 @@ use eframe::egui::{
     self, Align2, Color32, FontId, Mesh, Rect, Sense, Shape, Stroke, StrokeKind, vec2,
 };
 
-/// Width and height of the bar, and what is round it, in points.
+/// Size of the bar and the margin around it, in points.
 const BAR: egui::Vec2 = vec2(150.0, 10.0);
 const MARGIN: f32 = 8.0;
 
-/// Draws the legend of a picture that lies in `rect`, in its lower left corner or, if `is_right`, in its
-/// lower right one.
+/// Draws the legend of a picture in `rect`, in its lower left corner, or in the lower right one if
+/// `is_right`.
 pub fn legend(
     ui: &egui::Ui,
     painter: &egui::Painter,
@@ -27,7 +27,7 @@ pub fn legend(
     let font = FontId::proportional(12.0);
     let text = |text: String| painter.layout_no_wrap(text, font.clone(), Color32::WHITE);
     let [least, most] = range.map(number);
-    // The range leaves out a few pixels at either end.
+    // The range excludes a few outliers at both ends.
     let (least, most) = match quantity {
         Quantity::Samples => (least, most),
         _ => (format!("≤ {least}"), format!("≥ {most}")),
@@ -57,7 +57,7 @@ pub fn legend(
     icon::named(&response, &told);
 }
 
-/// A bar whose colours go over into one another.
+/// A bar with a colour gradient.
 fn gradient(bar: Rect, colors: &[[u8; 3]]) -> Shape {
     let mut mesh = Mesh::default();
     let last = colors.len().saturating_sub(1).max(1) as f32;

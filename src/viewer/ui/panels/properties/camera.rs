@@ -1,4 +1,4 @@
-//! A camera of the scene.
+//! The properties of a camera.
 
 use crate::scene::{CameraProperty, Lens, Scene, Target};
 use crate::viewer::model::objects::Id;
@@ -6,23 +6,23 @@ use crate::viewer::state::session::Session;
 use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
 use glam::DVec3;
 
-/// What scene files can hold: the largest lens, in scene units, and in focus distances.
+/// Limits of scene files: the largest lens in scene units, and relative to the focus distance.
 const MAX_LENS: f64 = 1e9;
 const MAX_RATIO: f64 = 1e6;
 
-/// All fields of a camera.
+/// Draws all properties of a camera.
 pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
     let camera = fields.scene.cameras[index].clone();
     let target = |property| Some(Target::Camera(index, property));
     let is_used = fields.scene.camera_index == index;
     fields.ui.horizontal_wrapped(|ui| {
-        let tip = "Go to where this camera is; the scene stays as it is.";
-        if ui.button("Look through it").on_hover_text(tip).clicked() {
+        let tip = "Move the view to this camera without changing the scene.";
+        if ui.button("Look through").on_hover_text(tip).clicked() {
             session.frame(Id::Camera(index));
         }
         if !is_used {
-            let tip = "Make it the camera that the scene is seen by.";
-            if ui.button("Use it").on_hover_text(tip).clicked() {
+            let tip = "Make this the scene's active camera.";
+            if ui.button("Make active").on_hover_text(tip).clicked() {
                 fields
                     .changes
                     .push(crate::viewer::ui::panels::properties::Change {
@@ -41,14 +41,14 @@ pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
             .as_ref()
             .is_some_and(|controller| controller.is_home());
         fields.note(match is_home {
-            true => "The picture is seen by it.",
-            false => "The scene's camera; the picture is seen from elsewhere.",
+            true => "This is the active camera.",
+            false => "This is the scene's camera. The current view differs from it.",
         });
     }
-    fields.heading("Place");
+    fields.heading("Transform");
     let space = match camera.node {
-        Some(_) => "in the space of what carries it",
-        None => "in the world",
+        Some(_) => "in its parent's space",
+        None => "in world space",
     };
     let mut vector = |label: &str, tip: &str, value: DVec3, property, slot: Slot| {
         let tip = format!("{tip}, {space}, in scene units.");
@@ -65,7 +65,7 @@ pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
     use CameraProperty as P;
     vector(
         "Look from",
-        "Where it is",
+        "Position",
         camera.look_from,
         P::LookFrom,
         |c| &mut c.look_from,
@@ -73,7 +73,7 @@ pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
     if camera.target.is_none() {
         vector(
             "Look at",
-            "A point in the middle of the picture",
+            "The point at the centre of the picture",
             camera.look_at,
             P::LookAt,
             |c| &mut c.look_at,
@@ -81,27 +81,27 @@ pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
     }
     vector(
         "Up",
-        "What is upwards in the picture",
+        "The up direction of the picture",
         camera.up,
         P::Up,
         |c| &mut c.up,
     );
     if camera.target.is_some() {
-        fields.note("It looks at what a node carries.");
+        fields.note("It tracks a node.");
     }
     fields.heading("Projection");
-    let tip = "Whether rays are parallel.";
+    let tip = "Use parallel projection.";
     let is_parallel = camera.orthographic_height.is_some();
     let distance = camera.look_from.distance(camera.look_at);
     let fov_y = camera.fov_y;
     fields.toggle("Orthographic", tip, is_parallel, move |scene, to| {
-        // What is looked at keeps its size.
+        // The size of the target is preserved.
         let height = 2.0 * distance * (fov_y / 2.0).tan();
         scene.cameras[index].orthographic_height = to.then_some(height);
     });
     match camera.orthographic_height {
         Some(height) => {
-            let tip = "Height of what is in the picture, in scene units, above 0.";
+            let tip = "Height of the visible area in scene units, above 0.";
             let driven = target(P::OrthographicHeight);
             fields.number(
                 "Height",
@@ -137,7 +137,7 @@ pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
     lens(fields, index, camera.lens, distance);
 }
 
-/// As the reader of native scenes asks for it.
+/// The same condition as in the importer of native scenes.
 fn looks_somewhere(camera: &crate::scene::Camera) -> bool {
     let forward = (camera.look_at - camera.look_from).normalize_or_zero();
     let up = camera.up.normalize_or_zero();
@@ -146,7 +146,7 @@ fn looks_somewhere(camera: &crate::scene::Camera) -> bool {
 
 fn lens(fields: &mut Fields, index: usize, lens: Option<Lens>, distance: f64) {
     fields.heading("Lens");
-    let tip = "A thin lens instead of a pinhole: what is not at its distance is blurred.";
+    let tip = "Use a thin lens with depth of field instead of a pinhole.";
     fields.toggle("Thin lens", tip, lens.is_some(), move |scene, to| {
         scene.cameras[index].lens = to.then_some(Lens {
             radius: 0.02 * distance,
@@ -166,15 +166,15 @@ fn lens(fields: &mut Fields, index: usize, lens: Option<Lens>, distance: f64) {
             }
         }
     };
-    let tip = "Of the opening, in scene units, above 0.";
+    let tip = "Aperture radius in scene units, above 0.";
     let driven = target(CameraProperty::LensRadius);
     let set = with(|lens, to| lens.radius = to.min(MAX_LENS).min(MAX_RATIO * lens.focus_distance));
     fields.number("Radius", tip, lens.radius, Limits::SIZE, driven, set);
-    let tip = "Distance along the line of sight of what is sharp, in scene units, above 0.";
+    let tip = "Focus distance along the viewing direction in scene units, above 0.";
     let driven = target(CameraProperty::FocusDistance);
     let set = with(|lens, to| lens.focus_distance = to.max(lens.radius / MAX_RATIO));
     fields.number("Focus", tip, lens.focus_distance, Limits::SIZE, driven, set);
-    let tip = "Corners of the opening, 3 or more; 0 for a round one.";
+    let tip = "Number of aperture blades, at least 3; 0 for a circular aperture.";
     let limits = Limits {
         speed: 0.1,
         ..Limits::between(0.0, 64.0)
@@ -182,7 +182,7 @@ fn lens(fields: &mut Fields, index: usize, lens: Option<Lens>, distance: f64) {
     let set = with(|lens, to| {
         let count = to.round() as u32;
         lens.blade_count = match (count, lens.blade_count) {
-            // On the way up from a circle, and down to it.
+            // Skips 1 and 2, which are not valid numbers of blades.
             (1 | 2, 0) => 3,
             (1 | 2, _) => 0,
             _ => count,
@@ -197,9 +197,9 @@ fn lens(fields: &mut Fields, index: usize, lens: Option<Lens>, distance: f64) {
         set,
     );
     if lens.blade_count > 0 {
-        let tip = "Degrees counter-clockwise of the first corner from the right.";
+        let tip = "Rotation of the first blade from the right, in degrees counter-clockwise.";
         let set = with(|lens, to| lens.blade_rotation = to.to_radians());
         let degrees = lens.blade_rotation.to_degrees();
-        fields.number("Blades turned", tip, degrees, Limits::ANGLE, None, set);
+        fields.number("Blade rotation", tip, degrees, Limits::ANGLE, None, set);
     }
 }

@@ -1,4 +1,4 @@
-//! Rows of a label and what is set there; every one asks for a change of the scene that has a name.
+//! Rows with a label and a value. Every edit becomes a named change of the scene.
 
 use crate::scene::{Scene, Target};
 use crate::viewer::model::objects::EditError;
@@ -6,47 +6,47 @@ use crate::viewer::ui::panels::icon::{edge, named};
 use eframe::egui::{self, DragValue, Ui, UiBuilder, vec2};
 use glam::{DVec3, Vec3};
 
-/// Width of labels.
+/// Width of labels, in points.
 const LABEL: f32 = 84.0;
-/// Why something cannot be set.
-const DRIVEN: &str = "An animation sets this: change its keys in the scene file.";
+/// Tooltip of animated properties.
+const DRIVEN: &str = "Animated: edit its keys in the scene file.";
 
-/// A change of the scene that someone asked for.
+/// A change of the scene.
 pub struct Change {
-    /// Such as "change diffuse of glass".
+    /// A description, such as "change diffuse of glass".
     pub name: String,
-    /// What to do.
+    /// Applies the change.
     pub apply: Box<Apply>,
 }
 
-/// A change, unless it cannot be made.
+/// A change that can fail.
 type Apply = dyn FnOnce(&mut Scene) -> Result<(), EditError>;
 
-/// What numbers may be, and what one point of a drag changes them by.
+/// Range and drag speed of a number.
 #[derive(Clone, Copy)]
 pub struct Limits {
     pub least: f64,
     pub most: f64,
-    /// As a share of the number, or of 1 where it is small.
+    /// Change per point of a drag, relative to the number, or to 1 if it is small.
     pub speed: f64,
-    /// Written behind it.
+    /// The unit as a suffix.
     pub unit: &'static str,
 }
 
 impl Limits {
-    /// Anywhere.
+    /// Any finite coordinate.
     pub const LENGTH: Self = Self {
         least: -1e15,
         most: 1e15,
         speed: 0.01,
         unit: "",
     };
-    /// What must not be 0.
+    /// Positive lengths.
     pub const SIZE: Self = Self {
         least: 1e-9,
         ..Self::LENGTH
     };
-    /// What is 0 or more.
+    /// 0 or more.
     pub const AMOUNT: Self = Self {
         least: 0.0,
         most: 1e9,
@@ -75,17 +75,17 @@ impl Limits {
     }
 }
 
-/// Rows of fields that belong to one thing.
+/// The rows of one object.
 pub struct Fields<'a> {
     pub ui: &'a mut Ui,
     pub scene: &'a Scene,
-    /// What the thing is called.
+    /// Its label.
     pub subject: String,
     pub changes: &'a mut Vec<Change>,
 }
 
 impl Fields<'_> {
-    /// Asks for a change of one property.
+    /// Requests a change of one property.
     pub fn change(
         &mut self,
         property: &str,
@@ -117,7 +117,7 @@ impl Fields<'_> {
         target.is_some_and(|target| targets.any(|other| *other == target))
     }
 
-    /// A label and what `content` puts behind it.
+    /// A row with a label and `content`.
     pub fn row<R>(
         &mut self,
         label: &str,
@@ -146,7 +146,7 @@ impl Fields<'_> {
             .inner
     }
 
-    /// A number.
+    /// A row with a number.
     pub fn number(
         &mut self,
         label: &str,
@@ -163,7 +163,7 @@ impl Fields<'_> {
         self.set(label, value, set);
     }
 
-    /// Three numbers.
+    /// A row with a vector.
     pub fn vector(
         &mut self,
         label: &str,
@@ -177,7 +177,7 @@ impl Fields<'_> {
         self.set(label, value, set);
     }
 
-    /// The same without asking for a change: what it was set to.
+    /// The same, returning the edited value instead of requesting a change.
     pub fn vector_value(
         &mut self,
         label: &str,
@@ -200,7 +200,7 @@ impl Fields<'_> {
         })
     }
 
-    /// A linear colour: its hue by a button, its parts by numbers, which may be more than 1.
+    /// A linear colour: a button for the hue, and a number for each component, which may exceed 1.
     pub fn color(
         &mut self,
         label: &str,
@@ -214,10 +214,10 @@ impl Fields<'_> {
             ui.spacing_mut().item_spacing.x = 3.0;
             let button = 22.0;
             ui.spacing_mut().interact_size.x = button;
-            // egui draws the button's edge in this colour.
+            // egui draws the button's outline in this colour.
             let edge = edge(ui.visuals());
             ui.visuals_mut().widgets.inactive.bg_fill = edge;
-            // What is brighter than white keeps its brightness while its hue changes.
+            // A colour brighter than white keeps its brightness when its hue changes.
             let scale = value.max_element().max(1.0);
             let mut shown = (value / scale).to_array();
             let mut changed = None;
@@ -239,7 +239,7 @@ impl Fields<'_> {
         self.set(label, value, set);
     }
 
-    /// On or off.
+    /// A row with a check box.
     pub fn toggle(
         &mut self,
         label: &str,
@@ -254,7 +254,7 @@ impl Fields<'_> {
         self.set(label, value, set);
     }
 
-    /// One of several.
+    /// A row with a choice.
     pub fn choice<T: Copy + PartialEq + 'static>(
         &mut self,
         label: &str,
@@ -298,19 +298,19 @@ impl Fields<'_> {
         self.ui.strong(text);
     }
 
-    /// Words about what cannot be changed.
+    /// A note.
     pub fn note(&mut self, text: &str) {
         self.ui.weak(text);
     }
 }
 
-/// What screen readers call a number.
+/// Sets the accessible name of a number.
 enum Name<'a> {
     Own(&'a str),
     Label(Option<egui::Id>),
 }
 
-/// A number to be dragged or typed; what it was set to.
+/// A number that can be dragged or typed; returns the edited value.
 fn drag(ui: &mut Ui, name: Name, tip: &str, value: f64, limits: Limits, width: f32) -> Option<f64> {
     let mut now = value;
     let widget = DragValue::new(&mut now)
@@ -330,13 +330,13 @@ fn drag(ui: &mut Ui, name: Name, tip: &str, value: f64, limits: Limits, width: f
         Name::Label(None) => response,
     };
     let response = response.on_hover_text(tip).on_disabled_hover_text(DRIVEN);
-    // Text that was not touched must not round what it stands for.
+    // Unedited text must not round the number.
     let is_meant = response.dragged() || shown(value) != shown(now);
     (response.changed() && is_meant && now.is_finite())
         .then(|| now.clamp(limits.least, limits.most))
 }
 
-/// A number in few digits.
+/// Formats a number with few digits.
 pub fn shown(value: f64) -> String {
     let size = value.abs();
     let text = match size {

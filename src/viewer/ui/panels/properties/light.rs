@@ -1,23 +1,23 @@
-//! What a light shines with.
+//! The properties of a light.
 
 use crate::scene::{Attenuation, LightKind, LightProperty, Target};
 use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
-/// All fields of a light but its place.
+/// Draws all properties of a light except its transform.
 pub fn show(fields: &mut Fields, index: usize) {
     let light = fields.scene.lights[index].clone();
     fields.heading("Light");
     let target = |property| Some(Target::Light(index, property));
-    let tip = "Radiance in the sum of Phong, at distance 1 where it fades.";
+    let tip = "Light colour in the Phong sum; at distance 1 if the light falls off.";
     let color = target(LightProperty::Color);
     fields.color("Colour", tip, light.color, color, move |scene, to| {
         scene.lights[index].color = to;
     });
     let intensity = f64::from(light.color.max_element());
     if intensity > 0.0 {
-        let tip = "The brightest part of the colour; all of it goes with it. 0 or more.";
+        let tip = "Scales the colour; its largest component, 0 or more.";
         let limits = Limits::between(1e-6, 1e9);
         let driven = target(LightProperty::Intensity);
         fields.number(
@@ -33,14 +33,17 @@ pub fn show(fields: &mut Fields, index: usize) {
         );
     }
     extent(fields, index, light.kind);
-    let tip = "How it fades with the distance r.";
+    let tip = "Falloff with the distance r.";
     let options = [
-        (Attenuation::None, "not at all".to_owned()),
-        (Attenuation::InverseSquare, "with 1/r²".to_owned()),
+        (Attenuation::None, "None".to_owned()),
+        (
+            Attenuation::InverseSquare,
+            "Inverse square (1/r²)".to_owned(),
+        ),
     ];
     if !matches!(light.kind, LightKind::Directional { .. }) {
         fields.choice(
-            "Fading",
+            "Falloff",
             tip,
             light.attenuation,
             &options,
@@ -51,7 +54,8 @@ pub fn show(fields: &mut Fields, index: usize) {
         );
     }
     if light.kind.radiance().is_some() {
-        let tip = "Shadow rays for each shaded point, at least 1: more make soft shadows smoother.";
+        let tip =
+            "Shadow rays per shading point, at least 1. More rays reduce noise in soft shadows.";
         let limits = Limits {
             speed: 0.1,
             ..Limits::between(1.0, 1024.0)
@@ -60,8 +64,8 @@ pub fn show(fields: &mut Fields, index: usize) {
         fields.number("Samples", tip, samples, limits, None, move |scene, to| {
             scene.lights[index].samples = to.round() as u32;
         });
-        let tip = "Whether rays see the light itself.";
-        fields.toggle("Visible itself", tip, light.visible, move |scene, to| {
+        let tip = "Show the light's surface to camera, reflection and refraction rays.";
+        fields.toggle("Visible", tip, light.visible, move |scene, to| {
             scene.lights[index].visible = to;
         });
     }
@@ -77,8 +81,7 @@ fn extent(fields: &mut Fields, index: usize, kind: LightKind) {
         _ => None,
     };
     if let Some((label, value)) = direction {
-        let tip =
-            "The way the light travels, in the space of what carries it; of any length but 0.";
+        let tip = "Direction of the light in its parent's space; any length except 0.";
         fields.vector(
             label,
             tip,
@@ -103,7 +106,7 @@ fn extent(fields: &mut Fields, index: usize, kind: LightKind) {
                 ..Limits::ANGLE
             };
             let tip =
-                "Degrees off the axis up to which it has its full strength; at most the outer one.";
+                "Half-angle of the cone of full intensity in degrees; at most the outer angle.";
             let degrees = inner.to_degrees();
             fields.number(
                 "Inner angle",
@@ -117,7 +120,8 @@ fn extent(fields: &mut Fields, index: usize, kind: LightKind) {
                     }
                 },
             );
-            let tip = "Degrees off the axis from which on it gives nothing, up to 90.";
+            let tip =
+                "Half-angle of the cone beyond which there is no light, in degrees, up to 90.";
             let degrees = outer.to_degrees();
             fields.number(
                 "Outer angle",

@@ -1,4 +1,4 @@
-//! How a surface answers light.
+//! The properties of a material.
 
 use crate::scene::{
     Fresnel, Material, MaterialProperty, Mixing, ObjectRef, Pattern, Scene, Target, Textures,
@@ -10,21 +10,21 @@ use crate::viewer::ui::panels::icon;
 use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
 use glam::Vec3;
 
-/// All fields of a material.
+/// Draws all properties of a material.
 pub fn show(fields: &mut Fields, index: usize) {
     let material = fields.scene.materials[index].clone();
     use MaterialProperty as P;
-    fields.heading("Local light");
+    fields.heading("Local shading");
     let of = |fields: &mut Fields, label, tip, property, slot| {
         color(fields, index, label, tip, property, slot);
     };
-    let tip = "Share of the light that is scattered evenly (k_d).";
+    let tip = "Diffuse reflection coefficient (k_d).";
     of(fields, "Diffuse", tip, P::Diffuse, |m| &mut m.diffuse);
-    let tip = "Strength of the highlight (k_s).";
+    let tip = "Specular reflection coefficient (k_s).";
     of(fields, "Specular", tip, P::Specular, |m| &mut m.specular);
-    let tip = "What multiplies the scene's ambient light.";
+    let tip = "Factor on the scene's ambient light.";
     of(fields, "Ambient", tip, P::Ambient, |m| &mut m.ambient);
-    let tip = "Radiance of the surface itself.";
+    let tip = "Radiance emitted by the surface.";
     of(fields, "Emission", tip, P::Emission, |m| &mut m.emission);
     let number = |fields: &mut Fields, label, tip, limits, property, slot: Number| {
         let value = f64::from(*slot(&mut fields.scene.materials[index].clone()));
@@ -32,7 +32,7 @@ pub fn show(fields: &mut Fields, index: usize) {
         let target = Target::Material(index, property);
         fields.number(label, tip, value, limits, Some(target), set);
     };
-    let tip = "Exponent of the highlight, 0 or more: larger is sharper.";
+    let tip = "Phong exponent of the highlight, 0 or more. Larger values are sharper.";
     number(
         fields,
         "Shininess",
@@ -41,16 +41,16 @@ pub fn show(fields: &mut Fields, index: usize) {
         P::Shininess,
         |m| &mut m.shininess,
     );
-    let tip = "Whether both sides answer light; else the back shows ambient light only.";
+    let tip = "Shade both sides. Otherwise the back shows ambient light only.";
     fields.toggle("Two-sided", tip, material.two_sided, move |scene, to| {
         scene.materials[index].two_sided = to;
     });
     fields.heading("Mirror and glass");
-    let tip = "Share of the light that is mirrored; with Fresnel that at grazing angles.";
+    let tip = "Fraction of light that is reflected; with Fresnel, at grazing angles.";
     of(fields, "Reflect", tip, P::Reflect, |m| &mut m.reflect);
-    let tip = "Share of the light that is let through.";
+    let tip = "Fraction of light that is transmitted.";
     of(fields, "Transmit", tip, P::Transmit, |m| &mut m.transmit);
-    let tip = "How much light a unit length swallows: exp(−absorption · length) is left.";
+    let tip = "Absorption coefficient: transmittance is exp(−absorption · length).";
     of(fields, "Absorption", tip, P::Absorption, |m| {
         &mut m.absorption
     });
@@ -63,7 +63,7 @@ pub fn show(fields: &mut Fields, index: usize) {
         P::Ior,
         |m| &mut m.ior,
     );
-    let tip = "Share of the local light where the mixing is a layer, from 0 to 1.";
+    let tip = "Weight of local shading when mixing is “layer”, 0 to 1.";
     number(
         fields,
         "Opacity",
@@ -72,9 +72,9 @@ pub fn show(fields: &mut Fields, index: usize) {
         P::Opacity,
         |m| &mut m.opacity,
     );
-    let tip = "How much is mirrored at which angle.";
+    let tip = "Dependence of reflectance on the angle.";
     let options = [
-        (Fresnel::None, "the same at every angle".to_owned()),
+        (Fresnel::None, "Constant".to_owned()),
         (Fresnel::Exact, "Fresnel's equations".to_owned()),
         (Fresnel::Schlick, "Schlick's approximation".to_owned()),
     ];
@@ -88,7 +88,7 @@ pub fn show(fields: &mut Fields, index: usize) {
             Ok(())
         },
     );
-    let tip = "How local, mirrored and transmitted light are put together.";
+    let tip = "How local shading, reflection and transmission are combined.";
     let options = [
         (Mixing::Layer, "layer".to_owned()),
         (Mixing::Sum, "sum".to_owned()),
@@ -104,7 +104,7 @@ pub fn show(fields: &mut Fields, index: usize) {
             Ok(())
         },
     );
-    let tip = "Where bodies overlap, the one of the highest priority counts; a whole number.";
+    let tip = "Where dielectric volumes overlap, the highest priority wins. An integer.";
     let limits = Limits {
         speed: 0.1,
         ..Limits::between(-100.0, 100.0)
@@ -116,7 +116,7 @@ pub fn show(fields: &mut Fields, index: usize) {
     textures(fields, index, &material.textures);
 }
 
-/// Where a colour, or a number, is in a material.
+/// Accesses a colour or a number of a material.
 type Color = fn(&mut Material) -> &mut Vec3;
 type Number = fn(&mut Material) -> &mut f32;
 
@@ -134,10 +134,10 @@ fn color(
     fields.color(label, tip, value, Some(target), set);
 }
 
-/// Where a texture is among those of a material.
+/// Accesses a texture of a material.
 type Slot = fn(&mut Textures) -> &mut Option<usize>;
 
-/// Which texture multiplies which colour.
+/// The textures, and the colours that they multiply.
 fn textures(fields: &mut Fields, index: usize, textures: &Textures) {
     if fields.scene.textures.is_empty() {
         return;
@@ -163,7 +163,7 @@ fn textures(fields: &mut Fields, index: usize, textures: &Textures) {
         ("× transmit", textures.transmit, |t| &mut t.transmit),
     ];
     for (label, value, slot) in slots {
-        let tip = "What multiplies this colour over the surface.";
+        let tip = "Texture that multiplies this colour.";
         fields.choice(label, tip, value, &options, move |scene, to| {
             *slot(&mut scene.materials[index].textures) = to;
             Ok(())
@@ -171,7 +171,7 @@ fn textures(fields: &mut Fields, index: usize, textures: &Textures) {
     }
 }
 
-/// Which material an object has, and that material's fields where it is one.
+/// The material of an object, and its properties if all parts share it.
 pub fn of_object(fields: &mut Fields, session: &mut Session, object: ObjectRef) {
     let scene = fields.scene;
     let used: Vec<usize> = match object {
@@ -198,8 +198,8 @@ pub fn of_object(fields: &mut Fields, session: &mut Session, object: ObjectRef) 
         [one] => one,
         _ => usize::MAX,
     };
-    let tip = "What it is made of; all of it gets what is chosen here.";
-    fields.choice("Made of", tip, now, &options, move |scene, to| {
+    let tip = "The material of the whole object.";
+    fields.choice("Material", tip, now, &options, move |scene, to| {
         objects::assign(scene, object, to)
     });
     if let [one] = used[..] {
@@ -214,7 +214,7 @@ pub fn of_object(fields: &mut Fields, session: &mut Session, object: ObjectRef) 
                 .count();
         if users > 1 {
             fields.note(&format!(
-                "{users} objects have {subject}: all of them change."
+                "{users} objects share {subject}. Editing it changes all of them."
             ));
         }
         let before = std::mem::replace(&mut fields.subject, subject);

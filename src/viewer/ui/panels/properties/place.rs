@@ -1,4 +1,4 @@
-//! Where something is, how large, and what shape it has.
+//! The transform and shape of an object.
 
 use crate::scene::{CanonicalShape, Geometry, ObjectRef, Transform};
 use crate::viewer::model::objects;
@@ -6,17 +6,17 @@ use crate::viewer::model::objects::{Id, Scaling};
 use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
 use glam::DVec3;
 
-/// Place, angles and scale in the world.
+/// Position, rotation and scale in world space.
 pub fn show(fields: &mut Fields, id: Id, time: f64) {
     let Some(place) = objects::place(fields.scene, id, time) else {
         return;
     };
     let free = objects::freedom(fields.scene, id);
     let (told, is_whole) = Transform::of(place);
-    fields.heading("Place");
+    fields.heading("Transform");
     let asked = |now: Transform| {
         move |scene: &mut crate::scene::Scene| {
-            // Numbers that were not touched keep all their digits.
+            // Unedited numbers keep full precision.
             let mut wanted = now.affine();
             if (now.rotate_deg, now.scale) == (told.rotate_deg, told.scale) {
                 wanted.matrix3 = place.matrix3;
@@ -25,7 +25,7 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
         }
     };
     if free.translate {
-        let tip = "In the world, in scene units.";
+        let tip = "World-space position in scene units.";
         let limits = Limits::LENGTH;
         if let Some(translate) = fields.vector_value("Position", tip, told.translate, limits, None)
         {
@@ -33,13 +33,13 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
         }
     }
     if !is_whole && (free.rotate || free.scale != Scaling::None) {
-        fields
-            .note("It is slanted: angles and scale cannot tell it. Turn and scale it by handles.");
+        fields.note(
+            "The transform contains shear, which angles and scale cannot express. Use the handles.",
+        );
         return;
     }
     if free.rotate {
-        let tip =
-            "Degrees round x, then y, then z, counter-clockwise where the axis points at you.";
+        let tip = "Euler angles about x, then y, then z, in degrees, counter-clockwise.";
         let limits = Limits::ANGLE;
         if let Some(rotate_deg) =
             fields.vector_value("Rotation", tip, told.rotate_deg, limits, None)
@@ -50,7 +50,7 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
     match free.scale {
         Scaling::Uneven => {
             let tip =
-                "Factors along the own axes of the thing; negative ones mirror, 0 is not possible.";
+                "Factors along the object's own axes. Negative factors mirror; 0 is not allowed.";
             let limits = Limits::LENGTH;
             if let Some(scale) = fields.vector_value("Scale", tip, told.scale, limits, None) {
                 fields.change("scale", asked(Transform { scale, ..told }));
@@ -59,17 +59,17 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
         Scaling::Even | Scaling::None => {}
     }
     if !free.translate && !free.rotate && free.scale == Scaling::None {
-        fields.note("An animation says where it is: edit its keys, or what carries it.");
+        fields.note("Its position is animated. Edit its keys or its parent node.");
     }
     if objects::carrier(fields.scene, id)
         .and_then(|carrier| objects::shown_carrier(fields.scene, Some(carrier)))
         .is_some_and(|node| fields.scene.moving_nodes()[node])
     {
-        fields.note("What carries it moves: it keeps its new place in that.");
+        fields.note("Its parent is animated. Edits change its transform relative to the parent.");
     }
 }
 
-/// What a shape has beside a place.
+/// The properties of a shape except its transform.
 pub fn shape(fields: &mut Fields, object: ObjectRef) {
     let ObjectRef::Shape(index) = object else {
         if let ObjectRef::Instance(index) = object {
@@ -82,7 +82,7 @@ pub fn shape(fields: &mut Fields, object: ObjectRef) {
     let share = Limits::between(0.0, 1.0);
     match fields.scene.shapes[index].geometry {
         Geometry::Sphere { radius, .. } => {
-            let tip = "In the space of what carries it, in scene units; above 0.";
+            let tip = "In the parent's space, in scene units, above 0.";
             fields.number(
                 "Radius",
                 tip,
@@ -97,7 +97,7 @@ pub fn shape(fields: &mut Fields, object: ObjectRef) {
             );
         }
         Geometry::Plane { normal, .. } => {
-            let tip = "Where it faces; of any length but 0.";
+            let tip = "Facing direction; any length except 0.";
             fields.vector(
                 "Normal",
                 tip,
@@ -111,77 +111,80 @@ pub fn shape(fields: &mut Fields, object: ObjectRef) {
                 },
             );
         }
-        Geometry::Placed { canonical, .. } => match canonical {
-            CanonicalShape::Disc { hole } => {
-                let tip = "Radius of the hole as a share of the disc's, from 0 to below 1.";
-                form_number(
-                    fields,
-                    index,
-                    "Hole",
-                    tip,
-                    hole,
-                    Limits::between(0.0, 0.999),
-                    |canonical, to| {
-                        if let CanonicalShape::Disc { hole } = canonical {
-                            *hole = to;
-                        }
-                    },
-                );
-            }
-            CanonicalShape::Torus { minor } => {
-                let tip = "Radius of the tube as a share of the ring's, above 0 and up to 1.";
-                form_number(
-                    fields,
-                    index,
-                    "Tube",
-                    tip,
-                    minor,
-                    Limits::between(1e-3, 1.0),
-                    |canonical, to| {
-                        if let CanonicalShape::Torus { minor } = canonical {
-                            *minor = to;
-                        }
-                    },
-                );
-            }
-            CanonicalShape::Cone {
-                bottom,
-                top,
-                capped,
-            } => {
-                let tip = "Radius at the lower end, as a share of the width; not 0 where the upper one is.";
-                form_number(
-                    fields,
-                    index,
-                    "Bottom",
-                    tip,
+        Geometry::Placed { canonical, .. } => {
+            match canonical {
+                CanonicalShape::Disc { hole } => {
+                    let tip =
+                        "Radius of the hole as a fraction of the disc's radius, from 0 to below 1.";
+                    form_number(
+                        fields,
+                        index,
+                        "Hole",
+                        tip,
+                        hole,
+                        Limits::between(0.0, 0.999),
+                        |canonical, to| {
+                            if let CanonicalShape::Disc { hole } = canonical {
+                                *hole = to;
+                            }
+                        },
+                    );
+                }
+                CanonicalShape::Torus { minor } => {
+                    let tip = "Radius of the tube as a fraction of the ring's radius, above 0 and up to 1.";
+                    form_number(
+                        fields,
+                        index,
+                        "Tube",
+                        tip,
+                        minor,
+                        Limits::between(1e-3, 1.0),
+                        |canonical, to| {
+                            if let CanonicalShape::Torus { minor } = canonical {
+                                *minor = to;
+                            }
+                        },
+                    );
+                }
+                CanonicalShape::Cone {
                     bottom,
-                    share,
-                    |canonical, to| {
+                    top,
+                    capped,
+                } => {
+                    let tip = "Bottom radius as a fraction of the width. Only one of the two radii may be 0.";
+                    form_number(
+                        fields,
+                        index,
+                        "Bottom",
+                        tip,
+                        bottom,
+                        share,
+                        |canonical, to| {
+                            if let CanonicalShape::Cone { bottom, top, .. } = canonical {
+                                *bottom = if *top == 0.0 { to.max(1e-3) } else { to };
+                            }
+                        },
+                    );
+                    let tip = "Top radius as a fraction of the width. Only one of the two radii may be 0.";
+                    form_number(fields, index, "Top", tip, top, share, |canonical, to| {
                         if let CanonicalShape::Cone { bottom, top, .. } = canonical {
-                            *bottom = if *top == 0.0 { to.max(1e-3) } else { to };
+                            *top = if *bottom == 0.0 { to.max(1e-3) } else { to };
                         }
-                    },
-                );
-                let tip = "Radius at the upper end, as a share of the width; not 0 where the lower one is.";
-                form_number(fields, index, "Top", tip, top, share, |canonical, to| {
-                    if let CanonicalShape::Cone { bottom, top, .. } = canonical {
-                        *top = if *bottom == 0.0 { to.max(1e-3) } else { to };
-                    }
-                });
-                let tip = "Whether discs close its ends.";
-                fields.toggle("Capped", tip, capped, move |scene, to| {
-                    if let Geometry::Placed {
-                        canonical: CanonicalShape::Cone { capped, .. },
-                        ..
-                    } = &mut scene.shapes[index].geometry
-                    {
-                        *capped = to;
-                    }
-                });
+                    });
+                    let tip = "Close both ends with discs.";
+                    fields.toggle("Capped", tip, capped, move |scene, to| {
+                        if let Geometry::Placed {
+                            canonical: CanonicalShape::Cone { capped, .. },
+                            ..
+                        } = &mut scene.shapes[index].geometry
+                        {
+                            *capped = to;
+                        }
+                    });
+                }
+                CanonicalShape::Rectangle | CanonicalShape::Box | CanonicalShape::Ellipsoid => {}
             }
-            CanonicalShape::Rectangle | CanonicalShape::Box | CanonicalShape::Ellipsoid => {}
-        },
+        }
     }
 }
 

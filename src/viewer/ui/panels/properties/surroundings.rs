@@ -1,4 +1,4 @@
-//! What belongs to the scene as a whole.
+//! The properties of the scene as a whole.
 
 use crate::scene::{Background, Shadows};
 use crate::viewer::state::session::Session;
@@ -7,11 +7,11 @@ use glam::Vec3;
 
 /// Background, ambient light, shadows and the camera.
 pub fn show(fields: &mut Fields, session: &mut Session) {
-    fields.note("Nothing is selected: click something in the picture or the outline.");
+    fields.note("Nothing is selected. Click an object in the picture or the outline.");
     fields.heading("Background");
     let background = fields.scene.background.clone();
     if session.view.background.is_some() {
-        fields.note("The picture has another background for now (Render panel).");
+        fields.note("The Render panel overrides the background.");
     }
     let kind = |background: &Background| match background {
         Background::Color(_) => 0,
@@ -19,11 +19,11 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
         Background::Picture { .. } => 2,
     };
     let now = kind(&background);
-    let mut options = vec![(0, "one colour".to_owned()), (1, "gradient".to_owned())];
+    let mut options = vec![(0, "Colour".to_owned()), (1, "gradient".to_owned())];
     if now == 2 {
         options.push((2, "picture".to_owned()));
     }
-    let tip = "What rays see that hit nothing.";
+    let tip = "What rays see when they hit no object.";
     fields.choice("Kind", tip, now, &options, |scene, to| {
         let mean = match &scene.background {
             Background::Color(color) => (*color, *color),
@@ -46,12 +46,18 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
             });
         }
         Background::Gradient { bottom, top } => {
-            fields.color("Bottom", "Straight down.", bottom, None, |scene, to| {
-                if let Background::Gradient { bottom, .. } = &mut scene.background {
-                    *bottom = to;
-                }
-            });
-            fields.color("Top", "Straight up.", top, None, |scene, to| {
+            fields.color(
+                "Bottom",
+                "Colour straight down.",
+                bottom,
+                None,
+                |scene, to| {
+                    if let Background::Gradient { bottom, .. } = &mut scene.background {
+                        *bottom = to;
+                    }
+                },
+            );
+            fields.color("Top", "Colour straight up.", top, None, |scene, to| {
                 if let Background::Gradient { top, .. } = &mut scene.background {
                     *top = to;
                 }
@@ -60,32 +66,39 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
         Background::Picture {
             strength, rotation, ..
         } => {
-            let tip = "What multiplies the picture, 0 or more.";
+            let tip = "Factor on the image, 0 or more.";
             let value = f64::from(strength);
             fields.number("Strength", tip, value, Limits::AMOUNT, None, |scene, to| {
                 if let Background::Picture { strength, .. } = &mut scene.background {
                     *strength = to as f32;
                 }
             });
-            let tip = "Degrees about +Y, counter-clockwise from above.";
+            let tip = "Rotation about +Y in degrees, counter-clockwise from above.";
             let degrees = rotation.to_degrees();
-            fields.number("Turned", tip, degrees, Limits::ANGLE, None, |scene, to| {
-                if let Background::Picture { rotation, .. } = &mut scene.background {
-                    *rotation = to.to_radians();
-                }
-            });
+            fields.number(
+                "Rotation",
+                tip,
+                degrees,
+                Limits::ANGLE,
+                None,
+                |scene, to| {
+                    if let Background::Picture { rotation, .. } = &mut scene.background {
+                        *rotation = to.to_radians();
+                    }
+                },
+            );
         }
     }
-    fields.heading("Light everywhere");
-    let tip = "Radiance of the ambient term, which every material multiplies.";
+    fields.heading("Ambient light");
+    let tip = "Radiance of the ambient term. Materials multiply it by their ambient colour.";
     let ambient = fields.scene.ambient;
     fields.color("Ambient", tip, ambient, None, |scene, to| {
         scene.ambient = to
     });
-    let tip = "How shadow rays meet what is transparent.";
+    let tip = "How shadow rays treat transparent objects.";
     let options = [
-        (Shadows::Opaque, "full shadows".to_owned()),
-        (Shadows::Filtered, "light goes through glass".to_owned()),
+        (Shadows::Opaque, "Opaque".to_owned()),
+        (Shadows::Filtered, "Coloured through glass".to_owned()),
     ];
     let shadows = fields.scene.shadows;
     fields.choice("Shadows", tip, shadows, &options, |scene, to| {
@@ -97,10 +110,10 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
         .controller
         .as_ref()
         .is_none_or(|controller| controller.is_home());
-    let tip = "Make what the picture is seen by the scene's own camera.";
-    let button = eframe::egui::Button::new("Use this camera for the scene");
+    let tip = "Replace the scene's camera with the current view.";
+    let button = eframe::egui::Button::new("Set scene camera from view");
     let button = fields.ui.add_enabled(!is_home, button).on_hover_text(tip);
-    let button = button.on_disabled_hover_text("The picture is seen by the scene's own camera.");
+    let button = button.on_disabled_hover_text("The view matches the scene's camera.");
     if button.clicked() {
         session.keep_camera();
     }

@@ -1,4 +1,4 @@
-//! The lines of the tree. Only those that are seen are made.
+//! The rows of the tree. Only visible rows are drawn.
 
 use crate::app::ray_text::{color, ray_sum};
 use crate::viewer::state::inspector::rows::{RayId, Row};
@@ -7,23 +7,23 @@ use crate::viewer::state::session::Session;
 use crate::viewer::ui::panels::rays::paint;
 use eframe::egui::{self, Align, Layout, RichText, Sense, vec2};
 
-/// How far a level is set in, in points, and how many are.
+/// Indentation per level in points, and the maximum number of levels.
 const INDENT: f32 = 11.0;
 const MAX_LEVELS: usize = 16;
-/// Room for the bar that scrolls, which lies over the list.
+/// Space for the scroll bar, which overlays the list.
 const SCROLL_BAR: f32 = 8.0;
-/// Width of what opens and closes a branch.
+/// Width of the collapse button.
 const FOLD: f32 = 14.0;
 
-/// The tree, scrolled.
+/// Draws the tree.
 pub fn list(ui: &mut egui::Ui, session: &mut Session) {
     ui.horizontal(|ui| {
-        let unfold = ui.small_button("Unfold all");
-        if unfold.on_hover_text("Show every ray").clicked() {
+        let unfold = ui.small_button("Expand all");
+        if unfold.on_hover_text("Show all rays").clicked() {
             session.inspector.fold_all(false);
         }
-        let fold = ui.small_button("Fold all");
-        if fold.on_hover_text("Hide all rays but the first").clicked() {
+        let fold = ui.small_button("Collapse all");
+        if fold.on_hover_text("Show only the first ray").clicked() {
             session.inspector.fold_all(true);
         }
     });
@@ -86,14 +86,14 @@ fn heading(ui: &mut egui::Ui, session: &Session, sample: usize) {
         _ => format!("{count} rays"),
     });
     if tree.dropped {
-        ui.weak("left out: not finite");
+        ui.weak("dropped: not finite");
     }
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.add_space(SCROLL_BAR);
         let sum = ray_sum(tree).as_vec3().into();
         let swatch = paint::swatch(ui, sum, exposure);
         swatch.on_hover_text(format!(
-            "Adds {} (linear radiance), weight {}",
+            "Contribution {} (linear radiance), weight {}",
             color(sum),
             tree.weight
         ));
@@ -125,14 +125,14 @@ fn ray(ui: &mut egui::Ui, session: &mut Session, (id, level, has_children): (Ray
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.add_space(SCROLL_BAR);
         let swatch = paint::swatch(ui, added, exposure);
-        swatch.on_hover_text(format!("Adds {} (linear radiance)", color(added)));
+        swatch.on_hover_text(format!("Contribution {} (linear radiance)", color(added)));
         let length = ui.add(egui::Label::new(RichText::new(length).monospace().weak()));
         length.on_hover_text("Length of the ray, in scene units");
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let is_selected = inspector.selected == Some(id);
             let line = vec2(ui.available_width(), 0.0);
             let button = egui::Button::selectable(is_selected, headline.as_str());
-            // As wide as there is room, with its text on the left.
+            // Full width, with its text on the left.
             let response = ui.add(button.truncate().right_text("").min_size(line));
             let name = format!("Ray {}: {headline}", id.1);
             response.widget_info(|| {

@@ -1,4 +1,4 @@
-//! Small signs: what rays look like in the list, in space and in the picture.
+//! Icons, colours and swatches of rays.
 
 use crate::app::ray_text::{color, kind};
 use crate::render::RayKind;
@@ -10,7 +10,7 @@ use crate::viewer::ui::panels::icon;
 use eframe::egui::{self, Color32, Rect, Response, Rgba, Sense, Shape, Stroke, StrokeKind, vec2};
 use glam::DVec3;
 
-/// The colour of a ray on a dark ground, or on a light one.
+/// The colour of a ray on a dark or light background.
 pub fn colour(kind: RayKind, blocked: bool, is_dark: bool) -> Color32 {
     let [dark, light] = match kind {
         RayKind::Shadow if blocked => [(255, 96, 92), (180, 28, 28)],
@@ -23,14 +23,14 @@ pub fn colour(kind: RayKind, blocked: bool, is_dark: bool) -> Color32 {
     Color32::from_rgb(red, green, blue)
 }
 
-/// What linear radiance looks like, brightened by so many stops.
+/// The screen colour of linear radiance at an exposure in stops.
 fn display(linear: [f32; 3], exposure_ev: f32) -> Color32 {
     let factor = exposure_ev.exp2();
     let [red, green, blue] = linear.map(|value| (value * factor).clamp(0.0, 1.0));
     Rgba::from_rgb(red, green, blue).into()
 }
 
-/// A patch of a colour.
+/// A colour swatch.
 pub fn swatch(ui: &mut egui::Ui, linear: [f32; 3], exposure_ev: f32) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
     let edge = Stroke::new(1.0, icon::edge(ui.visuals()));
@@ -44,7 +44,7 @@ pub fn swatch(ui: &mut egui::Ui, linear: [f32; 3], exposure_ev: f32) -> Response
     response
 }
 
-/// What a bounce adds and the sum up to it, one above the other; a click shows rays up to it.
+/// The contribution of a bounce above the sum up to it. A click limits the filter to it.
 pub fn bounce(
     ui: &mut egui::Ui,
     (bounce, added, sum): (usize, DVec3, DVec3),
@@ -66,13 +66,13 @@ pub fn bounce(
     let name = format!("Bounce {bounce}");
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, shown, &name));
     response.on_hover_text(format!(
-        "{name} adds {}, up to it {} (linear radiance)",
+        "{name}: contribution {}, sum up to it {} (linear radiance)",
         color(added),
         color(sum)
     ))
 }
 
-/// What opens and closes the branch of a ray.
+/// The button that collapses or expands a ray.
 pub fn fold(ui: &mut egui::Ui, is_folded: bool, id: RayId, width: f32) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(width, width), Sense::click());
     let style = ui.style().interact(&response);
@@ -88,7 +88,7 @@ pub fn fold(ui: &mut egui::Ui, is_folded: bool, id: RayId, width: f32) -> Respon
         let focus = ui.visuals().selection.stroke;
         (ui.painter()).rect_stroke(rect, 2.0, focus, StrokeKind::Inside);
     }
-    let verb = if is_folded { "Unfold" } else { "Fold" };
+    let verb = if is_folded { "Expand" } else { "Collapse" };
     let name = match id {
         (0, ray) => format!("{verb} ray {ray}"),
         (sample, ray) => format!("{verb} ray {ray} of sample {sample}"),
@@ -97,15 +97,15 @@ pub fn fold(ui: &mut egui::Ui, is_folded: bool, id: RayId, width: f32) -> Respon
     response
 }
 
-/// What kind of ray it is: a disc for the first, an angle for a mirrored one, a bend for a refracted one,
-/// a ring for one that reaches its light, a cross for one that does not.
+/// The icon of a ray: a disc for camera rays, an angle for reflection, a bend for refraction, a ring for
+/// unblocked and a cross for blocked shadow rays.
 pub fn icon(ui: &mut egui::Ui, ray: RayKind, blocked: bool) {
     let (rect, response) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
     let stroke = Stroke::new(1.8, colour(ray, blocked, ui.visuals().dark_mode));
     sign(ui.painter(), rect, ray, blocked, stroke);
     response.on_hover_text(match (ray, blocked) {
-        (RayKind::Shadow, true) => "shadow ray, blocked",
-        (RayKind::Shadow, false) => "shadow ray that reaches its light",
+        (RayKind::Shadow, true) => "blocked shadow ray",
+        (RayKind::Shadow, false) => "unblocked shadow ray",
         _ => kind(ray),
     });
 }
@@ -129,7 +129,7 @@ fn sign(painter: &egui::Painter, rect: Rect, ray: RayKind, blocked: bool, stroke
     }
 }
 
-/// Marks the inspected pixel in the picture while the inspector is in hand.
+/// Marks the inspected pixel in the picture while the inspector is active.
 pub fn mark(painter: &egui::Painter, session: &Session, viewport: Viewport) {
     let is_shown = session.shows_overlays && session.tool == Tool::Inspect;
     let Some([x, y]) = session.inspector.pixel.filter(|_| is_shown) else {
@@ -139,7 +139,7 @@ pub fn mark(painter: &egui::Painter, session: &Session, viewport: Viewport) {
     let frame = pixel.expand(3.0);
     let center = frame.center();
     let reach = frame.width() / 2.0;
-    // Dark under light is seen on everything.
+    // Light on dark is visible on any picture.
     for (width, ink) in [(3.0, Color32::from_black_alpha(180)), (1.0, Color32::WHITE)] {
         let stroke = Stroke::new(width, ink);
         painter.rect_stroke(frame, 1.0, stroke, StrokeKind::Middle);

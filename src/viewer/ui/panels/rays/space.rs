@@ -1,4 +1,4 @@
-//! The scene from outside, with the rays of a pixel in it.
+//! The ray view: the scene from a second camera, with the rays of a pixel.
 
 use crate::render::RayKind;
 use crate::viewer::actions::inspector::hidden;
@@ -15,16 +15,16 @@ use crate::viewer::worker::progressive_image::PictureSlot;
 use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 use glam::{DVec2, dvec2};
 
-/// How much light of the picture is left, for lines to be seen on it.
+/// Tint of the picture, so that rays stand out.
 const DIMMED: Color32 = Color32::from_gray(132);
-/// How near the cursor must be to a line, in points.
+/// Distance within which a ray can be picked, in points.
 const REACH: f32 = 6.0;
 
-/// The picture from outside under the mouse, and the rays on it.
+/// Draws the picture of the second camera with the rays, and handles the mouse.
 pub fn outside(ui: &mut egui::Ui, context: &mut PanelContext) {
     if context.session.inspector.inspected.is_none() {
         ui.add_space(12.0);
-        ui.vertical_centered(|ui| ui.weak("The rays of a pixel, once one is inspected."));
+        ui.vertical_centered(|ui| ui.weak("Inspect a pixel to see its rays here."));
         return;
     }
     egui::Panel::bottom("outside")
@@ -73,7 +73,7 @@ pub fn outside(ui: &mut egui::Ui, context: &mut PanelContext) {
     navigate(session, &response, viewport);
 }
 
-/// The rays in the picture from outside.
+/// The rays in the picture of the second camera.
 fn lines(session: &Session, viewport: Viewport) -> Vec<Line> {
     let inspector = &session.inspector;
     let (Some(inspected), Some(controller)) = (&inspector.inspected, &inspector.outside.controller)
@@ -86,7 +86,7 @@ fn lines(session: &Session, viewport: Viewport) -> Vec<Line> {
     outside::lines(inspected, &inspector.filter, &camera, size, reach, hidden)
 }
 
-/// The camera of the inspected picture.
+/// Draws the frustum of the inspected picture's camera.
 fn draw_camera(painter: &egui::Painter, session: &Session, viewport: Viewport) {
     let inspector = &session.inspector;
     let (Some(inspected), Some(controller)) = (&inspector.inspected, &inspector.outside.controller)
@@ -148,7 +148,7 @@ fn draw(
     }
 }
 
-/// A head in the middle of a line, where there is room.
+/// An arrow head in the middle of a line, if there is space.
 fn arrow(painter: &egui::Painter, from: Pos2, to: Pos2, ink: Color32, width: f32) {
     let way = to - from;
     if way.length() < 18.0 {
@@ -161,7 +161,7 @@ fn arrow(painter: &egui::Painter, from: Pos2, to: Pos2, ink: Color32, width: f32
     painter.add(Shape::convex_polygon(points, ink, Stroke::NONE));
 }
 
-/// The line under the cursor is the one that the list shows, after a click for good.
+/// Highlights the ray under the cursor; a click selects it.
 fn pick(session: &mut Session, response: &egui::Response, viewport: Viewport, lines: &[Line]) {
     let position = |point: Pos2| viewport.position(point);
     let reach = viewport.length(Vec2::splat(REACH)).x;
@@ -175,7 +175,7 @@ fn pick(session: &mut Session, response: &egui::Response, viewport: Viewport, li
     }
 }
 
-/// Hands the mouse to the second camera, by the bindings of the first.
+/// Navigates with the second camera, by the same bindings.
 fn navigate(session: &mut Session, response: &egui::Response, viewport: Viewport) {
     let ctx = &response.ctx;
     let (modifiers, pointer) = ctx.input(|input| (input.modifiers, input.pointer.interact_pos()));
@@ -216,16 +216,16 @@ fn navigate(session: &mut Session, response: &egui::Response, viewport: Viewport
     }
 }
 
-/// Where the second camera goes, what is drawn, and which colour is what.
+/// Camera, display options and the colour key.
 fn controls(ui: &mut egui::Ui, session: &mut Session) {
     ui.horizontal_wrapped(|ui| {
         let frame = ui.button("Frame rays");
-        if (frame.on_hover_text("Go to where all rays are seen")).clicked() {
+        if (frame.on_hover_text("Frame all rays")).clicked() {
             let bounds = session.bounds();
             outside::frame(session, bounds);
         }
         let same = ui.button("From the camera");
-        if (same.on_hover_text("Look from where the picture is taken")).clicked()
+        if (same.on_hover_text("Match the camera of the picture")).clicked()
             && let (Some(camera), Some(controller)) =
                 (session.camera(), &mut session.inspector.outside.controller)
         {
@@ -233,9 +233,9 @@ fn controls(ui: &mut egui::Ui, session: &mut Session) {
         }
         let outside = &mut session.inspector.outside;
         ui.checkbox(&mut outside.normals, "Normals")
-            .on_hover_text("Draw the direction of each surface where a ray ends");
+            .on_hover_text("Draw the surface normal where a ray ends");
         ui.checkbox(&mut outside.plain, "Plain")
-            .on_hover_text("Show the scene by the directions of its surfaces, without light");
+            .on_hover_text("Shade the scene by its normals, without lighting");
     });
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
@@ -243,7 +243,7 @@ fn controls(ui: &mut egui::Ui, session: &mut Session) {
             (RayKind::Primary, false, "primary"),
             (RayKind::Reflection, false, "reflection"),
             (RayKind::Refraction, false, "refraction"),
-            (RayKind::Shadow, false, "to light"),
+            (RayKind::Shadow, false, "unblocked"),
             (RayKind::Shadow, true, "blocked"),
         ] {
             crate::viewer::ui::panels::rays::paint::icon(ui, kind, blocked);

@@ -1,4 +1,4 @@
-//! What rays see that hit nothing.
+//! The background override.
 
 use crate::scene::Background;
 use crate::viewer::ui::context::PanelContext;
@@ -6,7 +6,7 @@ use crate::viewer::ui::panels::words::back;
 use eframe::egui::{self, Ui};
 use glam::Vec3;
 
-/// Linear light of a new background.
+/// Initial linear radiance of a new background.
 const GREY: Vec3 = Vec3::splat(0.18);
 const SKY: Vec3 = Vec3::new(0.25, 0.45, 0.9);
 
@@ -16,14 +16,14 @@ pub fn background(ui: &mut Ui, context: &mut PanelContext) {
         .is_some_and(|scene| matches!(scene.background, Background::Picture { .. }));
     let look = &mut session.view;
     let tip = match is_picture {
-        true => "What rays see that hit nothing; the scene has a picture",
-        false => "What rays see that hit nothing",
+        true => "What rays see when they hit no object. The scene uses an image",
+        false => "What rays see when they hit no object",
     };
     let name = |background: &Option<Background>| match background {
-        None => "The scene's",
-        Some(Background::Color(_)) => "One colour",
+        None => "From the scene",
+        Some(Background::Color(_)) => "Colour",
         Some(Background::Gradient { .. }) => "Gradient",
-        Some(Background::Picture { .. }) => "Picture",
+        Some(Background::Picture { .. }) => "Image",
     };
     let choices = [
         None,

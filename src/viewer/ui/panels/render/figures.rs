@@ -1,4 +1,4 @@
-//! How far the picture is, and what it took.
+//! Progress and statistics of the picture.
 
 use crate::viewer::model::bindings::Action;
 use crate::viewer::ui::context::PanelContext;
@@ -6,7 +6,7 @@ use crate::viewer::worker::progressive_image::PictureSlot;
 use crate::viewer::worker::progressive_image::{Progress, Shown};
 use eframe::egui::{self, Ui};
 
-/// The bar, and what stops and starts the picture.
+/// The progress bar, and the buttons that control rendering.
 pub fn progress(ui: &mut Ui, context: &mut PanelContext) {
     let shown = context.shown(PictureSlot::Main);
     let progress = shown
@@ -24,14 +24,14 @@ pub fn progress(ui: &mut Ui, context: &mut PanelContext) {
     };
     let bar = egui::ProgressBar::new(share as f32).text(text);
     ui.add(bar)
-        .on_hover_text("Share of the samples of this picture that are done");
+        .on_hover_text("Fraction of the target samples that are done");
     let key = |action| context.session.preferences.bindings.label(action);
     let (pause_key, restart_key) = (key(Action::PauseRender), key(Action::RestartRender));
     ui.horizontal(|ui| {
         let paused = context.session.view.paused;
         let (name, tip) = match paused {
-            true => ("Continue", "Go on adding samples"),
-            false => ("Pause", "Add no more samples for now"),
+            true => ("Continue", "Resume rendering"),
+            false => ("Pause", "Pause rendering"),
         };
         if (ui.button(name))
             .on_hover_text(format!("{tip} ({pause_key})"))
@@ -39,40 +39,36 @@ pub fn progress(ui: &mut Ui, context: &mut PanelContext) {
         {
             context.session.view.paused = !paused;
         }
-        let tip = format!("Start the picture again ({restart_key})");
+        let tip = format!("Restart rendering ({restart_key})");
         if ui.button("Restart").on_hover_text(tip).clicked() {
             context.session.restart();
         }
         let keep = ui.add_enabled(
             context.session.has_unkept_look(),
-            egui::Button::new("Keep in the scene"),
+            egui::Button::new("Save settings to scene"),
         );
-        let tip =
-            "Make samples, developing, background and timing the scene's own, to be saved with it";
+        let tip = "Store sampling, tone mapping, background and timing in the scene";
         let keep = keep.on_hover_text(tip);
-        if keep
-            .on_disabled_hover_text("The scene says all of this")
-            .clicked()
-        {
+        if keep.on_disabled_hover_text("No changes to save").clicked() {
             context.session.keep_look();
         }
     });
 }
 
-/// What the bar says.
+/// The text of the progress bar.
 fn state(progress: &Progress, paused: bool) -> String {
     let Progress {
         samples, target, ..
     } = progress;
     match (progress.is_done, paused) {
-        (true, _) if !progress.is_coarse => format!("done: {target} samples"),
-        (_, true) => format!("paused at {samples} of {target} samples"),
-        _ if progress.is_coarse => "moving".into(),
+        (true, _) if !progress.is_coarse => format!("Done: {target} samples"),
+        (_, true) => format!("Paused at {samples} of {target} samples"),
+        _ if progress.is_coarse => "Preview".into(),
         _ => format!("{samples} of {target} samples"),
     }
 }
 
-/// Times, counts and bytes.
+/// Timings, counts and memory.
 pub fn figures(ui: &mut Ui, context: &mut PanelContext) {
     let Some(shown) = context.shown(PictureSlot::Main) else {
         return;
@@ -98,23 +94,27 @@ fn rows(shown: &Shown) -> Vec<(&'static str, &'static str, String)> {
             seconds(progress.trace_seconds),
         ),
         (
-            "Left",
-            "Seconds of tracing until the picture is done, if it goes on like this",
+            "Remaining",
+            "Estimated seconds of tracing until the picture is done",
             remaining(progress).map_or("–".into(), seconds),
         ),
         (
             "Speed",
-            "Camera rays in a second of tracing, in millions",
+            "Camera rays per second of tracing, in millions",
             format!("{:.2} M rays/s", progress.rays_per_second / 1e6),
         ),
         (
             "Noise",
-            "Estimated root mean square error of the picture, in parts of white",
+            "Estimated root mean square error as a fraction of white",
             progress
                 .noise
                 .map_or("–".into(), |noise| format!("{:.2} %", noise * 100.0)),
         ),
-        ("Adapter", "What renders", adapter.to_string()),
+        (
+            "Adapter",
+            "The GPU or driver that renders",
+            adapter.to_string(),
+        ),
         (
             "Submissions",
             "Pieces of work that the adapter got since the window was opened, and the longest of them in \
@@ -126,34 +126,34 @@ fn rows(shown: &Shown) -> Vec<(&'static str, &'static str, String)> {
         ),
         (
             "Memory",
-            "Of the adapter, planned for scene and picture, in MiB",
+            "GPU memory planned for the scene and the picture, in MiB",
             format!("{:.1} MiB", stats.gpu_bytes as f64 / f64::from(1 << 20)),
         ),
     ];
     if stats.nonfinite_samples > 0 {
         rows.push((
             "Dropped",
-            "Samples that were not finite",
+            "Samples that were not finite and are left out",
             format!("{} samples", stats.nonfinite_samples),
         ));
     }
     if stats.cut_off_trees > 0 {
         rows.push((
             "Cut off",
-            "Samples that had too many rays, or passed more than 4 transparent bodies at once: lower the depth, raise the least throughput, or nest fewer bodies",
+            "Samples with too many rays or more than 4 nested dielectric volumes. Lower the depth, raise the minimum throughput, or nest fewer volumes",
             format!("{} samples", stats.cut_off_trees),
         ));
     }
     rows
 }
 
-/// Seconds that are left; `None` before there is anything to go by, and at the end.
+/// Estimated seconds left; `None` without an estimate, and at the end.
 pub fn remaining(progress: &Progress) -> Option<f64> {
     let is_known = !progress.is_coarse && !progress.is_done && progress.share > 0.0;
     is_known.then(|| progress.trace_seconds * (1.0 - progress.share) / progress.share)
 }
 
-/// `12.3 s`, or `2 min 5 s`.
+/// Formats a duration as `12.3 s` or `2 min 5 s`.
 pub fn seconds(seconds: f64) -> String {
     let whole = seconds.round() as u64;
     match whole {

@@ -1,14 +1,14 @@
-//! How large the picture is, and which part of it is rendered.
+//! The size of the picture and its region.
 
 use crate::viewer::model::view_settings::ViewSettings;
 use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::panels::words::{back, number};
 use eframe::egui::{self, Ui};
 
-/// The longest side that can be typed, in pixels.
+/// Maximum side length that can be entered, in pixels.
 const MAX_SIDE: u32 = 16384;
 
-/// Sizes that are asked for often, in pixels.
+/// Common sizes, in pixels.
 const USUAL: [(u32, u32); 6] = [
     (640, 480),
     (1280, 720),
@@ -21,9 +21,8 @@ const USUAL: [(u32, u32); 6] = [
 pub fn size(ui: &mut Ui, context: &mut PanelContext) {
     let now = context.session.picture_size();
     let look = &mut context.session.view;
-    let tip =
-        "The picture is as large as there is room for when it begins, in pixels of the screen";
-    let label = ui.label("Fits the window").on_hover_text(tip);
+    let tip = "Render at the size of the picture panel, in screen pixels";
+    let label = ui.label("Fit to window").on_hover_text(tip);
     let mut fits = look.fits;
     (ui.checkbox(&mut fits, "").labelled_by(label.id)).on_hover_text(tip);
     if fits != look.fits {
@@ -46,8 +45,8 @@ pub fn size(ui: &mut Ui, context: &mut PanelContext) {
             });
             response.on_hover_text(format!("{name} of the picture, 1 to {MAX_SIDE} pixels"));
         }
-        ui.menu_button("Usual", |ui| {
-            let scene = format!("{} × {} (the scene's)", usual.0, usual.1);
+        ui.menu_button("Presets", |ui| {
+            let scene = format!("Scene size ({} × {})", usual.0, usual.1);
             if ui.button(scene).clicked() {
                 size = usual;
             }
@@ -58,7 +57,7 @@ pub fn size(ui: &mut Ui, context: &mut PanelContext) {
             }
         })
         .response
-        .on_hover_text("Sizes that are asked for often, in pixels");
+        .on_hover_text("Common picture sizes in pixels");
     });
     ui.end_row();
     let before = if look.fits { now } else { look.settings.size };
@@ -71,13 +70,13 @@ pub fn size(ui: &mut Ui, context: &mut PanelContext) {
 fn resize(look: &mut ViewSettings, size: (u32, u32)) {
     look.fits = false;
     look.settings.size = size;
-    // A crop of another size means nothing in this one.
+    // A crop does not apply to a different size.
     look.settings.crop = None;
 }
 
-/// The region by numbers.
+/// The region as numbers.
 fn region(ui: &mut Ui, look: &mut ViewSettings, (width, height): (u32, u32)) {
-    let tip = "Only this part is rendered: its left, upper, right and lower edge, in pixels";
+    let tip = "Render only this region: left, upper, right and lower edge in pixels";
     let Some(region) = &mut look.region else {
         return;
     };

@@ -1,8 +1,8 @@
-//! Buttons of a player, drawn: the font has no such signs.
+//! Playback buttons, painted because the font lacks these icons.
 
 use eframe::egui::{self, Color32, Painter, Pos2, Rect, Shape, Stroke, Ui, vec2};
 
-/// What is on a button.
+/// The icon of a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Icon {
     Play,
@@ -13,10 +13,10 @@ pub enum Icon {
     Last,
 }
 
-/// Height of the signs, in points.
+/// Height of the icons, in points.
 const HEIGHT: f32 = 10.0;
 
-/// A button with a sign on it. Whether it was clicked.
+/// A button with an icon. Returns whether it was clicked.
 pub fn button(ui: &mut Ui, icon: Icon, name: &str, tip: &str) -> bool {
     let response = ui.add(egui::Button::new("").min_size(vec2(28.0, 20.0)));
     let is_enabled = ui.is_enabled();
