@@ -220,7 +220,7 @@ impl Session {
             self.selection = Some(copy);
             let has_place = matches!(copy, Id::Object(_));
             self.messages.tell(match has_place {
-                true => format!("Duplicated in place"),
+                true => "Duplicated in place".to_owned(),
                 false => format!("Duplicated {label}"),
             });
             if has_place {

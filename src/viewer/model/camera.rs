@@ -3,9 +3,9 @@
 //!
 //! * Smooth motion approaches its goal as e^(-t / τ), independent of the frame rate.
 //! * An untouched camera, or one that has returned home, is bit-identical to the scene's camera. A pasted
-//! camera keeps every number exactly.
+//!   camera keeps every number exactly.
 //! * Orthographic views chosen in the window are taken from in front of all geometry. Only a scene's own
-//! orthographic camera clips what is behind it.
+//!   orthographic camera clips what is behind it.
 
 mod goals;
 mod motion;
