@@ -1,43 +1,42 @@
-//! What is kept from one run of the viewer to the next, as a file that people can read, change and
-//! copy: `viewer.toml` in the settings folder of the platform, or in the one that the environment
-//! variable `GLIMRAY_SETTINGS` names.
+//! Settings that outlive the window, in a file that users can read, edit and copy: `viewer.toml` in the
+//! platform's settings folder, or in the one that the environment variable `GLIMRAY_SETTINGS` names.
 
-mod read;
+mod format;
 mod saved_camera;
 
 pub use saved_camera::SavedCamera;
 
-use crate::app::words::TONES;
 use crate::output::{self, OutputError};
 use crate::scene::ToneCurve;
 use crate::viewer::model::bindings::Bindings;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-/// The file's name.
+/// The name of the file.
 const FILE: &str = "viewer.toml";
 
-/// Most files that are remembered.
+/// Maximum number of recent files.
 pub const MAX_RECENT: usize = 12;
 
-/// Most cameras that are kept for one scene; the oldest goes.
+/// Maximum number of bookmarks per scene; the oldest is dropped.
 pub const MAX_CAMERAS: usize = 100;
 
-/// Names the folder of the settings in place of the platform's.
+/// The environment variable that overrides the settings folder.
 pub const FOLDER_VARIABLE: &str = "GLIMRAY_SETTINGS";
 
-/// Scales of the window's contents.
+/// Scales of the interface.
 const SCALES: [f32; 12] = [
     0.5, 0.67, 0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 3.0, 4.0,
 ];
 
-/// Dark or light.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// Colour theme.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Theme {
-    /// As the desktop has it.
+    /// Follows the desktop.
     #[default]
     System,
     /// Light on dark.
@@ -49,44 +48,44 @@ pub enum Theme {
 impl Theme {
     /// All, the default first.
     pub const ALL: [Self; 3] = [Self::System, Self::Dark, Self::Light];
-
-    /// As the file has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::System => "system",
-            Self::Dark => "dark",
-            Self::Light => "light",
-        }
-    }
 }
 
-/// What is kept.
-#[derive(Clone, Debug, PartialEq)]
+/// The settings of the viewer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Preferences {
-    /// Dark or light.
+    /// Colour theme.
     pub theme: Theme,
     /// Factor on the screen's own scale, 0.5 to 4.
     pub ui_scale: f32,
-    /// Which hand does what.
-    pub bindings: Bindings,
-    /// Files that were opened, the last one first.
-    pub recent: Vec<PathBuf>,
-    /// Cameras that were kept, by the scene's path, in the order in which they were.
-    pub cameras: BTreeMap<PathBuf, Vec<SavedCamera>>,
-    /// Width and height of the window's inside, in points.
-    pub window: Option<[f32; 2]>,
-    /// Where its upper left corner is, in points of the desktop; `None` is up to that.
-    pub window_position: Option<[f32; 2]>,
-    /// Whether it fills the screen; size and place are those of before then.
-    pub maximized: bool,
-    /// The arrangement of the panels; `Null` is the default one.
-    layout: serde_json::Value,
     /// Whether the hint of the first run was read.
     pub hint_seen: bool,
-    /// Samples per pixel to be reached, where they are not to be the scene's; 1 to 65536.
+    /// Target samples per pixel of new scenes, 1 to 65536; `None` for the scene's own.
     pub samples: Option<u32>,
-    /// The tone curve, where it is not to be the scene's.
+    /// Tone curve of new scenes; `None` for the scene's own.
+    #[serde(with = "format::tone")]
     pub tone: Option<ToneCurve>,
+    /// Inner size of the window, in points.
+    pub window: Option<[f32; 2]>,
+    /// Upper left corner of the window, in points of the desktop; `None` leaves it to the desktop.
+    pub window_position: Option<[f32; 2]>,
+    /// Whether the window is maximised; size and position are those from before.
+    pub maximized: bool,
+    /// The layout of the panels; `Null` is the default one.
+    #[serde(
+        with = "format::json",
+        skip_serializing_if = "serde_json::Value::is_null"
+    )]
+    layout: serde_json::Value,
+    /// Files that were opened, the most recent first.
+    #[serde(serialize_with = "format::paths")]
+    pub recent: Vec<PathBuf>,
+    /// Keyboard and mouse bindings.
+    #[serde(skip_deserializing, serialize_with = "format::bindings")]
+    pub bindings: Bindings,
+    /// Bookmarked views by the path of their scene, the oldest first.
+    #[serde(skip_deserializing, serialize_with = "format::cameras")]
+    pub cameras: BTreeMap<PathBuf, Vec<SavedCamera>>,
 }
 
 impl Default for Preferences {
@@ -109,13 +108,13 @@ impl Default for Preferences {
 }
 
 impl Preferences {
-    /// Takes the next larger scale of the window's contents.
+    /// Selects the next larger scale of the interface.
     pub fn enlarge(&mut self) {
         let next = SCALES.into_iter().find(|scale| *scale > self.ui_scale);
         self.ui_scale = next.unwrap_or(self.ui_scale);
     }
 
-    /// Takes the next smaller scale of the window's contents.
+    /// Selects the next smaller scale of the interface.
     pub fn shrink(&mut self) {
         let next = SCALES
             .into_iter()
@@ -124,7 +123,7 @@ impl Preferences {
         self.ui_scale = next.unwrap_or(self.ui_scale);
     }
 
-    /// Remembers that a file was opened.
+    /// Adds a file to the recent ones.
     pub fn opened(&mut self, path: &Path) {
         let path = whole(path);
         self.recent.retain(|known| *known != path);
@@ -132,12 +131,12 @@ impl Preferences {
         self.recent.truncate(MAX_RECENT);
     }
 
-    /// Cameras that were kept for a scene.
+    /// The bookmarks of a scene.
     pub fn cameras_of(&self, scene: &Path) -> &[SavedCamera] {
         (self.cameras.get(&whole(scene))).map_or(&[], Vec::as_slice)
     }
 
-    /// Keeps a camera for a scene; one of the same name is replaced.
+    /// Adds a bookmark to a scene; one with the same name is replaced.
     pub fn keep_camera(&mut self, scene: &Path, camera: SavedCamera) {
         let cameras = self.cameras.entry(whole(scene)).or_default();
         match cameras.iter_mut().find(|known| known.name == camera.name) {
@@ -148,7 +147,7 @@ impl Preferences {
         cameras.drain(..surplus);
     }
 
-    /// Keeps for a scene that was saved under another name what was kept for it before.
+    /// Copies the bookmarks of a scene that was saved under another name.
     pub fn copy_cameras(&mut self, from: &Path, to: &Path) {
         let known = self.cameras_of(to).to_vec();
         for camera in self.cameras_of(from).to_vec() {
@@ -158,7 +157,7 @@ impl Preferences {
         }
     }
 
-    /// Drops a camera that was kept for a scene.
+    /// Deletes a bookmark of a scene.
     pub fn drop_camera(&mut self, scene: &Path, name: &str) {
         let scene = whole(scene);
         if let Some(cameras) = self.cameras.get_mut(&scene) {
@@ -169,100 +168,40 @@ impl Preferences {
         }
     }
 
-    /// The arrangement of the panels; `None` if there is none, or none that this version can read.
+    /// The layout of the panels; `None` if there is none that this version can read.
     pub fn layout<T: DeserializeOwned>(&self) -> Option<T> {
-        // Twice through text, for maps whose keys are not text in Rust but are in JSON.
+        // Through text, which converts map keys that are not strings.
         serde_json::from_str(&self.layout.to_string()).ok()
     }
 
-    /// Keeps the arrangement of the panels, whatever that is made of; `None` is the default one.
+    /// Sets the layout of the panels; `None` is the default one.
     pub fn set_layout<T: Serialize>(&mut self, layout: Option<&T>) {
         let value = layout.and_then(|layout| serde_json::to_value(layout).ok());
         self.layout = value.unwrap_or_default();
     }
-
-    /// As the file has it.
-    fn to_toml(&self) -> String {
-        let mut table = toml::Table::new();
-        let mut put = |name: &str, value: toml::Value| table.insert(name.to_owned(), value);
-        put("theme", self.theme.name().into());
-        // f32 through f64 would show digits that nobody chose.
-        let plain = |value: f32| toml::Value::from(value.to_string().parse().unwrap_or(1.0));
-        put("ui_scale", plain(self.ui_scale));
-        put("hint_seen", self.hint_seen.into());
-        if let Some(samples) = self.samples {
-            put("samples", i64::from(samples).into());
-        }
-        if let Some(tone) = self.tone {
-            put("tone", TONES.word(&tone).into());
-        }
-        if let Some(size) = self.window {
-            put("window", size.map(plain).to_vec().into());
-        }
-        if let Some(position) = self.window_position {
-            put("window_position", position.map(plain).to_vec().into());
-        }
-        put("maximized", self.maximized.into());
-        if !self.layout.is_null() {
-            put("layout", self.layout.to_string().into());
-        }
-        // Names that are not text are no names in the file; the files stay openable.
-        let recent = self.recent.iter().filter_map(|path| path.to_str());
-        put(
-            "recent",
-            recent.map(toml::Value::from).collect::<Vec<_>>().into(),
-        );
-
-        let mut bindings = toml::Table::new();
-        let preset = self.bindings.preset().name();
-        bindings.insert("preset".to_owned(), preset.into());
-        let changes = self.bindings.changes().into_iter();
-        let changes = changes.map(|(name, triggers)| (name, triggers.into()));
-        bindings.insert(
-            "changed".to_owned(),
-            toml::Value::Table(changes.collect::<toml::Table>()),
-        );
-        put("bindings", bindings.into());
-
-        let cameras = self.cameras.iter();
-        let cameras = cameras.filter_map(|(path, cameras)| {
-            let cameras = cameras.iter().map(SavedCamera::to_toml);
-            Some((
-                path.to_str()?.to_owned(),
-                cameras.collect::<Vec<_>>().into(),
-            ))
-        });
-        put(
-            "cameras",
-            toml::Value::Table(cameras.collect::<toml::Table>()),
-        );
-        format!(
-            "# Settings of `glimray view`, which rewrites this file when a setting changes.\n\n{table}"
-        )
-    }
 }
 
-/// Why the settings could not be kept. The text is `WHAT (WHERE): WHY. WHAT TO DO.`
+/// Why the settings cannot be saved. The text is `WHAT (WHERE): WHY. WHAT TO DO.`
 #[derive(Debug, thiserror::Error)]
 pub enum PreferencesError {
-    /// The platform has no place for them.
+    /// The platform has no settings folder.
     #[error(
         "cannot save the settings: there is no home folder. Name a folder in {FOLDER_VARIABLE}."
     )]
     NoFolder,
-    /// The folder could not be made, or the old file not be put aside.
+    /// The folder cannot be created, or the old file cannot be renamed.
     #[error(
         "cannot save the settings ({}): {}. Make the folder writable, or name another one in {FOLDER_VARIABLE}.",
         path.display(),
         output::reason(source)
     )]
     Folder {
-        /// What could not be made or moved.
+        /// The folder or file.
         path: PathBuf,
-        /// Why.
+        /// The error.
         source: io::Error,
     },
-    /// The file that is there could be neither read nor put aside, and may be of worth.
+    /// The existing file can be neither read nor renamed, and must not be lost.
     #[error(
         "cannot save the settings ({}): the existing file cannot be read and is not replaced. Make it readable, or name another folder in {FOLDER_VARIABLE}.",
         path.display()
@@ -271,23 +210,23 @@ pub enum PreferencesError {
         /// The file.
         path: PathBuf,
     },
-    /// The file could not be written.
+    /// The file cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
 }
 
-/// The file.
+/// The settings file.
 #[derive(Debug)]
 pub struct Store {
     folder: Option<PathBuf>,
-    /// What it contains, as far as is known.
+    /// Its known contents.
     written: Option<String>,
-    /// Whether a file is in its place that could not be read, and so must not be replaced.
+    /// Whether the existing file could not be read and must not be replaced.
     is_unread: bool,
 }
 
 impl Store {
-    /// In the folder that the environment names, else in the platform's.
+    /// The file in the folder that the environment names, else in the platform's folder.
     pub fn of_this_system() -> Self {
         let named = env::var_os(FOLDER_VARIABLE).filter(|folder| !folder.is_empty());
         let platform = || {
@@ -301,7 +240,7 @@ impl Store {
         }
     }
 
-    /// In this folder, which need not exist.
+    /// The file in this folder, which need not exist.
     pub fn in_folder(folder: impl Into<PathBuf>) -> Self {
         Self {
             folder: Some(folder.into()),
@@ -310,13 +249,13 @@ impl Store {
         }
     }
 
-    /// Where the file is or will be; `None` where the platform has no place for it.
+    /// The path of the file; `None` if the platform has no settings folder.
     pub fn path(&self) -> Option<PathBuf> {
         self.folder.as_ref().map(|folder| folder.join(FILE))
     }
 
-    /// What the file says, and a line for each thing that a person should know about it. What it does
-    /// not say, or what cannot be read, is as by default; the file is then kept under another name.
+    /// Reads the file. Missing and invalid values have their defaults. Returns a message about invalid
+    /// ones; the file is then kept under another name.
     pub fn load(&mut self) -> (Preferences, Vec<String>) {
         let Some(path) = self.path() else {
             return (
@@ -329,7 +268,7 @@ impl Store {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Default::default(),
             Err(error) => return (Preferences::default(), vec![self.unread(&path, &error)]),
         };
-        let (preferences, notes) = read::read(&bytes);
+        let (preferences, notes) = format::read(&bytes);
         if notes.is_empty() {
             self.written = String::from_utf8(bytes).ok();
             return (preferences, Vec::new());
@@ -360,9 +299,9 @@ impl Store {
         (preferences, lines)
     }
 
-    /// Keeps a file that cannot be read from being replaced; returns a line about it.
+    /// Protects a file that cannot be read from being replaced; returns a message.
     fn unread(&mut self, path: &Path, error: &io::Error) -> String {
-        // A folder is no old file of settings: it stays where it is.
+        // A folder is not a settings file and stays.
         let is_file = fs::symlink_metadata(path).is_ok_and(|found| !found.is_dir());
         let kept = if is_file {
             self.put_aside(path).ok()
@@ -378,12 +317,12 @@ impl Store {
         format!("cannot read the settings ({path}): {why}. {what}; the defaults are in use.")
     }
 
-    /// Writes what has changed since it was last written or read.
+    /// Writes the file if the settings have changed since it was last written or read.
     ///
     /// # Errors
-    /// The folder cannot be made or written to; the old file is then still there.
+    /// The folder cannot be created or written to. The old file is unchanged then.
     pub fn save(&mut self, preferences: &Preferences) -> Result<(), PreferencesError> {
-        let text = preferences.to_toml();
+        let text = format::write(preferences);
         if self.written.as_ref() == Some(&text) {
             return Ok(());
         }
@@ -401,7 +340,7 @@ impl Store {
         Ok(())
     }
 
-    /// Goes back to the defaults. The file as it was is kept under another name.
+    /// Resets to the defaults. The old file is kept under another name.
     ///
     /// # Errors
     /// As [`Store::save`].
@@ -417,7 +356,7 @@ impl Store {
         Ok(preferences)
     }
 
-    /// Gives the file another name, which no other has.
+    /// Renames the file to an unused name.
     fn put_aside(&self, path: &Path) -> Result<PathBuf, PreferencesError> {
         let mut name = path.with_extension("toml.bak");
         let mut count = 1;
@@ -434,7 +373,7 @@ impl Store {
     }
 }
 
-/// The same path from wherever it is looked at.
+/// The canonical form of a path, or its absolute form if it does not exist.
 fn whole(path: &Path) -> PathBuf {
     let path = fs::canonicalize(path).or_else(|_| std::path::absolute(path));
     path.unwrap_or_default()

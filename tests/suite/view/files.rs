@@ -7,8 +7,8 @@ use egui_kittest::kittest::{Queryable, by};
 use glimray::image::Image;
 use glimray::scene::Background;
 use glimray::viewer::actions::files;
-use glimray::viewer::model::bindings::Action;
 use glimray::viewer::model::file_dialog::{FileDialogs, Reply};
+use glimray::viewer::model::messages::sentence;
 use glimray::viewer::state::files::Intent;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -436,7 +436,7 @@ fn without_a_dialog_a_path_can_be_typed() {
         .key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::O);
     window.harness.run_steps(3);
     assert!(
-        has_notice(&window, "no file dialog"),
+        has_notice(&window, "No file dialog"),
         "{:?}",
         notices(&window)
     );
@@ -800,7 +800,9 @@ fn a_file_that_cannot_be_read_leaves_its_error_and_an_empty_window_that_says_so(
     let mut window = place.open("model.glb");
     let broken = window.session().files.broken.clone().expect("an error");
     assert!(broken.trouble.message.contains("model.glb"), "{broken:?}");
-    window.harness.get_by_label(&broken.trouble.message);
+    window
+        .harness
+        .get_by_label(&sentence(&broken.trouble.message));
     let has = |window: &Window, words| {
         let mut found = window.harness.query_all(by().label_contains(words));
         found.next().is_some()

@@ -6,7 +6,6 @@ use egui_kittest::kittest::{NodeT, Queryable, by};
 use glimray::scene::ObjectRef;
 use glimray::viewer::actions::inspector;
 use glimray::viewer::actions::saving;
-use glimray::viewer::model::bindings::Action;
 use glimray::viewer::model::objects::Id;
 use glimray::viewer::model::tool::Tool;
 use glimray::viewer::model::view_settings::Sharing;

@@ -3,7 +3,7 @@
 use super::harness::Window;
 use eframe::egui;
 use egui_kittest::kittest::Queryable;
-use glimray::viewer::actions::{dialogs, settings};
+use glimray::viewer::actions::settings;
 use glimray::viewer::model::bindings::Action;
 use glimray::viewer::model::preferences::{Store, Theme};
 use glimray::viewer::state::dialogs::Dialog;
@@ -84,7 +84,7 @@ fn a_key_that_another_command_has_is_refused_and_said() {
     assert_eq!(label(&window, Action::TogglePanels), before);
     assert_eq!(label(&window, Action::MoveTool), "G");
     let why = format!(
-        "G is taken: {}. Change that first.",
+        "G is already used by “{}”. Change that shortcut first.",
         Action::MoveTool.description()
     );
     window.harness.get_by_label(&why);

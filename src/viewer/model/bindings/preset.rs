@@ -1,10 +1,12 @@
 //! Bindings that match other programs.
 
 use crate::viewer::model::bindings::{Action, Trigger};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// A complete set of bindings.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// A complete set of bindings. Settings files have its name in lower case.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Preset {
     /// Orbit with the left, pan with the middle and zoom with the right button.
     #[default]
@@ -19,15 +21,6 @@ impl Preset {
     /// All, the default first.
     pub const ALL: [Self; 3] = [Self::Glimray, Self::Blender, Self::Maya];
 
-    /// Identifier in settings files. It never changes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Glimray => "glimray",
-            Self::Blender => "blender",
-            Self::Maya => "maya",
-        }
-    }
-
     /// Name in the window.
     pub fn title(self) -> &'static str {
         match self {
@@ -35,11 +28,6 @@ impl Preset {
             Self::Blender => "Blender",
             Self::Maya => "Maya",
         }
-    }
-
-    /// The preset with that name in settings files.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|preset| preset.name() == name)
     }
 
     /// The preset's bindings; commands that are missing have no trigger.

@@ -1,21 +1,21 @@
-//! A camera that a person kept, to the last bit.
+//! Bookmarked views, stored without loss of precision.
 
 use crate::scene::{Camera, Lens};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
-use toml::Value;
 
-/// A camera under a name.
-#[derive(Clone, Debug, PartialEq)]
+/// A bookmarked view.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Entry", into = "Entry")]
 pub struct SavedCamera {
-    /// Not empty.
+    /// Its name; not empty.
     pub name: String,
-    /// In world space.
+    /// The camera in world space.
     pub camera: Camera,
 }
 
-/// As the file has it. Angles are radians here: degrees would not lead back to the same bits.
+/// A bookmark in the file. Angles are in radians, because degrees do not convert back exactly.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Entry {
@@ -39,11 +39,11 @@ struct LensEntry {
     blade_rotation: f64,
 }
 
-impl SavedCamera {
-    pub(super) fn to_toml(&self) -> Value {
-        let Self { name, camera } = self;
-        let entry = Entry {
-            name: name.clone(),
+impl From<SavedCamera> for Entry {
+    fn from(saved: SavedCamera) -> Self {
+        let SavedCamera { name, camera } = saved;
+        Self {
+            name,
             look_from: camera.look_from.to_array(),
             look_at: camera.look_at.to_array(),
             up: camera.up.to_array(),
@@ -55,30 +55,27 @@ impl SavedCamera {
                 blades: lens.blade_count,
                 blade_rotation: lens.blade_rotation,
             }),
-        };
-        // Only what is no table at all can fail.
-        Value::try_from(entry).unwrap_or_else(|_| Value::Table(toml::Table::new()))
+        }
     }
+}
 
-    pub(super) fn from_toml(value: Value) -> Result<Self, String> {
-        let first = |error: toml::de::Error| {
-            let message = error.message().lines().next();
-            message.unwrap_or("invalid TOML").to_owned()
-        };
-        let entry: Entry = value.try_into().map_err(first)?;
+impl TryFrom<Entry> for SavedCamera {
+    type Error = &'static str;
+
+    fn try_from(entry: Entry) -> Result<Self, Self::Error> {
         let [look_from, look_at, up] =
             [entry.look_from, entry.look_at, entry.up].map(DVec3::from_array);
         let forward = (look_at - look_from).try_normalize();
         let is_clear = forward.is_some_and(|f| f.cross(up.normalize_or_zero()).length() > 1e-9);
         if !is_clear {
-            return Err("its direction is undefined".to_owned());
+            return Err("its direction is undefined");
         }
         if !(entry.fov_y > 0.0 && entry.fov_y < PI) {
-            return Err("`fov_y` must be between 0 and pi".to_owned());
+            return Err("`fov_y` must be between 0 and pi");
         }
         let is_size = |size: f64| size.is_finite() && size > 0.0;
         if !entry.orthographic.is_none_or(is_size) {
-            return Err("`orthographic` must be above 0".to_owned());
+            return Err("`orthographic` must be above 0");
         }
         let lens = entry.lens.map(|lens| Lens {
             radius: lens.radius,
@@ -87,7 +84,7 @@ impl SavedCamera {
             blade_rotation: lens.blade_rotation,
         });
         if !lens.is_none_or(|lens| is_size(lens.radius) && is_size(lens.focus_distance)) {
-            return Err("its lens must have a size above 0".to_owned());
+            return Err("its lens must have a size above 0");
         }
         Ok(Self {
             name: entry.name,
