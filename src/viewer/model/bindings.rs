@@ -333,9 +333,12 @@ fn suits(action: Action, trigger: &Trigger) -> bool {
     }
 }
 
-/// Whether steps of a wheel make sense for what moves the camera.
+/// Whether the wheel can be bound to it.
 pub fn zooms(action: Action) -> bool {
-    matches!(action, Action::Zoom | Action::ZoomToCursor)
+    matches!(
+        action,
+        Action::Zoom | Action::ZoomToCursor | Action::PixelZoom
+    )
 }
 
 fn is_letter(trigger: &Trigger) -> bool {

@@ -2,6 +2,7 @@
 
 use crate::scene::ObjectRef;
 use crate::viewer::model::tool::Purpose;
+use crate::viewer::state::cursor::Probe;
 use crate::viewer::state::files::Taken;
 use crate::viewer::state::inspector::{Inspected, Parts};
 use glam::DVec3;
@@ -17,6 +18,8 @@ pub enum Answer {
         /// nothing.
         hit: Option<(DVec3, Option<ObjectRef>)>,
     },
+    /// What the pixel under the cursor shows.
+    Probed(Probe),
     /// The rays of a pixel, or why there are none.
     Rays(Result<Box<Inspected>, String>),
     /// Which parts of lines are behind something, seen from outside; `None` if that picture is not there.

@@ -408,6 +408,7 @@ impl ProgressiveImage {
         Some(FrameRenderer {
             renderer: self.renderer.as_mut()?,
             order: self.order.as_ref()?,
+            screen: self.screen.as_ref().filter(|_| self.last_look.is_some()),
             outside: None,
         })
     }

@@ -155,6 +155,10 @@ actions! {
         ExposureDown "exposure-down" Press "Darken by a third of a stop",
         ExposureReset "exposure-reset" Press "Take back the scene's own exposure",
         NextToneCurve "next-tone-curve" Press "Take the next tone curve",
+        PixelZoom "pixel-zoom" Motion "Magnify the pixels under the cursor",
+        PixelZoomIn "pixel-zoom-in" Press "Magnify the pixels under the cursor by a step",
+        PixelZoomOut "pixel-zoom-out" Press "Reduce the pixels by a step",
+        PixelZoomReset "pixel-zoom-reset" Press "Reset the pixel zoom",
         NextBackground "next-background" Press "Take the next background",
     }
     Rendering {

@@ -12,11 +12,12 @@ const WORTH_KEEPING: f64 = 2.0;
 pub(super) struct Room {
     /// Taken by the picture that is under way, in pixels.
     pub taken: (u32, u32),
+    /// In the window now, in pixels.
+    available: (u32, u32),
     /// What was ordered for it last.
     ordered: Option<RenderRequest>,
     /// Seconds of tracing in that picture so far.
     spent: f64,
-    is_told: bool,
 }
 
 impl Session {
@@ -25,22 +26,24 @@ impl Session {
         self.room.spent = seconds;
     }
 
-    /// Room for pictures, in pixels. One that fits the window takes it when it begins, or if little is lost
-    /// by beginning again.
+    /// Room for pictures, in pixels. A picture that fits the window takes it when it begins, or if little is
+    /// lost by beginning again; until then it is scaled.
     pub fn set_space(&mut self, pixels: (u32, u32)) {
+        self.room.available = pixels;
         if self.room.taken != pixels && !self.is_worth_keeping() {
             self.room.taken = pixels;
         }
-        let is_kept = self.room.taken != pixels;
-        if is_kept && !self.room.is_told {
-            let (width, height) = self.room.taken;
-            self.messages.tell(format!(
-                "The picture keeps its {width}×{height} pixels and its samples. Started again, it takes \
-                 the room that there is now."
-            ));
-        }
-        self.room.is_told = is_kept;
         self.room.ordered = self.order(self.view.settings.integrator);
+    }
+
+    /// Whether the picture keeps its samples and is scaled to the room that there is now.
+    pub fn is_scaled_to_room(&self) -> bool {
+        self.view.fits && self.room.taken != self.room.available
+    }
+
+    /// Begins the picture again, as large as there is room for now.
+    pub fn take_room(&mut self) {
+        self.room.taken = self.room.available;
     }
 
     fn is_worth_keeping(&self) -> bool {

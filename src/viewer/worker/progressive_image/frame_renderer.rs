@@ -3,7 +3,7 @@
 
 use crate::app::advice;
 use crate::image::Image;
-use crate::render::{RenderError, RenderSettings, Renderer, Tone};
+use crate::render::{RenderError, RenderSettings, Renderer, Screen, Tone};
 use crate::viewer::worker::request::RenderRequest;
 
 /// Where a picture is shown.
@@ -28,6 +28,8 @@ pub struct FrameRenderer<'a> {
     pub renderer: &'a mut Renderer,
     /// What it was last asked for.
     pub order: &'a RenderRequest,
+    /// What the window shows of the main picture; `None` before it has samples.
+    pub screen: Option<&'a Screen>,
     /// The same of the picture from outside, where there is one in full.
     pub outside: Option<(&'a mut Renderer, &'a RenderRequest)>,
 }
@@ -37,6 +39,24 @@ impl FrameRenderer<'_> {
     pub fn image(&mut self, tone: &Tone) -> Result<(Image, u32), RenderError> {
         let samples = self.renderer.samples_done();
         Ok((self.renderer.develop(tone)?, samples))
+    }
+
+    /// A pixel as the window shows it: red, green and blue, encoded. `None` where nothing is shown.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn displayed(&self, [x, y]: [u32; 2]) -> Result<Option<[u8; 3]>, RenderError> {
+        let [left, top, width, height] = self.renderer.region();
+        let (Some(screen), Some(x), Some(y)) =
+            (self.screen, x.checked_sub(left), y.checked_sub(top))
+        else {
+            return Ok(None);
+        };
+        if x >= width || y >= height || screen.size() != (width, height) {
+            return Ok(None);
+        }
+        let [red, green, blue, alpha] = self.renderer.read_pixel(screen, [x, y])?;
+        Ok((alpha > 0).then_some([red, green, blue]))
     }
 
     /// The settings of the picture in full.

@@ -56,15 +56,17 @@ pub fn overlay(
     let painter = ui.painter_at(space);
     let corners = match &mut comparison.sharing {
         Sharing::Wipe(share) => {
-            wipe(ui, &painter, share, viewports[0].rect);
             let rect = viewports[0].rect.intersect(space);
+            let y_range = rect.y_range();
+            let line = Rect::from_x_y_ranges(viewports[0].rect.x_range(), y_range);
+            wipe(ui, &painter, share, line);
             [rect.left_top(), rect.right_top()]
         }
         Sharing::SideBySide => {
             let middle = space.center_top();
             let line = [middle, space.center_bottom()];
             painter.line_segment(line, Stroke::new(1.0, Color32::from_gray(128)));
-            viewports.map(|viewport| viewport.rect.left_top())
+            viewports.map(|viewport| viewport.rect.intersect(space).left_top())
         }
     };
     let is_wipe = matches!(comparison.sharing, Sharing::Wipe(_));
