@@ -79,6 +79,8 @@ pub struct ProgressiveImage {
     /// Whether the picture is to stay coarse.
     stays_coarse: bool,
     is_coarse: bool,
+    /// By which the coarse picture's width and height are divided.
+    divisor: u32,
     packed: Option<Arc<PackedScene>>,
     frames: Vec<Frame>,
     view: Option<PackedView>,
@@ -118,6 +120,7 @@ impl ProgressiveImage {
             order: None,
             stays_coarse: false,
             is_coarse: false,
+            divisor: 1,
             packed: None,
             frames: Vec::new(),
             view: None,
@@ -180,6 +183,15 @@ impl ProgressiveImage {
             } == order.settings
                 && b.policy == order.policy
         });
+        let differs_in_size = order.settings.crop.is_none()
+            && before.is_some_and(|b| {
+                let size = order.settings.size;
+                RenderSettings {
+                    size,
+                    ..b.settings.clone()
+                } == order.settings
+                    && b.policy == order.policy
+            });
         if let Some(before) = self.order.replace(order.clone()) {
             self.keep_whole(&before.settings, &order.settings);
         }
@@ -195,8 +207,24 @@ impl ProgressiveImage {
         } else if is_other_shot {
             self.frames = order.scene.motion_samples(order.shot.0, order.shot.1);
         }
+        if shows_same && differs_in_size && !coarse && self.keeps_screen() {
+            return self.begin(None);
+        }
         // A picture at rest begins coarse too, so that there is something to see at once.
-        self.begin(true)
+        let divisor = pace::first_divisor(&self.gpu, &mut self.pace, &order.settings);
+        self.begin(Some(divisor))
+    }
+
+    /// Keeps the picture in full under the one of another size that replaces it. Scaled, it shows more than a
+    /// coarse one. Whether there is one.
+    fn keeps_screen(&mut self) -> bool {
+        if self.is_coarse {
+            return false;
+        }
+        if self.last_look.is_some() {
+            self.coarse = self.screen.take();
+        }
+        self.coarse.is_some()
     }
 
     /// Goes on from the samples that there are. Whether that is possible.
@@ -237,17 +265,17 @@ impl ProgressiveImage {
         Ok(())
     }
 
-    /// Starts the picture over.
-    fn begin(&mut self, coarse: bool) -> Result<(), ImageError> {
+    /// Starts the picture over: coarse by a divisor of its width and height, or in full.
+    fn begin(&mut self, divisor: Option<u32>) -> Result<(), ImageError> {
         let (Some(order), Some(packed)) = (&self.order, &self.packed) else {
             return Ok(());
         };
         let view = view(packed, self.view.as_ref(), &self.frames, order)?;
         let has_tlas = (self.view.as_ref()).is_some_and(|before| before.shares_tlas(&view));
         self.trees_built += usize::from(packed.features.instances && !has_tlas);
-        let settings = match coarse {
-            true => pace::coarse(&self.gpu, &mut self.pace, &order.settings),
-            false => order.settings.clone(),
+        let settings = match divisor {
+            Some(divisor) => pace::coarse(&order.settings, divisor),
+            None => order.settings.clone(),
         };
         let policy = pace::policy(&self.gpu, order.policy);
         let packed = packed.clone();
@@ -259,7 +287,8 @@ impl ProgressiveImage {
             }
         }
         self.view = Some(view);
-        self.is_coarse = coarse;
+        self.is_coarse = divisor.is_some();
+        self.divisor = divisor.unwrap_or(1);
         self.is_shown = false;
         self.last_look = None;
         self.busy = 0.0;
@@ -308,13 +337,25 @@ impl ProgressiveImage {
         }
     }
 
+    /// Begins the next finer picture: on slow devices by levels, each of which comes as a whole.
+    fn refine(&mut self) -> Result<(), ImageError> {
+        let Some(order) = &self.order else {
+            return Ok(());
+        };
+        let pixels = pace::pixels(&order.settings);
+        match self.pace.next(pixels, self.divisor) {
+            1 => self.begin(None),
+            divisor => self.begin(Some(divisor)),
+        }
+    }
+
     /// Adds samples for a slice of time and shows them. Those of a `paused` picture are only shown, once
     /// there are any.
     pub fn step(&mut self, paused: bool) -> Result<(), ImageError> {
         let started = Instant::now();
         let is_traced = self.renderer.as_ref().is_some_and(Renderer::is_done);
         if self.is_coarse && !self.stays_coarse && is_traced && self.is_shown && !paused {
-            self.begin(false)?;
+            self.refine()?;
         }
         let (Some(renderer), Some(order)) = (&mut self.renderer, &self.order) else {
             return Ok(());
@@ -330,8 +371,9 @@ impl ProgressiveImage {
         let is_due = renderer.is_done()
             || is_held
             || self.last_look.is_none_or(|last| last.elapsed() > interval);
-        // A coarse picture comes as a whole.
-        if !is_due || self.is_coarse && !renderer.is_done() {
+        // A coarse picture comes as a whole, and so does the first sample.
+        let is_whole = renderer.is_done() || !self.is_coarse && renderer.samples_done() > 0;
+        if !is_due || !is_whole {
             self.is_shown = false;
             self.busy += started.elapsed().as_secs_f64();
             return Ok(());
