@@ -9,7 +9,7 @@ use crate::viewer::worker::progressive_image::{FrameRenderer, PictureSlot, Progr
 use glam::DVec3;
 
 /// Asks about the pixel under the cursor, once the cursor rests there and the camera rests too. Asks again
-/// when the samples have doubled.
+/// when the samples have doubled or the finished picture is developed anew.
 pub fn update(session: &mut Session, progress: &Progress) {
     let cursor = &session.cursor;
     let is_at_rest = !session.is_moving() && session.now - cursor.since >= REST;
@@ -27,8 +27,8 @@ pub fn update(session: &mut Session, progress: &Progress) {
     let [x, y, width, height] = order.settings.region();
     let is_rendered = (x..x + width).contains(&pixel[0]) && (y..y + height).contains(&pixel[1]);
     let stage = match progress.is_done {
-        true => u32::MAX,
-        false => progress.samples.ilog2(),
+        true => (true, progress.looks),
+        false => (false, progress.samples.ilog2().into()),
     };
     let subject = Subject {
         pixel,

@@ -28,9 +28,12 @@ impl Viewport {
         let pixels = Vec2::new(size.0 as f32, size.1 as f32);
         let available = space.size() * pixels_per_point;
         // What differs by less than a pixel is the same: sizes in points are not whole pixels.
-        let scale = ((available + Vec2::splat(1.0)) / pixels)
-            .min_elem()
-            .min(limit);
+        let scale = match (available / pixels).min_elem() {
+            enlarged if enlarged > 1.0 => enlarged.min(limit),
+            _ => ((available + Vec2::splat(1.0)) / pixels)
+                .min_elem()
+                .min(1.0),
+        };
         let extent = pixels * scale / pixels_per_point;
         let corner = space.center() - extent / 2.0;
         let corner = (corner.to_vec2() * pixels_per_point).round() / pixels_per_point;
@@ -43,15 +46,21 @@ impl Viewport {
     /// Where a picture of `size` pixels lies that was made for other room: as high as the picture, with its
     /// own proportions, since a camera's field of view is vertical.
     pub fn under(&self, size: (u32, u32)) -> Rect {
-        let width = self.rect.height() * size.0 as f32 / size.1.max(1) as f32;
+        let framing = self.framing(size);
         // Coarse pictures are rounded up to whole pixels.
         let pixel = self.rect.height() / size.1.max(1) as f32;
-        match (width - self.rect.width()).abs() > 2.0 * pixel {
-            true => {
-                Rect::from_center_size(self.rect.center(), Vec2::new(width, self.rect.height()))
-            }
+        match (framing.width() - self.rect.width()).abs() > 2.0 * pixel {
+            true => framing,
             false => self.rect,
         }
+    }
+
+    /// What a picture of another width and height shows of this one, on the screen: a camera's field of view is
+    /// vertical, so it is as high, and narrower or wider.
+    pub fn framing(&self, (width, height): (u32, u32)) -> Rect {
+        let high = self.rect.height();
+        let wide = high * width as f32 / height.max(1) as f32;
+        Rect::from_center_size(self.rect.center(), Vec2::new(wide, high))
     }
 
     /// Whether each of its pixels is one of the screen's.

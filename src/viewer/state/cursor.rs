@@ -30,8 +30,8 @@ pub struct Surface {
 pub struct Subject {
     pub(in crate::viewer) pixel: [u32; 2],
     pub(in crate::viewer) order: RenderRequest,
-    /// Rises when the samples have doubled and when the picture is done.
-    pub(in crate::viewer) stage: u32,
+    /// Whether the picture is done, and how often it was shown; before, how often its samples have doubled.
+    pub(in crate::viewer) stage: (bool, u64),
 }
 
 /// The pixel under the cursor.

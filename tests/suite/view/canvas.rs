@@ -1,6 +1,7 @@
 //! One picture that follows its orders: what restarts it and what does not, coarse and fine, whole and
 //! in part; and that it is the command line's.
 
+use super::edit;
 use super::harness::Window;
 use super::pixels;
 use crate::reference::compare::{open_gpu, render, sized};
@@ -621,7 +622,10 @@ fn a_picture_is_finished_while_the_window_draws_nothing() {
 
 #[test]
 fn a_window_without_room_renders_nothing_and_comes_back() {
-    let mut window = Window::open(&["--samples", "1"]);
+    // A scene that is rendered too soon to be worth keeping.
+    let (_folder, path) = edit::file();
+    let path = path.to_str().expect("a path in UTF-8");
+    let mut window = Window::open(&[path, "--samples", "1"]);
     window.settle();
     let size = window.shown().size;
     window.session().set_space((0, 0));
@@ -638,7 +642,10 @@ fn a_window_without_room_renders_nothing_and_comes_back() {
 
 #[test]
 fn a_finer_screen_gets_a_picture_of_as_many_pixels_more() {
-    let mut window = Window::open(&["--samples", "1"]);
+    // A scene that is rendered too soon to be worth keeping.
+    let (_folder, path) = edit::file();
+    let path = path.to_str().expect("a path in UTF-8");
+    let mut window = Window::open(&[path, "--samples", "1"]);
     window.settle();
     let (width, height) = window.shown().size;
     let viewports = &mut window.harness.input_mut().viewports;

@@ -8,7 +8,9 @@ use eframe::egui::{
 };
 use egui_kittest::kittest::Queryable;
 use glam::{DVec3, dvec2};
+use glimray::viewer::actions::files::pictures;
 use glimray::viewer::model::viewport::{PixelZoom, Viewport};
+use glimray::viewer::state::files::SaveSize;
 
 /// Moves the cursor to a pixel's centre and waits until it is known what is there.
 fn rest_on(window: &mut Window, [x, y]: [u32; 2]) {
@@ -50,8 +52,12 @@ fn the_status_bar_tells_colour_object_and_distance_of_the_pixel_under_the_cursor
     window.harness.get_by_label_contains(&text);
 
     rest_on(&mut window, [0, 0]);
-    window.harness.get_by_label_contains("x 0, y 0");
-    window.harness.get_by_label_contains("Background");
+    let probe = window.session().cursor.current().cloned();
+    let probe = probe.expect("an answer");
+    assert_eq!(probe.surface, None);
+    let [r, g, b] = probe.rgb.expect("a colour");
+    let text = format!("x 0, y 0  RGB {r} {g} {b}  Background");
+    window.harness.get_by_label(&text);
     window.harness.hover_at(pos2(4.0, 690.0));
     window.settle();
     assert!(window.harness.query_by_label_contains("RGB").is_none());
@@ -159,4 +165,103 @@ fn a_picture_worth_keeping_fills_other_room_scaled_until_it_is_rendered_to_fit()
     assert_eq!(under.center(), fitting.rect.center());
     // A coarse one is rounded up to whole pixels.
     assert_eq!(fitting.under((72, 43)), fitting.rect);
+}
+
+/// The balls in a scene of 40 × 30 pixels with two samples.
+fn small() -> (tempfile::TempDir, std::path::PathBuf) {
+    let (folder, path) = edit::file();
+    let text = std::fs::read_to_string(&path).expect("a scene");
+    let text = text + "\n[output]\nsize = [40, 30]\nsamples = 2\n";
+    std::fs::write(&path, text).expect("a file");
+    (folder, path)
+}
+
+#[test]
+fn a_picture_is_saved_at_the_scenes_size_and_at_twice_that() {
+    let (folder, scene) = small();
+    let scene = scene.to_str().expect("a path in UTF-8");
+    let mut window = Window::open(&[scene]);
+    window.settle();
+    let shown = window.shown().size;
+    assert!(shown.0 > 80, "the picture does not fit the window");
+    for (label, size) in [("Scene size", "40x30"), ("Scene size ×2", "80x60")] {
+        let path = folder.path().join(format!("{size}.png"));
+        window.harness.key_press(Key::F12);
+        window.harness.run_steps(3);
+        window.harness.get_by_label(label).click();
+        window.harness.run_steps(2);
+        let sheet = path.display().to_string();
+        (window.session().files.saving.as_mut().expect("a sheet")).path = sheet;
+        window.harness.run_steps(2);
+        window.harness.get_by_label("Save").click();
+        window.harness.run_steps(2);
+        window.settle();
+        let written = ::image::open(&path).expect("a PNG").to_rgb8();
+        let written = pixels::Bytes {
+            size: written.dimensions(),
+            rgb: written.pixels().map(|pixel| pixel.0).collect(),
+        };
+        let line = ["render", "--quiet", scene, "--size", size];
+        written.assert_same(&pixels::of_command_line(&line), size);
+    }
+    assert_eq!(window.shown().size, shown, "the window's picture changed");
+}
+
+#[test]
+fn a_picture_that_is_rendered_for_a_file_can_be_given_up() {
+    let (folder, scene) = small();
+    let mut window = Window::open(&[scene.to_str().expect("a path in UTF-8")]);
+    window.settle();
+    window.session().view.paused = true;
+    window.session().view.set_samples(65_536);
+    let path = folder.path().join("never.png");
+    {
+        let mut session = window.session();
+        pictures::open(&mut session, false);
+        let sheet = session.files.saving.as_mut().expect("a sheet");
+        sheet.path = path.display().to_string();
+        sheet.size = SaveSize::Twice;
+        pictures::save(&mut session, false);
+        assert!(session.files.waits_to_save());
+    }
+    window.harness.run_steps(3);
+    pictures::cancel(&mut window.session());
+    window.settle();
+    assert!(!window.session().files.waits_to_save());
+    assert!(!path.exists());
+}
+
+#[test]
+fn the_scenes_frame_has_its_proportions_and_the_pictures_height() {
+    let room = Rect::from_min_size(pos2(0.0, 0.0), vec2(900.0, 300.0));
+    let viewport = Viewport::fitting(room, (900, 300), 1.0);
+    let frame = viewport.framing((40, 30));
+    assert_eq!(
+        frame,
+        Rect::from_min_size(pos2(250.0, 0.0), vec2(400.0, 300.0))
+    );
+    // The line is drawn where the scene's picture ends.
+    let (_folder, scene) = small();
+    let text = std::fs::read_to_string(&scene).expect("a scene");
+    std::fs::write(&scene, text.replace("[40, 30]", "[30, 60]")).expect("a file");
+    let mut window = Window::open(&[scene.to_str().expect("a path in UTF-8")]);
+    window.settle();
+    let viewport = window.session().viewport.expect("a picture");
+    let line = viewport.framing((30, 60)).left_center();
+    for is_shown in [true, false] {
+        window.session().shows_overlays = is_shown;
+        window.harness.run_steps(2);
+        let image = window.harness.render().expect("a picture of the window");
+        let (x, y) = (line.x.round() as u32, line.y.round() as u32);
+        let is_light = |x| {
+            image.get_pixel(x, y).0[..3]
+                .iter()
+                .all(|level| *level > 120)
+        };
+        assert_eq!(
+            (x - 1..=x + 1).any(is_light),
+            is_shown,
+            "overlays: {is_shown}"
+        );
+    }
 }

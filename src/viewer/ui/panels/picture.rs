@@ -1,6 +1,8 @@
 //! The picture, and the camera under the mouse.
 
+mod caption;
 mod compare;
+mod framing;
 mod legend;
 
 use crate::viewer::actions::inspector;
@@ -75,6 +77,7 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     compare::overlay(ui, context, space, viewports);
     if context.session.shows_overlays {
         legends(ui, context, space, viewports);
+        frames(ui, context, space, viewports);
     }
     if is_scaled && !context.session.files.is_posing() {
         scaled(ui, context, space);
@@ -116,6 +119,20 @@ fn legends(ui: &egui::Ui, context: &PanelContext, space: Rect, viewports: [Viewp
     if let (Some(comparison), Some(shown)) = (look.comparison, context.shown(PictureSlot::Beside)) {
         let place = (rects[1], true);
         legend::legend(ui, &painter, &shown, comparison.integrator, place);
+    }
+}
+
+/// Shows the scene's framing where the picture has the proportions of the window.
+fn frames(ui: &egui::Ui, context: &PanelContext, space: Rect, viewports: [Viewport; 2]) {
+    let session = &context.session;
+    if !session.view.fits || session.scene().is_none() {
+        return;
+    }
+    let painter = ui.painter_at(space);
+    let size = session.view.scene_settings.size;
+    framing::framing(&painter, viewports[0], size);
+    if viewports[0] != viewports[1] {
+        framing::framing(&painter, viewports[1], size);
     }
 }
 
