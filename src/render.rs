@@ -253,6 +253,11 @@ impl Renderer {
         })
     }
 
+    /// The device that it renders on.
+    pub fn gpu(&self) -> &Gpu {
+        &self.device.gpu
+    }
+
     /// Whether every pixel has all its samples.
     pub fn is_done(&self) -> bool {
         self.cursor.tile >= self.tiles.list.len()

@@ -6,7 +6,7 @@ use super::{
     slice::Slice,
 };
 use crate::{
-    gpu::{GpuError, Kernel},
+    gpu::{GpuError, Kernel, Source},
     layout::PackedTone,
 };
 use bytemuck::{bytes_of, cast_slice};
@@ -46,6 +46,46 @@ impl Renderer {
             .gpu
             .allocate_screen(width, height, SCREEN_FORMAT)?;
         Ok(Screen { view })
+    }
+
+    /// One pixel of a screen as it is displayed: red, green, blue and premultiplied alpha, 8 bits each.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn read_pixel(&self, screen: &Screen, [x, y]: [u32; 2]) -> Result<[u8; 4], RenderError> {
+        let gpu = &self.device.gpu;
+        let row = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
+        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
+        let texel = gpu.allocate("texel", row.into(), usage)?;
+        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
+        let staging = gpu.allocate("staging", 4, usage)?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let texture = wgpu::TexelCopyTextureInfo {
+            origin: wgpu::Origin3d { x, y, z: 0 },
+            ..screen.view.texture().as_image_copy()
+        };
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(row),
+            rows_per_image: None,
+        };
+        let target = wgpu::TexelCopyBufferInfo {
+            buffer: &texel,
+            layout,
+        };
+        let size = wgpu::Extent3d {
+            width: 1,
+            height: 1,
+            depth_or_array_layers: 1,
+        };
+        encoder.copy_texture_to_buffer(texture, target, size);
+        let source = Source {
+            buffer: &texel,
+            offset: 0,
+            bytes: 4,
+        };
+        let read = |bytes: &[u8]| [bytes[0], bytes[1], bytes[2], bytes[3]];
+        Ok(gpu.submit_and_read(encoder, &[source], &staging, read)?)
     }
 
     /// The rendered part of the picture: x, y, width, height in pixels.

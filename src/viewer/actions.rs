@@ -2,6 +2,7 @@
 
 pub mod answers;
 pub(crate) mod commands;
+pub mod cursor;
 pub mod dialogs;
 pub mod editing;
 pub mod files;

@@ -1,6 +1,7 @@
 //! The state of each concern of the window, and the [`session::Session`] that owns them.
 
 pub mod answer;
+pub mod cursor;
 pub mod dialogs;
 pub mod editing;
 pub mod files;

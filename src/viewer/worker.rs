@@ -3,3 +3,4 @@
 pub mod progressive_image;
 pub mod render_thread;
 pub mod request;
+pub mod still;

@@ -14,6 +14,7 @@ mod looks;
 mod modal;
 mod names;
 mod panels;
+mod picture;
 mod pixels;
 mod rays;
 mod replay;

@@ -377,7 +377,12 @@ fn the_wheel_counts_in_steps_whatever_is_held() {
         given(scroll(line, 0.0, -1.0, Modifiers::COMMAND)),
         [(Action::ZoomToCursor, -1.0)]
     );
-    assert_eq!(given(scroll(line, 0.0, 1.0, Modifiers::ALT)), []);
+    assert_eq!(
+        given(scroll(line, 0.0, 1.0, Modifiers::ALT)),
+        [(Action::PixelZoom, 1.0)]
+    );
+    let both = Modifiers::ALT | Modifiers::SHIFT;
+    assert_eq!(given(scroll(line, 0.0, 1.0, both)), []);
     assert_eq!(
         given(scroll(MouseWheelUnit::Point, 0.0, 50.0, Modifiers::NONE)),
         [(Action::Zoom, 1.0)]

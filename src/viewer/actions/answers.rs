@@ -31,6 +31,7 @@ impl Session {
     pub fn take(&mut self, answer: Answer) {
         match answer {
             Answer::Picked { purpose, hit } => self.picked(purpose, hit),
+            Answer::Probed(probe) => self.cursor.probe = Some(probe),
             Answer::Rays(outcome) => inspector::take(self, outcome),
             Answer::Hidden(parts) => self.inspector.hidden.take(parts),
             Answer::Nothing => {}

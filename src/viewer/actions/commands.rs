@@ -6,6 +6,7 @@ use crate::viewer::model::camera::{CameraController, Side};
 use crate::viewer::model::preferences::Theme;
 use crate::viewer::model::tool::Tool;
 use crate::viewer::model::view_settings::Sharing;
+use crate::viewer::model::viewport::PixelZoom;
 use crate::viewer::state::dialogs::Dialog;
 use crate::viewer::state::layout::{Layout, Panel};
 use crate::viewer::state::session::Session;
@@ -58,6 +59,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         | Action::Zoom
         | Action::ZoomToCursor
         | Action::LookAround
+        | Action::PixelZoom
         | Action::FlyForward
         | Action::FlyBack
         | Action::FlyLeft
@@ -116,6 +118,9 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::ExposureReset => session.view.tone = session.view.scene_tone,
         Action::NextToneCurve => session.view.next_tone_curve(),
         Action::NextBackground => session.view.next_background(),
+        Action::PixelZoomIn => tools::pixel_zoom(session, 1.0, ctx.pointer_hover_pos()),
+        Action::PixelZoomOut => tools::pixel_zoom(session, -1.0, ctx.pointer_hover_pos()),
+        Action::PixelZoomReset => session.pixel_zoom = PixelZoom::default(),
         Action::PauseRender => session.view.paused = !session.view.paused,
         Action::RestartRender => session.restart(),
         Action::RegionRender => tools::toggle_region(session),

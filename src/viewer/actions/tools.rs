@@ -9,7 +9,8 @@ use crate::viewer::model::tool::Purpose;
 use crate::viewer::model::tool::Tool;
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::state::session::Session;
-use eframe::egui::{self, LayerId, PointerButton, Pos2};
+use eframe::egui::{self, LayerId, PointerButton, Pos2, Vec2};
+use glam::DVec2;
 
 /// All mouse buttons.
 const BUTTONS: [PointerButton; 5] = [
@@ -65,7 +66,9 @@ fn wheel(
     viewport: Viewport,
 ) {
     for &(action, steps) in turned {
-        if let Some(controller) = &mut session.controller {
+        if action == Action::PixelZoom {
+            pixel_zoom(session, steps, pointer);
+        } else if let Some(controller) = &mut session.controller {
             let at = pointer
                 .filter(|_| action == Action::ZoomToCursor)
                 .map(|point| controller.point_at(viewport.position(point), viewport.extent()));
@@ -73,6 +76,18 @@ fn wheel(
             session.moved();
         }
     }
+}
+
+/// Magnifies the picture round a point of the screen, or round its middle if the point is not in it.
+pub fn pixel_zoom(session: &mut Session, steps: f64, pointer: Option<Pos2>) {
+    let Some(viewport) = session.viewport else {
+        return;
+    };
+    let position = pointer.map(|point| viewport.position(point) / viewport.extent());
+    let is_inside = |at: &DVec2| at.cmpge(DVec2::ZERO).all() && at.cmple(DVec2::ONE).all();
+    let at = position.filter(is_inside).unwrap_or(DVec2::splat(0.5));
+    let at = Vec2::new(at.x as f32, at.y as f32);
+    session.pixel_zoom.zoom(steps, at);
 }
 
 /// Moves the camera by a drag from one point of the screen to another.

@@ -331,9 +331,12 @@ fn suits(action: Action, trigger: &Trigger) -> bool {
     }
 }
 
-/// Whether the wheel can trigger a camera motion.
+/// Whether the wheel can trigger the action.
 pub fn zooms(action: Action) -> bool {
-    matches!(action, Action::Zoom | Action::ZoomToCursor)
+    matches!(
+        action,
+        Action::Zoom | Action::ZoomToCursor | Action::PixelZoom
+    )
 }
 
 fn is_letter(trigger: &Trigger) -> bool {

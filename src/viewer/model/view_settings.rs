@@ -185,9 +185,14 @@ impl ViewSettings {
             true => (space.0.max(1), space.1.max(1)),
             false => self.settings.size,
         };
+        self.settings_at(size, integrator)
+    }
+
+    /// The settings of a picture of this width and height in pixels.
+    pub fn settings_at(&self, size: (u32, u32), integrator: Integrator) -> RenderSettings {
         let crop = match self.region {
             Some(region) => Some(pixels(region, size)),
-            None => self.settings.crop.filter(|_| !self.fits),
+            None => (self.settings.crop).filter(|_| !self.fits && size == self.settings.size),
         };
         RenderSettings {
             size,

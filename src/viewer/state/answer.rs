@@ -2,6 +2,7 @@
 
 use crate::scene::ObjectRef;
 use crate::viewer::model::tool::Purpose;
+use crate::viewer::state::cursor::Probe;
 use crate::viewer::state::files::Taken;
 use crate::viewer::state::inspector::{Inspected, Parts};
 use glam::DVec3;
@@ -16,6 +17,8 @@ pub enum Answer {
         /// The point on the nearest surface, in world space, and its object; `None` for the background.
         hit: Option<(DVec3, Option<ObjectRef>)>,
     },
+    /// What the pixel under the cursor shows.
+    Probed(Probe),
     /// The rays of a pixel, or why there are none.
     Rays(Result<Box<Inspected>, String>),
     /// The hidden parts of rays in the ray view; `None` if another view is shown.

@@ -12,6 +12,7 @@ use eframe::egui::ColorImage;
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::Receiver;
 use std::time::SystemTime;
 
@@ -131,7 +132,41 @@ pub struct Target {
     pub replaces: bool,
 }
 
-/// The dialog for saving a picture.
+/// The size of a picture that is saved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SaveSize {
+    /// The picture in the window, with the samples that it has.
+    #[default]
+    Window,
+    /// The scene's size.
+    Scene,
+    /// Twice the scene's width and height.
+    Twice,
+}
+
+impl SaveSize {
+    /// All, in the order of the dialog.
+    pub const ALL: [Self; 3] = [Self::Window, Self::Scene, Self::Twice];
+
+    /// In words.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Window => "Window",
+            Self::Scene => "Scene size",
+            Self::Twice => "Scene size ×2",
+        }
+    }
+}
+
+/// A picture that is rendered for a file.
+pub struct Rendering {
+    /// What became of it: a message, nothing if it was cancelled, or what went wrong.
+    pub(in crate::viewer) receiver: Receiver<Result<Option<String>, String>>,
+    /// Set to give it up.
+    pub(in crate::viewer) is_cancelled: Arc<AtomicBool>,
+}
+
+/// What a person says about a picture that is to be saved.
 pub struct SaveDialog {
     /// The typed path.
     pub path: String,
@@ -139,7 +174,9 @@ pub struct SaveDialog {
     pub quality: u8,
     /// Whether overlays are included.
     pub overlays: bool,
-    /// Whether the field has not been focused yet.
+    /// The size.
+    pub size: SaveSize,
+    /// Whether the name is yet to be put under the keys.
     pub is_new: bool,
     /// The input files of the scene, which no picture may replace.
     pub(in crate::viewer) inputs: Inputs,
@@ -171,6 +208,7 @@ pub struct Pending {
     pub(in crate::viewer) asked: u32,
     pub(in crate::viewer) pose: Option<Pose>,
     pub(in crate::viewer) writing: Vec<Receiver<Result<String, String>>>,
+    pub(in crate::viewer) rendering: Vec<Rendering>,
     pub(in crate::viewer) quality: Option<u8>,
     pub(in crate::viewer) folder: Option<PathBuf>,
 }
@@ -184,7 +222,10 @@ impl Pending {
 
     /// Whether a picture is being fetched or written.
     pub fn is_writing(&self) -> bool {
-        !self.writing.is_empty() || self.asked > 0 || self.pose.is_some()
+        !self.writing.is_empty()
+            || !self.rendering.is_empty()
+            || self.asked > 0
+            || self.pose.is_some()
     }
 
     /// Whether the window is about to be captured.
@@ -194,7 +235,7 @@ impl Pending {
 
     /// Whether a picture is to be saved when it is finished.
     pub fn waits(&self) -> bool {
-        !self.waiting.is_empty()
+        !self.waiting.is_empty() || !self.rendering.is_empty()
     }
 }
 

@@ -22,8 +22,9 @@ use crate::viewer::model::preferences::{Preferences, Store};
 use crate::viewer::model::recording::InputRecording;
 use crate::viewer::model::tool::{Drag, Tool};
 use crate::viewer::model::view_settings::ViewSettings;
-use crate::viewer::model::viewport::Viewport;
+use crate::viewer::model::viewport::{PixelZoom, Viewport};
 use crate::viewer::state::answer::Answer;
+use crate::viewer::state::cursor::Cursor;
 use crate::viewer::state::dialogs::Dialogs;
 use crate::viewer::state::editing::Editing;
 use crate::viewer::state::files::Files;
@@ -73,6 +74,10 @@ pub struct Session {
     pub clicked: Vec<Action>,
     /// The viewport of the picture; `None` if it is hidden.
     pub viewport: Option<Viewport>,
+    /// The pixel under the cursor.
+    pub cursor: Cursor,
+    /// The magnification of the picture.
+    pub pixel_zoom: PixelZoom,
     /// Whether statistics are visible.
     pub shows_statistics: bool,
     /// Whether overlays are visible.
@@ -132,6 +137,8 @@ impl Session {
             selection: None,
             clicked: Vec::new(),
             viewport: None,
+            cursor: Cursor::default(),
+            pixel_zoom: PixelZoom::default(),
             shows_statistics: true,
             shows_overlays: true,
             files: Files::default(),

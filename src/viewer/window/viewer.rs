@@ -2,6 +2,7 @@
 
 use crate::gpu::Gpu;
 use crate::viewer::actions::commands;
+use crate::viewer::actions::cursor;
 use crate::viewer::actions::files::pictures;
 use crate::viewer::actions::{settings, update};
 use crate::viewer::state::answer::Answer;
@@ -138,6 +139,7 @@ impl eframe::App for Viewer {
         let shown = self.render.shown(PictureSlot::Main);
         let progress = shown.map(|shown| shown.progress).unwrap_or_default();
         pictures::finish(&mut session, progress.is_done);
+        cursor::update(&mut session, &progress);
         session.set_spent(match progress.is_coarse {
             true => 0.0,
             false => progress.trace_seconds,

@@ -4,14 +4,17 @@
 mod frame_renderer;
 mod noise;
 mod pace;
-mod packing;
+pub(super) mod packing;
+mod shown;
 
 pub use frame_renderer::{FrameRenderer, ImageError, PictureSlot};
+pub(super) use pace::policy;
 pub use pace::{Pace, patience};
+pub use shown::{Progress, Shown};
 
 use crate::gpu::Gpu;
 use crate::pack::{self, PackedScene, PackedView};
-use crate::render::{Antialias, RenderSettings, Renderer, Screen, Stats};
+use crate::render::{Antialias, RenderSettings, Renderer, Screen};
 use crate::scene::Frame;
 use crate::viewer::worker::request::RenderRequest;
 use noise::Noise;
@@ -22,56 +25,7 @@ use std::time::{Duration, Instant};
 /// Minimum interval between presentations of a picture that passes through the host.
 const DETOUR: Duration = Duration::from_millis(500);
 
-/// What the window can draw.
-#[derive(Clone, Debug)]
-pub struct Shown {
-    /// The picture so far; transparent where it has no samples yet.
-    pub screen: Option<Screen>,
-    /// A coarse preview or the previous picture, drawn stretched below it.
-    pub under: Option<Screen>,
-    /// Whether `under` is a coarse preview, which is always complete.
-    pub under_is_coarse: bool,
-    /// While a region is rendered: the last whole picture, drawn below both.
-    pub whole: Option<Screen>,
-    /// The rendered part: x, y, width and height in pixels of `size`.
-    pub region: [u32; 4],
-    /// Width and height of the whole picture.
-    pub size: (u32, u32),
-    /// The displayed range of a quantity.
-    pub range: Option<[f32; 2]>,
-    /// The progress.
-    pub progress: Progress,
-    /// Renderer statistics since the window was opened.
-    pub stats: Stats,
-    /// Number of BVH builds and refits since then.
-    pub trees_built: usize,
-    /// The adapter.
-    pub adapter: Arc<str>,
-}
-
-/// Progress and timing of a picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Progress {
-    /// Samples per pixel so far.
-    pub samples: u32,
-    /// Target samples per pixel.
-    pub target: u32,
-    /// Fraction of the work that is done, in 0..=1.
-    pub share: f64,
-    /// Seconds of tracing so far.
-    pub trace_seconds: f64,
-    /// Camera rays per second of tracing.
-    pub rays_per_second: f64,
-    /// Estimated root mean square error of the tone-mapped picture, as a fraction of white; `None` before
-    /// there are enough samples, and without antialiasing.
-    pub noise: Option<f64>,
-    /// Whether this is the coarse preview.
-    pub is_coarse: bool,
-    /// Whether it has reached its target samples.
-    pub is_done: bool,
-}
-
-/// A picture with its renderer and screens.
+/// A picture, its renderer and its screens.
 pub struct ProgressiveImage {
     gpu: Gpu,
     place: PictureSlot,
@@ -79,6 +33,8 @@ pub struct ProgressiveImage {
     /// Whether only the coarse preview is wanted.
     stays_coarse: bool,
     is_coarse: bool,
+    /// By which the coarse picture's width and height are divided.
+    divisor: u32,
     packed: Option<Arc<PackedScene>>,
     frames: Vec<Frame>,
     view: Option<PackedView>,
@@ -118,6 +74,7 @@ impl ProgressiveImage {
             order: None,
             stays_coarse: false,
             is_coarse: false,
+            divisor: 1,
             packed: None,
             frames: Vec::new(),
             view: None,
@@ -180,6 +137,15 @@ impl ProgressiveImage {
             } == order.settings
                 && b.policy == order.policy
         });
+        let differs_in_size = order.settings.crop.is_none()
+            && before.is_some_and(|b| {
+                let size = order.settings.size;
+                RenderSettings {
+                    size,
+                    ..b.settings.clone()
+                } == order.settings
+                    && b.policy == order.policy
+            });
         if let Some(before) = self.order.replace(order.clone()) {
             self.keep_whole(&before.settings, &order.settings);
         }
@@ -195,8 +161,24 @@ impl ProgressiveImage {
         } else if is_other_shot {
             self.frames = order.scene.motion_samples(order.shot.0, order.shot.1);
         }
-        // Start with a preview even at rest, so that something is visible at once.
-        self.begin(true)
+        if shows_same && differs_in_size && !coarse && self.keeps_screen() {
+            return self.begin(None);
+        }
+        // A picture at rest begins coarse too, so that there is something to see at once.
+        let divisor = pace::first_divisor(&self.gpu, &mut self.pace, &order.settings);
+        self.begin(Some(divisor))
+    }
+
+    /// Keeps the picture in full under the one of another size that replaces it. Scaled, it shows more than a
+    /// coarse one. Whether there is one.
+    fn keeps_screen(&mut self) -> bool {
+        if self.is_coarse {
+            return false;
+        }
+        if self.last_look.is_some() {
+            self.coarse = self.screen.take();
+        }
+        self.coarse.is_some()
     }
 
     /// Continues from the existing samples. Returns whether that is possible.
@@ -238,17 +220,17 @@ impl ProgressiveImage {
         Ok(())
     }
 
-    /// Restarts the picture.
-    fn begin(&mut self, coarse: bool) -> Result<(), ImageError> {
+    /// Starts the picture over: coarse by a divisor of its width and height, or in full.
+    fn begin(&mut self, divisor: Option<u32>) -> Result<(), ImageError> {
         let (Some(order), Some(packed)) = (&self.order, &self.packed) else {
             return Ok(());
         };
         let view = view(packed, self.view.as_ref(), &self.frames, order)?;
         let has_tlas = (self.view.as_ref()).is_some_and(|before| before.shares_tlas(&view));
         self.trees_built += usize::from(packed.features.instances && !has_tlas);
-        let settings = match coarse {
-            true => pace::coarse(&self.gpu, &mut self.pace, &order.settings),
-            false => order.settings.clone(),
+        let settings = match divisor {
+            Some(divisor) => pace::coarse(&order.settings, divisor),
+            None => order.settings.clone(),
         };
         let policy = pace::policy(&self.gpu, order.policy);
         let packed = packed.clone();
@@ -260,7 +242,8 @@ impl ProgressiveImage {
             }
         }
         self.view = Some(view);
-        self.is_coarse = coarse;
+        self.is_coarse = divisor.is_some();
+        self.divisor = divisor.unwrap_or(1);
         self.is_shown = false;
         self.last_look = None;
         self.busy = 0.0;
@@ -309,13 +292,25 @@ impl ProgressiveImage {
         }
     }
 
-    /// Adds samples for one time slice and presents them. A `paused` picture is only presented, once it has
-    /// samples.
+    /// Begins the next finer picture: on slow devices by levels, each of which comes as a whole.
+    fn refine(&mut self) -> Result<(), ImageError> {
+        let Some(order) = &self.order else {
+            return Ok(());
+        };
+        let pixels = pace::pixels(&order.settings);
+        match self.pace.next(pixels, self.divisor) {
+            1 => self.begin(None),
+            divisor => self.begin(Some(divisor)),
+        }
+    }
+
+    /// Adds samples for a slice of time and shows them. Those of a `paused` picture are only shown, once
+    /// there are any.
     pub fn step(&mut self, paused: bool) -> Result<(), ImageError> {
         let started = Instant::now();
         let is_traced = self.renderer.as_ref().is_some_and(Renderer::is_done);
         if self.is_coarse && !self.stays_coarse && is_traced && self.is_shown && !paused {
-            self.begin(false)?;
+            self.refine()?;
         }
         let (Some(renderer), Some(order)) = (&mut self.renderer, &self.order) else {
             return Ok(());
@@ -331,8 +326,9 @@ impl ProgressiveImage {
         let is_due = renderer.is_done()
             || is_held
             || self.last_look.is_none_or(|last| last.elapsed() > interval);
-        // A preview is always presented complete.
-        if !is_due || self.is_coarse && !renderer.is_done() {
+        // A coarse picture comes as a whole, and so does the first sample.
+        let is_whole = renderer.is_done() || !self.is_coarse && renderer.samples_done() > 0;
+        if !is_due || !is_whole {
             self.is_shown = false;
             self.busy += started.elapsed().as_secs_f64();
             return Ok(());
@@ -394,6 +390,7 @@ impl ProgressiveImage {
                 trace_seconds: seconds,
                 rays_per_second: rays as f64 / seconds.max(1e-9),
                 noise: self.noise.estimate(),
+                looks: self.looks,
                 is_coarse: self.is_coarse,
                 is_done: self.is_done(),
             },
@@ -409,6 +406,7 @@ impl ProgressiveImage {
         Some(FrameRenderer {
             renderer: self.renderer.as_mut()?,
             order: self.order.as_ref()?,
+            screen: self.screen.as_ref().filter(|_| self.last_look.is_some()),
             outside: None,
         })
     }

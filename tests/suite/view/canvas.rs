@@ -1,6 +1,7 @@
 //! One picture that follows its orders: what restarts it and what does not, coarse and fine, whole and
 //! in part; and that it is the command line's.
 
+use super::edit;
 use super::harness::Window;
 use super::pixels;
 use crate::reference::compare::{open_gpu, render, sized};
@@ -535,6 +536,70 @@ fn the_size_of_coarse_pictures_fits_the_time_and_does_not_flicker() {
             );
         }
     }
+}
+
+#[test]
+fn a_slow_picture_is_refined_by_halves() {
+    let mut pace = Pace::default();
+    pace.measured(1.0, 1_000_000);
+    let levels = |first: u32, pixels: u64| {
+        let mut levels = vec![first];
+        while *levels.last().expect("a level") > 1 {
+            levels.push(pace.next(pixels, *levels.last().expect("a level")));
+        }
+        levels
+    };
+    assert_eq!(levels(16, 1_000_000), [16, 8, 4, 2, 1]);
+    assert_eq!(levels(11, 1_000_000), [11, 4, 2, 1]);
+    assert_eq!(levels(3, 1_000_000), [3, 2, 1]);
+    assert_eq!(levels(2, 1_000_000), [2, 1]);
+    // A sample of a fast picture takes less time than a person sees.
+    assert_eq!(levels(16, 50_000), [16, 1]);
+}
+
+#[test]
+fn a_slow_picture_comes_in_levels_and_its_first_sample_as_a_whole() {
+    let easel = Easel::new(&scenes::everything(), sized(2048, 1536));
+    let mut levels = Vec::new();
+    let start = Instant::now();
+    while !easel.thread.is_settled() {
+        assert!(start.elapsed() < PATIENCE, "never settled");
+        if let Some(shown) = easel.thread.shown(PictureSlot::Main) {
+            let is_partial = shown.screen.is_some() && shown.progress.samples == 0;
+            assert!(!is_partial, "a part of a sample is shown");
+            let under = shown.under.map(|under| under.size().0);
+            levels.extend(under.filter(|width| levels.last() != Some(width)));
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert!(levels.ends_with(&[512, 1024]), "{levels:?}");
+    assert!(levels.is_sorted(), "{levels:?}");
+    assert!(easel.shown().progress.is_done);
+    assert!(easel.image() == render(&scenes::everything(), &sized(2048, 1536)).0);
+}
+
+#[test]
+fn the_last_picture_lies_scaled_under_the_one_of_another_size() {
+    let mut easel = Easel::new(&scenes::everything(), stratified(2));
+    easel.settle();
+    let last = easel.shown().screen.expect("a screen");
+    // Enough samples for a look before it is done.
+    easel.want(|order| order.settings.size = (610, 430));
+    let mut is_under = false;
+    let start = Instant::now();
+    while !easel.thread.is_settled() {
+        assert!(start.elapsed() < PATIENCE, "never settled");
+        let shown = easel.shown();
+        assert!(!shown.progress.is_coarse, "a coarse picture replaces it");
+        is_under |= shown.under.as_ref() == Some(&last) && shown.screen.is_none();
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert!(is_under, "the last picture was not shown");
+    let settings = RenderSettings {
+        size: (610, 430),
+        ..stratified(2)
+    };
+    assert!(easel.image() == render(&scenes::everything(), &settings).0);
 }
 
 #[test]

@@ -7,14 +7,17 @@ use crate::render::Tone;
 use crate::viewer::actions::files::{NO_DIALOG, short};
 use crate::viewer::model::file_dialog::{PICTURES, Reply, Request};
 use crate::viewer::state::answer::Answer;
-use crate::viewer::state::files::Pose;
 use crate::viewer::state::files::SaveDialog;
 use crate::viewer::state::files::Taken;
 use crate::viewer::state::files::Target;
+use crate::viewer::state::files::{Pose, Rendering, SaveSize};
 use crate::viewer::state::session::Session;
 use crate::viewer::worker::progressive_image::{FrameRenderer, PictureSlot};
+use crate::viewer::worker::still;
 use eframe::egui;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// Opens the dialog with a free name.
@@ -28,6 +31,7 @@ pub fn open(session: &mut Session, overlays: bool) {
         path,
         quality: session.files.pending.quality.unwrap_or(90),
         overlays,
+        size: SaveSize::default(),
         is_new: true,
         inputs: session.files.inputs(),
         agreed: None,
@@ -83,10 +87,13 @@ pub fn save(session: &mut Session, waits: bool) {
             return;
         }
     };
+    let other = size_of(session, sheet.size).filter(|_| !sheet.overlays);
     let pending = &mut session.files.pending;
     pending.quality = Some(sheet.quality);
     pending.folder = target.path.parent().map(Path::to_owned);
-    if sheet.overlays {
+    if let Some(size) = other {
+        render(session, target, size);
+    } else if sheet.overlays {
         pending.pose = Some(Pose::new(target));
     } else if waits {
         let name = short(&target.path);
@@ -101,8 +108,11 @@ pub fn save(session: &mut Session, waits: bool) {
     }
 }
 
-/// Cancels pictures that wait to be finished.
+/// Cancels pictures that wait to be finished or are being rendered for a file.
 pub fn cancel(session: &mut Session) {
+    for rendering in session.files.pending.rendering.drain(..) {
+        rendering.is_cancelled.store(true, Ordering::Relaxed);
+    }
     session.files.pending.waiting.clear();
 }
 
@@ -111,7 +121,7 @@ pub(super) fn abandon(session: &mut Session) {
     for target in &session.files.pending.waiting {
         session.messages.warn(not_finished(target));
     }
-    cancel(session);
+    session.files.pending.waiting.clear();
     session.files.pending.turn += 1;
 }
 
@@ -121,6 +131,71 @@ fn not_finished(target: &Target) -> String {
          one again to save it.",
         target.path.display()
     )
+}
+
+/// Width and height in pixels, where they differ from those of the picture in the window.
+pub fn size_of(session: &Session, size: SaveSize) -> Option<(u32, u32)> {
+    let (width, height) = session.view.scene_settings.size;
+    let wanted = match size {
+        SaveSize::Window => return None,
+        SaveSize::Scene => (width, height),
+        SaveSize::Twice => (2 * width, 2 * height),
+    };
+    (wanted != session.picture_size()).then_some(wanted)
+}
+
+/// Renders the picture at another size on a thread of its own, and writes it.
+fn render(session: &mut Session, target: Target, size: (u32, u32)) {
+    let integrator = session.view.settings.integrator;
+    let Some(mut order) = session.order(integrator) else {
+        return;
+    };
+    order.settings = session.view.settings_at(size, integrator);
+    let tone = match target.format.is_linear() {
+        true => (session.request.overrides.tone).tone(&order.scene.output, integrator, true),
+        false => order.tone,
+    };
+    let (sender, receiver) = channel();
+    let is_cancelled = Arc::new(AtomicBool::new(false));
+    session.files.pending.rendering.push(Rendering {
+        receiver,
+        is_cancelled: is_cancelled.clone(),
+    });
+    let (width, height) = size;
+    let name = short(&target.path);
+    session
+        .messages
+        .tell(format!("Rendering {name} at {width}×{height}"));
+    session.ask(move |studio| {
+        let gpu = studio.renderer.gpu().clone();
+        let work = move || {
+            let outcome = match still::render(gpu, &order, &tone, &is_cancelled) {
+                Ok(Some(image)) => write_file(&image, &target, "").map(Some),
+                Ok(None) => Ok(None),
+                Err(error) => Err(error.to_string()),
+            };
+            // The window may have been closed meanwhile.
+            let _ = sender.send(outcome);
+        };
+        match std::thread::Builder::new().name("save".into()).spawn(work) {
+            Ok(_) => Answer::Nothing,
+            Err(error) => Answer::Failed(format!("cannot render a picture: {error}.")),
+        }
+    });
+}
+
+/// Writes a picture. The outcome is a message.
+fn write_file(image: &Image, target: &Target, how_far: &str) -> Result<String, String> {
+    let options = SaveOptions {
+        format: Some(target.format),
+        quality: target.quality,
+        clobber: target.replaces,
+        ..SaveOptions::default()
+    };
+    match output::save_with(&target.path, image, &options) {
+        Ok(()) => Ok(format!("Saved {}{how_far}", target.path.display())),
+        Err(error) => Err(error.to_string()),
+    }
 }
 
 /// Requests the picture from the render thread.
@@ -191,17 +266,7 @@ pub fn taken(session: &mut Session, taken: Taken) {
 pub(super) fn write(session: &mut Session, image: Image, target: Target, how_far: String) {
     let (sender, receiver) = channel();
     let work = move || {
-        let options = SaveOptions {
-            format: Some(target.format),
-            quality: target.quality,
-            clobber: target.replaces,
-            ..SaveOptions::default()
-        };
-        let written = output::save_with(&target.path, &image, &options);
-        let outcome = match written {
-            Ok(()) => Ok(format!("Saved {}{how_far}", target.path.display())),
-            Err(error) => Err(error.to_string()),
-        };
+        let outcome = write_file(&image, &target, &how_far);
         // The window may have been closed meanwhile.
         let _ = sender.send(outcome);
     };
@@ -228,6 +293,22 @@ pub(super) fn update(session: &mut Session) {
             }
         }
         false
+    });
+    (session.files.pending.rendering).retain(|rendering| match rendering.receiver.try_recv() {
+        Err(TryRecvError::Empty) => true,
+        Ok(Ok(told)) => {
+            told.into_iter().for_each(|told| messages.tell(told));
+            false
+        }
+        Ok(Err(why)) => {
+            messages.warn(why);
+            false
+        }
+        // The device was lost, or the scene left before the question was put.
+        Err(TryRecvError::Disconnected) => {
+            messages.warn("A picture was not written: its rendering was interrupted.".to_owned());
+            false
+        }
     });
 }
 

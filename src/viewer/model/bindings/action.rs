@@ -155,6 +155,10 @@ actions! {
         ExposureDown "exposure-down" Press "Decrease exposure by a third of a stop",
         ExposureReset "exposure-reset" Press "Reset to the scene's exposure",
         NextToneCurve "next-tone-curve" Press "Next tone curve",
+        PixelZoom "pixel-zoom" Motion "Magnify the pixels under the cursor",
+        PixelZoomIn "pixel-zoom-in" Press "Magnify the pixels under the cursor by a step",
+        PixelZoomOut "pixel-zoom-out" Press "Reduce the pixels by a step",
+        PixelZoomReset "pixel-zoom-reset" Press "Reset the pixel zoom",
         NextBackground "next-background" Press "Next background",
     }
     Rendering {

@@ -106,6 +106,10 @@ pub(super) const GLIMRAY: &str = "
     exposure-reset: 0
     next-tone-curve: T
     next-background: Shift+B
+    pixel-zoom: Alt+Wheel
+    pixel-zoom-in: Alt+PageUp
+    pixel-zoom-out: Alt+PageDown
+    pixel-zoom-reset: Alt+Home
     pause-render: P
     restart-render: Shift+P
     region-render: B

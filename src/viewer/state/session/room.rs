@@ -12,11 +12,12 @@ const WORTH_KEEPING: f64 = 2.0;
 pub(super) struct Room {
     /// The size of the current picture, in pixels.
     pub taken: (u32, u32),
+    /// The size of the panel, in pixels.
+    available: (u32, u32),
     /// Its last request.
     ordered: Option<RenderRequest>,
     /// Its seconds of tracing so far.
     spent: f64,
-    is_told: bool,
 }
 
 impl Session {
@@ -26,20 +27,23 @@ impl Session {
     }
 
     /// Sets the size of the panel, in pixels. A picture that fits the panel adopts it when it starts, or if
-    /// restarting loses little.
+    /// restarting loses little; until then it is scaled.
     pub fn set_space(&mut self, pixels: (u32, u32)) {
+        self.room.available = pixels;
         if self.room.taken != pixels && !self.is_worth_keeping() {
             self.room.taken = pixels;
         }
-        let is_kept = self.room.taken != pixels;
-        if is_kept && !self.room.is_told {
-            let (width, height) = self.room.taken;
-            self.messages.tell(format!(
-                "Showing {width}×{height}. Restart rendering to fit the panel."
-            ));
-        }
-        self.room.is_told = is_kept;
         self.room.ordered = self.order(self.view.settings.integrator);
+    }
+
+    /// Whether the picture keeps its samples and is scaled to the room that there is now.
+    pub fn is_scaled_to_room(&self) -> bool {
+        self.view.fits && self.room.taken != self.room.available
+    }
+
+    /// Begins the picture again, as large as there is room for now.
+    pub fn take_room(&mut self) {
+        self.room.taken = self.room.available;
     }
 
     fn is_worth_keeping(&self) -> bool {

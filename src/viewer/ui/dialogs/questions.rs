@@ -3,7 +3,7 @@
 use crate::output::Format;
 use crate::viewer::actions::files;
 use crate::viewer::actions::files::pictures;
-use crate::viewer::state::files::Intent;
+use crate::viewer::state::files::{Intent, SaveSize};
 use crate::viewer::state::session::Session;
 use crate::viewer::ui::context::PanelContext;
 use crate::viewer::worker::progressive_image::PictureSlot;
@@ -59,6 +59,7 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
     let progress = context.shown(PictureSlot::Main).map(|shown| shown.progress);
     let (width, height) = pictures::size(context.session);
     let session = &mut *context.session;
+    let others = SaveSize::ALL.map(|size| pictures::size_of(session, size));
     let Some(sheet) = &mut session.files.saving else {
         return;
     };
@@ -82,6 +83,15 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
                 wish = Some(Wish::Browse);
             }
         });
+        if !sheet.overlays {
+            ui.horizontal(|ui| {
+                for size in SaveSize::ALL {
+                    ui.radio_value(&mut sheet.size, size, size.title());
+                }
+            });
+        }
+        let other = others[sheet.size as usize].filter(|_| !sheet.overlays);
+        let (width, height) = other.unwrap_or((width, height));
         let target = sheet.target();
         match &target {
             Err(why) => {
@@ -107,7 +117,8 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
                 }
             }
         }
-        let is_done = progress.is_some_and(|progress| progress.is_done);
+        // At another size it is rendered for the file, with all samples.
+        let is_done = other.is_some() || progress.is_some_and(|progress| progress.is_done);
         if let Some(progress) = progress.filter(|_| !is_done && !sheet.overlays) {
             ui.label(format!(
                 "{} of {} samples so far.",

@@ -199,6 +199,9 @@ fn view(menu: &mut Menu) {
     let controller = menu.context.session.controller.as_ref();
     let is_orthographic = controller.is_some_and(|controller| controller.is_orthographic());
     menu.tick(is_orthographic, "Orthographic", A::ToggleOrthographic);
+    menu.entry("Magnify pixels", A::PixelZoomIn);
+    menu.entry("Reduce pixels", A::PixelZoomOut);
+    menu.entry("Reset pixel zoom", A::PixelZoomReset);
     menu.entry("Level horizon", A::Level);
     menu.line();
     menu.ui.menu_button("Cameras", |ui| {

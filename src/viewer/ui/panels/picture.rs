@@ -1,19 +1,23 @@
 //! The picture panel, with camera navigation by mouse.
 
+mod caption;
 mod compare;
+mod framing;
 mod legend;
 
 use crate::viewer::actions::inspector;
 use crate::viewer::actions::region;
 use crate::viewer::actions::tools;
 use crate::viewer::model::bindings::Action;
+use crate::viewer::model::view_settings::{Comparison, Sharing};
 use crate::viewer::model::viewport::Viewport;
+use crate::viewer::state::cursor::REST;
 use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::panels::rays;
 use crate::viewer::ui::{self, overlay};
 use crate::viewer::worker::progressive_image::PictureSlot;
 use crate::viewer::worker::progressive_image::Shown;
-use eframe::egui::{self, Color32, Pos2, Rect, RichText, Vec2};
+use eframe::egui::{self, Align2, Color32, Pos2, Rect, RichText, Vec2};
 
 /// Texture coordinates of a whole texture.
 const WHOLE: Rect = Rect {
@@ -35,12 +39,18 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     let pixels = (spaces[0].size() * pixels_per_point).max(Vec2::splat(1.0));
     (context.session).set_space((pixels.x as u32, pixels.y as u32));
     let size = context.session.picture_size();
-    let viewports = spaces.map(|space| Viewport::fitting(space, size, pixels_per_point));
+    let zoom = context.session.pixel_zoom;
+    let is_scaled = context.session.is_scaled_to_room();
+    let place = match is_scaled {
+        true => Viewport::filling,
+        false => Viewport::fitting,
+    };
+    let viewports = spaces.map(|space| zoom.of(place(space, size, pixels_per_point)));
     context.session.viewport = Some(viewports[0]);
     let painter = ui.painter_at(space);
     let shown = context.shown(PictureSlot::Main);
     let covered = match (&shown, comparison) {
-        (Some(shown), None) if is_opaque(shown) => viewports[0].rect,
+        (Some(shown), None) => covered(shown, viewports[0]),
         _ => Rect::NOTHING,
     };
     surround(&painter, space, covered, ui.visuals().extreme_bg_color);
@@ -55,6 +65,7 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
         spaces[0] != spaces[1] && used_at(&response).is_some_and(|point| spaces[1].contains(point));
     let viewport = viewports[usize::from(is_right)];
     context.session.viewport = Some(viewport);
+    hover(context, &response, viewport, space);
     let is_taken = region::follow(context.session, &response, viewport)
         || overlay::overlay(context.session, &response, &painter, viewport);
     if !is_taken {
@@ -66,9 +77,33 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     compare::overlay(ui, context, space, viewports);
     if context.session.shows_overlays {
         legends(ui, context, space, viewports);
+        frames(ui, context, space, viewports);
+    }
+    if is_scaled && !context.session.files.is_posing() {
+        scaled(ui, context, space);
     }
     if context.session.is_empty() {
         empty(ui, context, space);
+    }
+}
+
+/// Notes the pixel under the cursor for the status bar.
+fn hover(context: &mut PanelContext, response: &egui::Response, viewport: Viewport, space: Rect) {
+    let session = &mut *context.session;
+    let point = response.hover_pos().filter(|point| space.contains(*point));
+    let is_in_main = point.is_some_and(|point| match session.view.comparison {
+        Some(Comparison {
+            sharing: Sharing::Wipe(share),
+            ..
+        }) => point.x < viewport.rect.min.x + share * viewport.rect.width(),
+        Some(_) => point.x < space.center().x,
+        None => true,
+    });
+    let pixel = point.and_then(|point| viewport.pixel(point));
+    let now = session.now;
+    if session.cursor.hover(pixel, is_in_main, now) {
+        // The renderer is asked by the frame after the cursor has come to rest.
+        response.ctx.request_repaint_after_secs(REST as f32);
     }
 }
 
@@ -85,6 +120,42 @@ fn legends(ui: &egui::Ui, context: &PanelContext, space: Rect, viewports: [Viewp
         let place = (rects[1], true);
         legend::legend(ui, &painter, &shown, comparison.integrator, place);
     }
+}
+
+/// Shows the scene's framing where the picture has the proportions of the window.
+fn frames(ui: &egui::Ui, context: &PanelContext, space: Rect, viewports: [Viewport; 2]) {
+    let session = &context.session;
+    if !session.view.fits || session.scene().is_none() {
+        return;
+    }
+    let painter = ui.painter_at(space);
+    let size = session.view.scene_settings.size;
+    framing::framing(&painter, viewports[0], size);
+    if viewports[0] != viewports[1] {
+        framing::framing(&painter, viewports[1], size);
+    }
+}
+
+/// Says that the picture is scaled, and offers to render it at the size of its room.
+fn scaled(ui: &egui::Ui, context: &mut PanelContext, space: Rect) {
+    let (width, height) = context.session.picture_size();
+    egui::Area::new(egui::Id::unique("scaled picture"))
+        .pivot(Align2::CENTER_TOP)
+        .fixed_pos(space.center_top() + Vec2::new(0.0, 8.0))
+        .constrain_to(space)
+        .show(ui.ctx(), |ui| {
+            egui::Frame::popup(ui.style()).show(ui, |ui| {
+                ui.horizontal(|ui| {
+                    ui.label(format!("Showing {width}×{height}"));
+                    let button = ui.button("Re-render to fit");
+                    let tip =
+                        "Render the picture again at the size of the window. Its samples are lost.";
+                    if button.on_hover_text(tip).clicked() {
+                        context.session.take_room();
+                    }
+                });
+            });
+        });
 }
 
 /// The hint without a scene.
@@ -114,10 +185,17 @@ fn used_at(response: &egui::Response) -> Option<Pos2> {
     origin.or(before).or(response.hover_pos())
 }
 
-/// Whether every pixel of the picture is opaque. On software, each layer that is not drawn below saves time.
-fn is_opaque(shown: &Shown) -> bool {
+/// The part of the viewport where every pixel is opaque. On software, each layer that is not drawn below
+/// saves time.
+fn covered(shown: &Shown, viewport: Viewport) -> Rect {
     let is_whole = shown.whole.is_none() && shown.region == [0, 0, shown.size.0, shown.size.1];
-    is_whole && (shown.under_is_coarse || has_samples(shown))
+    let under = shown.under.as_ref().filter(|_| shown.under_is_coarse);
+    match (is_whole, under) {
+        (false, _) => Rect::NOTHING,
+        (true, _) if has_samples(shown) => viewport.rect,
+        (true, Some(under)) => viewport.rect.intersect(viewport.under(under.size())),
+        (true, None) => Rect::NOTHING,
+    }
 }
 
 /// Whether every pixel of the full-resolution picture has a sample.
@@ -152,18 +230,26 @@ fn surround(painter: &egui::Painter, space: Rect, covered: Rect, color: Color32)
 
 fn draw(painter: &egui::Painter, context: &mut PanelContext, shown: &Shown, viewport: Viewport) {
     let is_exact = viewport.is_exact(painter.pixels_per_point());
+    let is_crisp = is_exact || context.session.pixel_zoom.is_active();
     let region = viewport.part(shown.region);
     if let Some(whole) = &shown.whole {
         let id = context.textures.id(whole, true);
         painter.image(id, viewport.rect, WHOLE, DIMMED);
     }
-    // A picture of another aspect ratio is stretched until the next one.
     let under = shown.under.as_ref().filter(|_| !has_samples(shown));
-    for (screen, is_smooth) in [(under, true), (shown.screen.as_ref(), !is_exact)] {
-        if let Some(screen) = screen {
-            let id = context.textures.id(screen, is_smooth);
-            painter.image(id, region, WHOLE, Color32::WHITE);
-        }
+    if let Some(under) = under {
+        let is_part = shown.region != [0, 0, shown.size.0, shown.size.1];
+        let rect = match is_part {
+            true => region,
+            false => viewport.under(under.size()),
+        };
+        let id = context.textures.id(under, true);
+        let painter = painter.with_clip_rect(viewport.rect);
+        painter.image(id, rect, WHOLE, Color32::WHITE);
+    }
+    if let Some(screen) = &shown.screen {
+        let id = context.textures.id(screen, !is_crisp);
+        painter.image(id, region, WHOLE, Color32::WHITE);
     }
     if context.session.view.region.is_some() {
         ui::region::outline(painter, viewport, shown.region);

@@ -1,5 +1,7 @@
 //! The status bar.
 
+use crate::app::legend::number;
+use crate::viewer::state::cursor::Surface;
 use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::panels::render::{remaining, seconds};
 use crate::viewer::worker::progressive_image::PictureSlot;
@@ -20,6 +22,7 @@ pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
             ui.separator();
             ui.label(format!("{} of {} samples", progress.samples, progress.target))
                 .on_hover_text("Samples per pixel so far, and the target");
+            cursor(ui, context);
             if !context.session.shows_statistics {
                 return;
             }
@@ -50,6 +53,38 @@ pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
             });
         });
     });
+}
+
+/// The pixel under the cursor: its position, its colour and what it shows.
+fn cursor(ui: &mut egui::Ui, context: &PanelContext) {
+    let cursor = &context.session.cursor;
+    let zoom = context.session.pixel_zoom;
+    if zoom.is_active() {
+        ui.separator();
+        ui.label(format!("{:.0} %", zoom.scale() * 100.0))
+            .on_hover_text("Pixel zoom of the picture");
+    }
+    let Some([x, y]) = cursor.pixel else {
+        return;
+    };
+    let mut text = format!("x {x}, y {y}");
+    let probe = cursor.current();
+    if let Some([red, green, blue]) = probe.and_then(|probe| probe.rgb) {
+        text += &format!("  RGB {red} {green} {blue}");
+    }
+    match probe.map(|probe| &probe.surface) {
+        Some(Some(surface)) => {
+            let Surface { object, distance } = surface;
+            text += &format!("  {object}  distance {}", number(*distance as f32));
+        }
+        Some(None) => text += "  Background",
+        None => {}
+    }
+    ui.separator();
+    ui.add(egui::Label::new(text).truncate()).on_hover_text(
+        "The pixel under the cursor, its displayed colour in levels of 255, and the object that the camera \
+         ray hits",
+    );
 }
 
 /// The moving average of consecutive frame times.

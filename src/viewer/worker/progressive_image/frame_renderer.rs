@@ -2,7 +2,7 @@
 
 use crate::app::advice;
 use crate::image::Image;
-use crate::render::{RenderError, RenderSettings, Renderer, Tone};
+use crate::render::{RenderError, RenderSettings, Renderer, Screen, Tone};
 use crate::viewer::worker::request::RenderRequest;
 
 /// The slot of a picture in the window.
@@ -27,7 +27,9 @@ pub struct FrameRenderer<'a> {
     pub renderer: &'a mut Renderer,
     /// The request of the main picture.
     pub order: &'a RenderRequest,
-    /// The renderer and request of the ray view, if it is at full resolution.
+    /// What the window shows of the main picture; `None` before it has samples.
+    pub screen: Option<&'a Screen>,
+    /// The same of the picture from outside, where there is one in full.
     pub outside: Option<(&'a mut Renderer, &'a RenderRequest)>,
 }
 
@@ -38,7 +40,25 @@ impl FrameRenderer<'_> {
         Ok((self.renderer.develop(tone)?, samples))
     }
 
-    /// The full-resolution settings of the picture.
+    /// A pixel as the window shows it: red, green and blue, encoded. `None` where nothing is shown.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn displayed(&self, [x, y]: [u32; 2]) -> Result<Option<[u8; 3]>, RenderError> {
+        let [left, top, width, height] = self.renderer.region();
+        let (Some(screen), Some(x), Some(y)) =
+            (self.screen, x.checked_sub(left), y.checked_sub(top))
+        else {
+            return Ok(None);
+        };
+        if x >= width || y >= height || screen.size() != (width, height) {
+            return Ok(None);
+        }
+        let [red, green, blue, alpha] = self.renderer.read_pixel(screen, [x, y])?;
+        Ok((alpha > 0).then_some([red, green, blue]))
+    }
+
+    /// The settings of the picture in full.
     pub fn settings(&self) -> &RenderSettings {
         &self.order.settings
     }

@@ -26,7 +26,11 @@ const TOO_SLOW: f64 = 1.3;
 const FAST_ENOUGH: f64 = 0.75;
 /// Weight of the newest measurement in the average.
 const NEWS: f64 = 0.3;
-/// Estimated seconds per sample before the first measurement: a slow scene on two cores.
+/// Divisors of the pictures between the coarse one and the one in full.
+const LEVELS: [u32; 3] = [8, 4, 2];
+/// The longest that the first sample of the picture in full may take without them, in seconds.
+const AT_ONCE: f64 = 0.2;
+/// Seconds of a sample before the first measurement: a slow scene on two cores.
 const FIRST_GUESS: f64 = 4e-6;
 
 /// Chooses the resolution of previews from measured times.
@@ -75,6 +79,17 @@ impl Pace {
         }
         self.divisor
     }
+
+    /// The divisor of the picture that comes after one of this divisor: 8, 4, 2 and at last 1, which is the
+    /// picture in full. Where a sample of `pixels` takes little time, that comes at once.
+    pub fn next(&self, pixels: u64, divisor: u32) -> u32 {
+        if pixels as f64 * self.seconds < AT_ONCE {
+            return 1;
+        }
+        // A level that is hardly finer than the last is not worth its time.
+        let mut finer = LEVELS.into_iter().filter(|level| 3 * level <= 2 * divisor);
+        finer.next().unwrap_or(1)
+    }
 }
 
 /// Maximum time to delay a window frame for its preview. Drawing the window meanwhile would slow down the
@@ -103,12 +118,20 @@ pub fn policy(gpu: &Gpu, policy: ExecutionPolicy) -> ExecutionPolicy {
     }
 }
 
-/// A smaller picture with one sample per pixel that fits the time.
-pub fn coarse(gpu: &Gpu, pace: &mut Pace, settings: &RenderSettings) -> RenderSettings {
+/// The divisor of the first picture: as fine as the time allows.
+pub fn first_divisor(gpu: &Gpu, pace: &mut Pace, settings: &RenderSettings) -> u32 {
     let time = if gpu.is_cpu() { COARSE_ON_CPU } else { COARSE };
+    pace.divisor(pixels(settings), time.as_secs_f64())
+}
+
+/// Pixels that are rendered.
+pub fn pixels(settings: &RenderSettings) -> u64 {
     let [.., width, height] = settings.region();
-    let pixels = u64::from(width) * u64::from(height);
-    let divisor = pace.divisor(pixels, time.as_secs_f64());
+    u64::from(width) * u64::from(height)
+}
+
+/// A picture of one sample, with width and height divided.
+pub fn coarse(settings: &RenderSettings, divisor: u32) -> RenderSettings {
     let smaller = |length: u32| length.div_ceil(divisor);
     let antialias = match settings.antialias {
         Antialias::Adaptive => Antialias::Stratified,

@@ -1,14 +1,12 @@
 //! The comparison of two views: layout, wipe line and labels.
 
 use crate::app::words::INTEGRATORS;
-use crate::render::Integrator;
 use crate::viewer::model::view_settings::{Comparison, Sharing};
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::ui::context::PanelContext;
+use crate::viewer::ui::panels::picture::caption::label;
 use crate::viewer::ui::panels::words::title;
-use eframe::egui::{
-    self, Align2, Color32, CursorIcon, EventFilter, FontId, Key, Pos2, Rect, Stroke, Vec2, vec2,
-};
+use eframe::egui::{self, Align2, Color32, CursorIcon, EventFilter, Key, Pos2, Rect, Stroke, vec2};
 
 /// Distance within which the line can be dragged, in points.
 const REACH: f32 = 5.0;
@@ -56,15 +54,17 @@ pub fn overlay(
     let painter = ui.painter_at(space);
     let corners = match &mut comparison.sharing {
         Sharing::Wipe(share) => {
-            wipe(ui, &painter, share, viewports[0].rect);
             let rect = viewports[0].rect.intersect(space);
+            let y_range = rect.y_range();
+            let line = Rect::from_x_y_ranges(viewports[0].rect.x_range(), y_range);
+            wipe(ui, &painter, share, line);
             [rect.left_top(), rect.right_top()]
         }
         Sharing::SideBySide => {
             let middle = space.center_top();
             let line = [middle, space.center_bottom()];
             painter.line_segment(line, Stroke::new(1.0, Color32::from_gray(128)));
-            viewports.map(|viewport| viewport.rect.left_top())
+            viewports.map(|viewport| viewport.rect.intersect(space).left_top())
         }
     };
     let is_wipe = matches!(comparison.sharing, Sharing::Wipe(_));
@@ -73,8 +73,9 @@ pub fn overlay(
     } else {
         Align2::LEFT_TOP
     };
-    label(&painter, corners[0], Align2::LEFT_TOP, first);
-    label(&painter, corners[1], right, comparison.integrator);
+    let name = |integrator| title(INTEGRATORS.word(&integrator));
+    label(&painter, corners[0], Align2::LEFT_TOP, name(first));
+    label(&painter, corners[1], right, name(comparison.integrator));
 }
 
 /// The wipe line: dragged, or moved by arrow keys while it has the focus.
@@ -133,20 +134,4 @@ fn wipe(ui: &mut egui::Ui, painter: &egui::Painter, share: &mut f32, rect: Rect)
     if has_focus {
         painter.circle_stroke(knob, radius + 2.5, ui.visuals().selection.stroke);
     }
-}
-
-/// A label in a corner, legible on any picture.
-fn label(painter: &egui::Painter, corner: Pos2, align: Align2, integrator: Integrator) {
-    let text = title(INTEGRATORS.word(&integrator));
-    let font = FontId::proportional(13.0);
-    let galley = painter.layout_no_wrap(text, font, Color32::WHITE);
-    let margin = Vec2::new(6.0, 3.0);
-    let inward = if align.x() == egui::Align::Max {
-        -8.0
-    } else {
-        8.0
-    };
-    let rect = align.anchor_size(corner + vec2(inward, 8.0), galley.size() + 2.0 * margin);
-    painter.rect_filled(rect, 4.0, Color32::from_black_alpha(160));
-    painter.galley(rect.min + margin, galley, Color32::WHITE);
 }

@@ -1,0 +1,55 @@
+//! What the window shows of a picture, and how far it is.
+
+use crate::render::{Screen, Stats};
+use std::sync::Arc;
+
+/// What there is to see.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// The picture so far; where it has no sample yet it is transparent.
+    pub screen: Option<Screen>,
+    /// A coarse one of the same or what was before, to lie under it, stretched.
+    pub under: Option<Screen>,
+    /// Whether that is a coarse one, which comes as a whole.
+    pub under_is_coarse: bool,
+    /// While this is a part: the whole picture as it was last, to lie under both.
+    pub whole: Option<Screen>,
+    /// Which part of the picture this is: x, y, width and height in pixels of `size`.
+    pub region: [u32; 4],
+    /// Width and height of the whole picture.
+    pub size: (u32, u32),
+    /// The range of a quantity over which it is shown.
+    pub range: Option<[f32; 2]>,
+    /// How far it is.
+    pub progress: Progress,
+    /// What the renderer has cost since the window was opened.
+    pub stats: Stats,
+    /// Trees that were built or refitted since then.
+    pub trees_built: usize,
+    /// What it renders on.
+    pub adapter: Arc<str>,
+}
+
+/// How far a picture is, and what it took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Progress {
+    /// Samples that every pixel has.
+    pub samples: u32,
+    /// Samples that it is to get.
+    pub target: u32,
+    /// Share of the work that is done, in 0..=1.
+    pub share: f64,
+    /// Seconds of tracing in this picture.
+    pub trace_seconds: f64,
+    /// Camera rays per second of tracing.
+    pub rays_per_second: f64,
+    /// Estimated root mean square error of the developed picture, in levels of 1; `None` before there
+    /// are enough samples, and without antialiasing.
+    pub noise: Option<f64>,
+    /// How often a picture was put on a screen.
+    pub looks: u64,
+    /// Whether this is the coarse picture.
+    pub is_coarse: bool,
+    /// Whether it has all its samples.
+    pub is_done: bool,
+}
