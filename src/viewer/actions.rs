@@ -10,6 +10,7 @@ pub mod keeping;
 pub mod modal;
 pub mod region;
 pub mod saving;
+pub mod selecting;
 pub mod settings;
 pub mod tools;
 pub mod update;

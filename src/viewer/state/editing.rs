@@ -20,6 +20,8 @@ pub struct Editing {
     pub modal: Option<Modal>,
     /// What is being renamed, and its name so far.
     pub renaming: Option<(Id, String)>,
+    /// Things that are selected together.
+    pub group: Option<Group>,
     /// The line of the outline that had the focus in the last frame: arrow keys go through the outline
     /// from there.
     pub list_focus: Option<egui::Id>,
@@ -51,6 +53,7 @@ impl Default for Editing {
             grip: None,
             modal: None,
             renaming: None,
+            group: None,
             list_focus: None,
             seen_selection: None,
             seen_lines: egui::Rangef::EVERYTHING,
@@ -86,6 +89,18 @@ impl Editing {
             }
         }
     }
+}
+
+/// Several things that are selected together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// The one that [`Session::selection`](super::session::Session::selection) names. The group counts
+    /// only as long as that is still selected.
+    pub lead: Id,
+    /// Where a range of lines begins.
+    pub anchor: Id,
+    /// All of them, the lead included.
+    pub members: Vec<Id>,
 }
 
 /// A question where to save.
