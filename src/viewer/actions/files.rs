@@ -10,7 +10,6 @@ use crate::app::advice;
 use crate::app::overrides::CameraOverrides;
 use crate::import;
 use crate::scene::Background;
-use crate::viewer::model::bindings::Action;
 use crate::viewer::model::file_dialog::{Reply, Request, ends_in};
 use crate::viewer::model::watch::Change;
 use crate::viewer::state::files::Broken;
@@ -90,6 +89,18 @@ pub fn go_on(session: &mut Session, intent: Intent) {
 /// Opens whatever it is: a scene, a folder of scenes, or a picture of the surroundings.
 pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
     dropped::open(session, paths);
+}
+
+/// Shows the built-in scene where there is none.
+pub fn open_built_in(session: &mut Session) {
+    match session.show_built_in() {
+        Ok(()) => {
+            session.path = None;
+            session.files.broken = None;
+            session.files.is_gone = false;
+        }
+        Err(error) => session.messages.warn(error.to_string()),
+    }
 }
 
 /// Asks the desktop for something to open.

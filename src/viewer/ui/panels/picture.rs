@@ -2,18 +2,18 @@
 
 mod compare;
 mod legend;
+mod start;
 
 use crate::viewer::actions::inspector;
 use crate::viewer::actions::region;
 use crate::viewer::actions::tools;
-use crate::viewer::model::bindings::Action;
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::overlay;
 use crate::viewer::ui::panels::rays;
 use crate::viewer::worker::progressive_image::PictureSlot;
 use crate::viewer::worker::progressive_image::Shown;
-use eframe::egui::{self, Color32, Pos2, Rect, RichText, Vec2};
+use eframe::egui::{self, Color32, Pos2, Rect, Vec2};
 
 /// Texture coordinates of a whole texture.
 const WHOLE: Rect = Rect {
@@ -68,7 +68,7 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
         legends(ui, context, space, viewports);
     }
     if context.session.is_empty() {
-        empty(ui, context, space);
+        start::start(ui, context.session, space);
     }
 }
 
@@ -85,19 +85,6 @@ fn legends(ui: &egui::Ui, context: &PanelContext, space: Rect, viewports: [Viewp
         let place = (rects[1], true);
         legend::legend(ui, &painter, &shown, comparison.integrator, place);
     }
-}
-
-/// What to do where there is no scene.
-fn empty(ui: &mut egui::Ui, context: &PanelContext, space: Rect) {
-    let key = context.session.preferences.bindings.label(Action::Open);
-    let key = match key.is_empty() {
-        true => String::new(),
-        false => format!(" ({key})"),
-    };
-    let text = format!("Drop a scene here, or open one{key}");
-    let area = Rect::from_center_size(space.center(), Vec2::new(space.width(), 24.0));
-    let label = egui::Label::new(RichText::new(text).size(16.0)).selectable(false);
-    ui.put(area, label);
 }
 
 /// Of two pictures side by side the mouse is in one: as long as a button is down in that where it was
