@@ -10,7 +10,7 @@ use glimray::render::Tone;
 use glimray::scene::{Background, Geometry, ObjectRef, Scene};
 use glimray::viewer::actions::saving;
 use glimray::viewer::model::bindings::Action;
-use glimray::viewer::model::objects::Id;
+use glimray::viewer::model::objects::{self, Id};
 use glimray::viewer::model::tool::Tool;
 use glimray::viewer::state::dialogs::Dialog;
 use glimray::viewer::state::files::Intent;
@@ -161,6 +161,8 @@ fn a_material_that_is_changed_gives_the_picture_of_the_changed_scene() {
     let mut wanted = scene(&window);
     set(&mut window, "Diffuse green", 0.5);
     wanted.materials[0].diffuse = vec3(0.75, 0.5, 0.0625);
+    // Without a colour of its own, ambient light is reflected in the diffuse colour.
+    wanted.materials[0].ambient = wanted.materials[0].diffuse;
     assert_eq!(scene(&window), wanted);
     assert_shows(&mut window, &wanted, "diffuse");
     // What was opaque becomes transparent: other code on the GPU.
@@ -810,4 +812,56 @@ fn showing_all_of_a_scene_leaves_lamps_aside_unless_there_is_nothing_else() {
         alone.look_at.distance(dvec3(-40.0, 60.0, 5.0)) < 1e-6,
         "{alone:?}"
     );
+}
+
+#[test]
+fn ambient_follows_diffuse_until_it_is_unlinked() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.session().selection = Some(Id::Material(0));
+    window.settle();
+    let colors = |window: &Window| {
+        let material = &scene(window).materials[0];
+        (material.diffuse.y, material.ambient.y)
+    };
+    let follows = "Ambient follows diffuse";
+    assert!(window.harness.query_by_label("Ambient green").is_none());
+    set(&mut window, "Diffuse green", 0.5);
+    assert_eq!(colors(&window), (0.5, 0.5));
+    window.harness.get_by_label(follows).click_accesskit();
+    window.settle();
+    set(&mut window, "Diffuse green", 0.25);
+    assert_eq!(colors(&window), (0.25, 0.5));
+    set(&mut window, "Ambient green", 0.75);
+    assert_eq!(colors(&window), (0.25, 0.75));
+    window.harness.get_by_label(follows).click_accesskit();
+    window.settle();
+    assert_eq!(colors(&window), (0.25, 0.25));
+}
+
+#[test]
+fn a_uniform_scale_keeps_the_ratios_of_its_factors() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.session().selection = Some(RED);
+    window.settle();
+    let scale = |window: &Window| {
+        let place = objects::place(&scene(window), RED, 0.0).expect("a place");
+        place.to_scale_rotation_translation().0
+    };
+    let before = scale(&window);
+    set(&mut window, "Scale x", before.x * 2.0);
+    let uneven = scale(&window);
+    assert!(
+        uneven.distance(before * dvec3(2.0, 1.0, 1.0)) < 1e-9,
+        "{uneven}"
+    );
+    window
+        .harness
+        .get_by_label("Uniform scale")
+        .click_accesskit();
+    window.settle();
+    set(&mut window, "Scale y", before.y * 3.0);
+    let even = scale(&window);
+    assert!(even.distance(uneven * 3.0) < 1e-9, "{even}");
 }
