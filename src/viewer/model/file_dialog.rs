@@ -15,6 +15,9 @@ pub type Kind = (&'static str, &'static [&'static str]);
 /// Pictures as they are saved.
 pub const PICTURES: Kind = ("Pictures", &["png", "jpg", "jpeg", "exr", "hdr"]);
 
+/// Scenes as they are saved.
+pub const SCENES: Kind = ("Scenes", &["toml"]);
+
 /// What a dialog is to find out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Request {

@@ -1,6 +1,7 @@
 //! What is being edited.
 
 use crate::scene::{Camera, Mesh, Scene};
+use crate::viewer::model::file_dialog::Reply;
 use crate::viewer::model::handles::Grip;
 use crate::viewer::model::listing::Listing;
 use crate::viewer::model::modal::Modal;
@@ -9,6 +10,7 @@ use eframe::egui::{self, Pos2};
 use glam::DVec3;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::mpsc::Receiver;
 
 /// What is being changed, and what was.
 pub struct Editing {
@@ -109,4 +111,6 @@ pub struct Saving {
     /// What stands in the way of that name.
     pub(in crate::viewer) trouble: Option<String>,
     pub(in crate::viewer) is_new: bool,
+    /// What the desktop's dialog will say, while it is open.
+    pub(in crate::viewer) asked: Option<Receiver<Reply>>,
 }

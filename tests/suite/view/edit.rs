@@ -3,13 +3,14 @@
 use super::harness::Window;
 use crate::reference::compare::render;
 use eframe::egui::{Key, Pos2, vec2};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{DVec3, dvec3, vec3};
 use glimray::app::scene_file;
 use glimray::render::Tone;
 use glimray::scene::{Background, Geometry, ObjectRef, Scene};
 use glimray::viewer::actions::saving;
 use glimray::viewer::model::bindings::Action;
+use glimray::viewer::model::file_dialog::{FileDialogs, Reply};
 use glimray::viewer::model::objects::{self, Id};
 use glimray::viewer::model::tool::Tool;
 use glimray::viewer::state::dialogs::Dialog;
@@ -815,6 +816,31 @@ fn showing_all_of_a_scene_leaves_lamps_aside_unless_there_is_nothing_else() {
 }
 
 #[test]
+fn undo_and_redo_name_their_step_in_the_menu_and_are_grey_without_one() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    let entry = |window: &mut Window, label: &str| {
+        window.harness.get_by_label("Edit").click();
+        window.harness.run_steps(3);
+        // The button of the panel is called the same.
+        let is_enabled = (window.harness.get_all_by_label_contains(label))
+            .any(|node| !node.accesskit_node().is_disabled());
+        window.harness.key_press(Key::Escape);
+        window.harness.run_steps(3);
+        is_enabled
+    };
+    assert!(!entry(&mut window, "Undo"));
+    assert!(!entry(&mut window, "Redo"));
+    window.session().selection = Some(RED);
+    perform(&mut window, Action::Delete);
+    assert!(entry(&mut window, "Undo delete sphere 1 (red)"));
+    assert!(!entry(&mut window, "Redo"));
+    perform(&mut window, Action::Undo);
+    assert!(!entry(&mut window, "Undo"));
+    assert!(entry(&mut window, "Redo delete sphere 1 (red)"));
+}
+
+#[test]
 fn ambient_follows_diffuse_until_it_is_unlinked() {
     let (_folder, path) = file();
     let mut window = open(&path, "64x48");
@@ -864,4 +890,36 @@ fn a_uniform_scale_keeps_the_ratios_of_its_factors() {
     set(&mut window, "Scale y", before.y * 3.0);
     let even = scale(&window);
     assert!(even.distance(uneven * 3.0) < 1e-9, "{even}");
+}
+
+#[test]
+fn the_dialogs_for_scene_and_picture_both_show_the_folder_browse_and_cancel() {
+    let (folder, path) = file();
+    let mut window = open(&path, "64x48");
+    let chosen = folder.path().join("chosen.toml");
+    let answer = chosen.clone();
+    window.session().files.dialogs = FileDialogs::answering(move |request| {
+        assert!(request.saves);
+        Reply::Chosen(answer.clone())
+    });
+    let shown = format!("Folder: {}", folder.path().display());
+    for action in [Action::SaveSceneAs, Action::SavePicture] {
+        perform(&mut window, action);
+        let is_open = |window: &Window| {
+            let session = window.session();
+            session.editing.is_asking() || session.files.saving.is_some()
+        };
+        assert!(is_open(&window), "{action:?}");
+        window.harness.get_by_label(&shown);
+        window.harness.get_by_label("Browse…");
+        window.harness.get_by_label("Cancel").click();
+        window.settle();
+        assert!(!is_open(&window), "{action:?}");
+    }
+    perform(&mut window, Action::SaveSceneAs);
+    window.harness.get_by_label("Browse…").click();
+    window.settle();
+    window.harness.get_by_label("Save").click();
+    window.settle();
+    assert!(chosen.exists());
 }
