@@ -11,6 +11,7 @@ pub mod keeping;
 pub mod modal;
 pub mod region;
 pub mod saving;
+pub mod selecting;
 pub mod settings;
 pub mod tools;
 pub mod update;

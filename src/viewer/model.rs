@@ -16,6 +16,7 @@ pub mod playback;
 pub mod preferences;
 pub mod recording;
 pub mod region;
+pub mod swatch;
 pub mod tool;
 pub mod view_settings;
 pub mod viewport;

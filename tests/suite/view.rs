@@ -13,6 +13,7 @@ mod look;
 mod looks;
 mod modal;
 mod names;
+mod outline;
 mod panels;
 mod picture;
 mod pixels;

@@ -541,3 +541,66 @@ fn the_bounds_of_many_instances_are_those_of_all_their_vertices() {
         assert_eq!(scene.bounds(), all);
     }
 }
+
+#[test]
+fn a_node_is_not_moved_into_itself_and_a_hidden_object_stays_hidden_in_another_node() {
+    let mut scene = scene();
+    for name in ["arm", "hand"] {
+        scene.nodes.push(Node {
+            name: name.to_owned(),
+            parent: Some(scene.nodes.len() - 1),
+            translation: DVec3::X,
+            ..Node::default()
+        });
+    }
+    let before = scene.clone();
+    let error = objects::set_parent(&mut scene, Id::Node(1), Some(2), 0.0).expect_err("a circle");
+    assert!(error.to_string().contains("into itself"), "{error}");
+    assert_eq!(scene, before);
+    let at = place(&scene, Id::Node(2), 0.0).expect("a place");
+    objects::set_parent(&mut scene, Id::Node(2), None, 0.0).expect("free");
+    assert_eq!(scene.nodes[2].parent, None);
+    assert!(nearly(
+        place(&scene, Id::Node(2), 0.0).expect("a place"),
+        at
+    ));
+    set_visible(&mut scene, SHAPE, false).expect("hidden");
+    let at = place(&scene, SHAPE, 0.0).expect("a place");
+    objects::set_parent(&mut scene, SHAPE, Some(2), 0.0).expect("free");
+    assert!(!is_visible(&scene, SHAPE));
+    assert!(nearly(place(&scene, SHAPE, 0.0).expect("a place"), at));
+    set_visible(&mut scene, SHAPE, true).expect("shown");
+    assert_eq!(scene.shapes[0].node, Some(2));
+}
+
+#[test]
+fn swatches_show_what_a_material_reflects_and_transmits() {
+    use glimray::viewer::model::swatch::Swatch;
+    // Nearly black but for its reflection, as metals are.
+    let gold = Swatch::of(&Material {
+        diffuse: Vec3::new(0.05, 0.03, 0.01),
+        specular: Vec3::ZERO,
+        reflect: Vec3::new(0.95, 0.7, 0.3),
+        ..Material::default()
+    });
+    assert!(gold.is_glossy && !gold.is_clear);
+    let [r, g, b] = gold.color.to_array();
+    assert!(
+        r > 0.9 && (0.6..0.85).contains(&g) && b < 0.45,
+        "{r} {g} {b}"
+    );
+    let glass = Swatch::of(&Material {
+        diffuse: Vec3::ZERO,
+        transmit: Vec3::new(0.8, 0.9, 0.85),
+        ..Material::default()
+    });
+    assert!(glass.is_clear);
+    assert!(glass.color.min_element() > 0.7);
+    let matte = Swatch::of(&Material {
+        diffuse: Vec3::new(0.2, 0.4, 0.1),
+        specular: Vec3::ZERO,
+        ..Material::default()
+    });
+    assert_eq!(matte.color, Vec3::new(0.2, 0.4, 0.1));
+    assert!(!matte.is_glossy && !matte.is_clear);
+}

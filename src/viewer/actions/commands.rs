@@ -1,6 +1,6 @@
 //! Dispatches all commands, whether from keys, menus or buttons.
 
-use crate::viewer::actions::{dialogs, editing, files, inspector, modal, saving, tools};
+use crate::viewer::actions::{dialogs, editing, files, inspector, modal, saving, selecting, tools};
 use crate::viewer::model::bindings::Action;
 use crate::viewer::model::camera::{CameraController, Side};
 use crate::viewer::model::preferences::Theme;
@@ -141,13 +141,13 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::RotateTool => modal::take(session, Tool::Rotate),
         Action::ScaleTool => modal::take(session, Tool::Scale),
         Action::SelectNothing => leave(session),
-        Action::ToggleVisible => editing::toggle_visible(session),
+        Action::ToggleVisible => selecting::toggle_visible(session),
         Action::Rename => {
             layout.set_visible(Panel::Outline, true);
             session.begin_rename();
         }
-        Action::Duplicate => editing::with_selection(session, Session::duplicate),
-        Action::Delete => editing::with_selection(session, Session::remove),
+        Action::Duplicate => selecting::duplicate(session),
+        Action::Delete => selecting::remove(session),
         Action::Undo => editing::undo(session),
         Action::Redo => editing::redo(session),
         Action::Open => files::ask(session, ctx),

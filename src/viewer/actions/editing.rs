@@ -83,15 +83,6 @@ pub fn with_selection(session: &mut Session, act: impl FnOnce(&mut Session, Id))
     }
 }
 
-/// Hides or shows the selection.
-pub fn toggle_visible(session: &mut Session) {
-    with_selection(session, |session, id| {
-        let scene = session.scene().cloned();
-        let visible = scene.is_some_and(|scene| objects::is_visible(&scene, id));
-        session.set_visible(id, !visible);
-    });
-}
-
 /// Reverts all changes since the scene was opened, in a step that can be undone.
 pub fn revert(session: &mut Session) {
     let Some(document) = &mut session.document else {
@@ -134,6 +125,7 @@ fn step(session: &mut Session, again: bool) {
     let selected = session.selection.filter(|_| !is_other);
     session.selection = selected.and_then(|id| objects::same(&before, after, id));
     session.editing.renaming = None;
+    session.editing.group = None;
     session.messages.tell(match done {
         Some(name) => format!("{did} {name}"),
         None => format!("Nothing to {undone}"),

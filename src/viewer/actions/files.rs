@@ -91,6 +91,18 @@ pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
     dropped::open(session, paths);
 }
 
+/// Shows the built-in scene.
+pub fn open_built_in(session: &mut Session) {
+    match session.show_built_in() {
+        Ok(()) => {
+            session.path = None;
+            session.files.broken = None;
+            session.files.is_gone = false;
+        }
+        Err(error) => session.messages.warn(error.to_string()),
+    }
+}
+
 /// Opens a file dialog.
 pub fn ask(session: &mut Session, ctx: &egui::Context) {
     if session.files.asked.is_some() {

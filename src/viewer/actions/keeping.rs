@@ -2,12 +2,18 @@
 
 use crate::scene::OutputDefaults;
 use crate::viewer::state::session::Session;
+use crate::viewer::state::session::opening::samples_of;
 
 impl Session {
     /// The output defaults that the scene would need; `None` if it has them.
     fn unkept(&self) -> Option<OutputDefaults> {
-        let before = &self.scene()?.output;
-        let output = self.view.output(before, &self.playback);
+        let scene = self.scene()?;
+        let before = &scene.output;
+        let mut output = self.view.output(before, &self.playback);
+        // A scene that does not set its samples need not do so to look the same here.
+        if output.samples == samples_of(scene) {
+            output.samples = before.samples;
+        }
         (output != *before || self.view.background.is_some()).then_some(output)
     }
 

@@ -3,9 +3,12 @@
 use crate::app::{inputs, scene_file};
 use crate::viewer::actions::files;
 use crate::viewer::actions::files::cameras;
+use crate::viewer::model::file_dialog::{Reply, Request, SCENES};
 use crate::viewer::state::editing::Saving;
 use crate::viewer::state::session::Session;
+use eframe::egui;
 use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError};
 
 /// Saves to the file that was saved before, else asks.
 pub fn save(session: &mut Session) {
@@ -29,7 +32,41 @@ pub fn ask(session: &mut Session) {
         name: path.with_extension("toml").display().to_string(),
         trouble: None,
         is_new: true,
+        asked: None,
     });
+}
+
+/// Opens a file dialog for the name of a scene.
+pub fn browse(session: &Session, saving: &mut Saving, ctx: &egui::Context) {
+    let path = target(&saving.name).unwrap_or_default();
+    let folder = path.parent().filter(|folder| folder.is_dir());
+    let request = Request {
+        saves: true,
+        kind: Some(SCENES),
+        title: "Save the scene".to_owned(),
+        folder: folder.map(Path::to_owned),
+        name: path.file_name().map(|n| n.to_string_lossy().into_owned()),
+    };
+    saving.asked = Some(session.files.dialogs.ask(request, ctx));
+}
+
+/// Takes the name that was chosen in the file dialog.
+pub fn take_reply(session: &mut Session, saving: &mut Saving) {
+    let Some(reply) = saving.asked.as_ref().map(Receiver::try_recv) else {
+        return;
+    };
+    match reply {
+        Err(TryRecvError::Empty) => return,
+        Ok(Reply::Chosen(path)) => {
+            saving.name = path.to_string_lossy().into_owned();
+            saving.trouble = None;
+        }
+        Ok(Reply::Cancelled) => {}
+        Ok(Reply::Unavailable) | Err(TryRecvError::Disconnected) => {
+            session.messages.warn(files::NO_DIALOG.to_owned());
+        }
+    }
+    saving.asked = None;
 }
 
 /// Saves the scene as `path`, with its meshes and images in files next to it.

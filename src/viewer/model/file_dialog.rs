@@ -15,6 +15,9 @@ pub type Kind = (&'static str, &'static [&'static str]);
 /// The formats of saved pictures.
 pub const PICTURES: Kind = ("Pictures", &["png", "jpg", "jpeg", "exr", "hdr"]);
 
+/// Scenes that can be saved.
+pub const SCENES: Kind = ("Scenes", &["toml"]);
+
 /// A request for a file name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Request {

@@ -3,7 +3,7 @@
 use crate::scene::Scene;
 use crate::viewer::model::objects::Id;
 use crate::viewer::model::outline::{Entry, Outline};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -18,6 +18,24 @@ pub struct Listing {
     searched: String,
     /// Indices of the visible rows.
     shown: Vec<usize>,
+    /// Groups whose contents are hidden.
+    folded: HashSet<Group>,
+}
+
+/// A line that other lines can be below: a node, or a heading by its label.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+enum Group {
+    Node(Id),
+    Heading(String),
+}
+
+impl Group {
+    fn of(entry: &Entry) -> Self {
+        match entry.id {
+            Some(id) => Self::Node(id),
+            None => Self::Heading(entry.label.clone()),
+        }
+    }
 }
 
 impl Listing {
@@ -33,8 +51,80 @@ impl Listing {
         }
         if !is_known || self.searched != self.query {
             self.searched.clone_from(&self.query);
-            self.shown = self.outline.search(&self.query);
+            self.list();
         }
+    }
+
+    /// Finds the lines that are shown.
+    fn list(&mut self) {
+        self.shown = self.outline.search(&self.query);
+        // A search finds lines in folded groups too.
+        if self.query.trim().is_empty() {
+            self.leave_out_folded();
+        }
+    }
+
+    fn leave_out_folded(&mut self) {
+        let (entries, folded) = (&self.outline.entries, &self.folded);
+        // The depth of the folded group that the current line may be in.
+        let mut limit = usize::MAX;
+        self.shown.retain(|index| {
+            let entry = &entries[*index];
+            if entry.depth > limit {
+                return false;
+            }
+            let is_folded = folded.contains(&Group::of(entry));
+            limit = if is_folded { entry.depth } else { usize::MAX };
+            true
+        });
+    }
+
+    /// Whether other lines are below one of the shown lines, and whether these are folded away; `None`
+    /// for a line without any.
+    pub fn fold(&self, row: usize) -> Option<bool> {
+        let index = *self.shown.get(row)?;
+        let entry = &self.outline.entries[index];
+        let next = self.outline.entries.get(index + 1)?;
+        (next.depth > entry.depth).then(|| self.folded.contains(&Group::of(entry)))
+    }
+
+    /// Folds the lines below one of the shown lines away, or unfolds them.
+    pub fn toggle_fold(&mut self, row: usize) {
+        let Some(index) = self.shown.get(row) else {
+            return;
+        };
+        let group = Group::of(&self.outline.entries[*index]);
+        if !self.folded.remove(&group) {
+            self.folded.insert(group);
+        }
+        self.list();
+    }
+
+    /// Unfolds the groups that something is in, so that its line is shown.
+    pub fn reveal(&mut self, id: Id) {
+        let Some(&line) = self.lines.get(&id) else {
+            return;
+        };
+        let mut depth = self.outline.entries[line].depth;
+        let mut is_folded = false;
+        for entry in self.outline.entries[..line].iter().rev() {
+            if entry.depth < depth {
+                depth = entry.depth;
+                is_folded |= self.folded.remove(&Group::of(entry));
+            }
+        }
+        if is_folded {
+            self.list();
+        }
+    }
+
+    /// What the shown lines between two things stand for, both included, in the order of the outline.
+    pub fn between(&self, a: Id, b: Id) -> Vec<Id> {
+        let (Some(a), Some(b)) = (self.row_of(a), self.row_of(b)) else {
+            return Vec::new();
+        };
+        let rows = self.rows(a.min(b)..a.max(b) + 1);
+        rows.filter_map(|entry| entry.id).collect()
     }
 
     fn lists(&self, scene: &Arc<Scene>) -> bool {

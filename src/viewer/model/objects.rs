@@ -1,10 +1,12 @@
 //! Edits of one object: transform, visibility, removal, duplication and material.
 
 mod frame;
+mod parent;
 mod place;
 mod scope;
 
 pub use frame::{of_geometry, of_light};
+pub use parent::set_parent;
 pub use place::{Freedom, Scaling, freedom, place, set_place};
 pub use scope::{bounds, hide_others, is_there, name, rename, same, show_all, subject};
 

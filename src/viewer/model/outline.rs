@@ -5,6 +5,9 @@ use crate::viewer::model::objects;
 use crate::viewer::model::objects::Id;
 use std::collections::BTreeMap;
 
+/// The heading of the objects.
+pub const OBJECTS: &str = "Objects";
+
 /// A row of an [`Outline`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
@@ -49,7 +52,7 @@ impl Outline {
         for (index, shape) in scene.shapes.iter().enumerate() {
             hang(shape.node, Id::Object(ObjectRef::Shape(index)));
         }
-        outline.heading("Objects");
+        outline.heading(OBJECTS);
         // With an explicit stack, because nodes may be nested deeply.
         let mut open: Vec<(usize, Id)> = Vec::new();
         let mut put = |open: &mut Vec<(usize, Id)>, depth, node| {

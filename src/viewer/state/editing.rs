@@ -1,6 +1,7 @@
 //! The state of editing.
 
 use crate::scene::{Camera, Mesh, Scene};
+use crate::viewer::model::file_dialog::Reply;
 use crate::viewer::model::handles::Grip;
 use crate::viewer::model::listing::Listing;
 use crate::viewer::model::modal::Modal;
@@ -9,6 +10,7 @@ use eframe::egui::{self, Pos2};
 use glam::DVec3;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::mpsc::Receiver;
 
 /// The state of edits and of the outline.
 pub struct Editing {
@@ -20,6 +22,8 @@ pub struct Editing {
     pub modal: Option<Modal>,
     /// The item being renamed and its edited name.
     pub renaming: Option<(Id, String)>,
+    /// Multiple selection.
+    pub group: Option<Group>,
     /// The outline row that had the focus in the last frame, from which arrow keys move.
     pub list_focus: Option<egui::Id>,
     /// The last selection that the outline has scrolled to.
@@ -50,6 +54,7 @@ impl Default for Editing {
             grip: None,
             modal: None,
             renaming: None,
+            group: None,
             list_focus: None,
             seen_selection: None,
             seen_lines: egui::Rangef::EVERYTHING,
@@ -87,10 +92,24 @@ impl Editing {
     }
 }
 
+/// Several things that are selected together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// The one that [`Session::selection`](super::session::Session::selection) names. The group counts
+    /// only as long as that is still selected.
+    pub lead: Id,
+    /// Where a range of lines begins.
+    pub anchor: Id,
+    /// All of them, the lead included.
+    pub members: Vec<Id>,
+}
+
 /// The dialog that asks where to save the scene.
 pub struct Saving {
     pub(in crate::viewer) name: String,
     /// Why the name is invalid.
     pub(in crate::viewer) trouble: Option<String>,
     pub(in crate::viewer) is_new: bool,
+    /// What the desktop's dialog will say, while it is open.
+    pub(in crate::viewer) asked: Option<Receiver<Reply>>,
 }

@@ -71,6 +71,12 @@ pub struct Layout {
     /// The layout before all panels were hidden.
     #[serde(default)]
     before: Option<Box<Self>>,
+    /// Whether the time panel was hidden because nothing moves.
+    #[serde(default)]
+    is_time_folded: bool,
+    /// Whether anything moved in the scene that was followed last.
+    #[serde(default)]
+    moves: Option<bool>,
 }
 
 /// A tile that was shrunk.
@@ -114,6 +120,8 @@ impl Default for Layout {
             room: Some(USUAL),
             wishes: Vec::new(),
             before: None,
+            is_time_folded: false,
+            moves: None,
         }
     }
 }
@@ -169,11 +177,28 @@ impl Layout {
 
     /// Shows a panel or hides it.
     pub fn set_visible(&mut self, panel: Panel, visible: bool) {
+        if panel == Panel::Time {
+            self.is_time_folded = false;
+        }
         if let Some(id) = self.find(panel) {
             self.tree.set_visible(id, visible);
             if visible {
                 self.tree.make_active(|tile, _| tile == id);
             }
+        }
+    }
+
+    /// Hides the time panel when a scene without motion comes, and shows it again with the next scene
+    /// that moves. A panel that was shown or hidden by hand stays so until then.
+    pub fn follow_motion(&mut self, moves: bool) {
+        if self.moves.replace(moves) == Some(moves) {
+            return;
+        }
+        if moves && self.is_time_folded {
+            self.set_visible(Panel::Time, true);
+        } else if !moves && self.is_visible(Panel::Time) {
+            self.set_visible(Panel::Time, false);
+            self.is_time_folded = true;
         }
     }
 

@@ -18,6 +18,7 @@ use crate::viewer::state::dialogs::Dialog;
 use crate::viewer::state::layout::Layout;
 use crate::viewer::ui::context::PanelContext;
 use eframe::egui;
+use std::path::Path;
 
 /// Draws the open dialogs.
 pub fn show(ui: &mut egui::Ui, context: &mut PanelContext, layout: &mut Layout) {
@@ -57,6 +58,18 @@ pub fn show(ui: &mut egui::Ui, context: &mut PanelContext, layout: &mut Layout) 
     let is_list = editing::has_list_focus(context.session, &ctx);
     context.session.dialogs.had_keyboard = ctx.egui_wants_keyboard_input() && !is_list;
     settings::keep_layout_if_due(context.session, layout);
+}
+
+/// Shows the folder of a file name.
+fn folder(ui: &mut egui::Ui, name: &str) {
+    let path = Path::new(name.trim());
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+    let text = format!("Folder: {}", folder.display());
+    ui.add(egui::Label::new(egui::RichText::new(text).weak()).truncate());
 }
 
 /// Draws a dialog in the centre of the window. Returns whether it stays open.

@@ -16,7 +16,7 @@ use glam::{DAffine3, DVec3};
 const LENGTH: f32 = 84.0;
 const SLACK: f32 = 7.0;
 /// Colours of x, y and z: legible on black and on white.
-const COLORS: [Color32; 3] = [
+pub(in crate::viewer::ui) const COLORS: [Color32; 3] = [
     Color32::from_rgb(235, 64, 72),
     Color32::from_rgb(96, 178, 30),
     Color32::from_rgb(58, 128, 246),

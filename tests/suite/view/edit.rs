@@ -3,14 +3,15 @@
 use super::harness::Window;
 use crate::reference::compare::render;
 use eframe::egui::{Key, Pos2, vec2};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{DVec3, dvec3, vec3};
 use glimray::app::scene_file;
 use glimray::render::Tone;
 use glimray::scene::{Background, Geometry, ObjectRef, Scene};
 use glimray::viewer::actions::saving;
 use glimray::viewer::model::bindings::Action;
-use glimray::viewer::model::objects::Id;
+use glimray::viewer::model::file_dialog::{FileDialogs, Reply};
+use glimray::viewer::model::objects::{self, Id};
 use glimray::viewer::model::tool::Tool;
 use glimray::viewer::state::dialogs::Dialog;
 use glimray::viewer::state::files::Intent;
@@ -161,6 +162,8 @@ fn a_material_that_is_changed_gives_the_picture_of_the_changed_scene() {
     let mut wanted = scene(&window);
     set(&mut window, "Diffuse green", 0.5);
     wanted.materials[0].diffuse = vec3(0.75, 0.5, 0.0625);
+    // Without a colour of its own, ambient light is reflected in the diffuse colour.
+    wanted.materials[0].ambient = wanted.materials[0].diffuse;
     assert_eq!(scene(&window), wanted);
     assert_shows(&mut window, &wanted, "diffuse");
     // What was opaque becomes transparent: other code on the GPU.
@@ -813,4 +816,113 @@ fn showing_all_of_a_scene_leaves_lamps_aside_unless_there_is_nothing_else() {
         alone.look_at.distance(dvec3(-40.0, 60.0, 5.0)) < 1e-6,
         "{alone:?}"
     );
+}
+
+#[test]
+fn undo_and_redo_name_their_step_in_the_menu_and_are_grey_without_one() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    let entry = |window: &mut Window, label: &str| {
+        window.harness.get_by_label("Edit").click();
+        window.harness.run_steps(3);
+        // The button of the panel is called the same.
+        let is_enabled = (window.harness.get_all_by_label_contains(label))
+            .any(|node| !node.accesskit_node().is_disabled());
+        window.harness.key_press(Key::Escape);
+        window.harness.run_steps(3);
+        is_enabled
+    };
+    assert!(!entry(&mut window, "Undo"));
+    assert!(!entry(&mut window, "Redo"));
+    window.session().selection = Some(RED);
+    perform(&mut window, Action::Delete);
+    assert!(entry(&mut window, "Undo delete sphere 1 (red)"));
+    assert!(!entry(&mut window, "Redo"));
+    perform(&mut window, Action::Undo);
+    assert!(!entry(&mut window, "Undo"));
+    assert!(entry(&mut window, "Redo delete sphere 1 (red)"));
+}
+
+#[test]
+fn ambient_follows_diffuse_until_it_is_unlinked() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.session().selection = Some(Id::Material(0));
+    window.settle();
+    let colors = |window: &Window| {
+        let material = &scene(window).materials[0];
+        (material.diffuse.y, material.ambient.y)
+    };
+    let follows = "Ambient follows diffuse";
+    assert!(window.harness.query_by_label("Ambient green").is_none());
+    set(&mut window, "Diffuse green", 0.5);
+    assert_eq!(colors(&window), (0.5, 0.5));
+    window.harness.get_by_label(follows).click_accesskit();
+    window.settle();
+    set(&mut window, "Diffuse green", 0.25);
+    assert_eq!(colors(&window), (0.25, 0.5));
+    set(&mut window, "Ambient green", 0.75);
+    assert_eq!(colors(&window), (0.25, 0.75));
+    window.harness.get_by_label(follows).click_accesskit();
+    window.settle();
+    assert_eq!(colors(&window), (0.25, 0.25));
+}
+
+#[test]
+fn a_uniform_scale_keeps_the_ratios_of_its_factors() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "64x48");
+    window.session().selection = Some(RED);
+    window.settle();
+    let scale = |window: &Window| {
+        let place = objects::place(&scene(window), RED, 0.0).expect("a place");
+        place.to_scale_rotation_translation().0
+    };
+    let before = scale(&window);
+    set(&mut window, "Scale x", before.x * 2.0);
+    let uneven = scale(&window);
+    assert!(
+        uneven.distance(before * dvec3(2.0, 1.0, 1.0)) < 1e-9,
+        "{uneven}"
+    );
+    window
+        .harness
+        .get_by_label("Uniform scale")
+        .click_accesskit();
+    window.settle();
+    set(&mut window, "Scale y", before.y * 3.0);
+    let even = scale(&window);
+    assert!(even.distance(uneven * 3.0) < 1e-9, "{even}");
+}
+
+#[test]
+fn the_dialogs_for_scene_and_picture_both_show_the_folder_browse_and_cancel() {
+    let (folder, path) = file();
+    let mut window = open(&path, "64x48");
+    let chosen = folder.path().join("chosen.toml");
+    let answer = chosen.clone();
+    window.session().files.dialogs = FileDialogs::answering(move |request| {
+        assert!(request.saves);
+        Reply::Chosen(answer.clone())
+    });
+    let shown = format!("Folder: {}", folder.path().display());
+    for action in [Action::SaveSceneAs, Action::SavePicture] {
+        perform(&mut window, action);
+        let is_open = |window: &Window| {
+            let session = window.session();
+            session.editing.is_asking() || session.files.saving.is_some()
+        };
+        assert!(is_open(&window), "{action:?}");
+        window.harness.get_by_label(&shown);
+        window.harness.get_by_label("Browse…");
+        window.harness.get_by_label("Cancel").click();
+        window.settle();
+        assert!(!is_open(&window), "{action:?}");
+    }
+    perform(&mut window, Action::SaveSceneAs);
+    window.harness.get_by_label("Browse…").click();
+    window.settle();
+    window.harness.get_by_label("Save").click();
+    window.settle();
+    assert!(chosen.exists());
 }

@@ -807,14 +807,15 @@ fn a_file_that_cannot_be_read_leaves_its_error_and_an_empty_window_that_says_so(
         let mut found = window.harness.query_all(by().label_contains(words));
         found.next().is_some()
     };
-    assert!(has(&window, "Drop a scene here"));
+    assert!(has(&window, "Drop a scene or open one"));
+    assert!(has(&window, "Open…") && has(&window, "Built-in scene"));
     assert!(has(&window, "No scene is open"));
     assert!(!has(&window, "Preparing"), "it waits for nothing");
     assert!(!has(&window, "0 of 0 samples"));
     files::open(&mut window.session(), vec![place.path("one.toml")]);
     window.settle();
     assert!(window.shown().progress.is_done);
-    assert!(!has(&window, "Drop a scene here"));
+    assert!(!has(&window, "Drop a scene or open one"));
 }
 
 #[test]
@@ -832,4 +833,24 @@ fn while_a_scene_is_read_the_panel_names_it_and_counts_no_samples() {
     }
     let mut found = (window.harness).query_all(by().label_contains("0 of 0 samples"));
     assert!(found.next().is_none());
+}
+
+#[test]
+fn an_empty_window_offers_recent_files_and_the_built_in_scene() {
+    let place = Folder::new(&[("model.glb", "glTF"), ("one.toml", &scene("1"))]);
+    let mut window = place.open("model.glb");
+    window.session().preferences.recent = vec![place.path("one.toml")];
+    window.settle();
+    window.harness.get_by_label("one.toml").click();
+    window.settle();
+    assert_eq!(window.session().path, Some(place.path("one.toml")));
+    assert!(window.harness.query_by_label("Built-in scene").is_none());
+    let mut window = place.open("model.glb");
+    window.harness.get_by_label("Built-in scene").click();
+    window.settle();
+    let demo = glimray::app::showcase::scene().expect("the demo");
+    let session = window.session();
+    assert_eq!(session.scene().expect("a scene").as_ref(), &demo);
+    assert_eq!(session.title(), "demo");
+    assert!(session.files.broken.is_none());
 }

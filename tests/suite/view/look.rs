@@ -357,3 +357,25 @@ fn a_pale_colour_has_an_edge_that_is_seen_on_a_light_panel() {
     let darkest = edges.into_iter().min().expect("a pixel");
     assert!(panel - darkest > 60, "{edges:?} on {panel}");
 }
+
+#[test]
+fn where_a_scene_does_not_set_its_samples_the_window_aims_at_64() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = "camera = { look_from = [0, 0, 8], look_at = [0, 0, 0] }\n";
+    for (name, said, own, aim) in [
+        ("silent.toml", "", 1, 64),
+        ("few.toml", "output = { samples = 3 }\n", 3, 3),
+        ("many.toml", "output = { samples = 100 }\n", 100, 100),
+    ] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, format!("{said}{text}")).expect("a file");
+        let path = path.to_str().expect("a path in UTF-8");
+        let mut window = Window::open(&[path, "--size", "16x12"]);
+        window.settle();
+        assert_eq!(window.shown().progress.samples, aim, "{name}");
+        // Keeping the other settings does not write the window's own count into the scene.
+        window.session().keep_look();
+        let kept = window.session().scene().expect("a scene").output.samples;
+        assert_eq!(kept, own, "{name}");
+    }
+}

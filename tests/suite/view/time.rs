@@ -2,8 +2,10 @@
 
 use super::harness::Window;
 use super::pixels;
+use eframe::egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glimray::scene::Shutter;
+use glimray::viewer::state::layout::Panel;
 
 const SIZE: [&str; 4] = ["--size", "60x40", "--samples", "2"];
 
@@ -131,10 +133,42 @@ fn playing_takes_as_long_as_the_clock_says() {
 #[test]
 fn a_scene_that_stands_still_says_so() {
     let mut window = open("sphere.scene");
+    let shows_time = |window: &Window| window.harness.state().layout().is_visible(Panel::Time);
+    assert!(!shows_time(&window), "there is nothing to play");
+    // By hand it is shown all the same, and stays.
+    window.harness.get_by_label("Window").click();
+    window.harness.run_steps(3);
+    let entry = (window.harness).get_by_role_and_label(Role::CheckBox, "Time");
+    entry.click();
+    window.settle();
+    window.harness.key_press(Key::Escape);
+    window.settle();
+    assert!(shows_time(&window));
     let button = window.harness.get_by_label("Play animation");
     assert!(button.accesskit_node().is_disabled());
     window.harness.get_by_label_contains("No animation");
     window.session().playback.toggle();
     window.settle();
     assert!(!window.session().playback.is_playing);
+}
+
+#[test]
+fn the_time_panel_comes_with_a_scene_that_moves_and_goes_with_the_next_that_does_not() {
+    let mut window = open("sphere.scene");
+    let shows_time = |window: &Window| window.harness.state().layout().is_visible(Panel::Time);
+    assert!(!shows_time(&window));
+    let height = |window: &Window| {
+        let picture = window.harness.get_by_label("Rendered picture");
+        picture.rect().height()
+    };
+    let tall = height(&window);
+    for (scene, is_shown) in [("orbits.toml", true), ("sphere.scene", false)] {
+        window
+            .session()
+            .open(format!("assets/scenes/{scene}").into());
+        window.settle();
+        assert_eq!(shows_time(&window), is_shown, "{scene}");
+        // The picture takes the room.
+        assert_eq!(height(&window) < tall - 50.0, is_shown, "{scene}");
+    }
 }

@@ -3,8 +3,9 @@
 use crate::app::clock::Clock;
 use crate::app::error::AppError;
 use crate::app::overrides::{CameraOverrides, Moment, picture_size};
+use crate::app::showcase;
 use crate::render::{Integrator, RenderSettings};
-use crate::scene::{OutputDefaults, Scene};
+use crate::scene::Scene;
 use crate::viewer::model::camera::CameraController;
 use crate::viewer::model::document::Document;
 use crate::viewer::model::loader::{Loader, Trouble};
@@ -15,6 +16,20 @@ use crate::viewer::state::session::Session;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::SystemTime;
+
+/// Least samples per pixel that the window aims at where the scene does not set them: the picture refines
+/// while it is watched, so more cost nothing.
+const SAMPLES: u32 = 64;
+
+/// Samples per pixel that the window aims at for a scene. A count equal to the scene's default counts as
+/// not set, as it does when the scene is saved.
+pub fn samples_of(scene: &Scene) -> u32 {
+    let samples = scene.output.samples;
+    match samples == scene.default_samples() {
+        true => samples.max(SAMPLES),
+        false => samples,
+    }
+}
 
 /// The result of loading a scene.
 pub struct Opened {
@@ -72,11 +87,20 @@ impl Session {
         }
     }
 
+    /// Shows the built-in scene, without what the command line says of another one.
+    ///
+    /// # Errors
+    /// The built-in scene is broken.
+    pub fn show_built_in(&mut self) -> Result<(), AppError> {
+        self.forget_scene_overrides();
+        self.show(showcase::scene()?)
+    }
+
     /// Shows a loaded scene with its own camera and settings.
     pub(super) fn show(&mut self, original: Scene) -> Result<(), AppError> {
         let mut scene = original.clone();
         self.request.overrides.camera.apply(&mut scene)?;
-        let settings = self.settings_of(&scene.output);
+        let settings = self.settings_of(&scene);
         let overrides = &self.request.overrides;
         let mut tone = (overrides.tone).tone(&scene.output, Integrator::Whitted, false);
         if let (None, Some(curve)) = (overrides.tone.curve, self.preferences.tone) {
@@ -118,10 +142,10 @@ impl Session {
     }
 
     /// The initial view settings of a scene: flags override preferences, which override the scene.
-    fn settings_of(&self, output: &OutputDefaults) -> RenderSettings {
+    fn settings_of(&self, scene: &Scene) -> RenderSettings {
         let picture = &self.request.overrides.picture;
-        let mut output = output.clone();
-        output.samples = self.preferences.samples.unwrap_or(output.samples);
+        let mut output = scene.output.clone();
+        output.samples = self.preferences.samples.unwrap_or(samples_of(scene));
         RenderSettings {
             // The crop becomes a region.
             crop: None,
@@ -205,7 +229,7 @@ impl Session {
             integrator,
             ..settings
         };
-        if self.view.settings == seen(self.settings_of(&before.output)) {
+        if self.view.settings == seen(self.settings_of(&before)) {
             self.view.settings = seen(own.settings);
         }
         if self.view.tone == self.view.scene_tone {

@@ -65,11 +65,12 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
     };
     let mut wish = None;
     let mut is_entered = false;
+    let mut is_cancelled = false;
     let title = match sheet.overlays {
         true => "Save the picture with overlays",
         false => "Save the picture",
     };
-    let stays = crate::viewer::ui::dialogs::window(ctx, title, vec2(460.0, 150.0), |ui| {
+    let stays = crate::viewer::ui::dialogs::window(ctx, title, vec2(460.0, 170.0), |ui| {
         ui.horizontal(|ui| {
             let width = ui.available_width() - 90.0;
             let field = TextEdit::singleline(&mut sheet.path).desired_width(width);
@@ -83,6 +84,7 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
                 wish = Some(Wish::Browse);
             }
         });
+        super::folder(ui, &sheet.path);
         if !sheet.overlays {
             ui.horizontal(|ui| {
                 for size in SaveSize::ALL {
@@ -143,12 +145,13 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
             {
                 wish = Some(Wish::Save { waits: true });
             }
+            is_cancelled = ui.button("Cancel").clicked();
         });
     });
     match wish {
         Some(Wish::Browse) => pictures::browse(session, ctx),
         Some(Wish::Save { waits }) => pictures::save(session, waits),
-        None if !stays => session.files.saving = None,
+        None if !stays || is_cancelled => session.files.saving = None,
         None => {}
     }
 }

@@ -1,6 +1,6 @@
 //! The dialog for saving the scene.
 
-use crate::viewer::actions::saving::{is_own, target, write};
+use crate::viewer::actions::saving::{browse, is_own, take_reply, target, write};
 use crate::viewer::ui::context::PanelContext;
 use eframe::egui::{self, Button, Ui};
 
@@ -28,13 +28,24 @@ pub fn show(ui: &mut egui::Ui, context: &mut PanelContext) {
     let Some(mut saving) = session.editing.saving.take() else {
         return;
     };
+    take_reply(session, &mut saving);
     let modal = egui::Modal::new(egui::Id::unique("save scene")).show(ui.ctx(), |ui| {
         ui.set_width(420.0);
         ui.heading("Save the scene");
         ui.add_space(8.0);
         let label = ui.label("File name");
-        let edit = egui::TextEdit::singleline(&mut saving.name).desired_width(f32::INFINITY);
-        let edit = ui.add(edit).labelled_by(label.id);
+        let edit = ui.horizontal(|ui| {
+            let width = ui.available_width() - 90.0;
+            let edit = egui::TextEdit::singleline(&mut saving.name).desired_width(width);
+            let edit = ui.add(edit).labelled_by(label.id);
+            let button = ui.button("Browse…");
+            if (button.on_hover_text("Open the system's file dialog")).clicked() {
+                browse(session, &mut saving, ui.ctx());
+            }
+            edit
+        });
+        let edit = edit.inner;
+        super::folder(ui, &saving.name);
         if std::mem::take(&mut saving.is_new) {
             edit.request_focus();
         }

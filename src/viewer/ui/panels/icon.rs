@@ -2,6 +2,7 @@
 
 use crate::scene::{CanonicalShape, Geometry, LightKind, ObjectRef, Scene};
 use crate::viewer::model::objects::Id;
+use crate::viewer::model::swatch::Swatch;
 use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke, vec2};
 use glam::Vec3;
 
@@ -29,9 +30,12 @@ pub fn draw(ui: &egui::Ui, rect: Rect, scene: &Scene, id: Id, visible: bool) {
         false => ui.visuals().weak_text_color(),
     };
     let stroke = Stroke::new(1.0, line);
-    let fill = own_color(scene, id).map_or(Color32::TRANSPARENT, |color| match visible {
-        true => on_screen(color),
-        false => on_screen(color).gamma_multiply(0.4),
+    let swatch = own_swatch(scene, id);
+    let fill = swatch.map_or(Color32::TRANSPARENT, |swatch| {
+        // The panel shows through what is clear.
+        let share = if swatch.is_clear { 0.35 } else { 1.0 };
+        let share = if visible { share } else { share * 0.4 };
+        on_screen(swatch.color).gamma_multiply(share)
     });
     let painter = ui.painter();
     let (center, radius) = (rect.center(), rect.width() / 2.0);
@@ -99,22 +103,15 @@ pub fn draw(ui: &egui::Ui, rect: Rect, scene: &Scene, id: Id, visible: bool) {
             painter.rect(inner, 2.0, fill, stroke, egui::StrokeKind::Middle);
         }
     }
+    if visible && swatch.is_some_and(|swatch| swatch.is_glossy) {
+        let highlight = Color32::from_white_alpha(200);
+        painter.circle_filled(center - vec2(1.5, 1.0), 1.4, highlight);
+    }
 }
 
-fn own_color(scene: &Scene, id: Id) -> Option<Vec3> {
-    let of_material = |index: usize| {
-        let material = scene.materials.get(index)?;
-        // Pure mirrors and glass have their colour there.
-        let colors = [
-            material.emission,
-            material.diffuse,
-            material.transmit,
-            material.reflect,
-            material.specular,
-        ];
-        let is_bright = |color: &Vec3| color.max_element() > 0.02;
-        Some(colors.into_iter().find(is_bright).unwrap_or(Vec3::ZERO))
-    };
+/// The swatch of an object's material, or of a light's colour; `None` for anything else.
+fn own_swatch(scene: &Scene, id: Id) -> Option<Swatch> {
+    let of_material = |index: usize| Some(Swatch::of(scene.materials.get(index)?));
     match id {
         Id::Material(index) => of_material(index),
         Id::Object(ObjectRef::Shape(index)) => of_material(scene.shapes.get(index)?.material),
@@ -124,7 +121,11 @@ fn own_color(scene: &Scene, id: Id) -> Option<Vec3> {
         }
         Id::Object(ObjectRef::Light(index)) => {
             let color = scene.lights.get(index)?.color;
-            Some(color / color.max_element().max(1e-6))
+            Some(Swatch {
+                color: color / color.max_element().max(1e-6),
+                is_glossy: false,
+                is_clear: false,
+            })
         }
         _ => None,
     }

@@ -4,6 +4,7 @@ use crate::viewer::actions::commands;
 use crate::viewer::actions::files;
 use crate::viewer::actions::files::cameras;
 use crate::viewer::model::bindings::Action as A;
+use crate::viewer::model::document::Document;
 use crate::viewer::model::view_settings::Sharing;
 use crate::viewer::state::dialogs::Dialog;
 use crate::viewer::state::layout::{Layout, Panel};
@@ -161,8 +162,16 @@ fn file(menu: &mut Menu) {
 
 fn edit(menu: &mut Menu) {
     let has_selection = menu.context.session.selection.is_some();
-    menu.entry("Undo", A::Undo);
-    menu.entry("Redo", A::Redo);
+    let document = menu.context.session.document.as_ref();
+    let undo = document.and_then(Document::undo_name).map(str::to_owned);
+    let redo = document.and_then(Document::redo_name).map(str::to_owned);
+    for (verb, name, action) in [("Undo", undo, A::Undo), ("Redo", redo, A::Redo)] {
+        let text = match &name {
+            Some(name) => format!("{verb} {name}"),
+            None => verb.to_owned(),
+        };
+        menu.entry_if(name.is_some(), &text, action);
+    }
     menu.line();
     menu.entry_if(has_selection, "Rename", A::Rename);
     menu.entry_if(has_selection, "Duplicate", A::Duplicate);

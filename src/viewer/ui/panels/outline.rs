@@ -1,23 +1,35 @@
 //! The outline of the scene.
 
+use crate::scene::Scene;
 use crate::viewer::actions::editing;
+use crate::viewer::actions::selecting::Pick;
 use crate::viewer::model::bindings::Action;
 use crate::viewer::model::objects;
 use crate::viewer::model::objects::Id;
-use crate::viewer::model::outline::Entry;
+use crate::viewer::model::outline::{self, Entry};
 use crate::viewer::state::session::Session;
 use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::panels::icon;
-use eframe::egui::{self, Key, Rect, RichText, UiBuilder, vec2};
+use eframe::egui::{
+    self, Color32, DragAndDrop, Key, Rect, RichText, Sense, StrokeKind, WidgetInfo, WidgetText,
+    vec2,
+};
 
 /// Indentation per level.
 const INDENT: f32 = 12.0;
 /// Width of icons and toggles.
 const ICON: f32 = 16.0;
+/// Of the triangle that folds a group.
+const TRIANGLE: f32 = 12.0;
+
+/// Lines that are being dragged.
+struct Dragged(Vec<Id>);
 
 /// An action of the user on a row.
 enum Wish {
-    Select(Id),
+    Select(Id, Pick),
+    Fold(usize),
+    Move(Vec<Id>, Option<usize>),
     Frame(Id),
     Show(Id, bool),
     Rename(Id),
@@ -64,7 +76,7 @@ pub fn outline(ui: &mut egui::Ui, context: &mut PanelContext) {
 fn lines(
     ui: &mut egui::Ui,
     session: &mut Session,
-    scene: &crate::scene::Scene,
+    scene: &Scene,
     height: f32,
     wishes: &mut Vec<Wish>,
 ) {
@@ -75,6 +87,11 @@ fn lines(
         .auto_shrink([false, false])
         .max_height(height);
     // Scrolls to a selection made elsewhere.
+    if let Some(id) = selection
+        && session.editing.seen_selection != selection
+    {
+        session.editing.listing.reveal(id);
+    }
     let row = selection.and_then(|id| session.editing.listing.row_of(id));
     if session.editing.seen_selection != selection {
         session.editing.seen_selection = selection;
@@ -100,15 +117,14 @@ fn lines(
             .cloned()
             .collect();
         for (row, entry) in range.zip(entries) {
-            ui.push_id(row, |ui| match entry.id {
-                None => {
-                    let text = RichText::new(&entry.label).strong().small();
-                    ui.horizontal(|ui| {
-                        ui.set_height(row_height);
-                        ui.label(text);
-                    });
+            let fold = session.editing.listing.fold(row);
+            ui.push_id(row, |ui| {
+                let left = line(ui, session, scene, &entry, had_focus, wishes);
+                if let Some(is_folded) = fold
+                    && triangle(ui, left, is_folded, &entry.label).clicked()
+                {
+                    wishes.push(Wish::Fold(row));
                 }
-                Some(id) => line(ui, session, scene, &entry, id, had_focus, wishes),
             });
         }
     });
@@ -116,33 +132,36 @@ fn lines(
     session.editing.seen_lines = egui::Rangef::new(top, top + output.inner_rect.height());
 }
 
+/// Draws one line. All of it can be clicked and dragged. Returns where its triangle goes.
 fn line(
     ui: &mut egui::Ui,
     session: &mut Session,
-    scene: &crate::scene::Scene,
+    scene: &Scene,
     entry: &Entry,
-    id: Id,
     had_focus: Option<egui::Id>,
     wishes: &mut Vec<Wish>,
-) {
-    let is_selected = session.selection == Some(id);
-    let (rect, _) = ui.allocate_exact_size(
-        vec2(ui.available_width(), ui.spacing().interact_size.y),
-        egui::Sense::hover(),
-    );
-    let mut ui = ui.new_child(UiBuilder::new().max_rect(rect));
-    let mut left = rect;
-    left.min.x += INDENT * (entry.depth.saturating_sub(1)) as f32;
-    let (own, rest) = left.split_left_right_at_x(left.min.x + ICON);
-    icon::draw(&ui, own, scene, id, entry.visible);
-    let can_hide = matches!(id, Id::Object(_) | Id::Node(_));
-    let switch = if can_hide { ICON + 4.0 } else { 0.0 };
-    let (middle, right) = rest.split_left_right_at_x(rest.max.x - switch);
+) -> Rect {
+    let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    let mut inner = rect;
+    inner.min.x += INDENT * (entry.depth.saturating_sub(1)) as f32;
+    let (triangle, mut middle) = inner.split_left_right_at_x(inner.min.x + TRIANGLE);
+    let is_selected = entry.id.is_some_and(|id| session.is_selected(id));
+    accept(ui, &response, scene, entry, wishes);
+    let Some(id) = entry.id else {
+        response
+            .widget_info(|| WidgetInfo::labeled(egui::Role::Button, ui.is_enabled(), &entry.label));
+        background(ui, &response, is_selected);
+        let text = RichText::new(&entry.label).strong().small();
+        write(ui, middle, text, ui.visuals().strong_text_color());
+        return triangle;
+    };
     if let Some((renamed, name)) = &mut session.editing.renaming
         && *renamed == id
     {
+        icon::draw(ui, icon_of(&mut middle), scene, id, entry.visible);
         let edit = egui::TextEdit::singleline(name).id_salt("rename");
-        let edit = ui.put(middle.with_min_x(middle.min.x + 4.0), edit);
+        let edit = ui.put(middle, edit);
         icon::named(&edit, "New name");
         if edit.lost_focus() {
             let is_kept = !ui.input(|input| input.key_pressed(Key::Escape));
@@ -154,29 +173,49 @@ fn line(
         } else if !edit.has_focus() {
             edit.request_focus();
         }
-        return;
+        return triangle;
     }
-    let text = match entry.visible {
-        true => RichText::new(&entry.label),
-        false => RichText::new(&entry.label).weak(),
-    };
-    let response = ui
-        .scope_builder(
-            UiBuilder::new()
-                .max_rect(middle)
-                .layout(egui::Layout::left_to_right(egui::Align::Center)),
-            |ui| ui.add(egui::Button::selectable(is_selected, text).truncate()),
+    response.widget_info(|| {
+        WidgetInfo::selected(
+            egui::Role::Button,
+            ui.is_enabled(),
+            is_selected,
+            &entry.label,
         )
-        .inner;
+    });
+    let color = background(ui, &response, is_selected);
+    icon::draw(ui, icon_of(&mut middle), scene, id, entry.visible);
+    let can_hide = matches!(id, Id::Object(_) | Id::Node(_));
+    let switch = if can_hide { ICON + 4.0 } else { 0.0 };
+    let (text, right) = middle.split_left_right_at_x(middle.max.x - switch);
+    let color = match entry.visible {
+        true => color,
+        false => ui.visuals().weak_text_color(),
+    };
+    write(ui, text, RichText::new(&entry.label), color);
+    let modifiers = ui.input(|input| input.modifiers);
     if response.clicked() {
-        wishes.push(Wish::Select(id));
+        let pick = match (modifiers.command, modifiers.shift) {
+            (true, _) => Pick::Toggle,
+            (_, true) => Pick::Range,
+            _ => Pick::Only,
+        };
+        wishes.push(Wish::Select(id, pick));
     }
     if response.double_clicked() {
         wishes.push(Wish::Frame(id));
     }
+    if response.drag_started() {
+        let ids = match is_selected {
+            true => session.selected(),
+            false => vec![id],
+        };
+        DragAndDrop::set_payload(ui.ctx(), Dragged(ids));
+    }
     // Arrow keys continue from the clicked row. The focus follows the selection and is never taken from a
     // widget outside the list.
-    let follows = is_selected && editing::holds_focus(had_focus, ui.ctx());
+    let leads = session.selection == Some(id);
+    let follows = leads && editing::holds_focus(had_focus, ui.ctx());
     if response.clicked() || follows && !response.has_focus() {
         response.request_focus();
     }
@@ -193,26 +232,93 @@ fn line(
     response.context_menu(|ui| menu(ui, scene, id, entry.visible, wishes));
     if can_hide {
         let verb = if entry.visible { "Hide" } else { "Show" };
-        let response = icon::eye(
-            &mut ui,
-            Rect::from_center_size(right.center(), vec2(ICON, ICON)),
-            entry.visible,
-        );
+        let at = Rect::from_center_size(right.center(), vec2(ICON, ICON));
+        let response = icon::eye(ui, at, entry.visible);
         let name = format!("{verb} {}", entry.label);
         icon::named(&response, &name);
         if response.on_hover_text(name).clicked() {
             wishes.push(Wish::Show(id, !entry.visible));
         }
     }
+    triangle
 }
 
-fn menu(
-    ui: &mut egui::Ui,
-    scene: &crate::scene::Scene,
-    id: Id,
-    visible: bool,
+/// Cuts the place of the icon off the left of a line.
+fn icon_of(line: &mut Rect) -> Rect {
+    let (icon, rest) = line.split_left_right_at_x(line.min.x + ICON);
+    *line = rest.with_min_x(rest.min.x + 4.0);
+    icon
+}
+
+/// Fills a line that is selected or under the cursor. Returns the colour of its text.
+fn background(ui: &egui::Ui, response: &egui::Response, is_selected: bool) -> Color32 {
+    let visuals = ui.style().interact_selectable(response, is_selected);
+    if is_selected || response.hovered() || response.has_focus() {
+        let radius = visuals.corner_radius;
+        ui.painter()
+            .rect_filled(response.rect, radius, visuals.weak_bg_fill);
+    }
+    match is_selected || response.hovered() {
+        true => visuals.text_color(),
+        false => ui.visuals().text_color(),
+    }
+}
+
+/// Writes a label into a line, cut off where it is too long.
+fn write(ui: &egui::Ui, rect: Rect, text: RichText, color: Color32) {
+    let galley = WidgetText::from(text).into_galley(
+        ui,
+        Some(egui::TextWrapMode::Truncate),
+        rect.width(),
+        egui::TextStyle::Button,
+    );
+    let at = rect.left_center() - vec2(0.0, galley.size().y / 2.0);
+    ui.painter().galley(at, galley, color);
+}
+
+/// The triangle that folds a group.
+fn triangle(ui: &mut egui::Ui, rect: Rect, is_folded: bool, label: &str) -> egui::Response {
+    let response = ui.interact(rect, ui.id().with("fold"), Sense::click());
+    let verb = if is_folded { "Unfold" } else { "Fold" };
+    let name = format!("{verb} {label}");
+    response.widget_info(|| {
+        WidgetInfo::labeled(egui::Role::DisclosureTriangle, ui.is_enabled(), &name)
+    });
+    let openness = if is_folded { 0.0 } else { 1.0 };
+    let mut icon = response.clone();
+    icon.rect = Rect::from_center_size(rect.center(), vec2(8.0, 8.0));
+    egui::collapsing_header::paint_default_icon(ui, openness, &icon);
+    response
+}
+
+/// Takes lines that are dropped here: a node becomes their parent, and an object's own parent does.
+fn accept(
+    ui: &egui::Ui,
+    response: &egui::Response,
+    scene: &Scene,
+    entry: &Entry,
     wishes: &mut Vec<Wish>,
 ) {
+    let parent = match entry.id {
+        Some(Id::Node(index)) => Some(index),
+        Some(id @ Id::Object(_)) => objects::shown_carrier(scene, objects::carrier(scene, id)),
+        None if entry.label == outline::OBJECTS => None,
+        _ => return,
+    };
+    let is_other = |dragged: &Dragged| !(entry.id).is_some_and(|id| dragged.0.contains(&id));
+    if (response.dnd_hover_payload::<Dragged>()).is_some_and(|dragged| is_other(&dragged)) {
+        let stroke = ui.visuals().selection.stroke;
+        ui.painter()
+            .rect_stroke(response.rect, 2.0, stroke, StrokeKind::Inside);
+    }
+    if let Some(dragged) = response.dnd_release_payload::<Dragged>()
+        && is_other(&dragged)
+    {
+        wishes.push(Wish::Move(dragged.0.clone(), parent));
+    }
+}
+
+fn menu(ui: &mut egui::Ui, scene: &Scene, id: Id, visible: bool, wishes: &mut Vec<Wish>) {
     let mut item = |ui: &mut egui::Ui, text: &str, wish: Wish| {
         if ui.button(text).clicked() {
             wishes.push(wish);
@@ -224,9 +330,10 @@ fn menu(
         Id::Material(_) => {}
         _ => item(ui, "Frame", Wish::Frame(id)),
     }
-    if objects::name(scene, id).is_some() {
-        item(ui, "Rename", Wish::Rename(id));
-    }
+    let has_name = objects::name(scene, id).is_some();
+    ui.add_enabled_ui(has_name, |ui| item(ui, "Rename", Wish::Rename(id)))
+        .response
+        .on_disabled_hover_text("Objects and lights have no name of their own");
     if !matches!(id, Id::Node(_)) {
         item(ui, "Duplicate", Wish::Do(id, Action::Duplicate));
     }
@@ -244,8 +351,14 @@ fn menu(
 
 fn grant(session: &mut Session, wish: Wish) {
     match wish {
-        Wish::Select(id) => session.selection = Some(id),
+        Wish::Select(id, pick) => session.pick(id, pick),
+        Wish::Fold(row) => session.editing.listing.toggle_fold(row),
+        Wish::Move(ids, parent) => session.set_parent(&ids, parent),
         Wish::Frame(id) => session.frame(id),
+        Wish::Show(id, visible) if session.is_selected(id) => {
+            let ids = session.selected();
+            session.set_all_visible(&ids, visible);
+        }
         Wish::Show(id, visible) => session.set_visible(id, visible),
         Wish::Rename(id) => {
             session.selection = Some(id);
@@ -261,7 +374,10 @@ fn grant(session: &mut Session, wish: Wish) {
             }
         }
         Wish::Do(id, action) => {
-            session.selection = Some(id);
+            // A menu on one of several selected lines is for all of them.
+            if !session.is_selected(id) {
+                session.pick(id, Pick::Only);
+            }
             session.clicked.push(action);
         }
         Wish::HideOthers(id) => session.hide_others(id),

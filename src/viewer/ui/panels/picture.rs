@@ -4,11 +4,11 @@ mod caption;
 mod compare;
 mod framing;
 mod legend;
+mod start;
 
 use crate::viewer::actions::inspector;
 use crate::viewer::actions::region;
 use crate::viewer::actions::tools;
-use crate::viewer::model::bindings::Action;
 use crate::viewer::model::view_settings::{Comparison, Sharing};
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::state::cursor::REST;
@@ -17,7 +17,7 @@ use crate::viewer::ui::panels::rays;
 use crate::viewer::ui::{self, overlay};
 use crate::viewer::worker::progressive_image::PictureSlot;
 use crate::viewer::worker::progressive_image::Shown;
-use eframe::egui::{self, Align2, Color32, Pos2, Rect, RichText, Vec2};
+use eframe::egui::{self, Align2, Color32, Pos2, Rect, Vec2};
 
 /// Texture coordinates of a whole texture.
 const WHOLE: Rect = Rect {
@@ -83,7 +83,7 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
         scaled(ui, context, space);
     }
     if context.session.is_empty() {
-        empty(ui, context, space);
+        start::start(ui, context.session, space);
     }
 }
 
@@ -156,19 +156,6 @@ fn scaled(ui: &egui::Ui, context: &mut PanelContext, space: Rect) {
                 });
             });
         });
-}
-
-/// The hint without a scene.
-fn empty(ui: &mut egui::Ui, context: &PanelContext, space: Rect) {
-    let key = context.session.preferences.bindings.label(Action::Open);
-    let key = match key.is_empty() {
-        true => String::new(),
-        false => format!(" ({key})"),
-    };
-    let text = format!("Drop a scene here, or open one{key}");
-    let area = Rect::from_center_size(space.center(), Vec2::new(space.width(), 24.0));
-    let label = egui::Label::new(RichText::new(text).size(16.0)).selectable(false);
-    ui.put(area, label);
 }
 
 /// Of two pictures side by side, the mouse belongs to the one under it; while a button is held, to the one

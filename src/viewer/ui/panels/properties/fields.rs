@@ -2,10 +2,13 @@
 
 use crate::scene::{Scene, Target};
 use crate::viewer::model::objects::EditError;
+use crate::viewer::ui::overlay::COLORS;
 use crate::viewer::ui::panels::icon::{edge, named};
 use eframe::egui::{self, DragValue, Ui, UiBuilder, vec2};
 use glam::{DVec3, Vec3};
 
+/// Width of the letter of an axis.
+const AXIS: f32 = 8.0;
 /// Width of labels, in points.
 const LABEL: f32 = 84.0;
 /// Tooltip of animated properties.
@@ -187,10 +190,15 @@ impl Fields<'_> {
         target: Option<Target>,
     ) -> Option<DVec3> {
         self.row(label, tip, target, |ui, _| {
-            ui.spacing_mut().item_spacing.x = 3.0;
-            let width = (ui.available_width() - 6.0) / 3.0;
+            ui.spacing_mut().item_spacing.x = 2.0;
+            let width = (ui.available_width() - 10.0) / 3.0 - AXIS;
             let mut changed = None;
             for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+                let size = vec2(AXIS, ui.spacing().interact_size.y);
+                let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+                let font = egui::TextStyle::Small.resolve(ui.style());
+                let (center, letter) = (egui::Align2::CENTER_CENTER, name.to_uppercase());
+                (ui.painter()).text(rect.center(), center, letter, font, COLORS[axis]);
                 let name = format!("{label} {name}");
                 if let Some(now) = drag(ui, Name::Own(&name), tip, value[axis], limits, width) {
                     changed.get_or_insert(value)[axis] = now;
@@ -237,6 +245,25 @@ impl Fields<'_> {
             changed
         });
         self.set(label, value, set);
+    }
+
+    /// Whether an option of this object is on; `usual` until the user changes it.
+    pub fn is_kept(&self, label: &str, usual: bool) -> bool {
+        let id = egui::Id::unique((label, &self.subject));
+        self.ui.data(|data| data.get_temp(id)).unwrap_or(usual)
+    }
+
+    /// A check box for `value`, kept while the window is open without changing the scene. Returns its new
+    /// value when it is clicked.
+    pub fn option(&mut self, label: &str, tip: &str, mut value: bool) -> Option<bool> {
+        let id = egui::Id::unique((label, &self.subject));
+        self.row("", tip, None, |ui, _| {
+            let response = ui.checkbox(&mut value, label).on_hover_text(tip);
+            response.changed().then(|| {
+                ui.data_mut(|data| data.insert_temp(id, value));
+                value
+            })
+        })
     }
 
     /// A row with a check box.

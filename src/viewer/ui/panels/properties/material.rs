@@ -10,6 +10,9 @@ use crate::viewer::ui::panels::icon;
 use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
 use glam::Vec3;
 
+/// The option that links the ambient colour to the diffuse colour.
+const FOLLOWS: &str = "Ambient follows diffuse";
+
 /// Draws all properties of a material.
 pub fn show(fields: &mut Fields, index: usize) {
     let material = fields.scene.materials[index].clone();
@@ -19,11 +22,36 @@ pub fn show(fields: &mut Fields, index: usize) {
         color(fields, index, label, tip, property, slot);
     };
     let tip = "Diffuse reflection coefficient (k_d).";
-    of(fields, "Diffuse", tip, P::Diffuse, |m| &mut m.diffuse);
+    let follow_tip = "Set the ambient colour together with the diffuse colour.";
+    let is_same = material.ambient == material.diffuse;
+    let target = Some(Target::Material(index, P::Diffuse));
+    let follows = is_same && fields.is_kept(FOLLOWS, true);
+    fields.color(
+        "Diffuse",
+        tip,
+        material.diffuse,
+        target,
+        move |scene, to| {
+            let material = &mut scene.materials[index];
+            material.diffuse = to;
+            if follows {
+                material.ambient = to;
+            }
+        },
+    );
     let tip = "Specular reflection coefficient (k_s).";
     of(fields, "Specular", tip, P::Specular, |m| &mut m.specular);
     let tip = "Factor on the scene's ambient light.";
-    of(fields, "Ambient", tip, P::Ambient, |m| &mut m.ambient);
+    if !follows {
+        of(fields, "Ambient", tip, P::Ambient, |m| &mut m.ambient);
+    }
+    if fields.option(FOLLOWS, follow_tip, follows) == Some(true) {
+        fields.change("ambient", move |scene| {
+            let material = &mut scene.materials[index];
+            material.ambient = material.diffuse;
+            Ok(())
+        });
+    }
     let tip = "Radiance emitted by the surface.";
     of(fields, "Emission", tip, P::Emission, |m| &mut m.emission);
     let number = |fields: &mut Fields, label, tip, limits, property, slot: Number| {

@@ -52,7 +52,14 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
             let tip =
                 "Factors along the object's own axes. Negative factors mirror; 0 is not allowed.";
             let limits = Limits::LENGTH;
-            if let Some(scale) = fields.vector_value("Scale", tip, told.scale, limits, None) {
+            let scale = fields.vector_value("Scale", tip, told.scale, limits, None);
+            let tip = "Change all three factors by the same ratio.";
+            let is_linked = fields.is_kept("Uniform scale", false);
+            fields.option("Uniform scale", tip, is_linked);
+            if let Some(mut scale) = scale {
+                if is_linked {
+                    scale = linked(told.scale, scale);
+                }
                 fields.change("scale", asked(Transform { scale, ..told }));
             }
         }
@@ -67,6 +74,12 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
     {
         fields.note("Its parent is animated. Edits change its transform relative to the parent.");
     }
+}
+
+/// The three factors after one of them has changed, with their ratios kept.
+fn linked(before: DVec3, after: DVec3) -> DVec3 {
+    let axis = (0..3).find(|&axis| before[axis] != after[axis]);
+    axis.map_or(after, |axis| before * (after[axis] / before[axis]))
 }
 
 /// The properties of a shape except its transform.
