@@ -445,7 +445,7 @@ fn what_is_no_line_of_ours_is_refused_in_one_line() {
         ("glimray render a.toml --camera nobody", "no such camera"),
         ("glimray render a.toml --look-at 1,2,9", "same point"),
         ("glimray doctor", "render"),
-        ("glimray --help", "Cannot paste"),
+        ("glimray --help", "cannot"),
     ] {
         let mut scene = scene();
         scene.cameras[0].look_from = dvec3(1.0, 2.0, 9.0);
