@@ -434,9 +434,9 @@ fn lines_are_read_as_people_have_them() {
 #[test]
 fn what_is_no_line_of_ours_is_refused_in_one_line() {
     for (line, needle) in [
-        ("", "no `glimray` command line"),
-        ("hello world", "no `glimray` command line"),
-        ("rm -rf /", "no `glimray` command line"),
+        ("", "not contain a `glimray` command line"),
+        ("hello world", "not contain a `glimray` command line"),
+        ("rm -rf /", "not contain a `glimray` command line"),
         ("glimray render 'a.toml", "quotation"),
         ("glimray render", "required"),
         ("glimray fly a.toml", "fly"),
@@ -445,7 +445,7 @@ fn what_is_no_line_of_ours_is_refused_in_one_line() {
         ("glimray render a.toml --camera nobody", "no such camera"),
         ("glimray render a.toml --look-at 1,2,9", "same point"),
         ("glimray doctor", "render"),
-        ("glimray --help", "Cannot paste"),
+        ("glimray --help", "cannot"),
     ] {
         let mut scene = scene();
         scene.cameras[0].look_from = dvec3(1.0, 2.0, 9.0);

@@ -1,11 +1,15 @@
 //! Rows of settings with a reset button, and titles of command-line words.
 
 use crate::app::words::Words;
+use crate::render::Integrator;
 use eframe::egui::{self, Response, RichText, Ui, WidgetInfo};
 use std::ops::RangeInclusive;
 
 /// The title of a command-line word: `side-by-side` becomes `Side by side`.
 pub fn title(word: &str) -> String {
+    if let Some(integrator) = Integrator::named(word) {
+        return integrator.entry().title.into();
+    }
     match word {
         // Proper names.
         "srgb" => return "sRGB".into(),
