@@ -2,8 +2,9 @@
 
 use crate::viewer::worker::request::RenderRequest;
 
-/// Seconds that the cursor must rest on a pixel before the renderer is asked about it.
-pub const REST: f64 = 0.12;
+/// Seconds that the cursor must rest on a pixel before the renderer is asked about it: long enough that a drag
+/// that begins there does not wait for the answer.
+pub const REST: f64 = 0.6;
 
 /// What a pixel of the main picture shows.
 #[derive(Clone, Debug, PartialEq)]
