@@ -16,11 +16,15 @@ use crate::viewer::worker::progressive_image::{FrameRenderer, PictureSlot};
 use crate::viewer::worker::request::RenderRequest;
 use eframe::egui;
 
+/// Least width in which the ray tree can be read, in points.
+const READABLE: f32 = 420.0;
+
 /// Takes the inspector's tool and shows its panels.
 pub fn open(session: &mut Session, layout: &mut Layout) {
     session.tool = Tool::Inspect;
     layout.set_visible(Panel::Rays, true);
     layout.set_visible(Panel::Outside, true);
+    layout.widen(Panel::Rays, READABLE);
 }
 
 /// Asks again what another renderer was asked, which is gone.
