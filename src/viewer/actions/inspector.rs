@@ -16,11 +16,15 @@ use crate::viewer::worker::progressive_image::{FrameRenderer, PictureSlot};
 use crate::viewer::worker::request::RenderRequest;
 use eframe::egui;
 
+/// Minimum width of a readable ray tree, in points.
+const READABLE: f32 = 420.0;
+
 /// Activates the inspector and shows its panels.
 pub fn open(session: &mut Session, layout: &mut Layout) {
     session.tool = Tool::Inspect;
     layout.set_visible(Panel::Rays, true);
     layout.set_visible(Panel::Outside, true);
+    layout.widen(Panel::Rays, READABLE);
 }
 
 /// Repeats the request of a lost renderer.

@@ -57,6 +57,9 @@ const LEAST: f32 = 200.0;
 /// Minimum fraction of the picture, horizontally and vertically.
 const PICTURE: f32 = 0.4;
 
+/// Minimum fraction of the picture when a panel is widened.
+const LEAST_PICTURE: f32 = 0.2;
+
 /// The panels and their layout.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Layout {
@@ -224,6 +227,45 @@ impl Layout {
                     self.tree.set_visible(id, true);
                 }
             });
+        }
+    }
+
+    /// Makes a panel at least so wide, in points, at the picture's expense. The picture keeps a share of
+    /// the room.
+    pub fn widen(&mut self, panel: Panel, width: f32) {
+        let (Some(mut tile), Some(picture), Some([room, _])) =
+            (self.find(panel), self.find(Panel::Picture), self.room)
+        else {
+            return;
+        };
+        let mut holders = vec![picture];
+        while let Some(parent) = holders
+            .last()
+            .and_then(|tile| self.tree.tiles.parent_of(*tile))
+        {
+            holders.push(parent);
+        }
+        while let Some(parent) = self.tree.tiles.parent_of(tile) {
+            let visible: Vec<TileId> = (self.tree.tiles.iter())
+                .filter(|(id, _)| self.tree.tiles.is_visible(**id))
+                .map(|(id, _)| *id)
+                .collect();
+            if let Some(Tile::Container(Container::Linear(linear))) =
+                self.tree.tiles.get_mut(parent)
+                && linear.dir == LinearDir::Horizontal
+                && let Some(&giver) = (linear.children.iter()).find(|id| holders.contains(id))
+            {
+                let shown = linear.children.iter().filter(|id| visible.contains(id));
+                let total: f32 = shown.map(|id| linear.shares[*id]).sum();
+                let (now, gives) = (linear.shares[tile], linear.shares[giver]);
+                let more = (width * total / room - now).min(gives - LEAST_PICTURE * total);
+                if giver != tile && more > 0.0 {
+                    linear.shares.set_share(tile, now + more);
+                    linear.shares.set_share(giver, gives - more);
+                }
+                return;
+            }
+            tile = parent;
         }
     }
 

@@ -202,7 +202,8 @@ fn a_line_dropped_on_a_node_or_on_the_heading_changes_its_parent_and_keeps_its_p
     assert_eq!(moved.shapes[0].node, None);
     assert!(place(&moved, 0).distance(dvec3(0.0, 3.0, 0.0)) < 1e-9);
     // On another object it goes where that is.
-    drag(&mut window, NAMES[0], NAMES[1]);
+    let [from, to] = [0, 1].map(|index| window.session().label(ball(index)));
+    drag(&mut window, &from, &to);
     assert_eq!(scene(&window).shapes[0].node, Some(0));
     for _ in 0..3 {
         perform(&mut window, Action::Undo);

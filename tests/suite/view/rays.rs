@@ -568,3 +568,16 @@ fn no_control_of_the_rays_is_cut_off_at_the_edge_of_the_panel() {
         assert!(rect.max.x <= right, "{label}: {rect:?} beyond {right}");
     }
 }
+
+#[test]
+fn the_tree_is_wide_enough_to_read_and_its_columns_have_headers() {
+    let mut window = open_glass([32, 18]);
+    window.harness.set_size(egui::vec2(1280.0, 800.0));
+    window.settle();
+    let right = |label: &str| window.harness.get_by_label(label).rect().max.x;
+    let left = window.harness.get_by_label("Ray").rect().min.x;
+    // A panel of 420 points has margins of 8 on both sides, and a scroll bar of 8.
+    let width = right("Light") - left;
+    assert!(width >= 395.0, "{width} points");
+    assert!(right("Length") < right("Light"));
+}

@@ -27,6 +27,7 @@ pub fn list(ui: &mut egui::Ui, session: &mut Session) {
             session.inspector.fold_all(true);
         }
     });
+    headers(ui);
     let height = ui.spacing().interact_size.y;
     ui.spacing_mut().item_spacing.y = 1.0;
     let selected = session.inspector.selected;
@@ -54,6 +55,21 @@ pub fn list(ui: &mut egui::Ui, session: &mut Session) {
                 show(ui, session, row);
             });
         }
+    });
+}
+
+/// What the columns are.
+fn headers(ui: &mut egui::Ui) {
+    let header = |text: &str| egui::Label::new(RichText::new(text).small().strong());
+    ui.horizontal(|ui| {
+        ui.add(header("Ray"));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.add_space(SCROLL_BAR);
+            ui.add(header("Light"))
+                .on_hover_text("The light that the ray adds to the pixel");
+            ui.add(header("Length"))
+                .on_hover_text("Length of the ray, in scene units");
+        });
     });
 }
 
