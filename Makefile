@@ -8,7 +8,7 @@ FLAGS := --profile ci --locked
 GLIMRAY = $(TARGET)/release/glimray
 demo test: GLIMRAY = $(TARGET)/ci/glimray
 
-# Mesa's device-select layer complains on machines without a desktop session (see src/app/mesa.rs).
+# Mesa's device-select layer complains on machines without a desktop session (see src/cli/mesa.rs).
 export NODEVICE_SELECT := 1
 
 # A test that lacks one of these fails instead of being skipped (tests/suite/support/skip.rs): what

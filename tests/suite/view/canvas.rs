@@ -1,7 +1,6 @@
 //! One picture that follows its orders: what restarts it and what does not, coarse and fine, whole and
 //! in part; and that it is the command line's.
 
-use super::edit;
 use super::harness::Window;
 use super::pixels;
 use crate::reference::compare::{open_gpu, render, sized};

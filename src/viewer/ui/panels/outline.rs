@@ -278,7 +278,7 @@ fn write(ui: &egui::Ui, rect: Rect, text: RichText, color: Color32) {
 
 /// The triangle that folds a group.
 fn triangle(ui: &mut egui::Ui, rect: Rect, is_folded: bool, label: &str) -> egui::Response {
-    let response = ui.interact(rect, ui.id().with("fold"), Sense::click());
+    let response = ui.interact(rect, ui.scope_id().with("fold"), Sense::click());
     let verb = if is_folded { "Unfold" } else { "Fold" };
     let name = format!("{verb} {label}");
     response.widget_info(|| {
