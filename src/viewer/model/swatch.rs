@@ -1,6 +1,6 @@
 //! How a material looks in a small patch of colour.
 
-use crate::scene::Material;
+use crate::scene::{Fresnel, Material};
 use glam::Vec3;
 
 /// The thickness of glass that its absorption tints, in scene units.
@@ -20,8 +20,8 @@ pub struct Swatch {
 }
 
 impl Swatch {
-    /// The swatch of a material. Metals reflect most of the light in their colour, so the share that is
-    /// reflected or transmitted counts as much as the diffuse colour.
+    /// The swatch of a material, seen at normal incidence. Metals reflect most of the light in their colour,
+    /// so reflection and transmission count as much as the diffuse colour.
     pub fn of(material: &Material) -> Self {
         let Material {
             diffuse,
@@ -30,8 +30,14 @@ impl Swatch {
             transmit,
             emission,
             absorption,
+            fresnel,
+            ior,
             ..
         } = *material;
+        let reflect = match fresnel {
+            Fresnel::None | Fresnel::Schlick => reflect,
+            Fresnel::Exact => reflect * ((ior - 1.0) / (ior + 1.0)).powi(2),
+        };
         let mut color = emission + diffuse + reflect + transmit * (-absorption * THICKNESS).exp();
         if color.max_element() < LEAST {
             color += specular;
@@ -39,7 +45,7 @@ impl Swatch {
         Self {
             // Scaled as a whole: clamping each channel would change the hue.
             color: color / color.max_element().max(1.0),
-            is_glossy: reflect.max(specular).max_element() >= LEAST,
+            is_glossy: material.reflect.max(specular).max_element() >= LEAST,
             is_clear: transmit.max_element() >= LEAST,
         }
     }
