@@ -176,10 +176,10 @@ pub fn print(text: &str) -> Result<(), AppError> {
     print_bytes(text.as_bytes())
 }
 
-/// Like [`print`], with nothing escaped.
+/// Like [`print()`], with nothing escaped.
 ///
 /// # Errors
-/// As [`print`].
+/// As [`print()`].
 pub fn print_bytes(bytes: &[u8]) -> Result<(), AppError> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
@@ -191,7 +191,7 @@ pub fn print_bytes(bytes: &[u8]) -> Result<(), AppError> {
 /// Prints `value` as indented JSON.
 ///
 /// # Errors
-/// As [`print`].
+/// As [`print()`].
 pub fn print_json(value: &serde_json::Value) -> Result<(), AppError> {
     print_bytes(format!("{value:#}\n").as_bytes())
 }

@@ -12,8 +12,8 @@ use crate::viewer::worker::progressive_image::FrameRenderer;
 use glam::DVec3;
 
 /// Picks the object under a pixel of the picture.
-pub fn pick(studio: &mut FrameRenderer, pixel: [u32; 2], purpose: Purpose) -> Answer {
-    match studio.renderer.explain(pixel, 0..1) {
+pub fn pick(frame: &mut FrameRenderer, pixel: [u32; 2], purpose: Purpose) -> Answer {
+    match frame.renderer.explain(pixel, 0..1) {
         Ok(tree) => {
             let first = tree.samples.first().and_then(|sample| sample.rays.first());
             let hit = first.and_then(|ray| ray.hit.as_ref());

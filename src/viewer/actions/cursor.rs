@@ -37,26 +37,26 @@ pub fn update(session: &mut Session, progress: &Progress) {
     };
     if is_rendered && session.cursor.asked.as_ref() != Some(&subject) {
         session.cursor.asked = Some(subject);
-        session.ask(move |studio| probe(studio, pixel));
+        session.ask(move |frame| probe(frame, pixel));
     }
 }
 
-fn probe(studio: &mut FrameRenderer, pixel: [u32; 2]) -> Answer {
+fn probe(frame: &mut FrameRenderer, pixel: [u32; 2]) -> Answer {
     // A device that fails is reported where the picture itself fails.
-    let rgb = studio.displayed(pixel).unwrap_or(None);
+    let rgb = frame.displayed(pixel).unwrap_or(None);
     Answer::Probed(Probe {
         pixel,
         rgb,
-        surface: surface(studio, pixel),
+        surface: surface(frame, pixel),
     })
 }
 
-fn surface(studio: &mut FrameRenderer, pixel: [u32; 2]) -> Option<Surface> {
-    let tree = studio.renderer.explain(pixel, 0..1).ok()?;
+fn surface(frame: &mut FrameRenderer, pixel: [u32; 2]) -> Option<Surface> {
+    let tree = frame.renderer.explain(pixel, 0..1).ok()?;
     let ray = tree.samples.first()?.rays.first()?;
     let hit = ray.hit.as_ref()?;
     let id = hit.object.map(Id::Object);
-    let mut names = outline::labels(&studio.order.scene, id);
+    let mut names = outline::labels(&frame.order.scene, id);
     Some(Surface {
         object: id.and_then(|id| names.remove(&id)).unwrap_or_default(),
         distance: DVec3::from(hit.position).distance(DVec3::from(ray.origin)),

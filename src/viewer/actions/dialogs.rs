@@ -33,8 +33,8 @@ pub fn close_uppermost(session: &mut Session) -> bool {
         return true;
     }
     match session.dialogs.open.pop() {
-        Some(sheet) => {
-            closed(session, sheet);
+        Some(dialog) => {
+            closed(session, dialog);
             true
         }
         None => false,
@@ -42,8 +42,8 @@ pub fn close_uppermost(session: &mut Session) -> bool {
 }
 
 /// Called when a dialog is closed.
-pub fn closed(session: &mut Session, sheet: Dialog) {
-    if sheet == Dialog::Hint {
+pub fn closed(session: &mut Session, dialog: Dialog) {
+    if dialog == Dialog::Hint {
         session.preferences.hint_seen = true;
     }
 }

@@ -46,23 +46,23 @@ fn ask(session: &mut Session) {
     let inspector = &mut session.inspector;
     if let (Some(pixel), true, false) = (inspector.pixel, inspector.is_wanted, inspector.is_asked) {
         (inspector.is_wanted, inspector.is_asked) = (false, true);
-        session.ask(move |studio| Answer::Rays(rays(studio, pixel).map(Box::new)));
+        session.ask(move |frame| Answer::Rays(rays(frame, pixel).map(Box::new)));
     }
 }
 
 /// All rays of a pixel of the main picture.
-fn rays(studio: &mut FrameRenderer, pixel: [u32; 2]) -> Result<Inspected, String> {
-    let count = studio.renderer.samples_at(pixel);
+fn rays(frame: &mut FrameRenderer, pixel: [u32; 2]) -> Result<Inspected, String> {
+    let count = frame.renderer.samples_at(pixel);
     if count == 0 {
         let [x, y] = pixel;
         return Err(format!(
             "No rays for pixel {x},{y}: it is outside the picture or has no sample yet."
         ));
     }
-    let tree = studio.renderer.explain(pixel, 0..count);
-    let is_final = !studio.settings().is_adaptive() || studio.renderer.is_done();
+    let tree = frame.renderer.explain(pixel, 0..count);
+    let is_final = !frame.settings().is_adaptive() || frame.renderer.is_done();
     let tree = tree.map_err(|error| advice::render(&error))?;
-    Ok(Inspected::new(tree, studio.order.clone(), is_final))
+    Ok(Inspected::new(tree, frame.order.clone(), is_final))
 }
 
 /// Handles the answer of the render thread.

@@ -159,5 +159,5 @@ fn pick(session: &mut Session, action: Action, pixel: [u32; 2]) {
         Action::FocusHere => Purpose::Focus,
         _ => Purpose::Select,
     };
-    session.ask(move |studio| answers::pick(studio, pixel, purpose));
+    session.ask(move |frame| answers::pick(frame, pixel, purpose));
 }

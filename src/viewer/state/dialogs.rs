@@ -35,19 +35,19 @@ pub struct Dialogs {
 
 impl Dialogs {
     /// Whether a dialog is open.
-    pub fn is_open(&self, sheet: Dialog) -> bool {
-        self.open.contains(&sheet)
+    pub fn is_open(&self, dialog: Dialog) -> bool {
+        self.open.contains(&dialog)
     }
 
     /// Opens a dialog, above the others.
-    pub fn open(&mut self, sheet: Dialog) {
-        self.close(sheet);
-        self.open.push(sheet);
+    pub fn open(&mut self, dialog: Dialog) {
+        self.close(dialog);
+        self.open.push(dialog);
     }
 
     /// Closes a dialog.
-    pub fn close(&mut self, sheet: Dialog) {
-        self.open.retain(|known| *known != sheet);
+    pub fn close(&mut self, dialog: Dialog) {
+        self.open.retain(|known| *known != dialog);
     }
 
     /// Resets what was applied to the previous window.
@@ -56,10 +56,10 @@ impl Dialogs {
     }
 
     /// Opens a dialog, or closes it if it is open.
-    pub fn toggle(&mut self, sheet: Dialog) {
-        match self.is_open(sheet) {
-            true => self.close(sheet),
-            false => self.open(sheet),
+    pub fn toggle(&mut self, dialog: Dialog) {
+        match self.is_open(dialog) {
+            true => self.close(dialog),
+            false => self.open(dialog),
         }
     }
 }

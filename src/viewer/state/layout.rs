@@ -269,6 +269,11 @@ impl Layout {
         }
     }
 
+    /// The rectangle of a panel in the last frame, in points; `None` if it is hidden.
+    pub fn rect(&self, panel: Panel) -> Option<egui::Rect> {
+        self.tree.tiles.rect(self.find(panel)?)
+    }
+
     fn find(&self, panel: Panel) -> Option<TileId> {
         self.tree.tiles.find_pane(&panel)
     }

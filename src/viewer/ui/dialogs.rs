@@ -1,13 +1,13 @@
 //! Draws the dialogs over the window: keyboard shortcuts, preferences, the hint of the first run, messages,
 //! bookmarks and questions.
 
-mod bindings;
 mod cameras;
-mod first;
-mod history;
+mod first_steps;
+mod messages;
 mod preferences;
 mod questions;
 mod save_scene;
+mod shortcuts;
 
 use crate::viewer::actions::commands;
 use crate::viewer::actions::editing;
@@ -26,17 +26,17 @@ pub fn show(ui: &mut egui::Ui, context: &mut PanelContext, layout: &mut Layout) 
         return;
     }
     let ctx = ui.ctx().clone();
-    for sheet in context.session.dialogs.open.clone() {
-        let stays = match sheet {
-            Dialog::Shortcuts => bindings::show(&ctx, context.session),
+    for dialog in context.session.dialogs.open.clone() {
+        let stays = match dialog {
+            Dialog::Shortcuts => shortcuts::show(&ctx, context.session),
             Dialog::Preferences => preferences::show(&ctx, context.session, layout),
-            Dialog::Hint => first::show(&ctx, context.session),
-            Dialog::Messages => history::show(&ctx, context.session),
+            Dialog::Hint => first_steps::show(&ctx, context.session),
+            Dialog::Messages => messages::show(&ctx, context.session),
             Dialog::Cameras => cameras::show(&ctx, context.session),
         };
         if !stays {
-            context.session.dialogs.close(sheet);
-            actions::dialogs::closed(context.session, sheet);
+            context.session.dialogs.close(dialog);
+            actions::dialogs::closed(context.session, dialog);
         }
     }
     questions::typed(&ctx, context.session);

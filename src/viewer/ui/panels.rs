@@ -15,11 +15,21 @@ mod words;
 
 pub use menu::menu;
 pub use messages::messages;
-pub use outline::outline;
-pub use picture::picture;
-pub use properties::properties;
-pub use rays::rays;
-pub use rays::space::outside;
-pub use render::render;
 pub use status::status;
-pub use time::time;
+
+use crate::viewer::state::layout::Panel;
+use crate::viewer::ui::context::PanelContext;
+use eframe::egui;
+
+/// Draws one of the panels that a layout has.
+pub fn show(panel: Panel, ui: &mut egui::Ui, context: &mut PanelContext) {
+    match panel {
+        Panel::Picture => picture::picture(ui, context),
+        Panel::Outline => outline::outline(ui, context),
+        Panel::Properties => properties::properties(ui, context),
+        Panel::Render => render::render(ui, context),
+        Panel::Rays => rays::rays(ui, context),
+        Panel::Outside => rays::space::outside(ui, context),
+        Panel::Time => time::time(ui, context),
+    }
+}

@@ -28,15 +28,7 @@ struct Tabs<'a, 'b> {
 
 impl Behavior<Panel> for Tabs<'_, '_> {
     fn pane_ui(&mut self, ui: &mut egui::Ui, _: TileId, panel: &mut Panel) -> UiResponse {
-        match panel {
-            Panel::Picture => panels::picture(ui, self.context),
-            Panel::Outline => panels::outline(ui, self.context),
-            Panel::Properties => panels::properties(ui, self.context),
-            Panel::Render => panels::render(ui, self.context),
-            Panel::Rays => panels::rays(ui, self.context),
-            Panel::Outside => panels::outside(ui, self.context),
-            Panel::Time => panels::time(ui, self.context),
-        }
+        panels::show(*panel, ui, self.context);
         UiResponse::None
     }
 

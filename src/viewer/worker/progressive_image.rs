@@ -401,7 +401,7 @@ impl ProgressiveImage {
     }
 
     /// For questions; `None` while the renderer's film holds the preview.
-    pub fn studio(&mut self) -> Option<FrameRenderer<'_>> {
+    pub fn frame(&mut self) -> Option<FrameRenderer<'_>> {
         (!self.is_coarse).then_some(())?;
         Some(FrameRenderer {
             renderer: self.renderer.as_mut()?,

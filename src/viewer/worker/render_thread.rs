@@ -284,10 +284,10 @@ impl Painter {
         let mut unanswered = Vec::new();
         let [outside, _, main] = &mut self.canvases;
         for question in questions {
-            match main.studio() {
-                Some(studio) => answers.push(question(&mut FrameRenderer {
-                    outside: outside.studio().map(|it| (it.renderer, it.order)),
-                    ..studio
+            match main.frame() {
+                Some(frame) => answers.push(question(&mut FrameRenderer {
+                    outside: outside.frame().map(|it| (it.renderer, it.order)),
+                    ..frame
                 })),
                 None => unanswered.push(question),
             }

@@ -87,8 +87,8 @@ impl Easel {
     /// The picture in linear light.
     fn image(&self) -> Image {
         let (sender, receiver) = channel();
-        self.thread.ask(move |studio| {
-            let (image, _) = studio.image(&Tone::LINEAR).expect("a picture");
+        self.thread.ask(move |frame| {
+            let (image, _) = frame.image(&Tone::LINEAR).expect("a picture");
             sender.send(image).expect("someone who waits");
         });
         receiver.recv_timeout(PATIENCE).expect("the picture")

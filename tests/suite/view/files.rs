@@ -359,9 +359,9 @@ fn no_picture_is_saved_over_a_file_that_the_scene_reads() {
     window.harness.run_steps(3);
     let refusal = |window: &Window, path: &Path| {
         let mut session = window.session.borrow_mut();
-        let sheet = session.files.saving.as_mut().expect("a sheet");
-        sheet.path = path.to_string_lossy().into_owned();
-        sheet.target().err()
+        let dialog = session.files.saving.as_mut().expect("a sheet");
+        dialog.path = path.to_string_lossy().into_owned();
+        dialog.target().err()
     };
     let says = Some("The scene uses this file. Choose another name.".to_owned());
     assert_eq!(refusal(&window, &place.path("new.png")), None);
@@ -399,8 +399,8 @@ fn a_picture_that_exists_is_replaced_only_when_the_person_agrees() {
     window.harness.run_steps(2);
     let suggested = |window: &Window| {
         let session = window.session.borrow();
-        let sheet = session.files.saving.as_ref().expect("a sheet");
-        sheet.path.clone()
+        let dialog = session.files.saving.as_ref().expect("a sheet");
+        dialog.path.clone()
     };
     assert_eq!(
         suggested(&window),
@@ -648,8 +648,8 @@ fn save_later(window: &mut Window, paths: &[PathBuf]) {
     for path in paths {
         let mut session = window.session();
         files::pictures::open(&mut session, false);
-        let sheet = session.files.saving.as_mut().expect("a sheet");
-        sheet.path = path.display().to_string();
+        let dialog = session.files.saving.as_mut().expect("a sheet");
+        dialog.path = path.display().to_string();
         files::pictures::save(&mut session, true);
     }
     window.settle();
@@ -727,8 +727,8 @@ fn closing_waits_for_a_picture_that_is_being_written() {
     {
         let mut session = window.session();
         files::pictures::open(&mut session, false);
-        let sheet = session.files.saving.as_mut().expect("a sheet");
-        sheet.path = path.display().to_string();
+        let dialog = session.files.saving.as_mut().expect("a sheet");
+        dialog.path = path.display().to_string();
         files::pictures::save(&mut session, false);
     }
     let commands = close(&mut window);

@@ -99,8 +99,8 @@ impl Window {
     /// The main picture so far.
     pub fn image(&mut self, tone: Tone) -> Image {
         let (sender, receiver) = channel();
-        self.session.borrow_mut().ask(move |studio| {
-            let (image, _) = studio.image(&tone).expect("a picture");
+        self.session.borrow_mut().ask(move |frame| {
+            let (image, _) = frame.image(&tone).expect("a picture");
             sender.send(image).expect("someone who waits");
             glimray::viewer::state::answer::Answer::Nothing
         });

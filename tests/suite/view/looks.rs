@@ -1,14 +1,16 @@
 //! What the window looks like: pictures of it, held against those in `tests/snapshots`.
-//! `UPDATE_SNAPSHOTS=1 cargo test --release --test suite looks` writes them anew.
+//! `UPDATE_SNAPSHOTS=1 cargo test --profile ci --test suite looks` writes them anew.
 
 use super::harness::Window;
+use crate::support::verdict::Verdict;
 use eframe::egui::{self, Key};
-use egui_kittest::SnapshotOptions;
+use egui_kittest::{SnapshotOptions, try_image_snapshot_options};
 use glimray::scene::ObjectRef;
 use glimray::viewer::model::objects::Id;
 use glimray::viewer::model::preferences::Theme;
 use glimray::viewer::model::tool::Tool;
 use glimray::viewer::model::view_settings::Sharing;
+use glimray::viewer::state::layout::Panel;
 
 /// Other drivers round otherwise along edges: this many pixels of 700,000 may differ.
 const MAX_PIXELS: usize = 1000;
@@ -51,13 +53,6 @@ fn light_colours_are_legible_with_every_panel_beside_a_wipe() {
 }
 
 #[test]
-fn twice_as_many_pixels_show_the_same() {
-    let mut window = open();
-    window.harness.set_pixels_per_point(2.0);
-    check(&mut window, "fine");
-}
-
-#[test]
 fn the_sheet_of_bindings_lies_over_the_window() {
     let mut window = open();
     window.harness.key_press(Key::F1);
@@ -76,6 +71,12 @@ fn the_preferences_lie_over_the_window() {
 #[test]
 fn the_rays_of_a_pixel_are_a_tree_and_lines_in_space() {
     let mut window = open();
+    inspect_the_centre(&mut window);
+    check(&mut window, "rays");
+}
+
+/// Takes the ray inspector and clicks the centre of the picture.
+fn inspect_the_centre(window: &mut Window) {
     window.harness.key_press(Key::I);
     window.settle();
     let viewport = window.session().viewport.expect("a picture");
@@ -85,5 +86,61 @@ fn the_rays_of_a_pixel_are_a_tree_and_lines_in_space() {
     window.harness.drop_at(at);
     window.settle();
     window.harness.hover_at(egui::pos2(4.0, 690.0));
-    check(&mut window, "rays");
+}
+
+#[test]
+fn every_panel_is_legible_in_both_themes_at_both_scales() {
+    let mut verdict = Verdict::on("panels");
+    for (theme, color) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
+        for (scale, percent) in [(1.0, "100"), (2.0, "200")] {
+            let scene = "assets/scenes/orbits.toml";
+            let mut window = Window::open(&[scene, "--size", "160x120", "--samples", "1"]);
+            {
+                let mut session = window.session();
+                session.shows_statistics = false;
+                session.preferences.theme = theme;
+                session.selection = Some(Id::Object(ObjectRef::Shape(0)));
+            }
+            let viewports = &mut window.harness.input_mut().viewports;
+            let root = viewports.get_mut(&egui::ViewportId::ROOT);
+            root.expect("a window").native_pixels_per_point = Some(scale);
+            window.settle();
+            let mut compare = |window: &mut Window, panel: Panel| {
+                window.settle();
+                let rect = window.harness.state().layout().rect(panel);
+                let rect = rect.unwrap_or_else(|| panic!("{panel:?} is hidden"));
+                let image = window.harness.render().expect("a picture of the window");
+                let corner = rect.min * scale;
+                let size = rect.size() * scale;
+                let part = image::imageops::crop_imm(
+                    &image,
+                    corner.x.round() as u32,
+                    corner.y.round() as u32,
+                    size.x.round() as u32,
+                    size.y.round() as u32,
+                );
+                let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snapshots/panels");
+                let options = SnapshotOptions::default()
+                    .output_path(folder)
+                    .max_failed_pixels(MAX_PIXELS);
+                let name = format!("{panel:?}_{color}_{percent}").to_lowercase();
+                let outcome = try_image_snapshot_options(&part.to_image(), &name, &options);
+                verdict.that(name, outcome.is_ok(), || format!("{:?}", outcome.err()));
+            };
+            for panel in [
+                Panel::Picture,
+                Panel::Outline,
+                Panel::Properties,
+                Panel::Time,
+                Panel::Render,
+            ] {
+                compare(&mut window, panel);
+            }
+            inspect_the_centre(&mut window);
+            for panel in [Panel::Rays, Panel::Outside] {
+                compare(&mut window, panel);
+            }
+        }
+    }
+    verdict.close();
 }

@@ -121,7 +121,7 @@ fn what_is_in_the_inspector_has_a_name() {
 #[test]
 fn what_is_in_sheets_and_questions_has_a_name() {
     let mut window = open("sphere.scene");
-    for sheet in [
+    for dialog in [
         Dialog::Shortcuts,
         Dialog::Preferences,
         Dialog::Hint,
@@ -130,9 +130,9 @@ fn what_is_in_sheets_and_questions_has_a_name() {
     ] {
         window.harness.key_press(Key::K);
         window.settle();
-        window.session().dialogs.open(sheet);
-        check(&mut window, &format!("{sheet:?}"));
-        window.session().dialogs.close(sheet);
+        window.session().dialogs.open(dialog);
+        check(&mut window, &format!("{dialog:?}"));
+        window.session().dialogs.close(dialog);
     }
     window.session().files.undecided = Some(Intent::Close);
     check(&mut window, "unsaved changes");
@@ -144,8 +144,8 @@ fn what_is_in_sheets_and_questions_has_a_name() {
     window.harness.key_press(Key::F12);
     window.settle();
     for ending in ["png", "jpg"] {
-        if let Some(sheet) = &mut window.session().files.saving {
-            sheet.path = format!("picture.{ending}");
+        if let Some(dialog) = &mut window.session().files.saving {
+            dialog.path = format!("picture.{ending}");
         }
         check(&mut window, ending);
     }

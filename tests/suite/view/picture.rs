@@ -190,8 +190,8 @@ fn a_picture_is_saved_at_the_scenes_size_and_at_twice_that() {
         window.harness.run_steps(3);
         window.harness.get_by_label(label).click();
         window.harness.run_steps(2);
-        let sheet = path.display().to_string();
-        (window.session().files.saving.as_mut().expect("a sheet")).path = sheet;
+        let dialog = path.display().to_string();
+        (window.session().files.saving.as_mut().expect("a sheet")).path = dialog;
         window.harness.run_steps(2);
         window.harness.get_by_label("Save").click();
         window.harness.run_steps(2);
@@ -218,9 +218,9 @@ fn a_picture_that_is_rendered_for_a_file_can_be_given_up() {
     {
         let mut session = window.session();
         pictures::open(&mut session, false);
-        let sheet = session.files.saving.as_mut().expect("a sheet");
-        sheet.path = path.display().to_string();
-        sheet.size = SaveSize::Twice;
+        let dialog = session.files.saving.as_mut().expect("a sheet");
+        dialog.path = path.display().to_string();
+        dialog.size = SaveSize::Twice;
         pictures::save(&mut session, false);
         assert!(session.files.waits_to_save());
     }

@@ -60,10 +60,10 @@ fn free_name(session: &Session) -> PathBuf {
 
 /// Opens a file dialog for the name.
 pub fn browse(session: &mut Session, ctx: &egui::Context) {
-    let Some(sheet) = &mut session.files.saving else {
+    let Some(dialog) = &mut session.files.saving else {
         return;
     };
-    let path = Path::new(sheet.path.trim());
+    let path = Path::new(dialog.path.trim());
     let folder = path.parent().filter(|folder| folder.is_dir());
     let request = Request {
         saves: true,
@@ -72,28 +72,28 @@ pub fn browse(session: &mut Session, ctx: &egui::Context) {
         folder: folder.map(Path::to_owned),
         name: path.file_name().map(|n| n.to_string_lossy().into_owned()),
     };
-    sheet.asked = Some(session.files.dialogs.ask(request, ctx));
+    dialog.asked = Some(session.files.dialogs.ask(request, ctx));
 }
 
 /// Saves with the dialog's settings, now or when the picture is finished.
 pub fn save(session: &mut Session, waits: bool) {
-    let Some(sheet) = session.files.saving.take() else {
+    let Some(dialog) = session.files.saving.take() else {
         return;
     };
-    let target = match sheet.target() {
+    let target = match dialog.target() {
         Ok(target) => target,
         Err(_) => {
-            session.files.saving = Some(sheet);
+            session.files.saving = Some(dialog);
             return;
         }
     };
-    let other = size_of(session, sheet.size).filter(|_| !sheet.overlays);
+    let other = size_of(session, dialog.size).filter(|_| !dialog.overlays);
     let pending = &mut session.files.pending;
-    pending.quality = Some(sheet.quality);
+    pending.quality = Some(dialog.quality);
     pending.folder = target.path.parent().map(Path::to_owned);
     if let Some(size) = other {
         render(session, target, size);
-    } else if sheet.overlays {
+    } else if dialog.overlays {
         pending.pose = Some(Pose::new(target));
     } else if waits {
         let name = short(&target.path);
@@ -166,8 +166,8 @@ fn render(session: &mut Session, target: Target, size: (u32, u32)) {
     session
         .messages
         .tell(format!("Rendering {name} at {width}×{height}"));
-    session.ask(move |studio| {
-        let gpu = studio.renderer.gpu().clone();
+    session.ask(move |frame| {
+        let gpu = frame.renderer.gpu().clone();
         let work = move || {
             let outcome = match still::render(gpu, &order, &tone, &is_cancelled) {
                 Ok(Some(image)) => write_file(&image, &target, "").map(Some),
@@ -206,11 +206,11 @@ fn ask(session: &mut Session, target: Target, waits: Option<u32>) {
     };
     let linear = (session.request.overrides.tone).tone(&scene.output, integrator, true);
     session.files.pending.asked += 1;
-    session.ask(move |studio| take(studio, target, waits, linear));
+    session.ask(move |frame| take(frame, target, waits, linear));
 }
 
-fn take(studio: &mut FrameRenderer, target: Target, waits: Option<u32>, linear: Tone) -> Answer {
-    let of = studio.settings().samples;
+fn take(frame: &mut FrameRenderer, target: Target, waits: Option<u32>, linear: Tone) -> Answer {
+    let of = frame.settings().samples;
     let mut taken = Taken {
         image: Ok(None),
         samples: 0,
@@ -218,14 +218,14 @@ fn take(studio: &mut FrameRenderer, target: Target, waits: Option<u32>, linear: 
         target,
         waits,
     };
-    if waits.is_some() && !studio.renderer.is_done() {
+    if waits.is_some() && !frame.renderer.is_done() {
         return Answer::Picture(Box::new(taken));
     }
     let tone = match taken.target.format.is_linear() {
         true => linear,
-        false => studio.order.tone,
+        false => frame.order.tone,
     };
-    match studio.image(&tone) {
+    match frame.image(&tone) {
         Ok((image, samples)) => {
             taken.samples = samples;
             taken.image = Ok(Some(image));
@@ -322,10 +322,10 @@ pub fn finish(session: &mut Session, is_done: bool) {
 }
 
 fn take_reply(session: &mut Session) {
-    let Some(sheet) = &mut session.files.saving else {
+    let Some(dialog) = &mut session.files.saving else {
         return;
     };
-    let Some(reply) = sheet.asked.as_ref().map(Receiver::try_recv) else {
+    let Some(reply) = dialog.asked.as_ref().map(Receiver::try_recv) else {
         return;
     };
     match reply {
@@ -335,15 +335,15 @@ fn take_reply(session: &mut Session) {
             if path.extension().is_none() {
                 path.set_extension("png");
             }
-            sheet.path = path.to_string_lossy().into_owned();
-            sheet.agreed = (agreed == path).then_some(agreed);
+            dialog.path = path.to_string_lossy().into_owned();
+            dialog.agreed = (agreed == path).then_some(agreed);
         }
         Ok(Reply::Cancelled) => {}
         Ok(Reply::Unavailable) | Err(TryRecvError::Disconnected) => {
             session.messages.warn(NO_DIALOG.to_owned());
         }
     }
-    sheet.asked = None;
+    dialog.asked = None;
 }
 
 /// Size of the picture in pixels.

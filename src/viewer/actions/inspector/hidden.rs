@@ -46,7 +46,7 @@ pub fn ask(session: &mut Session) {
     let lines = rays.map(|(id, ray)| (id, outside::ends(ray, reach)));
     let lines: Vec<_> = lines.collect();
     session.inspector.hidden.asked = Some(view.clone());
-    session.ask(move |studio| match parts(studio, &view.order, &lines) {
+    session.ask(move |frame| match parts(frame, &view.order, &lines) {
         Ok(parts) => Answer::Hidden(parts),
         Err(why) => Answer::Failed(why),
     });
@@ -54,11 +54,11 @@ pub fn ask(session: &mut Session) {
 
 /// The hidden parts for the requested view; `None` if another view is shown.
 fn parts(
-    studio: &mut FrameRenderer,
+    frame: &mut FrameRenderer,
     asked: &RenderRequest,
     lines: &[(RayId, (DVec3, DVec3))],
 ) -> Result<Option<Parts>, String> {
-    let Some((renderer, order)) = &mut studio.outside else {
+    let Some((renderer, order)) = &mut frame.outside else {
         return Ok(None);
     };
     let (true, Some(camera)) = (**order == *asked, &order.camera) else {

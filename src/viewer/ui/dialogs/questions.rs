@@ -60,22 +60,22 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
     let (width, height) = pictures::size(context.session);
     let session = &mut *context.session;
     let others = SaveSize::ALL.map(|size| pictures::size_of(session, size));
-    let Some(sheet) = &mut session.files.saving else {
+    let Some(dialog) = &mut session.files.saving else {
         return;
     };
     let mut wish = None;
     let mut is_entered = false;
     let mut is_cancelled = false;
-    let title = match sheet.overlays {
+    let title = match dialog.overlays {
         true => "Save the picture with overlays",
         false => "Save the picture",
     };
     let stays = crate::viewer::ui::dialogs::window(ctx, title, vec2(460.0, 170.0), |ui| {
         ui.horizontal(|ui| {
             let width = ui.available_width() - 90.0;
-            let field = TextEdit::singleline(&mut sheet.path).desired_width(width);
+            let field = TextEdit::singleline(&mut dialog.path).desired_width(width);
             let field = ui.add(field).accessible_name("File");
-            if std::mem::take(&mut sheet.is_new) {
+            if std::mem::take(&mut dialog.is_new) {
                 field.request_focus();
             }
             is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
@@ -84,36 +84,36 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
                 wish = Some(Wish::Browse);
             }
         });
-        super::folder(ui, &sheet.path);
-        if !sheet.overlays {
+        super::folder(ui, &dialog.path);
+        if !dialog.overlays {
             ui.horizontal(|ui| {
                 for size in SaveSize::ALL {
-                    ui.radio_value(&mut sheet.size, size, size.title());
+                    ui.radio_value(&mut dialog.size, size, size.title());
                 }
             });
         }
-        let other = others[sheet.size as usize].filter(|_| !sheet.overlays);
+        let other = others[dialog.size as usize].filter(|_| !dialog.overlays);
         let (width, height) = other.unwrap_or((width, height));
-        let target = sheet.target();
+        let target = dialog.target();
         match &target {
             Err(why) => {
                 ui.colored_label(ui.visuals().error_fg_color, why);
             }
             Ok(target) => {
                 ui.horizontal(|ui| {
-                    if !sheet.overlays {
+                    if !dialog.overlays {
                         ui.label(format!("{}, {width} × {height} pixels", target.format));
                     }
                     if target.format.is_linear() {
                         ui.weak("linear radiance, without exposure or tone mapping");
                     }
                     if target.format == Format::Jpeg {
-                        let slider = Slider::new(&mut sheet.quality, 1..=100).text("Quality");
+                        let slider = Slider::new(&mut dialog.quality, 1..=100).text("Quality");
                         ui.add(slider)
                             .on_hover_text("From 1 (smallest) to 100 (best)");
                     }
                 });
-                if sheet.must_ask(target) {
+                if dialog.must_ask(target) {
                     let text = "A file with this name exists and will be replaced.";
                     ui.colored_label(ui.visuals().warn_fg_color, text);
                 }
@@ -121,7 +121,7 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
         }
         // At another size it is rendered for the file, with all samples.
         let is_done = other.is_some() || progress.is_some_and(|progress| progress.is_done);
-        if let Some(progress) = progress.filter(|_| !is_done && !sheet.overlays) {
+        if let Some(progress) = progress.filter(|_| !is_done && !dialog.overlays) {
             ui.label(format!(
                 "{} of {} samples so far.",
                 progress.samples, progress.target
@@ -129,7 +129,7 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
         }
         ui.add_space(6.0);
         ui.horizontal(|ui| {
-            let replaces = target.as_ref().is_ok_and(|target| sheet.must_ask(target));
+            let replaces = target.as_ref().is_ok_and(|target| dialog.must_ask(target));
             let (now, later) = match replaces {
                 true => ("Replace", "Replace when finished"),
                 false => ("Save", "Save when finished"),
@@ -140,7 +140,7 @@ pub fn saving(ctx: &egui::Context, context: &mut PanelContext) {
                 wish = Some(Wish::Save { waits: false });
             }
             if !is_done
-                && !sheet.overlays
+                && !dialog.overlays
                 && ui.add_enabled(target.is_ok(), Button::new(later)).clicked()
             {
                 wish = Some(Wish::Save { waits: true });

@@ -312,13 +312,13 @@ fn window(menu: &mut Menu) {
 
 fn help(menu: &mut Menu) {
     menu.entry("Keyboard shortcuts", A::Help);
-    for (text, sheet) in [
+    for (text, dialog) in [
         ("First steps", Dialog::Hint),
         ("Messages", Dialog::Messages),
     ] {
         if menu.ui.button(text).clicked() {
             menu.ui.close();
-            menu.context.session.dialogs.open(sheet);
+            menu.context.session.dialogs.open(dialog);
         }
     }
     menu.line();

@@ -1,11 +1,11 @@
 //! The properties of the selection, or of the scene if nothing is selected.
 
 mod camera;
+mod environment;
 mod fields;
 mod light;
 mod material;
 mod place;
-mod surroundings;
 
 use crate::scene::ObjectRef;
 use crate::viewer::model::bindings::Action;
@@ -59,7 +59,7 @@ pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
                 changes: &mut changes,
             };
             match selection {
-                None => surroundings::show(fields, session),
+                None => environment::show(fields, session),
                 Some(Id::Camera(index)) => camera::show(fields, session, index),
                 Some(Id::Material(index)) => material::show(fields, index),
                 Some(id @ Id::Node(_)) => place::show(fields, id, time),

@@ -1,10 +1,10 @@
 //! Render settings: view mode, sampling, size and tone mapping.
 
 mod background;
-mod figures;
 mod size;
+mod statistics;
 
-pub use figures::{remaining, seconds};
+pub use statistics::{remaining, seconds};
 
 use crate::app::words::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
 use crate::scene::Antialias;
@@ -21,7 +21,7 @@ const NAMES: f32 = 96.0;
 pub fn render(ui: &mut Ui, context: &mut PanelContext) {
     egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         egui::Frame::NONE.inner_margin(6.0).show(ui, |ui| {
-            figures::progress(ui, context);
+            statistics::progress(ui, context);
             ui.separator();
             section(ui, "Display", |ui| shown(ui, context));
             section(ui, "Sampling", |ui| samples(ui, &mut context.session.view));
@@ -31,7 +31,7 @@ pub fn render(ui: &mut Ui, context: &mut PanelContext) {
                 developing(ui, &mut context.session.view)
             });
             section(ui, "Environment", |ui| background::background(ui, context));
-            section(ui, "Statistics", |ui| figures::figures(ui, context));
+            section(ui, "Statistics", |ui| statistics::statistics(ui, context));
         });
     });
 }

@@ -69,7 +69,7 @@ fn state(progress: &Progress, paused: bool) -> String {
 }
 
 /// Timings, counts and memory.
-pub fn figures(ui: &mut Ui, context: &mut PanelContext) {
+pub fn statistics(ui: &mut Ui, context: &mut PanelContext) {
     let Some(shown) = context.shown(PictureSlot::Main) else {
         return;
     };
