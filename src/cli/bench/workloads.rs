@@ -132,7 +132,6 @@ fn hills(columns: u32, rows: u32, shift: f32) -> Mesh {
 }
 
 /// A thousand different height fields of a thousand triangles each, in sunlight.
-#[cfg(feature = "viewer")]
 pub fn thousand() -> Scene {
     let mut scene = height_field(1, vec![sun()]);
     scene.meshes = (0..1000)
