@@ -32,7 +32,7 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .PHONY: help demo test bench docs gallery strips man size hand-in build shaders linker compiler display driver opengl lint features headless wasm
 
 help:
-	@echo 'make demo      render the showcase scene to glimray.png (about 4 minutes the first time)'
+	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
 	@echo 'make test      format, lints, documentation, all tests (about 20 minutes the first time)'
 	@echo 'make bench     measure speed on built-in scenes'
 	@echo 'make docs      build the manual with mdBook and check its links'
@@ -47,7 +47,7 @@ help:
 
 # The renderer and its commands, without the window, videos and FLIP: a third of all crates, and no C++.
 demo: linker shaders
-	@[ -e $(GLIMRAY) ] || echo 'Building glimray. On 2 cores this takes about 4 minutes, only the first time.'
+	@[ -e $(GLIMRAY) ] || echo 'Building glimray. On 2 cores this takes about 3 minutes, only the first time.'
 	$(CARGO) build $(FLAGS) --no-default-features --features cli
 	@$(MAKE) --no-print-directory driver GLIMRAY=$(GLIMRAY)
 	$(GLIMRAY) demo -o glimray.png
