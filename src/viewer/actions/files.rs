@@ -10,7 +10,7 @@ use crate::app::advice;
 use crate::app::overrides::CameraOverrides;
 use crate::import;
 use crate::scene::Background;
-use crate::viewer::model::file_dialog::{Reply, Request, ends_in};
+use crate::viewer::model::file_dialog::{self, Reply, Request, ends_in};
 use crate::viewer::model::watch::Change;
 use crate::viewer::state::files::Broken;
 use crate::viewer::state::files::Intent;
@@ -18,7 +18,7 @@ use crate::viewer::state::session::Session;
 use crate::viewer::state::session::opening::Opened;
 use eframe::egui::{self, ViewportCommand};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{TryRecvError, channel};
 use std::time::SystemTime;
 
 /// Opens the next scene in the folder, or the previous one with −1.
@@ -147,19 +147,14 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
 }
 
 fn take_reply(session: &mut Session) {
-    let Some(reply) = session.files.asked.as_ref().map(Receiver::try_recv) else {
-        return;
-    };
-    match reply {
-        Err(TryRecvError::Empty) => return,
-        Ok(Reply::Chosen(path)) => dropped::open(session, vec![path]),
-        Ok(Reply::Cancelled) => {}
-        Ok(Reply::Unavailable) | Err(TryRecvError::Disconnected) => {
+    match file_dialog::take_reply(&mut session.files.asked) {
+        Some(Reply::Chosen(path)) => dropped::open(session, vec![path]),
+        Some(Reply::Unavailable) => {
             session.messages.warn(NO_DIALOG.to_owned());
             session.files.typed = Some(String::new());
         }
+        Some(Reply::Cancelled) | None => {}
     }
-    session.files.asked = None;
 }
 
 /// Message for desktops without file dialogs.

@@ -3,12 +3,11 @@
 use crate::app::{inputs, scene_file};
 use crate::viewer::actions::files;
 use crate::viewer::actions::files::cameras;
-use crate::viewer::model::file_dialog::{Reply, Request, SCENES};
+use crate::viewer::model::file_dialog::{self, Reply, Request, SCENES};
 use crate::viewer::state::editing::Saving;
 use crate::viewer::state::session::Session;
 use eframe::egui;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, TryRecvError};
 
 /// Saves to the file that was saved before, else asks.
 pub fn save(session: &mut Session) {
@@ -52,21 +51,14 @@ pub fn browse(session: &Session, saving: &mut Saving, ctx: &egui::Context) {
 
 /// Takes the name that was chosen in the file dialog.
 pub fn take_reply(session: &mut Session, saving: &mut Saving) {
-    let Some(reply) = saving.asked.as_ref().map(Receiver::try_recv) else {
-        return;
-    };
-    match reply {
-        Err(TryRecvError::Empty) => return,
-        Ok(Reply::Chosen(path)) => {
+    match file_dialog::take_reply(&mut saving.asked) {
+        Some(Reply::Chosen(path)) => {
             saving.name = path.to_string_lossy().into_owned();
             saving.trouble = None;
         }
-        Ok(Reply::Cancelled) => {}
-        Ok(Reply::Unavailable) | Err(TryRecvError::Disconnected) => {
-            session.messages.warn(files::NO_DIALOG.to_owned());
-        }
+        Some(Reply::Unavailable) => session.messages.warn(files::NO_DIALOG.to_owned()),
+        Some(Reply::Cancelled) | None => {}
     }
-    saving.asked = None;
 }
 
 /// Saves the scene as `path`, with its meshes and images in files next to it.

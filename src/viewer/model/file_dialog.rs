@@ -3,7 +3,7 @@
 use crate::import;
 use eframe::egui;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
 /// A reply this soon means that the dialog did not open.
@@ -42,6 +42,17 @@ pub enum Reply {
     Cancelled,
     /// No dialog is available on this desktop.
     Unavailable,
+}
+
+/// Takes the reply of a dialog, once there is one. A dialog that ended without a reply was not available.
+pub fn take_reply(asked: &mut Option<Receiver<Reply>>) -> Option<Reply> {
+    let reply = match asked.as_ref()?.try_recv() {
+        Err(TryRecvError::Empty) => return None,
+        Err(TryRecvError::Disconnected) => Reply::Unavailable,
+        Ok(reply) => reply,
+    };
+    *asked = None;
+    Some(reply)
 }
 
 /// The source of replies.

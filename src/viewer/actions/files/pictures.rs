@@ -5,7 +5,7 @@ use crate::image::Image;
 use crate::output::{self, SaveOptions};
 use crate::render::Tone;
 use crate::viewer::actions::files::{NO_DIALOG, short};
-use crate::viewer::model::file_dialog::{PICTURES, Reply, Request};
+use crate::viewer::model::file_dialog::{self, PICTURES, Reply, Request};
 use crate::viewer::state::answer::Answer;
 use crate::viewer::state::files::SaveDialog;
 use crate::viewer::state::files::Taken;
@@ -18,7 +18,7 @@ use eframe::egui;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{TryRecvError, channel};
 
 /// Opens the dialog with a free name.
 pub fn open(session: &mut Session, overlays: bool) {
@@ -325,12 +325,8 @@ fn take_reply(session: &mut Session) {
     let Some(dialog) = &mut session.files.saving else {
         return;
     };
-    let Some(reply) = dialog.asked.as_ref().map(Receiver::try_recv) else {
-        return;
-    };
-    match reply {
-        Err(TryRecvError::Empty) => return,
-        Ok(Reply::Chosen(mut path)) => {
+    match file_dialog::take_reply(&mut dialog.asked) {
+        Some(Reply::Chosen(mut path)) => {
             let agreed = path.clone();
             if path.extension().is_none() {
                 path.set_extension("png");
@@ -338,12 +334,9 @@ fn take_reply(session: &mut Session) {
             dialog.path = path.to_string_lossy().into_owned();
             dialog.agreed = (agreed == path).then_some(agreed);
         }
-        Ok(Reply::Cancelled) => {}
-        Ok(Reply::Unavailable) | Err(TryRecvError::Disconnected) => {
-            session.messages.warn(NO_DIALOG.to_owned());
-        }
+        Some(Reply::Unavailable) => session.messages.warn(NO_DIALOG.to_owned()),
+        Some(Reply::Cancelled) | None => {}
     }
-    dialog.asked = None;
 }
 
 /// Size of the picture in pixels.
