@@ -123,14 +123,33 @@ impl Adaptive {
             .collect()
     }
 
-    /// Adds the samples of a round.
-    pub fn add_round(&mut self, tiles: Vec<FilmTile>) {
+    /// Adds the samples of a finished round.
+    pub fn add_round(&mut self, tiles: &[FilmTile]) {
+        self.add(tiles, |_| true);
+    }
+
+    /// A copy with the samples so far of a round in progress.
+    pub fn with_part_of_round(&self, tiles: &[FilmTile]) -> Self {
+        let mut so_far = self.clone();
+        so_far.add(tiles, |weight| weight != 0.0);
+        so_far
+    }
+
+    /// Whether the first round, in which all pixels get the same number of samples, is not finished.
+    pub fn is_in_first_round(&self) -> bool {
+        self.rounds == 0
+    }
+
+    /// Adds the samples of the pixels whose sum of weights is `counted`.
+    fn add(&mut self, tiles: &[FilmTile], counted: impl Fn(f64) -> bool) {
         let squares = layers::row_of(self.layers, &SQUARES).unwrap_or_default();
         for tile in tiles {
             let sample_count = tile.samples.end - tile.samples.start;
             let rows = tile.totals();
             let pixels = rows.chunks_exact(tile.rows_per_pixel());
-            for (place, rows) in tile.places().iter().zip(pixels) {
+            let sampled =
+                (tile.places().iter().zip(pixels)).filter(|(_, rows)| counted(rows[0][3]));
+            for (place, rows) in sampled {
                 let index = self.index(*place);
                 let statistics = &mut self.pixels[index];
                 for (sum, row) in statistics.sum.iter_mut().zip(rows[0]) {
@@ -143,9 +162,12 @@ impl Adaptive {
         }
     }
 
-    /// The mean of a pixel, in the format of a film with one sample.
+    /// The mean of a pixel, in the format of a film with one sample; zeros without samples.
     pub fn mean(&self, pixel: [u32; 2]) -> [f32; 4] {
         let statistics = &self.pixels[self.index(pixel)];
+        if statistics.count == 0 {
+            return [0.0; 4];
+        }
         let scale = statistics.scale();
         let [r, g, b] = statistics.sum.map(|c| (c * scale) as f32);
         [r, g, b, 1.0]

@@ -63,7 +63,7 @@ impl FilmTiles {
         let Some(adaptive) = &mut self.adaptive else {
             return false;
         };
-        adaptive.add_round(std::mem::take(&mut self.list));
+        adaptive.add_round(&self.list);
         self.list = adaptive.next_round();
         !self.list.is_empty()
     }
@@ -76,11 +76,9 @@ impl FilmTiles {
                 .map(|tile| (tile.blank(), tile.developable()))
                 .collect();
         };
+        let so_far = adaptive.with_part_of_round(&self.list);
         let means = |tile: FilmTile| {
-            let mean = |index| {
-                tile.pixel_at(index)
-                    .map_or([0.0; 4], |at| adaptive.mean(at))
-            };
+            let mean = |index| tile.pixel_at(index).map_or([0.0; 4], |at| so_far.mean(at));
             let rows = (0..tile.pixel_count()).map(mean).collect();
             (tile, rows)
         };
@@ -126,6 +124,11 @@ impl FilmTiles {
     /// Whether the whole picture is a single rectangle, sampled evenly.
     pub fn is_one_rectangle(&self) -> bool {
         self.adaptive.is_none() && self.list.len() == 1
+    }
+
+    /// Whether all pixels are sampled together, so that each has as many samples as the others.
+    pub fn is_even(&self) -> bool {
+        self.list.len() == 1 && (self.adaptive.as_ref()).is_none_or(Adaptive::is_in_first_round)
     }
 
     /// Whether in addition all samples so far are in one block.

@@ -93,10 +93,10 @@ impl Renderer {
         self.settings.region()
     }
 
-    /// The number of samples of every pixel, for a picture that [`Self::shows_directly`]; otherwise an estimate
-    /// from the progress.
+    /// The number of samples of every pixel while all are sampled together: in a single film tile, evenly or in
+    /// the first round of adaptive sampling. Otherwise an estimate from the progress.
     pub fn samples_done(&self) -> u32 {
-        match self.tiles.is_one_rectangle() && !self.is_done() {
+        match self.tiles.is_even() && !self.is_done() {
             true => self.cursor.sample,
             false => (self.progress() * f64::from(self.settings.samples)) as u32,
         }

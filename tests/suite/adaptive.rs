@@ -149,6 +149,44 @@ fn the_cut_of_the_work_does_not_show_in_adaptive_pictures() {
     ));
 }
 
+#[test]
+fn an_unfinished_adaptive_picture_shows_the_samples_so_far() {
+    let scene = detail_in_a_fifth();
+    let slicing = Slicing {
+        max_groups: 100,
+        max_samples: 1,
+        ..Slicing::default()
+    };
+    let wanted = sliced(&settings(Antialias::Adaptive, 16, 0.01), slicing);
+    let mut renderer = start(&scene, &wanted).expect("a renderer");
+    let mut seen = Vec::new();
+    while !renderer.is_done() {
+        renderer.step().expect("samples");
+        let samples = renderer.samples_done();
+        if samples == 0 {
+            continue;
+        }
+        seen.push(samples);
+        let image = renderer.develop(&Tone::LINEAR).expect("a picture");
+        // Above the balls there is only the background.
+        for (x, y) in (0..96)
+            .flat_map(|y| (0..96).map(move |x| (x, y)))
+            .filter(|(_, y)| *y < 45)
+        {
+            let [r, g, b, _] = image.pixel(x, y).expect("a pixel");
+            let color = Vec3::new(r, g, b);
+            assert!(
+                color.abs_diff_eq(Vec3::new(0.05, 0.1, 0.3), 1e-6),
+                "{color} at {x}, {y} after {samples} samples"
+            );
+        }
+    }
+    // The first round has four samples; nothing is shown before the first is complete.
+    assert_eq!(seen[..2], [1, 1], "{seen:?}");
+    assert!(seen.is_sorted() && seen.contains(&3), "{seen:?}");
+    assert_eq!(seen.last(), Some(&16));
+}
+
 /// A small bright ball far out of focus: a disc that few rays of a pixel hit.
 fn blurred_light() -> Scene {
     let mut scene = Scene {
