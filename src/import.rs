@@ -298,6 +298,6 @@ fn unknown_format(path: &Path) -> ImportError {
         "unknown scene format",
         path,
         &ending,
-        "Name a .toml (native), .scene (course), .nff or .obj (Wavefront) file",
+        "Use a .toml (native), .scene (course), .nff or .obj (Wavefront) file; convert other models to .obj first",
     ))
 }
