@@ -573,6 +573,63 @@ fn a_node_is_not_moved_into_itself_and_a_hidden_object_stays_hidden_in_another_n
     assert_eq!(scene.shapes[0].node, Some(2));
 }
 
+/// Moved into a rotated node, a sphere has the same points, so it needs no matrix; a texture in u and v would
+/// turn with it, and an uneven node would squeeze it.
+#[test]
+fn a_sphere_moved_into_a_rotated_node_stays_a_sphere() {
+    let sphere = Geometry::Sphere {
+        center: DVec3::new(1.0, 2.0, 3.0),
+        radius: 0.5,
+    };
+    let turned = |scale: DVec3| {
+        let mut scene = Scene {
+            cameras: vec![Camera::default()],
+            materials: vec![Material::default()],
+            shapes: vec![Shape {
+                geometry: sphere,
+                material: 0,
+                node: None,
+            }],
+            ..Scene::default()
+        };
+        scene.nodes.push(Node {
+            placement: DAffine3::from_scale_rotation_translation(
+                scale,
+                DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7),
+                DVec3::new(-1.0, 0.25, 4.0),
+            ),
+            ..Node::default()
+        });
+        scene
+    };
+    let mut scene = turned(DVec3::splat(2.0));
+    objects::set_parent(&mut scene, SHAPE, Some(0), 0.0).expect("free");
+    let Geometry::Sphere { center, radius } = scene.shapes[0].geometry else {
+        panic!("{:?}", scene.shapes[0].geometry);
+    };
+    assert!((radius - 0.25).abs() < 1e-12, "{radius}");
+    let center = scene.nodes[0].placement.transform_point3(center);
+    assert!(center.distance(DVec3::new(1.0, 2.0, 3.0)) < 1e-12);
+
+    let mut uneven = turned(DVec3::new(1.0, 2.0, 1.0));
+    let at = place(&uneven, SHAPE, 0.0).expect("a place");
+    objects::set_parent(&mut uneven, SHAPE, Some(0), 0.0).expect("free");
+    assert!(nearly(place(&uneven, SHAPE, 0.0).expect("a place"), at));
+
+    let mut mapped = turned(DVec3::ONE);
+    mapped.textures.push(Texture {
+        pattern: Pattern::Checker {
+            a: Vec3::ZERO,
+            b: Vec3::ONE,
+        },
+        space: Space::Uv,
+        pattern_from_space: DAffine3::IDENTITY,
+    });
+    mapped.materials[0].textures.diffuse = Some(0);
+    objects::set_parent(&mut mapped, SHAPE, Some(0), 0.0).expect("free");
+    assert!(nearly(place(&mapped, SHAPE, 0.0).expect("a place"), at));
+}
+
 #[test]
 fn swatches_show_what_a_material_reflects_and_transmits() {
     use glimray::viewer::model::swatch::Swatch;

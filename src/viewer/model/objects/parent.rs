@@ -2,10 +2,15 @@
 
 use super::place::{place, set_place};
 use super::{EditError, Id, carrier, check, is_visible, set_visible, shown_carrier, slot};
-use crate::scene::Scene;
+use crate::scene::{Geometry, ObjectRef, Scene, Space};
+use glam::{DAffine3, DMat3};
+
+/// Largest difference from a rotation with even scale, as a fraction of the scale.
+const TOLERANCE: f64 = 1e-9;
 
 /// Moves an object, a light or a node to the node `parent`, or to the top level for `None`. Its place in
-/// the world at `time` seconds stays the same, and so does whether it is hidden.
+/// the world at `time` seconds stays the same, and so does whether it is hidden. A sphere stays a sphere where
+/// its rotation cannot be seen.
 ///
 /// # Errors
 /// It is a camera or a material, `parent` is inside it, or its place cannot be expressed in `parent`. The
@@ -51,8 +56,41 @@ pub fn set_parent(
         }
         Id::Camera(_) | Id::Material(_) => {}
     }
-    match place(scene, id, time) == Some(before) {
-        true => Ok(()),
-        false => set_place(scene, id, before, time),
+    if place(scene, id, time) == Some(before) {
+        return Ok(());
     }
+    if let Id::Object(ObjectRef::Shape(index)) = id
+        && let Some(sphere) = sphere_in(scene, index, parent, before, time)
+    {
+        scene.shapes[index].geometry = sphere;
+        return Ok(());
+    }
+    set_place(scene, id, before, time)
+}
+
+/// The sphere `index` as a sphere of the node `parent`, with the world transform `place` up to a rotation.
+/// `None` if it is another shape, a texture shows its rotation, or it is an ellipsoid in `parent`.
+fn sphere_in(
+    scene: &Scene,
+    index: usize,
+    parent: Option<usize>,
+    place: DAffine3,
+    time: f64,
+) -> Option<Geometry> {
+    let shape = &scene.shapes[index];
+    let textures = scene.materials[shape.material].textures.all();
+    let is_mapped = (textures.iter().flatten()).any(|&at| scene.textures[at].space == Space::Uv);
+    if is_mapped || !matches!(shape.geometry, Geometry::Sphere { .. }) {
+        return None;
+    }
+    let own = match parent {
+        Some(node) => scene.frame(time).nodes[node].world_from_node.inverse() * place,
+        None => place,
+    };
+    let radius = own.matrix3.determinant().abs().cbrt();
+    let squared = own.matrix3.transpose() * own.matrix3 * (radius * radius).recip();
+    (squared.abs_diff_eq(DMat3::IDENTITY, TOLERANCE)).then_some(Geometry::Sphere {
+        center: own.translation,
+        radius,
+    })
 }
