@@ -38,14 +38,7 @@ pub fn ask(session: &mut Session) {
 /// Opens a file dialog for the name of a scene.
 pub fn browse(session: &Session, saving: &mut Saving, ctx: &egui::Context) {
     let path = target(&saving.name).unwrap_or_default();
-    let folder = path.parent().filter(|folder| folder.is_dir());
-    let request = Request {
-        saves: true,
-        kind: Some(SCENES),
-        title: "Save the scene".to_owned(),
-        folder: folder.map(Path::to_owned),
-        name: path.file_name().map(|n| n.to_string_lossy().into_owned()),
-    };
+    let request = Request::save("Save the scene", SCENES, &path);
     saving.asked = Some(session.files.dialogs.ask(request, ctx));
 }
 

@@ -33,6 +33,20 @@ pub struct Request {
     pub name: Option<String>,
 }
 
+impl Request {
+    /// A request for the name of a new file, with `path` as the suggestion.
+    pub fn save(title: &str, kind: Kind, path: &Path) -> Self {
+        let folder = path.parent().filter(|folder| folder.is_dir());
+        Self {
+            saves: true,
+            kind: Some(kind),
+            title: title.to_owned(),
+            folder: folder.map(Path::to_owned),
+            name: path.file_name().map(|n| n.to_string_lossy().into_owned()),
+        }
+    }
+}
+
 /// The reply of a dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reply {

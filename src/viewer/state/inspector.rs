@@ -90,8 +90,8 @@ pub struct Inspector {
     pub hidden: Hidden,
     /// Number of trees so far.
     pub tree_count: u32,
-    /// The state of exports.
-    pub saving: Saving,
+    /// The export that waits for a file name.
+    pub export: Export,
     pub(in crate::viewer) rows: Option<Vec<Row>>,
     pub(in crate::viewer) is_asked: bool,
     pub(in crate::viewer) is_wanted: bool,
@@ -242,6 +242,11 @@ impl Outside {
     }
 }
 
-/// An export that waits for a file name.
+/// An export of the ray tree.
 #[derive(Default)]
-pub struct Saving(pub Option<(Receiver<Reply>, String)>);
+pub struct Export {
+    /// The file dialog, while it is open.
+    pub asked: Option<Receiver<Reply>>,
+    /// The text to write.
+    pub text: String,
+}

@@ -64,14 +64,7 @@ pub fn browse(session: &mut Session, ctx: &egui::Context) {
         return;
     };
     let path = Path::new(dialog.path.trim());
-    let folder = path.parent().filter(|folder| folder.is_dir());
-    let request = Request {
-        saves: true,
-        kind: Some(PICTURES),
-        title: "Save the picture".to_owned(),
-        folder: folder.map(Path::to_owned),
-        name: path.file_name().map(|n| n.to_string_lossy().into_owned()),
-    };
+    let request = Request::save("Save the picture", PICTURES, path);
     dialog.asked = Some(session.files.dialogs.ask(request, ctx));
 }
 

@@ -5,12 +5,11 @@ use crate::output;
 use crate::render::{Integrator, RenderSettings};
 use crate::viewer::model::command_line;
 use crate::viewer::model::command_line::{CommandLine, Shown};
-use crate::viewer::model::file_dialog::{Kind, Reply, Request};
-use crate::viewer::state::inspector::Inspected;
+use crate::viewer::model::file_dialog::{self, Kind, Reply, Request};
+use crate::viewer::state::inspector::{Export, Inspected};
 use crate::viewer::state::session::Session;
 use eframe::egui;
 use std::path::Path;
-use std::sync::mpsc::TryRecvError;
 
 /// A file format for a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,7 +37,7 @@ pub fn save(session: &mut Session, format: Format, ctx: &egui::Context) {
     let Some(inspected) = &session.inspector.inspected else {
         return;
     };
-    if session.inspector.saving.0.is_some() {
+    if session.inspector.export.asked.is_some() {
         return;
     }
     let text = match text(inspected, format) {
@@ -50,15 +49,10 @@ pub fn save(session: &mut Session, format: Format, ctx: &egui::Context) {
         Format::Json => (("Rays as JSON", &["json"]), "json"),
         Format::Obj => (("Rays as Wavefront OBJ lines", &["obj"]), "obj"),
     };
-    let request = Request {
-        saves: true,
-        kind: Some(kind),
-        title: "Save the rays".to_owned(),
-        folder: None,
-        name: Some(format!("rays_{x}_{y}.{ending}")),
-    };
-    let reply = session.files.dialogs.ask(request, ctx);
-    session.inspector.saving.0 = Some((reply, text));
+    let name = format!("rays_{x}_{y}.{ending}");
+    let request = Request::save("Save the rays", kind, Path::new(&name));
+    let asked = Some(session.files.dialogs.ask(request, ctx));
+    session.inspector.export = Export { asked, text };
 }
 
 /// Writes a text and returns a message.
@@ -74,27 +68,21 @@ pub fn write(path: &Path, text: &str) -> Result<String, String> {
 
 /// Handles the reply of the file dialog.
 pub fn update(session: &mut Session) {
-    let Some((reply, text)) = &session.inspector.saving.0 else {
-        return;
-    };
-    match reply.try_recv() {
-        Err(TryRecvError::Empty) => return,
-        Ok(Reply::Chosen(path)) if session.files.inputs().contain(&path) => {
+    let export = &mut session.inspector.export;
+    match file_dialog::take_reply(&mut export.asked) {
+        Some(Reply::Chosen(path)) if session.files.inputs().contain(&path) => {
             let path = path.display();
             session.messages.warn(format!(
                 "Cannot save the rays ({path}): the scene uses that file. Choose another name."
             ));
         }
-        Ok(Reply::Chosen(path)) => match write(&path, text) {
+        Some(Reply::Chosen(path)) => match write(&path, &export.text) {
             Ok(told) => session.messages.tell(told),
             Err(why) => session.messages.warn(why),
         },
-        Ok(Reply::Cancelled) => {}
-        Ok(Reply::Unavailable) | Err(TryRecvError::Disconnected) => {
-            session.messages.warn(NO_DIALOG.to_owned());
-        }
+        Some(Reply::Unavailable) => session.messages.warn(NO_DIALOG.to_owned()),
+        Some(Reply::Cancelled) | None => {}
     }
-    session.inspector.saving.0 = None;
 }
 
 /// Message for desktops without file dialogs.

@@ -117,7 +117,7 @@ impl Session {
         self.selection = None;
         let inspector = std::mem::take(&mut self.inspector);
         // A pending export belongs to rays of the previous scene.
-        self.inspector.saving = inspector.saving;
+        self.inspector.export = inspector.export;
         self.original = Some(Arc::new(original));
         self.document = Some(Document::new(scene));
         Ok(())
