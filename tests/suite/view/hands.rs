@@ -50,16 +50,15 @@ fn what_a_hand_moves_is_in_the_same_frame_and_a_still_hand_costs_none() {
     window.harness.hover_at(middle);
     window.harness.step();
     button(&mut window, middle, PointerButton::Primary, true);
-    let mut in_time = 0;
-    for number in 1..=20 {
+    // On a busy machine most frames are too short for a picture.
+    let is_in_time = (1..=400).any(|number| {
         let before = window.shown().stats.samples;
-        let to = middle + egui::vec2(10.0 + number as f32, 0.0);
+        let to = middle + egui::vec2(10.0 + (number % 20) as f32, 0.0);
         window.harness.hover_at(to);
         window.harness.step();
-        in_time += u32::from(window.shown().stats.samples > before);
-    }
-    // On a busy machine a frame may be too short for a picture.
-    assert!(in_time > 0, "never in the same frame");
+        window.shown().stats.samples > before
+    });
+    assert!(is_in_time, "never in the same frame");
     assert!(window.shown().progress.is_coarse);
     for _ in 0..200 {
         window.harness.step();
