@@ -1,16 +1,19 @@
-//! The mouse in the picture.
+//! The mouse in the picture: the active tool, and camera navigation.
 
-use crate::viewer::actions::answers;
-use crate::viewer::actions::inspector;
-use crate::viewer::model::bindings::Action;
+use crate::app::advice;
+use crate::scene::ObjectRef;
+use crate::viewer::actions::{inspector, modal};
+use crate::viewer::model::bindings::{Action, Drag};
 use crate::viewer::model::camera::CameraController;
-use crate::viewer::model::tool::Drag;
-use crate::viewer::model::tool::Purpose;
-use crate::viewer::model::tool::Tool;
+use crate::viewer::model::objects::Id;
+use crate::viewer::model::tool::{Purpose, Tool};
 use crate::viewer::model::viewport::Viewport;
+use crate::viewer::state::answer::Answer;
+use crate::viewer::state::layout::Layout;
 use crate::viewer::state::session::Session;
+use crate::viewer::worker::progressive_image::FrameRenderer;
 use eframe::egui::{self, LayerId, PointerButton, Pos2, Vec2};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// All mouse buttons.
 const BUTTONS: [PointerButton; 5] = [
@@ -21,8 +24,24 @@ const BUTTONS: [PointerButton; 5] = [
     PointerButton::Extra2,
 ];
 
-/// Passes the mouse in the picture to the camera. Input consumed by a tool or a handle does not get here.
+/// Activates a tool.
+pub fn activate(session: &mut Session, layout: &mut Layout, tool: Tool) {
+    match tool {
+        Tool::Move | Tool::Rotate | Tool::Scale => modal::activate(session, tool),
+        Tool::Inspect => inspector::open(session, layout),
+        Tool::Region if session.view.region.take().is_some() => session.tool = Tool::Select,
+        Tool::Select | Tool::Region => session.tool = tool,
+    }
+}
+
+/// Whether the tool or its effect is active.
+pub fn is_active(session: &Session, tool: Tool) -> bool {
+    session.tool == tool || tool == Tool::Region && session.view.region.is_some()
+}
+
+/// Passes the mouse in the picture to the active tool and to the camera. Input consumed by a tool or a handle does not get here.
 pub fn navigate(session: &mut Session, response: &egui::Response, viewport: Viewport) {
+    inspector::follow(session, response, viewport);
     let ctx = &response.ctx;
     let (modifiers, pointer) = ctx.input(|input| (input.modifiers, input.pointer.interact_pos()));
     let bindings = session.preferences.bindings.clone();
@@ -124,14 +143,6 @@ pub fn pick_under_cursor(session: &mut Session, action: Action, ctx: &egui::Cont
     }
 }
 
-/// Activates the region tool, or clears the region.
-pub fn toggle_region(session: &mut Session) {
-    session.tool = match session.view.region.take() {
-        Some(_) => Tool::Select,
-        None => Tool::Region,
-    };
-}
-
 /// The command of a click; a click without modifiers belongs to the tool.
 fn click(session: &mut Session, action: Option<Action>, pointer: Option<Pos2>) {
     let pixel = (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point));
@@ -151,13 +162,52 @@ fn is_pick(action: Action) -> bool {
 
 fn pick(session: &mut Session, action: Action, pixel: [u32; 2]) {
     let purpose = match action {
-        Action::Select if session.tool == Tool::Inspect => {
-            inspector::inspect(session, pixel);
-            return;
-        }
         Action::SetPivot => Purpose::Pivot,
         Action::FocusHere => Purpose::Focus,
-        _ => Purpose::Select,
+        _ => match session.tool {
+            Tool::Inspect => {
+                inspector::inspect(session, pixel);
+                return;
+            }
+            Tool::Select | Tool::Region | Tool::Move | Tool::Rotate | Tool::Scale => {
+                Purpose::Select
+            }
+        },
     };
-    session.ask(move |frame| answers::pick(frame, pixel, purpose));
+    session.ask(move |frame| surface_at(frame, pixel, purpose));
+}
+
+/// Finds the nearest surface in a pixel of the picture.
+fn surface_at(frame: &mut FrameRenderer, pixel: [u32; 2], purpose: Purpose) -> Answer {
+    match frame.renderer.explain(pixel, 0..1) {
+        Ok(tree) => {
+            let first = tree.samples.first().and_then(|sample| sample.rays.first());
+            let hit = first.and_then(|ray| ray.hit.as_ref());
+            Answer::Picked {
+                purpose,
+                hit: hit.map(|hit| (DVec3::from(hit.position), hit.object)),
+            }
+        }
+        Err(error) => Answer::Failed(advice::render(&error)),
+    }
+}
+
+/// Handles a pick: its point in world space and its object, or `None` for the background.
+pub fn picked(session: &mut Session, purpose: Purpose, hit: Option<(DVec3, Option<ObjectRef>)>) {
+    match (purpose, hit) {
+        (Purpose::Pivot, Some((point, _))) => {
+            if let Some(controller) = &mut session.controller {
+                controller.recentre(point);
+            }
+        }
+        (Purpose::Focus, Some((point, _))) => {
+            if let Some(controller) = &mut session.controller {
+                controller.focus_on(point);
+            }
+        }
+        (Purpose::Select, hit) => {
+            session.selection = hit.and_then(|(_, object)| object).map(Id::Object);
+        }
+        (_, None) => session.messages.tell("Nothing is under the cursor"),
+    }
 }

@@ -11,7 +11,7 @@ pub fn reopened(session: &mut Session) {
     session.questions.clear();
     inspector::begin(session);
     session.drag = None;
-    session.view.grip = None;
+    session.tool_state.region = None;
     session.editing.grip = None;
     session.editing.modal = None;
 }

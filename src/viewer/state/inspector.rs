@@ -8,7 +8,7 @@ use crate::viewer::model::outline;
 pub mod rows;
 pub mod words;
 
-use crate::viewer::model::tool::Drag;
+use crate::viewer::model::bindings::Drag;
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::worker::request::RenderRequest;
 use rows::{Filter, RayId, Row};

@@ -10,6 +10,7 @@ use crate::viewer::model::camera::CameraController;
 use crate::viewer::model::document::Document;
 use crate::viewer::model::loader::{Loader, Trouble};
 use crate::viewer::model::playback::Playback;
+use crate::viewer::model::tool::ToolState;
 use crate::viewer::model::view_settings::ViewSettings;
 use crate::viewer::state::files::Intent;
 use crate::viewer::state::session::Session;
@@ -115,6 +116,7 @@ impl Session {
         let camera = scene.frame(self.playback.time).camera;
         self.controller = Some(CameraController::new(&camera, scene.bounds()));
         self.selection = None;
+        self.tool_state = ToolState::default();
         let inspector = std::mem::take(&mut self.inspector);
         // A pending export belongs to rays of the previous scene.
         self.inspector.saving = inspector.saving;

@@ -4,8 +4,6 @@ mod list;
 mod paint;
 pub mod space;
 
-pub use paint::mark;
-
 use crate::app::ray_text::{color, ray_sum, weighted_sum};
 use crate::viewer::actions::inspector;
 use crate::viewer::actions::inspector::export;
