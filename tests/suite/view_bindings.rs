@@ -116,6 +116,7 @@ fn tools_keep_their_names_and_their_keys_of_other_programs() {
         (Tool::Rotate, "rotate-tool", ["R", "R", "E"]),
         (Tool::Scale, "scale-tool", ["Z", "S", "R"]),
         (Tool::Inspect, "inspect-rays", ["I", "I", "I"]),
+        (Tool::Measure, "measure", ["Alt+M", "Alt+M", "Alt+M"]),
         (Tool::Region, "region-render", ["B", "Ctrl+B", "B"]),
     ] {
         let action = Action::from_name(name);

@@ -1,6 +1,7 @@
 //! The mouse in the picture: the active tool, and camera navigation.
 
 use crate::app::advice;
+use crate::app::legend::number;
 use crate::scene::ObjectRef;
 use crate::viewer::actions::{inspector, modal};
 use crate::viewer::model::bindings::{Action, Drag};
@@ -30,6 +31,10 @@ pub fn activate(session: &mut Session, layout: &mut Layout, tool: Tool) {
         Tool::Move | Tool::Rotate | Tool::Scale => modal::activate(session, tool),
         Tool::Inspect => inspector::open(session, layout),
         Tool::Region if session.view.region.take().is_some() => session.tool = Tool::Select,
+        Tool::Measure => {
+            session.tool_state.measured.clear();
+            session.tool = tool;
+        }
         Tool::Select | Tool::Region => session.tool = tool,
     }
 }
@@ -169,6 +174,7 @@ fn pick(session: &mut Session, action: Action, pixel: [u32; 2]) {
                 inspector::inspect(session, pixel);
                 return;
             }
+            Tool::Measure => Purpose::Measure,
             Tool::Select | Tool::Region | Tool::Move | Tool::Rotate | Tool::Scale => {
                 Purpose::Select
             }
@@ -207,6 +213,13 @@ pub fn picked(session: &mut Session, purpose: Purpose, hit: Option<(DVec3, Optio
         }
         (Purpose::Select, hit) => {
             session.selection = hit.and_then(|(_, object)| object).map(Id::Object);
+        }
+        (Purpose::Measure, Some((point, _))) => {
+            session.tool_state.measure(point);
+            if let Some([a, b]) = session.tool_state.measured_line() {
+                let distance = number(a.distance(b) as f32);
+                session.messages.tell(format!("Distance: {distance}"));
+            }
         }
         (_, None) => session.messages.tell("Nothing is under the cursor"),
     }

@@ -4,6 +4,7 @@
 //! `ui/tools.rs`; its command, its shortcuts, its menu entry and its button follow from the row.
 
 use super::region;
+use glam::DVec3;
 
 /// A row of the table of tools.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,6 +106,16 @@ tools! {
         button: None,
         has_handles: false,
     }
+    /// Two clicks measure the distance between two points.
+    Measure {
+        name: "measure",
+        title: "Measure tool",
+        description: "Measure tool: click two points to show their distance",
+        shortcuts: ["Alt+M", "Alt+M", "Alt+M"],
+        menu: ToolMenu::Edit,
+        button: None,
+        has_handles: false,
+    }
     /// A drag selects the render region.
     Region {
         name: "region-render",
@@ -122,6 +133,23 @@ tools! {
 pub struct ToolState {
     /// The edge or corner of the render region that is being dragged.
     pub region: Option<region::Grip>,
+    /// The measured points in world space, at most two.
+    pub measured: Vec<DVec3>,
+}
+
+impl ToolState {
+    /// Adds a point to the measurement; a third one starts another.
+    pub fn measure(&mut self, point: DVec3) {
+        if self.measured.len() == 2 {
+            self.measured.clear();
+        }
+        self.measured.push(point);
+    }
+
+    /// Both measured points; `None` before there are two.
+    pub fn measured_line(&self) -> Option<[DVec3; 2]> {
+        self.measured[..].try_into().ok()
+    }
 }
 
 /// The purpose of a pick.
@@ -133,4 +161,6 @@ pub enum Purpose {
     Focus,
     /// Select it.
     Select,
+    /// Measure the distance from or to it.
+    Measure,
 }

@@ -1,9 +1,15 @@
 //! The overlays of the tools. The handles of the selection are in `overlay.rs`.
 
+use crate::app::legend::number;
+use crate::viewer::model::handles::Eye;
 use crate::viewer::model::tool::Tool;
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::state::session::Session;
+use crate::viewer::ui::world_painter::{SHADE, WorldPainter};
 use eframe::egui::{Color32, Painter, Stroke, StrokeKind, vec2};
+
+/// The colour of measurements.
+const MEASURE: Color32 = Color32::from_rgb(255, 214, 64);
 
 /// Draws the overlay of the active tool.
 pub fn draw(painter: &Painter, session: &Session, viewport: Viewport) {
@@ -16,7 +22,39 @@ pub fn draw(painter: &Painter, session: &Session, viewport: Viewport) {
                 inspected_pixel(painter, pixel, viewport);
             }
         }
+        Tool::Measure => measurement(painter, session, viewport),
         Tool::Select | Tool::Region | Tool::Move | Tool::Rotate | Tool::Scale => {}
+    }
+}
+
+/// Draws the measured points, the line between them and its length.
+fn measurement(painter: &Painter, session: &Session, viewport: Viewport) {
+    let Some(camera) = session.camera() else {
+        return;
+    };
+    let view = WorldPainter {
+        painter,
+        viewport,
+        eye: Eye {
+            camera: &camera,
+            size: viewport.extent(),
+        },
+    };
+    let line = session.tool_state.measured_line();
+    if let Some(ends) = line {
+        view.lines(&[ends], MEASURE);
+    }
+    for point in &session.tool_state.measured {
+        if let Some(at) = view.eye.project(*point) {
+            let border = Stroke::new(1.5, SHADE);
+            painter.circle(viewport.point(at), 4.0, MEASURE, border);
+        }
+    }
+    if let Some([a, b]) = line
+        && let Some([from, to]) = view.segment([a, b])
+    {
+        let beside = from.lerp(to, 0.5) + vec2(8.0, -8.0);
+        view.text(beside, &number(a.distance(b) as f32));
     }
 }
 
