@@ -8,14 +8,14 @@ use crate::viewer::state::session::Session;
 
 impl Session {
     /// Handles an answer of the render thread.
-    pub fn take(&mut self, answer: Answer) {
+    pub fn handle_answer(&mut self, answer: Answer) {
         match answer {
             Answer::Picked { purpose, hit } => tools::picked(self, purpose, hit),
             Answer::Probed(probe) => self.cursor.probe = Some(probe),
-            Answer::Rays(outcome) => inspector::take(self, outcome),
-            Answer::Hidden(parts) => self.inspector.hidden.take(parts),
+            Answer::Rays(outcome) => inspector::handle_rays(self, outcome),
+            Answer::Hidden(parts) => self.inspector.hidden.set(parts),
             Answer::Nothing => {}
-            Answer::Picture(taken) => pictures::taken(self, *taken),
+            Answer::Picture(picture) => pictures::captured(self, *picture),
             Answer::Failed(why) => self.messages.warn(why),
         }
     }

@@ -94,7 +94,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::ViewBottom => camera(session, |it| it.look_from(Side::Bottom)),
         Action::ToggleOrthographic => camera(session, CameraController::toggle_orthographic),
         Action::Home => camera(session, CameraController::go_home),
-        Action::SaveCamera => files::cameras::keep(session),
+        Action::SaveCamera => files::cameras::bookmark(session),
         Action::NextCamera => files::cameras::step(session, 1),
         Action::PreviousCamera => files::cameras::step(session, -1),
         Action::CopyCamera => files::cameras::copy(session, ctx),
@@ -156,7 +156,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::SavePictureWithOverlays if session.viewport.is_none() => {
             session
                 .messages
-                .tell("The picture is hidden. Show its panel first");
+                .notify("The picture is hidden. Show its panel first");
         }
         Action::SavePictureWithOverlays => files::pictures::open(session, true),
         Action::Help => session.dialogs.toggle(Dialog::Shortcuts),

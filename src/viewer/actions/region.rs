@@ -13,7 +13,7 @@ const REACH: f32 = 6.0;
 const LEAST: f64 = 4.0;
 
 /// Handles the mouse for the region. Returns whether it is consumed.
-pub fn follow(session: &mut Session, response: &egui::Response, viewport: Viewport) -> bool {
+pub fn drag(session: &mut Session, response: &egui::Response, viewport: Viewport) -> bool {
     let (pointer, pressed_at) =
         (response.ctx).input(|input| (input.pointer.interact_pos(), input.pointer.press_origin()));
     let share = |point: Pos2| viewport.position(point) / viewport.extent();

@@ -46,7 +46,7 @@ pub fn is_active(session: &Session, tool: Tool) -> bool {
 
 /// Passes the mouse in the picture to the active tool and to the camera. Input consumed by a tool or a handle does not get here.
 pub fn navigate(session: &mut Session, response: &egui::Response, viewport: Viewport) {
-    inspector::follow(session, response, viewport);
+    inspector::inspect_hovered(session, response, viewport);
     let ctx = &response.ctx;
     let (modifiers, pointer) = ctx.input(|input| (input.modifiers, input.pointer.interact_pos()));
     let bindings = session.preferences.bindings.clone();
@@ -70,7 +70,7 @@ pub fn navigate(session: &mut Session, response: &egui::Response, viewport: View
         if from != to
             && let Some(controller) = &mut session.controller
         {
-            follow(controller, drag, viewport, from, to);
+            move_camera(controller, drag, viewport, from, to);
             session.moved();
         }
         if response.drag_stopped() {
@@ -115,7 +115,7 @@ pub fn pixel_zoom(session: &mut Session, steps: f64, pointer: Option<Pos2>) {
 }
 
 /// Moves the camera by a drag from one point of the screen to another.
-pub fn follow(
+pub fn move_camera(
     controller: &mut CameraController,
     drag: Drag,
     viewport: Viewport,
@@ -144,7 +144,7 @@ pub fn pick_under_cursor(session: &mut Session, action: Action, ctx: &egui::Cont
     let pointer = pointer.filter(|point| ctx.layer_id_at(*point) == Some(LayerId::background()));
     match (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point)) {
         Some(pixel) => pick(session, action, pixel),
-        None => (session.messages).tell("Move the cursor over the picture first"),
+        None => (session.messages).notify("Move the cursor over the picture first"),
     }
 }
 
@@ -218,9 +218,9 @@ pub fn picked(session: &mut Session, purpose: Purpose, hit: Option<(DVec3, Optio
             session.tool_state.measure(point);
             if let Some([a, b]) = session.tool_state.measured_line() {
                 let distance = number(a.distance(b) as f32);
-                session.messages.tell(format!("Distance: {distance}"));
+                session.messages.notify(format!("Distance: {distance}"));
             }
         }
-        (_, None) => session.messages.tell("Nothing is under the cursor"),
+        (_, None) => session.messages.notify("Nothing is under the cursor"),
     }
 }

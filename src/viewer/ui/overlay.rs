@@ -106,7 +106,7 @@ pub fn overlay(
         return false;
     };
     let now = pointer.unwrap_or(last);
-    grip.follow(viewport.length(now - last), is_fine);
+    grip.move_pointer(viewport.length(now - last), is_fine);
     let mut modal = session.editing.modal.take();
     let dragged = match &modal {
         Some(modal) => {
@@ -140,8 +140,8 @@ pub fn overlay(
             .map(Modal::typed)
             .filter(|typed| !typed.is_empty())
         {
-            Some(typed) => view.text(at, &format!("{}   [{typed}]", dragged.told)),
-            None => view.text(at, &dragged.told),
+            Some(typed) => view.text(at, &format!("{}   [{typed}]", dragged.label)),
+            None => view.text(at, &dragged.label),
         }
     }
     ctx.set_cursor_icon(egui::CursorIcon::Grabbing);

@@ -86,7 +86,7 @@ pub fn update(session: &mut Session) {
             ));
         }
         Ok(Reply::Chosen(path)) => match write(&path, text) {
-            Ok(told) => session.messages.tell(told),
+            Ok(notice) => session.messages.notify(notice),
             Err(why) => session.messages.warn(why),
         },
         Ok(Reply::Cancelled) => {}

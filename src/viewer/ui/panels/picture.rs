@@ -64,7 +64,7 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     let viewport = viewports[usize::from(is_right)];
     context.session.viewport = Some(viewport);
     hover(context, &response, viewport, space);
-    let is_taken = region::follow(context.session, &response, viewport)
+    let is_taken = region::drag(context.session, &response, viewport)
         || overlay::overlay(context.session, &response, &painter, viewport);
     if !is_taken {
         tools::navigate(context.session, &response, viewport);
