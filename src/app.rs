@@ -12,5 +12,5 @@ pub mod ray_lines;
 pub mod ray_text;
 pub mod scene_file;
 pub mod showcase;
+pub mod value_names;
 pub mod window;
-pub mod words;

@@ -23,7 +23,7 @@ impl Clock {
 
     /// When the shutter opens and closes for a picture of `moment`, in seconds.
     pub fn moment(&self, moment: &Moment) -> (f64, f64) {
-        self.shot(self.time(moment))
+        self.shutter_interval(self.time(moment))
     }
 
     /// The time of `moment`, in seconds.
@@ -36,11 +36,11 @@ impl Clock {
 
     /// Shutter opening and closing times for frame `number`, in seconds.
     pub fn frame(&self, number: u32) -> (f64, f64) {
-        self.shot(f64::from(number) / self.fps)
+        self.shutter_interval(f64::from(number) / self.fps)
     }
 
     /// Shutter opening and closing times for a picture at `time`, all in seconds.
-    pub fn shot(&self, time: f64) -> (f64, f64) {
+    pub fn shutter_interval(&self, time: f64) -> (f64, f64) {
         let Shutter { open, close } = self.shutter;
         (time + open / self.fps, time + close / self.fps)
     }

@@ -1,4 +1,4 @@
-//! The files that a run reads. It never overwrites any of them, whatever path leads there.
+//! The files that a run reads. No output may overwrite them, also not through links.
 
 use super::error::AppError;
 use std::path::{Path, PathBuf};
@@ -40,7 +40,7 @@ impl Inputs {
     ///
     /// # Errors
     /// [`AppError::Unwritable`].
-    pub fn spare(&self, path: &Path, what: &str, flag: &str) -> Result<(), AppError> {
+    pub fn refuse_overwrite(&self, path: &Path, what: &str, flag: &str) -> Result<(), AppError> {
         match self.contain(path) {
             false => Ok(()),
             true => Err(AppError::Unwritable(format!(

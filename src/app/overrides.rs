@@ -1,4 +1,4 @@
-//! What a user asks for in place of what a scene says. The command line and the window fill these in.
+//! Overrides of a scene's values. The command line and the window fill them in.
 
 use super::error::AppError;
 use crate::render::{
@@ -71,7 +71,7 @@ pub struct ToneOverrides {
     pub transfer: Option<Transfer>,
 }
 
-/// Which camera sees the scene, and what of it is changed.
+/// The choice of a camera, and changes to it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CameraOverrides {
     /// A camera of the scene, by name or index.
@@ -109,7 +109,7 @@ pub struct TimingOverrides {
 }
 
 impl PictureOverrides {
-    /// The settings of a picture, where `scene` says everything that is not overridden.
+    /// The settings of a picture: the overrides, else the values of `scene`.
     pub fn settings(&self, scene: &OutputDefaults) -> RenderSettings {
         let output = OutputDefaults {
             samples: self.samples.unwrap_or(scene.samples),
@@ -156,9 +156,9 @@ pub fn picture_size(settings: &RenderSettings) -> Result<(u32, u32), AppError> {
 const FULL_HEAT: f32 = 128.0;
 
 impl ToneOverrides {
-    /// How a picture of `integrator` is developed. Without overrides linear formats store radiance as it
-    /// was traced, pictures are developed as the scene says, quantities are shown over the range found
-    /// in them, and other debug views are stored as they are.
+    /// The tone mapping of a picture of `integrator`. Without overrides, linear formats store the traced
+    /// radiance, other formats use the scene's tone mapping, quantities are shown over the range found in
+    /// the picture, and other debug views are not tone-mapped.
     pub fn tone(
         &self,
         scene: &OutputDefaults,
@@ -252,7 +252,7 @@ impl CameraOverrides {
 /// Makes `camera`, in world space, the scene's camera, as overrides of all its properties would. A lens
 /// that is animated stays.
 #[cfg(feature = "viewer")]
-pub fn see_by(scene: &mut Scene, camera: &Camera) {
+pub fn set_camera(scene: &mut Scene, camera: &Camera) {
     for property in [
         CameraProperty::LookFrom,
         CameraProperty::LookAt,
@@ -268,11 +268,11 @@ pub fn see_by(scene: &mut Scene, camera: &Camera) {
             if *of == index)
     };
     let has_moving_lens = (scene.tracks.iter()).any(|track| track.targets.iter().any(is_lens));
-    let seen_by = &mut scene.cameras[index];
-    *seen_by = Camera {
-        name: std::mem::take(&mut seen_by.name),
+    let current = &mut scene.cameras[index];
+    *current = Camera {
+        name: std::mem::take(&mut current.name),
         lens: if has_moving_lens {
-            seen_by.lens
+            current.lens
         } else {
             camera.lens
         },

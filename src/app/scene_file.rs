@@ -7,9 +7,9 @@ use crate::scene::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Writes `scene` to `path`, which should end in `.toml`, and what belongs to it beside it, and returns
-/// all paths, that of the scene last. Files beside it are never replaced: what is there with the same
-/// contents is used, else another name is taken. `clobber` says whether the scene file itself may be.
+/// Writes `scene` to `path`, which should end in `.toml`, and its meshes and textures beside it. Returns all
+/// paths, the scene's last. Files beside the scene are never replaced: a file with the same contents is used
+/// again, otherwise another name is chosen. `clobber` allows replacing the scene file itself.
 ///
 /// # Errors
 /// The scene is too large, or a file cannot be written. The old scene file is then unchanged, and new files

@@ -8,44 +8,44 @@ use crate::render::ExecutionPolicy;
 use crate::scene::Scene;
 use std::path::PathBuf;
 
-/// The window as the command line sees it.
+/// The functions of the window that the command line calls.
 pub struct Window {
-    /// Whether there is a display to open it on.
+    /// Whether there is a display.
     pub has_display: fn() -> bool,
     /// Opens it, and returns when it is closed.
     pub open: fn(ViewRequest) -> Result<(), AppError>,
-    /// Measures how soon it shows a picture: as JSON, and as a line for people.
+    /// Measures the time to the first picture; returns JSON and a line of text.
     pub bench: fn(BenchRequest) -> Result<(serde_json::Value, String), AppError>,
 }
 
-/// What the window is opened with.
+/// The arguments of the window.
 #[derive(Clone, Debug)]
 pub struct ViewRequest {
     /// The scene's file; `None` is the built-in scene.
     pub scene: Option<PathBuf>,
-    /// What the user asks for in place of what the scene says.
+    /// Overrides of the scene's values.
     pub overrides: RenderOverrides,
-    /// How scenes are read.
+    /// Import options.
     pub import: import::Options,
-    /// What is recorded or replayed.
+    /// Recording or replay of input.
     pub recording: RecordingRequest,
     /// The adapter.
     pub adapter: AdapterChoice,
-    /// How pictures are made on it.
+    /// How renders use it.
     pub policy: ExecutionPolicy,
     /// Reads command lines that are pasted into the window.
     pub parse: ParsePicture,
 }
 
-/// Reads the words of a `glimray render` or `glimray animate` command line. The error is one line.
+/// Reads the arguments of a `glimray render` or `glimray animate` command line. The error is one line.
 pub type ParsePicture = fn(&[String]) -> Result<PictureRequest, String>;
 
-/// The picture that a command line asks for.
+/// The picture that a command line describes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureRequest {
     /// The scene's file.
     pub scene: PathBuf,
-    /// What it asks for in place of what the scene says.
+    /// Overrides of the scene's values.
     pub overrides: RenderOverrides,
 }
 
@@ -69,7 +69,7 @@ pub struct BenchRequest {
     pub repeats: u32,
     /// The adapter.
     pub adapter: AdapterChoice,
-    /// How pictures are made on it.
+    /// How renders use it.
     pub policy: ExecutionPolicy,
     /// A scene of at least 600 instances.
     pub crowd: Scene,

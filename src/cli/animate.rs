@@ -5,11 +5,12 @@
 //! encodes all of them. So runs are resumable, and a video can be encoded again without rendering.
 
 mod fingerprint;
+mod frame_renderer;
 mod journal;
 mod lock;
 mod pattern;
 mod plan;
-mod studio;
+
 mod target;
 mod timeline;
 
@@ -27,6 +28,7 @@ use crate::cli::report::{AnimationReport, Draft};
 use crate::output::OutputError;
 use crate::output::video::{self, FrameRate, VideoOptions};
 use crate::render::Stats;
+use frame_renderer::{FrameRenderer, Sink};
 use journal::Journal;
 use lock::Lock;
 use plan::Plan;
@@ -34,7 +36,6 @@ use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 use std::time::Instant;
-use studio::{FrameRenderer, Sink};
 use target::{Files, Video};
 
 pub fn run(arguments: &AnimateArgs, started: Instant) -> Result<(), AppError> {

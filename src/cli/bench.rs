@@ -137,7 +137,11 @@ fn render(
 ) -> Result<(Times, Option<Rays>), AppError> {
     let started = Instant::now();
     let gpu = Gpu::new(&arguments.device.choice())?;
-    let Workload { scene, shot, .. } = workload;
+    let Workload {
+        scene,
+        shutter_interval,
+        ..
+    } = workload;
     let settings = RenderSettings {
         size: workload.size,
         ..RenderSettings::from(&scene.output)
@@ -145,7 +149,7 @@ fn render(
     let policy = job::policy(&arguments.device, count_rays);
     let packed = Arc::new(pack::scene_with(scene, workload.most_baked)?);
     let bvh = packed.build_seconds;
-    let view = packed.view(&scene.motion_samples(shot.0, shot.1))?;
+    let view = packed.view(&scene.motion_samples(shutter_interval.0, shutter_interval.1))?;
     let mut renderer = Renderer::new(gpu, packed, &view, settings, policy)?;
     while !renderer.is_done() {
         renderer.step()?;

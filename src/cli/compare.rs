@@ -18,7 +18,7 @@ use std::path::Path;
 pub fn run(arguments: &CompareArgs) -> Result<(), AppError> {
     Interrupt::install()?;
     if let Some(path) = &arguments.diff {
-        Inputs::new([&arguments.a, &arguments.b]).spare(path, "difference", "--diff")?;
+        Inputs::new([&arguments.a, &arguments.b]).refuse_overwrite(path, "difference", "--diff")?;
         output::check(path, &output::SaveOptions::default(), 1, 1)?;
     }
     let a = read::picture(&arguments.a)?;

@@ -30,7 +30,7 @@ pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
             path.display()
         )));
     }
-    inputs.spare(&path, "scene", "-o")?;
+    inputs.refuse_overwrite(&path, "scene", "-o")?;
     let files = save(&path, &scene, !arguments.no_clobber)?;
     let list = files.iter().map(|path| format!("{}\n", path.display()));
     console::print(&list.collect::<String>())

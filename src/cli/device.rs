@@ -7,18 +7,18 @@ use crate::render::{ExecutionPolicy, RenderSettings, Renderer};
 use crate::scene::Scene;
 use std::sync::Arc;
 
-/// A renderer of `scene` while the shutter is open, from `shot.0` to `shot.1` in seconds, and the
+/// A renderer of `scene` while the shutter is open, from `shutter.0` to `shutter.1` in seconds, and the
 /// seconds that building the tree took.
 pub fn renderer(
     gpu: Gpu,
     scene: &Scene,
-    shot: (f64, f64),
+    shutter: (f64, f64),
     settings: RenderSettings,
     policy: ExecutionPolicy,
 ) -> Result<(Renderer, f64), AppError> {
     let packed = Arc::new(pack::scene(scene)?);
     let build_seconds = packed.build_seconds;
-    let view = packed.view(&scene.motion_samples(shot.0, shot.1))?;
+    let view = packed.view(&scene.motion_samples(shutter.0, shutter.1))?;
     let renderer = Renderer::new(gpu, packed, &view, settings, policy)?;
     Ok((renderer, build_seconds))
 }

@@ -4,7 +4,7 @@ use crate::app::clock::Clock;
 use crate::app::console;
 use crate::app::error::AppError;
 use crate::app::overrides::picture_size;
-use crate::app::words::INTEGRATORS;
+use crate::app::value_names::INTEGRATORS;
 use crate::app::{ray_lines, ray_text};
 use crate::cli::args::ExplainArgs;
 use crate::cli::device;
@@ -25,14 +25,14 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     let settings = arguments.picture.overrides().settings(&scene.output);
     check(arguments.pixel, &settings)?;
     if let Some(path) = &arguments.obj {
-        inputs.spare(path, "rays", "--obj")?;
+        inputs.refuse_overwrite(path, "rays", "--obj")?;
         output::check_file(path, true)?;
     }
     for skipped in &scene.skipped {
         console::warning(skipped);
     }
     let clock = Clock::new(&scene.output, &arguments.motion.overrides());
-    let shot = clock.moment(&arguments.moment.moment());
+    let shutter = clock.moment(&arguments.moment.moment());
     memory::check_scene(
         &scene,
         &arguments.scene.display().to_string(),
@@ -40,7 +40,7 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     )?;
     let gpu = Gpu::new(&arguments.device.choice())?;
     let policy = job::policy(&arguments.device, false);
-    let (mut renderer, _) = device::renderer(gpu, &scene, shot, settings.clone(), policy)?;
+    let (mut renderer, _) = device::renderer(gpu, &scene, shutter, settings.clone(), policy)?;
     let samples = samples(arguments, &settings, &mut renderer)?;
     let tree = renderer.explain(arguments.pixel, samples)?;
     if let Some(path) = &arguments.obj {
@@ -57,9 +57,9 @@ pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
 /// Refuses a pixel outside the picture, and integrators without a ray tree.
 fn check(pixel: [u32; 2], settings: &RenderSettings) -> Result<(), AppError> {
     if settings.integrator != Integrator::Whitted {
-        let word = INTEGRATORS.word(&settings.integrator);
+        let name = INTEGRATORS.name(&settings.integrator);
         return Err(AppError::Usage(format!(
-            "cannot explain (--integrator {word}): only whitted has a ray tree. Omit --integrator."
+            "cannot explain (--integrator {name}): only whitted has a ray tree. Omit --integrator."
         )));
     }
     picture_size(settings)?;

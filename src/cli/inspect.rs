@@ -5,7 +5,7 @@ mod textures;
 
 use crate::app::console;
 use crate::app::error::AppError;
-use crate::app::words::{TONES, TRANSFERS};
+use crate::app::value_names::{TONES, TRANSFERS};
 use crate::cli::args::InspectArgs;
 use crate::cli::job::UNLIT;
 use crate::cli::report::SceneReport;
@@ -54,7 +54,7 @@ fn to_json(path: &str, scene: &Scene) -> Result<Value, AppError> {
     value["output"] = json!({
         "size": output.size, "samples": output.samples, "max_depth": output.max_depth,
         "exposure_ev": output.exposure_ev,
-        "tone": TONES.word(&output.tone), "transfer": TRANSFERS.word(&output.transfer),
+        "tone": TONES.name(&output.tone), "transfer": TRANSFERS.name(&output.transfer),
     });
     value["animation"] = motion::to_json(scene);
     value["unlit"] = json!(scene.is_unlit());
@@ -178,8 +178,8 @@ fn write_text(out: &mut String, path: &str, scene: &Scene) -> fmt::Result {
         output.samples,
         output.max_depth,
         output.exposure_ev,
-        TONES.word(&output.tone),
-        TRANSFERS.word(&output.transfer),
+        TONES.name(&output.tone),
+        TRANSFERS.name(&output.transfer),
     )?;
     writeln!(
         out,

@@ -5,7 +5,7 @@ use crate::app::console;
 use crate::app::console::Console;
 use crate::app::error::AppError;
 use crate::app::inputs;
-use crate::app::words::INTEGRATORS;
+use crate::app::value_names::INTEGRATORS;
 use crate::cli::args::{DeviceFlags, LogFlags, PictureFlags};
 use crate::cli::destination;
 use crate::cli::device;
@@ -86,7 +86,7 @@ impl Job<'_> {
             height: size.1,
             samples: settings.samples,
             mean_samples: 0.0,
-            integrator: INTEGRATORS.word(&settings.integrator),
+            integrator: INTEGRATORS.name(&settings.integrator),
             max_depth: settings.max_depth,
             seed: settings.seed,
         }
@@ -116,7 +116,9 @@ impl Job<'_> {
     pub fn check_report(&self, draft: &Draft) -> Result<(), AppError> {
         match self.log.report.as_deref() {
             Some(report) if report != Path::new("-") => {
-                draft.inputs.spare(report, "report", "--report")?;
+                draft
+                    .inputs
+                    .refuse_overwrite(report, "report", "--report")?;
                 Ok(output::check_file(report, true)?)
             }
             Some(_) => destination::check_open("the report"),

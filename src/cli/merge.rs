@@ -19,7 +19,7 @@ pub fn run(arguments: &MergeArgs) -> Result<(), AppError> {
     let interrupt = Interrupt::install()?;
     let stem = arguments.parts[0].file_stem().unwrap_or("picture".as_ref());
     let destination = Destination::new(&arguments.output, Path::new(stem));
-    Inputs::new(&arguments.parts).spare(destination.path(), "picture", "-o")?;
+    Inputs::new(&arguments.parts).refuse_overwrite(destination.path(), "picture", "-o")?;
     let mut all: Option<Film> = None;
     for path in &arguments.parts {
         interrupt.check()?;

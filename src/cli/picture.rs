@@ -15,7 +15,7 @@ use crate::render::{FilmError, Levels, RenderSettings, Renderer, SAMPLE_BLOCK};
 use std::ops::Range;
 use std::time::Instant;
 
-/// Renders the picture exposed from `shot.0` to `shot.1`, in seconds, and writes it, and the report if one
+/// Renders the picture exposed from `shutter.0` to `shutter.1`, in seconds, and writes it, and the report if one
 /// was requested.
 ///
 /// # Errors
@@ -23,7 +23,7 @@ use std::time::Instant;
 pub fn run(
     job: &Job,
     destination: &Destination,
-    shot: (f64, f64),
+    shutter: (f64, f64),
     part: &PartFlags,
     draft: &mut Draft,
 ) -> Result<(), AppError> {
@@ -36,14 +36,16 @@ pub fn run(
     };
     let size = picture_size(&settings)?;
     draft.set_image(job.image(destination.path(), &settings, size));
-    draft.inputs.spare(destination.path(), "picture", "-o")?;
+    draft
+        .inputs
+        .refuse_overwrite(destination.path(), "picture", "-o")?;
     destination.check(size.0, size.1)?;
     job.check_report(draft)?;
 
     let gpu = job.open_gpu(size, draft)?;
     job.announce("", &settings, gpu.adapter());
     let (mut renderer, bvh_seconds) =
-        device::renderer(gpu, &job.scene, shot, settings.clone(), job.policy())?;
+        device::renderer(gpu, &job.scene, shutter, settings.clone(), job.policy())?;
     draft.seconds.bvh = bvh_seconds;
     {
         let _deferred = interrupt.defer();

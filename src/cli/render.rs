@@ -29,12 +29,12 @@ fn render(
     let mut scene = draft.load(&arguments.scene, &arguments.reading)?;
     arguments.camera.overrides().apply(&mut scene)?;
     let clock = Clock::new(&scene.output, &arguments.motion.overrides());
-    let shot = clock.moment(&arguments.moment.moment());
+    let shutter = clock.moment(&arguments.moment.moment());
     let job = Job {
         scene,
         picture: &arguments.picture,
         device: &arguments.device,
         log: &arguments.log,
     };
-    picture::run(&job, destination, shot, &arguments.part, draft)
+    picture::run(&job, destination, shutter, &arguments.part, draft)
 }

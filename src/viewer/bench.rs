@@ -173,7 +173,7 @@ impl Stage {
             restarts: 0,
             camera: None,
             background: None,
-            shot: (0.0, 0.0),
+            shutter_interval: (0.0, 0.0),
             tone: Tone::LINEAR,
         });
         thread.order(orders.clone());

@@ -8,3 +8,5 @@ pub(crate) mod region;
 pub(crate) mod shield;
 pub(crate) mod tabs;
 pub(crate) mod textures;
+pub(crate) mod tools;
+pub(crate) mod world_painter;

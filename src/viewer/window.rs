@@ -186,8 +186,8 @@ pub fn has_display() -> bool {
 }
 
 /// The text of a winit error without source locations.
-fn reason(words: &str) -> &str {
-    words.rsplit(": ").next().unwrap_or(words)
+fn reason(message: &str) -> &str {
+    message.rsplit(": ").next().unwrap_or(message)
 }
 
 fn no_display(why: &str) -> AppError {

@@ -21,6 +21,7 @@ mod rays;
 mod replay;
 mod sheets;
 mod time;
+mod tools;
 
 use crate::reference::compare::render;
 use eframe::egui;

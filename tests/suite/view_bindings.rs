@@ -8,6 +8,7 @@ use glimray::viewer::model::bindings::{
     Action, Bindings, Category, Conflict, Manner, Mods, Preset, Trigger, markdown_table,
 };
 use glimray::viewer::model::camera::Flight;
+use glimray::viewer::model::tool::Tool;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
@@ -77,7 +78,8 @@ fn written(name: &str) -> BTreeMap<String, String> {
 fn presets_are_read_to_the_last_word() {
     let default = written("GLIMRAY");
     let names: BTreeSet<_> = Action::ALL.iter().map(|action| action.name()).collect();
-    let known: BTreeSet<_> = default.keys().map(String::as_str).collect();
+    let tools = Tool::ALL.iter().map(|tool| tool.entry().name);
+    let known: BTreeSet<_> = default.keys().map(String::as_str).chain(tools).collect();
     assert_eq!(known, names);
     for (preset, table) in [
         (Preset::Glimray, "GLIMRAY"),
@@ -87,7 +89,10 @@ fn presets_are_read_to_the_last_word() {
         let bindings = Bindings::new(preset);
         let own = written(table);
         for action in Action::ALL {
-            let expected = own.get(action.name()).unwrap_or(&default[action.name()]);
+            let expected = match action {
+                Action::Tool(tool) => tool.entry().shortcuts[preset as usize],
+                _ => own.get(action.name()).unwrap_or(&default[action.name()]),
+            };
             let found: Vec<_> = bindings
                 .triggers(*action)
                 .iter()
@@ -100,6 +105,26 @@ fn presets_are_read_to_the_last_word() {
             assert_eq!(again, bindings);
         }
         assert!(own.keys().all(|name| Action::from_name(name).is_some()));
+    }
+}
+
+#[test]
+fn tools_keep_their_names_and_their_keys_of_other_programs() {
+    for (tool, name, keys) in [
+        (Tool::Select, "select-mode", ["C", "C", "Q"]),
+        (Tool::Move, "move-tool", ["G", "G", "W"]),
+        (Tool::Rotate, "rotate-tool", ["R", "R", "E"]),
+        (Tool::Scale, "scale-tool", ["Z", "S", "R"]),
+        (Tool::Inspect, "inspect-rays", ["I", "I", "I"]),
+        (Tool::Measure, "measure", ["Alt+M", "Alt+M", "Alt+M"]),
+        (Tool::Region, "region-render", ["B", "Ctrl+B", "B"]),
+    ] {
+        let action = Action::from_name(name);
+        assert_eq!(action, Some(Action::Tool(tool)), "{name}");
+        for (preset, key) in Preset::ALL.into_iter().zip(keys) {
+            let found = Bindings::new(preset).action_for(&trigger(key));
+            assert_eq!(found, action, "{key} in {preset:?}");
+        }
     }
 }
 

@@ -56,7 +56,7 @@ fn drag(
     snap: bool,
 ) -> DAffine3 {
     let mut grip = Grip::new(part, handles(tool, place, camera), place, from);
-    grip.follow(moved, false);
+    grip.move_pointer(moved, false);
     grip.dragged(eye(camera), snap).expect("a place").place
 }
 
@@ -249,7 +249,7 @@ fn steps_are_whole_with_snapping_and_a_tenth_when_fine() {
     assert!((now.translation.x - 1.0).abs() < 1e-9, "{now}");
     let place = handles(Tool::Move, start, &camera);
     let mut grip = Grip::new(Part::Axis(0), place, start, middle);
-    grip.follow(dvec2(100.0, 0.0), true);
+    grip.move_pointer(dvec2(100.0, 0.0), true);
     let fine = grip.dragged(eye(&camera), false).expect("a place").place;
     assert!((fine.translation.x - 10.0 * pixel).abs() < 1e-9, "{fine}");
 }

@@ -53,8 +53,8 @@ fn changed(place: &Path) -> Preferences {
     it.bindings.set(Action::Quit, Vec::new()).expect("nothing");
     it.opened(&place.join("a \"scene\".toml"));
     it.opened(&place.join("b.obj"));
-    it.keep_camera(&place.join("b.obj"), saved("one"));
-    it.keep_camera(&place.join("b.obj"), saved("two"));
+    it.save_camera(&place.join("b.obj"), saved("one"));
+    it.save_camera(&place.join("b.obj"), saved("two"));
     // Keys that are no text in Rust.
     it.set_layout(Some(&BTreeMap::from([(7_u64, vec![Some(0.25_f32), None])])));
     it
@@ -389,19 +389,19 @@ fn recent_files_are_few_and_each_is_there_once() {
 fn kept_cameras_are_replaced_by_name_and_bounded() {
     let scene = Path::new("/somewhere/else.toml");
     let mut it = Preferences::default();
-    it.keep_camera(scene, saved("a"));
-    it.keep_camera(scene, saved("b"));
+    it.save_camera(scene, saved("a"));
+    it.save_camera(scene, saved("b"));
     let mut other = saved("a");
     other.camera.fov_y = 0.5;
-    it.keep_camera(scene, other.clone());
+    it.save_camera(scene, other.clone());
     assert_eq!(it.cameras_of(scene), [other, saved("b")]);
     for i in 0..MAX_CAMERAS {
-        it.keep_camera(scene, saved(&format!("{i}")));
+        it.save_camera(scene, saved(&format!("{i}")));
     }
     assert_eq!(it.cameras_of(scene).len(), MAX_CAMERAS);
     assert_eq!(it.cameras_of(scene)[0].name, "0");
     for i in 0..MAX_CAMERAS {
-        it.drop_camera(scene, &format!("{i}"));
+        it.remove_camera(scene, &format!("{i}"));
     }
     assert!(it.cameras.is_empty());
 }

@@ -55,7 +55,7 @@ impl Plan {
                 output::check_no_link(&path)?;
             }
             if *state != State::Done || sequence.flags.discard_frames {
-                inputs.spare(&path, "frame", files.flag(&sequence.target))?;
+                inputs.refuse_overwrite(&path, "frame", files.flag(&sequence.target))?;
             }
         }
         Ok(())

@@ -136,7 +136,7 @@ impl Target {
     /// Refuses to overwrite an input with the video, the journal or the lock file.
     pub fn protect(&self, inputs: &Inputs) -> Result<(), AppError> {
         if matches!(self.video, Some(Video::File(_))) {
-            inputs.spare(&self.path, "video", "-o")?;
+            inputs.refuse_overwrite(&self.path, "video", "-o")?;
         }
         let Some(files) = &self.frames else {
             return Ok(());
@@ -148,7 +148,7 @@ impl Target {
             )));
         }
         let beside = [files.pattern.journal(), lock::path(files.pattern.folder())];
-        (beside.iter()).try_for_each(|path| inputs.spare(path, "file", files.flag(self)))
+        (beside.iter()).try_for_each(|path| inputs.refuse_overwrite(path, "file", files.flag(self)))
     }
 
     /// Finds errors of writing the output before rendering starts, and creates the folder of the frames if

@@ -2,7 +2,7 @@
 
 use super::values::{self, BACKENDS, FORMATS, PROGRESS};
 use crate::app::overrides::{CameraOverrides, PictureOverrides, ToneOverrides};
-use crate::app::words::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
+use crate::app::value_names::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
 use crate::gpu::{AdapterChoice, Backend};
 use crate::import;
 use crate::output::Format;

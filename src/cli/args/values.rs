@@ -1,6 +1,6 @@
 //! Parsers for the values of flags, with their error messages.
 
-use crate::app::words::Words;
+use crate::app::value_names::ValueNames;
 use crate::cli::args::{ProgressMode, Range, SequenceFormat};
 use crate::gpu::Backend;
 use crate::output::Format;
@@ -13,17 +13,17 @@ use std::str::FromStr;
 
 /// Parses one of a setting's names.
 pub fn one_of<T: Clone + Send + Sync>(
-    words: &'static Words<T>,
+    names: &'static ValueNames<T>,
 ) -> impl TypedValueParser<Value = T> {
-    let names = words.0.iter();
-    PossibleValuesParser::new(names.map(|(name, help, _)| PossibleValue::new(name).help(help)))
+    let known = names.0.iter();
+    PossibleValuesParser::new(known.map(|(name, help, _)| PossibleValue::new(name).help(help)))
         .try_map(|given| {
-            let found = words.0.iter().find(|(name, ..)| *name == given);
+            let found = names.0.iter().find(|(name, ..)| *name == given);
             found.map(|(.., value)| value.clone()).ok_or("unknown")
         })
 }
 
-pub static FORMATS: Words<Format> = Words(&[
+pub static FORMATS: ValueNames<Format> = ValueNames(&[
     ("png", "8 bits per channel, lossless", Format::Png),
     ("jpeg", "8 bits per channel, lossy", Format::Jpeg),
     ("jpg", "same as jpeg", Format::Jpeg),
@@ -31,7 +31,7 @@ pub static FORMATS: Words<Format> = Words(&[
     ("hdr", "Radiance RGBE, linear", Format::Hdr),
 ]);
 
-pub static SEQUENCE_FORMATS: Words<SequenceFormat> = Words(&[
+pub static SEQUENCE_FORMATS: ValueNames<SequenceFormat> = ValueNames(&[
     (
         "png",
         "PNG frames, 8 bits per channel, lossless",
@@ -70,14 +70,14 @@ pub static SEQUENCE_FORMATS: Words<SequenceFormat> = Words(&[
     ),
 ]);
 
-pub static BACKENDS: Words<Backend> = Words(&[
+pub static BACKENDS: ValueNames<Backend> = ValueNames(&[
     ("vulkan", "Linux, Windows, Android", Backend::Vulkan),
     ("metal", "macOS, iOS", Backend::Metal),
     ("dx12", "Windows", Backend::Dx12),
     ("gl", "OpenGL ES 3.1 and later", Backend::Gl),
 ]);
 
-pub static PROGRESS: Words<ProgressMode> = Words(&[
+pub static PROGRESS: ValueNames<ProgressMode> = ValueNames(&[
     (
         "auto",
         "bar on a terminal, otherwise nothing",

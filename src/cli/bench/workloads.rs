@@ -19,7 +19,7 @@ pub struct Workload {
     /// Width and height in pixels.
     pub size: (u32, u32),
     /// Shutter opening and closing times, in seconds.
-    pub shot: (f64, f64),
+    pub shutter_interval: (f64, f64),
     /// See [`pack::scene_with`].
     pub most_baked: usize,
 }
@@ -30,7 +30,7 @@ impl Workload {
             name,
             scene,
             size,
-            shot: (0.0, 0.0),
+            shutter_interval: (0.0, 0.0),
             most_baked: pack::MAX_BAKED,
         }
     }
@@ -63,7 +63,7 @@ pub fn all() -> Result<Vec<Workload>, AppError> {
             quick,
         ),
         Workload {
-            shot: (0.0, 1.0),
+            shutter_interval: (0.0, 1.0),
             ..Workload::new(
                 "heightfield-pan",
                 sampled(panned(height_field(300, Vec::new()))),

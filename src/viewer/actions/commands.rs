@@ -1,6 +1,6 @@
 //! Dispatches all commands, whether from keys, menus or buttons.
 
-use crate::viewer::actions::{dialogs, editing, files, inspector, modal, saving, selecting, tools};
+use crate::viewer::actions::{dialogs, editing, files, modal, saving, selecting, tools};
 use crate::viewer::model::bindings::Action;
 use crate::viewer::model::camera::{CameraController, Side};
 use crate::viewer::model::preferences::Theme;
@@ -94,7 +94,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::ViewBottom => camera(session, |it| it.look_from(Side::Bottom)),
         Action::ToggleOrthographic => camera(session, CameraController::toggle_orthographic),
         Action::Home => camera(session, CameraController::go_home),
-        Action::SaveCamera => files::cameras::keep(session),
+        Action::SaveCamera => files::cameras::bookmark(session),
         Action::NextCamera => files::cameras::step(session, 1),
         Action::PreviousCamera => files::cameras::step(session, -1),
         Action::CopyCamera => files::cameras::copy(session, ctx),
@@ -123,7 +123,6 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::PixelZoomReset => session.pixel_zoom = PixelZoom::default(),
         Action::PauseRender => session.view.paused = !session.view.paused,
         Action::RestartRender => session.restart(),
-        Action::RegionRender => tools::toggle_region(session),
         Action::MoreSamples => session.view.scale_samples(2.0),
         Action::FewerSamples => session.view.scale_samples(0.5),
         Action::PlayPause => session.playback.toggle(),
@@ -135,11 +134,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::PlaySlower => session.playback.scale_speed(0.5),
         Action::ToggleLoop => session.playback.repeats = !session.playback.repeats,
         Action::ToggleMotionBlur => session.playback.blurs = !session.playback.blurs,
-        Action::SelectMode => session.tool = Tool::Select,
-        Action::InspectRays => inspector::open(session, layout),
-        Action::MoveTool => modal::take(session, Tool::Move),
-        Action::RotateTool => modal::take(session, Tool::Rotate),
-        Action::ScaleTool => modal::take(session, Tool::Scale),
+        Action::Tool(tool) => tools::activate(session, layout, tool),
         Action::SelectNothing => leave(session),
         Action::ToggleVisible => selecting::toggle_visible(session),
         Action::Rename => {
@@ -161,7 +156,7 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         Action::SavePictureWithOverlays if session.viewport.is_none() => {
             session
                 .messages
-                .tell("The picture is hidden. Show its panel first");
+                .notify("The picture is hidden. Show its panel first");
         }
         Action::SavePictureWithOverlays => files::pictures::open(session, true),
         Action::Help => session.dialogs.toggle(Dialog::Shortcuts),

@@ -52,7 +52,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     if !is_known {
         editing.known = Some(scene.clone());
         editing.owes_bounds = true;
-        session.playback.follow(&scene);
+        session.playback.set_scene(&scene);
         let camera = scene.frame(session.playback.time).camera;
         if let Some(controller) = &mut session.controller
             && session.editing.home.as_ref() != Some(&camera)
@@ -79,7 +79,7 @@ pub fn with_selection(session: &mut Session, act: impl FnOnce(&mut Session, Id))
         Some(id) => act(session, id),
         None => session
             .messages
-            .tell("Nothing is selected. Click an object first"),
+            .notify("Nothing is selected. Click an object first"),
     }
 }
 
@@ -89,7 +89,7 @@ pub fn revert(session: &mut Session) {
         return;
     };
     if !document.is_changed() {
-        session.messages.tell("No changes to revert");
+        session.messages.notify("No changes to revert");
         return;
     }
     document.revert();
@@ -97,7 +97,7 @@ pub fn revert(session: &mut Session) {
     session.moved();
     session
         .messages
-        .tell("All changes reverted. Undo restores them");
+        .notify("All changes reverted. Undo restores them");
 }
 
 /// Undoes the last change.
@@ -126,7 +126,7 @@ fn step(session: &mut Session, again: bool) {
     session.selection = selected.and_then(|id| objects::same(&before, after, id));
     session.editing.renaming = None;
     session.editing.group = None;
-    session.messages.tell(match done {
+    session.messages.notify(match done {
         Some(name) => format!("{did} {name}"),
         None => format!("Nothing to {undone}"),
     });
@@ -142,7 +142,7 @@ impl Session {
         change: impl FnOnce(&mut Scene) -> Result<T, EditError>,
     ) -> Option<T> {
         let changed = self.document.as_mut()?.try_edit(name, change);
-        self.tell_of(name, changed)
+        self.report(name, changed)
     }
 
     /// Changes the scene as part of a drag, which is one step until the button is released. `change` gets
@@ -153,10 +153,10 @@ impl Session {
         change: impl FnOnce(&mut Scene) -> Result<T, EditError>,
     ) -> Option<T> {
         let changed = self.document.as_mut()?.drag(name, change);
-        self.tell_of(name, changed)
+        self.report(name, changed)
     }
 
-    fn tell_of<T>(&mut self, name: &str, changed: Result<T, EditError>) -> Option<T> {
+    fn report<T>(&mut self, name: &str, changed: Result<T, EditError>) -> Option<T> {
         match changed {
             Ok(value) => {
                 self.moved();
@@ -211,7 +211,7 @@ impl Session {
         if let Some(copy) = self.change(&name, |scene| objects::duplicate(scene, id)) {
             self.selection = Some(copy);
             let has_place = matches!(copy, Id::Object(_));
-            self.messages.tell(match has_place {
+            self.messages.notify(match has_place {
                 true => "Duplicated in place".to_owned(),
                 false => format!("Duplicated {label}"),
             });
@@ -239,11 +239,11 @@ impl Session {
         {
             self.editing.renaming = Some((id, name.to_owned()));
         } else if let Some(id) = self.selection {
-            let told = format!(
+            let notice = format!(
                 "{} has no name of its own. Rename its material or node",
                 self.label(id)
             );
-            self.messages.tell(told);
+            self.messages.notify(notice);
         }
     }
 
@@ -269,12 +269,12 @@ impl Session {
     }
 
     /// Sets the scene's camera to the current view.
-    pub fn keep_camera(&mut self) {
+    pub fn set_scene_camera(&mut self) {
         let Some(camera) = self.camera() else {
             return;
         };
         self.change("use this camera for the scene", |scene| {
-            overrides::see_by(scene, &camera);
+            overrides::set_camera(scene, &camera);
             Ok(())
         });
         if let (Some(controller), Some(document)) = (&mut self.controller, &self.document) {

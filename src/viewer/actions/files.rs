@@ -68,8 +68,8 @@ pub fn go_on(session: &mut Session, intent: Intent) {
     match intent {
         Intent::Open(path) => session.open(path),
         // The scene that is being opened replaces it.
-        Intent::Reload | Intent::Follow if session.is_opening() => {}
-        Intent::Reload | Intent::Follow => {
+        Intent::Reload | Intent::ReloadChanged if session.is_opening() => {}
+        Intent::Reload | Intent::ReloadChanged => {
             if session.files.have_changed() {
                 session.editing.forget_written();
             }
@@ -139,7 +139,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
         }
     }
     take_environment(session);
-    follow(session, ctx);
+    reload_changed(session, ctx);
     pictures::update(session);
     screenshot::update(session, ctx);
     closing::close(session, ctx);
@@ -203,7 +203,7 @@ fn take_environment(session: &mut Session) {
             let name = short(&path);
             session
                 .messages
-                .tell(format!("{name} is now the environment"));
+                .notify(format!("{name} is now the environment"));
             session.files.surroundings.push(path);
         }
     }
@@ -228,10 +228,12 @@ pub fn loaded(session: &mut Session, opened: Opened) {
                 session.editing.forget_written();
                 pictures::abandon(session);
             }
-            if let Some(said) = session.files.said.take() {
-                session.messages.tell(said);
+            if let Some(notice) = session.files.notice.take() {
+                session.messages.notify(notice);
             } else if again {
-                session.messages.tell(format!("Reloaded {}", short(&path)));
+                session
+                    .messages
+                    .notify(format!("Reloaded {}", short(&path)));
             }
             // Keeps the error of a different file.
             (session.files.broken).take_if(|broken| !again || broken.path == path);
@@ -243,7 +245,7 @@ pub fn loaded(session: &mut Session, opened: Opened) {
             return;
         }
         Err(trouble) => {
-            session.files.said = None;
+            session.files.notice = None;
             session.files.broken = Some(Broken {
                 path: path.clone(),
                 trouble,
@@ -273,11 +275,12 @@ pub fn saved(session: &mut Session, files: Vec<PathBuf>) {
 }
 
 /// Reloads the scene when its files have changed.
-fn follow(session: &mut Session, ctx: &egui::Context) {
+fn reload_changed(session: &mut Session, ctx: &egui::Context) {
     if let Some((files, since)) = session.files.to_watch.take() {
         let waker = ctx.clone();
-        let followed = (session.files.watch).follow(&files, since, move || waker.request_repaint());
-        if let Err(why) = followed {
+        let watched =
+            (session.files.watch).set_files(&files, since, move || waker.request_repaint());
+        if let Err(why) = watched {
             session.messages.warn(format!(
                 "Cannot watch the scene's files: {why}. Reload the scene manually when they change."
             ));
@@ -311,7 +314,7 @@ fn follow(session: &mut Session, ctx: &egui::Context) {
         return;
     }
     session.files.watch.accept();
-    intend(session, Intent::Follow);
+    intend(session, Intent::ReloadChanged);
 }
 
 /// Updates the window's title.

@@ -28,7 +28,7 @@ pub fn open(session: &mut Session, layout: &mut Layout) {
 }
 
 /// Repeats the request of a lost renderer.
-pub fn begin(session: &mut Session) {
+pub fn reopened(session: &mut Session) {
     let inspector = &mut session.inspector;
     inspector.is_wanted |= std::mem::take(&mut inspector.is_asked);
     inspector.hidden = Hidden::default();
@@ -66,7 +66,7 @@ fn rays(frame: &mut FrameRenderer, pixel: [u32; 2]) -> Result<Inspected, String>
 }
 
 /// Handles the answer of the render thread.
-pub fn take(session: &mut Session, outcome: Result<Box<Inspected>, String>) {
+pub fn handle_rays(session: &mut Session, outcome: Result<Box<Inspected>, String>) {
     let bounds = session.bounds();
     let inspector = &mut session.inspector;
     // Answers for a scene that is gone are dropped.
@@ -105,7 +105,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context, seconds: f64) {
 }
 
 /// Inspects the pixel under the cursor if that is enabled.
-pub fn follow(session: &mut Session, response: &egui::Response, viewport: Viewport) {
+pub fn inspect_hovered(session: &mut Session, response: &egui::Response, viewport: Viewport) {
     if session.tool != Tool::Inspect || !session.inspector.follows || session.drag.is_some() {
         return;
     }

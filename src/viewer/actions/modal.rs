@@ -9,8 +9,8 @@ use crate::viewer::model::tool::Tool;
 use crate::viewer::state::session::Session;
 use eframe::egui::{Event, Key};
 
-/// Activates a tool. With Blender's bindings, that starts a modal transform of the selection.
-pub fn take(session: &mut Session, tool: Tool) {
+/// Activates a tool with handles. With Blender's bindings, that starts a modal transform of the selection.
+pub fn activate(session: &mut Session, tool: Tool) {
     session.tool = tool;
     let scene = session.scene().cloned();
     let time = session.playback.time;
@@ -38,9 +38,7 @@ pub fn key(session: &mut Session, event: &Event) -> bool {
         return true;
     };
     let other = match action {
-        Some(Action::MoveTool) => Some(Tool::Move),
-        Some(Action::RotateTool) => Some(Tool::Rotate),
-        Some(Action::ScaleTool) => Some(Tool::Scale),
+        Some(Action::Tool(tool)) if tool.entry().has_handles => Some(tool),
         _ => None,
     };
     match key {
@@ -52,7 +50,7 @@ pub fn key(session: &mut Session, event: &Event) -> bool {
         _ => match other {
             Some(tool) => {
                 cancel(session);
-                take(session, tool);
+                activate(session, tool);
             }
             None => modal.type_key(key),
         },

@@ -13,11 +13,11 @@ const REACH: f32 = 6.0;
 const LEAST: f64 = 4.0;
 
 /// Handles the mouse for the region. Returns whether it is consumed.
-pub fn follow(session: &mut Session, response: &egui::Response, viewport: Viewport) -> bool {
+pub fn drag(session: &mut Session, response: &egui::Response, viewport: Viewport) -> bool {
     let (pointer, pressed_at) =
         (response.ctx).input(|input| (input.pointer.interact_pos(), input.pointer.press_origin()));
     let share = |point: Pos2| viewport.position(point) / viewport.extent();
-    if let Some(grip) = session.view.grip {
+    if let Some(grip) = session.tool_state.region {
         if let Some(to) = pointer {
             let region = Some(grip.region(share(to)));
             if session.view.region != region {
@@ -35,7 +35,7 @@ pub fn follow(session: &mut Session, response: &egui::Response, viewport: Viewpo
         && let Some(from) = pressed_at.or(pointer)
     {
         let at = share(from);
-        session.view.grip = match region.and_then(|region| edges(region, from, viewport)) {
+        session.tool_state.region = match region.and_then(|region| edges(region, from, viewport)) {
             Some(follows) => region.map(|start| Grip {
                 start,
                 follows,
@@ -48,7 +48,7 @@ pub fn follow(session: &mut Session, response: &egui::Response, viewport: Viewpo
             }),
             None => None,
         };
-        return session.view.grip.is_some();
+        return session.tool_state.region.is_some();
     }
     if let Some(at) = response.hover_pos() {
         let follows = region.and_then(|region| edges(region, at, viewport));
@@ -65,7 +65,7 @@ pub fn follow(session: &mut Session, response: &egui::Response, viewport: Viewpo
 
 /// Sorts the edges and discards a region that is too small.
 fn finish(session: &mut Session, viewport: Viewport) {
-    session.view.grip = None;
+    session.tool_state.region = None;
     let Some([x0, y0, x1, y1]) = session.view.region else {
         return;
     };

@@ -158,7 +158,7 @@ pub fn duplicate(session: &mut Session) {
             session.group(lead, lead, copies);
             session
                 .messages
-                .tell(format!("Duplicated {} items in place", ids.len()));
+                .notify(format!("Duplicated {} items in place", ids.len()));
         }
     });
 }

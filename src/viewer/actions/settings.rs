@@ -12,41 +12,41 @@ const PAUSE: Duration = Duration::from_secs(1);
 
 /// Applies the preferences, and writes them when they have changed.
 pub fn update(session: &mut Session, ctx: &egui::Context) {
-    let kept = &mut session.dialogs.kept;
-    if !kept.is_begun {
-        kept.is_begun = true;
-        kept.written = Some(session.preferences.clone());
+    let file = &mut session.dialogs.preferences_file;
+    if !file.is_begun {
+        file.is_begun = true;
+        file.written = Some(session.preferences.clone());
         if !session.preferences.hint_seen {
             session.dialogs.open(Dialog::Hint);
         }
     }
     apply(session, ctx);
-    let kept = &mut session.dialogs.kept;
+    let file = &mut session.dialogs.preferences_file;
     let now = ctx.input(|input| input.time);
-    if kept.looked.is_some_and(|at| now - at < PAUSE.as_secs_f64()) {
-        if kept.written.as_ref() != Some(&session.preferences) {
+    if file.looked.is_some_and(|at| now - at < PAUSE.as_secs_f64()) {
+        if file.written.as_ref() != Some(&session.preferences) {
             ctx.request_repaint_after(PAUSE);
         }
         return;
     }
-    kept.looked = Some(now);
-    kept.is_due = true;
-    keep_window(session, ctx);
+    file.looked = Some(now);
+    file.is_due = true;
+    store_window(session, ctx);
     write(session);
 }
 
 /// Writes the preferences if they have changed. An error is reported once.
 pub fn write(session: &mut Session) {
-    let kept = &mut session.dialogs.kept;
-    if kept.written.as_ref() == Some(&session.preferences) {
+    let file = &mut session.dialogs.preferences_file;
+    if file.written.as_ref() == Some(&session.preferences) {
         return;
     }
-    kept.written = Some(session.preferences.clone());
+    file.written = Some(session.preferences.clone());
     match session.store.save(&session.preferences) {
-        Ok(()) => kept.has_failed = false,
-        Err(_) if kept.has_failed => {}
+        Ok(()) => file.has_failed = false,
+        Err(_) if file.has_failed => {}
         Err(why) => {
-            kept.has_failed = true;
+            file.has_failed = true;
             session.messages.warn(format!(
                 "{why} Changes to settings will be lost when the window closes."
             ));
@@ -57,11 +57,11 @@ pub fn write(session: &mut Session) {
 fn apply(session: &mut Session, ctx: &egui::Context) {
     let preferences = &session.preferences;
     let wanted = (preferences.theme, preferences.ui_scale);
-    let kept = &mut session.dialogs.kept;
-    if kept.applied == Some(wanted) {
+    let file = &mut session.dialogs.preferences_file;
+    if file.applied == Some(wanted) {
         return;
     }
-    kept.applied = Some(wanted);
+    file.applied = Some(wanted);
     // The table of bindings has keys for this.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
     ctx.set_theme(match wanted.0 {
@@ -73,15 +73,15 @@ fn apply(session: &mut Session, ctx: &egui::Context) {
 }
 
 /// Stores whether the window is maximized, else its size and position.
-fn keep_window(session: &mut Session, ctx: &egui::Context) {
+fn store_window(session: &mut Session, ctx: &egui::Context) {
     let viewport = ctx.input(|input| input.viewport().clone());
     let is_minimized = viewport.minimized.unwrap_or(false);
     if is_minimized || viewport.fullscreen.unwrap_or(false) {
         return;
     }
-    let kept = &mut session.preferences;
-    kept.maximized = viewport.maximized.unwrap_or(false);
-    if kept.maximized {
+    let preferences = &mut session.preferences;
+    preferences.maximized = viewport.maximized.unwrap_or(false);
+    if preferences.maximized {
         return;
     }
     // In points of the screen's own scale; otherwise the window would grow at each start.
@@ -90,21 +90,21 @@ fn keep_window(session: &mut Session, ctx: &egui::Context) {
         && size.x >= 320.0
         && size.y >= 240.0
     {
-        kept.window = Some(own(size));
+        preferences.window = Some(own(size));
     }
     if let Some(rect) = viewport.outer_rect {
-        kept.window_position = Some(own(rect.min.to_vec2()));
+        preferences.window_position = Some(own(rect.min.to_vec2()));
     }
 }
 
 /// Stores the layout of the panels when the settings file is due.
-pub fn keep_layout_if_due(session: &mut Session, layout: &Layout) {
-    if std::mem::take(&mut session.dialogs.kept.is_due) {
-        keep_layout(session, layout);
+pub fn store_layout_if_due(session: &mut Session, layout: &Layout) {
+    if std::mem::take(&mut session.dialogs.preferences_file.is_due) {
+        store_layout(session, layout);
     }
 }
 
 /// Stores the layout of the panels.
-pub fn keep_layout(session: &mut Session, layout: &Layout) {
+pub fn store_layout(session: &mut Session, layout: &Layout) {
     session.preferences.set_layout(Some(layout));
 }

@@ -1,16 +1,20 @@
-//! The mouse in the picture.
+//! The mouse in the picture: the active tool, and camera navigation.
 
-use crate::viewer::actions::answers;
-use crate::viewer::actions::inspector;
-use crate::viewer::model::bindings::Action;
+use crate::app::advice;
+use crate::app::legend::number;
+use crate::scene::ObjectRef;
+use crate::viewer::actions::{inspector, modal};
+use crate::viewer::model::bindings::{Action, Drag};
 use crate::viewer::model::camera::CameraController;
-use crate::viewer::model::tool::Drag;
-use crate::viewer::model::tool::Purpose;
-use crate::viewer::model::tool::Tool;
+use crate::viewer::model::objects::Id;
+use crate::viewer::model::tool::{Purpose, Tool};
 use crate::viewer::model::viewport::Viewport;
+use crate::viewer::state::answer::Answer;
+use crate::viewer::state::layout::Layout;
 use crate::viewer::state::session::Session;
+use crate::viewer::worker::progressive_image::FrameRenderer;
 use eframe::egui::{self, LayerId, PointerButton, Pos2, Vec2};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// All mouse buttons.
 const BUTTONS: [PointerButton; 5] = [
@@ -21,8 +25,28 @@ const BUTTONS: [PointerButton; 5] = [
     PointerButton::Extra2,
 ];
 
-/// Passes the mouse in the picture to the camera. Input consumed by a tool or a handle does not get here.
+/// Activates a tool.
+pub fn activate(session: &mut Session, layout: &mut Layout, tool: Tool) {
+    match tool {
+        Tool::Move | Tool::Rotate | Tool::Scale => modal::activate(session, tool),
+        Tool::Inspect => inspector::open(session, layout),
+        Tool::Region if session.view.region.take().is_some() => session.tool = Tool::Select,
+        Tool::Measure => {
+            session.tool_state.measured.clear();
+            session.tool = tool;
+        }
+        Tool::Select | Tool::Region => session.tool = tool,
+    }
+}
+
+/// Whether the tool or its effect is active.
+pub fn is_active(session: &Session, tool: Tool) -> bool {
+    session.tool == tool || tool == Tool::Region && session.view.region.is_some()
+}
+
+/// Passes the mouse in the picture to the active tool and to the camera. Input consumed by a tool or a handle does not get here.
 pub fn navigate(session: &mut Session, response: &egui::Response, viewport: Viewport) {
+    inspector::inspect_hovered(session, response, viewport);
     let ctx = &response.ctx;
     let (modifiers, pointer) = ctx.input(|input| (input.modifiers, input.pointer.interact_pos()));
     let bindings = session.preferences.bindings.clone();
@@ -46,7 +70,7 @@ pub fn navigate(session: &mut Session, response: &egui::Response, viewport: View
         if from != to
             && let Some(controller) = &mut session.controller
         {
-            follow(controller, drag, viewport, from, to);
+            move_camera(controller, drag, viewport, from, to);
             session.moved();
         }
         if response.drag_stopped() {
@@ -91,7 +115,7 @@ pub fn pixel_zoom(session: &mut Session, steps: f64, pointer: Option<Pos2>) {
 }
 
 /// Moves the camera by a drag from one point of the screen to another.
-pub fn follow(
+pub fn move_camera(
     controller: &mut CameraController,
     drag: Drag,
     viewport: Viewport,
@@ -120,16 +144,8 @@ pub fn pick_under_cursor(session: &mut Session, action: Action, ctx: &egui::Cont
     let pointer = pointer.filter(|point| ctx.layer_id_at(*point) == Some(LayerId::background()));
     match (pointer.zip(session.viewport)).and_then(|(point, view)| view.pixel(point)) {
         Some(pixel) => pick(session, action, pixel),
-        None => (session.messages).tell("Move the cursor over the picture first"),
+        None => (session.messages).notify("Move the cursor over the picture first"),
     }
-}
-
-/// Activates the region tool, or clears the region.
-pub fn toggle_region(session: &mut Session) {
-    session.tool = match session.view.region.take() {
-        Some(_) => Tool::Select,
-        None => Tool::Region,
-    };
 }
 
 /// The command of a click; a click without modifiers belongs to the tool.
@@ -151,13 +167,60 @@ fn is_pick(action: Action) -> bool {
 
 fn pick(session: &mut Session, action: Action, pixel: [u32; 2]) {
     let purpose = match action {
-        Action::Select if session.tool == Tool::Inspect => {
-            inspector::inspect(session, pixel);
-            return;
-        }
         Action::SetPivot => Purpose::Pivot,
         Action::FocusHere => Purpose::Focus,
-        _ => Purpose::Select,
+        _ => match session.tool {
+            Tool::Inspect => {
+                inspector::inspect(session, pixel);
+                return;
+            }
+            Tool::Measure => Purpose::Measure,
+            Tool::Select | Tool::Region | Tool::Move | Tool::Rotate | Tool::Scale => {
+                Purpose::Select
+            }
+        },
     };
-    session.ask(move |frame| answers::pick(frame, pixel, purpose));
+    session.ask(move |frame| surface_at(frame, pixel, purpose));
+}
+
+/// Finds the nearest surface in a pixel of the picture.
+fn surface_at(frame: &mut FrameRenderer, pixel: [u32; 2], purpose: Purpose) -> Answer {
+    match frame.renderer.explain(pixel, 0..1) {
+        Ok(tree) => {
+            let first = tree.samples.first().and_then(|sample| sample.rays.first());
+            let hit = first.and_then(|ray| ray.hit.as_ref());
+            Answer::Picked {
+                purpose,
+                hit: hit.map(|hit| (DVec3::from(hit.position), hit.object)),
+            }
+        }
+        Err(error) => Answer::Failed(advice::render(&error)),
+    }
+}
+
+/// Handles a pick: its point in world space and its object, or `None` for the background.
+pub fn picked(session: &mut Session, purpose: Purpose, hit: Option<(DVec3, Option<ObjectRef>)>) {
+    match (purpose, hit) {
+        (Purpose::Pivot, Some((point, _))) => {
+            if let Some(controller) = &mut session.controller {
+                controller.recentre(point);
+            }
+        }
+        (Purpose::Focus, Some((point, _))) => {
+            if let Some(controller) = &mut session.controller {
+                controller.focus_on(point);
+            }
+        }
+        (Purpose::Select, hit) => {
+            session.selection = hit.and_then(|(_, object)| object).map(Id::Object);
+        }
+        (Purpose::Measure, Some((point, _))) => {
+            session.tool_state.measure(point);
+            if let Some([a, b]) = session.tool_state.measured_line() {
+                let distance = number(a.distance(b) as f32);
+                session.messages.notify(format!("Distance: {distance}"));
+            }
+        }
+        (_, None) => session.messages.notify("Nothing is under the cursor"),
+    }
 }

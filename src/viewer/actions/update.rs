@@ -6,12 +6,12 @@ use eframe::egui;
 
 /// Drops requests and drags of the previous window.
 pub fn reopened(session: &mut Session) {
-    session.dialogs.begin();
-    session.files.begin();
+    session.dialogs.reopened();
+    session.files.reopened();
     session.questions.clear();
-    inspector::begin(session);
+    inspector::reopened(session);
     session.drag = None;
-    session.view.grip = None;
+    session.tool_state.region = None;
     session.editing.grip = None;
     session.editing.modal = None;
 }

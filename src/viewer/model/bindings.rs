@@ -10,7 +10,7 @@ pub use preset::Preset;
 pub use trigger::{Mods, Trigger};
 
 use crate::viewer::model::camera::Flight;
-use eframe::egui::{Event, InputState, Key, MouseWheelUnit, PointerButton};
+use eframe::egui::{Event, InputState, Key, MouseWheelUnit, PointerButton, Pos2};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -32,6 +32,15 @@ impl Default for Bindings {
     fn default() -> Self {
         Self::new(Preset::default())
     }
+}
+
+/// A drag in the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drag {
+    /// The command, chosen when it started.
+    pub action: Action,
+    /// Where it started, on the screen.
+    pub from: Pos2,
 }
 
 /// Two commands with the same trigger.

@@ -77,40 +77,40 @@ pub struct Pasted {
 pub fn copy(shown: &Shown) -> CommandLine {
     let scene = without_geometry(shown.scene);
     let mut left_out = Vec::new();
-    let mut words = vec!["glimray".to_owned(), "render".to_owned(), file(shown.path)];
+    let mut arguments = vec!["glimray".to_owned(), "render".to_owned(), file(shown.path)];
     if shown.path.to_str().is_none() {
         left_out.push("the file name, which is not Unicode".to_owned());
     }
     for set in &shown.options.overrides {
-        words.extend(["--set".to_owned(), set.clone()]);
+        arguments.extend(["--set".to_owned(), set.clone()]);
     }
     for folder in &shown.options.allow_dirs {
-        words.extend(["--allow-dir".to_owned(), file(folder)]);
+        arguments.extend(["--allow-dir".to_owned(), file(folder)]);
     }
     let mut tried: Vec<&str> = Vec::new();
     // A flag may change the defaults of others, so each is added to the line so far.
-    while let Some(difference) = outcome(shown.parse, &words, &scene)
+    while let Some(difference) = outcome(shown.parse, &arguments, &scene)
         .ok()
-        .and_then(|said| flags::all(shown, &scene, &said).find(|d| !tried.contains(&d.what)))
+        .and_then(|parsed| flags::all(shown, &scene, &parsed).find(|d| !tried.contains(&d.what)))
     {
         tried.push(difference.what);
-        let length = words.len();
+        let length = arguments.len();
         for (flag, value) in difference.flags {
-            words.push(flag.to_owned());
-            words.extend(Some(value).filter(|value| !value.is_empty()));
+            arguments.push(flag.to_owned());
+            arguments.extend(Some(value).filter(|value| !value.is_empty()));
         }
         // Outside the range of the flag.
-        if outcome(shown.parse, &words, &scene).is_err() {
-            words.truncate(length);
+        if outcome(shown.parse, &arguments, &scene).is_err() {
+            arguments.truncate(length);
         }
     }
-    if let Ok(said) = outcome(shown.parse, &words, &scene) {
-        left_out.extend(flags::all(shown, &scene, &said).map(|d| d.what.to_owned()));
+    if let Ok(parsed) = outcome(shown.parse, &arguments, &scene) {
+        left_out.extend(flags::all(shown, &scene, &parsed).map(|d| d.what.to_owned()));
     }
     if shown.edited {
         left_out.push("unsaved changes of the scene".to_owned());
     }
-    let quoted: Vec<_> = words.iter().map(|word| quoted(word)).collect();
+    let quoted: Vec<_> = arguments.iter().map(|argument| quoted(argument)).collect();
     CommandLine {
         line: quoted.join(" "),
         left_out,
@@ -124,15 +124,22 @@ pub fn copy(shown: &Shown) -> CommandLine {
 pub fn paste(parse: ParsePicture, line: &str, scene: &Scene) -> Result<Pasted, String> {
     // Line continuations.
     let line = line.replace("\\\n", " ");
-    let Some(words) = shlex::split(line.trim().trim_start_matches('$')) else {
+    let Some(arguments) = shlex::split(line.trim().trim_start_matches('$')) else {
         return Err("Cannot read the command line: a quotation mark is not closed".to_owned());
     };
-    let is_program = |word: &String| Path::new(word).file_stem().is_some_and(|s| s == "glimray");
-    let mut words = match words.iter().position(is_program) {
-        Some(at) => words[at..].to_vec(),
-        None if words.first().is_some_and(|word| word.starts_with("--")) => {
+    let is_program = |argument: &String| {
+        Path::new(argument)
+            .file_stem()
+            .is_some_and(|s| s == "glimray")
+    };
+    let mut arguments = match arguments.iter().position(is_program) {
+        Some(at) => arguments[at..].to_vec(),
+        None if arguments
+            .first()
+            .is_some_and(|argument| argument.starts_with("--")) =>
+        {
             let start = ["glimray", "render", NO_FILE].map(str::to_owned);
-            start.into_iter().chain(words).collect()
+            start.into_iter().chain(arguments).collect()
         }
         None => {
             return Err(
@@ -140,18 +147,18 @@ pub fn paste(parse: ParsePicture, line: &str, scene: &Scene) -> Result<Pasted, S
             );
         }
     };
-    words[0] = "glimray".to_owned();
-    outcome(parse, &words, &without_geometry(scene))
+    arguments[0] = "glimray".to_owned();
+    outcome(parse, &arguments, &without_geometry(scene))
 }
 
 /// Stands for the scene in a line without one; no file has this name.
 const NO_FILE: &str = "\n";
 
-fn outcome(parse: ParsePicture, words: &[String], scene: &Scene) -> Result<Pasted, String> {
+fn outcome(parse: ParsePicture, arguments: &[String], scene: &Scene) -> Result<Pasted, String> {
     let PictureRequest {
         scene: path,
         overrides,
-    } = parse(words)?;
+    } = parse(arguments)?;
     let mut scene = scene.clone();
     (overrides.camera.apply(&mut scene)).map_err(|error| error.to_string())?;
     let settings = overrides.picture.settings(&scene.output);
@@ -187,14 +194,14 @@ pub fn without_geometry(scene: &Scene) -> Scene {
     }
 }
 
-/// Quotes a word for a shell. Numbers with commas stay unquoted; `shlex` would quote them.
-fn quoted(word: &str) -> Cow<'_, str> {
+/// Quotes an argument for a shell. Numbers with commas stay unquoted; `shlex` would quote them.
+fn quoted(argument: &str) -> Cow<'_, str> {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.into();
+    if !argument.is_empty() && argument.chars().all(is_plain) {
+        return argument.into();
     }
     // Only NUL cannot be quoted, which neither file names nor flags contain.
-    shlex::try_quote(word).unwrap_or_default()
+    shlex::try_quote(argument).unwrap_or_default()
 }
 
 /// A file name that is not mistaken for a flag.

@@ -227,7 +227,7 @@ pub struct Dragged {
     /// The new transform of the object.
     pub place: DAffine3,
     /// A description, such as "x +0.25".
-    pub told: String,
+    pub label: String,
 }
 
 impl Grip {
@@ -243,7 +243,7 @@ impl Grip {
     }
 
     /// Moves by a pointer motion; `fine` applies a tenth of it.
-    pub fn follow(&mut self, moved: DVec2, fine: bool) {
+    pub fn move_pointer(&mut self, moved: DVec2, fine: bool) {
         self.to += moved * if fine { FINE } else { 1.0 };
     }
 

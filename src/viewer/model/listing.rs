@@ -40,7 +40,7 @@ impl Group {
 
 impl Listing {
     /// Updates the rows for a scene and a search text.
-    pub fn follow(&mut self, scene: &Arc<Scene>) {
+    pub fn update(&mut self, scene: &Arc<Scene>) {
         let is_known = self.lists(scene);
         if !is_known {
             self.outline = Outline::of(scene);
@@ -79,8 +79,7 @@ impl Listing {
         });
     }
 
-    /// Whether other lines are below one of the shown lines, and whether these are folded away; `None`
-    /// for a line without any.
+    /// Whether the children of a shown line are folded; `None` for a line without children.
     pub fn fold(&self, row: usize) -> Option<bool> {
         let index = *self.shown.get(row)?;
         let entry = &self.outline.entries[index];
@@ -88,7 +87,7 @@ impl Listing {
         (next.depth > entry.depth).then(|| self.folded.contains(&Group::of(entry)))
     }
 
-    /// Folds the lines below one of the shown lines away, or unfolds them.
+    /// Folds or unfolds the children of a shown line.
     pub fn toggle_fold(&mut self, row: usize) {
         let Some(index) = self.shown.get(row) else {
             return;
@@ -118,7 +117,7 @@ impl Listing {
         }
     }
 
-    /// What the shown lines between two things stand for, both included, in the order of the outline.
+    /// The items from one shown line to another, both included, in the order of the outline.
     pub fn between(&self, a: Id, b: Id) -> Vec<Id> {
         let (Some(a), Some(b)) = (self.row_of(a), self.row_of(b)) else {
             return Vec::new();

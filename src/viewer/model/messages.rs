@@ -46,7 +46,7 @@ impl Messages {
     }
 
     /// Adds a message that is not a warning.
-    pub fn tell(&mut self, text: impl Into<String>) {
+    pub fn notify(&mut self, text: impl Into<String>) {
         self.add(text.into(), false);
     }
 

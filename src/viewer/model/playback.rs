@@ -44,7 +44,7 @@ impl Playback {
     }
 
     /// Sets the duration of a scene's animation.
-    pub fn follow(&mut self, scene: &Scene) {
+    pub fn set_scene(&mut self, scene: &Scene) {
         self.duration = clock::duration(scene).unwrap_or(0.0);
         self.is_playing &= self.duration > 0.0;
     }
@@ -124,9 +124,9 @@ impl Playback {
     }
 
     /// When the shutter opens and closes, in seconds.
-    pub fn shot(&self) -> (f64, f64) {
+    pub fn shutter_interval(&self) -> (f64, f64) {
         match self.blurs {
-            true => self.clock.shot(self.time),
+            true => self.clock.shutter_interval(self.time),
             false => (self.time, self.time),
         }
     }

@@ -137,7 +137,7 @@ impl Preferences {
     }
 
     /// Adds a bookmark to a scene; one with the same name is replaced.
-    pub fn keep_camera(&mut self, scene: &Path, camera: SavedCamera) {
+    pub fn save_camera(&mut self, scene: &Path, camera: SavedCamera) {
         let cameras = self.cameras.entry(whole(scene)).or_default();
         match cameras.iter_mut().find(|known| known.name == camera.name) {
             Some(known) => *known = camera,
@@ -152,13 +152,13 @@ impl Preferences {
         let known = self.cameras_of(to).to_vec();
         for camera in self.cameras_of(from).to_vec() {
             if known.iter().all(|other| other.name != camera.name) {
-                self.keep_camera(to, camera);
+                self.save_camera(to, camera);
             }
         }
     }
 
     /// Deletes a bookmark of a scene.
-    pub fn drop_camera(&mut self, scene: &Path, name: &str) {
+    pub fn remove_camera(&mut self, scene: &Path, name: &str) {
         let scene = whole(scene);
         if let Some(cameras) = self.cameras.get_mut(&scene) {
             cameras.retain(|known| known.name != name);

@@ -72,7 +72,7 @@ impl InputRecording {
             }),
         };
         if let (Some(record), Some(replay)) = (&request.record, &request.replay) {
-            Inputs::new([replay]).spare(record, "recording", "--record")?;
+            Inputs::new([replay]).refuse_overwrite(record, "recording", "--record")?;
         }
         let recorder = request.record.as_deref().map(Recorder::new).transpose()?;
         Ok(Self {
@@ -102,7 +102,7 @@ impl InputRecording {
             replay.feed(now, ctx, raw);
             ctx.request_repaint();
         }
-        let error = self.recorder.as_mut()?.take(now, raw).err()?;
+        let error = self.recorder.as_mut()?.record(now, raw).err()?;
         let path = self.recorder.take().map(|recorder| recorder.path)?;
         Some(format!(
             "the recording has ended ({}): {}. Free space or record elsewhere.",
@@ -150,7 +150,7 @@ impl Recorder {
         })
     }
 
-    fn take(&mut self, now: f64, raw: &RawInput) -> std::io::Result<()> {
+    fn record(&mut self, now: f64, raw: &RawInput) -> std::io::Result<()> {
         let time = now - *self.start.get_or_insert(now);
         let mut lines = Vec::new();
         let size = raw.screen_rect.map(|rect| rect.size().into());

@@ -1,24 +1,155 @@
-//! The tools of the mouse in the picture.
+//! The tools of the mouse in the picture, in one table.
+//!
+//! A new tool is a row here. The compiler then asks for its behaviour in `actions/tools.rs` and for its overlay in
+//! `ui/tools.rs`; its command, its shortcuts, its menu entry and its button follow from the row.
 
-use super::bindings::Action;
-use eframe::egui::Pos2;
+use super::region;
+use glam::DVec3;
 
-/// The action of a click or drag that is not bound to the camera.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Tool {
-    /// A click selects what is under it.
+/// A row of the table of tools.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ToolEntry {
+    /// Identifier in settings files of the command that activates it. It never changes.
+    pub name: &'static str,
+    /// Its name in menus.
+    pub title: &'static str,
+    /// What it is for: one line without a full stop.
+    pub description: &'static str,
+    /// The triggers of its command in each preset, in the order of `Preset::ALL`, separated by commas.
+    pub shortcuts: [&'static str; 3],
+    /// The menu that it is in.
+    pub menu: ToolMenu,
+    /// The label of its button in the toolbar; `None` without a button.
+    pub button: Option<&'static str>,
+    /// Whether it shows handles at the selection.
+    pub has_handles: bool,
+}
+
+/// The menus with tools.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToolMenu {
+    /// The menu "Edit".
+    Edit,
+    /// The menu "Render".
+    Render,
+}
+
+macro_rules! tools {
+    ($($(#[$attribute:meta])* $tool:ident { $($field:ident: $value:expr,)* })*) => {
+        /// The meaning of a click or drag that is not bound to the camera.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Tool {
+            $($(#[$attribute])* $tool,)*
+        }
+
+        impl Tool {
+            /// All, in the order of the table.
+            pub const ALL: &[Self] = &[$(Self::$tool,)*];
+
+            /// Its row of the table.
+            pub const fn entry(self) -> &'static ToolEntry {
+                match self { $(Self::$tool => &ToolEntry { $($field: $value,)* },)* }
+            }
+        }
+    };
+}
+
+tools! {
+    /// A click selects the object under the cursor.
     #[default]
-    Select,
-    /// A click shows the rays of the pixel under it.
-    Inspect,
-    /// A drag selects the render region.
-    Region,
+    Select {
+        name: "select-mode",
+        title: "Select tool",
+        description: "Select tool: click an object to select it",
+        shortcuts: ["C", "C", "Q"],
+        menu: ToolMenu::Edit,
+        button: Some("Select"),
+        has_handles: false,
+    }
     /// Handles move the selection.
-    Move,
+    Move {
+        name: "move-tool",
+        title: "Move tool",
+        description: "Move tool: drag a handle to move the selection",
+        shortcuts: ["G", "G", "W"],
+        menu: ToolMenu::Edit,
+        button: Some("Move"),
+        has_handles: true,
+    }
     /// Handles rotate the selection.
-    Rotate,
+    Rotate {
+        name: "rotate-tool",
+        title: "Rotate tool",
+        description: "Rotate tool: drag a ring to rotate the selection",
+        shortcuts: ["R", "R", "E"],
+        menu: ToolMenu::Edit,
+        button: Some("Rotate"),
+        has_handles: true,
+    }
     /// Handles scale the selection.
-    Scale,
+    Scale {
+        name: "scale-tool",
+        title: "Scale tool",
+        description: "Scale tool: drag a handle to scale the selection",
+        shortcuts: ["Z", "S", "R"],
+        menu: ToolMenu::Edit,
+        button: Some("Scale"),
+        has_handles: true,
+    }
+    /// A click shows the rays of the pixel under the cursor.
+    Inspect {
+        name: "inspect-rays",
+        title: "Ray inspector",
+        description: "Ray inspector: click a pixel to show its rays",
+        shortcuts: ["I", "I", "I"],
+        menu: ToolMenu::Edit,
+        button: None,
+        has_handles: false,
+    }
+    /// Two clicks measure the distance between two points.
+    Measure {
+        name: "measure",
+        title: "Measure tool",
+        description: "Measure tool: click two points to show their distance",
+        shortcuts: ["Alt+M", "Alt+M", "Alt+M"],
+        menu: ToolMenu::Edit,
+        button: None,
+        has_handles: false,
+    }
+    /// A drag selects the render region.
+    Region {
+        name: "region-render",
+        title: "Render region",
+        description: "Render a region, or clear it",
+        shortcuts: ["B", "Ctrl+B", "B"],
+        menu: ToolMenu::Render,
+        button: None,
+        has_handles: false,
+    }
+}
+
+/// The state of tools between frames.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ToolState {
+    /// The edge or corner of the render region that is being dragged.
+    pub region: Option<region::Grip>,
+    /// The measured points in world space, at most two.
+    pub measured: Vec<DVec3>,
+}
+
+impl ToolState {
+    /// Adds a point to the measurement; a third one starts another.
+    pub fn measure(&mut self, point: DVec3) {
+        if self.measured.len() == 2 {
+            self.measured.clear();
+        }
+        self.measured.push(point);
+    }
+
+    /// Both measured points; `None` before there are two.
+    pub fn measured_line(&self) -> Option<[DVec3; 2]> {
+        self.measured[..].try_into().ok()
+    }
 }
 
 /// The purpose of a pick.
@@ -30,13 +161,6 @@ pub enum Purpose {
     Focus,
     /// Select it.
     Select,
-}
-
-/// A drag in the picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drag {
-    /// The action, chosen when it started.
-    pub action: Action,
-    /// The current position on the screen.
-    pub from: Pos2,
+    /// Measure the distance from or to it.
+    Measure,
 }

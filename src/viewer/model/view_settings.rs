@@ -3,7 +3,6 @@
 use crate::render::{Antialias, Integrator, Levels, RenderSettings, Shows, Tone};
 use crate::scene::{Background, OutputDefaults, ToneCurve};
 use crate::viewer::model::playback::Playback;
-use crate::viewer::model::region::Grip;
 use glam::Vec3;
 
 /// Maximum samples per pixel.
@@ -26,8 +25,6 @@ pub struct ViewSettings {
     pub region: Option<[f64; 4]>,
     /// Whether rendering is paused.
     pub paused: bool,
-    /// The edge or corner of the region that is being dragged.
-    pub grip: Option<Grip>,
     /// The settings of the scene and the command line, to return to.
     pub scene_settings: RenderSettings,
     /// The tone mapping of the scene and the command line.
@@ -64,7 +61,6 @@ impl ViewSettings {
             comparison: None,
             region: None,
             paused: false,
-            grip: None,
             scene_tone: tone,
         }
     }

@@ -46,7 +46,7 @@ impl Watch {
     ///
     /// # Errors
     /// The system cannot watch a folder: why, in a few words.
-    pub fn follow(
+    pub fn set_files(
         &mut self,
         files: &[PathBuf],
         since: SystemTime,

@@ -3,7 +3,7 @@
 use crate::scene::ObjectRef;
 use crate::viewer::model::tool::Purpose;
 use crate::viewer::state::cursor::Probe;
-use crate::viewer::state::files::Taken;
+use crate::viewer::state::files::Captured;
 use crate::viewer::state::inspector::{Inspected, Parts};
 use glam::DVec3;
 
@@ -26,7 +26,7 @@ pub enum Answer {
     /// No result.
     Nothing,
     /// The picture so far, for a file.
-    Picture(Box<Taken>),
+    Picture(Box<Captured>),
     /// An error message.
     Failed(String),
 }

@@ -30,7 +30,7 @@ pub struct Dialogs {
     pub(in crate::viewer) is_resetting: bool,
     /// Whether a field had the keyboard in the last frame: egui clears the focus before Escape is seen.
     pub(in crate::viewer) had_keyboard: bool,
-    pub(in crate::viewer) kept: Kept,
+    pub(in crate::viewer) preferences_file: PreferencesFile,
 }
 
 impl Dialogs {
@@ -51,8 +51,8 @@ impl Dialogs {
     }
 
     /// Resets what was applied to the previous window.
-    pub fn begin(&mut self) {
-        self.kept.forget_window();
+    pub fn reopened(&mut self) {
+        self.preferences_file.window_reopened();
     }
 
     /// Opens a dialog, or closes it if it is open.
@@ -97,7 +97,7 @@ impl ShortcutsDialog {
 
 /// The state of the settings file.
 #[derive(Default)]
-pub struct Kept {
+pub struct PreferencesFile {
     pub(in crate::viewer) written: Option<Preferences>,
     /// Time of the last check, by the window's clock in seconds.
     pub(in crate::viewer) looked: Option<f64>,
@@ -109,9 +109,9 @@ pub struct Kept {
     pub(in crate::viewer) applied: Option<(Theme, f32)>,
 }
 
-impl Kept {
+impl PreferencesFile {
     /// Applies theme and scale again, because the window was created again.
-    pub fn forget_window(&mut self) {
+    pub fn window_reopened(&mut self) {
         self.applied = None;
     }
 }

@@ -27,9 +27,9 @@ pub struct Editing {
     /// The outline row that had the focus in the last frame, from which arrow keys move.
     pub list_focus: Option<egui::Id>,
     /// The last selection that the outline has scrolled to.
-    pub seen_selection: Option<Id>,
+    pub scrolled_to: Option<Id>,
     /// The visible range of the outline, in points from its start.
-    pub seen_lines: egui::Rangef,
+    pub visible_range: egui::Rangef,
     /// The dialog that asks where to save the scene.
     pub(in crate::viewer) saving: Option<Saving>,
     /// The file saved from this window, which may be replaced without asking.
@@ -56,8 +56,8 @@ impl Default for Editing {
             renaming: None,
             group: None,
             list_focus: None,
-            seen_selection: None,
-            seen_lines: egui::Rangef::EVERYTHING,
+            scrolled_to: None,
+            visible_range: egui::Rangef::EVERYTHING,
             saving: None,
             written: None,
             known: None,
@@ -110,6 +110,6 @@ pub struct Saving {
     /// Why the name is invalid.
     pub(in crate::viewer) trouble: Option<String>,
     pub(in crate::viewer) is_new: bool,
-    /// What the desktop's dialog will say, while it is open.
+    /// The pending reply of the desktop's dialog.
     pub(in crate::viewer) asked: Option<Receiver<Reply>>,
 }

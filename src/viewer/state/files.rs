@@ -36,7 +36,7 @@ pub struct Files {
     pub(in crate::viewer) asked: Option<Receiver<Reply>>,
     /// Scenes to try next if one cannot be read, and the message if one can.
     pub(in crate::viewer) candidates: VecDeque<PathBuf>,
-    pub(in crate::viewer) said: Option<String>,
+    pub(in crate::viewer) notice: Option<String>,
     pub(in crate::viewer) pending: Pending,
     /// The environment image that is loading.
     pub(in crate::viewer) environment: Option<(PathBuf, Receiver<PictureRead>)>,
@@ -70,7 +70,7 @@ pub enum Intent {
     /// Reload the scene.
     Reload,
     /// Reload the scene because its file has changed.
-    Follow,
+    ReloadChanged,
     /// Close the window.
     Close,
     /// Close the window although a picture waits to be saved.
@@ -79,9 +79,9 @@ pub enum Intent {
 
 impl Files {
     /// Resets what was applied to the previous window.
-    pub fn begin(&mut self) {
+    pub fn reopened(&mut self) {
         self.title.clear();
-        self.pending.begin();
+        self.pending.reopened();
         let files = self.watch.files();
         if !files.is_empty() {
             self.to_watch = Some((files, SystemTime::now()));
@@ -148,7 +148,7 @@ impl SaveSize {
     /// All, in the order of the dialog.
     pub const ALL: [Self; 3] = [Self::Window, Self::Scene, Self::Twice];
 
-    /// In words.
+    /// Label in the dialog.
     pub fn title(self) -> &'static str {
         match self {
             Self::Window => "Window",
@@ -160,13 +160,13 @@ impl SaveSize {
 
 /// A picture that is rendered for a file.
 pub struct Rendering {
-    /// What became of it: a message, nothing if it was cancelled, or what went wrong.
+    /// The outcome: a message, `None` if it was cancelled, or an error.
     pub(in crate::viewer) receiver: Receiver<Result<Option<String>, String>>,
-    /// Set to give it up.
+    /// Set to cancel it.
     pub(in crate::viewer) is_cancelled: Arc<AtomicBool>,
 }
 
-/// What a person says about a picture that is to be saved.
+/// The state of the dialog for saving the picture.
 pub struct SaveDialog {
     /// The typed path.
     pub path: String,
@@ -176,7 +176,7 @@ pub struct SaveDialog {
     pub overlays: bool,
     /// The size.
     pub size: SaveSize,
-    /// Whether the name is yet to be put under the keys.
+    /// Whether the name field has not been focused yet.
     pub is_new: bool,
     /// The input files of the scene, which no picture may replace.
     pub(in crate::viewer) inputs: Inputs,
@@ -187,8 +187,8 @@ pub struct SaveDialog {
 
 /// A picture from the render thread, with its target.
 #[derive(Debug)]
-pub struct Taken {
-    /// `None` if it should be finished but is not.
+pub struct Captured {
+    /// `None` if the picture must be finished first.
     pub(in crate::viewer) image: Result<Option<Image>, String>,
     pub(in crate::viewer) samples: u32,
     pub(in crate::viewer) of: u32,
@@ -215,7 +215,7 @@ pub struct Pending {
 
 impl Pending {
     /// Drops the requests of the previous renderer.
-    pub fn begin(&mut self) {
+    pub fn reopened(&mut self) {
         self.asked = 0;
         self.pose = None;
     }
@@ -283,7 +283,7 @@ const FRAMES: u32 = 2;
 pub struct Pose {
     pub(in crate::viewer) target: Target,
     pub(in crate::viewer) frames: u32,
-    pub(in crate::viewer) shot: Option<Receiver<Arc<ColorImage>>>,
+    pub(in crate::viewer) screenshot: Option<Receiver<Arc<ColorImage>>>,
 }
 
 impl Pose {
@@ -292,7 +292,7 @@ impl Pose {
         Self {
             target,
             frames: FRAMES,
-            shot: None,
+            screenshot: None,
         }
     }
 }

@@ -5,10 +5,10 @@ use crate::viewer::model::camera::CameraController;
 use crate::viewer::model::file_dialog::Reply;
 use crate::viewer::model::objects::Id;
 use crate::viewer::model::outline;
+pub mod ray_labels;
 pub mod rows;
-pub mod words;
 
-use crate::viewer::model::tool::Drag;
+use crate::viewer::model::bindings::Drag;
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::worker::request::RenderRequest;
 use rows::{Filter, RayId, Row};
@@ -37,7 +37,7 @@ impl Inspected {
     /// Prepares the tree of a picture.
     pub fn new(tree: RayTree, order: RenderRequest, is_final: bool) -> Self {
         let bounces = tree.samples.iter().map(rows::bounces).collect();
-        let labels = outline::labels(&order.scene, words::met(&tree));
+        let labels = outline::labels(&order.scene, ray_labels::hit_by(&tree));
         Self {
             tree,
             order,
@@ -195,7 +195,7 @@ pub struct View {
 
 impl Hidden {
     /// Stores an answer; `None` if the view has changed meanwhile.
-    pub fn take(&mut self, parts: Option<Parts>) {
+    pub fn set(&mut self, parts: Option<Parts>) {
         match (self.asked.clone(), parts) {
             (Some(view), Some(parts)) => self.known = Some((view, parts)),
             _ => self.asked = None,

@@ -77,9 +77,9 @@ pub struct Layout {
     /// Whether the time panel was hidden because nothing moves.
     #[serde(default)]
     is_time_folded: bool,
-    /// Whether anything moved in the scene that was followed last.
+    /// Whether the last scene was animated.
     #[serde(default)]
-    moves: Option<bool>,
+    is_animated: Option<bool>,
 }
 
 /// A tile that was shrunk.
@@ -124,7 +124,7 @@ impl Default for Layout {
             wishes: Vec::new(),
             before: None,
             is_time_folded: false,
-            moves: None,
+            is_animated: None,
         }
     }
 }
@@ -191,15 +191,15 @@ impl Layout {
         }
     }
 
-    /// Hides the time panel when a scene without motion comes, and shows it again with the next scene
-    /// that moves. A panel that was shown or hidden by hand stays so until then.
-    pub fn follow_motion(&mut self, moves: bool) {
-        if self.moves.replace(moves) == Some(moves) {
+    /// Hides the time panel when a static scene is opened, and shows it again with the next animated scene. The
+    /// user's choice holds until then.
+    pub fn set_animated(&mut self, is_animated: bool) {
+        if self.is_animated.replace(is_animated) == Some(is_animated) {
             return;
         }
-        if moves && self.is_time_folded {
+        if is_animated && self.is_time_folded {
             self.set_visible(Panel::Time, true);
-        } else if !moves && self.is_visible(Panel::Time) {
+        } else if !is_animated && self.is_visible(Panel::Time) {
             self.set_visible(Panel::Time, false);
             self.is_time_folded = true;
         }

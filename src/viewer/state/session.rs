@@ -10,7 +10,7 @@ use crate::app::showcase;
 use crate::app::window::ViewRequest;
 use crate::render::{Integrator, RenderSettings};
 use crate::scene::{Camera, Scene};
-use crate::viewer::model::bindings::Action;
+use crate::viewer::model::bindings::{Action, Drag};
 use crate::viewer::model::camera::CameraController;
 use crate::viewer::model::document::Document;
 use crate::viewer::model::loader::Loader;
@@ -20,7 +20,7 @@ use crate::viewer::model::objects::Id;
 use crate::viewer::model::playback::Playback;
 use crate::viewer::model::preferences::{Preferences, Store};
 use crate::viewer::model::recording::InputRecording;
-use crate::viewer::model::tool::{Drag, Tool};
+use crate::viewer::model::tool::{Tool, ToolState};
 use crate::viewer::model::view_settings::ViewSettings;
 use crate::viewer::model::viewport::{PixelZoom, Viewport};
 use crate::viewer::state::answer::Answer;
@@ -66,6 +66,8 @@ pub struct Session {
     pub controller: Option<CameraController>,
     /// The active tool.
     pub tool: Tool,
+    /// The state of tools.
+    pub tool_state: ToolState,
     /// The current drag in the picture.
     pub drag: Option<Drag>,
     /// The selection.
@@ -133,6 +135,7 @@ impl Session {
             path: None,
             controller: None,
             tool: Tool::default(),
+            tool_state: ToolState::default(),
             drag: None,
             selection: None,
             clicked: Vec::new(),

@@ -57,7 +57,7 @@ pub fn show(ui: &mut egui::Ui, context: &mut PanelContext, layout: &mut Layout) 
     questions::hovering(&ctx);
     let is_list = editing::has_list_focus(context.session, &ctx);
     context.session.dialogs.had_keyboard = ctx.egui_wants_keyboard_input() && !is_list;
-    settings::keep_layout_if_due(context.session, layout);
+    settings::store_layout_if_due(context.session, layout);
 }
 
 /// Shows the folder of a file name.

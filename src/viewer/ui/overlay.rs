@@ -9,7 +9,8 @@ use crate::viewer::model::objects::Id;
 use crate::viewer::model::tool::Tool;
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::state::session::Session;
-use eframe::egui::{self, Align2, Color32, FontId, Painter, Pos2, Shape, Stroke};
+use crate::viewer::ui::world_painter::{SHADE, WorldPainter};
+use eframe::egui::{self, Color32, Painter, Pos2, Shape, Stroke};
 use glam::{DAffine3, DVec3};
 
 /// Length of handles, and the distance for hit testing, in points.
@@ -24,7 +25,6 @@ pub(in crate::viewer::ui) const COLORS: [Color32; 3] = [
 const ALL: Color32 = Color32::from_gray(235);
 const HOT: Color32 = Color32::from_rgb(255, 214, 64);
 const SELECTED: Color32 = Color32::from_rgb(255, 160, 32);
-const SHADE: Color32 = Color32::from_black_alpha(110);
 
 /// Draws the selection and its handles, and handles drags of them. Returns whether the mouse is consumed.
 pub fn overlay(
@@ -55,7 +55,7 @@ pub fn overlay(
         size: viewport.extent(),
     };
     let time = session.playback.time;
-    let view = View {
+    let view = WorldPainter {
         painter,
         viewport,
         eye,
@@ -63,8 +63,7 @@ pub fn overlay(
     view.lines(&edges(session, &scene, id, time), SELECTED);
     let place = objects::place(&scene, id, time);
     let tool = session.tool;
-    let is_handled = matches!(tool, Tool::Move | Tool::Rotate | Tool::Scale);
-    let (Some(place), true) = (place, is_handled) else {
+    let (Some(place), true) = (place, tool.entry().has_handles) else {
         let_go(session);
         return false;
     };
@@ -100,14 +99,14 @@ pub fn overlay(
     }
     let Some((mut grip, last)) = session.editing.grip.take() else {
         let hovered = pointer.filter(|_| response.hovered()).and_then(part_at);
-        view.handles(&handles, hovered);
+        draw_handles(&view, &handles, hovered);
         if hovered.is_some() {
             ctx.set_cursor_icon(egui::CursorIcon::Grab);
         }
         return false;
     };
     let now = pointer.unwrap_or(last);
-    grip.follow(viewport.length(now - last), is_fine);
+    grip.move_pointer(viewport.length(now - last), is_fine);
     let mut modal = session.editing.modal.take();
     let dragged = match &modal {
         Some(modal) => {
@@ -141,12 +140,12 @@ pub fn overlay(
             .map(Modal::typed)
             .filter(|typed| !typed.is_empty())
         {
-            Some(typed) => view.text(at, &format!("{}   [{typed}]", dragged.told)),
-            None => view.text(at, &dragged.told),
+            Some(typed) => view.text(at, &format!("{}   [{typed}]", dragged.label)),
+            None => view.text(at, &dragged.label),
         }
     }
     ctx.set_cursor_icon(egui::CursorIcon::Grabbing);
-    view.handles(&shown, Some(grip.part));
+    draw_handles(&view, &shown, Some(grip.part));
     match modal {
         Some(modal) if !modal.is_confirmed => {
             session.editing.grip = Some((grip, now));
@@ -171,124 +170,75 @@ fn let_go(session: &mut Session) {
     session.editing.modal = None;
 }
 
-/// The view that lines are drawn in.
-struct View<'a> {
-    painter: &'a Painter,
-    viewport: Viewport,
-    eye: Eye<'a>,
+/// Draws handles, the one under the cursor highlighted.
+fn draw_handles(view: &WorldPainter, handles: &Handles, hot: Option<Part>) {
+    let mut parts = handles.parts.clone();
+    // The nearest part is drawn last.
+    let depth = |part: &Part| match part {
+        Part::Axis(axis) => view
+            .eye
+            .depth(handles.origin + handles.axes[*axis] * handles.reach),
+        Part::All => f64::NEG_INFINITY,
+        _ => view.eye.depth(handles.origin),
+    };
+    parts.sort_by(|a, b| depth(b).total_cmp(&depth(a)));
+    for part in parts {
+        draw_handle(view, handles, part, hot == Some(part));
+    }
 }
 
-impl View<'_> {
-    /// Draws lines in world space.
-    fn lines(&self, lines: &[[DVec3; 2]], color: Color32) {
-        for ends in lines {
-            if let Some(ends) = self.segment(*ends) {
-                self.painter.line_segment(ends, Stroke::new(3.0, SHADE));
-                self.painter.line_segment(ends, Stroke::new(1.5, color));
-            }
-        }
-    }
-
-    /// Projects a line, clipped at the camera.
-    fn segment(&self, [a, b]: [DVec3; 2]) -> Option<[Pos2; 2]> {
-        let (depth_a, depth_b) = (self.eye.depth(a), self.eye.depth(b));
-        let near = 1e-3 * depth_a.abs().max(depth_b.abs());
-        if depth_a.max(depth_b) <= near {
-            return None;
-        }
-        let cut = |from: DVec3, to: DVec3, depth: f64, other: f64| match depth < near {
-            true => from.lerp(to, (near - depth) / (other - depth)),
-            false => from,
-        };
-        let ends = [cut(a, b, depth_a, depth_b), cut(b, a, depth_b, depth_a)];
-        let [a, b] = ends.map(|end| self.eye.project(end));
-        let ends = [a?, b?].map(|at| self.viewport.point(at));
-        // Points far outside would lose their direction in single precision.
-        ends.iter()
-            .all(|p| p.to_vec2().length() < 1e6)
-            .then_some(ends)
-    }
-
-    fn handles(&self, handles: &Handles, hot: Option<Part>) {
-        let mut parts = handles.parts.clone();
-        // The nearest part is drawn last.
-        let depth = |part: &Part| match part {
-            Part::Axis(axis) => self
-                .eye
-                .depth(handles.origin + handles.axes[*axis] * handles.reach),
-            Part::All => f64::NEG_INFINITY,
-            _ => self.eye.depth(handles.origin),
-        };
-        parts.sort_by(|a, b| depth(b).total_cmp(&depth(a)));
-        for part in parts {
-            self.handle(handles, part, hot == Some(part));
-        }
-    }
-
-    fn handle(&self, handles: &Handles, part: Part, is_hot: bool) {
-        let own = match part {
-            Part::Axis(axis) | Part::Plane(axis) | Part::Ring(axis) => COLORS[axis],
-            Part::All => ALL,
-        };
-        let color = if is_hot { HOT } else { own };
-        let line = handles.line(part, self.eye);
-        let points: Option<Vec<Pos2>> = (line.iter())
-            .map(|point| Some(self.viewport.point(self.eye.project(*point)?)))
-            .collect();
-        let Some(points) = points else {
-            return;
-        };
-        let stroke = |points: Vec<Pos2>| {
-            let shade = Stroke::new(5.0, SHADE);
-            self.painter.add(Shape::line(points.clone(), shade));
-            self.painter
-                .add(Shape::line(points, Stroke::new(3.0, color)));
-        };
-        match part {
-            Part::Axis(_) => {
-                let (from, to) = (points[0], points[1]);
-                stroke(vec![from, to]);
-                let way = (to - from).normalized();
-                let side = way.rot90();
-                let tip = match handles.tool {
-                    Tool::Scale => {
-                        let (way, side) = (way * 5.0, side * 5.0);
-                        vec![
-                            to + way + side,
-                            to + way - side,
-                            to - way - side,
-                            to - way + side,
-                        ]
-                    }
-                    _ => vec![to + way * 12.0, to + side * 5.5, to - side * 5.5],
-                };
-                let shape = Shape::convex_polygon(tip, color, Stroke::new(1.0, SHADE));
-                self.painter.add(shape);
-            }
-            Part::Plane(_) => {
-                let fill = color.gamma_multiply(if is_hot { 0.8 } else { 0.45 });
-                let shape = Shape::convex_polygon(points, fill, Stroke::new(1.0, color));
-                self.painter.add(shape);
-            }
-            Part::All if points.is_empty() => {
-                if let Some(at) = self.eye.project(handles.origin) {
-                    let at = self.viewport.point(at);
-                    self.painter.circle(at, 6.5, color, Stroke::new(1.5, SHADE));
+fn draw_handle(view: &WorldPainter, handles: &Handles, part: Part, is_hot: bool) {
+    let own = match part {
+        Part::Axis(axis) | Part::Plane(axis) | Part::Ring(axis) => COLORS[axis],
+        Part::All => ALL,
+    };
+    let color = if is_hot { HOT } else { own };
+    let line = handles.line(part, view.eye);
+    let points: Option<Vec<Pos2>> = (line.iter())
+        .map(|point| Some(view.viewport.point(view.eye.project(*point)?)))
+        .collect();
+    let Some(points) = points else {
+        return;
+    };
+    let stroke = |points: Vec<Pos2>| {
+        let shade = Stroke::new(5.0, SHADE);
+        view.painter.add(Shape::line(points.clone(), shade));
+        view.painter
+            .add(Shape::line(points, Stroke::new(3.0, color)));
+    };
+    match part {
+        Part::Axis(_) => {
+            let (from, to) = (points[0], points[1]);
+            stroke(vec![from, to]);
+            let way = (to - from).normalized();
+            let side = way.rot90();
+            let tip = match handles.tool {
+                Tool::Scale => {
+                    let (way, side) = (way * 5.0, side * 5.0);
+                    vec![
+                        to + way + side,
+                        to + way - side,
+                        to - way - side,
+                        to - way + side,
+                    ]
                 }
-            }
-            Part::Ring(_) | Part::All => stroke(points),
+                _ => vec![to + way * 12.0, to + side * 5.5, to - side * 5.5],
+            };
+            let shape = Shape::convex_polygon(tip, color, Stroke::new(1.0, SHADE));
+            view.painter.add(shape);
         }
-    }
-
-    /// Draws text beside the pointer.
-    fn text(&self, at: Pos2, text: &str) {
-        let font = FontId::proportional(14.0);
-        let galley = (self.painter).layout_no_wrap(text.to_owned(), font, Color32::WHITE);
-        let rect = Align2::LEFT_BOTTOM.anchor_size(at, galley.size());
-        let back = Color32::from_black_alpha(190);
-        self.painter
-            .rect_filled(rect.expand2(egui::vec2(6.0, 3.0)), 4.0, back);
-        self.painter.galley(rect.min, galley, Color32::WHITE);
+        Part::Plane(_) => {
+            let fill = color.gamma_multiply(if is_hot { 0.8 } else { 0.45 });
+            let shape = Shape::convex_polygon(points, fill, Stroke::new(1.0, color));
+            view.painter.add(shape);
+        }
+        Part::All if points.is_empty() => {
+            if let Some(at) = view.eye.project(handles.origin) {
+                let at = view.viewport.point(at);
+                view.painter.circle(at, 6.5, color, Stroke::new(1.5, SHADE));
+            }
+        }
+        Part::Ring(_) | Part::All => stroke(points),
     }
 }
 

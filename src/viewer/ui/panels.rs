@@ -9,9 +9,9 @@ mod picture;
 mod properties;
 mod rays;
 mod render;
+mod setting_rows;
 mod status;
 mod time;
-mod words;
 
 pub use menu::menu;
 pub use messages::messages;

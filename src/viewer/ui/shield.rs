@@ -1,15 +1,15 @@
-//! Keeps the mouse from the window while a movement without a button is under way.
+//! Blocks mouse input to the window during a modal transform.
 
 use crate::viewer::actions::modal;
 use crate::viewer::state::session::Session;
 use eframe::egui::{self, Id, Order, PointerButton, Sense};
 
-/// Lies over the whole window while a movement is under way: clicks end it and do nothing else.
+/// Covers the whole window during a modal transform: a click confirms or cancels it.
 pub fn show(ctx: &egui::Context, session: &mut Session) {
     if session.editing.modal.is_none() {
         return;
     }
-    // Nobody sees where the thing is.
+    // Without the picture, the transform is invisible.
     if session.viewport.is_none() {
         modal::cancel(session);
         return;

@@ -12,7 +12,7 @@ pub fn show(ui: &mut egui::Ui, layout: &mut Layout, context: &mut PanelContext) 
         .frame(egui::Frame::NONE)
         .show(ui, |ui| {
             if context.session.scene().is_some() {
-                layout.follow_motion(context.session.playback.duration() > 0.0);
+                layout.set_animated(context.session.playback.duration() > 0.0);
             }
             layout.resize(ui.available_size().into());
             // The picture panel sets it when it is drawn.

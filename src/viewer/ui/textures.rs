@@ -27,7 +27,7 @@ impl Textures {
     }
 
     /// Called before the first [`Self::id`] of a frame.
-    pub fn begin(&mut self) {
+    pub fn begin_frame(&mut self) {
         for known in &mut self.known {
             known.is_used = false;
         }

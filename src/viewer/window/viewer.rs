@@ -98,7 +98,7 @@ impl Viewer {
 impl Drop for Viewer {
     fn drop(&mut self) {
         if let Ok(mut session) = self.session.try_borrow_mut() {
-            settings::keep_layout(&mut session, &self.layout);
+            settings::store_layout(&mut session, &self.layout);
         }
     }
 }
@@ -117,7 +117,7 @@ impl eframe::App for Viewer {
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
         let mut session = self.session.borrow_mut();
         for answer in self.render.answers() {
-            session.take(answer);
+            session.handle_answer(answer);
         }
         match self.render.fault() {
             Some(Fault::Lost) => {
@@ -169,7 +169,7 @@ impl eframe::App for Viewer {
             ui.painter().rect_filled(ui.max_rect(), 0.0, ground);
         }
         let mut session = self.session.borrow_mut();
-        self.textures.begin();
+        self.textures.begin_frame();
         let mut context = PanelContext {
             session: &mut session,
             render: &self.render,

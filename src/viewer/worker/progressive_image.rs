@@ -95,7 +95,7 @@ impl ProgressiveImage {
     }
 
     /// Applies a request and keeps the results that are still valid.
-    pub fn follow(
+    pub fn set_request(
         &mut self,
         order: Option<&RenderRequest>,
         coarse: bool,
@@ -108,7 +108,7 @@ impl ProgressiveImage {
             return Ok(());
         };
         let before = self.order.clone();
-        let outcome = self.take_up(order, coarse);
+        let outcome = self.apply_request(order, coarse);
         if outcome.is_err() {
             // Keep the last image, but do not treat it as this request's result.
             self.order = before;
@@ -117,7 +117,7 @@ impl ProgressiveImage {
         outcome
     }
 
-    fn take_up(&mut self, order: &RenderRequest, coarse: bool) -> Result<(), ImageError> {
+    fn apply_request(&mut self, order: &RenderRequest, coarse: bool) -> Result<(), ImageError> {
         let before = self.order.as_ref();
         let is_other_scene = before.is_none_or(|b| !Arc::ptr_eq(&b.scene, &order.scene));
         let shows_same = before.is_some_and(|b| b.shows_same(order));
@@ -128,7 +128,8 @@ impl ProgressiveImage {
             self.is_shown = false;
             self.noise = Noise::default();
         }
-        let is_other_shot = before.is_none_or(|before| before.shot != order.shot);
+        let is_other_interval =
+            before.is_none_or(|before| before.shutter_interval != order.shutter_interval);
         let differs_in_samples = before.is_some_and(|b| {
             let samples = order.settings.samples;
             RenderSettings {
@@ -158,8 +159,10 @@ impl ProgressiveImage {
         }
         if is_other_scene || self.packed.is_none() {
             self.pack(order)?;
-        } else if is_other_shot {
-            self.frames = order.scene.motion_samples(order.shot.0, order.shot.1);
+        } else if is_other_interval {
+            self.frames = order
+                .scene
+                .motion_samples(order.shutter_interval.0, order.shutter_interval.1);
         }
         if shows_same && differs_in_size && !coarse && self.keeps_screen() {
             return self.begin(None);
@@ -216,7 +219,9 @@ impl ProgressiveImage {
         self.trees_built += packed.work.total();
         self.packed = Some(Arc::new(packed));
         // The scene's own frames, with the request's camera and background: see `view`.
-        self.frames = order.scene.motion_samples(order.shot.0, order.shot.1);
+        self.frames = order
+            .scene
+            .motion_samples(order.shutter_interval.0, order.shutter_interval.1);
         Ok(())
     }
 

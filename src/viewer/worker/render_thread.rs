@@ -254,11 +254,11 @@ impl Painter {
     }
 
     /// Applies the requests; one that fails does not affect the others.
-    fn follow(&mut self, orders: &RenderRequests) -> Result<(), ImageError> {
+    fn set_requests(&mut self, orders: &RenderRequests) -> Result<(), ImageError> {
         let mut outcome = Ok(());
         for (canvas, place) in self.canvases.iter_mut().zip(PictureSlot::ALL) {
             let order = orders.pictures[place as usize].as_ref();
-            outcome = outcome.and(canvas.follow(order, orders.coarse));
+            outcome = outcome.and(canvas.set_request(order, orders.coarse));
         }
         outcome
     }
@@ -276,7 +276,7 @@ impl Painter {
         let mut is_busy = false;
         if !self.has_refused(orders) {
             self.refused = None;
-            if let Err(error) = self.follow(orders) {
+            if let Err(error) = self.set_requests(orders) {
                 return (Err(error.into()), questions, Vec::new());
             }
         }

@@ -16,7 +16,7 @@ pub struct RenderRequest {
     /// Overrides the scene's background.
     pub background: Option<Background>,
     /// When the shutter opens and closes, in seconds.
-    pub shot: (f64, f64),
+    pub shutter_interval: (f64, f64),
     /// The full-resolution size.
     pub settings: RenderSettings,
     /// The render settings; the worker chooses the time slices.
@@ -41,6 +41,6 @@ impl RenderRequest {
             && self.restarts == other.restarts
             && self.camera == other.camera
             && self.background == other.background
-            && self.shot == other.shot
+            && self.shutter_interval == other.shutter_interval
     }
 }

@@ -9,7 +9,7 @@ use crate::viewer::worker::request::RenderRequest;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Renders all samples of a request in slices that let the window go on. `None` once `is_cancelled` is set.
+/// Renders all samples of a request in slices that keep the window responsive. Returns `None` once `is_cancelled` is set.
 ///
 /// # Errors
 /// The scene cannot be rendered with these settings, or the device failed.
@@ -20,7 +20,9 @@ pub fn render(
     is_cancelled: &AtomicBool,
 ) -> Result<Option<Image>, ImageError> {
     let packed = Arc::new(pack::scene(&request.scene)?);
-    let frames = request.scene.motion_samples(request.shot.0, request.shot.1);
+    let frames = request
+        .scene
+        .motion_samples(request.shutter_interval.0, request.shutter_interval.1);
     let view = packing::view(&packed, None, &frames, request)?;
     let policy = policy(&gpu, request.policy);
     let mut renderer = Renderer::new(gpu, packed, &view, request.settings.clone(), policy)?;

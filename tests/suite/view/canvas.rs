@@ -38,7 +38,7 @@ impl Easel {
             restarts: 0,
             camera: None,
             background: None,
-            shot: (0.0, 0.0),
+            shutter_interval: (0.0, 0.0),
             settings,
             policy: ExecutionPolicy::default(),
             tone: Tone::LINEAR,
@@ -185,7 +185,7 @@ fn a_paused_picture_that_is_still_coarse_answers_questions() {
     let mut easel = Easel::new(&scene, stratified(4));
     easel.settle();
     easel.orders.paused = true;
-    easel.want(|order| order.shot = (0.5, 0.5));
+    easel.want(|order| order.shutter_interval = (0.5, 0.5));
     easel.settle();
     assert!(easel.shown().progress.is_coarse);
     let image = easel.image();
@@ -361,7 +361,7 @@ fn what_moves_is_one_whole_coarse_picture() {
     let mut easel = Easel::new(&scenes::everything(), stratified(64));
     easel.settle();
     easel.orders.coarse = true;
-    easel.want(|order| order.shot = (0.5, 0.5));
+    easel.want(|order| order.shutter_interval = (0.5, 0.5));
     easel.settle();
     let shown = easel.shown();
     assert!(shown.progress.is_coarse, "{:?}", shown.progress);

@@ -465,7 +465,7 @@ fn settings_of_the_picture_are_kept_in_the_scene_when_they_are_wanted_there() {
     let kept = scene(&window);
     assert_eq!((kept.output.samples, kept.output.exposure_ev), (2, 0.5));
     assert_eq!(kept.background, Background::Color(vec3(0.5, 0.25, 0.125)));
-    assert!(!window.session().has_unkept_look());
+    assert!(!window.session().has_unsaved_view_settings());
     let other = folder.path().join("kept.toml");
     glimray::app::scene_file::save(&other, &kept, false).expect("a file");
     let read = glimray::import::load(&other).expect("a scene");

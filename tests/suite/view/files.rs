@@ -591,7 +591,7 @@ fn a_scene_is_opened_although_the_one_on_screen_changes_meanwhile() {
     let place = Folder::new(&[("one.toml", &scene("1")), ("two.toml", &scene("2"))]);
     let mut window = place.open("one.toml");
     window.session().open(place.path("two.toml"));
-    files::go_on(&mut window.session(), Intent::Follow);
+    files::go_on(&mut window.session(), Intent::ReloadChanged);
     window.settle();
     assert_eq!(title(&window), "two.toml");
 }

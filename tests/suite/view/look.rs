@@ -374,7 +374,7 @@ fn where_a_scene_does_not_set_its_samples_the_window_aims_at_64() {
         window.settle();
         assert_eq!(window.shown().progress.samples, aim, "{name}");
         // Keeping the other settings does not write the window's own count into the scene.
-        window.session().keep_look();
+        window.session().save_view_settings();
         let kept = window.session().scene().expect("a scene").output.samples;
         assert_eq!(kept, own, "{name}");
     }

@@ -83,14 +83,7 @@ fn what_is_in_the_panels_has_a_name() {
     check(&mut window, "a name is typed");
     window.session().editing.renaming = None;
     window.session().selection = Some(ids[0]);
-    for tool in [
-        Tool::Select,
-        Tool::Inspect,
-        Tool::Region,
-        Tool::Move,
-        Tool::Rotate,
-        Tool::Scale,
-    ] {
+    for &tool in Tool::ALL {
         window.session().tool = tool;
         check(&mut window, &format!("{tool:?}"));
     }

@@ -13,9 +13,9 @@ use glimray::viewer::actions::inspector::export::Format;
 use glimray::viewer::actions::inspector::{hidden, outside};
 use glimray::viewer::model::file_dialog::{FileDialogs, Reply};
 use glimray::viewer::model::objects::Id;
+use glimray::viewer::state::inspector::ray_labels;
 use glimray::viewer::state::inspector::rows;
 use glimray::viewer::state::inspector::rows::{Filter, Row};
-use glimray::viewer::state::inspector::words;
 use glimray::viewer::state::inspector::{Inspected, PARTS};
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -271,8 +271,8 @@ fn what_is_saved_is_what_the_command_prints() {
         let obj = export::text(inspected, Format::Obj).expect("lines");
         assert!(obj.as_bytes() == std::fs::read(&lines).expect("lines"));
         let copy = folder.path().join("copy.json");
-        let told = export::write(&copy, &json).expect("a file");
-        assert!(told.starts_with("Saved "), "{told}");
+        let details = export::write(&copy, &json).expect("a file");
+        assert!(details.starts_with("Saved "), "{details}");
         assert!(std::fs::read(&copy).expect("a file") == printed.stdout);
     }
 }
@@ -292,11 +292,11 @@ fn rays_that_cannot_be_saved_are_trouble_that_is_told() {
         export::save(&mut window.session(), Format::Json, &ctx);
         window.settle();
         let session = window.session();
-        let told = session.messages.all().last().expect("a notice");
+        let details = session.messages.all().last().expect("a notice");
         assert!(
-            told.text.contains(words) && told.is_trouble,
+            details.text.contains(words) && details.is_trouble,
             "{}",
-            told.text
+            details.text
         );
     }
 }
@@ -522,7 +522,7 @@ fn rays_name_things_as_the_outline_does() {
     let inspected = session.inspector.inspected.as_ref().expect("a tree");
     let mut count = 0;
     for ray in &inspected.tree.samples[0].rays {
-        let headline = words::headline(inspected, ray);
+        let headline = ray_labels::headline(inspected, ray);
         let object = ray.hit.as_ref().and_then(|hit| hit.object);
         let light = ray.shadow.as_ref();
         let light = light.map(|shadow| ObjectRef::Light(shadow.light));

@@ -6,6 +6,7 @@ use egui_kittest::kittest::Queryable;
 use glimray::viewer::actions::settings;
 use glimray::viewer::model::bindings::Action;
 use glimray::viewer::model::preferences::{Store, Theme};
+use glimray::viewer::model::tool::Tool;
 use glimray::viewer::state::dialogs::Dialog;
 use glimray::viewer::state::layout::Panel;
 use std::fs;
@@ -82,10 +83,10 @@ fn a_key_that_another_command_has_is_refused_and_said() {
         egui::Key::G,
     );
     assert_eq!(label(&window, Action::TogglePanels), before);
-    assert_eq!(label(&window, Action::MoveTool), "G");
+    assert_eq!(label(&window, Action::Tool(Tool::Move)), "G");
     let why = format!(
         "G is already used by “{}”. Change that shortcut first.",
-        Action::MoveTool.description()
+        Action::Tool(Tool::Move).description()
     );
     window.harness.get_by_label(&why);
 }

@@ -28,7 +28,7 @@ pub struct View {
     /// The camera in world space at the current time.
     pub camera: Camera,
     /// Whether it is a bookmark.
-    pub is_kept: bool,
+    pub is_bookmark: bool,
 }
 
 /// The scene's cameras at the current time, then the bookmarks.
@@ -47,21 +47,21 @@ pub fn all(session: &Session) -> Vec<View> {
         View {
             name,
             camera,
-            is_kept: false,
+            is_bookmark: false,
         }
     });
     let mut cameras: Vec<_> = own.collect();
-    let kept = session.preferences.cameras_of(&key(session)).iter();
-    cameras.extend(kept.map(|saved| View {
+    let bookmarks = session.preferences.cameras_of(&key(session)).iter();
+    cameras.extend(bookmarks.map(|saved| View {
         name: saved.name.clone(),
         camera: saved.camera.clone(),
-        is_kept: true,
+        is_bookmark: true,
     }));
     cameras
 }
 
 /// Bookmarks the current view under a free name.
-pub fn keep(session: &mut Session) {
+pub fn bookmark(session: &mut Session) {
     let Some(camera) = session.camera() else {
         return;
     };
@@ -73,20 +73,20 @@ pub fn keep(session: &mut Session) {
         number += 1;
     }
     let name = format!("View {number}");
-    session.messages.tell(format!("Bookmarked as {name}"));
+    session.messages.notify(format!("Bookmarked as {name}"));
     session
         .preferences
-        .keep_camera(&key, SavedCamera { name, camera });
+        .save_camera(&key, SavedCamera { name, camera });
 }
 
 /// Renames a bookmark if the name is free. Returns whether it is.
 pub fn rename(session: &mut Session, name: &str, to: &str) -> bool {
     let (key, to) = (key(session), to.trim());
-    let mut kept = session.preferences.cameras_of(&key).to_vec();
-    if to.is_empty() || kept.iter().any(|camera| camera.name == to) {
+    let mut cameras = session.preferences.cameras_of(&key).to_vec();
+    if to.is_empty() || cameras.iter().any(|camera| camera.name == to) {
         return false;
     }
-    let Some(camera) = kept.iter_mut().find(|camera| camera.name == name) else {
+    let Some(camera) = cameras.iter_mut().find(|camera| camera.name == name) else {
         return false;
     };
     camera.name = to.to_owned();
@@ -96,10 +96,10 @@ pub fn rename(session: &mut Session, name: &str, to: &str) -> bool {
         .iter()
         .map(|c| c.name.clone());
     for name in names.collect::<Vec<_>>() {
-        session.preferences.drop_camera(&key, &name);
+        session.preferences.remove_camera(&key, &name);
     }
-    for camera in kept {
-        session.preferences.keep_camera(&key, camera);
+    for camera in cameras {
+        session.preferences.save_camera(&key, camera);
     }
     true
 }
@@ -107,7 +107,7 @@ pub fn rename(session: &mut Session, name: &str, to: &str) -> bool {
 /// Deletes a bookmark.
 pub fn delete(session: &mut Session, name: &str) {
     let key = key(session);
-    session.preferences.drop_camera(&key, name);
+    session.preferences.remove_camera(&key, name);
 }
 
 /// Moves to a camera, animated.
@@ -134,7 +134,7 @@ pub fn step(session: &mut Session, places: isize) {
     let next = match here {
         Some(_) if count == 1 => {
             let text = "There is no other camera. Bookmark views to switch between them";
-            session.messages.tell(text);
+            session.messages.notify(text);
             return;
         }
         Some(here) => (here as isize + places).rem_euclid(count),
@@ -142,7 +142,7 @@ pub fn step(session: &mut Session, places: isize) {
         None => count - 1,
     };
     if let Some(place) = cameras.get(next as usize) {
-        session.messages.tell(place.name.clone());
+        session.messages.notify(place.name.clone());
         go(session, &place.camera);
     }
 }
@@ -162,7 +162,7 @@ fn same_view(a: &Camera, b: &Camera) -> bool {
 pub fn copy(session: &mut Session, ctx: &egui::Context) {
     let orders = session.orders();
     let Some(order) = &orders.pictures[PictureSlot::Main as usize] else {
-        session.messages.tell("There is no picture yet");
+        session.messages.notify("There is no picture yet");
         return;
     };
     let (Some(original), Some(camera)) = (&session.original, session.camera()) else {
@@ -192,7 +192,7 @@ pub fn copy(session: &mut Session, ctx: &egui::Context) {
     match copied.left_out.as_slice() {
         [] => session
             .messages
-            .tell("Copied a command line that renders this picture"),
+            .notify("Copied a command line that renders this picture"),
         left_out => session.messages.warn(format!(
             "Copied a command line. It cannot express: {}",
             left_out.join("; ")
@@ -216,11 +216,11 @@ pub fn paste(session: &mut Session, text: &str) {
         Some(own) => path.file_name() != own.file_name(),
         None => path != Path::new(DEMO_FILE),
     };
-    let told = match pasted.path.filter(is_other) {
+    let notice = match pasted.path.filter(is_other) {
         Some(path) => format!("Pasted the camera of {}", short(&path)),
         None => "Pasted the camera".to_owned(),
     };
-    session.messages.tell(told);
+    session.messages.notify(notice);
     session.playback.time = pasted.time.max(0.0);
     go(session, &pasted.camera);
 }

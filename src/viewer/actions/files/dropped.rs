@@ -20,7 +20,7 @@ pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
     let pictures: Vec<&PathBuf> = paths.iter().filter(|path| is_picture(path)).collect();
     let count = scenes.len();
     if let Some(first) = scenes.pop_front() {
-        session.files.said = (count > 1).then(|| format!("Opened the first of {count} scenes"));
+        session.files.notice = (count > 1).then(|| format!("Opened the first of {count} scenes"));
         session.files.candidates = scenes;
         intend(session, Intent::Open(first));
         return;
@@ -35,7 +35,7 @@ pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
         }
         if pictures.len() > 1 {
             let text = format!("Used the first of {} images", pictures.len());
-            session.messages.tell(text);
+            session.messages.notify(text);
         }
         surround(session, first.to_path_buf());
         return;
@@ -63,7 +63,7 @@ fn kind(path: &Path) -> String {
 /// Opens the scene `places` further in the folder; unreadable scenes are skipped.
 pub fn step(session: &mut Session, places: isize) {
     let Some(path) = session.path.clone() else {
-        session.messages.tell("The demo scene is not in a folder");
+        session.messages.notify("The demo scene is not in a folder");
         return;
     };
     let folder = match path.parent() {
@@ -86,10 +86,10 @@ pub fn step(session: &mut Session, places: isize) {
     let Some(next) = scenes.pop_front() else {
         session
             .messages
-            .tell("There is no other scene in this folder");
+            .notify("There is no other scene in this folder");
         return;
     };
-    session.files.said = None;
+    session.files.notice = None;
     session.files.candidates = scenes;
     intend(session, Intent::Open(next));
 }

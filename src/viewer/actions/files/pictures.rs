@@ -7,8 +7,8 @@ use crate::render::Tone;
 use crate::viewer::actions::files::{NO_DIALOG, short};
 use crate::viewer::model::file_dialog::{self, PICTURES, Reply, Request};
 use crate::viewer::state::answer::Answer;
+use crate::viewer::state::files::Captured;
 use crate::viewer::state::files::SaveDialog;
-use crate::viewer::state::files::Taken;
 use crate::viewer::state::files::Target;
 use crate::viewer::state::files::{Pose, Rendering, SaveSize};
 use crate::viewer::state::session::Session;
@@ -23,7 +23,7 @@ use std::sync::mpsc::{TryRecvError, channel};
 /// Opens the dialog with a free name.
 pub fn open(session: &mut Session, overlays: bool) {
     if session.scene().is_none() {
-        session.messages.tell("There is no picture yet");
+        session.messages.notify("There is no picture yet");
         return;
     }
     let path = free_name(session).to_string_lossy().into_owned();
@@ -92,7 +92,7 @@ pub fn save(session: &mut Session, waits: bool) {
         let name = short(&target.path);
         session
             .messages
-            .tell(format!("{name} will be saved when the picture is finished"));
+            .notify(format!("{name} will be saved when the picture is finished"));
         let waiting = &mut session.files.pending.waiting;
         waiting.retain(|other| other.path != target.path);
         waiting.push(target);
@@ -158,7 +158,7 @@ fn render(session: &mut Session, target: Target, size: (u32, u32)) {
     let name = short(&target.path);
     session
         .messages
-        .tell(format!("Rendering {name} at {width}×{height}"));
+        .notify(format!("Rendering {name} at {width}×{height}"));
     session.ask(move |frame| {
         let gpu = frame.renderer.gpu().clone();
         let work = move || {
@@ -199,12 +199,12 @@ fn ask(session: &mut Session, target: Target, waits: Option<u32>) {
     };
     let linear = (session.request.overrides.tone).tone(&scene.output, integrator, true);
     session.files.pending.asked += 1;
-    session.ask(move |frame| take(frame, target, waits, linear));
+    session.ask(move |frame| capture(frame, target, waits, linear));
 }
 
-fn take(frame: &mut FrameRenderer, target: Target, waits: Option<u32>, linear: Tone) -> Answer {
+fn capture(frame: &mut FrameRenderer, target: Target, waits: Option<u32>, linear: Tone) -> Answer {
     let of = frame.settings().samples;
-    let mut taken = Taken {
+    let mut captured = Captured {
         image: Ok(None),
         samples: 0,
         of,
@@ -212,35 +212,35 @@ fn take(frame: &mut FrameRenderer, target: Target, waits: Option<u32>, linear: T
         waits,
     };
     if waits.is_some() && !frame.renderer.is_done() {
-        return Answer::Picture(Box::new(taken));
+        return Answer::Picture(Box::new(captured));
     }
-    let tone = match taken.target.format.is_linear() {
+    let tone = match captured.target.format.is_linear() {
         true => linear,
         false => frame.order.tone,
     };
     match frame.image(&tone) {
         Ok((image, samples)) => {
-            taken.samples = samples;
-            taken.image = Ok(Some(image));
+            captured.samples = samples;
+            captured.image = Ok(Some(image));
         }
-        Err(error) => taken.image = Err(advice::render(&error)),
+        Err(error) => captured.image = Err(advice::render(&error)),
     }
-    Answer::Picture(Box::new(taken))
+    Answer::Picture(Box::new(captured))
 }
 
 /// Handles the picture from the render thread.
-pub fn taken(session: &mut Session, taken: Taken) {
+pub fn captured(session: &mut Session, captured: Captured) {
     let pending = &mut session.files.pending;
     pending.asked = pending.asked.saturating_sub(1);
     // Another scene may be open by now.
-    if taken.waits.is_some_and(|turn| turn != pending.turn) {
-        session.messages.warn(not_finished(&taken.target));
+    if captured.waits.is_some_and(|turn| turn != pending.turn) {
+        session.messages.warn(not_finished(&captured.target));
         return;
     }
-    let image = match taken.image {
+    let image = match captured.image {
         Ok(Some(image)) => image,
         Ok(None) => {
-            pending.waiting.push(taken.target);
+            pending.waiting.push(captured.target);
             return;
         }
         Err(why) => {
@@ -248,11 +248,11 @@ pub fn taken(session: &mut Session, taken: Taken) {
             return;
         }
     };
-    let how_far = match taken.samples < taken.of {
-        true => format!(" ({} of {} samples)", taken.samples, taken.of),
+    let how_far = match captured.samples < captured.of {
+        true => format!(" ({} of {} samples)", captured.samples, captured.of),
         false => String::new(),
     };
-    write(session, image, taken.target, how_far);
+    write(session, image, captured.target, how_far);
 }
 
 /// Writes on a separate thread.
@@ -277,7 +277,7 @@ pub(super) fn update(session: &mut Session) {
     let messages = &mut session.messages;
     session.files.pending.writing.retain(|receiver| {
         match receiver.try_recv() {
-            Ok(Ok(told)) => messages.tell(told),
+            Ok(Ok(notice)) => messages.notify(notice),
             Ok(Err(why)) => messages.warn(why),
             Err(TryRecvError::Empty) => return true,
             Err(TryRecvError::Disconnected) => {
@@ -289,8 +289,10 @@ pub(super) fn update(session: &mut Session) {
     });
     (session.files.pending.rendering).retain(|rendering| match rendering.receiver.try_recv() {
         Err(TryRecvError::Empty) => true,
-        Ok(Ok(told)) => {
-            told.into_iter().for_each(|told| messages.tell(told));
+        Ok(Ok(notice)) => {
+            notice
+                .into_iter()
+                .for_each(|notice| messages.notify(notice));
             false
         }
         Ok(Err(why)) => {

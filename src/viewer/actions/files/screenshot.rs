@@ -11,7 +11,7 @@ pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
     let Some(mut pose) = session.files.pending.pose.take() else {
         return;
     };
-    let Some(shot) = &pose.shot else {
+    let Some(screenshot) = &pose.screenshot else {
         pose.frames = pose.frames.saturating_sub(1);
         if pose.frames == 0 {
             let (sender, receiver) = channel();
@@ -21,13 +21,13 @@ pub(super) fn update(session: &mut Session, ctx: &egui::Context) {
                 let _ = sender.send(image);
                 waker.request_repaint();
             });
-            pose.shot = Some(receiver);
+            pose.screenshot = Some(receiver);
         }
         ctx.request_repaint();
         session.files.pending.pose = Some(pose);
         return;
     };
-    match shot.try_recv() {
+    match screenshot.try_recv() {
         Ok(image) => {
             let Some(view) = session.viewport else {
                 let why = "the picture is hidden. Show its panel and save again.";

@@ -172,7 +172,7 @@ fn line(
     });
     let is_endless = ray.end.is_none();
     let strength = |part: usize| {
-        let seen = match hidden.and_then(|hidden| hidden.get(part)) {
+        let visible = match hidden.and_then(|hidden| hidden.get(part)) {
             Some(true) => BEHIND,
             _ => 1.0,
         };
@@ -181,7 +181,7 @@ fn line(
         } else {
             0.0
         };
-        seen * (1.0 - way)
+        visible * (1.0 - way)
     };
     let mut pieces = Vec::new();
     let mut first = 0;

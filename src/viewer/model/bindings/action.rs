@@ -1,6 +1,7 @@
 //! The table of every command in the viewer.
 
 use crate::render::Integrator;
+use crate::viewer::model::tool::Tool;
 
 /// Groups of commands, in the order of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -15,7 +16,9 @@ pub enum Category {
     Rendering,
     /// Playback.
     Time,
-    /// Selection, tools and edits of the scene.
+    /// Tools of the mouse in the picture.
+    Tools,
+    /// Selection and edits of the scene.
     Editing,
     /// Opening and saving scenes and pictures.
     Files,
@@ -25,12 +28,13 @@ pub enum Category {
 
 impl Category {
     /// All, in the order of the table.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Camera,
         Self::Views,
         Self::ViewSettings,
         Self::Rendering,
         Self::Time,
+        Self::Tools,
         Self::Editing,
         Self::Files,
         Self::Window,
@@ -44,6 +48,7 @@ impl Category {
             Self::ViewSettings => "View mode",
             Self::Rendering => "Rendering",
             Self::Time => "Time",
+            Self::Tools => "Tools",
             Self::Editing => "Editing",
             Self::Files => "Files",
             Self::Window => "Window",
@@ -68,30 +73,32 @@ macro_rules! actions {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Action {
             $($(#[doc = $text] $action,)*)*
+            /// Activates a tool.
+            Tool(Tool),
         }
 
-        impl Action {
-            /// All, in the order of the table.
-            pub const ALL: &[Self] = &[$($(Self::$action,)*)*];
+        /// All except those of tools.
+        const LISTED: &[Action] = &[$($(Action::$action,)*)*];
 
+        impl Action {
             /// Identifier in settings files. It never changes.
             pub fn name(self) -> &'static str {
-                match self { $($(Self::$action => $name,)*)* }
+                match self { $($(Self::$action => $name,)*)* Self::Tool(tool) => tool.entry().name }
             }
 
             /// What the command does: one line without a full stop.
             pub fn description(self) -> &'static str {
-                match self { $($(Self::$action => $text,)*)* }
+                match self { $($(Self::$action => $text,)*)* Self::Tool(tool) => tool.entry().description }
             }
 
             /// Its group in the table.
-            pub fn category(self) -> Category {
-                match self { $($(Self::$action => Category::$category,)*)* }
+            pub const fn category(self) -> Category {
+                match self { $($(Self::$action => Category::$category,)*)* Self::Tool(_) => Category::Tools }
             }
 
             /// How it is triggered.
             pub fn manner(self) -> Manner {
-                match self { $($(Self::$action => Manner::$manner,)*)* }
+                match self { $($(Self::$action => Manner::$manner,)*)* Self::Tool(_) => Manner::Press }
             }
         }
     };
@@ -164,7 +171,6 @@ actions! {
     Rendering {
         PauseRender "pause-render" Press "Pause or resume rendering",
         RestartRender "restart-render" Press "Restart rendering",
-        RegionRender "region-render" Press "Render a region, or clear it",
         MoreSamples "more-samples" Press "Double the target samples",
         FewerSamples "fewer-samples" Press "Halve the target samples",
     }
@@ -181,11 +187,6 @@ actions! {
     }
     Editing {
         Select "select" Press "Select the object under the cursor",
-        SelectMode "select-mode" Press "Select tool",
-        InspectRays "inspect-rays" Press "Ray inspector: click a pixel to show its rays",
-        MoveTool "move-tool" Press "Move tool",
-        RotateTool "rotate-tool" Press "Rotate tool",
-        ScaleTool "scale-tool" Press "Scale tool",
         SnapHandles "snap-handles" Hold "Snap while dragging a handle",
         FineHandles "fine-handles" Hold "Drag a handle at a tenth of the speed",
         SelectNothing "select-nothing" Press "Leave the tool, or deselect",
@@ -224,6 +225,9 @@ actions! {
 }
 
 impl Action {
+    /// All, in the order of the table.
+    pub const ALL: &[Self] = &in_order();
+
     /// Whether it modifies a handle drag. Fly and camera keys are ignored during one.
     pub fn is_of_handles(self) -> bool {
         matches!(self, Self::SnapHandles | Self::FineHandles)
@@ -241,4 +245,24 @@ impl Action {
             .copied()
             .find(|action| action.name() == name)
     }
+}
+
+/// All commands by category: the tools are inserted into the others.
+const fn in_order() -> [Action; LISTED.len() + Tool::ALL.len()] {
+    let mut all = [Action::Quit; LISTED.len() + Tool::ALL.len()];
+    let mut before = 0;
+    while (LISTED[before].category() as usize) < Category::Tools as usize {
+        before += 1;
+    }
+    let after = before + Tool::ALL.len();
+    let mut at = 0;
+    while at < all.len() {
+        all[at] = match at {
+            _ if at < before => LISTED[at],
+            _ if at < after => Action::Tool(Tool::ALL[at - before]),
+            _ => LISTED[at - Tool::ALL.len()],
+        };
+        at += 1;
+    }
+    all
 }

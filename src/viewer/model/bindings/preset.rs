@@ -1,6 +1,7 @@
 //! Bindings that match other programs.
 
 use crate::viewer::model::bindings::{Action, Trigger};
+use crate::viewer::model::tool::Tool;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -39,18 +40,26 @@ impl Preset {
         };
         let lines = GLIMRAY.lines().chain(own.lines());
         // Later lines win. A test checks that every line takes effect.
-        lines.filter_map(line).collect()
+        let listed = lines.filter_map(|line| {
+            let (name, list) = line.trim().split_once(':')?;
+            Some((Action::from_name(name)?, triggers(list)?))
+        });
+        let tools = Tool::ALL.iter().filter_map(|tool| {
+            let list = tool.entry().shortcuts[self as usize];
+            Some((Action::Tool(*tool), triggers(list)?))
+        });
+        listed.chain(tools).collect()
     }
 }
 
-pub(super) fn line(line: &str) -> Option<(Action, Vec<Trigger>)> {
-    let (name, triggers) = line.trim().split_once(':')?;
-    let triggers = triggers.split(',').map(str::trim);
-    let triggers = triggers.filter(|trigger| !trigger.is_empty());
-    let triggers = triggers.map(|trigger| trigger.parse().ok());
-    Some((Action::from_name(name)?, triggers.collect::<Option<_>>()?))
+/// The triggers in a list with commas; `None` if one of them is invalid.
+fn triggers(list: &str) -> Option<Vec<Trigger>> {
+    let names = list.split(',').map(str::trim);
+    let names = names.filter(|name| !name.is_empty());
+    names.map(|name| name.parse().ok()).collect()
 }
 
+// The shortcuts of tools are in the table of tools.
 // Digits without modifiers select views, as in Blender and other programs. Debug views need Shift.
 pub(super) const GLIMRAY: &str = "
     orbit: Drag left
@@ -112,7 +121,6 @@ pub(super) const GLIMRAY: &str = "
     pixel-zoom-reset: Alt+Home
     pause-render: P
     restart-render: Shift+P
-    region-render: B
     more-samples: M
     fewer-samples: Shift+M
     play-pause: Space
@@ -125,11 +133,6 @@ pub(super) const GLIMRAY: &str = "
     toggle-loop: L
     toggle-motion-blur: U
     select: Click left
-    select-mode: C
-    inspect-rays: I
-    move-tool: G
-    rotate-tool: R
-    scale-tool: Z
     snap-handles: Hold Ctrl
     fine-handles: Hold Shift
     select-nothing: Escape
@@ -196,12 +199,10 @@ pub(super) const BLENDER: &str = "
     side-by-side: Shift+W
     swap-sides: Alt+W
     exposure-reset: Shift+0
-    region-render: Ctrl+B
     step-forward: Right
     step-back: Left
     first-frame: Shift+Left
     last-frame: Shift+Right
-    scale-tool: S
     toggle-visible: H
     duplicate: Shift+D
     delete: X, Delete
@@ -227,10 +228,6 @@ pub(super) const MAYA: &str = "
     step-back: Alt+Comma
     first-frame: Shift+Alt+Comma
     last-frame: Shift+Alt+Period
-    select-mode: Q
-    move-tool: W
-    rotate-tool: E
-    scale-tool: R
     toggle-visible: Ctrl+H
     undo: Ctrl+Z, Z
     redo: Ctrl+Shift+Z, Ctrl+Y, Shift+Z

@@ -58,8 +58,8 @@ impl Upright {
             DVec3::NEG_Z,
             DVec3::NEG_X,
         ];
-        // A camera that looks along an axis is level to it whatever is up in the picture, which tells
-        // something only for the axis that most scenes have upwards.
+        // A camera that looks along an axis is level to it with any roll. That is evidence only for +Y, the up
+        // axis of most scenes.
         let forward = (camera.look_at - camera.look_from).normalize_or(DVec3::NEG_Z);
         let is_level = |axis: &DVec3| {
             let tells = *axis == DVec3::Y || forward.cross(*axis).length() > POLE;

@@ -1,6 +1,6 @@
 //! The flag for each difference.
 
-use crate::app::words::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
+use crate::app::value_names::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
 use crate::scene::{Background, Camera, Scene, Shutter};
 use crate::viewer::model::command_line::{Pasted, Shown};
 use glam::DVec3;
@@ -14,11 +14,15 @@ pub(super) struct Difference {
 }
 
 /// All differences; those that others depend on come first.
-pub(super) fn all(shown: &Shown, scene: &Scene, said: &Pasted) -> impl Iterator<Item = Difference> {
-    let checks = camera(shown, scene, said)
+pub(super) fn all(
+    shown: &Shown,
+    scene: &Scene,
+    parsed: &Pasted,
+) -> impl Iterator<Item = Difference> {
+    let checks = camera(shown, scene, parsed)
         .into_iter()
-        .chain(settings(shown, said))
-        .chain(look(shown, said));
+        .chain(settings(shown, parsed))
+        .chain(look(shown, parsed));
     checks
         .filter(|(differs, ..)| *differs)
         .map(|(_, what, flags)| Difference { what, flags })
@@ -31,10 +35,10 @@ fn one(differs: bool, what: &'static str, flag: &'static str, value: String) -> 
     (differs, what, vec![(flag, value)])
 }
 
-fn camera(shown: &Shown, scene: &Scene, said: &Pasted) -> Vec<Check> {
-    let (wanted, camera) = (shown.camera, &said.camera);
+fn camera(shown: &Shown, scene: &Scene, parsed: &Pasted) -> Vec<Check> {
+    let (wanted, camera) = (shown.camera, &parsed.camera);
     let time = one(
-        shown.time != said.time,
+        shown.time != parsed.time,
         "the time",
         "--time",
         shown.time.to_string(),
@@ -76,7 +80,7 @@ fn place(wanted: &Camera, camera: &Camera) -> Check {
         (wanted.look_at, camera.look_at, "--look-at"),
         (wanted.up, camera.up, "--up"),
     ];
-    let differs = pairs.iter().any(|(wanted, said, _)| wanted != said);
+    let differs = pairs.iter().any(|(wanted, parsed, _)| wanted != parsed);
     let flags = pairs.map(|(wanted, _, flag)| (flag, vector(wanted)));
     (differs, "the camera position", flags.to_vec())
 }
@@ -86,8 +90,8 @@ fn same_projection(a: &Camera, b: &Camera) -> bool {
         && (a.orthographic_height.is_some() || a.fov_y == b.fov_y)
 }
 
-fn settings(shown: &Shown, said: &Pasted) -> Vec<Check> {
-    let (wanted, said) = (shown.settings, &said.settings);
+fn settings(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
+    let (wanted, parsed) = (shown.settings, &parsed.settings);
     let (width, height) = wanted.size;
     let crop = wanted.crop.map(|edges| edges.map(|edge| edge.to_string()));
     let crop = crop.map(|edges| ("--crop", edges.join(",")));
@@ -98,89 +102,89 @@ fn settings(shown: &Shown, said: &Pasted) -> Vec<Check> {
         .into_iter();
     vec![
         one(
-            wanted.size != said.size,
+            wanted.size != parsed.size,
             "the size",
             "--size",
             format!("{width}x{height}"),
         ),
         (
-            wanted.crop != said.crop,
+            wanted.crop != parsed.crop,
             "the region",
             crop.into_iter().collect(),
         ),
         one(
-            wanted.samples != said.samples,
+            wanted.samples != parsed.samples,
             "the samples",
             "--samples",
             wanted.samples.to_string(),
         ),
         one(
-            wanted.antialias != said.antialias,
+            wanted.antialias != parsed.antialias,
             "the sample placement",
             "--antialias",
-            ANTIALIAS.word(&wanted.antialias).to_owned(),
+            ANTIALIAS.name(&wanted.antialias).to_owned(),
         ),
         one(
-            wanted.noise != said.noise,
+            wanted.noise != parsed.noise,
             "the noise limit",
             "--noise",
             wanted.noise.to_string(),
         ),
         one(
-            wanted.filter != said.filter,
+            wanted.filter != parsed.filter,
             "the filter",
             "--filter",
-            FILTERS.word(&wanted.filter).to_owned(),
+            FILTERS.name(&wanted.filter).to_owned(),
         ),
         one(
-            wanted.filter_radius != said.filter_radius,
+            wanted.filter_radius != parsed.filter_radius,
             "the filter's radius",
             "--filter-radius",
             wanted.filter_radius.to_string(),
         ),
         one(
-            wanted.light_samples != said.light_samples,
+            wanted.light_samples != parsed.light_samples,
             "the light samples",
             "--light-samples",
             wanted.light_samples.to_string(),
         ),
         one(
-            wanted.integrator != said.integrator,
+            wanted.integrator != parsed.integrator,
             "the integrator",
             "--integrator",
-            INTEGRATORS.word(&wanted.integrator).to_owned(),
+            INTEGRATORS.name(&wanted.integrator).to_owned(),
         ),
         one(
-            wanted.triangle_test != said.triangle_test,
+            wanted.triangle_test != parsed.triangle_test,
             "the triangle test",
             "--triangle-test",
-            TRIANGLE_TESTS.word(&wanted.triangle_test).to_owned(),
+            TRIANGLE_TESTS.name(&wanted.triangle_test).to_owned(),
         ),
         one(
-            wanted.offset != said.offset,
+            wanted.offset != parsed.offset,
             "the ray offset",
             "--offset",
             wanted.offset.to_string(),
         ),
         (
-            wanted.brute_force != said.brute_force,
+            wanted.brute_force != parsed.brute_force,
             "brute force",
             brute_force.collect(),
         ),
         one(
-            wanted.seed != said.seed,
+            wanted.seed != parsed.seed,
             "the seed",
             "--seed",
             wanted.seed.to_string(),
         ),
         one(
-            wanted.max_depth != said.max_depth,
+            wanted.max_depth != parsed.max_depth,
             "the depth",
             "--max-depth",
             wanted.max_depth.to_string(),
         ),
         one(
-            wanted.min_throughput != said.min_throughput,
+            wanted.min_throughput != parsed.min_throughput,
             "the minimum throughput",
             "--min-throughput",
             wanted.min_throughput.to_string(),
@@ -188,8 +192,8 @@ fn settings(shown: &Shown, said: &Pasted) -> Vec<Check> {
     ]
 }
 
-fn look(shown: &Shown, said: &Pasted) -> Vec<Check> {
-    let (wanted, tone) = (shown.tone, said.tone);
+fn look(shown: &Shown, parsed: &Pasted) -> Vec<Check> {
+    let (wanted, tone) = (shown.tone, parsed.tone);
     let background = match shown.background {
         Background::Color(color) => {
             vec![(
@@ -207,7 +211,7 @@ fn look(shown: &Shown, said: &Pasted) -> Vec<Check> {
     };
     vec![
         (
-            *shown.background != said.background,
+            *shown.background != parsed.background,
             "the background",
             background,
         ),
@@ -221,22 +225,22 @@ fn look(shown: &Shown, said: &Pasted) -> Vec<Check> {
             wanted.curve != tone.curve,
             "the tone curve",
             "--tone",
-            TONES.word(&wanted.curve).to_owned(),
+            TONES.name(&wanted.curve).to_owned(),
         ),
         one(
             wanted.transfer != tone.transfer,
             "the transfer function",
             "--transfer",
-            TRANSFERS.word(&wanted.transfer).to_owned(),
+            TRANSFERS.name(&wanted.transfer).to_owned(),
         ),
         one(
-            shown.fps != said.fps,
+            shown.fps != parsed.fps,
             "the frame rate",
             "--fps",
             shown.fps.to_string(),
         ),
         one(
-            shown.shutter != said.shutter,
+            shown.shutter != parsed.shutter,
             "the shutter",
             "--shutter",
             shutter,

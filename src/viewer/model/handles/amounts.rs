@@ -25,14 +25,14 @@ impl Grip {
     }
 
     pub(super) fn moved_by(&self, way: DVec3) -> Dragged {
-        let told = ["x", "y", "z"].into_iter().zip(way.to_array());
-        let told = told.filter(|(_, by)| by.abs() > 1e-9 * self.handles.reach);
-        let told: Vec<String> = told.map(|(name, by)| format!("{name} {by:+.3}")).collect();
+        let parts = ["x", "y", "z"].into_iter().zip(way.to_array());
+        let parts = parts.filter(|(_, by)| by.abs() > 1e-9 * self.handles.reach);
+        let parts: Vec<String> = parts.map(|(name, by)| format!("{name} {by:+.3}")).collect();
         let mut place = self.start;
         place.translation += way;
         Dragged {
             place,
-            told: told.join("  "),
+            label: parts.join("  "),
         }
     }
 
@@ -43,7 +43,7 @@ impl Grip {
                 matrix3: turn * self.start.matrix3,
                 translation: self.start.translation,
             },
-            told: format!("{:+.1}°", angle.to_degrees()),
+            label: format!("{:+.1}°", angle.to_degrees()),
         }
     }
 
@@ -62,7 +62,7 @@ impl Grip {
                 matrix3: self.start.matrix3 * DMat3::from_diagonal(scale),
                 translation: self.start.translation,
             },
-            told: format!("× {factor:.3}"),
+            label: format!("× {factor:.3}"),
         }
     }
 }

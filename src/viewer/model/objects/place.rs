@@ -177,13 +177,13 @@ fn set_node(
     };
     let local = chain(above.inverse(), wanted);
     let (scale, turn, moved) = local.to_scale_rotation_translation();
-    let told = DAffine3::from_scale_rotation_translation(scale, turn, moved);
+    let composed = DAffine3::from_scale_rotation_translation(scale, turn, moved);
     let size = local
         .matrix3
         .to_cols_array()
         .iter()
         .fold(0.0, |a: f64, b| a.max(b.abs()));
-    if !told.matrix3.abs_diff_eq(local.matrix3, 1e-9 * size) {
+    if !composed.matrix3.abs_diff_eq(local.matrix3, 1e-9 * size) {
         return Err(EditError::Unable {
             what: "a node with a rotated, unevenly scaled parent",
             done: "sheared",

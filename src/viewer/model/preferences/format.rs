@@ -172,13 +172,13 @@ pub(super) fn cameras<S: Serializer>(
 
 /// A tone curve by its name on the command line.
 pub(super) mod tone {
-    use crate::app::words::TONES;
+    use crate::app::value_names::TONES;
     use crate::scene::ToneCurve;
     use serde::de::Error;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub fn serialize<S: Serializer>(tone: &Option<ToneCurve>, to: S) -> Result<S::Ok, S::Error> {
-        tone.map(|tone| TONES.word(&tone)).serialize(to)
+        tone.map(|tone| TONES.name(&tone)).serialize(to)
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<ToneCurve>, D::Error> {

@@ -2,7 +2,7 @@
 
 use crate::render::{RayKind, SampleTree, TracedRay};
 use crate::viewer::state::inspector::Inspected;
-use crate::viewer::state::inspector::words;
+use crate::viewer::state::inspector::ray_labels;
 use glam::{DVec3, Vec3};
 use std::collections::BTreeSet;
 
@@ -103,7 +103,7 @@ pub fn rows(
                 has_children: !children.is_empty(),
             });
             if selected == Some(id) {
-                let count = words::details(inspected, &rays[ray]).len();
+                let count = ray_labels::details(inspected, &rays[ray]).len();
                 let details = (0..count).map(|place| Row::Detail { id, level, place });
                 rows.extend(details);
             }

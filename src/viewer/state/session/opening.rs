@@ -10,6 +10,7 @@ use crate::viewer::model::camera::CameraController;
 use crate::viewer::model::document::Document;
 use crate::viewer::model::loader::{Loader, Trouble};
 use crate::viewer::model::playback::Playback;
+use crate::viewer::model::tool::ToolState;
 use crate::viewer::model::view_settings::ViewSettings;
 use crate::viewer::state::files::Intent;
 use crate::viewer::state::session::Session;
@@ -111,10 +112,11 @@ impl Session {
         let clock = Clock::new(&scene.output, &self.request.overrides.timing);
         let time = clock.time(&self.request.overrides.moment);
         self.playback = Playback::new(clock, time);
-        self.playback.follow(&scene);
+        self.playback.set_scene(&scene);
         let camera = scene.frame(self.playback.time).camera;
         self.controller = Some(CameraController::new(&camera, scene.bounds()));
         self.selection = None;
+        self.tool_state = ToolState::default();
         let inspector = std::mem::take(&mut self.inspector);
         // A pending export belongs to rays of the previous scene.
         self.inspector.export = inspector.export;
@@ -215,7 +217,7 @@ impl Session {
         self.playback = playback;
         self.playback.clock = clock;
         if let (Some(scene), Some(mut document)) = (self.scene().cloned(), document) {
-            self.playback.follow(&scene);
+            self.playback.set_scene(&scene);
             controller.set_bounds(scene.bounds());
             controller.set_home(&scene.frame(self.playback.time).camera);
             // Earlier steps can still be undone.
@@ -225,12 +227,12 @@ impl Session {
         self.controller = Some(controller);
         let own = std::mem::replace(&mut self.view, look);
         let integrator = self.view.settings.integrator;
-        let seen = |settings| RenderSettings {
+        let in_view_mode = |settings| RenderSettings {
             integrator,
             ..settings
         };
-        if self.view.settings == seen(self.settings_of(&before)) {
-            self.view.settings = seen(own.settings);
+        if self.view.settings == in_view_mode(self.settings_of(&before)) {
+            self.view.settings = in_view_mode(own.settings);
         }
         if self.view.tone == self.view.scene_tone {
             self.view.tone = own.tone;

@@ -33,7 +33,7 @@ impl Session {
             restarts: self.restarts,
             camera: (!controller.is_home()).then(|| controller.camera()),
             background: self.view.background.clone(),
-            shot: self.playback.shot(),
+            shutter_interval: self.playback.shutter_interval(),
             settings: self.view.settings_in(self.room.taken, integrator),
             policy: self.request.policy,
             tone: self.view.tone_of(integrator),
@@ -55,7 +55,7 @@ impl Session {
             restarts: 0,
             camera: Some(controller.camera()),
             background: self.view.background.clone(),
-            shot: (self.playback.time, self.playback.time),
+            shutter_interval: (self.playback.time, self.playback.time),
             settings: RenderSettings {
                 size,
                 crop: None,

@@ -8,7 +8,7 @@ use eframe::egui::{self, TextEdit, vec2};
 pub fn show(ctx: &egui::Context, session: &mut Session) -> bool {
     let kept: Vec<_> = cameras::all(session)
         .into_iter()
-        .filter(|view| view.is_kept)
+        .filter(|view| view.is_bookmark)
         .collect();
     let mut names = std::mem::take(&mut session.dialogs.names);
     let mut rename = None;

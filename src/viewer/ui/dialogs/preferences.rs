@@ -1,6 +1,6 @@
 //! The preferences: theme, interface scale, shortcuts, and defaults of new scenes.
 
-use crate::app::words::TONES;
+use crate::app::value_names::TONES;
 use crate::scene::ToneCurve;
 use crate::viewer::model::bindings::Preset;
 use crate::viewer::model::preferences::Theme;
@@ -58,7 +58,7 @@ pub fn reset(session: &mut Session, layout: &mut Layout) {
     match session.store.reset() {
         Ok(preferences) => {
             session.preferences = preferences;
-            session.messages.tell("All settings were reset");
+            session.messages.notify("All settings were reset");
         }
         Err(why) => {
             session.preferences = Default::default();
@@ -150,7 +150,7 @@ fn defaults(ui: &mut egui::Ui, session: &mut Session) {
     let label = ui.label("Tone curve");
     let name = |tone: Option<ToneCurve>| match tone {
         None => "From the scene",
-        Some(curve) => TONES.word(&curve),
+        Some(curve) => TONES.name(&curve),
     };
     let response = ComboBox::from_id_salt("tone")
         .selected_text(name(preferences.tone))

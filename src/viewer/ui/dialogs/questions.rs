@@ -184,7 +184,7 @@ pub fn undecided(ctx: &egui::Context, session: &mut Session) -> Option<Choice> {
             "Reload",
             "Cancel",
         ),
-        Intent::Follow => (
+        Intent::ReloadChanged => (
             format!("{name} has changed on disk and has unsaved changes here."),
             "Reload",
             "Cancel",

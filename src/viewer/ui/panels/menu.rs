@@ -3,8 +3,10 @@
 use crate::viewer::actions::commands;
 use crate::viewer::actions::files;
 use crate::viewer::actions::files::cameras;
+use crate::viewer::actions::tools;
 use crate::viewer::model::bindings::Action as A;
 use crate::viewer::model::document::Document;
+use crate::viewer::model::tool::{Tool, ToolMenu};
 use crate::viewer::model::view_settings::Sharing;
 use crate::viewer::state::dialogs::Dialog;
 use crate::viewer::state::layout::{Layout, Panel};
@@ -100,6 +102,16 @@ impl Menu<'_, '_> {
         }
     }
 
+    /// The tools of this menu, the active one with a check mark.
+    fn tools(&mut self, menu: ToolMenu) {
+        for &tool in Tool::ALL {
+            if tool.entry().menu == menu {
+                let is_active = tools::is_active(self.context.session, tool);
+                self.tick(is_active, tool.entry().title, A::Tool(tool));
+            }
+        }
+    }
+
     fn line(&mut self) {
         self.ui.separator();
     }
@@ -179,13 +191,7 @@ fn edit(menu: &mut Menu) {
     menu.entry_if(has_selection, "Hide or show", A::ToggleVisible);
     menu.entry_if(has_selection, "Deselect", A::SelectNothing);
     menu.line();
-    use crate::viewer::model::tool::Tool;
-    let tool = menu.context.session.tool;
-    menu.tick(tool == Tool::Select, "Select tool", A::SelectMode);
-    menu.tick(tool == Tool::Move, "Move tool", A::MoveTool);
-    menu.tick(tool == Tool::Rotate, "Rotate tool", A::RotateTool);
-    menu.tick(tool == Tool::Scale, "Scale tool", A::ScaleTool);
-    menu.tick(tool == Tool::Inspect, "Ray inspector", A::InspectRays);
+    menu.tools(ToolMenu::Edit);
     menu.line();
     menu.entry("Copy as command line", A::CopyCamera);
     menu.entry("Paste camera", A::PasteCamera);
@@ -259,7 +265,7 @@ fn render(menu: &mut Menu) {
     let look = &menu.context.session.view;
     let integrator = look.settings.integrator;
     let sharing = look.comparison.map(|comparison| comparison.sharing);
-    let (is_paused, has_region) = (look.paused, look.region.is_some());
+    let is_paused = look.paused;
     for action in A::ALL {
         if let Some(shown) = action.integrator() {
             menu.tick(shown == integrator, shown.entry().title, *action);
@@ -280,7 +286,7 @@ fn render(menu: &mut Menu) {
     menu.line();
     menu.tick(is_paused, "Pause", A::PauseRender);
     menu.entry("Restart", A::RestartRender);
-    menu.tick(has_region, "Render region", A::RegionRender);
+    menu.tools(ToolMenu::Render);
     menu.entry("Double samples", A::MoreSamples);
     menu.entry("Halve samples", A::FewerSamples);
 }

@@ -56,7 +56,7 @@ pub fn outline(ui: &mut egui::Ui, context: &mut PanelContext) {
         // The rows do not change during a drag.
         let is_dragging = ui.input(|input| input.pointer.any_down());
         if !is_dragging || session.editing.listing.count() == 0 {
-            session.editing.listing.follow(&scene);
+            session.editing.listing.update(&scene);
         }
         let missing = match scene.skipped.len() {
             0 => 0.0,
@@ -88,18 +88,18 @@ fn lines(
         .max_height(height);
     // Scrolls to a selection made elsewhere.
     if let Some(id) = selection
-        && session.editing.seen_selection != selection
+        && session.editing.scrolled_to != selection
     {
         session.editing.listing.reveal(id);
     }
     let row = selection.and_then(|id| session.editing.listing.row_of(id));
-    if session.editing.seen_selection != selection {
-        session.editing.seen_selection = selection;
+    if session.editing.scrolled_to != selection {
+        session.editing.scrolled_to = selection;
         let stride = row_height + ui.spacing().item_spacing.y;
         if let Some(row) = row {
             let top = row as f32 * stride;
-            let seen = session.editing.seen_lines;
-            if top < seen.min || top + stride > seen.max {
+            let visible = session.editing.visible_range;
+            if top < visible.min || top + stride > visible.max {
                 area = area.vertical_scroll_offset((top - height / 2.0).max(0.0));
             }
         }
@@ -129,7 +129,7 @@ fn lines(
         }
     });
     let top = output.state.clamped_offset().y;
-    session.editing.seen_lines = egui::Rangef::new(top, top + output.inner_rect.height());
+    session.editing.visible_range = egui::Rangef::new(top, top + output.inner_rect.height());
 }
 
 /// Draws one line. All of it can be clicked and dragged. Returns where its triangle goes.

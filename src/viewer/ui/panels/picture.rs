@@ -6,14 +6,12 @@ mod framing;
 mod legend;
 mod start;
 
-use crate::viewer::actions::inspector;
 use crate::viewer::actions::region;
 use crate::viewer::actions::tools;
 use crate::viewer::model::view_settings::{Comparison, Sharing};
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::state::cursor::REST;
 use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::rays;
 use crate::viewer::ui::{self, overlay};
 use crate::viewer::worker::progressive_image::PictureSlot;
 use crate::viewer::worker::progressive_image::Shown;
@@ -66,13 +64,12 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     let viewport = viewports[usize::from(is_right)];
     context.session.viewport = Some(viewport);
     hover(context, &response, viewport, space);
-    let is_taken = region::follow(context.session, &response, viewport)
+    let is_taken = region::drag(context.session, &response, viewport)
         || overlay::overlay(context.session, &response, &painter, viewport);
     if !is_taken {
-        inspector::follow(context.session, &response, viewport);
         tools::navigate(context.session, &response, viewport);
     }
-    rays::mark(&painter, context.session, viewports[0]);
+    ui::tools::draw(&painter, context.session, viewports[0]);
     context.session.viewport = Some(viewports[0]);
     compare::overlay(ui, context, space, viewports);
     if context.session.shows_overlays {

@@ -86,12 +86,6 @@ pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
 
 /// Tools, undo and redo.
 fn toolbar(ui: &mut egui::Ui, session: &mut Session) {
-    let tools = [
-        (Tool::Select, Action::SelectMode, "Select"),
-        (Tool::Move, Action::MoveTool, "Move"),
-        (Tool::Rotate, Action::RotateTool, "Rotate"),
-        (Tool::Scale, Action::ScaleTool, "Scale"),
-    ];
     let bindings = session.preferences.bindings.clone();
     let tip = |action: Action| {
         let keys: Vec<_> = (bindings.triggers(action).iter())
@@ -105,9 +99,12 @@ fn toolbar(ui: &mut egui::Ui, session: &mut Session) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         ui.spacing_mut().button_padding.x = 5.0;
-        for (tool, action, text) in tools {
+        for &tool in Tool::ALL {
+            let Some(text) = tool.entry().button else {
+                continue;
+            };
             let button = ui.selectable_label(session.tool == tool, text);
-            if button.on_hover_text(tip(action)).clicked() {
+            if button.on_hover_text(tip(Action::Tool(tool))).clicked() {
                 session.tool = tool;
             }
         }

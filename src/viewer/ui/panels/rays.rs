@@ -4,8 +4,6 @@ mod list;
 mod paint;
 pub mod space;
 
-pub use paint::mark;
-
 use crate::app::ray_text::{color, ray_sum, weighted_sum};
 use crate::viewer::actions::inspector;
 use crate::viewer::actions::inspector::export;
@@ -260,7 +258,7 @@ fn copy_command(ui: &egui::Ui, session: &mut Session) {
     match export::command(session, sample) {
         Ok(command) => {
             ui.ctx().copy_text(command.line);
-            session.messages.tell(match &command.left_out[..] {
+            session.messages.notify(match &command.left_out[..] {
                 [] => "Copied the command".to_owned(),
                 left_out => format!(
                     "Copied the command. It cannot express: {}",

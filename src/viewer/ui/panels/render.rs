@@ -6,12 +6,12 @@ mod statistics;
 
 pub use statistics::{remaining, seconds};
 
-use crate::app::words::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
+use crate::app::value_names::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
 use crate::scene::Antialias;
 use crate::viewer::model::bindings::Action;
 use crate::viewer::model::view_settings::{Comparison, MAX_SAMPLES, Sharing, ViewSettings};
 use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::words::{choice, line, number};
+use crate::viewer::ui::panels::setting_rows::{choice, line, number};
 use eframe::egui::{self, Ui};
 
 /// Width of the label column, in points, so that all sections line up.

@@ -6,7 +6,7 @@ use crate::scene::Shutter;
 use crate::viewer::model::bindings::Action;
 use crate::viewer::model::playback::{MAX_SPEED, Playback};
 use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::words::number;
+use crate::viewer::ui::panels::setting_rows::number;
 use eframe::egui::{self, Ui};
 use icon::{Icon, button};
 
@@ -49,7 +49,7 @@ pub fn time(ui: &mut Ui, context: &mut PanelContext) {
         });
     });
     let now = &context.session.playback;
-    if (now.time, now.shot()) != (before.time, before.shot()) {
+    if (now.time, now.shutter_interval()) != (before.time, before.shutter_interval()) {
         context.session.moved();
     }
 }

@@ -1,11 +1,11 @@
 //! The comparison of two views: layout, wipe line and labels.
 
-use crate::app::words::INTEGRATORS;
+use crate::app::value_names::INTEGRATORS;
 use crate::viewer::model::view_settings::{Comparison, Sharing};
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::panels::picture::caption::label;
-use crate::viewer::ui::panels::words::title;
+use crate::viewer::ui::panels::setting_rows::title;
 use eframe::egui::{self, Align2, Color32, CursorIcon, EventFilter, Key, Pos2, Rect, Stroke, vec2};
 
 /// Distance within which the line can be dragged, in points.
@@ -73,7 +73,7 @@ pub fn overlay(
     } else {
         Align2::LEFT_TOP
     };
-    let name = |integrator| title(INTEGRATORS.word(&integrator));
+    let name = |integrator| title(INTEGRATORS.name(&integrator));
     label(&painter, corners[0], Align2::LEFT_TOP, name(first));
     label(&painter, corners[1], right, name(comparison.integrator));
 }

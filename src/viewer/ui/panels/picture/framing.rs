@@ -7,8 +7,8 @@ use eframe::egui::{Align2, Color32, Painter, Stroke, StrokeKind};
 /// Proportions that differ by less than this share are the same.
 const SAME: f32 = 0.005;
 
-/// Draws what a picture of the scene's `size` shows of a picture at `viewport`. It is as high, since a
-/// camera's field of view is vertical; what is wider than the window is told, not drawn.
+/// Draws the frame of a picture of the scene's `size` over the picture at `viewport`. Both have the same height,
+/// because the field of view is vertical. A frame wider than the window is named in a label.
 pub fn framing(painter: &Painter, viewport: Viewport, size: (u32, u32)) {
     let aspect = |(width, height): (u32, u32)| width as f32 / height.max(1) as f32;
     let ratio = aspect(size) / aspect(viewport.size);

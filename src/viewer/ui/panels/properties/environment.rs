@@ -115,6 +115,6 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
     let button = fields.ui.add_enabled(!is_home, button).on_hover_text(tip);
     let button = button.on_disabled_hover_text("The view matches the scene's camera.");
     if button.clicked() {
-        session.keep_camera();
+        session.set_scene_camera();
     }
 }

@@ -248,7 +248,7 @@ impl Fields<'_> {
     }
 
     /// Whether an option of this object is on; `usual` until the user changes it.
-    pub fn is_kept(&self, label: &str, usual: bool) -> bool {
+    pub fn option_value(&self, label: &str, usual: bool) -> bool {
         let id = egui::Id::unique((label, &self.subject));
         self.ui.data(|data| data.get_temp(id)).unwrap_or(usual)
     }

@@ -25,7 +25,7 @@ pub fn show(fields: &mut Fields, index: usize) {
     let follow_tip = "Set the ambient colour together with the diffuse colour.";
     let is_same = material.ambient == material.diffuse;
     let target = Some(Target::Material(index, P::Diffuse));
-    let follows = is_same && fields.is_kept(FOLLOWS, true);
+    let follows = is_same && fields.option_value(FOLLOWS, true);
     fields.color(
         "Diffuse",
         tip,

@@ -12,13 +12,13 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
         return;
     };
     let free = objects::freedom(fields.scene, id);
-    let (told, is_whole) = Transform::of(place);
+    let (shown, is_whole) = Transform::of(place);
     fields.heading("Transform");
     let asked = |now: Transform| {
         move |scene: &mut crate::scene::Scene| {
             // Unedited numbers keep full precision.
             let mut wanted = now.affine();
-            if (now.rotate_deg, now.scale) == (told.rotate_deg, told.scale) {
+            if (now.rotate_deg, now.scale) == (shown.rotate_deg, shown.scale) {
                 wanted.matrix3 = place.matrix3;
             }
             objects::set_place(scene, id, wanted, time)
@@ -27,9 +27,9 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
     if free.translate {
         let tip = "World-space position in scene units.";
         let limits = Limits::LENGTH;
-        if let Some(translate) = fields.vector_value("Position", tip, told.translate, limits, None)
+        if let Some(translate) = fields.vector_value("Position", tip, shown.translate, limits, None)
         {
-            fields.change("position", asked(Transform { translate, ..told }));
+            fields.change("position", asked(Transform { translate, ..shown }));
         }
     }
     if !is_whole && (free.rotate || free.scale != Scaling::None) {
@@ -42,9 +42,15 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
         let tip = "Euler angles about x, then y, then z, in degrees, counter-clockwise.";
         let limits = Limits::ANGLE;
         if let Some(rotate_deg) =
-            fields.vector_value("Rotation", tip, told.rotate_deg, limits, None)
+            fields.vector_value("Rotation", tip, shown.rotate_deg, limits, None)
         {
-            fields.change("rotation", asked(Transform { rotate_deg, ..told }));
+            fields.change(
+                "rotation",
+                asked(Transform {
+                    rotate_deg,
+                    ..shown
+                }),
+            );
         }
     }
     match free.scale {
@@ -52,15 +58,15 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
             let tip =
                 "Factors along the object's own axes. Negative factors mirror; 0 is not allowed.";
             let limits = Limits::LENGTH;
-            let scale = fields.vector_value("Scale", tip, told.scale, limits, None);
+            let scale = fields.vector_value("Scale", tip, shown.scale, limits, None);
             let tip = "Change all three factors by the same ratio.";
-            let is_linked = fields.is_kept("Uniform scale", false);
+            let is_linked = fields.option_value("Uniform scale", false);
             fields.option("Uniform scale", tip, is_linked);
             if let Some(mut scale) = scale {
                 if is_linked {
-                    scale = linked(told.scale, scale);
+                    scale = linked(shown.scale, scale);
                 }
-                fields.change("scale", asked(Transform { scale, ..told }));
+                fields.change("scale", asked(Transform { scale, ..shown }));
             }
         }
         Scaling::Even | Scaling::None => {}

@@ -1,8 +1,8 @@
 //! The rows of the tree. Only visible rows are drawn.
 
 use crate::app::ray_text::{color, ray_sum};
+use crate::viewer::state::inspector::ray_labels;
 use crate::viewer::state::inspector::rows::{RayId, Row};
-use crate::viewer::state::inspector::words;
 use crate::viewer::state::session::Session;
 use crate::viewer::ui::panels::rays::paint;
 use eframe::egui::{self, Align, Layout, RichText, Sense, vec2};
@@ -125,8 +125,8 @@ fn ray(ui: &mut egui::Ui, session: &mut Session, (id, level, has_children): (Ray
     let Some(ray) = inspected.ray(id) else {
         return;
     };
-    let (added, length) = (ray.contribution, words::length(ray));
-    let headline = words::headline(inspected, ray);
+    let (added, length) = (ray.contribution, ray_labels::length(ray));
+    let headline = ray_labels::headline(inspected, ray);
     let (kind, blocked) = (ray.kind, ray.shadow.as_ref().is_some_and(|s| s.blocked));
     indent(ui, level);
     ui.spacing_mut().item_spacing.x = 4.0;
@@ -169,8 +169,10 @@ fn detail(ui: &mut egui::Ui, session: &Session, (id, level, place): (RayId, usiz
     let Some(inspected) = session.inspector.inspected.as_ref() else {
         return;
     };
-    let told = inspected.ray(id).map(|ray| words::details(inspected, ray));
-    let Some((what, value)) = told.and_then(|told| told.into_iter().nth(place)) else {
+    let details = inspected
+        .ray(id)
+        .map(|ray| ray_labels::details(inspected, ray));
+    let Some((what, value)) = details.and_then(|details| details.into_iter().nth(place)) else {
         return;
     };
     indent(ui, level);

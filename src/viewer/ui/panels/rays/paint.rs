@@ -2,10 +2,7 @@
 
 use crate::app::ray_text::{color, kind};
 use crate::render::RayKind;
-use crate::viewer::model::tool::Tool;
-use crate::viewer::model::viewport::Viewport;
 use crate::viewer::state::inspector::rows::RayId;
-use crate::viewer::state::session::Session;
 use crate::viewer::ui::panels::icon;
 use eframe::egui::{self, Color32, Rect, Response, Rgba, Sense, Shape, Stroke, StrokeKind, vec2};
 use glam::DVec3;
@@ -126,31 +123,5 @@ fn sign(painter: &egui::Painter, rect: Rect, ray: RayKind, blocked: bool, stroke
             painter.line_segment([at(-3.5, 3.5), at(3.5, -3.5)], stroke);
         }
         RayKind::Shadow => _ = painter.circle_stroke(center, 3.5, stroke),
-    }
-}
-
-/// Marks the inspected pixel in the picture while the inspector is active.
-pub fn mark(painter: &egui::Painter, session: &Session, viewport: Viewport) {
-    let is_shown = session.shows_overlays && session.tool == Tool::Inspect;
-    let Some([x, y]) = session.inspector.pixel.filter(|_| is_shown) else {
-        return;
-    };
-    let pixel = viewport.part([x, y, 1, 1]);
-    let frame = pixel.expand(3.0);
-    let center = frame.center();
-    let reach = frame.width() / 2.0;
-    // Light on dark is visible on any picture.
-    for (width, ink) in [(3.0, Color32::from_black_alpha(180)), (1.0, Color32::WHITE)] {
-        let stroke = Stroke::new(width, ink);
-        painter.rect_stroke(frame, 1.0, stroke, StrokeKind::Middle);
-        for way in [
-            vec2(1.0, 0.0),
-            vec2(-1.0, 0.0),
-            vec2(0.0, 1.0),
-            vec2(0.0, -1.0),
-        ] {
-            let arm = [center + way * (reach + 2.0), center + way * (reach + 9.0)];
-            painter.line_segment(arm, stroke);
-        }
     }
 }

@@ -5,8 +5,7 @@ use crate::viewer::actions::inspector::hidden;
 use crate::viewer::actions::inspector::outside;
 use crate::viewer::actions::inspector::outside::{End, Line};
 use crate::viewer::actions::tools;
-use crate::viewer::model::bindings::Action;
-use crate::viewer::model::tool::Drag;
+use crate::viewer::model::bindings::{Action, Drag};
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::state::session::Session;
 use crate::viewer::ui::context::PanelContext;
@@ -94,7 +93,7 @@ fn draw_camera(painter: &egui::Painter, session: &Session, viewport: Viewport) {
         return;
     };
     let order = &inspected.order;
-    let own = || order.scene.frame(order.shot.0).camera;
+    let own = || order.scene.frame(order.shutter_interval.0).camera;
     let first = order.camera.clone().unwrap_or_else(own);
     let (width, height) = order.settings.size;
     let size = dvec2(width.into(), height.into());
@@ -202,7 +201,7 @@ fn navigate(session: &mut Session, response: &egui::Response, viewport: Viewport
     if let (Some(drag), Some(to)) = (outside.drag, pointer) {
         let from = to - response.drag_delta();
         if from != to {
-            tools::follow(controller, drag, viewport, from, to);
+            tools::move_camera(controller, drag, viewport, from, to);
         }
         if response.drag_stopped() || !response.dragged() {
             outside.drag = None;

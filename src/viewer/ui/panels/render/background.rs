@@ -2,7 +2,7 @@
 
 use crate::scene::Background;
 use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::words::back;
+use crate::viewer::ui::panels::setting_rows::reset_button;
 use eframe::egui::{self, Ui};
 use glam::Vec3;
 
@@ -49,7 +49,7 @@ pub fn background(ui: &mut Ui, context: &mut PanelContext) {
             .response
             .labelled_by(label.id)
             .on_hover_text(tip);
-        if look.background.is_some() && back(ui, "background").clicked() {
+        if look.background.is_some() && reset_button(ui, "background").clicked() {
             look.background = None;
         }
     });

@@ -2,7 +2,7 @@
 
 use crate::viewer::model::view_settings::ViewSettings;
 use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::words::{back, number};
+use crate::viewer::ui::panels::setting_rows::{number, reset_button};
 use eframe::egui::{self, Ui};
 
 /// Maximum side length that can be entered, in pixels.
@@ -103,7 +103,7 @@ fn region(ui: &mut Ui, look: &mut ViewSettings, (width, height): (u32, u32)) {
                 region[edge] = f64::from(value) / f64::from(length);
             }
         }
-        is_ended = back(ui, "region")
+        is_ended = reset_button(ui, "region")
             .on_hover_text("Render the whole picture")
             .clicked();
     });

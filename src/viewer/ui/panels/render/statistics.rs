@@ -44,13 +44,13 @@ pub fn progress(ui: &mut Ui, context: &mut PanelContext) {
             context.session.restart();
         }
         let keep = ui.add_enabled(
-            context.session.has_unkept_look(),
+            context.session.has_unsaved_view_settings(),
             egui::Button::new("Save settings to scene"),
         );
         let tip = "Store sampling, tone mapping, background and timing in the scene";
         let keep = keep.on_hover_text(tip);
         if keep.on_disabled_hover_text("No changes to save").clicked() {
-            context.session.keep_look();
+            context.session.save_view_settings();
         }
     });
 }

@@ -6,7 +6,7 @@ use crate::viewer::state::session::opening::samples_of;
 
 impl Session {
     /// The output defaults that the scene would need; `None` if it has them.
-    fn unkept(&self) -> Option<OutputDefaults> {
+    fn unsaved_output(&self) -> Option<OutputDefaults> {
         let scene = self.scene()?;
         let before = &scene.output;
         let mut output = self.view.output(before, &self.playback);
@@ -18,13 +18,13 @@ impl Session {
     }
 
     /// Whether view settings differ from the scene.
-    pub fn has_unkept_look(&self) -> bool {
-        self.unkept().is_some()
+    pub fn has_unsaved_view_settings(&self) -> bool {
+        self.unsaved_output().is_some()
     }
 
     /// Stores render settings, tone mapping, background and timing in the scene.
-    pub fn keep_look(&mut self) {
-        let Some(output) = self.unkept() else {
+    pub fn save_view_settings(&mut self) {
+        let Some(output) = self.unsaved_output() else {
             return;
         };
         let background = self.view.background.take();

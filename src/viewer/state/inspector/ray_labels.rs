@@ -8,17 +8,17 @@ use crate::viewer::state::inspector::Inspected;
 use std::collections::BTreeSet;
 
 /// All objects and materials that rays of a tree hit, target or pass through.
-pub fn met(tree: &RayTree) -> BTreeSet<Id> {
-    let mut met = BTreeSet::new();
+pub fn hit_by(tree: &RayTree) -> BTreeSet<Id> {
+    let mut ids = BTreeSet::new();
     for ray in tree.samples.iter().flat_map(|sample| &sample.rays) {
         if let Some(hit) = &ray.hit {
-            met.extend(hit.object.map(Id::Object));
-            met.extend(hit.material.map(Id::Material));
+            ids.extend(hit.object.map(Id::Object));
+            ids.extend(hit.material.map(Id::Material));
         }
-        met.extend(ray.shadow.as_ref().map(light_of));
-        met.extend(ray.media.iter().copied().map(Id::Material));
+        ids.extend(ray.shadow.as_ref().map(light_of));
+        ids.extend(ray.media.iter().copied().map(Id::Material));
     }
-    met
+    ids
 }
 
 fn light_of(shadow: &ShadowRay) -> Id {
@@ -34,7 +34,7 @@ fn object(inspected: &Inspected, hit: &RayHit) -> String {
 
 /// The headline of a ray.
 pub fn headline(inspected: &Inspected, ray: &TracedRay) -> String {
-    let word = kind(ray.kind);
+    let kind = kind(ray.kind);
     match (&ray.shadow, &ray.hit) {
         (Some(shadow), hit) => {
             let light = inspected.label(light_of(shadow));
@@ -50,8 +50,8 @@ pub fn headline(inspected: &Inspected, ray: &TracedRay) -> String {
                 _ => light.to_owned(),
             }
         }
-        (None, Some(hit)) => format!("{word} hits {}", object(inspected, hit)),
-        (None, None) => format!("{word} hits background"),
+        (None, Some(hit)) => format!("{kind} hits {}", object(inspected, hit)),
+        (None, None) => format!("{kind} hits background"),
     }
 }
 
@@ -68,89 +68,89 @@ pub fn length(ray: &TracedRay) -> String {
 
 /// The properties of a ray: name and value.
 pub fn details(inspected: &Inspected, ray: &TracedRay) -> Vec<(&'static str, String)> {
-    let mut told = vec![
+    let mut details = vec![
         ("origin", vector(ray.origin)),
         ("direction", vector(ray.direction)),
     ];
     if let Some(hit) = ray.hit.as_ref().filter(|_| ray.shadow.is_none()) {
-        surface(inspected, &mut told, hit);
+        surface(inspected, &mut details, hit);
     }
     if let Some(shadow) = &ray.shadow {
-        light(inspected, &mut told, shadow, ray.hit.as_ref());
+        light(inspected, &mut details, shadow, ray.hit.as_ref());
     }
     if !ray.media.is_empty() {
         let names = ray.media.iter().map(|&m| inspected.label(Id::Material(m)));
-        told.push(("inside", names.collect::<Vec<_>>().join(", ")));
+        details.push(("inside", names.collect::<Vec<_>>().join(", ")));
     }
-    told.push(("throughput", color(ray.throughput)));
+    details.push(("throughput", color(ray.throughput)));
     if ray.arriving != ray.throughput {
-        told.push(("throughput at end", color(ray.arriving)));
+        details.push(("throughput at end", color(ray.arriving)));
     }
-    told.push(("contribution", color(ray.contribution)));
-    told
+    details.push(("contribution", color(ray.contribution)));
+    details
 }
 
-type Told = Vec<(&'static str, String)>;
+type Details = Vec<(&'static str, String)>;
 
-fn surface(inspected: &Inspected, told: &mut Told, hit: &RayHit) {
-    told.push(("hits", object(inspected, hit)));
+fn surface(inspected: &Inspected, details: &mut Details, hit: &RayHit) {
+    details.push(("hits", object(inspected, hit)));
     if let Some(ObjectRef::Instance(_)) = hit.object {
-        told.push(("triangle", hit.primitive.to_string()));
+        details.push(("triangle", hit.primitive.to_string()));
     }
-    told.push(("position", vector(hit.position)));
-    told.push(("distance", short(hit.distance)));
-    told.push(("normal", vector(hit.normal)));
+    details.push(("position", vector(hit.position)));
+    details.push(("distance", short(hit.distance)));
+    details.push(("normal", vector(hit.normal)));
     if hit.geometric_normal != hit.normal {
-        told.push(("geometric normal", vector(hit.geometric_normal)));
+        details.push(("geometric normal", vector(hit.geometric_normal)));
     }
     let side = if hit.outside { "outside" } else { "inside" };
-    told.push(("side", side.to_owned()));
+    details.push(("side", side.to_owned()));
     if let Some(material) = hit.material {
         let name = inspected.label(Id::Material(material));
-        told.push(("material", name.to_owned()));
+        details.push(("material", name.to_owned()));
     }
     if let Some(split) = &hit.split {
-        divides(told, split);
+        divides(details, split);
     }
-    told.push(("ambient light", color(hit.ambient)));
+    details.push(("ambient light", color(hit.ambient)));
     if hit.emission != [0.0; 3] {
-        told.push(("emission", color(hit.emission)));
+        details.push(("emission", color(hit.emission)));
     }
 }
 
-fn divides(told: &mut Told, split: &RaySplit) {
+fn divides(details: &mut Details, split: &RaySplit) {
     if split.reflect == [0.0; 3] && !split.transparent {
         return;
     }
-    told.push(("reflects", color(split.reflect)));
+    details.push(("reflects", color(split.reflect)));
     if split.transparent {
-        told.push(("transmits", color(split.transmit)));
+        details.push(("transmits", color(split.transmit)));
     }
     if let Some(reflectance) = split.reflectance {
-        told.push(("Fresnel", short(reflectance)));
+        details.push(("Fresnel", short(reflectance)));
     }
     if split.total {
-        told.push(("total reflection", "beyond the critical angle".to_owned()));
+        details.push(("total reflection", "beyond the critical angle".to_owned()));
     }
     if !split.boundary {
-        told.push(("no boundary", "same medium on both sides".to_owned()));
+        details.push(("no boundary", "same medium on both sides".to_owned()));
     } else if split.transparent {
         let [front, behind] = split.iors.map(short);
-        told.push(("index of refraction", format!("{front} to {behind}")));
+        details.push(("index of refraction", format!("{front} to {behind}")));
     }
 }
 
-fn light(inspected: &Inspected, told: &mut Told, shadow: &ShadowRay, hit: Option<&RayHit>) {
-    told.push(("to", inspected.label(light_of(shadow)).to_owned()));
+fn light(inspected: &Inspected, details: &mut Details, shadow: &ShadowRay, hit: Option<&RayHit>) {
+    details.push(("to", inspected.label(light_of(shadow)).to_owned()));
     let distance = shadow.distance.map_or("infinite".to_owned(), short);
-    told.push(("light distance", distance));
+    details.push(("light distance", distance));
     if let Some(hit) = hit.filter(|_| shadow.blocked) {
         let blocked = format!("{} after {}", object(inspected, hit), short(hit.distance));
-        told.push(("blocked by", blocked));
+        details.push(("blocked by", blocked));
     }
     if shadow.crossings > 0 {
-        told.push(("surfaces crossed", shadow.crossings.to_string()));
+        details.push(("surfaces crossed", shadow.crossings.to_string()));
     }
-    told.push(("transmittance", color(shadow.transmittance)));
-    told.push(("unshadowed", color(shadow.unshadowed)));
+    details.push(("transmittance", color(shadow.transmittance)));
+    details.push(("unshadowed", color(shadow.unshadowed)));
 }

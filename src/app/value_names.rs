@@ -4,10 +4,10 @@ use crate::render::{self, Antialias, Integrator, TriangleTest};
 use crate::scene::{Filter, ToneCurve, Transfer};
 
 /// The names of one setting's values: each with a description and the value.
-pub struct Words<T: 'static>(pub &'static [(&'static str, &'static str, T)]);
+pub struct ValueNames<T: 'static>(pub &'static [(&'static str, &'static str, T)]);
 
 /// Where samples lie in a pixel.
-pub static ANTIALIAS: Words<Antialias> = Words(&[
+pub static ANTIALIAS: ValueNames<Antialias> = ValueNames(&[
     ("none", "all at the pixel centre", Antialias::None),
     (
         "stratified",
@@ -22,7 +22,7 @@ pub static ANTIALIAS: Words<Antialias> = Words(&[
 ]);
 
 /// Reconstruction filters.
-pub static FILTERS: Words<Filter> = Words(&[
+pub static FILTERS: ValueNames<Filter> = ValueNames(&[
     ("box", "constant weight", Filter::Box),
     ("tent", "linear falloff to 0", Filter::Tent),
     (
@@ -43,21 +43,21 @@ pub static FILTERS: Words<Filter> = Words(&[
 ]);
 
 /// Integrators, from the table of `render`.
-pub static INTEGRATORS: Words<Integrator> = Words(&INTEGRATOR_WORDS);
+pub static INTEGRATORS: ValueNames<Integrator> = ValueNames(&INTEGRATOR_NAMES);
 
-const INTEGRATOR_WORDS: [(&str, &str, Integrator); render::INTEGRATORS.len()] = {
-    let mut words = [("", "", Integrator::Whitted); render::INTEGRATORS.len()];
+const INTEGRATOR_NAMES: [(&str, &str, Integrator); render::INTEGRATORS.len()] = {
+    let mut names = [("", "", Integrator::Whitted); render::INTEGRATORS.len()];
     let mut index = 0;
-    while index < words.len() {
+    while index < names.len() {
         let entry = &render::INTEGRATORS[index];
-        words[index] = (entry.name, entry.help, entry.integrator);
+        names[index] = (entry.name, entry.help, entry.integrator);
         index += 1;
     }
-    words
+    names
 };
 
 /// Ray–triangle intersection algorithms.
-pub static TRIANGLE_TESTS: Words<TriangleTest> = Words(&[
+pub static TRIANGLE_TESTS: ValueNames<TriangleTest> = ValueNames(&[
     (
         "plane",
         "plane intersection, then a point-in-triangle test",
@@ -76,7 +76,7 @@ pub static TRIANGLE_TESTS: Words<TriangleTest> = Words(&[
 ]);
 
 /// Tone curves.
-pub static TONES: Words<ToneCurve> = Words(&[
+pub static TONES: ValueNames<ToneCurve> = ValueNames(&[
     ("none", "clamp to 0..1", ToneCurve::None),
     ("aces", "filmic, Narkowicz 2015", ToneCurve::Aces),
     ("agx", "filmic, Sobotka's AgX", ToneCurve::Agx),
@@ -84,31 +84,31 @@ pub static TONES: Words<ToneCurve> = Words(&[
 ]);
 
 /// Transfer functions.
-pub static TRANSFERS: Words<Transfer> = Words(&[
+pub static TRANSFERS: ValueNames<Transfer> = ValueNames(&[
     ("srgb", "IEC 61966-2-1", Transfer::Srgb),
     ("linear", "no transfer function", Transfer::Linear),
 ]);
 
-impl<T: PartialEq> Words<T> {
-    /// The word for `value` in flags and reports.
-    pub fn word(&self, value: &T) -> &'static str {
-        let mut words = self.0.iter();
-        words
+impl<T: PartialEq> ValueNames<T> {
+    /// The name of `value` in flags and reports.
+    pub fn name(&self, value: &T) -> &'static str {
+        let mut entries = self.0.iter();
+        entries
             .find(|(.., known)| known == value)
-            .map_or("unknown", |(word, ..)| word)
+            .map_or("unknown", |(name, ..)| name)
     }
 }
 
-impl<T: Clone> Words<T> {
-    /// Name, help text and value of every word.
+impl<T: Clone> ValueNames<T> {
+    /// Name, help text and value of each entry.
     pub fn all(&self) -> &'static [(&'static str, &'static str, T)] {
         self.0
     }
 
-    /// The value that `word` names.
-    pub fn value(&self, word: &str) -> Option<T> {
-        let mut words = self.0.iter();
-        let found = words.find(|(known, ..)| *known == word);
+    /// The value that `name` belongs to.
+    pub fn value(&self, name: &str) -> Option<T> {
+        let mut entries = self.0.iter();
+        let found = entries.find(|(known, ..)| *known == name);
         found.map(|(.., value)| value.clone())
     }
 }

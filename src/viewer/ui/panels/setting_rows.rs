@@ -1,25 +1,25 @@
-//! Rows of settings with a reset button, and titles of command-line words.
+//! Rows of settings with a reset button, and titles of command-line values.
 
-use crate::app::words::Words;
+use crate::app::value_names::ValueNames;
 use crate::render::Integrator;
 use eframe::egui::{self, Response, RichText, Ui, WidgetInfo};
 use std::ops::RangeInclusive;
 
-/// The title of a command-line word: `side-by-side` becomes `Side by side`.
-pub fn title(word: &str) -> String {
-    if let Some(integrator) = Integrator::named(word) {
+/// The title of a command-line value: `side-by-side` becomes `Side by side`.
+pub fn title(name: &str) -> String {
+    if let Some(integrator) = Integrator::named(name) {
         return integrator.entry().title.into();
     }
-    match word {
+    match name {
         // Proper names.
         "srgb" => return "sRGB".into(),
         "agx" => return "AgX".into(),
-        "aces" | "uv" => return word.to_uppercase(),
+        "aces" | "uv" => return name.to_uppercase(),
         "moller-trumbore" => return "Möller–Trumbore".into(),
         "blackman-harris" => return "Blackman–Harris".into(),
         _ => {}
     }
-    let spaced = word.replace('-', " ");
+    let spaced = name.replace('-', " ");
     let mut letters = spaced.chars();
     match letters.next() {
         Some(first) => first.to_uppercase().chain(letters).collect(),
@@ -38,7 +38,7 @@ pub fn line<T: PartialEq + Clone>(
     let label = ui.label(name).on_hover_text(tip);
     ui.horizontal(|ui| {
         widget(ui, value).labelled_by(label.id).on_hover_text(tip);
-        if value != usual && back(ui, name).clicked() {
+        if value != usual && reset_button(ui, name).clicked() {
             *value = usual.clone();
         }
     });
@@ -46,7 +46,7 @@ pub fn line<T: PartialEq + Clone>(
 }
 
 /// A button that resets to the scene's value.
-pub fn back(ui: &mut Ui, name: &str) -> Response {
+pub fn reset_button(ui: &mut Ui, name: &str) -> Response {
     let button = ui.add(egui::Button::new(RichText::new("↺")).small().frame(false));
     let name = format!("Reset {}", name.to_lowercase());
     let tip = "Reset to the scene's value";
@@ -54,21 +54,21 @@ pub fn back(ui: &mut Ui, name: &str) -> Response {
     button.on_hover_text(tip)
 }
 
-/// A choice among the words of a flag.
+/// A choice among the values of a flag.
 pub fn choice<T: PartialEq + Clone>(
     ui: &mut Ui,
     name: &str,
-    words: &'static Words<T>,
+    names: &'static ValueNames<T>,
     value: &mut T,
 ) -> Response {
-    let chosen = title(words.word(value));
+    let chosen = title(names.name(value));
     egui::ComboBox::from_id_salt(name)
         .selected_text(chosen)
         .show_ui(ui, |ui| {
-            for (word, help, known) in words.all() {
+            for (own_name, help, known) in names.all() {
                 // Aliases of the same value are left out.
-                if words.word(known) == *word {
-                    ui.selectable_value(value, known.clone(), title(word))
+                if names.name(known) == *own_name {
+                    ui.selectable_value(value, known.clone(), title(own_name))
                         .on_hover_text(*help);
                 }
             }

@@ -1,0 +1,77 @@
+//! Tools that measure.
+
+use super::edit::{file, on_screen, open};
+use super::focus::click_at;
+use eframe::egui::{Key, Modifiers, PointerButton};
+use glam::{DVec3, dvec3};
+use glimray::viewer::model::tool::Tool;
+
+/// The point of a ball of radius 0.75 that a camera at (0, 0, 8) sees at its centre.
+fn front(center: DVec3) -> DVec3 {
+    let camera = dvec3(0.0, 0.0, 8.0);
+    center + (camera - center).normalize() * 0.75
+}
+
+#[test]
+fn two_clicks_measure_the_distance_between_two_points() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "400x300");
+    (window.harness).key_press_modifiers(Modifiers::ALT, Key::M);
+    window.settle();
+    assert_eq!(window.session().tool, Tool::Measure);
+    let centers = [dvec3(-1.0, 0.0, 0.0), dvec3(1.0, 0.0, 0.0)];
+    let ends = centers.map(front);
+    for center in centers {
+        let at = on_screen(&window, center);
+        click_at(&mut window, at, PointerButton::Primary);
+        window.settle();
+    }
+    // A pixel is 0.015 wide there.
+    let points = window.session().tool_state.measured.clone();
+    assert_eq!(points.len(), 2, "{points:?}");
+    for (point, end) in points.iter().zip(ends) {
+        assert!(point.distance(end) < 0.03, "{point} is not {end}");
+    }
+    let messages = window.session().messages.current();
+    let text = messages.last().expect("a message").text.clone();
+    let distance: f64 = text
+        .strip_prefix("Distance: ")
+        .and_then(|number| number.parse().ok())
+        .unwrap_or_else(|| panic!("{text}"));
+    assert!(
+        (distance - ends[0].distance(ends[1])).abs() < 0.05,
+        "{text}"
+    );
+    assert_eq!(window.session().selection, None, "the click selected");
+
+    // Between the balls, the line is drawn over the background.
+    let at = on_screen(&window, (ends[0] * 0.6 + ends[1] * 0.4).with_y(0.0));
+    let picture = window.harness.render().expect("a picture of the window");
+    let near = (-2..=2).map(|dy| picture.get_pixel(at.x as u32, (at.y as i32 + dy) as u32).0);
+    let is_yellow = |[red, green, blue, _]: [u8; 4]| red > 200 && green > 160 && blue < 120;
+    assert!(
+        near.clone().any(is_yellow),
+        "{:?}",
+        near.collect::<Vec<_>>()
+    );
+
+    // The third click starts another measurement.
+    let at = on_screen(&window, centers[0]);
+    click_at(&mut window, at, PointerButton::Primary);
+    window.settle();
+    assert_eq!(window.session().tool_state.measured.len(), 1);
+}
+
+#[test]
+fn a_click_on_the_background_measures_nothing() {
+    let (_folder, path) = file();
+    let mut window = open(&path, "400x300");
+    window.session().tool = Tool::Measure;
+    let at = on_screen(&window, dvec3(0.0, 1.5, 0.0));
+    click_at(&mut window, at, PointerButton::Primary);
+    window.settle();
+    assert!(window.session().tool_state.measured.is_empty());
+    let messages = window.session().messages.current();
+    let text = messages.last().expect("a message").text.clone();
+    assert_eq!(text, "Nothing is under the cursor");
+}
