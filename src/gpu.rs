@@ -49,6 +49,8 @@ pub struct Gpu {
     stray_error: Arc<Mutex<Option<String>>>,
     /// Compiled pipelines, kept because the next renderer on this device may need the same ones.
     pipelines: Arc<Mutex<shader::Pipelines>>,
+    /// Called before a pipeline is compiled.
+    on_compilation: Option<Arc<dyn Fn() + Send + Sync>>,
 }
 
 /// Required limits that may exceed the defaults of WebGPU.
@@ -127,6 +129,7 @@ impl Gpu {
             lost,
             stray_error,
             pipelines: Arc::default(),
+            on_compilation: None,
         })
     }
 
@@ -151,6 +154,15 @@ impl Gpu {
             lost: Arc::default(),
             stray_error: Arc::default(),
             pipelines: Arc::default(),
+            on_compilation: None,
+        }
+    }
+
+    /// The same device, whose user is told before it compiles a pipeline: that takes seconds on some drivers.
+    pub fn reporting_compilation(self, report: impl Fn() + Send + Sync + 'static) -> Self {
+        Self {
+            on_compilation: Some(Arc::new(report)),
+            ..self
         }
     }
 

@@ -39,6 +39,8 @@ mod range;
 mod resolver;
 mod source;
 mod stage;
+#[cfg(not(target_arch = "wasm32"))]
+mod step;
 mod suggest;
 
 #[cfg(feature = "archive")]
@@ -47,6 +49,8 @@ pub use error::{Excerpt, Fault, ImportError, Position};
 #[cfg(not(target_arch = "wasm32"))]
 pub use folder::Folder;
 pub use resolver::{FileError, Memory, Resolver};
+#[cfg(not(target_arch = "wasm32"))]
+pub use step::Step;
 
 use crate::scene::{Picture, Scene};
 use error::fault;
@@ -160,16 +164,20 @@ pub fn load(path: &Path) -> Result<Scene, ImportError> {
 /// folder; the extension is unknown; an override is invalid, or the format has no overrides.
 #[cfg(not(target_arch = "wasm32"))]
 pub fn load_with(path: &Path, options: &Options) -> Result<Scene, ImportError> {
-    load_seen(path, options, &mut Vec::new())
+    load_seen(path, options, &mut Vec::new(), &|_| ())
 }
 
 /// Loads the scene file at `path` and returns every file that it depends on: the scene file, meshes,
 /// material libraries and images, including missing ones. A caller that watches these files knows when to
-/// reload the scene, also if loading failed.
+/// reload the scene, also if loading failed. `report` is called before each [`Step`].
 #[cfg(not(target_arch = "wasm32"))]
-pub fn load_watched(path: &Path, options: &Options) -> (Result<Scene, ImportError>, Vec<PathBuf>) {
+pub fn load_watched(
+    path: &Path,
+    options: &Options,
+    report: &dyn Fn(Step),
+) -> (Result<Scene, ImportError>, Vec<PathBuf>) {
     let mut seen = vec![path.to_owned()];
-    let scene = load_seen(path, options, &mut seen);
+    let scene = load_seen(path, options, &mut seen, report);
     (scene, seen)
 }
 
@@ -178,12 +186,17 @@ fn load_seen(
     path: &Path,
     options: &Options,
     seen: &mut Vec<PathBuf>,
+    report: &dyn Fn(Step),
 ) -> Result<Scene, ImportError> {
     let format = Format::of(path)?;
-    let bytes = folder::read(path, format.limit());
+    let bytes = step::read(path, report, || folder::read(path, format.limit()));
     let bytes = bytes.map_err(|error| format.unreadable(path, &error))?;
     let folder = Folder::of(path)?.allowing(&options.allow_dirs)?;
-    let scene = format.scene(path, bytes, options, &Files::of(&folder));
+    let files = step::Reporting {
+        resolver: &folder,
+        report,
+    };
+    let scene = format.scene(path, bytes, options, &Files::of(&files));
     for file in folder.requested() {
         if !seen.contains(&file) {
             seen.push(file);

@@ -14,7 +14,7 @@ pub fn load(path: &Path, flags: &SceneFlags) -> (Result<Scene, AppError>, Inputs
     if let Err(error) = memory::check_file(path) {
         return (Err(error), Inputs::new([path]));
     }
-    let (scene, files) = import::load_watched(path, &flags.import_options());
+    let (scene, files) = import::load_watched(path, &flags.import_options(), &|_| ());
     let scene = scene.map_err(AppError::from);
     (
         scene.and_then(|scene| strict(path, flags, scene)),

@@ -106,6 +106,9 @@ impl Gpu {
             let is_new = false;
             return Ok(Compiled { pipeline, is_new });
         }
+        if let Some(report) = &self.on_compilation {
+            report();
+        }
         let pipeline = self.compile(kernel, from_images, groups, &wanted.overrides)?;
         if let Ok(mut kept) = self.pipelines.lock() {
             kept.0.truncate(MAX_PIPELINES - 1);

@@ -3,4 +3,5 @@
 pub mod progressive_image;
 pub mod render_thread;
 pub mod request;
+pub mod stage;
 pub mod still;

@@ -9,6 +9,7 @@ mod files;
 mod focus;
 mod hands;
 mod harness;
+mod loading;
 mod look;
 mod looks;
 mod modal;

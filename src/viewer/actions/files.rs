@@ -91,6 +91,16 @@ pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
     dropped::open(session, paths);
 }
 
+/// Stops loading. The current scene stays; without one the window is empty.
+pub fn cancel_loading(session: &mut Session) {
+    if let Some(path) = session.cancel_loading() {
+        session.files.candidates.clear();
+        session.files.notice = None;
+        let text = format!("Cancelled loading {}", short(&path));
+        session.messages.notify(text);
+    }
+}
+
 /// Shows the built-in scene.
 pub fn open_built_in(session: &mut Session) {
     match session.show_built_in() {

@@ -26,6 +26,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     files::update(session, ctx);
     inspector::update(session, ctx, seconds);
     editing::update(session, ctx);
+    session.drop_outdated();
     let time = session.playback.time;
     session.playback.advance(seconds);
     if session.playback.time != time {

@@ -1,14 +1,17 @@
 //! Loads scenes in the background.
 
 use crate::app::advice;
-use crate::import::{self, Fault, ImportError};
+use crate::import::{self, Fault, ImportError, Step};
+use crate::pack::{self, PackedScene};
 use crate::scene::Scene;
+use crate::viewer::worker::stage::{Activity, Stage};
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::time::SystemTime;
+use std::time::{Instant, SystemTime};
 
-/// A scene that is loading on its own thread.
+/// A scene that is loading on its own thread. Loading is cancelled when it is dropped.
 pub struct Loader {
     /// The file.
     pub path: PathBuf,
@@ -16,17 +19,33 @@ pub struct Loader {
     pub again: bool,
     /// Whether the flags of the command line apply to it.
     pub is_own: bool,
-    outcome: Receiver<Loaded>,
+    /// The current stage, as of the last call of [`Loader::poll`], and the start of loading.
+    pub activity: Activity,
+    news: Receiver<News>,
+}
+
+/// A message of the loading thread.
+enum News {
+    Stage(Stage),
+    Loaded(Box<Loaded>),
 }
 
 /// The result of loading.
 pub struct Loaded {
     /// The scene, or why it cannot be read.
-    pub outcome: Result<Scene, Trouble>,
+    pub outcome: Result<Imported, Trouble>,
     /// The scene's file and the files that it refers to, as far as known.
     pub files: Vec<PathBuf>,
     /// When loading started: later changes may be missing.
     pub began: SystemTime,
+}
+
+/// A scene, and the same scene packed.
+pub struct Imported {
+    /// The scene.
+    pub scene: Scene,
+    /// Packed for rendering, so that the window stays usable while the BVH is built.
+    pub packed: Arc<PackedScene>,
 }
 
 /// Why a scene cannot be read.
@@ -74,51 +93,86 @@ fn source_line(fault: &Fault) -> Option<SourceLine> {
     })
 }
 
+/// Reads, imports and packs a scene. `report` is called before each stage and returns whether to go on;
+/// `None` if it was cancelled.
+pub fn load(
+    path: &Path,
+    options: &import::Options,
+    report: &dyn Fn(Stage) -> bool,
+) -> Option<Loaded> {
+    let began = SystemTime::now();
+    let (scene, files) = import::load_watched(path, options, &|step| {
+        // An import is not interrupted; the next stage is.
+        let _ = report(match step {
+            Step::Reading(path) => Stage::Reading(path.to_owned()),
+            Step::Importing(path) => Stage::Importing(path.to_owned()),
+        });
+    });
+    let outcome = match scene {
+        Err(error) => Err(Trouble::from(&error)),
+        Ok(scene) => {
+            let triangles = scene.triangle_count();
+            if !report(Stage::BuildingBvh { triangles }) {
+                return None;
+            }
+            match pack::scene(&scene).map(Arc::new) {
+                Ok(packed) => Ok(Imported { scene, packed }),
+                Err(error) => Err(Trouble::from(error.to_string())),
+            }
+        }
+    };
+    Some(Loaded {
+        outcome,
+        files,
+        began,
+    })
+}
+
 impl Loader {
-    /// Starts loading; `wake` is called at the end.
-    pub fn new(
-        path: PathBuf,
-        options: import::Options,
-        again: bool,
-        wake: impl FnOnce() + Send + 'static,
-    ) -> std::io::Result<Self> {
-        let (sender, outcome) = channel();
+    /// Starts loading.
+    ///
+    /// # Errors
+    /// The system starts no thread.
+    pub fn new(path: PathBuf, options: import::Options, again: bool) -> std::io::Result<Self> {
+        let (sender, news) = channel();
         let from = path.clone();
         std::thread::Builder::new()
             .name("load".into())
             .spawn(move || {
-                let began = SystemTime::now();
-                let (scene, files) = import::load_watched(&from, &options);
-                let outcome = scene.map_err(|error| Trouble::from(&error));
-                // The window may have been closed meanwhile.
-                let _ = sender.send(Loaded {
-                    outcome,
-                    files,
-                    began,
-                });
-                wake();
+                // Sending fails once the loader is dropped: loading was cancelled, or the window closed.
+                let report = |stage| sender.send(News::Stage(stage)).is_ok();
+                if let Some(loaded) = load(&from, &options, &report) {
+                    let _ = sender.send(News::Loaded(Box::new(loaded)));
+                }
             })?;
         Ok(Self {
+            activity: Activity {
+                stage: Stage::Reading(path.clone()),
+                since: Instant::now(),
+            },
             path,
             again,
             is_own: again,
-            outcome,
+            news,
         })
     }
 
-    /// The result, once loading has finished.
-    pub fn outcome(&self) -> Option<Loaded> {
-        match self.outcome.try_recv() {
-            Ok(loaded) => Some(loaded),
-            Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => {
-                let path = self.path.display();
-                let why = format!("Internal error while reading {path}. Please report it.");
-                Some(Loaded {
-                    outcome: Err(why.into()),
-                    files: vec![self.path.clone()],
-                    began: SystemTime::now(),
-                })
+    /// Updates the stage. Returns the result once loading has finished.
+    pub fn poll(&mut self) -> Option<Loaded> {
+        loop {
+            match self.news.try_recv() {
+                Ok(News::Stage(stage)) => self.activity.stage = stage,
+                Ok(News::Loaded(loaded)) => return Some(*loaded),
+                Err(TryRecvError::Empty) => return None,
+                Err(TryRecvError::Disconnected) => {
+                    let path = self.path.display();
+                    let why = format!("Internal error while reading {path}. Please report it.");
+                    return Some(Loaded {
+                        outcome: Err(why.into()),
+                        files: vec![self.path.clone()],
+                        began: SystemTime::now(),
+                    });
+                }
             }
         }
     }

@@ -31,6 +31,7 @@ use crate::viewer::state::files::Files;
 use crate::viewer::state::inspector::Inspector;
 use crate::viewer::worker::progressive_image::FrameRenderer;
 use crate::viewer::worker::render_thread::Question;
+use crate::viewer::worker::request::PreparedScene;
 use glam::DVec3;
 use room::Room;
 use std::path::{Path, PathBuf};
@@ -84,6 +85,8 @@ pub struct Session {
     pub shows_statistics: bool,
     /// Whether overlays are visible.
     pub shows_overlays: bool,
+    /// Whether inspected rays are drawn over the picture too.
+    pub shows_path: bool,
     /// The state of files.
     pub files: Files,
     /// The state of editing.
@@ -99,6 +102,8 @@ pub struct Session {
     /// Questions that wait for the render thread.
     pub questions: Vec<Question<Answer>>,
     pub(in crate::viewer) loader: Option<Loader>,
+    /// The packed scene as it was loaded, until it is edited.
+    pub(in crate::viewer) prepared: Option<PreparedScene>,
     /// The scene that may be replaced by the one being opened.
     pub(in crate::viewer) left: Option<Arc<Scene>>,
     /// Number of restarts of the picture.
@@ -144,6 +149,7 @@ impl Session {
             pixel_zoom: PixelZoom::default(),
             shows_statistics: true,
             shows_overlays: true,
+            shows_path: true,
             files: Files::default(),
             editing: Editing::default(),
             inspector: Inspector::default(),
@@ -152,6 +158,7 @@ impl Session {
             request,
             questions: Vec::new(),
             loader: None,
+            prepared: None,
             left: None,
             restarts: 0,
             room: Room::default(),

@@ -5,6 +5,11 @@ use crate::viewer::state::answer::Answer;
 use crate::viewer::state::session::Session;
 use crate::viewer::worker::progressive_image::{PictureSlot, Shown};
 use crate::viewer::worker::render_thread::RenderThread;
+use crate::viewer::worker::stage::Activity;
+use std::time::Duration;
+
+/// Shorter work is not announced over a picture.
+const NOTICEABLE: Duration = Duration::from_millis(300);
 
 /// The context of panels and dialogs.
 pub struct PanelContext<'a> {
@@ -20,5 +25,19 @@ impl PanelContext<'_> {
     /// The published picture of a slot.
     pub fn shown(&self, place: PictureSlot) -> Option<Shown> {
         self.render.shown(place)
+    }
+
+    /// The stage of loading a scene or of preparing its first picture.
+    pub fn activity(&self) -> Option<Activity> {
+        match &self.session.loader {
+            Some(loader) => Some(loader.activity.clone()),
+            None => self.render.activity(),
+        }
+    }
+
+    /// The same once it takes long enough to be worth showing; at once if there is no picture yet.
+    pub fn noticeable_activity(&self) -> Option<Activity> {
+        let is_empty = self.shown(PictureSlot::Main).is_none();
+        (self.activity()).filter(|it| is_empty || it.since.elapsed() >= NOTICEABLE)
     }
 }

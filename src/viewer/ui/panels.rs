@@ -7,7 +7,7 @@ mod messages;
 mod outline;
 mod picture;
 mod properties;
-mod rays;
+pub(super) mod rays;
 mod render;
 mod setting_rows;
 mod status;

@@ -5,6 +5,7 @@ use crate::viewer::model::handles::Eye;
 use crate::viewer::model::tool::Tool;
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::state::session::Session;
+use crate::viewer::ui::panels::rays;
 use crate::viewer::ui::world_painter::{SHADE, WorldPainter};
 use eframe::egui::{Color32, Painter, Stroke, StrokeKind, vec2};
 
@@ -18,6 +19,7 @@ pub fn draw(painter: &Painter, session: &Session, viewport: Viewport) {
     }
     match session.tool {
         Tool::Inspect => {
+            rays::path(painter, session, viewport);
             if let Some(pixel) = session.inspector.pixel {
                 inspected_pixel(painter, pixel, viewport);
             }

@@ -16,7 +16,8 @@ use crate::gpu::Gpu;
 use crate::pack::{self, PackedScene, PackedView};
 use crate::render::{Antialias, RenderSettings, Renderer, Screen};
 use crate::scene::Frame;
-use crate::viewer::worker::request::RenderRequest;
+use crate::viewer::worker::request::{PreparedScene, RenderRequest};
+use crate::viewer::worker::stage::{ReportStage, Stage};
 use noise::Noise;
 use packing::view;
 use std::sync::Arc;
@@ -29,6 +30,9 @@ const DETOUR: Duration = Duration::from_millis(500);
 pub struct ProgressiveImage {
     gpu: Gpu,
     place: PictureSlot,
+    report: ReportStage,
+    /// Whether the scene has just been opened and has no picture yet.
+    is_opening: bool,
     order: Option<RenderRequest>,
     /// Whether only the coarse preview is wanted.
     stays_coarse: bool,
@@ -65,12 +69,15 @@ struct Spent {
 }
 
 impl ProgressiveImage {
-    /// An empty one.
-    pub fn new(gpu: Gpu, place: PictureSlot) -> Self {
+    /// An empty one, which reports the stages of a scene that is opened, and compilation at any time.
+    pub fn new(gpu: Gpu, place: PictureSlot, report: ReportStage) -> Self {
+        let compiles = report.clone();
         Self {
             adapter: gpu.adapter().name.as_str().into(),
-            gpu,
+            gpu: gpu.reporting_compilation(move || compiles(Some(Stage::CompilingShaders))),
             place,
+            report,
+            is_opening: false,
             order: None,
             stays_coarse: false,
             is_coarse: false,
@@ -94,21 +101,24 @@ impl ProgressiveImage {
         }
     }
 
-    /// Applies a request and keeps the results that are still valid.
+    /// Applies a request and keeps the results that are still valid. `prepared` saves the work of packing its
+    /// scene.
     pub fn set_request(
         &mut self,
         order: Option<&RenderRequest>,
         coarse: bool,
+        prepared: Option<&PreparedScene>,
     ) -> Result<(), ImageError> {
         let Some(order) = order else {
-            let (gpu, place) = (self.gpu.clone(), self.place);
             if self.order.is_some() {
-                *self = Self::new(gpu, place);
+                (self.report)(None);
+                *self = Self::new(self.gpu.clone(), self.place, self.report.clone());
             }
             return Ok(());
         };
         let before = self.order.clone();
-        let outcome = self.apply_request(order, coarse);
+        let packed = prepared.and_then(|prepared| prepared.packed(&order.scene));
+        let outcome = self.apply_request(order, coarse, packed);
         if outcome.is_err() {
             // Keep the last image, but do not treat it as this request's result.
             self.order = before;
@@ -117,7 +127,12 @@ impl ProgressiveImage {
         outcome
     }
 
-    fn apply_request(&mut self, order: &RenderRequest, coarse: bool) -> Result<(), ImageError> {
+    fn apply_request(
+        &mut self,
+        order: &RenderRequest,
+        coarse: bool,
+        packed: Option<&Arc<PackedScene>>,
+    ) -> Result<(), ImageError> {
         let before = self.order.as_ref();
         let is_other_scene = before.is_none_or(|b| !Arc::ptr_eq(&b.scene, &order.scene));
         let shows_same = before.is_some_and(|b| b.shows_same(order));
@@ -158,7 +173,8 @@ impl ProgressiveImage {
             return Ok(());
         }
         if is_other_scene || self.packed.is_none() {
-            self.pack(order)?;
+            self.is_opening |= self.packed.is_none() || packed.is_some();
+            self.pack(order, packed)?;
         } else if is_other_interval {
             self.frames = order
                 .scene
@@ -211,13 +227,22 @@ impl ProgressiveImage {
         }
     }
 
-    fn pack(&mut self, order: &RenderRequest) -> Result<(), ImageError> {
-        let packed = match &self.packed {
-            Some(packed) => pack::scene_from(packed, &order.scene)?,
-            None => pack::scene(&order.scene)?,
+    fn pack(
+        &mut self,
+        order: &RenderRequest,
+        packed: Option<&Arc<PackedScene>>,
+    ) -> Result<(), ImageError> {
+        let packed = match (packed, &self.packed) {
+            (Some(packed), _) => packed.clone(),
+            (None, Some(before)) => Arc::new(pack::scene_from(before, &order.scene)?),
+            (None, None) => {
+                let triangles = order.scene.triangle_count();
+                (self.report)(Some(Stage::BuildingBvh { triangles }));
+                Arc::new(pack::scene(&order.scene)?)
+            }
         };
         self.trees_built += packed.work.total();
-        self.packed = Some(Arc::new(packed));
+        self.packed = Some(packed);
         // The scene's own frames, with the request's camera and background: see `view`.
         self.frames = order
             .scene
@@ -239,6 +264,9 @@ impl ProgressiveImage {
         };
         let policy = pace::policy(&self.gpu, order.policy);
         let packed = packed.clone();
+        if self.is_opening {
+            (self.report)(Some(Stage::Uploading));
+        }
         match &mut self.renderer {
             Some(renderer) => renderer.restart(packed, &view, settings, policy)?,
             None => {
@@ -246,6 +274,7 @@ impl ProgressiveImage {
                 self.renderer = Some(Renderer::new(gpu, packed, &view, settings, policy)?);
             }
         }
+        (self.report)((self.is_opening).then_some(Stage::FirstSamples { share: 0.0 }));
         self.view = Some(view);
         self.is_coarse = divisor.is_some();
         self.divisor = divisor.unwrap_or(1);
@@ -324,6 +353,10 @@ impl ProgressiveImage {
         if !is_held {
             renderer.step()?;
         }
+        if self.is_opening {
+            let share = renderer.progress();
+            (self.report)(Some(Stage::FirstSamples { share }));
+        }
         let interval = match renderer.shows_directly() {
             true => pace::between_looks(&self.gpu),
             false => DETOUR,
@@ -355,6 +388,8 @@ impl ProgressiveImage {
         self.is_shown = true;
         self.last_look = Some(Instant::now());
         self.looks += 1;
+        self.is_opening = false;
+        (self.report)(None);
         self.estimate_noise()
     }
 

@@ -9,16 +9,19 @@ use crate::render::RenderError;
 use crate::viewer::worker::progressive_image::{
     FrameRenderer, ImageError, PictureSlot, ProgressiveImage, Shown,
 };
-use crate::viewer::worker::request::RenderRequest;
+use crate::viewer::worker::request::{PreparedScene, RenderRequest};
+use crate::viewer::worker::stage::{Activity, ReportStage, Stage};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The current requests of the window.
 #[derive(Clone, Default)]
 pub struct RenderRequests {
     /// By [`PictureSlot`]; `None` for unused slots.
     pub pictures: [Option<RenderRequest>; 3],
+    /// The scene of the requests if it was packed while it was loaded. It does not change the pictures.
+    pub prepared: Option<PreparedScene>,
     /// Whether something moves, so that a preview is preferred to a full-resolution picture.
     pub coarse: bool,
     /// Whether rendering is paused.
@@ -51,6 +54,7 @@ struct State<A> {
     answers: Vec<A>,
     shown: [Option<Shown>; 3],
     fault: Option<Fault>,
+    activity: Option<Activity>,
     is_settled: bool,
     is_closing: bool,
     /// Generation of the current requests.
@@ -73,6 +77,19 @@ impl<A> Shared<A> {
     fn lock(&self) -> MutexGuard<'_, State<A>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
+
+    /// Publishes the stage of the main picture. Returns whether another one has begun.
+    fn report(&self, stage: Option<Stage>) -> bool {
+        let mut state = self.lock();
+        let kind = |stage: &Stage| std::mem::discriminant(stage);
+        let before = state.activity.take();
+        let is_other = before.as_ref().map(|it| kind(&it.stage)) != stage.as_ref().map(kind);
+        state.activity = stage.map(|stage| Activity {
+            stage,
+            since: before.map_or_else(Instant::now, |before| before.since),
+        });
+        is_other
+    }
 }
 
 /// The window's handle of the thread, which ends when it is dropped. `A` is the type of answers.
@@ -83,7 +100,7 @@ pub struct RenderThread<A: Send + 'static> {
 
 impl<A: Send + 'static> RenderThread<A> {
     /// Starts the thread. `wake` is called when something new can be drawn.
-    pub fn new(gpu: Gpu, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+    pub fn new(gpu: Gpu, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
         let shared = Arc::new(Shared {
             state: Mutex::new(State {
                 orders: RenderRequests::default(),
@@ -91,6 +108,7 @@ impl<A: Send + 'static> RenderThread<A> {
                 answers: Vec::new(),
                 shown: [const { None }; 3],
                 fault: None,
+                activity: None,
                 is_settled: true,
                 is_closing: false,
                 wishes: 0,
@@ -101,15 +119,27 @@ impl<A: Send + 'static> RenderThread<A> {
             looks: Condvar::new(),
         });
         let theirs = shared.clone();
+        let wake = Arc::new(wake);
+        let (state, wakes) = (shared.clone(), wake.clone());
+        let report: ReportStage = Arc::new(move |stage| {
+            if state.report(stage) {
+                wakes();
+            }
+        });
         let thread = std::thread::Builder::new()
             .name("render".into())
             .spawn(move || {
                 Painter {
-                    canvases: PictureSlot::ALL
-                        .map(|place| ProgressiveImage::new(gpu.clone(), place)),
+                    canvases: PictureSlot::ALL.map(|place| {
+                        let report = match place {
+                            PictureSlot::Main => report.clone(),
+                            PictureSlot::Beside | PictureSlot::Outside => Arc::new(|_| ()),
+                        };
+                        ProgressiveImage::new(gpu.clone(), place, report)
+                    }),
                     refused: None,
                 }
-                .work(&theirs, wake);
+                .work(&theirs, &*wake);
             })?;
         Ok(Self {
             shared,
@@ -158,6 +188,11 @@ impl<A: Send + 'static> RenderThread<A> {
     /// The published picture of a slot.
     pub fn shown(&self, place: PictureSlot) -> Option<Shown> {
         self.shared.lock().shown[place as usize].clone()
+    }
+
+    /// The stage of the main picture while it has no sample of a new scene yet, or waits for shaders.
+    pub fn activity(&self) -> Option<Activity> {
+        self.shared.lock().activity.clone()
     }
 
     /// The error of the current requests.
@@ -229,6 +264,7 @@ impl Painter {
                     state.is_settled = !is_busy && !has_news && !waits;
                 }
                 Err(fault) => {
+                    state.activity = None;
                     // After an error, the previous picture continues.
                     state.is_settled = !has_news && (fault == Fault::Lost || was_refused);
                     if fault != Fault::Lost {
@@ -258,7 +294,8 @@ impl Painter {
         let mut outcome = Ok(());
         for (canvas, place) in self.canvases.iter_mut().zip(PictureSlot::ALL) {
             let order = orders.pictures[place as usize].as_ref();
-            outcome = outcome.and(canvas.set_request(order, orders.coarse));
+            let prepared = orders.prepared.as_ref();
+            outcome = outcome.and(canvas.set_request(order, orders.coarse, prepared));
         }
         outcome
     }

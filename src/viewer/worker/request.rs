@@ -1,5 +1,6 @@
 //! The request of a picture in the window.
 
+use crate::pack::PackedScene;
 use crate::render::{ExecutionPolicy, RenderSettings, Tone};
 use crate::scene::{Background, Camera, Scene};
 use std::sync::Arc;
@@ -42,5 +43,21 @@ impl RenderRequest {
             && self.camera == other.camera
             && self.background == other.background
             && self.shutter_interval == other.shutter_interval
+    }
+}
+
+/// A scene that was packed while it was loaded.
+#[derive(Clone, Debug)]
+pub struct PreparedScene {
+    /// The scene, compared by address.
+    pub scene: Arc<Scene>,
+    /// The same scene, packed.
+    pub packed: Arc<PackedScene>,
+}
+
+impl PreparedScene {
+    /// The packed scene if it is `scene`.
+    pub fn packed(&self, scene: &Arc<Scene>) -> Option<&Arc<PackedScene>> {
+        Arc::ptr_eq(&self.scene, scene).then_some(&self.packed)
     }
 }

@@ -282,7 +282,7 @@ fn a_scene_lists_every_file_it_depends_on_including_missing_ones() {
     let folder = folder(files);
     let path = folder.path().join("a.toml");
     let names = || {
-        let (scene, files) = import::load_watched(&path, &Options::default());
+        let (scene, files) = import::load_watched(&path, &Options::default(), &|_| ());
         let name = |path: std::path::PathBuf| {
             path.file_name()
                 .expect("a name")

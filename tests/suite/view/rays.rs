@@ -148,6 +148,7 @@ fn every_control_of_the_inspector_has_a_name() {
         "Row",
         "Inspect",
         "Follow the cursor",
+        "Path in picture",
         "Previous sample",
         "Next sample",
         "All samples",
@@ -580,4 +581,91 @@ fn the_tree_is_wide_enough_to_read_and_its_columns_have_headers() {
     let width = right("Light") - left;
     assert!(width >= 395.0, "{width} points");
     assert!(right("Length") < right("Light"));
+}
+
+/// A scene and a window that are large enough for lines of many pixels.
+fn open_large() -> Window {
+    let mut window = Window::open(&[GLASS, "--size", "320x180", "--samples", "1"]);
+    window.harness.set_size(egui::vec2(1280.0, 800.0));
+    inspect(&mut window, [155, 90]);
+    window
+}
+
+#[test]
+fn the_path_over_the_picture_follows_the_camera() {
+    let mut window = open_large();
+    let size = dvec2(320.0, 180.0);
+    for turn in [0.0, 0.4, 2.5] {
+        (window.session().controller.as_mut().expect("a rig")).orbit_by(turn, 0.1 * turn);
+        window.settle();
+        let session = window.session();
+        let inspected = session.inspector.inspected.as_ref().expect("a tree");
+        let camera = session.camera().expect("a camera");
+        let lines = outside::path(&session, size);
+        let mut checked = 0;
+        for line in lines.iter().filter(|it| it.end == outside::End::Surface) {
+            let ray = inspected.ray(line.id).expect("a ray");
+            let end = DVec3::from(ray.end.expect("an end"));
+            let expected = by_matrices(&camera, end, size);
+            assert!(line.to.distance(expected) < 1e-3, "{line:?} {expected}");
+            checked += 1;
+        }
+        assert!(checked >= 3, "{checked} lines end on surfaces");
+        let primary = lines.iter().find(|line| line.kind == RayKind::Primary);
+        let primary = primary.expect("the primary ray");
+        let length = primary.from.distance(primary.to);
+        if turn == 0.0 {
+            // From its own eye a ray is a point, in the pixel.
+            let reach = f64::from(inspected.order.settings.filter_radius).max(0.5) + 0.01;
+            let off = (primary.to - dvec2(155.5, 90.5)).abs().max_element();
+            assert!(off <= reach && length < 1e-6, "{primary:?}");
+        } else {
+            assert!(length > 10.0, "{primary:?}");
+        }
+    }
+}
+
+#[test]
+fn the_path_is_drawn_along_its_lines_and_can_be_hidden() {
+    let mut window = open_large();
+    (window.session().controller.as_mut().expect("a rig")).orbit_by(0.4, 0.1);
+    window.settle();
+    window.harness.hover_at(egui::pos2(4.0, 790.0));
+    window.settle();
+    let with = window.harness.render().expect("a picture of the window");
+    window.harness.get_by_label("Path in picture").click();
+    window.harness.hover_at(egui::pos2(4.0, 790.0));
+    window.settle();
+    let without = window.harness.render().expect("a picture of the window");
+    assert!(!window.session().shows_path);
+    let session = window.session();
+    let viewport = session.viewport.expect("a picture");
+    let lines = outside::path(&session, viewport.extent());
+    let distance = |x: u32, y: u32| {
+        let at = egui::pos2(x as f32 + 0.5, y as f32 + 0.5);
+        let gap = |line: &outside::Line| {
+            let [from, to] = [line.from, line.to].map(|end| viewport.point(end));
+            let way = to - from;
+            let share = (at - from).dot(way) / way.length_sq().max(1e-6);
+            (from + share.clamp(0.0, 1.0) * way).distance(at)
+        };
+        lines.iter().map(gap).fold(f32::INFINITY, f32::min)
+    };
+    let (mut drawn, mut on_lines) = (0, 0);
+    let rect = viewport.rect.shrink(1.0);
+    for y in rect.min.y as u32..rect.max.y as u32 {
+        for x in rect.min.x as u32..rect.max.x as u32 {
+            let differs = with.get_pixel(x, y) != without.get_pixel(x, y);
+            let gap = distance(x, y);
+            // Arrow heads and end points are wider than lines.
+            assert!(!differs || gap < 8.0, "{x},{y} is {gap} from every line");
+            if gap < 0.5 {
+                on_lines += 1;
+                drawn += u32::from(differs);
+            }
+        }
+    }
+    assert!(on_lines > 100, "{on_lines}");
+    // Some lines are dashed, and others fade.
+    assert!(2 * drawn > on_lines, "{drawn} of {on_lines}");
 }

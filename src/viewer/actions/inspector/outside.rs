@@ -151,6 +151,16 @@ pub fn lines(
     rays.filter_map(line).collect()
 }
 
+/// The visible rays as the camera of the picture sees them now, in a picture of `size`.
+pub fn path(session: &Session, size: DVec2) -> Vec<Line> {
+    let inspector = &session.inspector;
+    let (Some(inspected), Some(camera)) = (&inspector.inspected, session.camera()) else {
+        return Vec::new();
+    };
+    let reach = inspector.outside.reach();
+    lines(inspected, &inspector.filter, &camera, size, reach, None)
+}
+
 fn line(
     id: RayId,
     ray: &TracedRay,

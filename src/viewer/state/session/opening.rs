@@ -8,12 +8,13 @@ use crate::render::{Integrator, RenderSettings};
 use crate::scene::Scene;
 use crate::viewer::model::camera::CameraController;
 use crate::viewer::model::document::Document;
-use crate::viewer::model::loader::{Loader, Trouble};
+use crate::viewer::model::loader::{Imported, Loader, Trouble};
 use crate::viewer::model::playback::Playback;
 use crate::viewer::model::tool::ToolState;
 use crate::viewer::model::view_settings::ViewSettings;
 use crate::viewer::state::files::Intent;
 use crate::viewer::state::session::Session;
+use crate::viewer::worker::request::PreparedScene;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -77,7 +78,7 @@ impl Session {
         if !is_own {
             options.overrides.clear();
         }
-        match Loader::new(path, options, again, || {}) {
+        match Loader::new(path, options, again) {
             Ok(mut loader) => {
                 loader.is_own = is_own;
                 self.loader = Some(loader);
@@ -165,7 +166,7 @@ impl Session {
 
     /// Shows a scene that has finished loading. `actions::files` handles the result.
     pub fn take_scene(&mut self) -> Option<Opened> {
-        let loaded = self.loader.as_ref().and_then(Loader::outcome)?;
+        let loaded = self.loader.as_mut().and_then(Loader::poll)?;
         let loader = self.loader.take()?;
         let Loader {
             path,
@@ -180,12 +181,15 @@ impl Session {
         if loaded.outcome.is_ok() && !is_own {
             self.forget_scene_overrides();
         }
-        let shown = loaded.outcome.and_then(|scene| {
+        let shown = loaded.outcome.and_then(|Imported { scene, packed }| {
             let shown = match again {
                 true => self.show_again(scene),
                 false => self.show(scene),
             };
-            shown.map_err(|error| Trouble::from(error.to_string()))
+            shown.map_err(|error| Trouble::from(error.to_string()))?;
+            // The camera of the command line changes nothing that is packed.
+            self.prepared = (self.scene().cloned()).map(|scene| PreparedScene { scene, packed });
+            Ok(())
         });
         Some(Opened {
             path,
@@ -194,6 +198,18 @@ impl Session {
             began: loaded.began,
             shown,
         })
+    }
+
+    /// Stops loading and keeps the current scene. Returns the file that was loading.
+    pub fn cancel_loading(&mut self) -> Option<PathBuf> {
+        self.left = None;
+        self.loader.take().map(|loader| loader.path)
+    }
+
+    /// Frees the packed scene once an edit has replaced its scene.
+    pub fn drop_outdated(&mut self) {
+        let scene = self.document.as_ref().map(Document::scene);
+        (self.prepared).take_if(|it| scene.is_none_or(|scene| it.packed(scene).is_none()));
     }
 
     /// Whether the current scene has been edited since another one started to load: the user was not asked

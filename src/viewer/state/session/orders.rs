@@ -15,6 +15,7 @@ impl Session {
         let mut orders = RenderRequests {
             coarse: self.is_moving(),
             paused: self.view.paused,
+            prepared: self.prepared.clone(),
             ..RenderRequests::default()
         };
         if self.room.taken.0 > 0 && self.room.taken.1 > 0 {

@@ -4,6 +4,7 @@ mod caption;
 mod compare;
 mod framing;
 mod legend;
+pub mod loading;
 mod start;
 
 use crate::viewer::actions::region;
@@ -69,7 +70,13 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     if !is_taken {
         tools::navigate(context.session, &response, viewport);
     }
-    ui::tools::draw(&painter, context.session, viewports[0]);
+    for (index, viewport) in viewports.into_iter().enumerate() {
+        // With a divider, both pictures are at the same place.
+        if index == 0 || spaces[0] != spaces[1] {
+            let painter = painter.with_clip_rect(spaces[index]);
+            ui::tools::draw(&painter, context.session, viewport);
+        }
+    }
     context.session.viewport = Some(viewports[0]);
     compare::overlay(ui, context, space, viewports);
     if context.session.shows_overlays {
@@ -79,6 +86,7 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     if is_scaled && !context.session.files.is_posing() {
         scaled(ui, context, space);
     }
+    loading::loading(ui, context, space);
     if context.session.is_empty() {
         start::start(ui, context.session, space);
     }

@@ -1,8 +1,11 @@
 //! The rays of a pixel as a tree with their contributions.
 
+mod drawing;
 mod list;
 mod paint;
 pub mod space;
+
+pub use drawing::path;
 
 use crate::app::ray_text::{color, ray_sum, weighted_sum};
 use crate::viewer::actions::inspector;
@@ -78,6 +81,8 @@ fn pixel(ui: &mut egui::Ui, session: &mut Session) {
         }
         let follow = ui.checkbox(&mut session.inspector.follows, "Follow the cursor");
         follow.on_hover_text("With this tool, inspect the pixel under the cursor without a click");
+        let path = ui.checkbox(&mut session.shows_path, "Path in picture");
+        path.on_hover_text("Draw these rays over the picture while the inspector is active");
         if session.inspector.is_waiting() {
             ui.spinner();
         }

@@ -3,6 +3,7 @@
 use crate::app::legend::number;
 use crate::viewer::state::cursor::Surface;
 use crate::viewer::ui::context::PanelContext;
+use crate::viewer::ui::panels::picture::loading;
 use crate::viewer::ui::panels::render::{remaining, seconds};
 use crate::viewer::worker::progressive_image::PictureSlot;
 use eframe::egui;
@@ -11,6 +12,16 @@ use eframe::egui;
 pub fn status(ui: &mut egui::Ui, context: &mut PanelContext) {
     egui::Panel::bottom("status").show(ui, |ui| {
         ui.horizontal(|ui| {
+            if context.activity().is_some() {
+                ui.ctx().request_repaint_after(loading::INTERVAL);
+            }
+            if let Some(activity) = context.noticeable_activity() {
+                let text = loading::heading(context);
+                let time = seconds(activity.since.elapsed().as_secs_f64());
+                ui.label(format!("{text} · {} · {time}", activity.stage))
+                    .on_hover_text("The stage of loading, and the time since it began");
+                return;
+            }
             let Some(shown) = context.shown(PictureSlot::Main) else {
                 ui.label(context.session.waiting_for());
                 return;

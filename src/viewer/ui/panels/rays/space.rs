@@ -3,15 +3,15 @@
 use crate::render::RayKind;
 use crate::viewer::actions::inspector::hidden;
 use crate::viewer::actions::inspector::outside;
-use crate::viewer::actions::inspector::outside::{End, Line};
+use crate::viewer::actions::inspector::outside::Line;
 use crate::viewer::actions::tools;
 use crate::viewer::model::bindings::{Action, Drag};
 use crate::viewer::model::viewport::Viewport;
 use crate::viewer::state::session::Session;
 use crate::viewer::ui::context::PanelContext;
-use crate::viewer::ui::panels::rays::paint::colour;
+use crate::viewer::ui::panels::rays::drawing;
 use crate::viewer::worker::progressive_image::PictureSlot;
-use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke, Vec2, vec2};
+use eframe::egui::{self, Color32, Pos2, Rect, Stroke, Vec2};
 use glam::{DVec2, dvec2};
 
 /// Tint of the picture, so that rays stand out.
@@ -55,19 +55,8 @@ pub fn outside(ui: &mut egui::Ui, context: &mut PanelContext) {
     }
     let lines = lines(session, viewport);
     draw_camera(&painter, session, viewport);
-    let highlighted = session.inspector.highlighted();
-    for line in lines.iter().filter(|line| Some(line.id) != highlighted) {
-        draw(
-            &painter,
-            line,
-            viewport,
-            false,
-            session.inspector.outside.normals,
-        );
-    }
-    for line in lines.iter().filter(|line| Some(line.id) == highlighted) {
-        draw(&painter, line, viewport, true, true);
-    }
+    let has_normals = session.inspector.outside.normals;
+    drawing::draw(&painter, session, &lines, viewport, has_normals);
     pick(session, &response, viewport, &lines);
     navigate(session, &response, viewport);
 }
@@ -104,60 +93,6 @@ fn draw_camera(painter: &egui::Painter, session: &Session, viewport: Viewport) {
         painter.line_segment(ends, Stroke::new(3.0, Color32::from_black_alpha(120)));
         painter.line_segment(ends, Stroke::new(1.0, Color32::from_gray(190)));
     }
-}
-
-fn draw(
-    painter: &egui::Painter,
-    line: &Line,
-    viewport: Viewport,
-    is_highlighted: bool,
-    has_normal: bool,
-) {
-    let ink = colour(line.kind, line.blocked, true);
-    let [from, to] = [line.from, line.to].map(|end| viewport.point(end));
-    let width = if is_highlighted { 3.0 } else { 1.6 };
-    let stroke = Stroke::new(width, ink);
-    let under = match is_highlighted {
-        true => Stroke::new(width + 3.0, Color32::WHITE),
-        false => Stroke::new(width + 1.6, Color32::from_black_alpha(110)),
-    };
-    for piece in &line.pieces {
-        let ends = [piece.from, piece.to].map(|end| viewport.point(end));
-        for stroke in [under, stroke] {
-            let stroke = Stroke::new(stroke.width, stroke.color.gamma_multiply(piece.strength));
-            match line.blocked {
-                true => painter.extend(Shape::dashed_line(&ends, stroke, 6.0, 4.0)),
-                false => _ = painter.line_segment(ends, stroke),
-            }
-        }
-    }
-    arrow(painter, from, to, ink, width);
-    match line.end {
-        End::Surface => _ = painter.circle(to, width + 0.8, ink, Stroke::new(1.0, Color32::BLACK)),
-        End::Light => _ = painter.circle_stroke(to, width + 2.0, stroke),
-        End::Nowhere | End::Cut => {}
-    }
-    if let Some(tip) = line.normal.filter(|_| has_normal) {
-        let tip = viewport.point(tip);
-        painter.line_segment([to, tip], Stroke::new(3.0, Color32::from_black_alpha(120)));
-        painter.line_segment(
-            [to, tip],
-            Stroke::new(1.2, Color32::from_rgb(110, 230, 130)),
-        );
-    }
-}
-
-/// An arrow head in the middle of a line, if there is space.
-fn arrow(painter: &egui::Painter, from: Pos2, to: Pos2, ink: Color32, width: f32) {
-    let way = to - from;
-    if way.length() < 18.0 {
-        return;
-    }
-    let ahead = way.normalized() * (2.5 + 1.5 * width);
-    let aside = vec2(-ahead.y, ahead.x) * 0.6;
-    let tip = from + way * 0.55 + ahead;
-    let points = vec![tip, tip - ahead * 1.8 + aside, tip - ahead * 1.8 - aside];
-    painter.add(Shape::convex_polygon(points, ink, Stroke::NONE));
 }
 
 /// Highlights the ray under the cursor; a click selects it.

@@ -1,0 +1,214 @@
+//! The stages of a scene that is opened: in order, shown, cancelled.
+
+use super::harness::Window;
+use crate::support::PATIENCE;
+use egui_kittest::kittest::{Queryable, by};
+use glimray::gpu::{AdapterChoice, Gpu};
+use glimray::import::Options;
+use glimray::pack;
+use glimray::render::{ExecutionPolicy, RenderSettings, Tone};
+use glimray::scene::Scene;
+use glimray::viewer::actions::files;
+use glimray::viewer::model::loader::{self, Loaded};
+use glimray::viewer::worker::progressive_image::{PictureSlot, ProgressiveImage};
+use glimray::viewer::worker::request::{PreparedScene, RenderRequest};
+use glimray::viewer::worker::stage::Stage;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+use std::time::Instant;
+use tempfile::TempDir;
+
+/// A folder with `scene.toml`, which refers to a square of `side` × `side` cells of two triangles each.
+struct Folder(TempDir);
+
+impl Folder {
+    fn new(side: usize) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scene = "[camera]\nlook_from = [0.5, 0.5, 2]\nlook_at = [0.5, 0.5, 0]\n\n\
+                     [[lights]]\npoint = { position = [0, 0, 4], color = [1, 1, 1], intensity = 30 }\n\n\
+                     [[objects]]\nmesh = { file = \"grid.obj\" }\n";
+        std::fs::write(folder.path().join("scene.toml"), scene).expect("a file");
+        let mut grid = String::new();
+        let end = side as f64;
+        for row in 0..=side {
+            for column in 0..=side {
+                let (x, y) = (column as f64 / end, row as f64 / end);
+                writeln!(grid, "v {x} {y} {}", 0.1 * (9.0 * x).sin()).expect("text");
+            }
+        }
+        for row in 0..side {
+            for column in 0..side {
+                let a = row * (side + 1) + column + 1;
+                let (b, c, d) = (a + 1, a + side + 1, a + side + 2);
+                writeln!(grid, "f {a} {b} {d}\nf {a} {d} {c}").expect("text");
+            }
+        }
+        std::fs::write(folder.path().join("grid.obj"), grid).expect("a file");
+        Self(folder)
+    }
+
+    fn scene(&self) -> PathBuf {
+        self.0.path().join("scene.toml")
+    }
+}
+
+/// Loads until `last`, which is then cancelled. Returns the stages, and the result.
+fn load(folder: &Folder, last: Option<usize>) -> (Vec<String>, Option<Loaded>) {
+    let stages = Mutex::new(Vec::new());
+    let loaded = loader::load(&folder.scene(), &Options::default(), &|stage| {
+        let mut stages = stages.lock().expect("stages");
+        stages.push(stage.to_string());
+        last.is_none_or(|last| stages.len() < last)
+    });
+    (stages.into_inner().expect("stages"), loaded)
+}
+
+#[test]
+fn a_scene_with_a_mesh_is_read_imported_and_given_its_bvh() {
+    let (stages, loaded) = load(&Folder::new(30), None);
+    let expected = [
+        "Reading scene.toml",
+        "Importing scene.toml",
+        "Reading grid.obj",
+        "Importing grid.obj",
+        "Building the BVH (1,800 triangles)",
+    ];
+    assert_eq!(stages, expected);
+    let outcome = loaded.expect("a result").outcome;
+    let imported = outcome.unwrap_or_else(|trouble| panic!("{trouble:?}"));
+    assert_eq!(imported.scene.triangle_count(), 1800);
+    assert_eq!(imported.packed.baked_triangle_count, 1800);
+}
+
+#[test]
+fn a_cancelled_import_builds_no_bvh() {
+    let (stages, loaded) = load(&Folder::new(2), Some(5));
+    assert_eq!(stages.len(), 5);
+    assert!(loaded.is_none(), "it was cancelled at {stages:?}");
+}
+
+fn order(scene: Arc<Scene>) -> RenderRequest {
+    RenderRequest {
+        settings: RenderSettings {
+            size: (32, 24),
+            ..RenderSettings::default()
+        },
+        scene,
+        restarts: 0,
+        camera: None,
+        background: None,
+        shutter_interval: (0.0, 0.0),
+        policy: ExecutionPolicy::default(),
+        tone: Tone::LINEAR,
+    }
+}
+
+/// The names of stages without their numbers, each once in a row; the end of all is "".
+fn names(stages: &Mutex<Vec<Option<Stage>>>) -> Vec<String> {
+    let stages = std::mem::take(&mut *stages.lock().expect("stages"));
+    let name = |stage: Option<Stage>| match stage {
+        Some(Stage::FirstSamples { .. }) => "First samples".to_owned(),
+        Some(stage) => stage.to_string(),
+        None => String::new(),
+    };
+    let mut names: Vec<String> = stages.into_iter().map(name).collect();
+    names.dedup();
+    names
+}
+
+#[test]
+fn the_first_picture_waits_for_uploads_shaders_and_samples() {
+    let (_, loaded) = load(&Folder::new(30), None);
+    let outcome = loaded.expect("a result").outcome;
+    let imported = outcome.unwrap_or_else(|trouble| panic!("{trouble:?}"));
+    let scene = Arc::new(imported.scene);
+    let prepared = PreparedScene {
+        scene: scene.clone(),
+        packed: imported.packed,
+    };
+    let order = order(scene.clone());
+    for prepared in [Some(&prepared), None] {
+        let stages = Arc::new(Mutex::new(Vec::new()));
+        let report = {
+            let stages = stages.clone();
+            Arc::new(move |stage| stages.lock().expect("stages").push(stage))
+        };
+        // A device of its own has compiled nothing yet.
+        let gpu = Gpu::new(&AdapterChoice::default()).expect("an adapter");
+        let mut picture = ProgressiveImage::new(gpu, PictureSlot::Main, report);
+        let mut settle = |order: &RenderRequest, prepared: Option<&PreparedScene>| {
+            let outcome = picture.set_request(Some(order), false, prepared);
+            outcome.expect("a picture");
+            let start = Instant::now();
+            while !picture.is_done() {
+                assert!(start.elapsed() < PATIENCE, "never done");
+                picture.step(false).expect("a step");
+            }
+        };
+        settle(&order, prepared);
+        let mut expected = vec![
+            "Uploading to the device",
+            "Compiling shaders",
+            "First samples",
+            // The kernel that puts the picture on the screen.
+            "Compiling shaders",
+            "",
+        ];
+        if prepared.is_none() {
+            expected.insert(0, "Building the BVH (1,800 triangles)");
+        }
+        assert_eq!(names(&stages), expected);
+        // The picture that is there stays while the scene is edited.
+        let edited = Scene {
+            ambient: scene.ambient * 2.0,
+            ..Scene::clone(&scene)
+        };
+        settle(&self::order(Arc::new(edited)), prepared);
+        assert_eq!(names(&stages), [""]);
+    }
+    let packed = pack::scene(&scene).expect("a packed scene");
+    assert_eq!(packed.work, prepared.packed.work);
+}
+
+fn has(window: &Window, words: &str) -> bool {
+    let mut found = window.harness.query_all(by().label_contains(words));
+    found.next().is_some()
+}
+
+#[test]
+fn loading_is_shown_over_the_picture_and_in_the_status_bar_and_can_be_cancelled() {
+    let folder = Folder::new(300);
+    let path = folder.scene();
+    let mut window = Window::open(&[path.to_str().expect("a name"), "--size", "64x48"]);
+    window.harness.run_steps(2);
+    let told = (window.harness).query_all(by().label_contains("Loading scene.toml"));
+    assert_eq!(told.count(), 2, "in the picture and in the status bar");
+    assert!(!has(&window, "samples"), "there is none yet");
+    window.harness.get_by_label("Cancel loading").click();
+    window.settle();
+    assert!(window.session().scene().is_none());
+    for words in ["Drop a scene or open one", "Cancelled loading scene.toml"] {
+        assert!(has(&window, words), "no {words}");
+    }
+    assert!(!has(&window, "Loading scene.toml"));
+}
+
+#[test]
+fn a_scene_that_is_not_loaded_after_all_leaves_the_one_that_is_open() {
+    let folder = Folder::new(2);
+    let mut window = Window::open(&["--size", "64x48", "--samples", "1"]);
+    window.settle();
+    let before = window.order();
+    files::open(&mut window.session(), vec![folder.scene()]);
+    files::cancel_loading(&mut window.session());
+    window.settle();
+    assert!(window.order() == before);
+    assert_eq!(window.session().title(), "demo");
+    assert!(window.shown().progress.is_done);
+    // It can still be opened.
+    files::open(&mut window.session(), vec![folder.scene()]);
+    window.settle();
+    assert_eq!(window.session().title(), "scene.toml");
+    assert_eq!(window.order().scene.triangle_count(), 8);
+}
