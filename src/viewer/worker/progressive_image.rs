@@ -31,7 +31,6 @@ pub struct ProgressiveImage {
     gpu: Gpu,
     place: PictureSlot,
     report: ReportStage,
-    /// Whether the scene has just been opened and has no picture yet.
     is_opening: bool,
     order: Option<RenderRequest>,
     /// Whether only the coarse preview is wanted.
@@ -74,7 +73,7 @@ impl ProgressiveImage {
         let compiles = report.clone();
         Self {
             adapter: gpu.adapter().name.as_str().into(),
-            gpu: gpu.reporting_compilation(move || compiles(Some(Stage::CompilingShaders))),
+            gpu: gpu.reporting_compilation(move || compiles(Stage::CompilingShaders)),
             place,
             report,
             is_opening: false,
@@ -111,7 +110,6 @@ impl ProgressiveImage {
     ) -> Result<(), ImageError> {
         let Some(order) = order else {
             if self.order.is_some() {
-                (self.report)(None);
                 *self = Self::new(self.gpu.clone(), self.place, self.report.clone());
             }
             return Ok(());
@@ -237,7 +235,7 @@ impl ProgressiveImage {
             (None, Some(before)) => Arc::new(pack::scene_from(before, &order.scene)?),
             (None, None) => {
                 let triangles = order.scene.triangle_count();
-                (self.report)(Some(Stage::BuildingBvh { triangles }));
+                (self.report)(Stage::BuildingBvh { triangles });
                 Arc::new(pack::scene(&order.scene)?)
             }
         };
@@ -265,7 +263,7 @@ impl ProgressiveImage {
         let policy = pace::policy(&self.gpu, order.policy);
         let packed = packed.clone();
         if self.is_opening {
-            (self.report)(Some(Stage::Uploading));
+            (self.report)(Stage::Uploading);
         }
         match &mut self.renderer {
             Some(renderer) => renderer.restart(packed, &view, settings, policy)?,
@@ -274,7 +272,9 @@ impl ProgressiveImage {
                 self.renderer = Some(Renderer::new(gpu, packed, &view, settings, policy)?);
             }
         }
-        (self.report)((self.is_opening).then_some(Stage::FirstSamples { share: 0.0 }));
+        if self.is_opening {
+            (self.report)(Stage::FirstSamples { share: 0.0 });
+        }
         self.view = Some(view);
         self.is_coarse = divisor.is_some();
         self.divisor = divisor.unwrap_or(1);
@@ -318,6 +318,11 @@ impl ProgressiveImage {
         self.place == PictureSlot::Main && self.renderer.is_some() && self.is_coarse
     }
 
+    /// Whether the scene has just been opened and has no picture yet.
+    pub fn is_opening(&self) -> bool {
+        self.is_opening
+    }
+
     /// Priority among pictures: the lowest comes first.
     pub fn rank(&self) -> f64 {
         match &self.renderer {
@@ -355,7 +360,7 @@ impl ProgressiveImage {
         }
         if self.is_opening {
             let share = renderer.progress();
-            (self.report)(Some(Stage::FirstSamples { share }));
+            (self.report)(Stage::FirstSamples { share });
         }
         let interval = match renderer.shows_directly() {
             true => pace::between_looks(&self.gpu),
@@ -389,7 +394,6 @@ impl ProgressiveImage {
         self.last_look = Some(Instant::now());
         self.looks += 1;
         self.is_opening = false;
-        (self.report)(None);
         self.estimate_noise()
     }
 
@@ -406,38 +410,6 @@ impl ProgressiveImage {
             self.noise.look(&renderer.develop(&order.tone)?, samples);
         }
         Ok(())
-    }
-
-    /// What the window can draw.
-    pub fn shown(&self) -> Option<Shown> {
-        let (renderer, order) = (self.renderer.as_ref()?, self.order.as_ref()?);
-        let stats = renderer.stats();
-        let seconds = stats.trace_seconds - self.spent.seconds;
-        let rays = stats.samples - self.spent.samples;
-        let has_picture = !self.is_coarse && self.last_look.is_some();
-        Some(Shown {
-            screen: self.screen.clone().filter(|_| has_picture),
-            under: self.coarse.clone().or(self.screen.clone()),
-            under_is_coarse: self.coarse.is_some(),
-            whole: self.whole.clone(),
-            region: order.settings.region(),
-            size: order.settings.size,
-            range: self.range,
-            progress: Progress {
-                samples: renderer.samples_done(),
-                target: order.settings.samples,
-                share: renderer.progress(),
-                trace_seconds: seconds,
-                rays_per_second: rays as f64 / seconds.max(1e-9),
-                noise: self.noise.estimate(),
-                looks: self.looks,
-                is_coarse: self.is_coarse,
-                is_done: self.is_done(),
-            },
-            stats: stats.clone(),
-            trees_built: self.trees_built,
-            adapter: self.adapter.clone(),
-        })
     }
 
     /// For questions; `None` while the renderer's film holds the preview.

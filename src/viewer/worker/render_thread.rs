@@ -79,15 +79,13 @@ impl<A> Shared<A> {
     }
 
     /// Publishes the stage of the main picture. Returns whether another one has begun.
-    fn report(&self, stage: Option<Stage>) -> bool {
+    fn report(&self, stage: Stage) -> bool {
         let mut state = self.lock();
-        let kind = |stage: &Stage| std::mem::discriminant(stage);
+        let kind = std::mem::discriminant::<Stage>;
         let before = state.activity.take();
-        let is_other = before.as_ref().map(|it| kind(&it.stage)) != stage.as_ref().map(kind);
-        state.activity = stage.map(|stage| Activity {
-            stage,
-            since: before.map_or_else(Instant::now, |before| before.since),
-        });
+        let is_other = before.as_ref().map(|it| kind(&it.stage)) != Some(kind(&stage));
+        let since = before.map_or_else(Instant::now, |before| before.since);
+        state.activity = Some(Activity { stage, since });
         is_other
     }
 }
@@ -247,6 +245,9 @@ impl Painter {
             let is_picture = looks != self.looks();
             let is_other_news = outcome != Ok(true) || !answers.is_empty();
             let mut state = shared.lock();
+            if outcome.is_err() || !self.canvases[2].is_opening() {
+                state.activity = None;
+            }
             state.answers.extend(answers);
             let has_news = state.wishes != known;
             let wakes = is_other_news || is_picture && !state.is_awaited;
@@ -264,7 +265,6 @@ impl Painter {
                     state.is_settled = !is_busy && !has_news && !waits;
                 }
                 Err(fault) => {
-                    state.activity = None;
                     // After an error, the previous picture continues.
                     state.is_settled = !has_news && (fault == Fault::Lost || was_refused);
                     if fault != Fault::Lost {

@@ -72,5 +72,5 @@ pub struct Activity {
     pub since: Instant,
 }
 
-/// Called with each stage that begins, and with `None` when there is a picture.
-pub type ReportStage = Arc<dyn Fn(Option<Stage>) + Send + Sync>;
+/// Called before each stage, and with the progress of the first samples.
+pub type ReportStage = Arc<dyn Fn(Stage) + Send + Sync>;

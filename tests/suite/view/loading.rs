@@ -11,12 +11,13 @@ use glimray::scene::Scene;
 use glimray::viewer::actions::files;
 use glimray::viewer::model::loader::{self, Loaded};
 use glimray::viewer::worker::progressive_image::{PictureSlot, ProgressiveImage};
+use glimray::viewer::worker::render_thread::{RenderRequests, RenderThread};
 use glimray::viewer::worker::request::{PreparedScene, RenderRequest};
 use glimray::viewer::worker::stage::Stage;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// A folder with `scene.toml`, which refers to a square of `side` × `side` cells of two triangles each.
@@ -104,13 +105,12 @@ fn order(scene: Arc<Scene>) -> RenderRequest {
     }
 }
 
-/// The names of stages without their numbers, each once in a row; the end of all is "".
-fn names(stages: &Mutex<Vec<Option<Stage>>>) -> Vec<String> {
+/// The names of stages, each once in a row, and without the share of samples.
+fn names(stages: &Mutex<Vec<Stage>>) -> Vec<String> {
     let stages = std::mem::take(&mut *stages.lock().expect("stages"));
-    let name = |stage: Option<Stage>| match stage {
-        Some(Stage::FirstSamples { .. }) => "First samples".to_owned(),
-        Some(stage) => stage.to_string(),
-        None => String::new(),
+    let name = |stage: Stage| match stage {
+        Stage::FirstSamples { .. } => "First samples".to_owned(),
+        stage => stage.to_string(),
     };
     let mut names: Vec<String> = stages.into_iter().map(name).collect();
     names.dedup();
@@ -153,7 +153,6 @@ fn the_first_picture_waits_for_uploads_shaders_and_samples() {
             "First samples",
             // The kernel that puts the picture on the screen.
             "Compiling shaders",
-            "",
         ];
         if prepared.is_none() {
             expected.insert(0, "Building the BVH (1,800 triangles)");
@@ -165,10 +164,49 @@ fn the_first_picture_waits_for_uploads_shaders_and_samples() {
             ..Scene::clone(&scene)
         };
         settle(&self::order(Arc::new(edited)), prepared);
-        assert_eq!(names(&stages), [""]);
+        assert_eq!(names(&stages), [""; 0]);
     }
     let packed = pack::scene(&scene).expect("a packed scene");
     assert_eq!(packed.work, prepared.packed.work);
+}
+
+#[test]
+fn the_render_thread_tells_its_stage_until_there_is_a_picture() {
+    let folder = Folder::new(2);
+    let (_, loaded) = load(&folder, None);
+    let outcome = loaded.expect("a result").outcome;
+    let imported = outcome.unwrap_or_else(|trouble| panic!("{trouble:?}"));
+    let gpu = Gpu::new(&AdapterChoice::default()).expect("an adapter");
+    let thread: RenderThread<()> = RenderThread::new(gpu, || {}).expect("a thread");
+    assert_eq!(thread.activity(), None);
+    let mut orders = RenderRequests::default();
+    orders.pictures[PictureSlot::Main as usize] = Some(order(Arc::new(imported.scene)));
+    thread.order(orders);
+    let start = Instant::now();
+    let mut seen = Vec::new();
+    while !thread.is_settled() {
+        assert!(start.elapsed() < PATIENCE, "never settled");
+        let activity = thread.activity();
+        if let Some(activity) = activity {
+            assert!(activity.since >= start);
+            seen.push(activity.stage);
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    // The other stages of so small a scene are over at once.
+    assert!(seen.contains(&Stage::CompilingShaders), "{seen:?}");
+    assert_eq!(thread.activity(), None);
+    // Recording rays needs another kernel; after that there is nothing left to wait for.
+    thread.ask(|frame| {
+        let tree = frame.renderer.explain([16, 12], 0..1);
+        assert_eq!(tree.expect("rays").samples.len(), 1);
+    });
+    let start = Instant::now();
+    while thread.answers().is_empty() {
+        assert!(start.elapsed() < PATIENCE, "no answer");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert_eq!(thread.activity(), None);
 }
 
 fn has(window: &Window, words: &str) -> bool {
@@ -184,7 +222,13 @@ fn loading_is_shown_over_the_picture_and_in_the_status_bar_and_can_be_cancelled(
     window.harness.run_steps(2);
     let told = (window.harness).query_all(by().label_contains("Loading scene.toml"));
     assert_eq!(told.count(), 2, "in the picture and in the status bar");
-    assert!(!has(&window, "samples"), "there is none yet");
+    assert!(!has(&window, " of 0 samples") && !has(&window, "Preparing"));
+    window
+        .harness
+        .render()
+        .expect("shot")
+        .save("/tmp/shot_loading.png")
+        .expect("shot");
     window.harness.get_by_label("Cancel loading").click();
     window.settle();
     assert!(window.session().scene().is_none());
@@ -206,6 +250,8 @@ fn a_scene_that_is_not_loaded_after_all_leaves_the_one_that_is_open() {
     assert!(window.order() == before);
     assert_eq!(window.session().title(), "demo");
     assert!(window.shown().progress.is_done);
+    let render = window.harness.state().render_thread();
+    assert_eq!(render.activity(), None, "there is a picture");
     // It can still be opened.
     files::open(&mut window.session(), vec![folder.scene()]);
     window.settle();

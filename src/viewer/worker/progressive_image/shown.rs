@@ -1,5 +1,6 @@
 //! What the window shows of a picture, and how far it is.
 
+use super::ProgressiveImage;
 use crate::render::{Screen, Stats};
 use std::sync::Arc;
 
@@ -52,4 +53,38 @@ pub struct Progress {
     pub is_coarse: bool,
     /// Whether it has all its samples.
     pub is_done: bool,
+}
+
+impl ProgressiveImage {
+    /// What the window can draw.
+    pub fn shown(&self) -> Option<Shown> {
+        let (renderer, order) = (self.renderer.as_ref()?, self.order.as_ref()?);
+        let stats = renderer.stats();
+        let seconds = stats.trace_seconds - self.spent.seconds;
+        let rays = stats.samples - self.spent.samples;
+        let has_picture = !self.is_coarse && self.last_look.is_some();
+        Some(Shown {
+            screen: self.screen.clone().filter(|_| has_picture),
+            under: self.coarse.clone().or(self.screen.clone()),
+            under_is_coarse: self.coarse.is_some(),
+            whole: self.whole.clone(),
+            region: order.settings.region(),
+            size: order.settings.size,
+            range: self.range,
+            progress: Progress {
+                samples: renderer.samples_done(),
+                target: order.settings.samples,
+                share: renderer.progress(),
+                trace_seconds: seconds,
+                rays_per_second: rays as f64 / seconds.max(1e-9),
+                noise: self.noise.estimate(),
+                looks: self.looks,
+                is_coarse: self.is_coarse,
+                is_done: self.is_done(),
+            },
+            stats: stats.clone(),
+            trees_built: self.trees_built,
+            adapter: self.adapter.clone(),
+        })
+    }
 }
