@@ -2,6 +2,7 @@
 
 use crate::app::advice;
 use crate::scene::ObjectRef;
+use crate::viewer::actions::comparing;
 use crate::viewer::actions::files::pictures;
 use crate::viewer::actions::inspector;
 use crate::viewer::model::objects::Id;
@@ -34,6 +35,8 @@ impl Session {
             Answer::Probed(probe) => self.cursor.probe = Some(probe),
             Answer::Rays(outcome) => inspector::take(self, outcome),
             Answer::Hidden(parts) => self.inspector.hidden.take(parts),
+            Answer::Histogram(histogram) => self.histogram.take(histogram),
+            Answer::Snapshot(snapshot) => comparing::kept(self, *snapshot),
             Answer::Nothing => {}
             Answer::Picture(taken) => pictures::taken(self, *taken),
             Answer::Failed(why) => self.messages.warn(why),

@@ -24,10 +24,12 @@ use crate::viewer::model::tool::{Drag, Tool};
 use crate::viewer::model::view_settings::ViewSettings;
 use crate::viewer::model::viewport::{PixelZoom, Viewport};
 use crate::viewer::state::answer::Answer;
+use crate::viewer::state::comparing::Comparing;
 use crate::viewer::state::cursor::Cursor;
 use crate::viewer::state::dialogs::Dialogs;
 use crate::viewer::state::editing::Editing;
 use crate::viewer::state::files::Files;
+use crate::viewer::state::histogram::HistogramView;
 use crate::viewer::state::inspector::Inspector;
 use crate::viewer::worker::progressive_image::FrameRenderer;
 use crate::viewer::worker::render_thread::Question;
@@ -82,6 +84,10 @@ pub struct Session {
     pub shows_statistics: bool,
     /// Whether overlays are visible.
     pub shows_overlays: bool,
+    /// The stills to compare with.
+    pub comparing: Comparing,
+    /// The histogram of the picture.
+    pub histogram: HistogramView,
     /// The state of files.
     pub files: Files,
     /// The state of editing.
@@ -141,6 +147,8 @@ impl Session {
             pixel_zoom: PixelZoom::default(),
             shows_statistics: true,
             shows_overlays: true,
+            comparing: Comparing::default(),
+            histogram: HistogramView::default(),
             files: Files::default(),
             editing: Editing::default(),
             inspector: Inspector::default(),
@@ -253,6 +261,7 @@ impl Session {
         self.loader.is_none()
             && self.questions.is_empty()
             && !self.files.is_busy()
+            && !self.comparing.is_busy()
             && !self.is_moving()
             && !self.playback.is_playing
             && !self.recording.is_playing()
@@ -273,7 +282,7 @@ impl Session {
         {
             return Some(FRAME);
         }
-        if self.loader.is_some() || self.files.is_busy() {
+        if self.loader.is_some() || self.files.is_busy() || self.comparing.is_busy() {
             return Some(LOOK);
         }
         // Not while a button is held.
