@@ -17,12 +17,16 @@ fn greys(levels: &[u8]) -> ScreenImage {
     image(levels.len() as u32, &levels)
 }
 
-fn difference(first: &ScreenImage, second: &ScreenImage, gain: f32) -> Difference {
-    let [first, second] = [first, second].map(|image| Placed {
+/// An image that covers the whole picture.
+fn placed(image: &ScreenImage) -> Placed<'_> {
+    Placed {
         image,
         edges: WHOLE,
-    });
-    Difference::new(first, second, gain)
+    }
+}
+
+fn difference(first: &ScreenImage, second: &ScreenImage, gain: f32) -> Difference {
+    Difference::new(placed(first), placed(second), gain)
 }
 
 fn reds(difference: &Difference) -> Vec<u8> {
@@ -73,10 +77,6 @@ fn pixels_without_a_counterpart_are_left_out() {
         edges: [0.25, 0.0, 0.75, 1.0],
     };
     let mut first = greys(&[10, 20, 30, 40]);
-    let placed = |image| Placed {
-        image,
-        edges: WHOLE,
-    };
     let found = Difference::new(placed(&first), narrow, 1.0);
     assert_eq!(reds(&found), [0, 30, 30, 0]);
     assert!((found.mean - 30.0 / 255.0).abs() < 1e-12, "{}", found.mean);

@@ -4,8 +4,9 @@
 use super::harness::Window;
 use crate::support::verdict::Verdict;
 use eframe::egui::{self, Key};
+use egui_kittest::kittest::Queryable;
 use egui_kittest::{SnapshotOptions, try_image_snapshot_options};
-use glimray::scene::ObjectRef;
+use glimray::scene::{Geometry, ObjectRef};
 use glimray::viewer::model::objects::Id;
 use glimray::viewer::model::preferences::Theme;
 use glimray::viewer::model::tool::Tool;
@@ -86,6 +87,31 @@ fn inspect_the_centre(window: &mut Window) {
     window.harness.drop_at(at);
     window.settle();
     window.harness.hover_at(egui::pos2(4.0, 690.0));
+}
+
+#[test]
+fn a_picture_is_compared_with_its_snapshot_before_an_edit() {
+    let mut window = open();
+    window
+        .harness
+        .key_press_modifiers(egui::Modifiers::SHIFT, Key::K);
+    window.settle();
+    window.session().edit("shrink", |scene| {
+        let Geometry::Sphere { radius, .. } = &mut scene.shapes[3].geometry else {
+            panic!("not a sphere");
+        };
+        *radius *= 0.7;
+    });
+    window.session().view.compare(Sharing::Wipe(0.5));
+    // Messages go away in time.
+    let messages = window.session().messages.current();
+    for message in messages {
+        window.session().messages.dismiss(&message.text);
+    }
+    check(&mut window, "compare_wipe");
+    window.session().view.compare(Sharing::Difference(2.0));
+    window.harness.get_by_label("Log").scroll_to_me();
+    check(&mut window, "compare_difference");
 }
 
 #[test]
