@@ -179,9 +179,9 @@ fn size(ui: &mut Ui, context: &mut PanelContext) {
 /// The buttons that add stills.
 fn stills(ui: &mut Ui, context: &mut PanelContext) {
     let (keep, open) = (Action::KeepSnapshot, Action::OpenReference);
-    ui.label("Stills").on_hover_text("Pictures to compare with");
+    (ui.label("Add picture")).on_hover_text("Keep or open a picture to compare with");
     ui.horizontal(|ui| {
-        for (text, action) in [("Keep snapshot", keep), ("Reference…", open)] {
+        for (text, action) in [("Snapshot", keep), ("Reference…", open)] {
             let tip = with_key(context, action.description(), action);
             if ui.button(text).on_hover_text(tip).clicked() {
                 context.session.clicked.push(action);

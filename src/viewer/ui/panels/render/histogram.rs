@@ -66,10 +66,10 @@ fn sentence(histogram: &Histogram) -> String {
     )
 }
 
-/// Areas of red, green and blue that add up, and the line of luminance.
+/// Bars of red, green and blue that add up, and the line of luminance.
 fn plot(ui: &Ui, rect: Rect, heights: &[[f32; LEVELS]; 4]) {
     let painter = ui.painter_at(rect);
-    let x = |level: usize| rect.min.x + rect.width() * level as f32 / (LEVELS - 1) as f32;
+    let x = |level: f32| rect.min.x + rect.width() * level / LEVELS as f32;
     let y = |height: f32| rect.max.y - rect.height() * height;
     let [red, green, blue, luminance] = heights;
     for (heights, [r, g, b]) in [
@@ -80,18 +80,14 @@ fn plot(ui: &Ui, rect: Rect, heights: &[[f32; LEVELS]; 4]) {
         let color = Color32::from_rgb_additive(r, g, b);
         let mut mesh = Mesh::default();
         for (level, height) in heights.iter().enumerate() {
-            let corner = mesh.vertices.len() as u32;
-            mesh.colored_vertex(egui::pos2(x(level), rect.max.y), color);
-            mesh.colored_vertex(egui::pos2(x(level), y(*height)), color);
-            if level > 0 {
-                mesh.add_triangle(corner - 2, corner - 1, corner);
-                mesh.add_triangle(corner - 1, corner, corner + 1);
-            }
+            let span = x(level as f32)..=x(level as f32 + 1.0);
+            let bar = Rect::from_x_y_ranges(span, y(*height)..=rect.max.y);
+            mesh.add_colored_rect(bar, color);
         }
         painter.add(Shape::mesh(mesh));
     }
     let points = luminance.iter().enumerate();
-    let points = points.map(|(level, height)| egui::pos2(x(level), y(*height)));
+    let points = points.map(|(level, height)| egui::pos2(x(level as f32 + 0.5), y(*height)));
     let line = Stroke::new(1.0, Color32::from_gray(225));
     painter.add(Shape::line(points.collect(), line));
 }
