@@ -8,6 +8,7 @@ pub mod error;
 pub mod inputs;
 pub mod legend;
 pub mod overrides;
+pub mod picture_file;
 pub mod ray_lines;
 pub mod ray_text;
 pub mod scene_file;

@@ -1,4 +1,8 @@
-//! A finished image in memory.
+//! Finished images in memory, and their difference.
+
+mod difference;
+
+pub use difference::{Difference, Placed};
 
 /// A rectangle of pixels, as [`crate::output`] writes it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,5 +40,33 @@ impl Image {
     /// Whether every pixel is opaque.
     pub fn is_opaque(&self) -> bool {
         self.pixels.iter().all(|pixel| pixel[3] >= 1.0)
+    }
+}
+
+/// An image as a screen shows it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ScreenImage {
+    /// In pixels.
+    pub width: u32,
+    /// In pixels.
+    pub height: u32,
+    /// Red, green, blue and opacity in 8 bits, encoded with the transfer function, colours multiplied by the
+    /// opacity; row by row from the top left.
+    pub pixels: Vec<[u8; 4]>,
+}
+
+impl From<&Image> for ScreenImage {
+    /// Rounds display values, clamped to 0..=1. NaN becomes 0.
+    fn from(image: &Image) -> Self {
+        let quantized = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+        let pixel = |&[r, g, b, opacity]: &[f32; 4]| {
+            let color = |value: f32| quantized(value.clamp(0.0, 1.0) * opacity);
+            [color(r), color(g), color(b), quantized(opacity)]
+        };
+        Self {
+            width: image.width,
+            height: image.height,
+            pixels: image.pixels.iter().map(pixel).collect(),
+        }
     }
 }

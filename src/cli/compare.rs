@@ -1,17 +1,16 @@
 //! `glimray compare A B`: measures the difference between two pictures.
 
 mod figures;
-mod read;
 
 use crate::app::console;
 use crate::app::error::AppError;
 use crate::app::inputs::Inputs;
+use crate::app::picture_file::{self, Picture};
 use crate::cli::args::CompareArgs;
 use crate::cli::interrupt::Interrupt;
 use crate::image::Image;
 use crate::output;
 use figures::Figures;
-use read::Picture;
 use serde_json::json;
 use std::path::Path;
 
@@ -21,8 +20,8 @@ pub fn run(arguments: &CompareArgs) -> Result<(), AppError> {
         Inputs::new([&arguments.a, &arguments.b]).refuse_overwrite(path, "difference", "--diff")?;
         output::check(path, &output::SaveOptions::default(), 1, 1)?;
     }
-    let a = read::picture(&arguments.a)?;
-    let b = read::picture(&arguments.b)?;
+    let a = picture_file::read(&arguments.a)?;
+    let b = picture_file::read(&arguments.b)?;
     let names = format!("{}, {}", arguments.a.display(), arguments.b.display());
     let ([aw, ah], [bw, bh]) = (a.size(), b.size());
     if (aw, ah) != (bw, bh) {

@@ -1,9 +1,10 @@
 //! Develops sums to a picture: `kernels/develop.wesl`.
 
 use super::{
-    Fingerprint, Integrator, Levels, Quantity, RenderError, RenderSettings, Renderer,
+    Fetch, Fingerprint, Integrator, Levels, Quantity, RenderError, RenderSettings, Renderer,
+    Slicing,
     bindings::Buffers,
-    film_tile::FilmTile,
+    film_tile::{FilmTile, rectangles},
     fingerprint::Encoder,
     layouts::{Layouts, group},
     levels,
@@ -11,10 +12,11 @@ use super::{
 };
 use crate::clock::Instant;
 use crate::{
-    gpu::{Compiled, Gpu, GpuError, Kernel, Source},
+    gpu::{Compiled, Gpu, GpuError, Kernel, Ledger, MEMORY_LIMIT_BYTES, Source},
     image::Image,
     layout::{
-        PackedTone, TONE_ACES, TONE_AGX, TONE_NONE, TONE_REINHARD, TRANSFER_LINEAR, TRANSFER_SRGB,
+        PackedDispatch, PackedFrame, PackedLight, PackedTone, TONE_ACES, TONE_AGX, TONE_NONE,
+        TONE_REINHARD, TRANSFER_LINEAR, TRANSFER_SRGB,
     },
     scene::{OutputDefaults, ToneCurve, Transfer},
 };
@@ -122,6 +124,24 @@ impl Tone {
                 _ => return None,
             },
         })
+    }
+
+    /// Develops linear radiance to a picture, as [`Renderer::develop`] does with that of a renderer. Opacity is kept.
+    ///
+    /// # Errors
+    /// The device failed, or the picture exceeds [`MEMORY_LIMIT_BYTES`].
+    pub fn develop(&self, gpu: &Gpu, image: &Image) -> Result<Image, RenderError> {
+        let (width, height) = (image.width, image.height);
+        check_memory(width, height)?;
+        let region = [0, 0, width, height];
+        let pixels = image.pixels.iter();
+        let sums: Vec<_> = pixels.clone().map(|&[r, g, b, _]| [r, g, b, 1.0]).collect();
+        let tone = self.packed(Integrator::Whitted, None, 1);
+        let mut developed = develop_sums(gpu, region, &sums, &tone)?;
+        for (developed, pixel) in developed.pixels.iter_mut().zip(pixels) {
+            developed[3] = pixel[3];
+        }
+        Ok(developed)
     }
 
     /// The packed tone, with a range for a quantity if there is one, for a film with this many rows per pixel.
@@ -299,8 +319,66 @@ impl Developer {
     }
 }
 
+/// Bytes per pixel of a picture, its sums, and their copies for upload and readback.
+const PIXEL_BYTES: u64 = 64;
+
+/// Checks that a picture can be developed without a renderer.
+pub fn check_memory(width: u32, height: u32) -> Result<(), GpuError> {
+    let pixels = u64::from(width).saturating_mul(height.into());
+    let mut ledger = Ledger::default();
+    ledger.plan("picture and film", pixels.saturating_mul(PIXEL_BYTES));
+    ledger.check(MEMORY_LIMIT_BYTES)
+}
+
+/// Develops weighted sums without a renderer: one row for each pixel of a region (x, y, width, height), row by row.
+pub fn develop_sums(
+    gpu: &Gpu,
+    region: [u32; 4],
+    sums: &[[f32; 4]],
+    tone: &PackedTone,
+) -> Result<Image, RenderError> {
+    let [x, y, width, height] = region;
+    let mut image = Image::new(width, height);
+    let tiles = rectangles(region, Slicing::default().tile_side, 0..0, 1);
+    let Some(most) = tiles.iter().map(FilmTile::pixel_count).max() else {
+        return Ok(image);
+    };
+    let layouts = Layouts::new(gpu, Fetch::Buffer);
+    let written = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+    let film = gpu.allocate("film", most as u64 * 16, written)?;
+    let read = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
+    let staging = gpu.allocate("staging", most as u64 * 16, read)?;
+    let dispatch = gpu.allocate("dispatch", size_of::<PackedDispatch>() as u64, written)?;
+    // The layout requires a frame, which is not used.
+    let frame = (PackedFrame::default(), PackedLight::default());
+    let frame = gpu.upload("frame", &[bytes_of(&frame.0), bytes_of(&frame.1)].concat())?;
+    let shared = [frame.as_entire_binding(), dispatch.as_entire_binding()];
+    let context = Context {
+        gpu,
+        layouts: &layouts,
+        frame_group: &group(gpu, &layouts.frame, &shared),
+        film_group: &group(gpu, &layouts.film, &[film.as_entire_binding()]),
+        dispatch: &dispatch,
+        film: &film,
+        staging: &staging,
+    };
+    let developer = Developer::new(context, most)?;
+    let settings = RenderSettings {
+        size: (x + width, y + height),
+        ..RenderSettings::default()
+    };
+    let sum = |[px, py]: [u32; 2]| sums[(py - y) as usize * width as usize + (px - x) as usize];
+    for tile in tiles {
+        let pixels = (0..tile.pixel_count()).map(|index| tile.pixel_at(index));
+        let rows: Vec<_> = pixels.map(|pixel| pixel.map_or([0.0; 4], sum)).collect();
+        let pixels = developer.develop(context, &tile, &rows, &settings, tone)?;
+        copy_tile(&mut image, &pixels, &tile, [x, y]);
+    }
+    Ok(image)
+}
+
 /// Copies the pixels of a film tile to their position in a picture whose upper left corner is `[x, y]`.
-pub fn copy_tile(image: &mut Image, pixels: &[[f32; 4]], tile: &FilmTile, [x, y]: [u32; 2]) {
+fn copy_tile(image: &mut Image, pixels: &[[f32; 4]], tile: &FilmTile, [x, y]: [u32; 2]) {
     for (row, line) in pixels.chunks_exact(tile.width as usize).enumerate() {
         let start = (tile.y - y) as usize + row;
         let start = start * image.width as usize + (tile.x - x) as usize;

@@ -6,7 +6,8 @@ use super::{
     slice::Slice,
 };
 use crate::{
-    gpu::{GpuError, Kernel, Source},
+    gpu::{Gpu, GpuError, Kernel, Source},
+    image::ScreenImage,
     layout::PackedTone,
 };
 use bytemuck::{bytes_of, cast_slice};
@@ -28,6 +29,93 @@ impl Screen {
     pub fn size(&self) -> (u32, u32) {
         let texture = self.view.texture();
         (texture.width(), texture.height())
+    }
+
+    /// A screen that shows an image of at least one pixel.
+    ///
+    /// # Errors
+    /// The image is larger than the adapter's textures, or the device failed.
+    pub fn of(gpu: &Gpu, image: &ScreenImage) -> Result<Self, RenderError> {
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        let side = image.width.max(image.height);
+        if side > limit {
+            return Err(GpuError::Limit {
+                name: "width or height of a picture in pixels",
+                need: side.into(),
+                limit: limit.into(),
+            }
+            .into());
+        }
+        let view = gpu.allocate_screen(image.width, image.height, SCREEN_FORMAT)?;
+        let screen = Self { view };
+        screen.write(gpu, image)?;
+        Ok(screen)
+    }
+
+    /// Replaces the contents by an image of the same size.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn write(&self, gpu: &Gpu, image: &ScreenImage) -> Result<(), RenderError> {
+        Ok(gpu.write_image(&self.view, 0, cast_slice(&image.pixels))?)
+    }
+
+    /// All pixels as they are displayed.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn read(&self, gpu: &Gpu) -> Result<ScreenImage, RenderError> {
+        let (width, height) = self.size();
+        let pixels = self.read_part(gpu, [0, 0, width, height])?;
+        Ok(ScreenImage {
+            width,
+            height,
+            pixels,
+        })
+    }
+
+    /// The pixels of a rectangle (x, y, width, height), row by row.
+    fn read_part(
+        &self,
+        gpu: &Gpu,
+        [x, y, width, height]: [u32; 4],
+    ) -> Result<Vec<[u8; 4]>, GpuError> {
+        let row = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let bytes = u64::from(row) * u64::from(height);
+        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
+        let texels = gpu.allocate("texels", bytes, usage)?;
+        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
+        let staging = gpu.allocate("staging", bytes, usage)?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let texture = wgpu::TexelCopyTextureInfo {
+            origin: wgpu::Origin3d { x, y, z: 0 },
+            ..self.view.texture().as_image_copy()
+        };
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(row),
+            rows_per_image: None,
+        };
+        let target = wgpu::TexelCopyBufferInfo {
+            buffer: &texels,
+            layout,
+        };
+        let size = wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        };
+        encoder.copy_texture_to_buffer(texture, target, size);
+        let source = Source {
+            buffer: &texels,
+            offset: 0,
+            bytes,
+        };
+        gpu.submit_and_read(encoder, &[source], &staging, |bytes| {
+            let rows = bytes.chunks_exact(row as usize);
+            let rows = rows.flat_map(|row| row[..4 * width as usize].as_chunks::<4>().0);
+            rows.copied().collect()
+        })
     }
 }
 
@@ -53,39 +141,8 @@ impl Renderer {
     /// # Errors
     /// The device failed.
     pub fn read_pixel(&self, screen: &Screen, [x, y]: [u32; 2]) -> Result<[u8; 4], RenderError> {
-        let gpu = &self.device.gpu;
-        let row = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
-        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
-        let texel = gpu.allocate("texel", row.into(), usage)?;
-        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
-        let staging = gpu.allocate("staging", 4, usage)?;
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let texture = wgpu::TexelCopyTextureInfo {
-            origin: wgpu::Origin3d { x, y, z: 0 },
-            ..screen.view.texture().as_image_copy()
-        };
-        let layout = wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(row),
-            rows_per_image: None,
-        };
-        let target = wgpu::TexelCopyBufferInfo {
-            buffer: &texel,
-            layout,
-        };
-        let size = wgpu::Extent3d {
-            width: 1,
-            height: 1,
-            depth_or_array_layers: 1,
-        };
-        encoder.copy_texture_to_buffer(texture, target, size);
-        let source = Source {
-            buffer: &texel,
-            offset: 0,
-            bytes: 4,
-        };
-        let read = |bytes: &[u8]| [bytes[0], bytes[1], bytes[2], bytes[3]];
-        Ok(gpu.submit_and_read(encoder, &[source], &staging, read)?)
+        let pixels = screen.read_part(&self.device.gpu, [x, y, 1, 1])?;
+        Ok(pixels.first().copied().unwrap_or_default())
     }
 
     /// The rendered part of the picture: x, y, width, height in pixels.
@@ -127,11 +184,7 @@ impl Renderer {
             ..*tone
         };
         let image = self.develop(tone)?;
-        let quantized = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
-        let bytes: Vec<u8> = (image.pixels.iter())
-            .flat_map(|[r, g, b, _]| [quantized(*r), quantized(*g), quantized(*b), 255])
-            .collect();
-        self.device.gpu.write_image(&screen.view, 0, &bytes)?;
+        screen.write(&self.device.gpu, &ScreenImage::from(&image))?;
         Ok(range)
     }
 

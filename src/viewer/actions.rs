@@ -2,10 +2,12 @@
 
 pub mod answers;
 pub(crate) mod commands;
+pub mod comparing;
 pub mod cursor;
 pub mod dialogs;
 pub mod editing;
 pub mod files;
+pub mod histogram;
 pub mod inspector;
 pub mod modal;
 pub mod output_defaults;

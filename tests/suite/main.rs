@@ -7,6 +7,7 @@ mod bvh;
 mod cli;
 mod closed_mirrors;
 mod contact;
+mod difference;
 mod distribution;
 mod drivers;
 mod embed;
@@ -92,6 +93,8 @@ mod view_command_line;
 mod view_document;
 #[cfg(feature = "viewer")]
 mod view_handles;
+#[cfg(feature = "viewer")]
+mod view_histogram;
 #[cfg(feature = "viewer")]
 mod view_navigation;
 #[cfg(feature = "viewer")]

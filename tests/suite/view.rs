@@ -2,6 +2,7 @@
 //! by lavapipe.
 
 mod canvas;
+mod compare;
 #[cfg(target_os = "linux")]
 mod desktop;
 mod edit;

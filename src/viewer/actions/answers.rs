@@ -1,5 +1,6 @@
 //! Handles the answers of the render thread.
 
+use crate::viewer::actions::comparing;
 use crate::viewer::actions::files::pictures;
 use crate::viewer::actions::inspector;
 use crate::viewer::actions::tools;
@@ -14,6 +15,8 @@ impl Session {
             Answer::Probed(probe) => self.cursor.probe = Some(probe),
             Answer::Rays(outcome) => inspector::handle_rays(self, outcome),
             Answer::Hidden(parts) => self.inspector.hidden.set(parts),
+            Answer::Histogram(histogram) => self.histogram.set(histogram),
+            Answer::Snapshot(snapshot) => comparing::kept(self, *snapshot),
             Answer::Nothing => {}
             Answer::Picture(picture) => pictures::captured(self, *picture),
             Answer::Failed(why) => self.messages.warn(why),

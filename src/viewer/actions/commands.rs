@@ -1,11 +1,11 @@
 //! Dispatches all commands, whether from keys, menus or buttons.
 
-use crate::viewer::actions::{dialogs, editing, files, modal, saving, selecting, tools};
+use crate::viewer::actions::{comparing, dialogs, editing, files, modal, saving, selecting, tools};
 use crate::viewer::model::bindings::Action;
 use crate::viewer::model::camera::{CameraController, Side};
 use crate::viewer::model::preferences::Theme;
 use crate::viewer::model::tool::Tool;
-use crate::viewer::model::view_settings::Sharing;
+use crate::viewer::model::view_settings::{GAIN, Sharing};
 use crate::viewer::model::viewport::PixelZoom;
 use crate::viewer::state::dialogs::Dialog;
 use crate::viewer::state::layout::{Layout, Panel};
@@ -112,7 +112,10 @@ pub fn perform(action: Action, session: &mut Session, layout: &mut Layout, ctx: 
         }
         Action::SplitWipe => session.view.compare(Sharing::Wipe(0.5)),
         Action::SideBySide => session.view.compare(Sharing::SideBySide),
+        Action::ShowDifference => session.view.compare(Sharing::Difference(GAIN)),
         Action::SwapSides => session.view.swap_sides(),
+        Action::KeepSnapshot => comparing::keep_snapshot(session),
+        Action::OpenReference => comparing::ask_reference(session, ctx),
         Action::ExposureUp => session.view.tone.exposure_ev += EXPOSURE_STEP,
         Action::ExposureDown => session.view.tone.exposure_ev -= EXPOSURE_STEP,
         Action::ExposureReset => session.view.tone = session.view.scene_tone,

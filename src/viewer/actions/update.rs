@@ -1,6 +1,6 @@
 //! Per-frame updates.
 
-use super::{editing, files, inspector};
+use super::{comparing, editing, files, inspector};
 use crate::viewer::state::session::Session;
 use eframe::egui;
 
@@ -9,6 +9,8 @@ pub fn reopened(session: &mut Session) {
     session.dialogs.reopened();
     session.files.reopened();
     session.questions.clear();
+    session.comparing.asked = None;
+    session.histogram.reopened();
     inspector::reopened(session);
     session.drag = None;
     session.tool_state.region = None;
@@ -24,6 +26,7 @@ pub fn update(session: &mut Session, ctx: &egui::Context) {
     session.now = now;
     take_scene(session);
     files::update(session, ctx);
+    comparing::update(session);
     inspector::update(session, ctx, seconds);
     editing::update(session, ctx);
     session.drop_outdated();

@@ -23,7 +23,7 @@ pub const SCENES: Kind = ("Scenes", &["toml"]);
 pub struct Request {
     /// Whether a new file is saved rather than an existing one opened.
     pub saves: bool,
-    /// The kind of the new file.
+    /// The kind of the file; `None` for everything that the window opens.
     pub kind: Option<Kind>,
     /// The title of the dialog.
     pub title: String,
@@ -111,24 +111,26 @@ fn desktop(request: Request, ctx: &egui::Context) -> Receiver<Reply> {
     if let Some(name) = &request.name {
         dialog = dialog.set_file_name(name);
     }
+    if let Some((name, endings)) = request.kind {
+        dialog = dialog.add_filter(name, endings);
+    }
     let (sender, receiver) = channel();
     let ctx = ctx.clone();
     // macOS requires that dialogs are created on this thread; waiting works anywhere.
     let answer: Box<dyn FnOnce() -> Option<rfd::FileHandle> + Send> = match request.saves {
         true => {
-            if let Some((name, endings)) = request.kind {
-                dialog = dialog.add_filter(name, endings);
-            }
             let dialog = dialog.save_file();
             Box::new(move || pollster::block_on(dialog))
         }
         false => {
             let endings = [import::SCENE_ENDINGS, import::PICTURE_ENDINGS].concat();
-            let dialog = dialog
-                .add_filter("Scenes, models and images", &endings)
-                .add_filter("Scenes and models", import::SCENE_ENDINGS)
-                .add_filter("Environment images", import::PICTURE_ENDINGS)
-                .pick_file();
+            if request.kind.is_none() {
+                dialog = dialog
+                    .add_filter("Scenes, models and images", &endings)
+                    .add_filter("Scenes and models", import::SCENE_ENDINGS)
+                    .add_filter("Environment images", import::PICTURE_ENDINGS);
+            }
+            let dialog = dialog.pick_file();
             Box::new(move || pollster::block_on(dialog))
         }
     };

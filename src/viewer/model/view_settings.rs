@@ -2,11 +2,17 @@
 
 use crate::render::{Antialias, Integrator, Levels, RenderSettings, Shows, Tone};
 use crate::scene::{Background, OutputDefaults, ToneCurve};
+use crate::viewer::model::gallery::StillId;
 use crate::viewer::model::playback::Playback;
 use glam::Vec3;
 
 /// Maximum samples per pixel.
 pub const MAX_SAMPLES: u32 = 65_536;
+
+/// Initial and maximum gain of a difference. The minimum is 1.
+pub const GAIN: f32 = 4.0;
+/// See [`GAIN`].
+pub const MAX_GAIN: f32 = 100.0;
 
 /// The settings of the picture and of its comparison.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,8 +25,10 @@ pub struct ViewSettings {
     pub background: Option<Background>,
     /// Whether the picture has the size of its panel; else the size of the settings.
     pub fits: bool,
-    /// The second view and the layout of the comparison.
+    /// The second picture and the layout of the comparison.
     pub comparison: Option<Comparison>,
+    /// The second picture of the next comparison; `None` for another view mode.
+    pub proposed: Option<Source>,
     /// The render region as fractions of width and height: x0, y0, x1, y1.
     pub region: Option<[f64; 4]>,
     /// Whether rendering is paused.
@@ -31,22 +39,51 @@ pub struct ViewSettings {
     pub scene_tone: Tone,
 }
 
-/// The second view of a comparison.
+/// The second picture of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
-    /// Its view mode.
-    pub integrator: Integrator,
+    /// The picture.
+    pub source: Source,
     /// The layout.
     pub sharing: Sharing,
+}
+
+/// A picture to compare with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The scene in this view mode.
+    Integrator(Integrator),
+    /// A snapshot, or a reference picture from a file.
+    Still(StillId),
 }
 
 /// The layout of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sharing {
-    /// One picture with a divider at this fraction of its width; the first view is on the left.
+    /// One picture with a divider at this fraction of its width; the first picture is on the left.
     Wipe(f32),
     /// Two pictures side by side.
     SideBySide,
+    /// The absolute difference of both pictures, multiplied by this gain from 1 to [`MAX_GAIN`].
+    Difference(f32),
+}
+
+impl Comparison {
+    /// The view mode of the second picture, unless it is a still.
+    pub fn integrator(&self) -> Option<Integrator> {
+        match self.source {
+            Source::Integrator(integrator) => Some(integrator),
+            Source::Still(_) => None,
+        }
+    }
+
+    /// The gain, if the difference is shown.
+    pub fn gain(&self) -> Option<f32> {
+        match self.sharing {
+            Sharing::Difference(gain) => Some(gain),
+            Sharing::Wipe(_) | Sharing::SideBySide => None,
+        }
+    }
 }
 
 impl ViewSettings {
@@ -59,6 +96,7 @@ impl ViewSettings {
             background: None,
             fits,
             comparison: None,
+            proposed: None,
             region: None,
             paused: false,
             scene_tone: tone,
@@ -90,13 +128,30 @@ impl ViewSettings {
                 ..comparison
             }),
             None => Some(Comparison {
-                integrator: match self.settings.integrator {
-                    Integrator::Normals => Integrator::Whitted,
-                    _ => Integrator::Normals,
-                },
+                source: self.proposed.unwrap_or(Source::Integrator(
+                    match self.settings.integrator {
+                        Integrator::Normals => Integrator::Whitted,
+                        _ => Integrator::Normals,
+                    },
+                )),
                 sharing,
             }),
         };
+    }
+
+    /// Compares with this picture, with a wipe unless a comparison has another layout.
+    pub fn compare_with(&mut self, source: Source) {
+        let sharing = self.comparison.map(|comparison| comparison.sharing);
+        let sharing = sharing.unwrap_or(Sharing::Wipe(0.5));
+        self.comparison = Some(Comparison { source, sharing });
+        self.proposed = Some(source).filter(|source| matches!(source, Source::Still(_)));
+    }
+
+    /// Ends the comparison with a still that is removed.
+    pub fn forget(&mut self, still: StillId) {
+        let source = Source::Still(still);
+        (self.proposed).take_if(|proposed| *proposed == source);
+        (self.comparison).take_if(|comparison| comparison.source == source);
     }
 
     /// Multiplies the target samples, within 1 to [`MAX_SAMPLES`].
@@ -105,9 +160,13 @@ impl ViewSettings {
         self.set_samples(samples.clamp(1.0, MAX_SAMPLES.into()) as u32);
     }
 
-    /// Swaps the two sides of a comparison.
+    /// Swaps the two view modes of a comparison. A still stays where it is.
     pub fn swap_sides(&mut self) {
-        if let Some(Comparison { integrator, .. }) = &mut self.comparison {
+        if let Some(Comparison {
+            source: Source::Integrator(integrator),
+            ..
+        }) = &mut self.comparison
+        {
             std::mem::swap(integrator, &mut self.settings.integrator);
         }
     }

@@ -1,6 +1,8 @@
 //! Answers of the render thread.
 
 use crate::scene::ObjectRef;
+use crate::viewer::model::gallery::Snapshot;
+use crate::viewer::model::histogram::Histogram;
 use crate::viewer::model::tool::Purpose;
 use crate::viewer::state::cursor::Probe;
 use crate::viewer::state::files::Captured;
@@ -23,6 +25,10 @@ pub enum Answer {
     Rays(Result<Box<Inspected>, String>),
     /// The hidden parts of rays in the ray view; `None` if another view is shown.
     Hidden(Option<Parts>),
+    /// The histogram of the picture; `None` if there is no picture.
+    Histogram(Option<Box<Histogram>>),
+    /// A snapshot of the picture.
+    Snapshot(Box<Snapshot>),
     /// No result.
     Nothing,
     /// The picture so far, for a file.

@@ -24,10 +24,12 @@ use crate::viewer::model::tool::{Tool, ToolState};
 use crate::viewer::model::view_settings::ViewSettings;
 use crate::viewer::model::viewport::{PixelZoom, Viewport};
 use crate::viewer::state::answer::Answer;
+use crate::viewer::state::comparing::Comparing;
 use crate::viewer::state::cursor::Cursor;
 use crate::viewer::state::dialogs::Dialogs;
 use crate::viewer::state::editing::Editing;
 use crate::viewer::state::files::Files;
+use crate::viewer::state::histogram::HistogramView;
 use crate::viewer::state::inspector::Inspector;
 use crate::viewer::worker::progressive_image::FrameRenderer;
 use crate::viewer::worker::render_thread::Question;
@@ -87,6 +89,10 @@ pub struct Session {
     pub shows_overlays: bool,
     /// Whether inspected rays are drawn over the picture too.
     pub shows_path: bool,
+    /// The stills to compare with.
+    pub comparing: Comparing,
+    /// The histogram of the picture.
+    pub histogram: HistogramView,
     /// The state of files.
     pub files: Files,
     /// The state of editing.
@@ -150,6 +156,8 @@ impl Session {
             shows_statistics: true,
             shows_overlays: true,
             shows_path: true,
+            comparing: Comparing::default(),
+            histogram: HistogramView::default(),
             files: Files::default(),
             editing: Editing::default(),
             inspector: Inspector::default(),
@@ -263,6 +271,7 @@ impl Session {
         self.loader.is_none()
             && self.questions.is_empty()
             && !self.files.is_busy()
+            && !self.comparing.is_busy()
             && !self.is_moving()
             && !self.playback.is_playing
             && !self.recording.is_playing()
@@ -283,7 +292,7 @@ impl Session {
         {
             return Some(FRAME);
         }
-        if self.loader.is_some() || self.files.is_busy() {
+        if self.loader.is_some() || self.files.is_busy() || self.comparing.is_busy() {
             return Some(LOOK);
         }
         // Not while a button is held.

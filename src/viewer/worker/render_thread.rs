@@ -5,7 +5,8 @@
 //! what was published last.
 
 use crate::gpu::{Gpu, GpuError};
-use crate::render::RenderError;
+use crate::render::{RenderError, Screen};
+use crate::viewer::worker::comparison::{Compared, ShownDifference, StillRequest};
 use crate::viewer::worker::progressive_image::{
     FrameRenderer, ImageError, PictureSlot, ProgressiveImage, Shown,
 };
@@ -22,6 +23,10 @@ pub struct RenderRequests {
     pub pictures: [Option<RenderRequest>; 3],
     /// The scene of the requests if it was packed while it was loaded. It does not change the pictures.
     pub prepared: Option<PreparedScene>,
+    /// The still of a comparison, in place of [`PictureSlot::Beside`].
+    pub still: Option<StillRequest>,
+    /// The gain of the difference of both pictures, 1 or more; `None` if it is not shown.
+    pub difference: Option<f32>,
     /// Whether something moves, so that a preview is preferred to a full-resolution picture.
     pub coarse: bool,
     /// Whether rendering is paused.
@@ -31,8 +36,14 @@ pub struct RenderRequests {
 impl RenderRequests {
     /// Whether both contain the same requests.
     pub fn is_same(&self, other: &Self) -> bool {
-        (self.coarse, self.paused) == (other.coarse, other.paused)
-            && self.pictures == other.pictures
+        (self.coarse, self.paused) == (other.coarse, other.paused) && self.shows_same(other)
+    }
+
+    /// Whether both request the same pictures.
+    fn shows_same(&self, other: &Self) -> bool {
+        self.pictures == other.pictures
+            && self.still == other.still
+            && self.difference == other.difference
     }
 }
 
@@ -53,6 +64,8 @@ struct State<A> {
     questions: Vec<Question<A>>,
     answers: Vec<A>,
     shown: [Option<Shown>; 3],
+    still: Option<Screen>,
+    difference: Option<ShownDifference>,
     fault: Option<Fault>,
     activity: Option<Activity>,
     is_settled: bool,
@@ -105,6 +118,8 @@ impl<A: Send + 'static> RenderThread<A> {
                 questions: Vec::new(),
                 answers: Vec::new(),
                 shown: [const { None }; 3],
+                still: None,
+                difference: None,
                 fault: None,
                 activity: None,
                 is_settled: true,
@@ -135,6 +150,7 @@ impl<A: Send + 'static> RenderThread<A> {
                         };
                         ProgressiveImage::new(gpu.clone(), place, report)
                     }),
+                    compared: Compared::new(gpu),
                     refused: None,
                 }
                 .work(&theirs, &*wake);
@@ -193,6 +209,16 @@ impl<A: Send + 'static> RenderThread<A> {
         self.shared.lock().activity.clone()
     }
 
+    /// The still of a comparison.
+    pub fn still(&self) -> Option<Screen> {
+        self.shared.lock().still.clone()
+    }
+
+    /// The difference of both pictures of a comparison.
+    pub fn difference(&self) -> Option<ShownDifference> {
+        self.shared.lock().difference.clone()
+    }
+
     /// The error of the current requests.
     pub fn fault(&self) -> Option<Fault> {
         self.shared.lock().fault.clone()
@@ -219,8 +245,9 @@ impl<A: Send + 'static> Drop for RenderThread<A> {
 struct Painter {
     /// In the order of [`PictureSlot::ALL`].
     canvases: [ProgressiveImage; 3],
+    compared: Compared,
     /// Requests that failed, to avoid retrying them.
-    refused: Option<[Option<RenderRequest>; 3]>,
+    refused: Option<RenderRequests>,
 }
 
 impl Painter {
@@ -258,6 +285,8 @@ impl Painter {
             for (canvas, place) in self.canvases.iter().zip(PictureSlot::ALL) {
                 state.shown[place as usize] = canvas.shown();
             }
+            state.still = self.compared.still();
+            state.difference = self.compared.difference();
             match outcome {
                 Ok(is_busy) => {
                     state.fault = (self.refused.is_some().then(|| state.fault.clone())).flatten();
@@ -268,7 +297,7 @@ impl Painter {
                     // After an error, the previous picture continues.
                     state.is_settled = !has_news && (fault == Fault::Lost || was_refused);
                     if fault != Fault::Lost {
-                        self.refused = Some(orders.pictures);
+                        self.refused = Some(orders);
                     }
                     state.fault = Some(fault);
                 }
@@ -282,11 +311,12 @@ impl Painter {
     }
 
     fn has_refused(&self, orders: &RenderRequests) -> bool {
-        self.refused.as_ref() == Some(&orders.pictures)
+        (self.refused.as_ref()).is_some_and(|refused| refused.shows_same(orders))
     }
 
     fn looks(&self) -> u64 {
-        self.canvases.iter().map(ProgressiveImage::looks).sum()
+        let rendered = self.canvases.iter().map(ProgressiveImage::looks);
+        rendered.sum::<u64>() + self.compared.looks()
     }
 
     /// Applies the requests; one that fails does not affect the others.
@@ -297,7 +327,11 @@ impl Painter {
             let prepared = orders.prepared.as_ref();
             outcome = outcome.and(canvas.set_request(order, orders.coarse, prepared));
         }
-        outcome
+        outcome.and(
+            self.compared
+                .set_request(orders.still.as_ref())
+                .map_err(Into::into),
+        )
     }
 
     /// Applies the requests and does the next piece of work. Returns whether there is more.
@@ -345,6 +379,10 @@ impl Painter {
                 return (Err(error.into()), unanswered, answers);
             }
             is_busy = self.canvases.iter().any(has_work);
+        }
+        let [_, beside, main] = &self.canvases;
+        if let Err(error) = self.compared.compare(orders.difference, main, beside) {
+            return (Err(ImageError::from(error).into()), unanswered, answers);
         }
         (Ok(is_busy), unanswered, answers)
     }

@@ -9,7 +9,7 @@ use glimray::render::Integrator;
 use glimray::scene::{Antialias, Background};
 use glimray::viewer::model::preferences::Theme;
 use glimray::viewer::model::tool::Tool;
-use glimray::viewer::model::view_settings::{Comparison, Sharing};
+use glimray::viewer::model::view_settings::{Comparison, Sharing, Source};
 use glimray::viewer::worker::progressive_image::PictureSlot;
 
 fn open() -> Window {
@@ -302,7 +302,7 @@ fn a_view_of_a_quantity_has_a_legend_with_its_range_and_unit() {
     }
     // Two of them in a comparison, and none without overlays.
     window.session().view.comparison = Some(Comparison {
-        integrator: Integrator::Depth,
+        source: Source::Integrator(Integrator::Depth),
         sharing: Sharing::Wipe(0.5),
     });
     window.settle();

@@ -4,8 +4,9 @@
 use super::harness::Window;
 use crate::support::verdict::Verdict;
 use eframe::egui::{self, Key};
-use egui_kittest::{SnapshotOptions, try_image_snapshot_options};
-use glimray::scene::ObjectRef;
+use egui_kittest::kittest::Queryable;
+use egui_kittest::{SnapshotError, SnapshotOptions, try_image_snapshot_options};
+use glimray::scene::{Geometry, ObjectRef};
 use glimray::viewer::model::objects::Id;
 use glimray::viewer::model::preferences::Theme;
 use glimray::viewer::model::tool::Tool;
@@ -31,6 +32,28 @@ fn check(window: &mut Window, name: &str) {
         .output_path(folder)
         .max_failed_pixels(MAX_PIXELS);
     window.harness.snapshot_options(name, &options);
+}
+
+/// Checks a rectangle, in points, of a picture of the window.
+fn check_part(
+    image: &::image::RgbaImage,
+    rect: egui::Rect,
+    scale: f32,
+    name: &str,
+) -> Result<(), SnapshotError> {
+    let (corner, size) = (rect.min * scale, rect.size() * scale);
+    let part = ::image::imageops::crop_imm(
+        image,
+        corner.x.round() as u32,
+        corner.y.round() as u32,
+        size.x.round() as u32,
+        size.y.round() as u32,
+    );
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snapshots");
+    let options = SnapshotOptions::default()
+        .output_path(folder)
+        .max_failed_pixels(MAX_PIXELS);
+    try_image_snapshot_options(&part.to_image(), name, &options)
 }
 
 #[test]
@@ -89,6 +112,35 @@ fn inspect_the_centre(window: &mut Window) {
 }
 
 #[test]
+fn a_picture_is_compared_with_its_snapshot_before_an_edit() {
+    let mut window = open();
+    window
+        .harness
+        .key_press_modifiers(egui::Modifiers::SHIFT, Key::K);
+    window.settle();
+    window.session().edit("shrink", |scene| {
+        let Geometry::Sphere { radius, .. } = &mut scene.shapes[2].geometry else {
+            panic!("not a sphere");
+        };
+        *radius *= 0.7;
+    });
+    window.session().view.compare(Sharing::Wipe(0.5));
+    // Messages go away in time.
+    let messages = window.session().messages.current();
+    for message in messages {
+        window.session().messages.dismiss(&message.text);
+    }
+    check(&mut window, "compare_wipe");
+    window.session().view.compare(Sharing::Difference(2.0));
+    check(&mut window, "compare_difference");
+    window.harness.get_by_label("Log").scroll_to_me();
+    window.settle();
+    let plot = (window.harness).get_by_label_contains("Histogram: ").rect();
+    let image = window.harness.render().expect("a picture of the window");
+    check_part(&image, plot, 1.0, "histogram").expect("the snapshot");
+}
+
+#[test]
 fn every_panel_is_legible_in_both_themes_at_both_scales() {
     let mut verdict = Verdict::on("panels");
     for (theme, color) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
@@ -110,21 +162,8 @@ fn every_panel_is_legible_in_both_themes_at_both_scales() {
                 let rect = window.harness.state().layout().rect(panel);
                 let rect = rect.unwrap_or_else(|| panic!("{panel:?} is hidden"));
                 let image = window.harness.render().expect("a picture of the window");
-                let corner = rect.min * scale;
-                let size = rect.size() * scale;
-                let part = image::imageops::crop_imm(
-                    &image,
-                    corner.x.round() as u32,
-                    corner.y.round() as u32,
-                    size.x.round() as u32,
-                    size.y.round() as u32,
-                );
-                let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/snapshots/panels");
-                let options = SnapshotOptions::default()
-                    .output_path(folder)
-                    .max_failed_pixels(MAX_PIXELS);
-                let name = format!("{panel:?}_{color}_{percent}").to_lowercase();
-                let outcome = try_image_snapshot_options(&part.to_image(), &name, &options);
+                let name = format!("panels/{panel:?}_{color}_{percent}").to_lowercase();
+                let outcome = check_part(&image, rect, scale, &name);
                 verdict.that(name, outcome.is_ok(), || format!("{:?}", outcome.err()));
             };
             for panel in [

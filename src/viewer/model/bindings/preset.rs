@@ -109,7 +109,10 @@ pub(super) const GLIMRAY: &str = "
     integrator-samples: Shift+7
     split-wipe: X
     side-by-side: Shift+X
+    show-difference: Y
     swap-sides: Alt+X
+    keep-snapshot: Shift+K
+    open-reference: Ctrl+Shift+O
     exposure-up: Equals, Plus, Shift+Plus
     exposure-down: Minus
     exposure-reset: 0

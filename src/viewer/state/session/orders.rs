@@ -2,6 +2,9 @@
 
 use super::Session;
 use crate::render::{Antialias, Integrator, RenderSettings};
+use crate::viewer::model::gallery::Still;
+use crate::viewer::model::view_settings::Source;
+use crate::viewer::worker::comparison::StillRequest;
 use crate::viewer::worker::progressive_image::PictureSlot;
 use crate::viewer::worker::render_thread::RenderRequests;
 use crate::viewer::worker::request::RenderRequest;
@@ -20,8 +23,12 @@ impl Session {
         };
         if self.room.taken.0 > 0 && self.room.taken.1 > 0 {
             orders.pictures[PictureSlot::Main as usize] = self.order(self.view.settings.integrator);
-            orders.pictures[PictureSlot::Beside as usize] =
-                (self.view.comparison).and_then(|comparison| self.order(comparison.integrator));
+            if let Some(comparison) = self.view.comparison.filter(|_| self.scene().is_some()) {
+                orders.pictures[PictureSlot::Beside as usize] =
+                    (comparison.integrator()).and_then(|integrator| self.order(integrator));
+                orders.still = self.still().map(|still| self.still_request(still));
+                orders.difference = comparison.gain();
+            }
         }
         orders.pictures[PictureSlot::Outside as usize] = self.outside_order();
         orders
@@ -39,6 +46,21 @@ impl Session {
             policy: self.request.policy,
             tone: self.view.tone_of(integrator),
         })
+    }
+
+    /// The still that the picture is compared with.
+    pub fn still(&self) -> Option<&Still> {
+        match self.view.comparison?.source {
+            Source::Still(id) => self.comparing.gallery.get(id),
+            Source::Integrator(_) => None,
+        }
+    }
+
+    fn still_request(&self, still: &Still) -> StillRequest {
+        StillRequest {
+            picture: still.picture.clone(),
+            tone: still.is_radiance.then_some(self.view.tone),
+        }
     }
 
     /// The request of the ray view while it is visible.

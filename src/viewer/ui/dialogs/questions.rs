@@ -1,6 +1,7 @@
 //! Questions that must be answered first: file names and unsaved changes.
 
 use crate::output::Format;
+use crate::viewer::actions::comparing;
 use crate::viewer::actions::files;
 use crate::viewer::actions::files::pictures;
 use crate::viewer::state::files::{Intent, SaveSize};
@@ -18,15 +19,30 @@ pub enum Choice {
     GoOn(Intent),
 }
 
-/// The dialog for a typed path to open.
+/// The dialogs for a typed path to open.
 pub fn typed(ctx: &egui::Context, session: &mut Session) {
-    let Some(mut text) = session.files.typed.take() else {
-        return;
-    };
+    let hint = "A scene, a folder of scenes, or an environment image";
+    if let Some(path) = path(ctx, "Open a path", hint, &mut session.files.typed) {
+        files::open(session, vec![path]);
+    }
+    let (title, hint) = ("Open a reference picture", "A PNG, JPEG, EXR or HDR file");
+    if let Some(path) = path(ctx, title, hint, &mut session.comparing.typed) {
+        comparing::open_reference(session, path);
+    }
+}
+
+/// Draws the dialog for a path while it is being typed. Returns the path once it is complete.
+fn path(
+    ctx: &egui::Context,
+    title: &str,
+    hint: &str,
+    typed: &mut Option<String>,
+) -> Option<PathBuf> {
+    let mut text = typed.take()?;
     let mut path = None;
-    let stays = crate::viewer::ui::dialogs::window(ctx, "Open a path", vec2(440.0, 90.0), |ui| {
+    let stays = crate::viewer::ui::dialogs::window(ctx, title, vec2(440.0, 90.0), |ui| {
         let field = TextEdit::singleline(&mut text)
-            .hint_text("A scene, a folder of scenes, or an environment image")
+            .hint_text(hint)
             .desired_width(f32::INFINITY);
         let field = ui.add(field).accessible_name("Path");
         if text.is_empty() && !field.has_focus() {
@@ -40,11 +56,10 @@ pub fn typed(ctx: &egui::Context, session: &mut Session) {
             path = Some(PathBuf::from(text.trim()));
         }
     });
-    match path {
-        Some(path) => files::open(session, vec![path]),
-        None if stays => session.files.typed = Some(text),
-        None => {}
+    if path.is_none() && stays {
+        *typed = Some(text);
     }
+    path
 }
 
 /// The user's choice in the save dialog.

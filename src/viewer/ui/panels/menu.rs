@@ -262,9 +262,11 @@ fn view(menu: &mut Menu) {
 }
 
 fn render(menu: &mut Menu) {
+    let has_scene = menu.context.session.scene().is_some();
     let look = &menu.context.session.view;
     let integrator = look.settings.integrator;
-    let sharing = look.comparison.map(|comparison| comparison.sharing);
+    let comparison = look.comparison;
+    let sharing = comparison.map(|comparison| comparison.sharing);
     let is_paused = look.paused;
     for action in A::ALL {
         if let Some(shown) = action.integrator() {
@@ -276,7 +278,12 @@ fn render(menu: &mut Menu) {
     menu.tick(is_wipe, "Compare with a wipe", A::SplitWipe);
     let is_beside = sharing == Some(Sharing::SideBySide);
     menu.tick(is_beside, "Compare side by side", A::SideBySide);
-    menu.entry_if(sharing.is_some(), "Swap sides", A::SwapSides);
+    let is_difference = matches!(sharing, Some(Sharing::Difference(_)));
+    menu.tick(is_difference, "Show difference", A::ShowDifference);
+    let can_swap = comparison.is_some_and(|comparison| comparison.integrator().is_some());
+    menu.entry_if(can_swap, "Swap sides", A::SwapSides);
+    menu.entry_if(has_scene, "Keep snapshot", A::KeepSnapshot);
+    menu.entry_if(has_scene, "Open reference picture…", A::OpenReference);
     menu.line();
     menu.entry("Increase exposure", A::ExposureUp);
     menu.entry("Decrease exposure", A::ExposureDown);

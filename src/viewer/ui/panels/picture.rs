@@ -56,9 +56,8 @@ pub fn picture(ui: &mut egui::Ui, context: &mut PanelContext) {
     if let Some(shown) = shown {
         draw(&painter, context, &shown, viewports[0]);
     }
-    if let (Some(comparison), Some(shown)) = (comparison, context.shown(PictureSlot::Beside)) {
-        let clip = compare::clip(comparison.sharing, space, viewports[1]);
-        draw(&painter.with_clip_rect(clip), context, &shown, viewports[1]);
+    if let Some(comparison) = comparison {
+        compare::second(&painter, context, comparison, space, viewports[1]);
     }
     let is_right =
         spaces[0] != spaces[1] && used_at(&response).is_some_and(|point| spaces[1].contains(point));
@@ -101,8 +100,11 @@ fn hover(context: &mut PanelContext, response: &egui::Response, viewport: Viewpo
             sharing: Sharing::Wipe(share),
             ..
         }) => point.x < viewport.rect.min.x + share * viewport.rect.width(),
-        Some(_) => point.x < space.center().x,
-        None => true,
+        Some(Comparison {
+            sharing: Sharing::SideBySide,
+            ..
+        }) => point.x < space.center().x,
+        Some(_) | None => true,
     });
     let pixel = point.and_then(|point| viewport.pixel(point));
     let now = session.now;
@@ -116,14 +118,18 @@ fn hover(context: &mut PanelContext, response: &egui::Response, viewport: Viewpo
 fn legends(ui: &egui::Ui, context: &PanelContext, space: Rect, viewports: [Viewport; 2]) {
     let painter = ui.painter_at(space);
     let look = &context.session.view;
+    let comparison = look.comparison;
+    if comparison.is_some_and(|comparison| comparison.gain().is_some()) {
+        return;
+    }
     let rects = viewports.map(|viewport| viewport.rect.intersect(space));
     if let Some(shown) = context.shown(PictureSlot::Main) {
         let integrator = look.settings.integrator;
         legend::legend(ui, &painter, &shown, integrator, (rects[0], false));
     }
-    if let (Some(comparison), Some(shown)) = (look.comparison, context.shown(PictureSlot::Beside)) {
-        let place = (rects[1], true);
-        legend::legend(ui, &painter, &shown, comparison.integrator, place);
+    let second = comparison.and_then(|comparison| comparison.integrator());
+    if let (Some(integrator), Some(shown)) = (second, context.shown(PictureSlot::Beside)) {
+        legend::legend(ui, &painter, &shown, integrator, (rects[1], true));
     }
 }
 

@@ -1,6 +1,8 @@
 //! Render settings: view mode, sampling, size and tone mapping.
 
 mod background;
+mod compare;
+mod histogram;
 mod size;
 mod statistics;
 
@@ -8,8 +10,7 @@ pub use statistics::{remaining, seconds};
 
 use crate::app::value_names::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
 use crate::scene::Antialias;
-use crate::viewer::model::bindings::Action;
-use crate::viewer::model::view_settings::{Comparison, MAX_SAMPLES, Sharing, ViewSettings};
+use crate::viewer::model::view_settings::{MAX_SAMPLES, ViewSettings};
 use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::panels::setting_rows::{choice, line, number};
 use eframe::egui::{self, Ui};
@@ -30,36 +31,32 @@ pub fn render(ui: &mut Ui, context: &mut PanelContext) {
             section(ui, "Tone mapping", |ui| {
                 developing(ui, &mut context.session.view)
             });
+            plain_section(ui, "Histogram", |ui| histogram::histogram(ui, context));
             section(ui, "Environment", |ui| background::background(ui, context));
             section(ui, "Statistics", |ui| statistics::statistics(ui, context));
         });
     });
 }
 
+/// A section with rows of two columns.
 fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
+    plain_section(ui, title, |ui| {
+        egui::Grid::new(title)
+            .num_columns(2)
+            .spacing([10.0, 5.0])
+            .min_col_width(NAMES)
+            .show(ui, contents);
+    });
+}
+
+fn plain_section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
     egui::CollapsingHeader::new(title)
         .default_open(true)
-        .show_unindented(ui, |ui| {
-            egui::Grid::new(title)
-                .num_columns(2)
-                .spacing([10.0, 5.0])
-                .min_col_width(NAMES)
-                .show(ui, contents);
-        });
+        .show_unindented(ui, contents);
 }
 
 /// The view mode and its comparison.
 fn shown(ui: &mut Ui, context: &mut PanelContext) {
-    let key = |action| match context.session.preferences.bindings.label(action) {
-        label if label.is_empty() => String::new(),
-        label => format!(" ({label})"),
-    };
-    let swap = format!("Swap comparison sides{}", key(Action::SwapSides));
-    let comparing = format!(
-        "Show a second view mode: with a wipe{} or side by side{}",
-        key(Action::SplitWipe),
-        key(Action::SideBySide)
-    );
     let look = &mut context.session.view;
     line(
         ui,
@@ -68,44 +65,7 @@ fn shown(ui: &mut Ui, context: &mut PanelContext) {
         &look.scene_settings.integrator,
         |ui, value| choice(ui, "integrator", &INTEGRATORS, value),
     );
-    let mut way = look.comparison.map(|comparison| comparison.sharing);
-    line(ui, ("Compare", &comparing), &mut way, &None, |ui, way| {
-        let name = |way: Option<Sharing>| match way {
-            None => "Off",
-            Some(Sharing::Wipe(_)) => "Split wipe",
-            Some(Sharing::SideBySide) => "Side by side",
-        };
-        let ways = [None, Some(Sharing::Wipe(0.5)), Some(Sharing::SideBySide)];
-        egui::ComboBox::from_id_salt("compare")
-            .selected_text(name(*way))
-            .show_ui(ui, |ui| {
-                for other in ways {
-                    let is_chosen = name(other) == name(*way);
-                    if ui.selectable_label(is_chosen, name(other)).clicked() && !is_chosen {
-                        *way = other;
-                    }
-                }
-            })
-            .response
-    });
-    if way != look.comparison.map(|comparison| comparison.sharing) {
-        match way {
-            None => look.comparison = None,
-            Some(sharing) => look.compare(sharing),
-        }
-    }
-    if let Some(Comparison { integrator, .. }) = &mut look.comparison {
-        let label = ui
-            .label("Compared with")
-            .on_hover_text("View mode of the other side");
-        ui.horizontal(|ui| {
-            choice(ui, "second", &INTEGRATORS, integrator).labelled_by(label.id);
-            if ui.button("Swap").on_hover_text(swap).clicked() {
-                std::mem::swap(integrator, &mut look.settings.integrator);
-            }
-        });
-        ui.end_row();
-    }
+    compare::compare(ui, context);
 }
 
 fn samples(ui: &mut Ui, look: &mut ViewSettings) {

@@ -1,7 +1,7 @@
 //! The interface of a progressive image: its slot, access for questions, and its errors.
 
 use crate::app::advice;
-use crate::image::Image;
+use crate::image::{Image, ScreenImage};
 use crate::render::{RenderError, RenderSettings, Renderer, Screen, Tone};
 use crate::viewer::worker::request::RenderRequest;
 
@@ -56,6 +56,15 @@ impl FrameRenderer<'_> {
         }
         let [red, green, blue, alpha] = self.renderer.read_pixel(screen, [x, y])?;
         Ok((alpha > 0).then_some([red, green, blue]))
+    }
+
+    /// All that the window shows of the main picture. `None` before it has samples.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn screen_image(&self) -> Result<Option<ScreenImage>, RenderError> {
+        let gpu = self.renderer.gpu();
+        self.screen.map(|screen| screen.read(gpu)).transpose()
     }
 
     /// The settings of the picture in full.

@@ -1,11 +1,15 @@
-//! The comparison of two views: layout, wipe line and labels.
+//! The comparison of two pictures: layout, second picture, wipe line and labels.
 
 use crate::app::value_names::INTEGRATORS;
-use crate::viewer::model::view_settings::{Comparison, Sharing};
+use crate::viewer::model::view_settings::{Comparison, Sharing, Source};
 use crate::viewer::model::viewport::Viewport;
+use crate::viewer::state::session::Session;
 use crate::viewer::ui::context::PanelContext;
+use crate::viewer::ui::panels::icon;
 use crate::viewer::ui::panels::picture::caption::label;
+use crate::viewer::ui::panels::picture::{WHOLE, draw};
 use crate::viewer::ui::panels::setting_rows::title;
+use crate::viewer::worker::progressive_image::PictureSlot;
 use eframe::egui::{self, Align2, Color32, CursorIcon, EventFilter, Key, Pos2, Rect, Stroke, vec2};
 
 /// Distance within which the line can be dragged, in points.
@@ -27,10 +31,44 @@ pub fn spaces(comparison: Option<Comparison>, space: Rect) -> [Rect; 2] {
     }
 }
 
+/// Draws the second picture, or the difference of both.
+pub fn second(
+    painter: &egui::Painter,
+    context: &mut PanelContext,
+    comparison: Comparison,
+    space: Rect,
+    viewport: Viewport,
+) {
+    let painter = painter.with_clip_rect(clip(comparison.sharing, space, viewport));
+    let is_exact = viewport.is_exact(painter.pixels_per_point());
+    let is_zoomed = context.session.pixel_zoom.is_active();
+    if comparison.gain().is_some() {
+        if let Some(difference) = context.render.difference() {
+            let is_part = difference.region != [0, 0, viewport.size.0, viewport.size.1];
+            let rect = match is_part {
+                true => viewport.part(difference.region),
+                false => viewport.under(difference.screen.size()),
+            };
+            let is_crisp = is_zoomed || is_exact && !difference.is_coarse;
+            let id = context.textures.id(&difference.screen, !is_crisp);
+            painter.image(id, rect, WHOLE, Color32::WHITE);
+        }
+    } else if comparison.integrator().is_some() {
+        if let Some(shown) = context.shown(PictureSlot::Beside) {
+            draw(&painter, context, &shown, viewport);
+        }
+    } else if let Some(screen) = context.render.still() {
+        let is_crisp = is_zoomed || is_exact && screen.size() == viewport.size;
+        let id = context.textures.id(&screen, !is_crisp);
+        let painter = painter.with_clip_rect(viewport.rect);
+        painter.image(id, viewport.framing(screen.size()), WHOLE, Color32::WHITE);
+    }
+}
+
 /// The area in which the second picture is drawn.
-pub fn clip(sharing: Sharing, space: Rect, viewport: Viewport) -> Rect {
+fn clip(sharing: Sharing, space: Rect, viewport: Viewport) -> Rect {
     match sharing {
-        Sharing::SideBySide => space,
+        Sharing::SideBySide | Sharing::Difference(_) => space,
         Sharing::Wipe(share) => {
             let mut right = viewport.rect;
             right.min.x += right.width() * share;
@@ -46,13 +84,20 @@ pub fn overlay(
     space: Rect,
     viewports: [Viewport; 2],
 ) {
-    let look = &mut context.session.view;
-    let first = look.settings.integrator;
-    let Some(comparison) = &mut look.comparison else {
+    let names = [
+        title(INTEGRATORS.name(&context.session.view.settings.integrator)),
+        second_name(context.session),
+    ];
+    let Some(comparison) = &mut context.session.view.comparison else {
         return;
     };
     let painter = ui.painter_at(space);
     let corners = match &mut comparison.sharing {
+        Sharing::Difference(gain) => {
+            let gain = *gain;
+            difference(ui, &painter, context, (names, gain), viewports[0].rect);
+            return;
+        }
         Sharing::Wipe(share) => {
             let rect = viewports[0].rect.intersect(space);
             let y_range = rect.y_range();
@@ -73,9 +118,59 @@ pub fn overlay(
     } else {
         Align2::LEFT_TOP
     };
-    let name = |integrator| title(INTEGRATORS.name(&integrator));
-    label(&painter, corners[0], Align2::LEFT_TOP, name(first));
-    label(&painter, corners[1], right, name(comparison.integrator));
+    let [first, second] = names;
+    label(&painter, corners[0], Align2::LEFT_TOP, first);
+    label(&painter, corners[1], right, second);
+}
+
+/// The name of the second picture, with the size of a still that is scaled.
+fn second_name(session: &Session) -> String {
+    match session.view.comparison.map(|comparison| comparison.source) {
+        Some(Source::Integrator(integrator)) => title(INTEGRATORS.name(&integrator)),
+        _ => session.still().map_or(String::new(), |still| {
+            let (width, height) = still.size();
+            match still.size() == session.picture_size() {
+                true => still.name.clone(),
+                false => format!("{}, scaled from {width}×{height}", still.name),
+            }
+        }),
+    }
+}
+
+/// Names both pictures and tells how much they differ.
+fn difference(
+    ui: &egui::Ui,
+    painter: &egui::Painter,
+    context: &PanelContext,
+    ([first, second], gain): ([String; 2], f32),
+    picture: Rect,
+) {
+    let rect = picture.intersect(painter.clip_rect());
+    let gain = (gain * 10.0).round() / 10.0;
+    let names = format!("{first} and {second}: difference × {gain}");
+    label(painter, rect.left_top(), Align2::LEFT_TOP, names);
+    let Some(shown) = context.render.difference() else {
+        return;
+    };
+    let (rmse, mean) = (shown.rmse, shown.mean);
+    let told = format!(
+        "RMSE {rmse:.4} ({:.2} levels), mean {mean:.4}",
+        rmse * 255.0
+    );
+    let rect = label(
+        painter,
+        rect.left_bottom(),
+        Align2::LEFT_BOTTOM,
+        told.clone(),
+    );
+    let id = ui.scope_id().with("difference");
+    let response = ui.interact(rect, id, egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &told));
+    icon::named(&response, &told);
+    response.on_hover_text(
+        "Differences of the displayed colours, without the gain: root mean square and mean, as fractions of \
+         white",
+    );
 }
 
 /// The wipe line: dragged, or moved by arrow keys while it has the focus.

@@ -18,6 +18,7 @@ pub struct Picture {
     pub image: Image,
     /// Whether the file stores linear radiance as floats.
     pub is_float: bool,
+    /// Whether the file stores opacity.
     pub has_alpha: bool,
 }
 
@@ -28,8 +29,11 @@ impl Picture {
     }
 }
 
-/// Reads the picture at `path`.
-pub fn picture(path: &Path) -> Result<Picture, AppError> {
+/// Reads the picture at `path`: PNG, JPEG, OpenEXR or Radiance HDR, recognised by its first bytes.
+///
+/// # Errors
+/// The file is missing, damaged, of another kind or too large.
+pub fn read(path: &Path) -> Result<Picture, AppError> {
     let refused = |why: &str| {
         AppError::Refused(format!(
             "cannot read the picture ({}): {}. Give a PNG, JPEG, OpenEXR or Radiance HDR file.",

@@ -1,0 +1,157 @@
+//! Keeps snapshots and opens reference pictures to compare with.
+
+use crate::app::{advice, picture_file};
+use crate::image::Image;
+use crate::render::{Shows, Tone};
+use crate::viewer::model::file_dialog::{self, PICTURES, Reply, Request};
+use crate::viewer::model::gallery::{MOST, Snapshot, StillId};
+use crate::viewer::model::view_settings::Source;
+use crate::viewer::state::answer::Answer;
+use crate::viewer::state::comparing::Reading;
+use crate::viewer::state::session::Session;
+use crate::viewer::worker::progressive_image::FrameRenderer;
+use eframe::egui;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{TryRecvError, channel};
+
+/// Keeps the main picture as it is now, to compare later ones with it.
+pub fn keep_snapshot(session: &mut Session) {
+    if session.scene().is_none() {
+        session.messages.notify("There is no picture yet");
+    } else if has_room(session) {
+        session.ask(snapshot);
+    }
+}
+
+/// Whether there is room for another still; a message says so if not.
+fn has_room(session: &mut Session) -> bool {
+    let is_full = session.comparing.gallery.is_full();
+    if is_full {
+        session.messages.warn(format!(
+            "{MOST} snapshots and reference pictures are kept already. Remove one in the Render panel first."
+        ));
+    }
+    !is_full
+}
+
+fn snapshot(frame: &mut FrameRenderer) -> Answer {
+    let (order, region) = (frame.order, frame.renderer.region());
+    let entry = order.settings.integrator.entry();
+    let is_radiance = entry.shows == Shows::Radiance;
+    let tone = match is_radiance {
+        true => Tone::LINEAR,
+        false => order.tone,
+    };
+    match frame.image(&tone) {
+        Ok((image, samples)) => Answer::Snapshot(Box::new(Snapshot {
+            image,
+            region,
+            size: order.settings.size,
+            is_radiance,
+            detail: format!("{}, {samples} samples", entry.title),
+        })),
+        Err(error) => Answer::Failed(advice::render(&error)),
+    }
+}
+
+/// Keeps the snapshot from the render thread.
+pub fn kept(session: &mut Session, snapshot: Snapshot) {
+    if !has_room(session) {
+        return;
+    }
+    let still = session.comparing.gallery.keep_snapshot(snapshot);
+    session.view.proposed = Some(Source::Still(still.id));
+    let told = format!("Kept {}. Choose a comparison to see it", still.name);
+    session.messages.notify(told);
+}
+
+/// Forgets a still and ends its comparison.
+pub fn remove(session: &mut Session, still: StillId) {
+    session.view.forget(still);
+    session.comparing.gallery.remove(still);
+}
+
+/// Opens a file dialog for a reference picture.
+pub fn ask_reference(session: &mut Session, ctx: &egui::Context) {
+    if session.comparing.asked.is_some() {
+        return;
+    }
+    let folder = session.path.as_deref().and_then(Path::parent);
+    let request = Request {
+        saves: false,
+        kind: Some(PICTURES),
+        title: "Open a reference picture".to_owned(),
+        folder: folder.map(Path::to_owned),
+        name: None,
+    };
+    session.comparing.asked = Some(session.files.dialogs.ask(request, ctx));
+}
+
+/// Reads a reference picture on a thread of its own, to compare with it.
+pub fn open_reference(session: &mut Session, path: PathBuf) {
+    let (sender, outcome) = channel();
+    let from = path.clone();
+    let read = move || {
+        // The window may have been closed meanwhile.
+        let _ = sender.send(picture_file::read(&from));
+    };
+    match std::thread::Builder::new().name("load".into()).spawn(read) {
+        Ok(_) => session.comparing.reading = Some(Reading { path, outcome }),
+        Err(error) => session
+            .messages
+            .warn(format!("Cannot read the picture: {error}.")),
+    }
+}
+
+/// Takes replies of the file dialog and pictures that have been read.
+pub fn update(session: &mut Session) {
+    match file_dialog::take_reply(&mut session.comparing.asked) {
+        Some(Reply::Chosen(path)) => open_reference(session, path),
+        Some(Reply::Unavailable) => {
+            let told =
+                "No file dialog is available on this desktop (no portal answers). Type the path.";
+            session.messages.warn(told.to_owned());
+            session.comparing.typed = Some(String::new());
+        }
+        Some(Reply::Cancelled) | None => {}
+    }
+    let Some(reading) = &session.comparing.reading else {
+        return;
+    };
+    let outcome = match reading.outcome.try_recv() {
+        Err(TryRecvError::Empty) => return,
+        outcome => outcome,
+    };
+    let Some(Reading { path, .. }) = session.comparing.reading.take() else {
+        return;
+    };
+    match outcome {
+        Ok(Ok(picture)) => {
+            let image = opaque(picture.image);
+            compare_with(session, &path, image, picture.is_float);
+        }
+        Ok(Err(error)) => session.messages.warn(error.to_string()),
+        Err(_) => {
+            let path = path.display();
+            let why = format!("Internal error while reading {path}. Please report it.");
+            session.messages.warn(why);
+        }
+    }
+}
+
+fn compare_with(session: &mut Session, path: &Path, image: Image, is_radiance: bool) {
+    if session.comparing.gallery.holds(path) || has_room(session) {
+        let gallery = &mut session.comparing.gallery;
+        let still = gallery.keep_reference(path, image, is_radiance);
+        let source = Source::Still(still.id);
+        session.view.compare_with(source);
+    }
+}
+
+/// The picture without its transparency, which rendered pictures do not have.
+fn opaque(mut image: Image) -> Image {
+    for pixel in &mut image.pixels {
+        pixel[3] = 1.0;
+    }
+    image
+}

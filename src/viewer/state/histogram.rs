@@ -1,0 +1,41 @@
+//! The histogram in the window.
+
+use crate::viewer::model::histogram::Histogram;
+
+/// The histogram of the main picture.
+#[derive(Debug, Default)]
+pub struct HistogramView {
+    /// That of the last picture that was measured.
+    pub latest: Option<Box<Histogram>>,
+    /// Whether the height of its bars is logarithmic.
+    pub is_logarithmic: bool,
+    /// The presentation that was asked about last, and whether the answer is still to come.
+    asked: Option<u64>,
+    is_awaited: bool,
+}
+
+impl HistogramView {
+    /// Drops the request to the previous renderer.
+    pub fn reopened(&mut self) {
+        self.asked = None;
+        self.is_awaited = false;
+    }
+
+    /// Whether the presentation with this number is to be measured now: only the newest is, one at a time.
+    pub(in crate::viewer) fn is_due(&mut self, look: u64) -> bool {
+        let is_due = !self.is_awaited && self.asked != Some(look);
+        if is_due {
+            self.asked = Some(look);
+            self.is_awaited = true;
+        }
+        is_due
+    }
+
+    /// Takes the answer.
+    pub(in crate::viewer) fn set(&mut self, histogram: Option<Box<Histogram>>) {
+        self.is_awaited = false;
+        if histogram.is_some() {
+            self.latest = histogram;
+        }
+    }
+}

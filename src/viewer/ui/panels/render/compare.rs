@@ -1,0 +1,192 @@
+//! The settings of a comparison, and the stills to compare with.
+
+use crate::app::value_names::INTEGRATORS;
+use crate::viewer::actions::comparing;
+use crate::viewer::model::bindings::Action;
+use crate::viewer::model::gallery::{Still, StillId};
+use crate::viewer::model::view_settings::{Comparison, GAIN, MAX_GAIN, Sharing, Source};
+use crate::viewer::state::session::Session;
+use crate::viewer::ui::context::PanelContext;
+use crate::viewer::ui::panels::setting_rows::{line, title};
+use eframe::egui::{self, Ui};
+
+/// The layout of the comparison, its second picture, and what belongs to both.
+pub fn compare(ui: &mut Ui, context: &mut PanelContext) {
+    layout(ui, context);
+    if let Some(comparison) = context.session.view.comparison {
+        if let Sharing::Difference(gain) = comparison.sharing {
+            set_gain(ui, context, gain);
+        }
+        second(ui, context, comparison);
+        size(ui, context);
+    }
+    stills(ui, context);
+}
+
+/// A tooltip with the shortcut of a command.
+fn with_key(context: &PanelContext, tip: &str, action: Action) -> String {
+    match context.session.preferences.bindings.label(action) {
+        key if key.is_empty() => tip.to_owned(),
+        key => format!("{tip} ({key})"),
+    }
+}
+
+fn layout(ui: &mut Ui, context: &mut PanelContext) {
+    let tip = [
+        with_key(
+            context,
+            "Show a second picture: with a wipe",
+            Action::SplitWipe,
+        ),
+        with_key(context, "side by side", Action::SideBySide),
+        with_key(context, "or as a difference", Action::ShowDifference),
+    ]
+    .join(", ");
+    let look = &mut context.session.view;
+    let mut way = look.comparison.map(|comparison| comparison.sharing);
+    let before = way;
+    line(ui, ("Compare", &tip), &mut way, &None, |ui, way| {
+        let name = |way: Option<Sharing>| match way {
+            None => "Off",
+            Some(Sharing::Wipe(_)) => "Split wipe",
+            Some(Sharing::SideBySide) => "Side by side",
+            Some(Sharing::Difference(_)) => "Difference",
+        };
+        let ways = [
+            None,
+            Some(Sharing::Wipe(0.5)),
+            Some(Sharing::SideBySide),
+            Some(Sharing::Difference(GAIN)),
+        ];
+        egui::ComboBox::from_id_salt("compare")
+            .selected_text(name(*way))
+            .show_ui(ui, |ui| {
+                for other in ways {
+                    let is_chosen = name(other) == name(*way);
+                    if ui.selectable_label(is_chosen, name(other)).clicked() && !is_chosen {
+                        *way = other;
+                    }
+                }
+            })
+            .response
+    });
+    if way != before {
+        match way {
+            None => look.comparison = None,
+            Some(sharing) => look.compare(sharing),
+        }
+    }
+}
+
+fn set_gain(ui: &mut Ui, context: &mut PanelContext, mut gain: f32) {
+    let tip = "Factor on the difference of the displayed colours, 1 to 100";
+    line(ui, ("Gain", tip), &mut gain, &GAIN, |ui, gain| {
+        let value = egui::DragValue::new(gain).range(1.0..=MAX_GAIN);
+        ui.add(value.speed(0.1).max_decimals(1).suffix(" ×"))
+    });
+    if let Some(comparison) = &mut context.session.view.comparison {
+        comparison.sharing = Sharing::Difference(gain);
+    }
+}
+
+/// The second picture: a view mode or a still.
+fn second(ui: &mut Ui, context: &mut PanelContext, comparison: Comparison) {
+    let swap = with_key(context, "Swap comparison sides", Action::SwapSides);
+    let tip = "A view mode of the scene, a snapshot or a reference picture";
+    let label = ui.label("Compared with").on_hover_text(tip);
+    let session = &mut *context.session;
+    let chosen = match comparison.source {
+        Source::Integrator(integrator) => title(INTEGRATORS.name(&integrator)),
+        Source::Still(_) => session
+            .still()
+            .map(|still| still.name.clone())
+            .unwrap_or_default(),
+    };
+    let mut source = comparison.source;
+    ui.horizontal(|ui| {
+        egui::ComboBox::from_id_salt("second")
+            .selected_text(chosen)
+            .truncate()
+            .show_ui(ui, |ui| {
+                for (word, help, integrator) in INTEGRATORS.all() {
+                    // Aliases of the same value are left out.
+                    if INTEGRATORS.name(integrator) == *word {
+                        let value = Source::Integrator(*integrator);
+                        ui.selectable_value(&mut source, value, title(word))
+                            .on_hover_text(*help);
+                    }
+                }
+                for still in session.comparing.gallery.all() {
+                    ui.selectable_value(&mut source, Source::Still(still.id), &still.name)
+                        .on_hover_text(told(still));
+                }
+            })
+            .response
+            .labelled_by(label.id)
+            .on_hover_text(session.still().map_or(tip.to_owned(), told));
+        match comparison.source {
+            Source::Integrator(_) => {
+                if ui.button("Swap").on_hover_text(swap).clicked() {
+                    session.view.swap_sides();
+                    source = session.view.comparison.map_or(source, |it| it.source);
+                }
+            }
+            Source::Still(id) => remove(ui, session, id),
+        }
+    });
+    ui.end_row();
+    if source != comparison.source {
+        context.session.view.compare_with(source);
+    }
+}
+
+fn remove(ui: &mut Ui, session: &mut Session, still: StillId) {
+    let button = ui.button("Remove");
+    if button.on_hover_text("Forget this picture").clicked() {
+        comparing::remove(session, still);
+    }
+}
+
+/// What a still shows, and whether tone mapping applies to it.
+fn told(still: &Still) -> String {
+    let (width, height) = still.size();
+    let tone = match still.is_radiance {
+        true => "Linear radiance: exposure and tone curve apply",
+        false => "Display values: shown as they are",
+    };
+    format!("{}\n{width}×{height} pixels\n{tone}", still.detail)
+}
+
+/// Offers the size of a still for the picture, so that pixels match.
+fn size(ui: &mut Ui, context: &mut PanelContext) {
+    let Some(size) = context.session.still().map(Still::size) else {
+        return;
+    };
+    if size == context.session.picture_size() {
+        return;
+    }
+    let (width, height) = size;
+    ui.label("");
+    let button = ui.button(format!("Render at {width}×{height}"));
+    let tip = "The other picture is scaled to the height of this one. Render this one at its size instead";
+    if button.on_hover_text(tip).clicked() {
+        context.session.view.fits = false;
+        context.session.view.settings.size = size;
+    }
+    ui.end_row();
+}
+
+/// The buttons that add stills.
+fn stills(ui: &mut Ui, context: &mut PanelContext) {
+    let (keep, open) = (Action::KeepSnapshot, Action::OpenReference);
+    (ui.label("Add picture")).on_hover_text("Keep or open a picture to compare with");
+    ui.horizontal(|ui| {
+        for (text, action) in [("Snapshot", keep), ("Reference…", open)] {
+            let tip = with_key(context, action.description(), action);
+            if ui.button(text).on_hover_text(tip).clicked() {
+                context.session.clicked.push(action);
+            }
+        }
+    });
+    ui.end_row();
+}
