@@ -223,12 +223,6 @@ fn loading_is_shown_over_the_picture_and_in_the_status_bar_and_can_be_cancelled(
     let told = (window.harness).query_all(by().label_contains("Loading scene.toml"));
     assert_eq!(told.count(), 2, "in the picture and in the status bar");
     assert!(!has(&window, " of 0 samples") && !has(&window, "Preparing"));
-    window
-        .harness
-        .render()
-        .expect("shot")
-        .save("/tmp/shot_loading.png")
-        .expect("shot");
     window.harness.get_by_label("Cancel loading").click();
     window.settle();
     assert!(window.session().scene().is_none());

@@ -633,7 +633,6 @@ fn the_path_is_drawn_along_its_lines_and_can_be_hidden() {
     window.harness.hover_at(egui::pos2(4.0, 790.0));
     window.settle();
     let with = window.harness.render().expect("a picture of the window");
-    with.save("/tmp/shot_path.png").expect("shot");
     window.harness.get_by_label("Path in picture").click();
     window.harness.hover_at(egui::pos2(4.0, 790.0));
     window.settle();
