@@ -4,6 +4,7 @@ use super::harness::Window;
 use eframe::egui::{Key, Role};
 use egui_kittest::kittest::{NodeT, Queryable, by};
 use glimray::scene::ObjectRef;
+use glimray::viewer::actions::comparing;
 use glimray::viewer::actions::inspector;
 use glimray::viewer::actions::saving;
 use glimray::viewer::model::objects::Id;
@@ -94,10 +95,19 @@ fn what_is_in_the_panels_has_a_name() {
         look.settings.max_depth += 1;
     };
     look(&window);
-    for sharing in [Sharing::Wipe(0.5), Sharing::SideBySide] {
+    for sharing in [
+        Sharing::Wipe(0.5),
+        Sharing::SideBySide,
+        Sharing::Difference(4.0),
+    ] {
         window.session().view.compare(sharing);
         check(&mut window, &format!("{sharing:?}"));
     }
+    comparing::keep_snapshot(&mut window.session());
+    window.settle();
+    window.session().view.comparison = None;
+    window.session().view.compare(Sharing::Difference(4.0));
+    check(&mut window, "a snapshot");
 }
 
 #[test]

@@ -10,6 +10,9 @@ use crate::viewer::ui::context::PanelContext;
 use crate::viewer::ui::panels::setting_rows::{line, title};
 use eframe::egui::{self, Ui};
 
+/// Width of the second picture's name, in points: a button stands beside it.
+const SECOND: f32 = 92.0;
+
 /// The layout of the comparison, its second picture, and what belongs to both.
 pub fn compare(ui: &mut Ui, context: &mut PanelContext) {
     layout(ui, context);
@@ -106,6 +109,7 @@ fn second(ui: &mut Ui, context: &mut PanelContext, comparison: Comparison) {
     ui.horizontal(|ui| {
         egui::ComboBox::from_id_salt("second")
             .selected_text(chosen)
+            .width(SECOND)
             .truncate()
             .show_ui(ui, |ui| {
                 for (word, help, integrator) in INTEGRATORS.all() {
