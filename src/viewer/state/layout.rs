@@ -70,7 +70,7 @@ pub struct Layout {
     room: Option<[f32; 2]>,
     /// Preferred sizes of side panels, restored when there is room.
     #[serde(default)]
-    wishes: Vec<Wish>,
+    preferred_sizes: Vec<PreferredSize>,
     /// The layout before all panels were hidden.
     #[serde(default)]
     before: Option<Box<Self>>,
@@ -84,10 +84,10 @@ pub struct Layout {
 
 /// A tile that was shrunk.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-struct Wish {
+struct PreferredSize {
     tile: TileId,
     /// Its previous width or height, in points.
-    wished: f32,
+    preferred: f32,
     /// Its reduced size. A different current size means that the user has resized it since.
     given: f32,
 }
@@ -121,7 +121,7 @@ impl Default for Layout {
         Self {
             tree: Tree::new(egui::Id::unique("panels"), root, tiles),
             room: Some(USUAL),
-            wishes: Vec::new(),
+            preferred_sizes: Vec::new(),
             before: None,
             is_time_folded: false,
             is_animated: None,
@@ -155,14 +155,21 @@ impl Layout {
         };
         while let Some(parent) = self.tree.tiles.parent_of(tile) {
             let tiles = &self.tree.tiles;
-            let wishes = &mut self.wishes;
+            let preferred_sizes = &mut self.preferred_sizes;
             let is_visible = |child: TileId| tiles.is_visible(child);
             if let Some(Tile::Container(Container::Linear(linear))) = tiles.get(parent) {
                 let side = match linear.dir {
                     LinearDir::Horizontal => 0,
                     LinearDir::Vertical => 1,
                 };
-                let shares = resized(linear, tile, is_visible, wishes, before[side], room[side]);
+                let shares = resized(
+                    linear,
+                    tile,
+                    is_visible,
+                    preferred_sizes,
+                    before[side],
+                    room[side],
+                );
                 if let Some(Tile::Container(Container::Linear(linear))) =
                     self.tree.tiles.get_mut(parent)
                 {
@@ -284,7 +291,7 @@ fn resized(
     linear: &Linear,
     picture: TileId,
     is_visible: impl Fn(TileId) -> bool,
-    wishes: &mut Vec<Wish>,
+    preferred_sizes: &mut Vec<PreferredSize>,
     before: f32,
     now: f32,
 ) -> Shares {
@@ -297,24 +304,24 @@ fn resized(
         .sum();
     let points = before / total.max(f32::MIN_POSITIVE);
     let mut beside = 0.0;
-    let mut wished = Vec::new();
+    let mut preferred = Vec::new();
     for &child in linear.children.iter().filter(|child| **child != picture) {
         let length = shares[child] * points;
-        let wish = wishes.iter().find(|wish| wish.tile == child);
-        let wish = wish.filter(|wish| (wish.given - length).abs() < SAME);
-        let length = wish.map_or(length, |wish| wish.wished);
-        wished.push((child, length));
+        let size = preferred_sizes.iter().find(|size| size.tile == child);
+        let size = size.filter(|size| (size.given - length).abs() < SAME);
+        let length = size.map_or(length, |size| size.preferred);
+        preferred.push((child, length));
         beside += if is_visible(child) { length } else { 0.0 };
     }
     let shrunk = ((1.0 - PICTURE) * now / beside.max(f32::MIN_POSITIVE)).min(1.0);
-    for &(tile, wished) in &wished {
-        let given = wished * shrunk;
+    for &(tile, preferred) in &preferred {
+        let given = preferred * shrunk;
         shares.set_share(tile, given);
-        wishes.retain(|wish| wish.tile != tile);
+        preferred_sizes.retain(|size| size.tile != tile);
         if shrunk < 1.0 {
-            wishes.push(Wish {
+            preferred_sizes.push(PreferredSize {
                 tile,
-                wished,
+                preferred,
                 given,
             });
         }

@@ -52,12 +52,7 @@ pub fn properties(ui: &mut egui::Ui, context: &mut PanelContext) {
                 );
             });
             let time = session.playback.time;
-            let fields = &mut Fields {
-                ui,
-                scene: &scene,
-                subject,
-                changes: &mut changes,
-            };
+            let fields = &mut Fields::new(ui, &scene, subject, &mut changes);
             match selection {
                 None => environment::show(fields, session),
                 Some(Id::Camera(index)) => camera::show(fields, session, index),

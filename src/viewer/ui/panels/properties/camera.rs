@@ -1,9 +1,9 @@
 //! The properties of a camera.
 
-use crate::scene::{CameraProperty, Lens, Scene, Target};
+use crate::scene::{Camera, CameraProperty, Lens, Scene, Target};
 use crate::viewer::model::objects::Id;
 use crate::viewer::state::session::Session;
-use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
+use crate::viewer::ui::panels::properties::fields::{Change, Fields, Limits};
 use glam::DVec3;
 
 /// Limits of scene files: the largest lens in scene units, and relative to the focus distance.
@@ -13,7 +13,6 @@ const MAX_RATIO: f64 = 1e6;
 /// Draws all properties of a camera.
 pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
     let camera = fields.scene.cameras[index].clone();
-    let target = |property| Some(Target::Camera(index, property));
     let is_used = fields.scene.camera_index == index;
     fields.ui.horizontal_wrapped(|ui| {
         let tip = "Move the view to this camera without changing the scene.";
@@ -23,15 +22,13 @@ pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
         if !is_used {
             let tip = "Make this the scene's active camera.";
             if ui.button("Make active").on_hover_text(tip).clicked() {
-                fields
-                    .changes
-                    .push(crate::viewer::ui::panels::properties::Change {
-                        name: format!("use {}", fields.subject),
-                        apply: Box::new(move |scene| {
-                            scene.camera_index = index;
-                            Ok(())
-                        }),
-                    });
+                fields.changes.push(Change {
+                    name: format!("use {}", fields.subject),
+                    apply: Box::new(move |scene| {
+                        scene.camera_index = index;
+                        Ok(())
+                    }),
+                });
             }
         }
     });
@@ -50,7 +47,9 @@ pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
         Some(_) => "in its parent's space",
         None => "in world space",
     };
-    let mut vector = |label: &str, tip: &str, value: DVec3, property, slot: Slot| {
+    use CameraProperty as P;
+    type Slot = fn(&mut Camera) -> &mut DVec3;
+    let mut vector = |label, tip, value, property, slot: Slot| {
         let tip = format!("{tip}, {space}, in scene units.");
         let set = move |scene: &mut Scene, to: DVec3| {
             let mut camera = scene.cameras[index].clone();
@@ -59,60 +58,56 @@ pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
                 scene.cameras[index] = camera;
             }
         };
-        fields.vector(label, &tip, value, Limits::LENGTH, target(property), set);
-    };
-    type Slot = fn(&mut crate::scene::Camera) -> &mut DVec3;
-    use CameraProperty as P;
-    vector(
-        "Look from",
-        "Position",
-        camera.look_from,
-        P::LookFrom,
-        |c| &mut c.look_from,
-    );
-    if camera.target.is_none() {
-        vector(
-            "Look at",
-            "The point at the centre of the picture",
-            camera.look_at,
-            P::LookAt,
-            |c| &mut c.look_at,
+        fields.driven_by(Target::Camera(index, property)).vector(
+            (label, &tip),
+            value,
+            Limits::LENGTH,
+            set,
         );
+    };
+    let tip = "Position";
+    vector("Look from", tip, camera.look_from, P::LookFrom, |c| {
+        &mut c.look_from
+    });
+    if camera.target.is_none() {
+        let tip = "The point at the centre of the picture";
+        vector("Look at", tip, camera.look_at, P::LookAt, |c| {
+            &mut c.look_at
+        });
     }
-    vector(
-        "Up",
-        "The up direction of the picture",
-        camera.up,
-        P::Up,
-        |c| &mut c.up,
-    );
+    let tip = "The up direction of the picture";
+    vector("Up", tip, camera.up, P::Up, |c| &mut c.up);
     if camera.target.is_some() {
         fields.note("It tracks a node.");
     }
+    projection(fields, index, &camera);
+    lens(fields, index, &camera);
+}
+
+/// A change of a camera.
+fn with<T>(index: usize, change: fn(&mut Camera, T)) -> impl FnOnce(&mut Scene, T) {
+    move |scene, to| change(&mut scene.cameras[index], to)
+}
+
+fn projection(fields: &mut Fields, index: usize, camera: &Camera) {
+    use CameraProperty as P;
     fields.heading("Projection");
     let tip = "Use parallel projection.";
     let is_parallel = camera.orthographic_height.is_some();
-    let distance = camera.look_from.distance(camera.look_at);
-    let fov_y = camera.fov_y;
-    fields.toggle("Orthographic", tip, is_parallel, move |scene, to| {
+    let set = with(index, |camera, to: bool| {
         // The size of the target is preserved.
-        let height = 2.0 * distance * (fov_y / 2.0).tan();
-        scene.cameras[index].orthographic_height = to.then_some(height);
+        let distance = camera.look_from.distance(camera.look_at);
+        let height = 2.0 * distance * (camera.fov_y / 2.0).tan();
+        camera.orthographic_height = to.then_some(height);
     });
+    fields.toggle(("Orthographic", tip), is_parallel, set);
     match camera.orthographic_height {
         Some(height) => {
             let tip = "Height of the visible area in scene units, above 0.";
-            let driven = target(P::OrthographicHeight);
-            fields.number(
-                "Height",
-                tip,
-                height,
-                Limits::SIZE,
-                driven,
-                move |scene, to| {
-                    scene.cameras[index].orthographic_height = Some(to);
-                },
-            );
+            let set = with(index, |camera, to| camera.orthographic_height = Some(to));
+            fields
+                .driven_by(Target::Camera(index, P::OrthographicHeight))
+                .number(("Height", tip), height, Limits::SIZE, set);
         }
         None => {
             let tip = "Vertical field of view in degrees, above 0 and below 180.";
@@ -121,44 +116,41 @@ pub fn show(fields: &mut Fields, session: &mut Session, index: usize) {
                 most: 179.0,
                 ..Limits::ANGLE
             };
-            let degrees = fov_y.to_degrees();
-            fields.number(
-                "Field of view",
-                tip,
-                degrees,
+            let set = with(index, |camera, to: f64| camera.fov_y = to.to_radians());
+            fields.driven_by(Target::Camera(index, P::FovY)).number(
+                ("Field of view", tip),
+                camera.fov_y.to_degrees(),
                 limits,
-                target(P::FovY),
-                move |scene, to| {
-                    scene.cameras[index].fov_y = to.to_radians();
-                },
+                set,
             );
         }
     }
-    lens(fields, index, camera.lens, distance);
 }
 
 /// The same condition as in the importer of native scenes.
-fn looks_somewhere(camera: &crate::scene::Camera) -> bool {
+fn looks_somewhere(camera: &Camera) -> bool {
     let forward = (camera.look_at - camera.look_from).normalize_or_zero();
     let up = camera.up.normalize_or_zero();
     forward.cross(up).length() >= 1e-6
 }
 
-fn lens(fields: &mut Fields, index: usize, lens: Option<Lens>, distance: f64) {
+fn lens(fields: &mut Fields, index: usize, camera: &Camera) {
+    use CameraProperty as P;
     fields.heading("Lens");
     let tip = "Use a thin lens with depth of field instead of a pinhole.";
-    fields.toggle("Thin lens", tip, lens.is_some(), move |scene, to| {
-        scene.cameras[index].lens = to.then_some(Lens {
+    let set = with(index, |camera, to: bool| {
+        let distance = camera.look_from.distance(camera.look_at);
+        camera.lens = to.then_some(Lens {
             radius: 0.02 * distance,
             focus_distance: distance,
             blade_count: 0,
             blade_rotation: 0.0,
         });
     });
-    let Some(lens) = lens else {
+    fields.toggle(("Thin lens", tip), camera.lens.is_some(), set);
+    let Some(lens) = camera.lens else {
         return;
     };
-    let target = |property| Some(Target::Camera(index, property));
     let with = move |change: fn(&mut Lens, f64)| {
         move |scene: &mut Scene, to: f64| {
             if let Some(lens) = &mut scene.cameras[index].lens {
@@ -167,18 +159,17 @@ fn lens(fields: &mut Fields, index: usize, lens: Option<Lens>, distance: f64) {
         }
     };
     let tip = "Aperture radius in scene units, above 0.";
-    let driven = target(CameraProperty::LensRadius);
     let set = with(|lens, to| lens.radius = to.min(MAX_LENS).min(MAX_RATIO * lens.focus_distance));
-    fields.number("Radius", tip, lens.radius, Limits::SIZE, driven, set);
+    fields
+        .driven_by(Target::Camera(index, P::LensRadius))
+        .number(("Radius", tip), lens.radius, Limits::SIZE, set);
     let tip = "Focus distance along the viewing direction in scene units, above 0.";
-    let driven = target(CameraProperty::FocusDistance);
     let set = with(|lens, to| lens.focus_distance = to.max(lens.radius / MAX_RATIO));
-    fields.number("Focus", tip, lens.focus_distance, Limits::SIZE, driven, set);
+    fields
+        .driven_by(Target::Camera(index, P::FocusDistance))
+        .number(("Focus", tip), lens.focus_distance, Limits::SIZE, set);
     let tip = "Number of aperture blades, at least 3; 0 for a circular aperture.";
-    let limits = Limits {
-        speed: 0.1,
-        ..Limits::between(0.0, 64.0)
-    };
+    let limits = Limits::between(0.0, 64.0).with_speed(0.1);
     let set = with(|lens, to| {
         let count = to.round() as u32;
         lens.blade_count = match (count, lens.blade_count) {
@@ -188,18 +179,11 @@ fn lens(fields: &mut Fields, index: usize, lens: Option<Lens>, distance: f64) {
             _ => count,
         };
     });
-    fields.number(
-        "Blades",
-        tip,
-        f64::from(lens.blade_count),
-        limits,
-        None,
-        set,
-    );
+    fields.number(("Blades", tip), f64::from(lens.blade_count), limits, set);
     if lens.blade_count > 0 {
         let tip = "Rotation of the first blade from the right, in degrees counter-clockwise.";
         let set = with(|lens, to| lens.blade_rotation = to.to_radians());
         let degrees = lens.blade_rotation.to_degrees();
-        fields.number("Blade rotation", tip, degrees, Limits::ANGLE, None, set);
+        fields.number(("Blade rotation", tip), degrees, Limits::ANGLE, set);
     }
 }

@@ -19,12 +19,12 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
         Background::Picture { .. } => 2,
     };
     let now = kind(&background);
-    let mut options = vec![(0, "Colour".to_owned()), (1, "gradient".to_owned())];
+    let mut options = vec![(0, "Colour"), (1, "Gradient")];
     if now == 2 {
-        options.push((2, "picture".to_owned()));
+        options.push((2, "Picture"));
     }
     let tip = "What rays see when they hit no object.";
-    fields.choice("Kind", tip, now, &options, |scene, to| {
+    fields.choice(("Kind", tip), now, &options, |scene, to| {
         let mean = match &scene.background {
             Background::Color(color) => (*color, *color),
             Background::Gradient { bottom, top } => (*bottom, *top),
@@ -37,27 +37,20 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
                 top: mean.1,
             },
         };
-        Ok(())
     });
     match background {
         Background::Color(color) => {
-            fields.color("Background", tip, color, None, |scene, to| {
+            fields.color(("Background", tip), color, |scene, to| {
                 scene.background = Background::Color(to);
             });
         }
         Background::Gradient { bottom, top } => {
-            fields.color(
-                "Bottom",
-                "Colour straight down.",
-                bottom,
-                None,
-                |scene, to| {
-                    if let Background::Gradient { bottom, .. } = &mut scene.background {
-                        *bottom = to;
-                    }
-                },
-            );
-            fields.color("Top", "Colour straight up.", top, None, |scene, to| {
+            fields.color(("Bottom", "Colour straight down."), bottom, |scene, to| {
+                if let Background::Gradient { bottom, .. } = &mut scene.background {
+                    *bottom = to;
+                }
+            });
+            fields.color(("Top", "Colour straight up."), top, |scene, to| {
                 if let Background::Gradient { top, .. } = &mut scene.background {
                     *top = to;
                 }
@@ -66,44 +59,34 @@ pub fn show(fields: &mut Fields, session: &mut Session) {
         Background::Picture {
             strength, rotation, ..
         } => {
-            let tip = "Factor on the image, 0 or more.";
-            let value = f64::from(strength);
-            fields.number("Strength", tip, value, Limits::AMOUNT, None, |scene, to| {
+            let label = ("Strength", "Factor on the image, 0 or more.");
+            fields.number(label, f64::from(strength), Limits::AMOUNT, |scene, to| {
                 if let Background::Picture { strength, .. } = &mut scene.background {
                     *strength = to as f32;
                 }
             });
             let tip = "Rotation about +Y in degrees, counter-clockwise from above.";
             let degrees = rotation.to_degrees();
-            fields.number(
-                "Rotation",
-                tip,
-                degrees,
-                Limits::ANGLE,
-                None,
-                |scene, to| {
-                    if let Background::Picture { rotation, .. } = &mut scene.background {
-                        *rotation = to.to_radians();
-                    }
-                },
-            );
+            fields.number(("Rotation", tip), degrees, Limits::ANGLE, |scene, to| {
+                if let Background::Picture { rotation, .. } = &mut scene.background {
+                    *rotation = to.to_radians();
+                }
+            });
         }
     }
     fields.heading("Ambient light");
     let tip = "Radiance of the ambient term. Materials multiply it by their ambient colour.";
-    let ambient = fields.scene.ambient;
-    fields.color("Ambient", tip, ambient, None, |scene, to| {
-        scene.ambient = to
+    fields.color(("Ambient", tip), fields.scene.ambient, |scene, to| {
+        scene.ambient = to;
     });
-    let tip = "How shadow rays treat transparent objects.";
     let options = [
-        (Shadows::Opaque, "Opaque".to_owned()),
-        (Shadows::Filtered, "Coloured through glass".to_owned()),
+        (Shadows::Opaque, "Opaque"),
+        (Shadows::Filtered, "Coloured through glass"),
     ];
+    let tip = "How shadow rays treat transparent objects.";
     let shadows = fields.scene.shadows;
-    fields.choice("Shadows", tip, shadows, &options, |scene, to| {
+    fields.choice(("Shadows", tip), shadows, &options, |scene, to| {
         scene.shadows = to;
-        Ok(())
     });
     fields.heading("Camera");
     let is_home = session

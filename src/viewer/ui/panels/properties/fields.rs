@@ -70,6 +70,11 @@ impl Limits {
         }
     }
 
+    /// The same with another change per point of a drag.
+    pub const fn with_speed(self, speed: f64) -> Self {
+        Self { speed, ..self }
+    }
+
     fn speed_at(&self, value: f64) -> f64 {
         match self.unit {
             "°" => self.speed,
@@ -78,6 +83,9 @@ impl Limits {
     }
 }
 
+/// The label and the tooltip of a row.
+type Label<'a> = (&'a str, &'a str);
+
 /// The rows of one object.
 pub struct Fields<'a> {
     pub ui: &'a mut Ui,
@@ -85,9 +93,32 @@ pub struct Fields<'a> {
     /// Its label.
     pub subject: String,
     pub changes: &'a mut Vec<Change>,
+    /// The animated property that the next row shows.
+    driver: Option<Target>,
 }
 
-impl Fields<'_> {
+impl<'a> Fields<'a> {
+    pub fn new(
+        ui: &'a mut Ui,
+        scene: &'a Scene,
+        subject: String,
+        changes: &'a mut Vec<Change>,
+    ) -> Self {
+        Self {
+            ui,
+            scene,
+            subject,
+            changes,
+            driver: None,
+        }
+    }
+
+    /// Disables the next row if a track animates `target`.
+    pub fn driven_by(&mut self, target: Target) -> &mut Self {
+        self.driver = Some(target);
+        self
+    }
+
     /// Requests a change of one property.
     pub fn change(
         &mut self,
@@ -115,20 +146,15 @@ impl Fields<'_> {
         }
     }
 
-    fn is_driven(&self, target: Option<Target>) -> bool {
-        let mut targets = self.scene.tracks.iter().flat_map(|track| &track.targets);
-        target.is_some_and(|target| targets.any(|other| *other == target))
-    }
-
     /// A row with a label and `content`.
-    pub fn row<R>(
+    fn row<R>(
         &mut self,
-        label: &str,
-        tip: &str,
-        target: Option<Target>,
+        (label, tip): Label,
         content: impl FnOnce(&mut Ui, Option<egui::Id>) -> R,
     ) -> R {
-        let is_driven = self.is_driven(target);
+        let driver = self.driver.take();
+        let mut targets = self.scene.tracks.iter().flat_map(|track| &track.targets);
+        let is_driven = driver.is_some_and(|driver| targets.any(|target| *target == driver));
         self.ui
             .horizontal(|ui| {
                 let size = vec2(LABEL, ui.spacing().interact_size.y);
@@ -152,44 +178,38 @@ impl Fields<'_> {
     /// A row with a number.
     pub fn number(
         &mut self,
-        label: &str,
-        tip: &str,
+        label: Label,
         value: f64,
         limits: Limits,
-        target: Option<Target>,
         set: impl FnOnce(&mut Scene, f64) + 'static,
     ) {
-        let value = self.row(label, tip, target, |ui, labelled_by| {
+        let value = self.row(label, |ui, labelled_by| {
             let width = ui.available_width();
-            drag(ui, Name::Label(labelled_by), tip, value, limits, width)
+            drag(ui, Name::Label(labelled_by), label.1, value, limits, width)
         });
-        self.set(label, value, set);
+        self.set(label.0, value, set);
     }
 
     /// A row with a vector.
     pub fn vector(
         &mut self,
-        label: &str,
-        tip: &str,
+        label: Label,
         value: DVec3,
         limits: Limits,
-        target: Option<Target>,
         set: impl FnOnce(&mut Scene, DVec3) + 'static,
     ) {
-        let value = self.vector_value(label, tip, value, limits, target);
-        self.set(label, value, set);
+        let value = self.vector_value(label, value, limits);
+        self.set(label.0, value, set);
     }
 
     /// The same, returning the edited value instead of requesting a change.
     pub fn vector_value(
         &mut self,
-        label: &str,
-        tip: &str,
+        (label, tip): Label,
         value: DVec3,
         limits: Limits,
-        target: Option<Target>,
     ) -> Option<DVec3> {
-        self.row(label, tip, target, |ui, _| {
+        self.row((label, tip), |ui, _| {
             ui.spacing_mut().item_spacing.x = 2.0;
             let width = (ui.available_width() - 10.0) / 3.0 - AXIS;
             let mut changed = None;
@@ -211,14 +231,13 @@ impl Fields<'_> {
     /// A linear colour: a button for the hue, and a number for each component, which may exceed 1.
     pub fn color(
         &mut self,
-        label: &str,
-        tip: &str,
+        (label, tip): Label,
         value: Vec3,
-        target: Option<Target>,
         set: impl FnOnce(&mut Scene, Vec3) + 'static,
     ) {
-        let tip = &format!("{tip}\nLinear red, green and blue (Rec. 709), 0 or more.");
-        let value = self.row(label, tip, target, |ui, _| {
+        let tip = format!("{tip}\nLinear red, green and blue (Rec. 709), 0 or more.");
+        let tip = tip.as_str();
+        let value = self.row((label, tip), |ui, _| {
             ui.spacing_mut().item_spacing.x = 3.0;
             let button = 22.0;
             ui.spacing_mut().interact_size.x = button;
@@ -255,9 +274,9 @@ impl Fields<'_> {
 
     /// A check box for `value`, kept while the window is open without changing the scene. Returns its new
     /// value when it is clicked.
-    pub fn option(&mut self, label: &str, tip: &str, mut value: bool) -> Option<bool> {
+    pub fn option(&mut self, (label, tip): Label, mut value: bool) -> Option<bool> {
         let id = egui::Id::unique((label, &self.subject));
-        self.row("", tip, None, |ui, _| {
+        self.row(("", tip), |ui, _| {
             let response = ui.checkbox(&mut value, label).on_hover_text(tip);
             response.changed().then(|| {
                 ui.data_mut(|data| data.insert_temp(id, value));
@@ -269,12 +288,11 @@ impl Fields<'_> {
     /// A row with a check box.
     pub fn toggle(
         &mut self,
-        label: &str,
-        tip: &str,
+        (label, tip): Label,
         mut value: bool,
         set: impl FnOnce(&mut Scene, bool) + 'static,
     ) {
-        let value = self.row("", tip, None, |ui, _| {
+        let value = self.row(("", tip), |ui, _| {
             let response = ui.checkbox(&mut value, label).on_hover_text(tip);
             response.changed().then_some(value)
         });
@@ -284,15 +302,25 @@ impl Fields<'_> {
     /// A row with a choice.
     pub fn choice<T: Copy + PartialEq + 'static>(
         &mut self,
-        label: &str,
-        tip: &str,
+        label: Label,
         value: T,
-        options: &[(T, String)],
-        apply: impl FnOnce(&mut Scene, T) -> Result<(), EditError> + 'static,
+        options: &[(T, impl AsRef<str>)],
+        set: impl FnOnce(&mut Scene, T) + 'static,
     ) {
+        let chosen = self.choice_value(label, value, options);
+        self.set(label.0, chosen, set);
+    }
+
+    /// The same, returning the chosen value instead of requesting a change.
+    pub fn choice_value<T: Copy + PartialEq>(
+        &mut self,
+        (label, tip): Label,
+        value: T,
+        options: &[(T, impl AsRef<str>)],
+    ) -> Option<T> {
         let now = options.iter().find(|(option, _)| *option == value);
-        let now = now.map_or("several", |(_, name)| name);
-        let chosen = self.row(label, tip, None, |ui, labelled_by| {
+        let now = now.map_or("Several", |(_, name)| name.as_ref());
+        self.row((label, tip), |ui, labelled_by| {
             let mut chosen = None;
             let width = ui.available_width();
             let response = egui::ComboBox::from_id_salt(label)
@@ -301,7 +329,10 @@ impl Fields<'_> {
                 .selected_text(now)
                 .show_ui(ui, |ui| {
                     for (option, name) in options {
-                        if ui.selectable_label(*option == value, name).clicked() {
+                        if ui
+                            .selectable_label(*option == value, name.as_ref())
+                            .clicked()
+                        {
                             chosen = Some(*option);
                         }
                     }
@@ -313,10 +344,7 @@ impl Fields<'_> {
             };
             response.on_hover_text(tip);
             chosen.filter(|chosen| *chosen != value)
-        });
-        if let Some(chosen) = chosen {
-            self.change(label, move |scene| apply(scene, chosen));
-        }
+        })
     }
 
     /// A heading.

@@ -1,6 +1,6 @@
 //! The properties of a light.
 
-use crate::scene::{Attenuation, LightKind, LightProperty, Target};
+use crate::scene::{Attenuation, Light, LightKind, LightProperty, Scene, Target};
 use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
@@ -9,70 +9,59 @@ use std::f64::consts::FRAC_PI_2;
 pub fn show(fields: &mut Fields, index: usize) {
     let light = fields.scene.lights[index].clone();
     fields.heading("Light");
-    let target = |property| Some(Target::Light(index, property));
     let tip = "Light colour in the Phong sum; at distance 1 if the light falls off.";
-    let color = target(LightProperty::Color);
-    fields.color("Colour", tip, light.color, color, move |scene, to| {
-        scene.lights[index].color = to;
-    });
+    fields
+        .driven_by(Target::Light(index, LightProperty::Color))
+        .color(
+            ("Colour", tip),
+            light.color,
+            with(index, |light, to| {
+                light.color = to;
+            }),
+        );
     let intensity = f64::from(light.color.max_element());
     if intensity > 0.0 {
         let tip = "Scales the colour; its largest component, 0 or more.";
-        let limits = Limits::between(1e-6, 1e9);
-        let driven = target(LightProperty::Intensity);
-        fields.number(
-            "Intensity",
-            tip,
-            intensity,
-            limits,
-            driven,
-            move |scene, to| {
-                let color = &mut scene.lights[index].color;
-                *color *= (to / f64::from(color.max_element()).max(1e-12)) as f32;
-            },
-        );
+        let set = with(index, |light, to: f64| {
+            light.color *= (to / f64::from(light.color.max_element()).max(1e-12)) as f32;
+        });
+        fields
+            .driven_by(Target::Light(index, LightProperty::Intensity))
+            .number(
+                ("Intensity", tip),
+                intensity,
+                Limits::between(1e-6, 1e9),
+                set,
+            );
     }
     extent(fields, index, light.kind);
-    let tip = "Falloff with the distance r.";
-    let options = [
-        (Attenuation::None, "None".to_owned()),
-        (
-            Attenuation::InverseSquare,
-            "Inverse square (1/r²)".to_owned(),
-        ),
-    ];
     if !matches!(light.kind, LightKind::Directional { .. }) {
-        fields.choice(
-            "Falloff",
-            tip,
-            light.attenuation,
-            &options,
-            move |scene, to| {
-                scene.lights[index].attenuation = to;
-                Ok(())
-            },
-        );
+        let options = [
+            (Attenuation::None, "None"),
+            (Attenuation::InverseSquare, "Inverse square (1/r²)"),
+        ];
+        let tip = "Falloff with the distance r.";
+        let set = with(index, |light, to| light.attenuation = to);
+        fields.choice(("Falloff", tip), light.attenuation, &options, set);
     }
     if light.kind.radiance().is_some() {
         let tip =
             "Shadow rays per shading point, at least 1. More rays reduce noise in soft shadows.";
-        let limits = Limits {
-            speed: 0.1,
-            ..Limits::between(1.0, 1024.0)
-        };
-        let samples = f64::from(light.samples);
-        fields.number("Samples", tip, samples, limits, None, move |scene, to| {
-            scene.lights[index].samples = to.round() as u32;
-        });
+        let limits = Limits::between(1.0, 1024.0).with_speed(0.1);
+        let set = with(index, |light, to: f64| light.samples = to.round() as u32);
+        fields.number(("Samples", tip), f64::from(light.samples), limits, set);
         let tip = "Show the light's surface to camera, reflection and refraction rays.";
-        fields.toggle("Visible", tip, light.visible, move |scene, to| {
-            scene.lights[index].visible = to;
-        });
+        let set = with(index, |light, to| light.visible = to);
+        fields.toggle(("Visible", tip), light.visible, set);
     }
 }
 
+/// A change of a light.
+fn with<T>(index: usize, change: fn(&mut Light, T)) -> impl FnOnce(&mut Scene, T) {
+    move |scene, to| change(&mut scene.lights[index], to)
+}
+
 fn extent(fields: &mut Fields, index: usize, kind: LightKind) {
-    let aim = Some(Target::Light(index, LightProperty::Direction));
     let direction = match kind {
         LightKind::Directional { direction } | LightKind::Spot { direction, .. } => {
             Some(("Direction", direction))
@@ -82,21 +71,17 @@ fn extent(fields: &mut Fields, index: usize, kind: LightKind) {
     };
     if let Some((label, value)) = direction {
         let tip = "Direction of the light in its parent's space; any length except 0.";
-        fields.vector(
-            label,
-            tip,
-            value,
-            Limits::LENGTH,
-            aim,
-            move |scene, to: DVec3| match &mut scene.lights[index].kind {
-                LightKind::Directional { direction }
-                | LightKind::Spot { direction, .. }
-                | LightKind::Disc {
-                    normal: direction, ..
-                } => *direction = to.normalize_or(*direction),
-                _ => {}
-            },
-        );
+        let set = with(index, |light, to: DVec3| match &mut light.kind {
+            LightKind::Directional { direction }
+            | LightKind::Spot { direction, .. }
+            | LightKind::Disc {
+                normal: direction, ..
+            } => *direction = to.normalize_or(*direction),
+            _ => {}
+        });
+        fields
+            .driven_by(Target::Light(index, LightProperty::Direction))
+            .vector((label, tip), value, Limits::LENGTH, set);
     }
     match kind {
         LightKind::Spot { inner, outer, .. } => {
@@ -107,52 +92,32 @@ fn extent(fields: &mut Fields, index: usize, kind: LightKind) {
             };
             let tip =
                 "Half-angle of the cone of full intensity in degrees; at most the outer angle.";
-            let degrees = inner.to_degrees();
-            fields.number(
-                "Inner angle",
-                tip,
-                degrees,
-                limits,
-                None,
-                move |scene, to| {
-                    if let LightKind::Spot { inner, outer, .. } = &mut scene.lights[index].kind {
-                        *inner = to.to_radians().min(*outer);
-                    }
-                },
-            );
+            let set = with(index, |light, to: f64| {
+                if let LightKind::Spot { inner, outer, .. } = &mut light.kind {
+                    *inner = to.to_radians().min(*outer);
+                }
+            });
+            fields.number(("Inner angle", tip), inner.to_degrees(), limits, set);
             let tip =
                 "Half-angle of the cone beyond which there is no light, in degrees, up to 90.";
-            let degrees = outer.to_degrees();
-            fields.number(
-                "Outer angle",
-                tip,
-                degrees,
-                limits,
-                None,
-                move |scene, to| {
-                    if let LightKind::Spot { inner, outer, .. } = &mut scene.lights[index].kind {
-                        *outer = to.to_radians().min(FRAC_PI_2);
-                        *inner = inner.min(*outer);
-                    }
-                },
-            );
+            let set = with(index, |light, to: f64| {
+                if let LightKind::Spot { inner, outer, .. } = &mut light.kind {
+                    *outer = to.to_radians().min(FRAC_PI_2);
+                    *inner = inner.min(*outer);
+                }
+            });
+            fields.number(("Outer angle", tip), outer.to_degrees(), limits, set);
         }
         LightKind::Disc { radius, .. } | LightKind::Sphere { radius, .. } => {
             let tip = "In scene units, above 0.";
-            fields.number(
-                "Radius",
-                tip,
-                radius,
-                Limits::SIZE,
-                None,
-                move |scene, to| {
-                    if let LightKind::Disc { radius, .. } | LightKind::Sphere { radius, .. } =
-                        &mut scene.lights[index].kind
-                    {
-                        *radius = to;
-                    }
-                },
-            );
+            let set = with(index, |light, to| {
+                if let LightKind::Disc { radius, .. } | LightKind::Sphere { radius, .. } =
+                    &mut light.kind
+                {
+                    *radius = to;
+                }
+            });
+            fields.number(("Radius", tip), radius, Limits::SIZE, set);
         }
         _ => {}
     }

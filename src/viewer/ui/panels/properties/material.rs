@@ -15,37 +15,47 @@ const FOLLOWS: &str = "Ambient follows diffuse";
 
 /// Draws all properties of a material.
 pub fn show(fields: &mut Fields, index: usize) {
-    let material = fields.scene.materials[index].clone();
+    let scene = fields.scene;
+    let material = &scene.materials[index];
+    local_shading(fields, index, material);
+    mirror_and_glass(fields, index, material);
+    textures(fields, index, &material.textures);
+}
+
+/// A change of a material.
+fn with<T>(index: usize, change: fn(&mut Material, T)) -> impl FnOnce(&mut Scene, T) {
+    move |scene, to| change(&mut scene.materials[index], to)
+}
+
+fn local_shading(fields: &mut Fields, index: usize, material: &Material) {
     use MaterialProperty as P;
     fields.heading("Local shading");
-    let of = |fields: &mut Fields, label, tip, property, slot| {
-        color(fields, index, label, tip, property, slot);
-    };
     let tip = "Diffuse reflection coefficient (k_d).";
-    let follow_tip = "Set the ambient colour together with the diffuse colour.";
     let is_same = material.ambient == material.diffuse;
-    let target = Some(Target::Material(index, P::Diffuse));
     let follows = is_same && fields.option_value(FOLLOWS, true);
-    fields.color(
-        "Diffuse",
-        tip,
-        material.diffuse,
-        target,
-        move |scene, to| {
-            let material = &mut scene.materials[index];
-            material.diffuse = to;
-            if follows {
-                material.ambient = to;
-            }
+    let set = match follows {
+        true => |material: &mut Material, to: Vec3| {
+            (material.diffuse, material.ambient) = (to, to);
         },
+        false => |material: &mut Material, to: Vec3| material.diffuse = to,
+    };
+    fields.driven_by(Target::Material(index, P::Diffuse)).color(
+        ("Diffuse", tip),
+        material.diffuse,
+        with(index, set),
     );
     let tip = "Specular reflection coefficient (k_s).";
-    of(fields, "Specular", tip, P::Specular, |m| &mut m.specular);
-    let tip = "Factor on the scene's ambient light.";
+    color(fields, index, ("Specular", tip), P::Specular, |m| {
+        &mut m.specular
+    });
     if !follows {
-        of(fields, "Ambient", tip, P::Ambient, |m| &mut m.ambient);
+        let tip = "Factor on the scene's ambient light.";
+        color(fields, index, ("Ambient", tip), P::Ambient, |m| {
+            &mut m.ambient
+        });
     }
-    if fields.option(FOLLOWS, follow_tip, follows) == Some(true) {
+    let tip = "Set the ambient colour together with the diffuse colour.";
+    if fields.option((FOLLOWS, tip), follows) == Some(true) {
         fields.change("ambient", move |scene| {
             let material = &mut scene.materials[index];
             material.ambient = material.diffuse;
@@ -53,113 +63,102 @@ pub fn show(fields: &mut Fields, index: usize) {
         });
     }
     let tip = "Radiance emitted by the surface.";
-    of(fields, "Emission", tip, P::Emission, |m| &mut m.emission);
-    let number = |fields: &mut Fields, label, tip, limits, property, slot: Number| {
-        let value = f64::from(*slot(&mut fields.scene.materials[index].clone()));
-        let set = move |scene: &mut Scene, to: f64| *slot(&mut scene.materials[index]) = to as f32;
-        let target = Target::Material(index, property);
-        fields.number(label, tip, value, limits, Some(target), set);
-    };
-    let tip = "Phong exponent of the highlight, 0 or more. Larger values are sharper.";
-    number(
-        fields,
-        "Shininess",
-        tip,
-        Limits::AMOUNT,
-        P::Shininess,
-        |m| &mut m.shininess,
-    );
-    let tip = "Shade both sides. Otherwise the back shows ambient light only.";
-    fields.toggle("Two-sided", tip, material.two_sided, move |scene, to| {
-        scene.materials[index].two_sided = to;
+    color(fields, index, ("Emission", tip), P::Emission, |m| {
+        &mut m.emission
     });
+    let tip = "Phong exponent of the highlight, 0 or more. Larger values are sharper.";
+    let label = ("Shininess", tip);
+    number(fields, index, label, Limits::AMOUNT, P::Shininess, |m| {
+        &mut m.shininess
+    });
+    let tip = "Shade both sides. Otherwise the back shows ambient light only.";
+    let set = with(index, |material, to| material.two_sided = to);
+    fields.toggle(("Two-sided", tip), material.two_sided, set);
+}
+
+fn mirror_and_glass(fields: &mut Fields, index: usize, material: &Material) {
+    use MaterialProperty as P;
     fields.heading("Mirror and glass");
     let tip = "Fraction of light that is reflected; with Fresnel, at grazing angles.";
-    of(fields, "Reflect", tip, P::Reflect, |m| &mut m.reflect);
+    color(fields, index, ("Reflect", tip), P::Reflect, |m| {
+        &mut m.reflect
+    });
     let tip = "Fraction of light that is transmitted.";
-    of(fields, "Transmit", tip, P::Transmit, |m| &mut m.transmit);
+    color(fields, index, ("Transmit", tip), P::Transmit, |m| {
+        &mut m.transmit
+    });
     let tip = "Absorption coefficient: transmittance is exp(−absorption · length).";
-    of(fields, "Absorption", tip, P::Absorption, |m| {
+    color(fields, index, ("Absorption", tip), P::Absorption, |m| {
         &mut m.absorption
     });
     let tip = "Index of refraction, from 0.01 to 100: water 1.33, glass 1.5, diamond 2.42.";
-    number(
-        fields,
-        "Index (ior)",
-        tip,
-        Limits::between(0.01, 100.0),
-        P::Ior,
-        |m| &mut m.ior,
-    );
-    let tip = "Weight of local shading when mixing is “layer”, 0 to 1.";
-    number(
-        fields,
-        "Opacity",
-        tip,
-        Limits::between(0.0, 1.0),
-        P::Opacity,
-        |m| &mut m.opacity,
-    );
+    let limits = Limits::between(0.01, 100.0);
+    number(fields, index, ("Index (ior)", tip), limits, P::Ior, |m| {
+        &mut m.ior
+    });
+    let tip = "Weight of local shading when mixing is “Layer”, 0 to 1.";
+    let limits = Limits::between(0.0, 1.0);
+    number(fields, index, ("Opacity", tip), limits, P::Opacity, |m| {
+        &mut m.opacity
+    });
     let tip = "Dependence of reflectance on the angle.";
     let options = [
-        (Fresnel::None, "Constant".to_owned()),
-        (Fresnel::Exact, "Fresnel's equations".to_owned()),
-        (Fresnel::Schlick, "Schlick's approximation".to_owned()),
+        (Fresnel::None, "Constant"),
+        (Fresnel::Exact, "Fresnel's equations"),
+        (Fresnel::Schlick, "Schlick's approximation"),
     ];
-    fields.choice(
-        "Fresnel",
-        tip,
-        material.fresnel,
-        &options,
-        move |scene, to| {
-            scene.materials[index].fresnel = to;
-            Ok(())
-        },
-    );
+    let set = with(index, |material, to| material.fresnel = to);
+    fields.choice(("Fresnel", tip), material.fresnel, &options, set);
     let tip = "How local shading, reflection and transmission are combined.";
     let options = [
-        (Mixing::Layer, "layer".to_owned()),
-        (Mixing::Sum, "sum".to_owned()),
-        (Mixing::Blend, "blend".to_owned()),
+        (Mixing::Layer, "Layer"),
+        (Mixing::Sum, "Sum"),
+        (Mixing::Blend, "Blend"),
     ];
-    fields.choice(
-        "Mixing",
-        tip,
-        material.mixing,
-        &options,
-        move |scene, to| {
-            scene.materials[index].mixing = to;
-            Ok(())
-        },
-    );
+    let set = with(index, |material, to| material.mixing = to);
+    fields.choice(("Mixing", tip), material.mixing, &options, set);
     let tip = "Where dielectric volumes overlap, the highest priority wins. An integer.";
-    let limits = Limits {
-        speed: 0.1,
-        ..Limits::between(-100.0, 100.0)
-    };
-    let priority = f64::from(material.priority);
-    fields.number("Priority", tip, priority, limits, None, move |scene, to| {
-        scene.materials[index].priority = to.round() as i32;
+    let limits = Limits::between(-100.0, 100.0).with_speed(0.1);
+    let set = with(index, |material, to: f64| {
+        material.priority = to.round() as i32
     });
-    textures(fields, index, &material.textures);
+    fields.number(("Priority", tip), f64::from(material.priority), limits, set);
 }
 
-/// Accesses a colour or a number of a material.
-type Color = fn(&mut Material) -> &mut Vec3;
-type Number = fn(&mut Material) -> &mut f32;
-
+/// A row with a colour of a material.
 fn color(
     fields: &mut Fields,
     index: usize,
-    label: &str,
-    tip: &str,
+    label: (&str, &str),
     property: MaterialProperty,
-    slot: Color,
+    slot: fn(&mut Material) -> &mut Vec3,
 ) {
     let value = *slot(&mut fields.scene.materials[index].clone());
-    let set = move |scene: &mut Scene, to| *slot(&mut scene.materials[index]) = to;
-    let target = Target::Material(index, property);
-    fields.color(label, tip, value, Some(target), set);
+    fields
+        .driven_by(Target::Material(index, property))
+        .color(label, value, move |scene, to| {
+            *slot(&mut scene.materials[index]) = to;
+        });
+}
+
+/// A row with a number of a material.
+fn number(
+    fields: &mut Fields,
+    index: usize,
+    label: (&str, &str),
+    limits: Limits,
+    property: MaterialProperty,
+    slot: fn(&mut Material) -> &mut f32,
+) {
+    let value = f64::from(*slot(&mut fields.scene.materials[index].clone()));
+    fields.driven_by(Target::Material(index, property)).number(
+        label,
+        value,
+        limits,
+        move |scene, to| {
+            *slot(&mut scene.materials[index]) = to as f32;
+        },
+    );
 }
 
 /// Accesses a texture of a material.
@@ -171,30 +170,29 @@ fn textures(fields: &mut Fields, index: usize, textures: &Textures) {
         return;
     }
     fields.heading("Textures");
-    let mut options = vec![(None, "none".to_owned())];
+    let mut options = vec![(None, "None".to_owned())];
     for (number, texture) in fields.scene.textures.iter().enumerate() {
         let kind = match texture.pattern {
-            Pattern::Checker { .. } => "checker",
-            Pattern::Stripes { .. } => "stripes",
-            Pattern::Gradient { .. } => "gradient",
-            Pattern::Noise { .. } => "noise",
-            Pattern::Picture { .. } => "picture",
+            Pattern::Checker { .. } => "Checker",
+            Pattern::Stripes { .. } => "Stripes",
+            Pattern::Gradient { .. } => "Gradient",
+            Pattern::Noise { .. } => "Noise",
+            Pattern::Picture { .. } => "Picture",
         };
         options.push((Some(number), format!("{kind} (texture {})", number + 1)));
     }
     let slots: [(&str, Option<usize>, Slot); 6] = [
-        ("× diffuse", textures.diffuse, |t| &mut t.diffuse),
-        ("× specular", textures.specular, |t| &mut t.specular),
-        ("× ambient", textures.ambient, |t| &mut t.ambient),
-        ("× emission", textures.emission, |t| &mut t.emission),
-        ("× reflect", textures.reflect, |t| &mut t.reflect),
-        ("× transmit", textures.transmit, |t| &mut t.transmit),
+        ("× Diffuse", textures.diffuse, |t| &mut t.diffuse),
+        ("× Specular", textures.specular, |t| &mut t.specular),
+        ("× Ambient", textures.ambient, |t| &mut t.ambient),
+        ("× Emission", textures.emission, |t| &mut t.emission),
+        ("× Reflect", textures.reflect, |t| &mut t.reflect),
+        ("× Transmit", textures.transmit, |t| &mut t.transmit),
     ];
     for (label, value, slot) in slots {
         let tip = "Texture that multiplies this colour.";
-        fields.choice(label, tip, value, &options, move |scene, to| {
+        fields.choice((label, tip), value, &options, move |scene, to| {
             *slot(&mut scene.materials[index].textures) = to;
-            Ok(())
         });
     }
 }
@@ -227,9 +225,9 @@ pub fn of_object(fields: &mut Fields, session: &mut Session, object: ObjectRef) 
         _ => usize::MAX,
     };
     let tip = "The material of the whole object.";
-    fields.choice("Material", tip, now, &options, move |scene, to| {
-        objects::assign(scene, object, to)
-    });
+    if let Some(to) = fields.choice_value(("Material", tip), now, &options) {
+        fields.change("material", move |scene| objects::assign(scene, object, to));
+    }
     if let [one] = used[..] {
         let subject = session.label(Id::Material(one));
         let users = scene

@@ -1,6 +1,6 @@
 //! The transform and shape of an object.
 
-use crate::scene::{CanonicalShape, Geometry, ObjectRef, Transform};
+use crate::scene::{CanonicalShape, Geometry, ObjectRef, Scene, Transform};
 use crate::viewer::model::objects;
 use crate::viewer::model::objects::{Id, Scaling};
 use crate::viewer::ui::panels::properties::fields::{Fields, Limits};
@@ -15,7 +15,7 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
     let (shown, is_whole) = Transform::of(place);
     fields.heading("Transform");
     let asked = |now: Transform| {
-        move |scene: &mut crate::scene::Scene| {
+        move |scene: &mut Scene| {
             // Unedited numbers keep full precision.
             let mut wanted = now.affine();
             if (now.rotate_deg, now.scale) == (shown.rotate_deg, shown.scale) {
@@ -27,8 +27,7 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
     if free.translate {
         let tip = "World-space position in scene units.";
         let limits = Limits::LENGTH;
-        if let Some(translate) = fields.vector_value("Position", tip, shown.translate, limits, None)
-        {
+        if let Some(translate) = fields.vector_value(("Position", tip), shown.translate, limits) {
             fields.change("position", asked(Transform { translate, ..shown }));
         }
     }
@@ -41,9 +40,7 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
     if free.rotate {
         let tip = "Euler angles about x, then y, then z, in degrees, counter-clockwise.";
         let limits = Limits::ANGLE;
-        if let Some(rotate_deg) =
-            fields.vector_value("Rotation", tip, shown.rotate_deg, limits, None)
-        {
+        if let Some(rotate_deg) = fields.vector_value(("Rotation", tip), shown.rotate_deg, limits) {
             fields.change(
                 "rotation",
                 asked(Transform {
@@ -58,10 +55,10 @@ pub fn show(fields: &mut Fields, id: Id, time: f64) {
             let tip =
                 "Factors along the object's own axes. Negative factors mirror; 0 is not allowed.";
             let limits = Limits::LENGTH;
-            let scale = fields.vector_value("Scale", tip, shown.scale, limits, None);
+            let scale = fields.vector_value(("Scale", tip), shown.scale, limits);
             let tip = "Change all three factors by the same ratio.";
             let is_linked = fields.option_value("Uniform scale", false);
-            fields.option("Uniform scale", tip, is_linked);
+            fields.option(("Uniform scale", tip), is_linked);
             if let Some(mut scale) = scale {
                 if is_linked {
                     scale = linked(shown.scale, scale);
@@ -98,72 +95,46 @@ pub fn shape(fields: &mut Fields, object: ObjectRef) {
         }
         return;
     };
-    let share = Limits::between(0.0, 1.0);
+    let fraction = Limits::between(0.0, 1.0);
     match fields.scene.shapes[index].geometry {
         Geometry::Sphere { radius, .. } => {
             let tip = "In the parent's space, in scene units, above 0.";
-            fields.number(
-                "Radius",
-                tip,
-                radius,
-                Limits::SIZE,
-                None,
-                move |scene, to| {
-                    if let Geometry::Sphere { radius, .. } = &mut scene.shapes[index].geometry {
-                        *radius = to;
-                    }
-                },
-            );
+            let set = with(index, |geometry, to| {
+                if let Geometry::Sphere { radius, .. } = geometry {
+                    *radius = to;
+                }
+            });
+            fields.number(("Radius", tip), radius, Limits::SIZE, set);
         }
         Geometry::Plane { normal, .. } => {
             let tip = "Facing direction; any length except 0.";
-            fields.vector(
-                "Normal",
-                tip,
-                normal,
-                Limits::LENGTH,
-                None,
-                move |scene, to: DVec3| {
-                    if let Geometry::Plane { normal, .. } = &mut scene.shapes[index].geometry {
-                        *normal = to.normalize_or(*normal);
-                    }
-                },
-            );
+            let set = with(index, |geometry, to: DVec3| {
+                if let Geometry::Plane { normal, .. } = geometry {
+                    *normal = to.normalize_or(*normal);
+                }
+            });
+            fields.vector(("Normal", tip), normal, Limits::LENGTH, set);
         }
         Geometry::Placed { canonical, .. } => {
             match canonical {
                 CanonicalShape::Disc { hole } => {
                     let tip =
                         "Radius of the hole as a fraction of the disc's radius, from 0 to below 1.";
-                    form_number(
-                        fields,
-                        index,
-                        "Hole",
-                        tip,
-                        hole,
-                        Limits::between(0.0, 0.999),
-                        |canonical, to| {
-                            if let CanonicalShape::Disc { hole } = canonical {
-                                *hole = to;
-                            }
-                        },
-                    );
+                    let set = with_canonical(index, |canonical, to| {
+                        if let CanonicalShape::Disc { hole } = canonical {
+                            *hole = to;
+                        }
+                    });
+                    fields.number(("Hole", tip), hole, Limits::between(0.0, 0.999), set);
                 }
                 CanonicalShape::Torus { minor } => {
                     let tip = "Radius of the tube as a fraction of the ring's radius, above 0 and up to 1.";
-                    form_number(
-                        fields,
-                        index,
-                        "Tube",
-                        tip,
-                        minor,
-                        Limits::between(1e-3, 1.0),
-                        |canonical, to| {
-                            if let CanonicalShape::Torus { minor } = canonical {
-                                *minor = to;
-                            }
-                        },
-                    );
+                    let set = with_canonical(index, |canonical, to| {
+                        if let CanonicalShape::Torus { minor } = canonical {
+                            *minor = to;
+                        }
+                    });
+                    fields.number(("Tube", tip), minor, Limits::between(1e-3, 1.0), set);
                 }
                 CanonicalShape::Cone {
                     bottom,
@@ -171,35 +142,26 @@ pub fn shape(fields: &mut Fields, object: ObjectRef) {
                     capped,
                 } => {
                     let tip = "Bottom radius as a fraction of the width. Only one of the two radii may be 0.";
-                    form_number(
-                        fields,
-                        index,
-                        "Bottom",
-                        tip,
-                        bottom,
-                        share,
-                        |canonical, to| {
-                            if let CanonicalShape::Cone { bottom, top, .. } = canonical {
-                                *bottom = if *top == 0.0 { to.max(1e-3) } else { to };
-                            }
-                        },
-                    );
+                    let set = with_canonical(index, |canonical, to: f64| {
+                        if let CanonicalShape::Cone { bottom, top, .. } = canonical {
+                            *bottom = if *top == 0.0 { to.max(1e-3) } else { to };
+                        }
+                    });
+                    fields.number(("Bottom", tip), bottom, fraction, set);
                     let tip = "Top radius as a fraction of the width. Only one of the two radii may be 0.";
-                    form_number(fields, index, "Top", tip, top, share, |canonical, to| {
+                    let set = with_canonical(index, |canonical, to: f64| {
                         if let CanonicalShape::Cone { bottom, top, .. } = canonical {
                             *top = if *bottom == 0.0 { to.max(1e-3) } else { to };
                         }
                     });
+                    fields.number(("Top", tip), top, fraction, set);
                     let tip = "Close both ends with discs.";
-                    fields.toggle("Capped", tip, capped, move |scene, to| {
-                        if let Geometry::Placed {
-                            canonical: CanonicalShape::Cone { capped, .. },
-                            ..
-                        } = &mut scene.shapes[index].geometry
-                        {
+                    let set = with_canonical(index, |canonical, to| {
+                        if let CanonicalShape::Cone { capped, .. } = canonical {
                             *capped = to;
                         }
                     });
+                    fields.toggle(("Capped", tip), capped, set);
                 }
                 CanonicalShape::Rectangle | CanonicalShape::Box | CanonicalShape::Ellipsoid => {}
             }
@@ -207,18 +169,19 @@ pub fn shape(fields: &mut Fields, object: ObjectRef) {
     }
 }
 
-fn form_number(
-    fields: &mut Fields,
+/// A change of a shape's geometry.
+fn with<T>(index: usize, change: fn(&mut Geometry, T)) -> impl FnOnce(&mut Scene, T) {
+    move |scene, to| change(&mut scene.shapes[index].geometry, to)
+}
+
+/// A change of a placed shape's canonical form.
+fn with_canonical<T>(
     index: usize,
-    label: &str,
-    tip: &str,
-    value: f64,
-    limits: Limits,
-    set: fn(&mut CanonicalShape, f64),
-) {
-    fields.number(label, tip, value, limits, None, move |scene, to| {
+    change: fn(&mut CanonicalShape, T),
+) -> impl FnOnce(&mut Scene, T) {
+    move |scene, to| {
         if let Geometry::Placed { canonical, .. } = &mut scene.shapes[index].geometry {
-            set(canonical, to);
+            change(canonical, to);
         }
-    });
+    }
 }
