@@ -1,6 +1,7 @@
 //! The state of the ray inspector.
 
 use crate::render::{RayTree, TracedRay};
+use crate::scene::Camera;
 use crate::viewer::model::camera::CameraController;
 use crate::viewer::model::file_dialog::Reply;
 use crate::viewer::model::objects::Id;
@@ -45,6 +46,12 @@ impl Inspected {
             bounces,
             labels,
         }
+    }
+
+    /// The camera of the picture.
+    pub fn camera(&self) -> Camera {
+        let own = || self.order.scene.frame(self.order.shutter_interval.0).camera;
+        self.order.camera.clone().unwrap_or_else(own)
     }
 
     /// The label of an object that was hit.

@@ -141,16 +141,15 @@ impl Desktop {
         })
     }
 
-    /// Whether a thread of the program or of the X server runs, or would if there were a core for it.
+    /// Whether a thread of the program runs, or would if there were a core for it. The X server does not count:
+    /// on a busy machine it is often still on its way to sleep after the last screenshot.
     fn is_at_work(&self) -> bool {
-        [self.server.id(), self.program.get()].iter().any(|id| {
-            let tasks = std::fs::read_dir(format!("/proc/{id}/task"));
-            tasks.into_iter().flatten().flatten().any(|task| {
-                let stat = std::fs::read_to_string(task.path().join("stat")).unwrap_or_default();
-                // The state comes after the name, which is in brackets.
-                let state = stat.rsplit_once(") ").map_or("", |(_, rest)| rest);
-                state.starts_with(['R', 'D'])
-            })
+        let tasks = std::fs::read_dir(format!("/proc/{}/task", self.program.get()));
+        tasks.into_iter().flatten().flatten().any(|task| {
+            let stat = std::fs::read_to_string(task.path().join("stat")).unwrap_or_default();
+            // The state comes after the name, which is in brackets.
+            let state = stat.rsplit_once(") ").map_or("", |(_, rest)| rest);
+            state.starts_with(['R', 'D'])
         })
     }
 

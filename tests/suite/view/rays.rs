@@ -626,6 +626,24 @@ fn the_path_over_the_picture_follows_the_camera() {
 }
 
 #[test]
+fn a_primary_ray_from_a_lens_is_a_point_in_its_own_picture() {
+    let mut window = Window::open(&["--size", "320x240", "--samples", "1"]);
+    inspect(&mut window, [160, 120]);
+    let session = window.session();
+    let inspected = session.inspector.inspected.as_ref().expect("a tree");
+    let eye = session.camera().expect("a camera").look_from;
+    let start = DVec3::from(inspected.tree.samples[0].rays[0].origin);
+    assert!(start.distance(eye) > 1e-3, "the demo has a lens");
+    let lines = outside::path(&session, dvec2(320.0, 240.0));
+    let primary = lines.iter().find(|line| line.kind == RayKind::Primary);
+    let primary = primary.expect("the primary ray");
+    assert_eq!((primary.from, primary.pieces.len()), (primary.to, 0));
+    // What it hits is out of focus by a few pixels.
+    assert!(primary.to.distance(dvec2(160.5, 120.5)) < 8.0);
+    assert!(lines.iter().any(|line| !line.pieces.is_empty()));
+}
+
+#[test]
 fn the_path_is_drawn_along_its_lines_and_can_be_hidden() {
     let mut window = open_large();
     (window.session().controller.as_mut().expect("a rig")).orbit_by(0.4, 0.1);

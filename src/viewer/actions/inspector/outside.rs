@@ -151,14 +151,24 @@ pub fn lines(
     rays.filter_map(line).collect()
 }
 
-/// The visible rays as the camera of the picture sees them now, in a picture of `size`.
+/// The visible rays as the camera of the picture sees them now, in a picture of `size`. A primary ray from
+/// its eye is a point, also if it starts beside the eye, on the lens.
 pub fn path(session: &Session, size: DVec2) -> Vec<Line> {
     let inspector = &session.inspector;
     let (Some(inspected), Some(camera)) = (&inspector.inspected, session.camera()) else {
         return Vec::new();
     };
     let reach = inspector.outside.reach();
-    lines(inspected, &inspector.filter, &camera, size, reach, None)
+    let mut lines = lines(inspected, &inspector.filter, &camera, size, reach, None);
+    let gap = camera.look_from.distance(inspected.camera().look_from);
+    if gap <= NEAR * camera.look_from.distance(camera.look_at) {
+        let is_primary = |line: &&mut Line| line.kind == RayKind::Primary;
+        for line in lines.iter_mut().filter(is_primary) {
+            line.from = line.to;
+            line.pieces.clear();
+        }
+    }
+    lines
 }
 
 fn line(

@@ -81,10 +81,8 @@ fn draw_camera(painter: &egui::Painter, session: &Session, viewport: Viewport) {
     else {
         return;
     };
-    let order = &inspected.order;
-    let own = || order.scene.frame(order.shutter_interval.0).camera;
-    let first = order.camera.clone().unwrap_or_else(own);
-    let (width, height) = order.settings.size;
+    let first = inspected.camera();
+    let (width, height) = inspected.order.settings.size;
     let size = dvec2(width.into(), height.into());
     let depth = 0.12 * controller.scene_radius();
     let extent = viewport.extent();
