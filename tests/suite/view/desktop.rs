@@ -292,7 +292,7 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
         return;
     };
     let settings = settings();
-    let opened = desktop.open(&[], settings.path(), "");
+    let opened = desktop.open(&["--samples", "2"], settings.path(), "");
     let first = desktop.calm(INSIDE);
 
     desktop.drag([500, 300], [560, 310]);
