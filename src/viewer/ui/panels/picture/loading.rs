@@ -38,6 +38,8 @@ pub fn loading(ui: &egui::Ui, context: &mut PanelContext, space: Rect) {
         .pivot(Align2::CENTER_CENTER)
         .fixed_pos(space.center())
         .constrain_to(space)
+        // Without a button, the mouse belongs to the picture below.
+        .interactable(context.session.loader.is_some())
         .show(ui.ctx(), |ui| {
             egui::Frame::popup(ui.style()).show(ui, |ui| {
                 ui.set_width(WIDTH.min(space.width() - 32.0).max(0.0));
