@@ -127,6 +127,22 @@ impl Desktop {
         })
     }
 
+    /// A screenshot once the Render panel says that the picture is done, and nothing has moved in twenty looks. On
+    /// a busy machine this is surer than [`Self::calm`]: a program that waits for the X server looks idle.
+    fn finished(&self, place: [u16; 4]) -> Vec<u8> {
+        let mut last = self.screenshot(place);
+        let mut looks = 0;
+        wait_for("a finished picture", || {
+            std::thread::sleep(Duration::from_millis(80));
+            let bar = self.screenshot(BAR_END);
+            let is_full = colors(&bar) == 1 && bar[0] > 100;
+            let now = self.screenshot(place);
+            looks = if is_full && now == last { looks + 1 } else { 0 };
+            last = now;
+            (looks >= 20).then(|| last.clone())
+        })
+    }
+
     /// A screenshot that stayed the same for ten looks. Unlike [`Self::calm`] it may be taken while a text
     /// cursor blinks elsewhere: each blink is work for the program.
     fn still(&self, place: [u16; 4]) -> Vec<u8> {
@@ -283,6 +299,9 @@ const WINDOW: [u16; 4] = [0, 0, 1280, 800];
 /// A part of the picture that looks otherwise whenever the camera moves.
 const SPOT: [u16; 4] = [600, 300, 64, 64];
 
+/// The right end of the progress bar: blue once the picture is done.
+const BAR_END: [u16; 4] = [1260, 65, 4, 1];
+
 /// Within the picture, wherever panels are.
 const INSIDE: [u16; 4] = [420, 200, 300, 200];
 
@@ -293,10 +312,10 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
     };
     let settings = settings();
     let opened = desktop.open(&["--samples", "2"], settings.path(), "");
-    let first = desktop.calm(INSIDE);
+    let first = desktop.finished(INSIDE);
 
     desktop.drag([500, 300], [560, 310]);
-    let turned = desktop.calm(INSIDE);
+    let turned = desktop.finished(INSIDE);
     assert!(
         differ(&first, &turned),
         "a drag leaves the picture as it is"
@@ -313,7 +332,7 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
         opened.title().contains("sphere.scene").then_some(())
     });
     assert!(
-        differ(&first, &desktop.calm(INSIDE)),
+        differ(&first, &desktop.finished(INSIDE)),
         "the dropped scene is not on screen"
     );
 
@@ -332,7 +351,7 @@ fn a_real_window_opens_turns_takes_a_drop_saves_a_picture_and_remembers() {
 
     desktop.xdotool(&["windowsize", &opened.id, "900", "600"]);
     desktop.xdotool(&["windowmove", &opened.id, "40", "30"]);
-    desktop.calm([400, 200, 200, 100]);
+    desktop.still([400, 200, 200, 100]);
     opened.key("ctrl+q");
     assert_eq!(opened.wait(), Some(0));
     let kept = std::fs::read_to_string(settings.path().join("viewer.toml")).expect("settings");
@@ -364,11 +383,11 @@ fn after_a_click_on_a_line_letters_are_text_and_a_quick_drag_takes_a_border() {
     };
     let settings = settings();
     let opened = desktop.open(&["--samples", "1"], settings.path(), "");
-    desktop.calm(WINDOW);
+    desktop.finished(WINDOW);
     let before = desktop.screenshot(SETTINGS);
     let click = |x: &str, y: &str| desktop.xdotool(&["mousemove", x, y, "click", "1"]);
     click("80", "160");
-    desktop.calm(WINDOW);
+    desktop.still(WINDOW);
     let changed = |what: &str, part: [u16; 4], before: &[u8]| {
         wait_for(what, || {
             differ(before, &desktop.screenshot(part)).then_some(())
@@ -405,12 +424,12 @@ fn a_lost_device_is_replaced_while_the_window_is_open() {
     };
     let settings = settings();
     let undisturbed = desktop.open(&["--samples", "2"], settings.path(), "");
-    let expected = desktop.calm(INSIDE);
+    let expected = desktop.finished(INSIDE);
     undisturbed.key("ctrl+q");
     assert_eq!(undisturbed.wait(), Some(0));
 
     let disturbed = desktop.open(&["--samples", "2"], settings.path(), "device@12");
-    let shown = desktop.calm(INSIDE);
+    let shown = desktop.finished(INSIDE);
     assert!(shown == expected, "the picture is not back");
     desktop.xdotool(&[
         "windowfocus",
