@@ -127,8 +127,9 @@ impl Desktop {
         })
     }
 
-    /// A screenshot once the Render panel says that the picture is done, and nothing has moved in twenty looks. On
-    /// a busy machine this is surer than [`Self::calm`]: a program that waits for the X server looks idle.
+    /// A screenshot once the Render panel says that the picture is done, and nothing has moved or been at work in
+    /// twenty looks. On a busy machine this is surer than [`Self::calm`]: a program that waits for the X server
+    /// looks idle.
     fn finished(&self, place: [u16; 4]) -> Vec<u8> {
         let mut last = self.screenshot(place);
         let mut looks = 0;
@@ -137,7 +138,8 @@ impl Desktop {
             let bar = self.screenshot(BAR_END);
             let is_full = colors(&bar) == 1 && bar[0] > 100;
             let now = self.screenshot(place);
-            looks = if is_full && now == last { looks + 1 } else { 0 };
+            let is_finished = is_full && now == last && !self.is_at_work();
+            looks = if is_finished { looks + 1 } else { 0 };
             last = now;
             (looks >= 20).then(|| last.clone())
         })
