@@ -115,47 +115,44 @@ impl Desktop {
 
     /// A screenshot once there is a picture, and nothing has moved or been at work in twenty looks.
     fn calm(&self, place: [u16; 4]) -> Vec<u8> {
-        let mut last = self.screenshot(place);
-        let mut looks = 0;
-        wait_for("a calm screen", || {
-            std::thread::sleep(Duration::from_millis(80));
-            let now = self.screenshot(place);
-            let is_calm = now == last && colors(&now) > 64 && !self.is_at_work();
-            looks = if is_calm { looks + 1 } else { 0 };
-            last = now;
-            (looks >= 20).then(|| last.clone())
-        })
+        let is_calm = |now: &[u8]| colors(now) > 64 && !self.is_at_work();
+        self.unchanged("a calm screen", place, 20, is_calm)
     }
 
     /// A screenshot once the Render panel says that the picture is done, and nothing has moved or been at work in
     /// twenty looks. On a busy machine this is surer than [`Self::calm`]: a program that waits for the X server
     /// looks idle.
     fn finished(&self, place: [u16; 4]) -> Vec<u8> {
-        let mut last = self.screenshot(place);
-        let mut looks = 0;
-        wait_for("a finished picture", || {
-            std::thread::sleep(Duration::from_millis(80));
+        let is_finished = |_: &[u8]| {
             let bar = self.screenshot(BAR_END);
-            let is_full = colors(&bar) == 1 && bar[0] > 100;
-            let now = self.screenshot(place);
-            let is_finished = is_full && now == last && !self.is_at_work();
-            looks = if is_finished { looks + 1 } else { 0 };
-            last = now;
-            (looks >= 20).then(|| last.clone())
-        })
+            colors(&bar) == 1 && bar[0] > 100 && !self.is_at_work()
+        };
+        self.unchanged("a finished picture", place, 20, is_finished)
     }
 
     /// A screenshot that stayed the same for ten looks. Unlike [`Self::calm`] it may be taken while a text
     /// cursor blinks elsewhere: each blink is work for the program.
     fn still(&self, place: [u16; 4]) -> Vec<u8> {
+        self.unchanged("a still screen", place, 10, |_| true)
+    }
+
+    /// A screenshot that stayed the same, and was good, for so many looks in a row.
+    fn unchanged(
+        &self,
+        what: &str,
+        place: [u16; 4],
+        enough: u32,
+        is_good: impl Fn(&[u8]) -> bool,
+    ) -> Vec<u8> {
         let mut last = self.screenshot(place);
         let mut looks = 0;
-        wait_for("a still screen", || {
+        wait_for(what, || {
             std::thread::sleep(Duration::from_millis(80));
             let now = self.screenshot(place);
-            looks = if now == last { looks + 1 } else { 0 };
+            let is_unchanged = now == last && is_good(&now);
+            looks = if is_unchanged { looks + 1 } else { 0 };
             last = now;
-            (looks >= 10).then(|| last.clone())
+            (looks >= enough).then(|| last.clone())
         })
     }
 
