@@ -11,6 +11,7 @@ use super::{
     settings::RenderSettings,
     sums::{SAMPLE_BLOCK, Sums},
 };
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// All film tiles of a picture, row by row.
@@ -76,7 +77,10 @@ impl FilmTiles {
                 .map(|tile| (tile.blank(), tile.developable()))
                 .collect();
         };
-        let so_far = adaptive.with_part_of_round(&self.list);
+        let so_far = match self.list.is_empty() {
+            true => Cow::Borrowed(adaptive),
+            false => Cow::Owned(adaptive.with_part_of_round(&self.list)),
+        };
         let means = |tile: FilmTile| {
             let mean = |index| tile.pixel_at(index).map_or([0.0; 4], |at| so_far.mean(at));
             let rows = (0..tile.pixel_count()).map(mean).collect();
