@@ -1,26 +1,41 @@
-//! Links every kernel to plain WGSL, once for each way of fetching geometry. `build.rs` does so with the
-//! feature `link`; a test compares the result with the files in `shaders/linked`.
+//! Links every kernel to plain WGSL, once for each of its variants. `build.rs` does so with the feature `link`;
+//! a test compares the result with the files in `shaders/linked`.
 
 use std::error::Error;
 
-/// Names of kernels, and of the modules in `shaders/kernels` they are made of. `explain` is `whitted` that
-/// keeps records.
-const KERNELS: [(&str, &str); 5] = [
-    ("whitted", "whitted"),
-    ("debug_view", "debug_view"),
-    ("develop", "develop"),
-    ("show", "show"),
-    ("explain", "whitted"),
+/// Variants of kernels, and the features of `shaders` that they have.
+const VARIANTS: [(&str, &[&str]); 3] = [
+    ("image", &["image_fetch"]),
+    ("buffer", &[]),
+    ("packet", &["image_fetch", "packet"]),
 ];
+
+/// Names of kernels, the modules in `shaders/kernels` they are made of, the features that all their variants
+/// have, and their variants.
+const KERNELS: [(&str, &str, &[&str], &[&str]); 5] = [
+    ("whitted", "whitted", &[], &["image", "buffer", "packet"]),
+    ("debug_view", "debug_view", &[], &["image", "buffer"]),
+    ("develop", "develop", &[], &["buffer"]),
+    ("show", "show", &[], &["buffer"]),
+    ("explain", "whitted", &["record"], &["image", "buffer"]),
+];
+
+/// Every feature of `shaders`.
+const FEATURES: [&str; 3] = ["image_fetch", "packet", "record"];
 
 /// Names of files for `shaders/linked`, and their text. A broken import is an error.
 pub fn kernels() -> Result<Vec<(String, String)>, Box<dyn Error>> {
     let mut files = Vec::new();
-    for (kernel, module) in KERNELS {
-        for (variant, image_fetch) in [("image", true), ("buffer", false)] {
+    for (kernel, module, own, variants) in KERNELS {
+        for (variant, features) in VARIANTS {
+            if !variants.contains(&variant) {
+                continue;
+            }
             let mut compiler = wesl::Wesl::new("shaders");
-            compiler.set_feature("image_fetch", image_fetch);
-            compiler.set_feature("record", kernel != module);
+            for feature in FEATURES {
+                let is_on = own.contains(&feature) || features.contains(&feature);
+                compiler.set_feature(feature, is_on);
+            }
             let linked = compiler.compile(&format!("package::kernels::{module}").parse()?)?;
             files.push((format!("{kernel}_{variant}.wgsl"), linked.to_string()));
         }

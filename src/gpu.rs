@@ -19,7 +19,7 @@ pub use error::GpuError;
 pub use guard::{is_guarded, surviving_loss};
 pub(crate) use readback::{Reading, Source};
 pub(crate) use shader::Compiled;
-pub use shader::{Kernel, Overrides};
+pub use shader::{Kernel, Overrides, Variant};
 
 use std::{
     sync::{
@@ -32,6 +32,9 @@ use std::{
 /// Time limit of one wait for the device, and the number of waits before the device counts as lost.
 const WAIT: Duration = Duration::from_secs(10);
 const WAITS: u32 = 3;
+
+/// Workgroup memory of packet kernels, for the stacks of their ray trees.
+const PACKET_WORKGROUP_BYTES: u32 = 32_256;
 
 /// An open device with its queue. A clone refers to the same device.
 #[derive(Clone)]
@@ -63,8 +66,8 @@ pub struct Needs {
 }
 
 impl Gpu {
-    /// Opens the adapter that `choice` names, or the fastest kind available. The device requires no optional
-    /// features and only the default limits of WebGPU.
+    /// Opens the adapter that `choice` names, or the fastest kind available. The device requires only the
+    /// default limits of WebGPU. It has subgroups where [`Gpu::traces_packets`].
     pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
         Self::open(choice, Needs::default())
     }
@@ -100,9 +103,19 @@ impl Gpu {
             adapter,
             report,
         } = found;
+        let (required_features, workgroup_bytes) = match adapter::can_trace_packets(&adapter) {
+            true => (wgpu::Features::SUBGROUP, PACKET_WORKGROUP_BYTES),
+            false => (wgpu::Features::empty(), 0),
+        };
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("glimray"),
-            required_limits,
+            required_features,
+            required_limits: wgpu::Limits {
+                max_compute_workgroup_storage_size: required_limits
+                    .max_compute_workgroup_storage_size
+                    .max(workgroup_bytes),
+                ..required_limits
+            },
             ..Default::default()
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
@@ -228,6 +241,14 @@ impl Gpu {
     /// The adapter that this device runs on.
     pub fn adapter(&self) -> &AdapterReport {
         &self.report
+    }
+
+    /// Whether the 8 lanes of a subgroup can trace their rays together, as on lavapipe. Subgroups must have
+    /// exactly that size.
+    pub fn traces_packets(&self) -> bool {
+        adapter::can_trace_packets(&self.adapter)
+            && self.device.features().contains(wgpu::Features::SUBGROUP)
+            && self.device.limits().max_compute_workgroup_storage_size >= PACKET_WORKGROUP_BYTES
     }
 
     /// Whether the adapter is a software renderer.

@@ -297,16 +297,16 @@ packed! {
         instance_count: u32,
         /// Row of the first [`PackedKey`].
         key_row: u32,
-        /// Row of the first [`PackedCamera`] if the camera moves.
-        camera_row: u32,
+        /// Row of the first [`PackedLight`]. If the camera moves, its keys follow the lights.
+        light_row: u32,
         /// Keys of the camera, evenly spaced over the shutter interval; more than 1 if it moves.
         camera_key_count: u32,
         /// Keys of the lights; more than 1 if a light moves. Each key holds all lights.
         light_key_count: u32,
         /// Index of the first triangle that is not instanced.
         first_triangle: u32,
-        #[doc(hidden)]
-        _pad: u32,
+        /// The first row of the shapes in the triangles array.
+        shape_row: u32,
     }
     /// The parameters of one dispatch: which workgroups of which film tile, which samples. `counters` is its
     /// result.

@@ -92,6 +92,7 @@ struct package_scene_dispatch_Batch {
 }
 
 fn package_scene_dispatch__1load_batch() -> package_scene_dispatch_Batch {
+    package_scene_fetch__1load_starts();
     let picture_size = vec2f(vec2u(package_bindings_dispatch.picture_width, package_bindings_dispatch.picture_height));
     return package_scene_dispatch_Batch(package_bindings_frame.camera, package_bindings_frame.background, package_bindings_frame.background_top, package_bindings_frame.background_rotation, package_bindings_frame.background_first_texel, vec2u(package_bindings_frame.background_width, package_bindings_frame.background_height), package_bindings_frame.ambient, package_bindings_frame.light_count, picture_size, package_bindings_dispatch.seed, package_bindings_dispatch.first_sample, package_bindings_dispatch.end_sample, package_bindings_dispatch.max_depth, package_bindings_dispatch.min_throughput, package_bindings_dispatch.light_samples, package_bindings_frame.camera_media);
 }
@@ -168,9 +169,6 @@ var package_bindings_vertices: texture_storage_2d<rgba32uint, read>;
 
 @group(0) @binding(3)
 var package_bindings_materials: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(4)
-var<storage, read> package_bindings_shapes: array<package_types_PackedShape>;
 
 @group(1) @binding(0)
 var<storage, read> package_bindings_frame: package_types_PackedFrame;
@@ -261,7 +259,11 @@ const package_types__1INSTANCE_ROWS: u32 = 10u;
 
 const package_types__1KEY_ROWS: u32 = 4u;
 
+const package_types__1LIGHT_ROWS: u32 = 6u;
+
 const package_types__1CAMERA_ROWS: u32 = 4u;
+
+const package_types__1SHAPE_ROWS: u32 = 5u;
 
 const package_types__2IMAGE_WIDTH_LOG2: u32 = 12u;
 
@@ -374,23 +376,6 @@ struct package_types_PackedKey {
     _pad2: u32
 }
 
-struct package_types_PackedLight {
-    position: vec3f,
-    kind: u32,
-    direction: vec3f,
-    attenuation: u32,
-    color: vec3f,
-    cos_inner: f32,
-    edge_u: vec3f,
-    cos_outer: f32,
-    edge_v: vec3f,
-    radius: f32,
-    sample_count: u32,
-    _pad0: u32,
-    _pad1: u32,
-    _pad2: u32
-}
-
 struct package_types_PackedCamera {
     origin: vec3f,
     lens_radius: f32,
@@ -422,12 +407,11 @@ struct package_types_PackedFrame {
     instance_row: u32,
     instance_count: u32,
     key_row: u32,
-    camera_row: u32,
+    light_row: u32,
     camera_key_count: u32,
     light_key_count: u32,
     first_triangle: u32,
-    _pad: u32,
-    lights: array<package_types_PackedLight>
+    shape_row: u32
 }
 
 struct package_types_PackedDispatch {
@@ -539,6 +523,116 @@ fn package_lib_tile__1morton_8x8(lane: u32) -> vec2u {
 
 fn package_lib_tile__1tile_pixel(group: u32, lane: u32, group_columns: u32) -> vec2u {
     return package_lib_tile__1GROUP_SIDE * vec2u(group % group_columns, group / group_columns) + package_lib_tile__1morton_8x8(lane);
+}
+
+var<private> package_scene_fetch__1shape_row: u32;
+
+var<private> package_scene_fetch__1light_row: u32;
+
+fn package_scene_fetch__1load_starts() {
+    package_scene_fetch__1shape_row = package_bindings_frame.shape_row;
+    package_scene_fetch__1light_row = package_bindings_frame.light_row;
+}
+
+fn package_scene_fetch__1load_node(index: u32) -> package_types_Node {
+    let row = package_types__1NODE_ROWS * index;
+    return package_lib_intersect_node__1decode_node(package_scene_fetch__1node_row(row), package_scene_fetch__1node_row(row + 1u), package_scene_fetch__1node_row(row + 2u), package_scene_fetch__1node_row(row + 3u));
+}
+
+fn package_scene_fetch__2load_moving_node(reference: u32, time: f32) -> package_types_Node {
+    let index = reference & ~package_types_MOVING;
+    let last = index + select(0u, 1u, (reference & package_types_MOVING) != 0u);
+    return package_lib_intersect_node__1node_between(package_scene_fetch__1load_node(index), package_scene_fetch__1load_node(last), time);
+}
+
+fn package_scene_fetch__1load_instance(index: u32) -> package_types_PackedInstance {
+    let row = package_bindings_frame.instance_row + package_types__1INSTANCE_ROWS * index;
+    let r0 = package_scene_fetch__1node_row(row);
+    let r1 = package_scene_fetch__1node_row(row + 1u);
+    let r2 = package_scene_fetch__1node_row(row + 2u);
+    let r3 = package_scene_fetch__1node_row(row + 3u);
+    let r4 = package_scene_fetch__1node_row(row + 4u);
+    let r5 = package_scene_fetch__1node_row(row + 5u);
+    let r6 = package_scene_fetch__1node_row(row + 6u);
+    return package_types_PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(package_scene_fetch__1node_row(row + 7u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 8u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 9u)));
+}
+
+fn package_scene_fetch__1load_key(index: u32) -> package_types_PackedKey {
+    let row = package_bindings_frame.key_row + package_types__1KEY_ROWS * index;
+    return package_types_PackedKey(bitcast<vec3f>(package_scene_fetch__1node_row(row).xyz), 0u, bitcast<vec4f>(package_scene_fetch__1node_row(row + 1u)), bitcast<vec3f>(package_scene_fetch__1node_row(row + 2u).xyz), 0u, bitcast<vec3f>(package_scene_fetch__1node_row(row + 3u).xyz), 0u);
+}
+
+fn package_scene_fetch__1load_camera(key: u32) -> package_types_PackedCamera {
+    let row = package_scene_fetch__1light_row + package_types__1LIGHT_ROWS * package_bindings_frame.light_count * package_bindings_frame.light_key_count + package_types__1CAMERA_ROWS * key;
+    let r0 = package_scene_fetch__1node_row(row);
+    let r1 = package_scene_fetch__1node_row(row + 1u);
+    let r2 = package_scene_fetch__1node_row(row + 2u);
+    let r3 = package_scene_fetch__1node_row(row + 3u);
+    return package_types_PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
+}
+
+fn package_scene_fetch__1load_triangle(index: u32) -> package_types_PackedTriangle {
+    let row = 3u * index;
+    let r0 = package_scene_fetch__1triangle_row(row);
+    let r1 = package_scene_fetch__1triangle_row(row + 1u);
+    let r2 = package_scene_fetch__1triangle_row(row + 2u);
+    return package_types_PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
+}
+
+fn package_scene_fetch__1load_shape(index: u32) -> package_types_PackedShape {
+    let row = package_scene_fetch__1shape_row + package_types__1SHAPE_ROWS * index;
+    return package_scene_fetch__1shape_of(package_scene_fetch__1triangle_row(row), package_scene_fetch__1triangle_row(row + 1u), package_scene_fetch__1triangle_row(row + 2u), package_scene_fetch__1triangle_row(row + 3u), package_scene_fetch__1triangle_row(row + 4u));
+}
+
+fn package_scene_fetch__1shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> package_types_PackedShape {
+    return package_types_PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
+}
+
+fn package_scene_fetch__1load_vertex(index: u32) -> package_types_PackedVertex {
+    let r0 = package_scene_fetch__1vertex_row(index);
+    return package_types_PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
+}
+
+struct package_scene_fetch_PhongMaterial {
+    phong: package_types_Phong,
+    flags: u32
+}
+
+fn package_scene_fetch__1load_material(index: u32) -> package_scene_fetch_PhongMaterial {
+    let row = package_types__1MATERIAL_ROWS * index;
+    let r0 = package_scene_fetch__1material_row(row);
+    let r1 = package_scene_fetch__1material_row(row + 1u);
+    let r2 = package_scene_fetch__1material_row(row + 2u);
+    var reflect = vec3f(0.0);
+    if (package_bindings__1HAS_REFLECTION) {
+        reflect = bitcast<vec3f>(package_scene_fetch__1material_row(row + 3u).xyz);
+    }
+    let phong = package_types_Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+    return package_scene_fetch_PhongMaterial(phong, r1.w);
+}
+
+fn package_scene_fetch__1load_uv(index: u32) -> vec2f {
+    return bitcast<vec2f>(package_scene_fetch__1vertex_row(package_bindings_frame.vertex_count + index).xy);
+}
+
+fn package_scene_fetch_texel(row: u32) -> vec2u {
+    return vec2u(row & ((1u << package_types__2IMAGE_WIDTH_LOG2) - 1u), row >> package_types__2IMAGE_WIDTH_LOG2);
+}
+
+fn package_scene_fetch__1node_row(row: u32) -> vec4u {
+    return textureLoad(package_bindings_nodes, package_scene_fetch_texel(row));
+}
+
+fn package_scene_fetch__1triangle_row(row: u32) -> vec4u {
+    return textureLoad(package_bindings_triangles, package_scene_fetch_texel(row));
+}
+
+fn package_scene_fetch__1vertex_row(row: u32) -> vec4u {
+    return textureLoad(package_bindings_vertices, package_scene_fetch_texel(row));
+}
+
+fn package_scene_fetch__1material_row(row: u32) -> vec4u {
+    return textureLoad(package_bindings_materials, package_scene_fetch_texel(row));
 }
 
 struct package_scene_film_Sample {
@@ -722,7 +816,10 @@ fn package_scene_primitive__1traversal_ray(ray: package_types_Ray, shear: packag
 }
 
 fn package_scene_primitive_closer(at: package_scene_primitive_TraversalRay, hit: package_types_Hit, primitive: u32) -> package_types_Hit {
-    let candidate = package_scene_primitive__1test_primitive(at.ray, primitive, at.shear);
+    return package_scene_primitive__1closer_of(at, hit, package_scene_primitive__1test_primitive(at.ray, primitive, at.shear), primitive);
+}
+
+fn package_scene_primitive__1closer_of(at: package_scene_primitive_TraversalRay, hit: package_types_Hit, candidate: package_types_Candidate, primitive: u32) -> package_types_Hit {
     var is_lower = primitive < hit.primitive;
     var is_left = primitive == at.ray.leaving;
     if (package_bindings__1HAS_INSTANCES) {
@@ -751,16 +848,15 @@ fn package_scene_primitive__2keep_runner_up(hit: package_types_Hit, found: packa
 fn package_scene_primitive__1test_primitive(ray: package_types_Ray, primitive: u32, shear: package_lib_intersect__1triangle_watertight_Shear) -> package_types_Candidate {
     var candidate = package_types_Candidate(false, 0.0, 0.0, 0.0);
     if (package_bindings__1HAS_TRIANGLES && (!package_bindings__1HAS_SHAPES || (primitive & package_types_SHAPE) == 0u)) {
-        candidate = package_scene_primitive__1test_triangle(ray, primitive, shear);
+        candidate = package_scene_primitive__1test_triangle(ray, package_scene_fetch__1load_triangle(primitive), shear);
     }
     if (package_bindings__1HAS_SHAPES && (!package_bindings__1HAS_TRIANGLES || (primitive & package_types_SHAPE) != 0u)) {
-        candidate = package_scene_shape__1test_shape(ray, primitive & ~package_types_SHAPE);
+        candidate = package_scene_shape__1test_shape(ray, package_scene_fetch__1load_shape(primitive & ~package_types_SHAPE));
     }
     return candidate;
 }
 
-fn package_scene_primitive__1test_triangle(ray: package_types_Ray, index: u32, shear: package_lib_intersect__1triangle_watertight_Shear) -> package_types_Candidate {
-    let corners = package_scene_fetch__1load_triangle(index);
+fn package_scene_primitive__1test_triangle(ray: package_types_Ray, corners: package_types_PackedTriangle, shear: package_lib_intersect__1triangle_watertight_Shear) -> package_types_Candidate {
     if (package_bindings__1TRIANGLE_TEST == package_types__2TRIANGLE_TEST_PLANE) {
         return package_lib_intersect__1triangle_plane__2intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
     }
@@ -859,7 +955,7 @@ fn package_scene_exhaustive__1hit_planes(ray: package_types_Ray, start: package_
     let end = package_bindings_frame.shape_count + package_bindings_frame.plane_count;
     var index = package_bindings_frame.shape_count;
     loop {
-        let shape = package_bindings_shapes[index];
+        let shape = package_scene_fetch__1load_shape(index);
         let candidate = package_lib_intersect_plane__1intersect_plane(ray, shape.position, shape.row_y);
         let primitive = package_types_SHAPE | index;
         let counts = candidate.hit & (primitive != ray.leaving);
@@ -941,98 +1037,6 @@ fn package_lib_numeric__1max_component(v: vec3f) -> f32 {
     return max(v.x, max(v.y, v.z));
 }
 
-fn package_scene_fetch__1load_node(index: u32) -> package_types_Node {
-    let row = package_types__1NODE_ROWS * index;
-    return package_lib_intersect_node__1decode_node(package_scene_fetch__1node_row(row), package_scene_fetch__1node_row(row + 1u), package_scene_fetch__1node_row(row + 2u), package_scene_fetch__1node_row(row + 3u));
-}
-
-fn package_scene_fetch__2load_moving_node(reference: u32, time: f32) -> package_types_Node {
-    let index = reference & ~package_types_MOVING;
-    let last = index + select(0u, 1u, (reference & package_types_MOVING) != 0u);
-    return package_lib_intersect_node__1node_between(package_scene_fetch__1load_node(index), package_scene_fetch__1load_node(last), time);
-}
-
-fn package_scene_fetch__1load_instance(index: u32) -> package_types_PackedInstance {
-    let row = package_bindings_frame.instance_row + package_types__1INSTANCE_ROWS * index;
-    let r0 = package_scene_fetch__1node_row(row);
-    let r1 = package_scene_fetch__1node_row(row + 1u);
-    let r2 = package_scene_fetch__1node_row(row + 2u);
-    let r3 = package_scene_fetch__1node_row(row + 3u);
-    let r4 = package_scene_fetch__1node_row(row + 4u);
-    let r5 = package_scene_fetch__1node_row(row + 5u);
-    let r6 = package_scene_fetch__1node_row(row + 6u);
-    return package_types_PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(package_scene_fetch__1node_row(row + 7u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 8u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 9u)));
-}
-
-fn package_scene_fetch__1load_key(index: u32) -> package_types_PackedKey {
-    let row = package_bindings_frame.key_row + package_types__1KEY_ROWS * index;
-    return package_types_PackedKey(bitcast<vec3f>(package_scene_fetch__1node_row(row).xyz), 0u, bitcast<vec4f>(package_scene_fetch__1node_row(row + 1u)), bitcast<vec3f>(package_scene_fetch__1node_row(row + 2u).xyz), 0u, bitcast<vec3f>(package_scene_fetch__1node_row(row + 3u).xyz), 0u);
-}
-
-fn package_scene_fetch__1load_camera(key: u32) -> package_types_PackedCamera {
-    let row = package_bindings_frame.camera_row + package_types__1CAMERA_ROWS * key;
-    let r0 = package_scene_fetch__1node_row(row);
-    let r1 = package_scene_fetch__1node_row(row + 1u);
-    let r2 = package_scene_fetch__1node_row(row + 2u);
-    let r3 = package_scene_fetch__1node_row(row + 3u);
-    return package_types_PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
-}
-
-fn package_scene_fetch__1load_triangle(index: u32) -> package_types_PackedTriangle {
-    let row = 3u * index;
-    let r0 = package_scene_fetch__1triangle_row(row);
-    let r1 = package_scene_fetch__1triangle_row(row + 1u);
-    let r2 = package_scene_fetch__1triangle_row(row + 2u);
-    return package_types_PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
-}
-
-fn package_scene_fetch__1load_vertex(index: u32) -> package_types_PackedVertex {
-    let r0 = package_scene_fetch__1vertex_row(index);
-    return package_types_PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
-}
-
-struct package_scene_fetch_PhongMaterial {
-    phong: package_types_Phong,
-    flags: u32
-}
-
-fn package_scene_fetch__1load_material(index: u32) -> package_scene_fetch_PhongMaterial {
-    let row = package_types__1MATERIAL_ROWS * index;
-    let r0 = package_scene_fetch__1material_row(row);
-    let r1 = package_scene_fetch__1material_row(row + 1u);
-    let r2 = package_scene_fetch__1material_row(row + 2u);
-    var reflect = vec3f(0.0);
-    if (package_bindings__1HAS_REFLECTION) {
-        reflect = bitcast<vec3f>(package_scene_fetch__1material_row(row + 3u).xyz);
-    }
-    let phong = package_types_Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
-    return package_scene_fetch_PhongMaterial(phong, r1.w);
-}
-
-fn package_scene_fetch__1load_uv(index: u32) -> vec2f {
-    return bitcast<vec2f>(package_scene_fetch__1vertex_row(package_bindings_frame.vertex_count + index).xy);
-}
-
-fn package_scene_fetch_texel(row: u32) -> vec2u {
-    return vec2u(row & ((1u << package_types__2IMAGE_WIDTH_LOG2) - 1u), row >> package_types__2IMAGE_WIDTH_LOG2);
-}
-
-fn package_scene_fetch__1node_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_nodes, package_scene_fetch_texel(row));
-}
-
-fn package_scene_fetch__1triangle_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_triangles, package_scene_fetch_texel(row));
-}
-
-fn package_scene_fetch__1vertex_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_vertices, package_scene_fetch_texel(row));
-}
-
-fn package_scene_fetch__1material_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_materials, package_scene_fetch_texel(row));
-}
-
 fn package_lib_intersect__1triangle_plane__2intersect_triangle_plane(ray: package_types_Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> package_types_Candidate {
     let e1 = v1 - v0;
     let e2 = v2 - v0;
@@ -1080,8 +1084,7 @@ const package_scene_shape_ELLIPSOIDS: u32 = 1u << package_types__1SHAPE_ELLIPSOI
 
 const package_scene_shape_GLOBES: u32 = 1u << package_types__1SHAPE_GLOBE;
 
-fn package_scene_shape__1test_shape(ray: package_types_Ray, index: u32) -> package_types_Candidate {
-    let shape = package_bindings_shapes[index];
+fn package_scene_shape__1test_shape(ray: package_types_Ray, shape: package_types_PackedShape) -> package_types_Candidate {
     if (package_bindings__1SHAPE_KINDS == package_scene_shape_SPHERES) {
         return package_lib_intersect_sphere__1intersect_sphere(ray, shape.position, shape.size0);
     }
@@ -1738,7 +1741,7 @@ fn package_scene_surface__1triangle_surface(ray: package_types_Ray, hit: package
 }
 
 fn package_scene_surface__1shape_surface(ray: package_types_Ray, hit: package_types_Hit) -> package_types_Surface {
-    let shape = package_bindings_shapes[hit.primitive & ~package_types_SHAPE];
+    let shape = package_scene_fetch__1load_shape(hit.primitive & ~package_types_SHAPE);
     let reached = ray.origin + hit.t * ray.direction;
     let material = package_scene_fetch__1load_material(shape.material);
     if (package_bindings__1HAS_PLANES && (!package_bindings__1HAS_SHAPES || shape.kind == package_types__1SHAPE_PLANE)) {

@@ -1,61 +1,116 @@
 @compute @workgroup_size(64, 1, 1)
 fn whitted(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let work = package_scene_dispatch__1work_of(group, lane);
+    render(group, lane);
+}
+
+fn render(group: vec3u, lane: u32) {
     let batch = package_scene_dispatch__1load_batch();
-    if (work.inside) {
-        var sum = package_scene_film__1load_sum(work);
-        var sample = batch.first_sample;
+    var sample = batch.first_sample;
+    loop {
+        var rays = package_scene_rays__1dead_rays();
+        var keys = package_lib_wide_Words(0u);
+        var k = 0u;
         loop {
-            let key = package_types_SampleKey(package_lib_rng__1pixel_key(batch.seed, work.pixel), sample, 1.0);
-            let found = trace(batch, package_scene_dispatch__1sample_ray(batch, work.pixel, sample), key);
-            sum = package_scene_film__1add_sample(sum, found, package_scene_dispatch__1sample_weight(batch, work.pixel, sample));
+            let work = package_scene_dispatch__1work_of(group, package_scene_dispatch__1place_of(lane, k));
+            if (work.inside) {
+                rays = package_scene_rays__1ray_set(rays, k, package_scene_dispatch__1sample_ray(batch, work.pixel, sample));
+            }
+            keys = package_lib_wide__1word_set(keys, k, package_lib_rng__1pixel_key(batch.seed, work.pixel));
             continuing {
-                sample += 1u;
-                break if sample >= batch.end_sample;
+                k += 1u;
+                break if k >= package_lib_wide__2RAYS_PER_LANE;
             }
         }
-        package_scene_loops__1cut_off |= sample < batch.end_sample;
-        package_scene_film__1store_sum(work, sum);
+        let radiance = trace(batch, rays, keys, sample);
+        k = 0u;
+        loop {
+            let work = package_scene_dispatch__1work_of(group, package_scene_dispatch__1place_of(lane, k));
+            if (work.inside) {
+                let weight = package_scene_dispatch__1sample_weight(batch, work.pixel, sample);
+                package_scene_film__1store_sum(work, package_scene_film__1add_sample(package_scene_film__1load_sum(work), package_scene_film_Sample(package_lib_wide__1vector_at(radiance, k)), weight));
+            }
+            continuing {
+                k += 1u;
+                break if k >= package_lib_wide__2RAYS_PER_LANE;
+            }
+        }
+        continuing {
+            sample += 1u;
+            break if sample >= batch.end_sample;
+        }
     }
+    package_scene_loops__1cut_off |= sample < batch.end_sample;
     package_scene_dispatch__1add_counts(lane);
 }
 
-fn trace(batch: package_scene_dispatch_Batch, ray: package_types_Ray, key: package_types_SampleKey) -> package_scene_film_Sample {
-    var found = package_scene_film_Sample(vec3f(0.0));
-    var state = package_scene__1ray_stack__1camera_state(ray, batch.camera_media);
+fn trace(batch: package_scene_dispatch_Batch, rays: package_scene_rays_Rays, keys: package_lib_wide_Words, sample: u32) -> package_lib_wide_Vectors {
+    var radiance = package_lib_wide__1no_vectors();
+    var states = package_scene__1ray_stack__1camera_states(rays, batch.camera_media);
+    var is_unfinished = false;
     loop {
-        let hit = package_scene_traverse__1closest_hit(state.ray);
-        package_scene_dispatch__1count_hit(state.kind, hit);
-        var event = package_scene_optics_ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), package_scene__1ray_stack__1no_ray(), package_scene__1ray_stack__1no_ray());
-        if (hit.primitive == package_types_NONE) {
-            let seen = escaping_throughput(state) * package_scene_background_background(batch, state.ray.direction);
-            found.radiance += seen;
-        }
-        else {
-            let contact = package_scene_contact__1contact_at(state.ray, hit);
-            var surface = contact.surface;
-            if (package_bindings__1HAS_TEXTURES) {
-                surface.phong = package_scene_texture__1textured_phong(surface.phong, surface.material, surface.place, surface.uv);
+        let hits = package_scene_rays__1closest_hits(states.rays);
+        var next = states;
+        var receivers = package_scene_direct__1no_receivers();
+        var arriving = package_lib_wide__1no_vectors();
+        var color = package_lib_wide__1no_vectors();
+        is_unfinished = false;
+        var k = 0u;
+        loop {
+            package_scene__1ray_stack__1current_tree = k;
+            let state = package_scene__1ray_stack__1state_at(states, k);
+            let hit = package_scene_rays__1hit_at(hits, k);
+            var event = package_scene_optics_ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), package_scene__1ray_stack__1no_ray(), package_scene__1ray_stack__1no_ray());
+            if (state.ray.t_max >= 0.0) {
+                package_scene_dispatch__1count_hit(state.kind, hit);
+                if (hit.primitive == package_types_NONE) {
+                    let seen = escaping_throughput(state) * package_scene_background_background(batch, state.ray.direction);
+                    radiance = package_lib_wide__1vector_set(radiance, k, package_lib_wide__1vector_at(radiance, k) + seen);
+                }
+                else {
+                    let contact = package_scene_contact__1contact_at(state.ray, hit);
+                    var surface = contact.surface;
+                    if (package_bindings__1HAS_TEXTURES) {
+                        surface.phong = package_scene_texture__1textured_phong(surface.phong, surface.material, surface.place, surface.uv);
+                    }
+                    let factors = package_scene_texture__1texture_optics(surface);
+                    if (package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) {
+                        event = package_scene_optics_scatter(batch, state, hit.t, contact, factors);
+                        surface.phong.diffuse *= event.diffuse;
+                        surface.phong.ambient *= event.diffuse;
+                        surface.phong.specular *= event.highlight;
+                    }
+                    var key = package_types_SampleKey(package_lib_wide__1word_at(keys, k), sample, 1.0);
+                    if (state.node > 1u) {
+                        key.hash = package_lib_rng__1hash_combine(key.hash, state.node);
+                        key.weight = package_lib_numeric__1max_component(event.arriving);
+                    }
+                    receivers = package_scene_direct__1receiver_set(receivers, k, surface, -state.ray.direction, key);
+                    arriving = package_lib_wide__1vector_set(arriving, k, event.arriving);
+                    color = package_lib_wide__1vector_set(color, k, own_light(batch, surface, factors[2]));
+                }
             }
-            let factors = package_scene_texture__1texture_optics(surface);
             if (package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) {
-                event = package_scene_optics_scatter(batch, state, hit.t, contact, factors);
+                let following = package_scene__1ray_stack__1next_ray(event.reflected, event.refracted);
+                next = package_scene__1ray_stack__1state_set(next, k, following);
+                is_unfinished |= package_scene__1ray_stack__1is_alive(following);
             }
-            let shown = event.arriving * local_light(batch, state, surface, event, factors[2], key);
-            found.radiance += shown;
+            continuing {
+                k += 1u;
+                break if k >= package_lib_wide__2RAYS_PER_LANE;
+            }
         }
-        if (package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) {
-            state = package_scene__1ray_stack__1next_ray(event.reflected, event.refracted);
-        }
+        let direct = package_scene_direct__1direct_light(batch, receivers, states.media, sample);
+        radiance.x += arriving.x * (color.x + direct.x);
+        radiance.y += arriving.y * (color.y + direct.y);
+        radiance.z += arriving.z * (color.z + direct.z);
+        states = next;
         continuing {
         
-            break if !((package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) && package_scene__1ray_stack__1is_alive(state));
+            break if !package_scene_rays__1any_lane(is_unfinished);
         }
     }
-    if (package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) {
-        package_scene_loops__1cut_off |= package_scene__1ray_stack__1is_alive(state);
-    }
-    return found;
+    package_scene_loops__1cut_off |= is_unfinished;
+    return radiance;
 }
 
 fn escaping_throughput(state: package_scene__1ray_stack_RayState) -> vec3f {
@@ -66,22 +121,12 @@ fn escaping_throughput(state: package_scene__1ray_stack_RayState) -> vec3f {
     return throughput;
 }
 
-fn local_light(batch: package_scene_dispatch_Batch, state: package_scene__1ray_stack_RayState, surface: package_types_Surface, event: package_scene_optics_ScatterEvent, glow: vec3f, key: package_types_SampleKey) -> vec3f {
-    var lit = surface;
-    if (package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) {
-        lit.phong.diffuse *= event.diffuse;
-        lit.phong.ambient *= event.diffuse;
-        lit.phong.specular *= event.highlight;
-    }
-    var own = key;
-    if (state.node > 1u) {
-        own.hash = package_lib_rng__1hash_combine(key.hash, state.node);
-        own.weight = package_lib_numeric__1max_component(event.arriving);
-    }
-    var color = package_scene_direct_shade(batch, lit, -state.ray.direction, own, state.media);
+fn own_light(batch: package_scene_dispatch_Batch, surface: package_types_Surface, glow: vec3f) -> vec3f {
+    var color = batch.ambient * surface.phong.ambient;
     if (package_bindings__1HAS_EMISSION) {
         let shines = surface.outside || (package_scene_fetch__1load_optics(surface.material).flags & package_types__2MATERIAL_TWO_SIDED) != 0u;
-        color += select(vec3f(0.0), glow * package_scene_fetch__1load_emission(surface.material), shines);
+        let emission = select(vec3f(0.0), glow * package_scene_fetch__1load_emission(surface.material), shines);
+        color += emission;
     }
     return color;
 }
@@ -104,6 +149,12 @@ struct package_scene_dispatch_RayCounts {
 }
 
 var<private> package_scene_dispatch_counts: package_scene_dispatch_RayCounts;
+
+fn package_scene_dispatch__1place_of(lane: u32, k: u32) -> u32 {
+    {
+        return lane;
+    }
+}
 
 fn package_scene_dispatch__1work_of(group: vec3u, lane: u32) -> package_scene_dispatch_Work {
     let index = package_bindings_dispatch.first_group + group.y * package_bindings_dispatch.grid_width + group.x;
@@ -137,6 +188,7 @@ struct package_scene_dispatch_Batch {
 }
 
 fn package_scene_dispatch__1load_batch() -> package_scene_dispatch_Batch {
+    package_scene_fetch__1load_starts();
     let picture_size = vec2f(vec2u(package_bindings_dispatch.picture_width, package_bindings_dispatch.picture_height));
     return package_scene_dispatch_Batch(package_bindings_frame.camera, package_bindings_frame.background, package_bindings_frame.background_top, package_bindings_frame.background_rotation, package_bindings_frame.background_first_texel, vec2u(package_bindings_frame.background_width, package_bindings_frame.background_height), package_bindings_frame.ambient, package_bindings_frame.light_count, picture_size, package_bindings_dispatch.seed, package_bindings_dispatch.first_sample, package_bindings_dispatch.end_sample, package_bindings_dispatch.max_depth, package_bindings_dispatch.min_throughput, package_bindings_dispatch.light_samples, package_bindings_frame.camera_media);
 }
@@ -220,97 +272,6 @@ fn package_scene_dispatch__1add_counts(lane: u32) {
     }
 }
 
-@group(0) @binding(0)
-var package_bindings_nodes: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(1)
-var package_bindings_triangles: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(2)
-var package_bindings_vertices: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(3)
-var package_bindings_materials: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(4)
-var<storage, read> package_bindings_shapes: array<package_types_PackedShape>;
-
-@group(0) @binding(5)
-var package_bindings_texels: texture_2d<f32>;
-
-@group(1) @binding(0)
-var<storage, read> package_bindings_frame: package_types_PackedFrame;
-
-@group(1) @binding(1)
-var<storage, read_write> package_bindings_dispatch: package_types_PackedDispatch;
-
-@group(2) @binding(0)
-var<storage, read_write> package_bindings_film: array<vec4f>;
-
-override package_bindings__1TRIANGLE_TEST: u32 = package_types__2TRIANGLE_TEST_WATERTIGHT;
-
-override package_bindings__1HAS_TRIANGLES: bool = true;
-
-override package_bindings__1HAS_SHAPES: bool = true;
-
-override package_bindings__1HAS_PLANES: bool = true;
-
-override package_bindings__1MIXED_MATERIALS: bool = true;
-
-override package_bindings__1BRUTE_FORCE: bool = false;
-
-override package_bindings__1FIXED_OFFSET: f32 = 0.0;
-
-override package_bindings_STRATIFIED: bool = false;
-
-override package_bindings__1COUNT_RAYS: bool = false;
-
-override package_bindings__1COUNT_STEPS: bool = false;
-
-override package_bindings__1HAS_LIGHTS: bool = true;
-
-override package_bindings__1SHAPE_KINDS: u32 = 4294967295u;
-
-override package_bindings__1HAS_REFLECTION: bool = true;
-
-override package_bindings__1HAS_REFRACTION: bool = true;
-
-override package_bindings__1HAS_CONTACT: bool = true;
-
-override package_bindings__1FILTERED_SHADOWS: bool = false;
-
-override package_bindings__2HAS_AREA_LIGHTS: bool = true;
-
-override package_bindings__1HAS_LENS: bool = true;
-
-override package_bindings_FILTER: u32 = package_types__1FILTER_BOX;
-
-override package_bindings__1FILTER_RADIUS: f32 = 0.5;
-
-override package_bindings_BACKGROUND: u32 = package_types__1BACKGROUND_COLOR;
-
-override package_bindings__1HAS_TEXTURES: bool = true;
-
-override package_bindings__1HAS_EMISSION: bool = true;
-
-override package_bindings_ADAPTIVE: bool = false;
-
-override package_bindings__1HAS_INSTANCES: bool = true;
-
-override package_bindings__1HAS_MOTION: bool = true;
-
-override package_bindings__1CAMERA_MOTION: bool = true;
-
-override package_bindings__1LIGHT_MOTION: bool = true;
-
-override package_bindings_ORTHOGRAPHIC: bool = false;
-
-override package_bindings__1HAS_UVS: bool = true;
-
-override package_bindings__1FILM_ROWS: u32 = 1u;
-
-override package_bindings__1SQUARES_ROW: u32 = 1u;
-
 const package_types_NONE: u32 = 4294967295u;
 
 const package_types_LEAF: u32 = 2147483648u;
@@ -337,7 +298,11 @@ const package_types__1INSTANCE_ROWS: u32 = 10u;
 
 const package_types__1KEY_ROWS: u32 = 4u;
 
+const package_types__1LIGHT_ROWS: u32 = 6u;
+
 const package_types__1CAMERA_ROWS: u32 = 4u;
+
+const package_types__1SHAPE_ROWS: u32 = 5u;
 
 const package_types__2IMAGE_WIDTH_LOG2: u32 = 12u;
 
@@ -542,12 +507,11 @@ struct package_types_PackedFrame {
     instance_row: u32,
     instance_count: u32,
     key_row: u32,
-    camera_row: u32,
+    light_row: u32,
     camera_key_count: u32,
     light_key_count: u32,
     first_triangle: u32,
-    _pad: u32,
-    lights: array<package_types_PackedLight>
+    shape_row: u32
 }
 
 struct package_types_PackedDispatch {
@@ -670,6 +634,350 @@ struct package_types_SampleKey {
     weight: f32
 }
 
+var<private> package_scene_fetch__1shape_row: u32;
+
+var<private> package_scene_fetch__1light_row: u32;
+
+fn package_scene_fetch__1load_starts() {
+    package_scene_fetch__1shape_row = package_bindings_frame.shape_row;
+    package_scene_fetch__1light_row = package_bindings_frame.light_row;
+}
+
+fn package_scene_fetch__1load_node(index: u32) -> package_types_Node {
+    let row = package_types__1NODE_ROWS * index;
+    return package_lib_intersect_node__1decode_node(package_scene_fetch__1node_row(row), package_scene_fetch__1node_row(row + 1u), package_scene_fetch__1node_row(row + 2u), package_scene_fetch__1node_row(row + 3u));
+}
+
+fn package_scene_fetch__2load_moving_node(reference: u32, time: f32) -> package_types_Node {
+    let index = reference & ~package_types_MOVING;
+    let last = index + select(0u, 1u, (reference & package_types_MOVING) != 0u);
+    return package_lib_intersect_node__1node_between(package_scene_fetch__1load_node(index), package_scene_fetch__1load_node(last), time);
+}
+
+fn package_scene_fetch__1load_instance(index: u32) -> package_types_PackedInstance {
+    let row = package_bindings_frame.instance_row + package_types__1INSTANCE_ROWS * index;
+    let r0 = package_scene_fetch__1node_row(row);
+    let r1 = package_scene_fetch__1node_row(row + 1u);
+    let r2 = package_scene_fetch__1node_row(row + 2u);
+    let r3 = package_scene_fetch__1node_row(row + 3u);
+    let r4 = package_scene_fetch__1node_row(row + 4u);
+    let r5 = package_scene_fetch__1node_row(row + 5u);
+    let r6 = package_scene_fetch__1node_row(row + 6u);
+    return package_types_PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(package_scene_fetch__1node_row(row + 7u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 8u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 9u)));
+}
+
+fn package_scene_fetch__1load_key(index: u32) -> package_types_PackedKey {
+    let row = package_bindings_frame.key_row + package_types__1KEY_ROWS * index;
+    return package_types_PackedKey(bitcast<vec3f>(package_scene_fetch__1node_row(row).xyz), 0u, bitcast<vec4f>(package_scene_fetch__1node_row(row + 1u)), bitcast<vec3f>(package_scene_fetch__1node_row(row + 2u).xyz), 0u, bitcast<vec3f>(package_scene_fetch__1node_row(row + 3u).xyz), 0u);
+}
+
+fn package_scene_fetch__1load_light(index: u32) -> package_types_PackedLight {
+    let row = package_scene_fetch__1light_row + package_types__1LIGHT_ROWS * index;
+    let r0 = package_scene_fetch__1node_row(row);
+    let r1 = package_scene_fetch__1node_row(row + 1u);
+    let r2 = package_scene_fetch__1node_row(row + 2u);
+    let r3 = package_scene_fetch__1node_row(row + 3u);
+    let r4 = package_scene_fetch__1node_row(row + 4u);
+    return package_types_PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), package_scene_fetch__1node_row(row + 5u).x, 0u, 0u, 0u);
+}
+
+fn package_scene_fetch__1load_camera(key: u32) -> package_types_PackedCamera {
+    let row = package_scene_fetch__1light_row + package_types__1LIGHT_ROWS * package_bindings_frame.light_count * package_bindings_frame.light_key_count + package_types__1CAMERA_ROWS * key;
+    let r0 = package_scene_fetch__1node_row(row);
+    let r1 = package_scene_fetch__1node_row(row + 1u);
+    let r2 = package_scene_fetch__1node_row(row + 2u);
+    let r3 = package_scene_fetch__1node_row(row + 3u);
+    return package_types_PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
+}
+
+fn package_scene_fetch__1load_triangle(index: u32) -> package_types_PackedTriangle {
+    let row = 3u * index;
+    let r0 = package_scene_fetch__1triangle_row(row);
+    let r1 = package_scene_fetch__1triangle_row(row + 1u);
+    let r2 = package_scene_fetch__1triangle_row(row + 2u);
+    return package_types_PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
+}
+
+fn package_scene_fetch__1load_shape(index: u32) -> package_types_PackedShape {
+    let row = package_scene_fetch__1shape_row + package_types__1SHAPE_ROWS * index;
+    return package_scene_fetch__1shape_of(package_scene_fetch__1triangle_row(row), package_scene_fetch__1triangle_row(row + 1u), package_scene_fetch__1triangle_row(row + 2u), package_scene_fetch__1triangle_row(row + 3u), package_scene_fetch__1triangle_row(row + 4u));
+}
+
+fn package_scene_fetch__1shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> package_types_PackedShape {
+    return package_types_PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
+}
+
+fn package_scene_fetch__1load_vertex(index: u32) -> package_types_PackedVertex {
+    let r0 = package_scene_fetch__1vertex_row(index);
+    return package_types_PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
+}
+
+struct package_scene_fetch_PhongMaterial {
+    phong: package_types_Phong,
+    flags: u32
+}
+
+fn package_scene_fetch__1load_material(index: u32) -> package_scene_fetch_PhongMaterial {
+    let row = package_types__1MATERIAL_ROWS * index;
+    let r0 = package_scene_fetch__1material_row(row);
+    let r1 = package_scene_fetch__1material_row(row + 1u);
+    let r2 = package_scene_fetch__1material_row(row + 2u);
+    var reflect = vec3f(0.0);
+    if (package_bindings__1HAS_REFLECTION) {
+        reflect = bitcast<vec3f>(package_scene_fetch__1material_row(row + 3u).xyz);
+    }
+    let phong = package_types_Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+    return package_scene_fetch_PhongMaterial(phong, r1.w);
+}
+
+fn package_scene_fetch__1load_optics(index: u32) -> package_types_Optics {
+    let row = package_types__1MATERIAL_ROWS * index;
+    let r1 = package_scene_fetch__1material_row(row + 1u);
+    let r2 = package_scene_fetch__1material_row(row + 2u);
+    let r3 = package_scene_fetch__1material_row(row + 3u);
+    let r4 = package_scene_fetch__1material_row(row + 4u);
+    return package_types_Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
+}
+
+fn package_scene_fetch__1load_medium(index: u32) -> package_types_Medium {
+    let row = package_types__1MATERIAL_ROWS * index;
+    let r5 = package_scene_fetch__1material_row(row + 5u);
+    return package_types_Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(package_scene_fetch__1material_row(row + 3u).w), bitcast<i32>(package_scene_fetch__1material_row(row + 4u).w));
+}
+
+fn package_scene_fetch__1load_emission(index: u32) -> vec3f {
+    return bitcast<vec3f>(package_scene_fetch__1material_row(package_types__1MATERIAL_ROWS * index + 6u).xyz);
+}
+
+fn package_scene_fetch__2load_texture_indices(index: u32) -> vec3u {
+    return package_scene_fetch__1material_row(package_types__1MATERIAL_ROWS * index + 7u).xyz;
+}
+
+fn package_scene_fetch__1load_texture(index: u32) -> package_types_PackedTexture {
+    let row = package_types__1MATERIAL_ROWS * package_bindings_frame.material_count + package_types__1TEXTURE_ROWS * index;
+    let r0 = package_scene_fetch__1material_row(row);
+    let r1 = package_scene_fetch__1material_row(row + 1u);
+    let r5 = package_scene_fetch__1material_row(row + 5u);
+    return package_types_PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(package_scene_fetch__1material_row(row + 2u)), bitcast<vec4f>(package_scene_fetch__1material_row(row + 3u)), bitcast<vec4f>(package_scene_fetch__1material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+}
+
+fn package_scene_fetch__1load_uv(index: u32) -> vec2f {
+    return bitcast<vec2f>(package_scene_fetch__1vertex_row(package_bindings_frame.vertex_count + index).xy);
+}
+
+fn package_scene_fetch__1load_texel(index: u32) -> vec3f {
+    let place = vec2u(index & ((1u << package_types__2IMAGE_WIDTH_LOG2) - 1u), index >> package_types__2IMAGE_WIDTH_LOG2);
+    return textureLoad(package_bindings_texels, place, 0).xyz;
+}
+
+fn package_scene_fetch_texel(row: u32) -> vec2u {
+    return vec2u(row & ((1u << package_types__2IMAGE_WIDTH_LOG2) - 1u), row >> package_types__2IMAGE_WIDTH_LOG2);
+}
+
+fn package_scene_fetch__1node_row(row: u32) -> vec4u {
+    return textureLoad(package_bindings_nodes, package_scene_fetch_texel(row));
+}
+
+fn package_scene_fetch__1triangle_row(row: u32) -> vec4u {
+    return textureLoad(package_bindings_triangles, package_scene_fetch_texel(row));
+}
+
+fn package_scene_fetch__1vertex_row(row: u32) -> vec4u {
+    return textureLoad(package_bindings_vertices, package_scene_fetch_texel(row));
+}
+
+fn package_scene_fetch__1material_row(row: u32) -> vec4u {
+    return textureLoad(package_bindings_materials, package_scene_fetch_texel(row));
+}
+
+@group(0) @binding(0)
+var package_bindings_nodes: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(1)
+var package_bindings_triangles: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(2)
+var package_bindings_vertices: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(3)
+var package_bindings_materials: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(4)
+var package_bindings_texels: texture_2d<f32>;
+
+@group(1) @binding(0)
+var<storage, read> package_bindings_frame: package_types_PackedFrame;
+
+@group(1) @binding(1)
+var<storage, read_write> package_bindings_dispatch: package_types_PackedDispatch;
+
+@group(2) @binding(0)
+var<storage, read_write> package_bindings_film: array<vec4f>;
+
+override package_bindings__1TRIANGLE_TEST: u32 = package_types__2TRIANGLE_TEST_WATERTIGHT;
+
+override package_bindings__1HAS_TRIANGLES: bool = true;
+
+override package_bindings__1HAS_SHAPES: bool = true;
+
+override package_bindings__1HAS_PLANES: bool = true;
+
+override package_bindings__1MIXED_MATERIALS: bool = true;
+
+override package_bindings__1BRUTE_FORCE: bool = false;
+
+override package_bindings__1FIXED_OFFSET: f32 = 0.0;
+
+override package_bindings_STRATIFIED: bool = false;
+
+override package_bindings__1COUNT_RAYS: bool = false;
+
+override package_bindings__1COUNT_STEPS: bool = false;
+
+override package_bindings__1HAS_LIGHTS: bool = true;
+
+override package_bindings__1SHAPE_KINDS: u32 = 4294967295u;
+
+override package_bindings__1HAS_REFLECTION: bool = true;
+
+override package_bindings__1HAS_REFRACTION: bool = true;
+
+override package_bindings__1HAS_CONTACT: bool = true;
+
+override package_bindings__1FILTERED_SHADOWS: bool = false;
+
+override package_bindings__2HAS_AREA_LIGHTS: bool = true;
+
+override package_bindings__1HAS_LENS: bool = true;
+
+override package_bindings_FILTER: u32 = package_types__1FILTER_BOX;
+
+override package_bindings__1FILTER_RADIUS: f32 = 0.5;
+
+override package_bindings_BACKGROUND: u32 = package_types__1BACKGROUND_COLOR;
+
+override package_bindings__1HAS_TEXTURES: bool = true;
+
+override package_bindings__1HAS_EMISSION: bool = true;
+
+override package_bindings_ADAPTIVE: bool = false;
+
+override package_bindings__1HAS_INSTANCES: bool = true;
+
+override package_bindings__1HAS_MOTION: bool = true;
+
+override package_bindings__1CAMERA_MOTION: bool = true;
+
+override package_bindings__1LIGHT_MOTION: bool = true;
+
+override package_bindings_ORTHOGRAPHIC: bool = false;
+
+override package_bindings__1HAS_UVS: bool = true;
+
+override package_bindings__1FILM_ROWS: u32 = 1u;
+
+override package_bindings__1SQUARES_ROW: u32 = 1u;
+
+struct package_scene_rays_Rays {
+    origin: package_lib_wide_Vectors,
+    direction: package_lib_wide_Vectors,
+    t_max: package_lib_wide_Floats,
+    leaving: package_lib_wide_Words,
+    leaving_instance: package_lib_wide_Words
+}
+
+struct package_scene_rays_Hits {
+    t: package_lib_wide_Floats,
+    primitive: package_lib_wide_Words,
+    b1: package_lib_wide_Floats,
+    b2: package_lib_wide_Floats,
+    instance: package_lib_wide_Words
+}
+
+const package_scene_rays_DEAD: package_types_Ray = package_types_Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), package_types_NONE, package_types__1NO_INSTANCE);
+
+fn package_scene_rays__1dead_rays() -> package_scene_rays_Rays {
+    return package_scene_rays_Rays(package_lib_wide_Vectors(package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0)), package_lib_wide_Vectors(package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0), package_lib_wide_Floats(1.0)), package_lib_wide_Floats(-1.0), package_lib_wide_Words(package_types_NONE), package_lib_wide_Words(package_types__1NO_INSTANCE));
+}
+
+fn package_scene_rays__1ray_at(rays: package_scene_rays_Rays, k: u32) -> package_types_Ray {
+    return package_types_Ray(package_lib_wide__1vector_at(rays.origin, k), package_lib_wide__1float_at(rays.t_max, k), package_lib_wide__1vector_at(rays.direction, k), package_lib_wide__1word_at(rays.leaving, k), package_lib_wide__1word_at(rays.leaving_instance, k));
+}
+
+fn package_scene_rays__1ray_set(rays: package_scene_rays_Rays, k: u32, ray: package_types_Ray) -> package_scene_rays_Rays {
+    return package_scene_rays_Rays(package_lib_wide__1vector_set(rays.origin, k, ray.origin), package_lib_wide__1vector_set(rays.direction, k, ray.direction), package_lib_wide__1float_set(rays.t_max, k, ray.t_max), package_lib_wide__1word_set(rays.leaving, k, ray.leaving), package_lib_wide__1word_set(rays.leaving_instance, k, ray.leaving_instance));
+}
+
+fn package_scene_rays__1hit_at(hits: package_scene_rays_Hits, k: u32) -> package_types_Hit {
+    return package_types_Hit(package_lib_wide__1float_at(hits.t, k), package_lib_wide__1word_at(hits.primitive, k), package_lib_wide__1float_at(hits.b1, k), package_lib_wide__1float_at(hits.b2, k), package_lib_wide__1word_at(hits.instance, k));
+}
+
+fn package_scene_rays__1hits_of(hit: package_types_Hit) -> package_scene_rays_Hits {
+    return package_scene_rays_Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
+}
+
+fn package_scene_rays__1closest_hits(rays: package_scene_rays_Rays) -> package_scene_rays_Hits {
+    {
+        return package_scene_rays__1hits_of(package_scene_traverse__1closest_hit(package_scene_rays__1ray_at(rays, 0u)));
+    }
+}
+
+fn package_scene_rays__1any_hits(rays: package_scene_rays_Rays) -> package_scene_rays_Hits {
+    {
+        return package_scene_rays__1hits_of(package_scene_traverse__1any_hit(package_scene_rays__1ray_at(rays, 0u)));
+    }
+}
+
+fn package_scene_rays__1any_lane(condition: bool) -> bool {
+    {
+        return condition;
+    }
+}
+
+const package_lib_wide__2RAYS_PER_LANE: u32 = 1u;
+
+alias package_lib_wide_Floats = f32;
+
+alias package_lib_wide_Words = u32;
+
+struct package_lib_wide_Vectors {
+    x: package_lib_wide_Floats,
+    y: package_lib_wide_Floats,
+    z: package_lib_wide_Floats
+}
+
+fn package_lib_wide__1no_vectors() -> package_lib_wide_Vectors {
+    return package_lib_wide_Vectors(package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0));
+}
+
+fn package_lib_wide__1float_at(all: package_lib_wide_Floats, k: u32) -> f32 {
+    return all;
+}
+
+fn package_lib_wide__1word_at(all: package_lib_wide_Words, k: u32) -> u32 {
+    return all;
+}
+
+fn package_lib_wide__1vector_at(all: package_lib_wide_Vectors, k: u32) -> vec3f {
+    return vec3f(package_lib_wide__1float_at(all.x, k), package_lib_wide__1float_at(all.y, k), package_lib_wide__1float_at(all.z, k));
+}
+
+fn package_lib_wide__1float_set(all: package_lib_wide_Floats, k: u32, value: f32) -> package_lib_wide_Floats {
+    {
+        return value;
+    }
+}
+
+fn package_lib_wide__1word_set(all: package_lib_wide_Words, k: u32, value: u32) -> package_lib_wide_Words {
+    {
+        return value;
+    }
+}
+
+fn package_lib_wide__1vector_set(all: package_lib_wide_Vectors, k: u32, value: vec3f) -> package_lib_wide_Vectors {
+    return package_lib_wide_Vectors(package_lib_wide__1float_set(all.x, k, value.x), package_lib_wide__1float_set(all.y, k, value.y), package_lib_wide__1float_set(all.z, k, value.z));
+}
+
 const package_lib_tile__1GROUP_SIDE: u32 = 8u;
 
 fn package_lib_tile__1permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
@@ -684,44 +992,6 @@ fn package_lib_tile__1morton_8x8(lane: u32) -> vec2u {
 
 fn package_lib_tile__1tile_pixel(group: u32, lane: u32, group_columns: u32) -> vec2u {
     return package_lib_tile__1GROUP_SIDE * vec2u(group % group_columns, group / group_columns) + package_lib_tile__1morton_8x8(lane);
-}
-
-struct package_scene_film_Sample {
-    radiance: vec3f
-}
-
-struct package_scene_film_Sum {
-    radiance: vec4f,
-    squares: f32
-}
-
-fn package_scene_film__1load_sum(work: package_scene_dispatch_Work) -> package_scene_film_Sum {
-    let row = package_bindings__1FILM_ROWS * work.film_index;
-    var sum = package_scene_film_Sum(package_bindings_film[row], 0.0);
-    if (package_bindings_ADAPTIVE) {
-        sum.squares = package_bindings_film[row + package_bindings__1SQUARES_ROW].x;
-    }
-    return sum;
-}
-
-fn package_scene_film__1store_sum(work: package_scene_dispatch_Work, sum: package_scene_film_Sum) {
-    let row = package_bindings__1FILM_ROWS * work.film_index;
-    package_bindings_film[row] = sum.radiance;
-    if (package_bindings_ADAPTIVE) {
-        package_bindings_film[row + package_bindings__1SQUARES_ROW].x = sum.squares;
-    }
-}
-
-fn package_scene_film__1add_sample(sum: package_scene_film_Sum, sample: package_scene_film_Sample, weight: f32) -> package_scene_film_Sum {
-    let luminance = dot(sample.radiance, package_lib_tone__1LUMINANCE_REC709);
-    var next = sum;
-    next.radiance += weight * vec4f(sample.radiance, 1.0);
-    next.squares += luminance * luminance;
-    if (!package_lib_numeric__1is_finite(next.radiance.xyz) || (package_bindings_ADAPTIVE && !package_lib_numeric__1is_finite(vec3f(next.squares)))) {
-        atomicAdd(&package_bindings_dispatch.counters.nonfinite_samples, 1u);
-        return sum;
-    }
-    return next;
 }
 
 fn package_lib_rng_hash(x: u32) -> u32 {
@@ -746,6 +1016,300 @@ fn package_lib_rng__1unit_float(x: u32) -> f32 {
     return f32(x >> 8u) * 5.9604645e-8;
 }
 
+const package_lib_filter_PI: f32 = 3.14159265;
+
+const package_lib_filter_SIGMA: f32 = 0.5;
+
+const package_lib_filter_ROUNDS: u32 = 22u;
+
+const package_lib_filter__2BLACKMAN_HARRIS_1: f32 = 0.48829 / (package_lib_filter_PI * 0.35875);
+
+const package_lib_filter__2BLACKMAN_HARRIS_2: f32 = 0.14128 / (package_lib_filter_PI * 0.35875);
+
+const package_lib_filter__2BLACKMAN_HARRIS_3: f32 = 0.01168 / (3.0 * package_lib_filter_PI * 0.35875);
+
+const package_lib_filter__1MITCHELL_ZERO: f32 = 1.14285714;
+
+const package_lib_filter__1MITCHELL_POSITIVE: f32 = 0.51749271;
+
+const package_lib_filter__1MITCHELL_TOTAL: f32 = 0.53498542;
+
+fn package_lib_filter__1filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
+    let centred = 2.0 * u - 1.0;
+    if (kind == package_types__1FILTER_BOX) {
+        return 2.0 * radius * (u - 0.5);
+    }
+    let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
+    let fraction = abs(centred);
+    if (kind == package_types__1FILTER_TENT) {
+        return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
+    }
+    if (kind == package_types__1FILTER_GAUSSIAN) {
+        let scale = package_lib_filter_SIGMA * sqrt(2.0);
+        return scale * side * min(package_lib_filter__1inverse_erf(fraction * package_lib_filter_erf(radius / scale)), vec2f(radius / scale));
+    }
+    return radius * side * package_lib_filter_searched(kind, fraction);
+}
+
+fn package_lib_filter__1filter_sign(kind: u32, u: vec2f) -> f32 {
+    let negative = abs(2.0 * u - 1.0) > vec2f(package_lib_filter__1MITCHELL_POSITIVE / package_lib_filter__1MITCHELL_TOTAL);
+    return select(1.0, -1.0, (kind == package_types__1FILTER_MITCHELL) & (negative.x != negative.y));
+}
+
+fn package_lib_filter_searched(kind: u32, fraction: vec2f) -> vec2f {
+    var low = vec2f(0.0);
+    var width = 1.0;
+    var done = 0u;
+    loop {
+        width *= 0.5;
+        let middle = low + width;
+        low = select(low, middle, package_lib_filter_cumulated(kind, middle) <= fraction);
+        continuing {
+            done += 1u;
+            break if done >= package_lib_filter_ROUNDS;
+        }
+    }
+    return low + 0.5 * width;
+}
+
+fn package_lib_filter_cumulated(kind: u32, x: vec2f) -> vec2f {
+    if (kind == package_types__2FILTER_BLACKMAN_HARRIS) {
+        let s = sin(package_lib_filter_PI * x);
+        let c = cos(package_lib_filter_PI * x);
+        return x + s * (package_lib_filter__2BLACKMAN_HARRIS_1 + package_lib_filter__2BLACKMAN_HARRIS_2 * c + package_lib_filter__2BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
+    }
+    let t = 2.0 * x;
+    let inner = t * (16.0 / 3.0 + t * t * (-4.0 + t * 1.75)) / 6.0;
+    let e = 2.0 - t;
+    let outer = e * e * e * (7.0 / 12.0 * e - 2.0 / 3.0) / 6.0;
+    let signed = select(0.5 - outer, inner, t < vec2f(1.0));
+    let absolute = select(signed, 2.0 * package_lib_filter__1MITCHELL_POSITIVE - signed, t > vec2f(package_lib_filter__1MITCHELL_ZERO));
+    return absolute / package_lib_filter__1MITCHELL_TOTAL;
+}
+
+fn package_lib_filter_erf(x: f32) -> f32 {
+    let t = 1.0 / (1.0 + 0.3275911 * x);
+    let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
+    return 1.0 - series * exp(-min(x * x, 80.0));
+}
+
+fn package_lib_filter__1inverse_erf(y: vec2f) -> vec2f {
+    let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
+    let a = w - 2.5;
+    let b = sqrt(max(w, vec2f(0.0))) - 3.0;
+    let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
+    let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
+    return y * select(far, near, w < vec2f(5.0));
+}
+
+fn package_lib_sampling_sobol(index: u32) -> vec2u {
+    var x = index;
+    x ^= (x >> 1u) & 1431655765u;
+    x ^= (x >> 2u) & 858993459u;
+    x ^= (x >> 4u) & 252645135u;
+    x ^= (x >> 8u) & 16711935u;
+    x ^= (x >> 16u) & 65535u;
+    return vec2u(reverseBits(index), reverseBits(x));
+}
+
+fn package_lib_sampling__1owen_scramble(fraction: u32, seed: u32) -> u32 {
+    var x = reverseBits(fraction);
+    x += seed;
+    x ^= x * 1817228412u;
+    x ^= x * 3090095698u;
+    x ^= x * 3350193720u;
+    x ^= x * 2367878886u;
+    return reverseBits(x);
+}
+
+fn package_lib_sampling__1sobol_34(index: u32) -> vec2u {
+    var z = vec2u(2147483648u, 3221225472u);
+    var w = vec3u(2147483648u, 3221225472u, 536870912u);
+    var point = vec2u(0u);
+    var bit = 0u;
+    loop {
+        point ^= select(vec2u(0u), vec2u(z.x, w.x), ((index >> bit) & 1u) != 0u);
+        z = vec2u(z.y, z.y ^ z.x ^ (z.x >> 2u));
+        w = vec3u(w.yz, w.y ^ w.x ^ (w.x >> 3u));
+        continuing {
+            bit += 1u;
+            break if bit >= 32u;
+        }
+    }
+    return point;
+}
+
+fn package_lib_sampling__1stratified_2d(index: u32, key: u32) -> vec2f {
+    return package_lib_sampling_scrambled(package_lib_sampling_sobol(package_lib_sampling__1owen_scramble(index, package_lib_rng_hash(key))), key);
+}
+
+fn package_lib_sampling__1stratified_34(index: u32, key: u32) -> vec2f {
+    return package_lib_sampling_scrambled(package_lib_sampling__1sobol_34(package_lib_sampling__1owen_scramble(index, package_lib_rng_hash(key))), key ^ 2654435769u);
+}
+
+fn package_lib_sampling__1stratified_1d(index: u32, key: u32) -> f32 {
+    let own = key ^ 1757159915u;
+    return package_lib_rng__1unit_float(package_lib_sampling__1owen_scramble(reverseBits(package_lib_sampling__1owen_scramble(index, package_lib_rng_hash(own))), package_lib_rng_hash(own ^ 48610963u)));
+}
+
+fn package_lib_sampling_scrambled(point: vec2u, key: u32) -> vec2f {
+    return vec2f(package_lib_rng__1unit_float(package_lib_sampling__1owen_scramble(point.x, package_lib_rng_hash(key ^ 2769414579u))), package_lib_rng__1unit_float(package_lib_sampling__1owen_scramble(point.y, package_lib_rng_hash(key ^ 1675113877u))));
+}
+
+var<private> package_scene_shutter__1shutter_time: f32 = 0.0;
+
+fn package_scene_shutter__1shutter_camera(still: package_types_PackedCamera) -> package_types_PackedCamera {
+    if (package_bindings__1CAMERA_MOTION) {
+        let moment = package_lib_motion__1moment_of(package_scene_shutter__1shutter_time, package_bindings_frame.camera_key_count);
+        return package_lib_motion__1camera_between(package_scene_fetch__1load_camera(moment.key), package_scene_fetch__1load_camera(moment.key + 1u), moment.fraction);
+    }
+    return still;
+}
+
+fn package_scene_shutter__1shutter_light(index: u32, light_count: u32) -> package_types_PackedLight {
+    if (package_bindings__1LIGHT_MOTION) {
+        let moment = package_lib_motion__1moment_of(package_scene_shutter__1shutter_time, package_bindings_frame.light_key_count);
+        let place = moment.key * light_count + index;
+        return package_lib_motion__1light_between(package_scene_fetch__1load_light(place), package_scene_fetch__1load_light(place + light_count), moment.fraction);
+    }
+    return package_scene_fetch__1load_light(index);
+}
+
+struct package_lib_motion_Moment {
+    key: u32,
+    fraction: f32
+}
+
+fn package_lib_motion__1moment_of(time: f32, key_count: u32) -> package_lib_motion_Moment {
+    let intervals = max(key_count, 2u) - 1u;
+    let at = time * f32(intervals);
+    let key = min(u32(at), intervals - 1u);
+    return package_lib_motion_Moment(key, at - f32(key));
+}
+
+struct package_lib_motion_Space {
+    translation: vec3f,
+    linear: mat3x3f,
+    inverse: mat3x3f
+}
+
+fn package_lib_motion__1space_between(a: package_types_PackedKey, b: package_types_PackedKey, fraction: f32) -> package_lib_motion_Space {
+    let q = mix(a.rotation, b.rotation, vec4f(fraction));
+    let rotation = package_lib_motion__1rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+    let d = mix(a.stretch, b.stretch, vec3f(fraction));
+    let s = mix(a.shear, b.shear, vec3f(fraction));
+    let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
+    let e = d / size;
+    let f = s / size;
+    let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
+    let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
+    let usable = abs(determinant) > 1e-30;
+    let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
+    let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
+    return package_lib_motion_Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+}
+
+fn package_lib_motion__1rotation_matrix(q: vec4f) -> mat3x3f {
+    let d = 2.0 * q.xyz * q.xyz;
+    let xy = 2.0 * q.x * q.y;
+    let xz = 2.0 * q.x * q.z;
+    let yz = 2.0 * q.y * q.z;
+    let w = 2.0 * q.w * q.xyz;
+    return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
+}
+
+fn package_lib_motion__1camera_between(a: package_types_PackedCamera, b: package_types_PackedCamera, fraction: f32) -> package_types_PackedCamera {
+    return package_types_PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
+}
+
+fn package_lib_motion__1light_between(a: package_types_PackedLight, b: package_types_PackedLight, fraction: f32) -> package_types_PackedLight {
+    return package_types_PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, package_lib_numeric__1normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, 0u, 0u, 0u);
+}
+
+const package_lib_camera__1T_FAR: f32 = 3e38;
+
+fn package_lib_camera__1camera_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> package_types_Ray {
+    return package_types_Ray(camera.origin, package_lib_camera__1T_FAR, normalize(package_lib_camera_through(camera, position, size)), package_types_NONE, package_types__1NO_INSTANCE);
+}
+
+fn package_lib_camera_through(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+    let x = 2.0 * position.x / size.x - 1.0;
+    let y = 1.0 - 2.0 * position.y / size.y;
+    return camera.forward + x * camera.right + y * camera.up;
+}
+
+fn package_lib_camera__1parallel_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> package_types_Ray {
+    let origin = camera.origin + package_lib_camera_across(camera, position, size);
+    return package_types_Ray(origin, package_lib_camera__1T_FAR, normalize(camera.forward), package_types_NONE, package_types__1NO_INSTANCE);
+}
+
+fn package_lib_camera_across(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+    let x = 2.0 * position.x / size.x - 1.0;
+    let y = 1.0 - 2.0 * position.y / size.y;
+    return x * camera.right + y * camera.up;
+}
+
+fn package_lib_camera__1lens_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> package_types_Ray {
+    let off_axis = package_lib_camera__1aperture_point(camera, u);
+    let direction = package_lib_camera_through(camera, position, size) - off_axis / camera.focus_distance;
+    return package_types_Ray(camera.origin + off_axis, package_lib_camera__1T_FAR, normalize(direction), package_types_NONE, package_types__1NO_INSTANCE);
+}
+
+fn package_lib_camera__2parallel_lens_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> package_types_Ray {
+    let off_axis = package_lib_camera__1aperture_point(camera, u);
+    let origin = camera.origin + package_lib_camera_across(camera, position, size) + off_axis;
+    let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
+    return package_types_Ray(origin, package_lib_camera__1T_FAR, normalize(direction), package_types_NONE, package_types__1NO_INSTANCE);
+}
+
+fn package_lib_camera__1aperture_point(camera: package_types_PackedCamera, u: vec2f) -> vec3f {
+    var aperture = package_lib_warp__2disc_from_square(u);
+    if (camera.blade_count >= 3u) {
+        aperture = package_lib_warp__2polygon_from_square(u, camera.blade_count, camera.blade_rotation);
+    }
+    let p = camera.lens_radius * aperture;
+    return p.x * normalize(camera.right) + p.y * normalize(camera.up);
+}
+
+const package_lib_warp_PI: f32 = 3.14159265;
+
+fn package_lib_warp__2disc_from_square(u: vec2f) -> vec2f {
+    let p = 2.0 * u - 1.0;
+    let by_x = abs(p.x) > abs(p.y);
+    let radius = select(p.y, p.x, by_x);
+    let ratio = select(p.x, p.y, by_x) / select(1.0, radius, abs(radius) > 0.0);
+    let angle = select(0.5 * package_lib_warp_PI - 0.25 * package_lib_warp_PI * ratio, 0.25 * package_lib_warp_PI * ratio, by_x);
+    return radius * vec2f(cos(angle), sin(angle));
+}
+
+fn package_lib_warp__2triangle_from_square(u: vec2f) -> vec2f {
+    let s = sqrt(u.y);
+    return vec2f(s * (1.0 - u.x), s * u.x);
+}
+
+fn package_lib_warp__2polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
+    let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
+    let b = package_lib_warp__2triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
+    let step = 2.0 * package_lib_warp_PI / f32(count);
+    let angles = rotation + step * vec2f(edge, edge + 1.0);
+    return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
+}
+
+fn package_lib_warp__2cone_from_square(u: vec2f, depth: f32) -> vec3f {
+    let p = package_lib_warp__2disc_from_square(u);
+    let below = min(dot(p, p), 1.0) * depth;
+    return vec3f(p * sqrt(max(depth * (2.0 - below), 0.0)), 1.0 - below);
+}
+
+fn package_lib_warp__1turn_to(n: vec3f, direction: vec3f) -> vec3f {
+    let side = select(-1.0, 1.0, n.z >= 0.0);
+    let a = -1.0 / (side + n.z);
+    let b = n.x * n.y * a;
+    let x = vec3f(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
+    let y = vec3f(b, side + n.y * n.y * a, -n.y);
+    return direction.x * x + direction.y * y + direction.z * n;
+}
+
 const package_scene__1ray_stack__1KIND_PRIMARY: u32 = 0u;
 
 const package_scene__1ray_stack__1KIND_REFLECTED: u32 = 1u;
@@ -761,17 +1325,34 @@ struct package_scene__1ray_stack_RayState {
     node: u32
 }
 
+struct package_scene__1ray_stack_Media {
+    x: package_lib_wide_Words,
+    y: package_lib_wide_Words,
+    z: package_lib_wide_Words,
+    w: package_lib_wide_Words
+}
+
+struct package_scene__1ray_stack_RayStates {
+    rays: package_scene_rays_Rays,
+    throughput: package_lib_wide_Vectors,
+    media: package_scene__1ray_stack_Media,
+    step: package_lib_wide_Words,
+    node: package_lib_wide_Words
+}
+
 const package_scene__1ray_stack__2RAY_STACK_SIZE: u32 = 9u;
 
 const package_scene__1ray_stack__2MAX_TREE_RAYS: u32 = 1024u;
 
 var<private> package_scene__1ray_stack__1ray_stack: array<vec4u, 36>;
 
-var<private> package_scene__1ray_stack__1stack_count: u32 = 0u;
+var<private> package_scene__1ray_stack__1stack_counts: package_lib_wide_Words;
 
-var<private> package_scene__1ray_stack__1tree_rays: u32 = 0u;
+var<private> package_scene__1ray_stack__1tree_rays: package_lib_wide_Words;
 
-var<private> package_scene__1ray_stack__2is_cut_off: bool = false;
+var<private> package_scene__1ray_stack__1current_tree: u32;
+
+var<private> package_scene__1ray_stack__2trees_cut_off: package_lib_wide_Words;
 
 var<private> package_scene__1ray_stack__2cut_off_trees: u32 = 0u;
 
@@ -779,32 +1360,54 @@ fn package_scene__1ray_stack__1is_alive(state: package_scene__1ray_stack_RayStat
     return any(state.throughput > vec3f(0.0));
 }
 
-fn package_scene__1ray_stack__1camera_state(ray: package_types_Ray, media: vec4u) -> package_scene__1ray_stack_RayState {
-    package_scene__1ray_stack__1stack_count = 0u;
-    package_scene__1ray_stack__1tree_rays = 0u;
-    package_scene__1ray_stack__2is_cut_off = false;
-    return package_scene__1ray_stack_RayState(ray, vec3f(1.0), media, 0u, package_scene__1ray_stack__1KIND_PRIMARY, 1u);
+fn package_scene__1ray_stack__1camera_states(rays: package_scene_rays_Rays, media: vec4u) -> package_scene__1ray_stack_RayStates {
+    package_scene__1ray_stack__1stack_counts = package_lib_wide_Words(0u);
+    package_scene__1ray_stack__1tree_rays = package_lib_wide_Words(0u);
+    package_scene__1ray_stack__2trees_cut_off = package_lib_wide_Words(0u);
+    let all = package_lib_wide_Floats(1.0);
+    return package_scene__1ray_stack_RayStates(rays, package_lib_wide_Vectors(all, all, all), package_scene__1ray_stack_Media(package_lib_wide_Words(media.x), package_lib_wide_Words(media.y), package_lib_wide_Words(media.z), package_lib_wide_Words(media.w)), package_lib_wide_Words(package_scene__1ray_stack__1KIND_PRIMARY), package_lib_wide_Words(1u));
+}
+
+fn package_scene__1ray_stack__1state_at(states: package_scene__1ray_stack_RayStates, k: u32) -> package_scene__1ray_stack_RayState {
+    let step = package_lib_wide__1word_at(states.step, k);
+    return package_scene__1ray_stack_RayState(package_scene_rays__1ray_at(states.rays, k), package_lib_wide__1vector_at(states.throughput, k), package_scene__1ray_stack__1media_at(states.media, k), step >> 2u, step & 3u, package_lib_wide__1word_at(states.node, k));
+}
+
+fn package_scene__1ray_stack__1state_set(states: package_scene__1ray_stack_RayStates, k: u32, state: package_scene__1ray_stack_RayState) -> package_scene__1ray_stack_RayStates {
+    return package_scene__1ray_stack_RayStates(package_scene_rays__1ray_set(states.rays, k, state.ray), package_lib_wide__1vector_set(states.throughput, k, state.throughput), package_scene__1ray_stack__1media_set(states.media, k, state.media), package_lib_wide__1word_set(states.step, k, (state.depth << 2u) | state.kind), package_lib_wide__1word_set(states.node, k, state.node));
+}
+
+fn package_scene__1ray_stack__1media_at(all: package_scene__1ray_stack_Media, k: u32) -> vec4u {
+    return vec4u(package_lib_wide__1word_at(all.x, k), package_lib_wide__1word_at(all.y, k), package_lib_wide__1word_at(all.z, k), package_lib_wide__1word_at(all.w, k));
+}
+
+fn package_scene__1ray_stack__1media_set(all: package_scene__1ray_stack_Media, k: u32, media: vec4u) -> package_scene__1ray_stack_Media {
+    return package_scene__1ray_stack_Media(package_lib_wide__1word_set(all.x, k, media.x), package_lib_wide__1word_set(all.y, k, media.y), package_lib_wide__1word_set(all.z, k, media.z), package_lib_wide__1word_set(all.w, k, media.w));
 }
 
 fn package_scene__1ray_stack__1no_ray() -> package_scene__1ray_stack_RayState {
-    return package_scene__1ray_stack_RayState(package_types_Ray(vec3f(0.0), 0.0, vec3f(0.0, 0.0, 1.0), package_types_NONE, package_types__1NO_INSTANCE), vec3f(0.0), vec4u(package_types_NONE), 0u, 0u, 0u);
+    return package_scene__1ray_stack_RayState(package_scene_rays_DEAD, vec3f(0.0), vec4u(package_types_NONE), 0u, 0u, 0u);
 }
 
 fn package_scene__1ray_stack__1next_ray(reflected: package_scene__1ray_stack_RayState, refracted: package_scene__1ray_stack_RayState) -> package_scene__1ray_stack_RayState {
-    package_scene__1ray_stack__1tree_rays += 1u;
+    let k = package_scene__1ray_stack__1current_tree;
+    let count = package_lib_wide__1word_at(package_scene__1ray_stack__1stack_counts, k);
+    let rays = package_lib_wide__1word_at(package_scene__1ray_stack__1tree_rays, k) + 1u;
+    package_scene__1ray_stack__1tree_rays = package_lib_wide__1word_set(package_scene__1ray_stack__1tree_rays, k, rays);
     let sends_both = package_scene__1ray_stack__1is_alive(reflected) && package_scene__1ray_stack__1is_alive(refracted);
-    let goes_on = package_scene__1ray_stack__1is_alive(reflected) || package_scene__1ray_stack__1is_alive(refracted) || package_scene__1ray_stack__1stack_count > 0u;
-    if (goes_on && package_scene__1ray_stack__1tree_rays >= package_scene__1ray_stack__2MAX_TREE_RAYS) {
+    let goes_on = package_scene__1ray_stack__1is_alive(reflected) || package_scene__1ray_stack__1is_alive(refracted) || count > 0u;
+    if (goes_on && rays >= package_scene__1ray_stack__2MAX_TREE_RAYS) {
         package_scene__1ray_stack__1cut_tree();
+        package_scene__1ray_stack__1stack_counts = package_lib_wide__1word_set(package_scene__1ray_stack__1stack_counts, k, 0u);
         return package_scene__1ray_stack__1no_ray();
     }
     if (sends_both) {
         let reflected_is_weaker = package_scene__1ray_stack_strength(reflected) < package_scene__1ray_stack_strength(refracted);
-        if (package_scene__1ray_stack__1stack_count == package_scene__1ray_stack__2RAY_STACK_SIZE) {
+        if (count == package_scene__1ray_stack__2RAY_STACK_SIZE) {
             package_scene__1ray_stack__1cut_tree();
             return package_scene__1ray_stack_choose(reflected, refracted, !reflected_is_weaker);
         }
-        package_scene__1ray_stack_push(package_scene__1ray_stack_choose(reflected, refracted, !reflected_is_weaker));
+        package_scene__1ray_stack_push(k, package_scene__1ray_stack_choose(reflected, refracted, !reflected_is_weaker));
         return package_scene__1ray_stack_choose(reflected, refracted, reflected_is_weaker);
     }
     if (package_scene__1ray_stack__1is_alive(refracted)) {
@@ -813,12 +1416,12 @@ fn package_scene__1ray_stack__1next_ray(reflected: package_scene__1ray_stack_Ray
     if (package_scene__1ray_stack__1is_alive(reflected)) {
         return reflected;
     }
-    return package_scene__1ray_stack_pop();
+    return package_scene__1ray_stack_pop(k);
 }
 
 fn package_scene__1ray_stack__1cut_tree() {
-    package_scene__1ray_stack__2cut_off_trees += select(1u, 0u, package_scene__1ray_stack__2is_cut_off);
-    package_scene__1ray_stack__2is_cut_off = true;
+    package_scene__1ray_stack__2cut_off_trees += 1u - package_lib_wide__1word_at(package_scene__1ray_stack__2trees_cut_off, package_scene__1ray_stack__1current_tree);
+    package_scene__1ray_stack__2trees_cut_off = package_lib_wide__1word_set(package_scene__1ray_stack__2trees_cut_off, package_scene__1ray_stack__1current_tree, 1u);
 }
 
 fn package_scene__1ray_stack_choose(reflected: package_scene__1ray_stack_RayState, refracted: package_scene__1ray_stack_RayState, first: bool) -> package_scene__1ray_stack_RayState {
@@ -832,25 +1435,34 @@ fn package_scene__1ray_stack_strength(state: package_scene__1ray_stack_RayState)
     return dot(state.throughput, vec3f(1.0));
 }
 
-fn package_scene__1ray_stack_push(state: package_scene__1ray_stack_RayState) {
-    let row = 4u * package_scene__1ray_stack__1stack_count;
+fn package_scene__1ray_stack_push(k: u32, state: package_scene__1ray_stack_RayState) {
+    let count = package_lib_wide__1word_at(package_scene__1ray_stack__1stack_counts, k);
+    let row = 4u * count;
     package_scene__1ray_stack__1ray_stack[row] = vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving);
-    package_scene__1ray_stack__1ray_stack[row + 1u] = vec4u(bitcast<vec3u>(state.ray.direction), (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind);
+    package_scene__1ray_stack__1ray_stack[row + 1u] = vec4u(bitcast<vec3u>(state.ray.direction), package_scene__1ray_stack__1place_of(state));
     package_scene__1ray_stack__1ray_stack[row + 2u] = vec4u(bitcast<vec3u>(state.throughput), state.node);
     package_scene__1ray_stack__1ray_stack[row + 3u] = state.media;
-    package_scene__1ray_stack__1stack_count += 1u;
+    package_scene__1ray_stack__1stack_counts = package_lib_wide__1word_set(package_scene__1ray_stack__1stack_counts, k, count + 1u);
 }
 
-fn package_scene__1ray_stack_pop() -> package_scene__1ray_stack_RayState {
-    if (package_scene__1ray_stack__1stack_count == 0u) {
+fn package_scene__1ray_stack_pop(k: u32) -> package_scene__1ray_stack_RayState {
+    if (package_scene__1ray_stack__1stack_counts == 0u) {
         return package_scene__1ray_stack__1no_ray();
     }
-    package_scene__1ray_stack__1stack_count -= 1u;
-    let row = 4u * package_scene__1ray_stack__1stack_count;
+    package_scene__1ray_stack__1stack_counts -= 1u;
+    let row = 4u * package_scene__1ray_stack__1stack_counts;
     let r0 = package_scene__1ray_stack__1ray_stack[row];
     let r1 = package_scene__1ray_stack__1ray_stack[row + 1u];
     let r2 = package_scene__1ray_stack__1ray_stack[row + 2u];
-    return package_scene__1ray_stack_RayState(package_types_Ray(bitcast<vec3f>(r0.xyz), package_lib_camera__1T_FAR, bitcast<vec3f>(r1.xyz), r0.w, r1.w >> 12u), bitcast<vec3f>(r2.xyz), package_scene__1ray_stack__1ray_stack[row + 3u], (r1.w >> 2u) & 1023u, r1.w & 3u, r2.w);
+    return package_scene__1ray_stack_stored(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, package_scene__1ray_stack__1ray_stack[row + 3u]);
+}
+
+fn package_scene__1ray_stack__1place_of(state: package_scene__1ray_stack_RayState) -> u32 {
+    return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
+}
+
+fn package_scene__1ray_stack_stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u) -> package_scene__1ray_stack_RayState {
+    return package_scene__1ray_stack_RayState(package_types_Ray(origin, package_lib_camera__1T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node);
 }
 
 const package_scene_traverse_EMPTY: u32 = 4294967295u;
@@ -875,8 +1487,8 @@ fn package_scene_traverse__1search_limit(ray: package_types_Ray, hit: package_ty
     return hit.t;
 }
 
-fn package_scene_traverse_occluded(ray: package_types_Ray) -> bool {
-    return package_scene_traverse_traverse(ray, true).primitive != package_types_NONE;
+fn package_scene_traverse__1any_hit(ray: package_types_Ray) -> package_types_Hit {
+    return package_scene_traverse_traverse(ray, true);
 }
 
 fn package_scene_traverse_traverse(ray: package_types_Ray, any: bool) -> package_types_Hit {
@@ -996,7 +1608,10 @@ fn package_scene_primitive__1traversal_ray(ray: package_types_Ray, shear: packag
 }
 
 fn package_scene_primitive_closer(at: package_scene_primitive_TraversalRay, hit: package_types_Hit, primitive: u32) -> package_types_Hit {
-    let candidate = package_scene_primitive__1test_primitive(at.ray, primitive, at.shear);
+    return package_scene_primitive__1closer_of(at, hit, package_scene_primitive__1test_primitive(at.ray, primitive, at.shear), primitive);
+}
+
+fn package_scene_primitive__1closer_of(at: package_scene_primitive_TraversalRay, hit: package_types_Hit, candidate: package_types_Candidate, primitive: u32) -> package_types_Hit {
     var is_lower = primitive < hit.primitive;
     var is_left = primitive == at.ray.leaving;
     if (package_bindings__1HAS_INSTANCES) {
@@ -1025,16 +1640,15 @@ fn package_scene_primitive__2keep_runner_up(hit: package_types_Hit, found: packa
 fn package_scene_primitive__1test_primitive(ray: package_types_Ray, primitive: u32, shear: package_lib_intersect__1triangle_watertight_Shear) -> package_types_Candidate {
     var candidate = package_types_Candidate(false, 0.0, 0.0, 0.0);
     if (package_bindings__1HAS_TRIANGLES && (!package_bindings__1HAS_SHAPES || (primitive & package_types_SHAPE) == 0u)) {
-        candidate = package_scene_primitive__1test_triangle(ray, primitive, shear);
+        candidate = package_scene_primitive__1test_triangle(ray, package_scene_fetch__1load_triangle(primitive), shear);
     }
     if (package_bindings__1HAS_SHAPES && (!package_bindings__1HAS_TRIANGLES || (primitive & package_types_SHAPE) != 0u)) {
-        candidate = package_scene_shape__1test_shape(ray, primitive & ~package_types_SHAPE);
+        candidate = package_scene_shape__1test_shape(ray, package_scene_fetch__1load_shape(primitive & ~package_types_SHAPE));
     }
     return candidate;
 }
 
-fn package_scene_primitive__1test_triangle(ray: package_types_Ray, index: u32, shear: package_lib_intersect__1triangle_watertight_Shear) -> package_types_Candidate {
-    let corners = package_scene_fetch__1load_triangle(index);
+fn package_scene_primitive__1test_triangle(ray: package_types_Ray, corners: package_types_PackedTriangle, shear: package_lib_intersect__1triangle_watertight_Shear) -> package_types_Candidate {
     if (package_bindings__1TRIANGLE_TEST == package_types__2TRIANGLE_TEST_PLANE) {
         return package_lib_intersect__1triangle_plane__2intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
     }
@@ -1042,51 +1656,6 @@ fn package_scene_primitive__1test_triangle(ray: package_types_Ray, index: u32, s
         return package_lib_intersect__2triangle_moller_trumbore__3intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
     }
     return package_lib_intersect__1triangle_watertight__2intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
-}
-
-const package_lib_camera__1T_FAR: f32 = 3e38;
-
-fn package_lib_camera__1camera_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> package_types_Ray {
-    return package_types_Ray(camera.origin, package_lib_camera__1T_FAR, normalize(package_lib_camera_through(camera, position, size)), package_types_NONE, package_types__1NO_INSTANCE);
-}
-
-fn package_lib_camera_through(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> vec3f {
-    let x = 2.0 * position.x / size.x - 1.0;
-    let y = 1.0 - 2.0 * position.y / size.y;
-    return camera.forward + x * camera.right + y * camera.up;
-}
-
-fn package_lib_camera__1parallel_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> package_types_Ray {
-    let origin = camera.origin + package_lib_camera_across(camera, position, size);
-    return package_types_Ray(origin, package_lib_camera__1T_FAR, normalize(camera.forward), package_types_NONE, package_types__1NO_INSTANCE);
-}
-
-fn package_lib_camera_across(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> vec3f {
-    let x = 2.0 * position.x / size.x - 1.0;
-    let y = 1.0 - 2.0 * position.y / size.y;
-    return x * camera.right + y * camera.up;
-}
-
-fn package_lib_camera__1lens_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> package_types_Ray {
-    let off_axis = package_lib_camera__1aperture_point(camera, u);
-    let direction = package_lib_camera_through(camera, position, size) - off_axis / camera.focus_distance;
-    return package_types_Ray(camera.origin + off_axis, package_lib_camera__1T_FAR, normalize(direction), package_types_NONE, package_types__1NO_INSTANCE);
-}
-
-fn package_lib_camera__2parallel_lens_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> package_types_Ray {
-    let off_axis = package_lib_camera__1aperture_point(camera, u);
-    let origin = camera.origin + package_lib_camera_across(camera, position, size) + off_axis;
-    let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
-    return package_types_Ray(origin, package_lib_camera__1T_FAR, normalize(direction), package_types_NONE, package_types__1NO_INSTANCE);
-}
-
-fn package_lib_camera__1aperture_point(camera: package_types_PackedCamera, u: vec2f) -> vec3f {
-    var aperture = package_lib_warp__2disc_from_square(u);
-    if (camera.blade_count >= 3u) {
-        aperture = package_lib_warp__2polygon_from_square(u, camera.blade_count, camera.blade_rotation);
-    }
-    let p = camera.lens_radius * aperture;
-    return p.x * normalize(camera.right) + p.y * normalize(camera.up);
 }
 
 struct package_lib_intersect__1triangle_watertight_Shear {
@@ -1133,7 +1702,7 @@ fn package_scene_exhaustive__1hit_planes(ray: package_types_Ray, start: package_
     let end = package_bindings_frame.shape_count + package_bindings_frame.plane_count;
     var index = package_bindings_frame.shape_count;
     loop {
-        let shape = package_bindings_shapes[index];
+        let shape = package_scene_fetch__1load_shape(index);
         let candidate = package_lib_intersect_plane__1intersect_plane(ray, shape.position, shape.row_y);
         let primitive = package_types_SHAPE | index;
         let counts = candidate.hit & (primitive != ray.leaving);
@@ -1219,134 +1788,6 @@ fn package_lib_numeric__1max_component(v: vec3f) -> f32 {
     return max(v.x, max(v.y, v.z));
 }
 
-fn package_scene_fetch__1load_node(index: u32) -> package_types_Node {
-    let row = package_types__1NODE_ROWS * index;
-    return package_lib_intersect_node__1decode_node(package_scene_fetch__1node_row(row), package_scene_fetch__1node_row(row + 1u), package_scene_fetch__1node_row(row + 2u), package_scene_fetch__1node_row(row + 3u));
-}
-
-fn package_scene_fetch__2load_moving_node(reference: u32, time: f32) -> package_types_Node {
-    let index = reference & ~package_types_MOVING;
-    let last = index + select(0u, 1u, (reference & package_types_MOVING) != 0u);
-    return package_lib_intersect_node__1node_between(package_scene_fetch__1load_node(index), package_scene_fetch__1load_node(last), time);
-}
-
-fn package_scene_fetch__1load_instance(index: u32) -> package_types_PackedInstance {
-    let row = package_bindings_frame.instance_row + package_types__1INSTANCE_ROWS * index;
-    let r0 = package_scene_fetch__1node_row(row);
-    let r1 = package_scene_fetch__1node_row(row + 1u);
-    let r2 = package_scene_fetch__1node_row(row + 2u);
-    let r3 = package_scene_fetch__1node_row(row + 3u);
-    let r4 = package_scene_fetch__1node_row(row + 4u);
-    let r5 = package_scene_fetch__1node_row(row + 5u);
-    let r6 = package_scene_fetch__1node_row(row + 6u);
-    return package_types_PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(package_scene_fetch__1node_row(row + 7u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 8u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 9u)));
-}
-
-fn package_scene_fetch__1load_key(index: u32) -> package_types_PackedKey {
-    let row = package_bindings_frame.key_row + package_types__1KEY_ROWS * index;
-    return package_types_PackedKey(bitcast<vec3f>(package_scene_fetch__1node_row(row).xyz), 0u, bitcast<vec4f>(package_scene_fetch__1node_row(row + 1u)), bitcast<vec3f>(package_scene_fetch__1node_row(row + 2u).xyz), 0u, bitcast<vec3f>(package_scene_fetch__1node_row(row + 3u).xyz), 0u);
-}
-
-fn package_scene_fetch__1load_camera(key: u32) -> package_types_PackedCamera {
-    let row = package_bindings_frame.camera_row + package_types__1CAMERA_ROWS * key;
-    let r0 = package_scene_fetch__1node_row(row);
-    let r1 = package_scene_fetch__1node_row(row + 1u);
-    let r2 = package_scene_fetch__1node_row(row + 2u);
-    let r3 = package_scene_fetch__1node_row(row + 3u);
-    return package_types_PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
-}
-
-fn package_scene_fetch__1load_triangle(index: u32) -> package_types_PackedTriangle {
-    let row = 3u * index;
-    let r0 = package_scene_fetch__1triangle_row(row);
-    let r1 = package_scene_fetch__1triangle_row(row + 1u);
-    let r2 = package_scene_fetch__1triangle_row(row + 2u);
-    return package_types_PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
-}
-
-fn package_scene_fetch__1load_vertex(index: u32) -> package_types_PackedVertex {
-    let r0 = package_scene_fetch__1vertex_row(index);
-    return package_types_PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
-}
-
-struct package_scene_fetch_PhongMaterial {
-    phong: package_types_Phong,
-    flags: u32
-}
-
-fn package_scene_fetch__1load_material(index: u32) -> package_scene_fetch_PhongMaterial {
-    let row = package_types__1MATERIAL_ROWS * index;
-    let r0 = package_scene_fetch__1material_row(row);
-    let r1 = package_scene_fetch__1material_row(row + 1u);
-    let r2 = package_scene_fetch__1material_row(row + 2u);
-    var reflect = vec3f(0.0);
-    if (package_bindings__1HAS_REFLECTION) {
-        reflect = bitcast<vec3f>(package_scene_fetch__1material_row(row + 3u).xyz);
-    }
-    let phong = package_types_Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
-    return package_scene_fetch_PhongMaterial(phong, r1.w);
-}
-
-fn package_scene_fetch__1load_optics(index: u32) -> package_types_Optics {
-    let row = package_types__1MATERIAL_ROWS * index;
-    let r1 = package_scene_fetch__1material_row(row + 1u);
-    let r2 = package_scene_fetch__1material_row(row + 2u);
-    let r3 = package_scene_fetch__1material_row(row + 3u);
-    let r4 = package_scene_fetch__1material_row(row + 4u);
-    return package_types_Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
-}
-
-fn package_scene_fetch__1load_medium(index: u32) -> package_types_Medium {
-    let row = package_types__1MATERIAL_ROWS * index;
-    let r5 = package_scene_fetch__1material_row(row + 5u);
-    return package_types_Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(package_scene_fetch__1material_row(row + 3u).w), bitcast<i32>(package_scene_fetch__1material_row(row + 4u).w));
-}
-
-fn package_scene_fetch__1load_emission(index: u32) -> vec3f {
-    return bitcast<vec3f>(package_scene_fetch__1material_row(package_types__1MATERIAL_ROWS * index + 6u).xyz);
-}
-
-fn package_scene_fetch__2load_texture_indices(index: u32) -> vec3u {
-    return package_scene_fetch__1material_row(package_types__1MATERIAL_ROWS * index + 7u).xyz;
-}
-
-fn package_scene_fetch__1load_texture(index: u32) -> package_types_PackedTexture {
-    let row = package_types__1MATERIAL_ROWS * package_bindings_frame.material_count + package_types__1TEXTURE_ROWS * index;
-    let r0 = package_scene_fetch__1material_row(row);
-    let r1 = package_scene_fetch__1material_row(row + 1u);
-    let r5 = package_scene_fetch__1material_row(row + 5u);
-    return package_types_PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(package_scene_fetch__1material_row(row + 2u)), bitcast<vec4f>(package_scene_fetch__1material_row(row + 3u)), bitcast<vec4f>(package_scene_fetch__1material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
-}
-
-fn package_scene_fetch__1load_uv(index: u32) -> vec2f {
-    return bitcast<vec2f>(package_scene_fetch__1vertex_row(package_bindings_frame.vertex_count + index).xy);
-}
-
-fn package_scene_fetch__1load_texel(index: u32) -> vec3f {
-    let place = vec2u(index & ((1u << package_types__2IMAGE_WIDTH_LOG2) - 1u), index >> package_types__2IMAGE_WIDTH_LOG2);
-    return textureLoad(package_bindings_texels, place, 0).xyz;
-}
-
-fn package_scene_fetch_texel(row: u32) -> vec2u {
-    return vec2u(row & ((1u << package_types__2IMAGE_WIDTH_LOG2) - 1u), row >> package_types__2IMAGE_WIDTH_LOG2);
-}
-
-fn package_scene_fetch__1node_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_nodes, package_scene_fetch_texel(row));
-}
-
-fn package_scene_fetch__1triangle_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_triangles, package_scene_fetch_texel(row));
-}
-
-fn package_scene_fetch__1vertex_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_vertices, package_scene_fetch_texel(row));
-}
-
-fn package_scene_fetch__1material_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_materials, package_scene_fetch_texel(row));
-}
-
 fn package_lib_intersect__1triangle_plane__2intersect_triangle_plane(ray: package_types_Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> package_types_Candidate {
     let e1 = v1 - v0;
     let e2 = v2 - v0;
@@ -1394,8 +1835,7 @@ const package_scene_shape_ELLIPSOIDS: u32 = 1u << package_types__1SHAPE_ELLIPSOI
 
 const package_scene_shape_GLOBES: u32 = 1u << package_types__1SHAPE_GLOBE;
 
-fn package_scene_shape__1test_shape(ray: package_types_Ray, index: u32) -> package_types_Candidate {
-    let shape = package_bindings_shapes[index];
+fn package_scene_shape__1test_shape(ray: package_types_Ray, shape: package_types_PackedShape) -> package_types_Candidate {
     if (package_bindings__1SHAPE_KINDS == package_scene_shape_SPHERES) {
         return package_lib_intersect_sphere__1intersect_sphere(ray, shape.position, shape.size0);
     }
@@ -1877,76 +2317,6 @@ fn package_scene_instance__1pattern_place(instance: package_types_PackedInstance
     return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
 }
 
-struct package_lib_motion_Moment {
-    key: u32,
-    fraction: f32
-}
-
-fn package_lib_motion__1moment_of(time: f32, key_count: u32) -> package_lib_motion_Moment {
-    let intervals = max(key_count, 2u) - 1u;
-    let at = time * f32(intervals);
-    let key = min(u32(at), intervals - 1u);
-    return package_lib_motion_Moment(key, at - f32(key));
-}
-
-struct package_lib_motion_Space {
-    translation: vec3f,
-    linear: mat3x3f,
-    inverse: mat3x3f
-}
-
-fn package_lib_motion__1space_between(a: package_types_PackedKey, b: package_types_PackedKey, fraction: f32) -> package_lib_motion_Space {
-    let q = mix(a.rotation, b.rotation, vec4f(fraction));
-    let rotation = package_lib_motion__1rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
-    let d = mix(a.stretch, b.stretch, vec3f(fraction));
-    let s = mix(a.shear, b.shear, vec3f(fraction));
-    let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
-    let e = d / size;
-    let f = s / size;
-    let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
-    let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
-    let usable = abs(determinant) > 1e-30;
-    let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
-    let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-    return package_lib_motion_Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
-}
-
-fn package_lib_motion__1rotation_matrix(q: vec4f) -> mat3x3f {
-    let d = 2.0 * q.xyz * q.xyz;
-    let xy = 2.0 * q.x * q.y;
-    let xz = 2.0 * q.x * q.z;
-    let yz = 2.0 * q.y * q.z;
-    let w = 2.0 * q.w * q.xyz;
-    return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
-}
-
-fn package_lib_motion__1camera_between(a: package_types_PackedCamera, b: package_types_PackedCamera, fraction: f32) -> package_types_PackedCamera {
-    return package_types_PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
-}
-
-fn package_lib_motion__1light_between(a: package_types_PackedLight, b: package_types_PackedLight, fraction: f32) -> package_types_PackedLight {
-    return package_types_PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, package_lib_numeric__1normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, 0u, 0u, 0u);
-}
-
-var<private> package_scene_shutter__1shutter_time: f32 = 0.0;
-
-fn package_scene_shutter__1shutter_camera(still: package_types_PackedCamera) -> package_types_PackedCamera {
-    if (package_bindings__1CAMERA_MOTION) {
-        let moment = package_lib_motion__1moment_of(package_scene_shutter__1shutter_time, package_bindings_frame.camera_key_count);
-        return package_lib_motion__1camera_between(package_scene_fetch__1load_camera(moment.key), package_scene_fetch__1load_camera(moment.key + 1u), moment.fraction);
-    }
-    return still;
-}
-
-fn package_scene_shutter__1shutter_light(index: u32, light_count: u32) -> package_types_PackedLight {
-    if (package_bindings__1LIGHT_MOTION) {
-        let moment = package_lib_motion__1moment_of(package_scene_shutter__1shutter_time, package_bindings_frame.light_key_count);
-        let place = moment.key * light_count + index;
-        return package_lib_motion__1light_between(package_bindings_frame.lights[place], package_bindings_frame.lights[place + light_count], moment.fraction);
-    }
-    return package_bindings_frame.lights[index];
-}
-
 const package_lib_intersect_node_MISS: u32 = 4294967292u;
 
 const package_lib_intersect_node_WIDENING: i32 = 8;
@@ -1991,6 +2361,128 @@ fn package_lib_intersect_node_sort4(keys: vec4u) -> vec4u {
     let middle_high = min(a.z, a.w);
     let highest = max(a.z, a.w);
     return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
+}
+
+struct package_scene_direct_Receiver {
+    surface: package_types_Surface,
+    v: vec3f,
+    key: package_types_SampleKey
+}
+
+struct package_scene_direct_Receivers {
+    p: package_lib_wide_Vectors,
+    error: package_lib_wide_Vectors,
+    ng: package_lib_wide_Vectors,
+    n: package_lib_wide_Vectors,
+    v: package_lib_wide_Vectors,
+    diffuse: package_lib_wide_Vectors,
+    specular: package_lib_wide_Vectors,
+    shininess: package_lib_wide_Floats,
+    leaving: package_lib_wide_Words,
+    instance: package_lib_wide_Words,
+    hash: package_lib_wide_Words,
+    weight: package_lib_wide_Floats,
+    is_lit: package_lib_wide_Words
+}
+
+fn package_scene_direct__1no_receivers() -> package_scene_direct_Receivers {
+    let none = package_lib_wide__1no_vectors();
+    return package_scene_direct_Receivers(none, none, none, none, none, none, none, package_lib_wide_Floats(0.0), package_lib_wide_Words(0u), package_lib_wide_Words(0u), package_lib_wide_Words(0u), package_lib_wide_Floats(0.0), package_lib_wide_Words(0u));
+}
+
+fn package_scene_direct__1receiver_set(all: package_scene_direct_Receivers, k: u32, surface: package_types_Surface, v: vec3f, key: package_types_SampleKey) -> package_scene_direct_Receivers {
+    return package_scene_direct_Receivers(package_lib_wide__1vector_set(all.p, k, surface.p), package_lib_wide__1vector_set(all.error, k, surface.error), package_lib_wide__1vector_set(all.ng, k, surface.ng), package_lib_wide__1vector_set(all.n, k, surface.n), package_lib_wide__1vector_set(all.v, k, v), package_lib_wide__1vector_set(all.diffuse, k, surface.phong.diffuse), package_lib_wide__1vector_set(all.specular, k, surface.phong.specular), package_lib_wide__1float_set(all.shininess, k, surface.phong.shininess), package_lib_wide__1word_set(all.leaving, k, surface.leaving), package_lib_wide__1word_set(all.instance, k, surface.instance), package_lib_wide__1word_set(all.hash, k, key.hash), package_lib_wide__1float_set(all.weight, k, key.weight), package_lib_wide__1word_set(all.is_lit, k, 1u));
+}
+
+fn package_scene_direct__1receiver_at(all: package_scene_direct_Receivers, k: u32) -> package_scene_direct_Receiver {
+    var surface: package_types_Surface;
+    surface.p = package_lib_wide__1vector_at(all.p, k);
+    surface.error = package_lib_wide__1vector_at(all.error, k);
+    surface.ng = package_lib_wide__1vector_at(all.ng, k);
+    surface.n = package_lib_wide__1vector_at(all.n, k);
+    surface.leaving = package_lib_wide__1word_at(all.leaving, k);
+    surface.instance = package_lib_wide__1word_at(all.instance, k);
+    surface.phong.diffuse = package_lib_wide__1vector_at(all.diffuse, k);
+    surface.phong.specular = package_lib_wide__1vector_at(all.specular, k);
+    surface.phong.shininess = package_lib_wide__1float_at(all.shininess, k);
+    return package_scene_direct_Receiver(surface, package_lib_wide__1vector_at(all.v, k), package_types_SampleKey(package_lib_wide__1word_at(all.hash, k), 0u, package_lib_wide__1float_at(all.weight, k)));
+}
+
+fn package_scene_direct__1direct_light(batch: package_scene_dispatch_Batch, receivers: package_scene_direct_Receivers, media: package_scene__1ray_stack_Media, sample: u32) -> package_lib_wide_Vectors {
+    var color = package_lib_wide__1no_vectors();
+    if (!package_bindings__1HAS_LIGHTS) {
+        return color;
+    }
+    var index = 0u;
+    loop {
+        let light = package_scene_shutter__1shutter_light(index, batch.light_count);
+        color = package_scene_direct__1with_light(batch, color, receivers, media, sample, light, index);
+        continuing {
+            index += 1u;
+            break if index >= batch.light_count;
+        }
+    }
+    package_scene_loops__1cut_off |= index < batch.light_count;
+    return color;
+}
+
+fn package_scene_direct__1with_light(batch: package_scene_dispatch_Batch, before: package_lib_wide_Vectors, receivers: package_scene_direct_Receivers, media: package_scene__1ray_stack_Media, sample: u32, light: package_types_PackedLight, index: u32) -> package_lib_wide_Vectors {
+    var sum = package_lib_wide__1no_vectors();
+    var counts = package_lib_wide_Floats(1.0);
+    let has_extent = package_bindings__2HAS_AREA_LIGHTS && light.kind >= package_types__1LIGHT_RECTANGLE;
+    var drawn = 0u;
+    var is_unfinished = false;
+    loop {
+        var rays = package_scene_rays__1dead_rays();
+        var unshadowed = package_lib_wide__1no_vectors();
+        is_unfinished = false;
+        var k = 0u;
+        loop {
+            if (package_lib_wide__1word_at(receivers.is_lit, k) != 0u) {
+                let receiver = package_scene_direct__1receiver_at(receivers, k);
+                var count = 1u;
+                if (has_extent) {
+                    let wanted = max(round(f32(light.sample_count) * batch.light_samples * receiver.key.weight), 1.0);
+                    count = u32(wanted);
+                    counts = package_lib_wide__1float_set(counts, k, f32(count));
+                }
+                if (drawn < count) {
+                    var arriving = package_lib_light_incident(light, receiver.surface.p);
+                    if (has_extent) {
+                        let hash = package_lib_rng__1hash_combine(receiver.key.hash, index);
+                        arriving = package_lib__1area_light__1area_incident(light, receiver.surface.p, package_lib_sampling__1stratified_2d(sample * count + drawn, hash));
+                    }
+                    let reflected = arriving.radiance * package_lib_phong_phong(receiver.surface.phong, receiver.surface.n, arriving.direction, receiver.v);
+                    if (any(reflected > vec3f(0.0))) {
+                        rays = package_scene_rays__1ray_set(rays, k, package_scene_direct__1shadow_ray(receiver.surface, arriving));
+                        unshadowed = package_lib_wide__1vector_set(unshadowed, k, reflected);
+                    }
+                    is_unfinished |= drawn + 1u < count;
+                }
+            }
+            continuing {
+                k += 1u;
+                break if k >= package_lib_wide__2RAYS_PER_LANE;
+            }
+        }
+        let through = package_scene_shadow__1light_through(rays, media);
+        sum.x += through.x * unshadowed.x;
+        sum.y += through.y * unshadowed.y;
+        sum.z += through.z * unshadowed.z;
+        drawn += 1u;
+        continuing {
+        
+            break if !package_scene_rays__1any_lane(is_unfinished);
+        }
+    }
+    package_scene_loops__1cut_off |= is_unfinished;
+    return package_lib_wide_Vectors(before.x + sum.x / counts, before.y + sum.y / counts, before.z + sum.z / counts);
+}
+
+fn package_scene_direct__1shadow_ray(surface: package_types_Surface, arriving: package_types_Incident) -> package_types_Ray {
+    var ray = package_scene_surface__1leaving_ray(surface, arriving.direction, arriving.distance);
+    ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
+    return ray;
 }
 
 struct package_scene_optics_ScatterEvent {
@@ -2354,7 +2846,7 @@ fn package_scene_surface__1triangle_surface(ray: package_types_Ray, hit: package
 }
 
 fn package_scene_surface__1shape_surface(ray: package_types_Ray, hit: package_types_Hit) -> package_types_Surface {
-    let shape = package_bindings_shapes[hit.primitive & ~package_types_SHAPE];
+    let shape = package_scene_fetch__1load_shape(hit.primitive & ~package_types_SHAPE);
     let reached = ray.origin + hit.t * ray.direction;
     let material = package_scene_fetch__1load_material(shape.material);
     if (package_bindings__1HAS_PLANES && (!package_bindings__1HAS_SHAPES || shape.kind == package_types__1SHAPE_PLANE)) {
@@ -2639,66 +3131,6 @@ fn package_lib_fresnel_refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f3
     return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
-fn package_scene_direct_shade(batch: package_scene_dispatch_Batch, surface: package_types_Surface, v: vec3f, key: package_types_SampleKey, media: vec4u) -> vec3f {
-    var color = batch.ambient * surface.phong.ambient;
-    if (!package_bindings__1HAS_LIGHTS) {
-        return color;
-    }
-    var index = 0u;
-    loop {
-        let light = package_scene_shutter__1shutter_light(index, batch.light_count);
-        if (package_bindings__2HAS_AREA_LIGHTS) {
-            color += package_scene_direct_sampled(batch, surface, v, light, package_types_SampleKey(package_lib_rng__1hash_combine(key.hash, index), key.index, key.weight), media);
-        }
-        else {
-            color += package_scene_direct_direct(surface, v, package_lib_light_incident(light, surface.p), media);
-        }
-        continuing {
-            index += 1u;
-            break if index >= batch.light_count;
-        }
-    }
-    package_scene_loops__1cut_off |= index < batch.light_count;
-    return color;
-}
-
-fn package_scene_direct_sampled(batch: package_scene_dispatch_Batch, surface: package_types_Surface, v: vec3f, light: package_types_PackedLight, key: package_types_SampleKey, media: vec4u) -> vec3f {
-    let has_extent = light.kind >= package_types__1LIGHT_RECTANGLE;
-    let wanted = max(round(f32(light.sample_count) * batch.light_samples * key.weight), 1.0);
-    let count = select(1u, u32(wanted), has_extent);
-    var sum = vec3f(0.0);
-    var drawn = 0u;
-    loop {
-        var arriving = package_lib_light_incident(light, surface.p);
-        if (has_extent) {
-            arriving = package_lib__1area_light__1area_incident(light, surface.p, package_lib_sampling__1stratified_2d(key.index * count + drawn, key.hash));
-        }
-        sum += package_scene_direct_direct(surface, v, arriving, media);
-        continuing {
-            drawn += 1u;
-            break if drawn >= count;
-        }
-    }
-    package_scene_loops__1cut_off |= drawn < count;
-    return sum / f32(count);
-}
-
-fn package_scene_direct_direct(surface: package_types_Surface, v: vec3f, arriving: package_types_Incident, media: vec4u) -> vec3f {
-    let reflected = arriving.radiance * package_lib_phong_phong(surface.phong, surface.n, arriving.direction, v);
-    var color = vec3f(0.0);
-    if (any(reflected > vec3f(0.0))) {
-        var ray = package_scene_surface__1leaving_ray(surface, arriving.direction, arriving.distance);
-        ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
-        let through = package_scene_shadow__1light_through(ray, media);
-        if (package_bindings__1COUNT_RAYS) {
-            package_scene_dispatch_counts.shadow += 1u;
-            package_scene_dispatch_counts.shadow_blocked += select(0u, 1u, all(through == vec3f(0.0)));
-        }
-        color = through * reflected;
-    }
-    return color;
-}
-
 fn package_lib_light__1spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
     let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
     return x * x * (3.0 - 2.0 * x);
@@ -2769,99 +3201,6 @@ fn package_lib__1area_light__1max_abs(v: vec3f) -> f32 {
     return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
-const package_lib_warp_PI: f32 = 3.14159265;
-
-fn package_lib_warp__2disc_from_square(u: vec2f) -> vec2f {
-    let p = 2.0 * u - 1.0;
-    let by_x = abs(p.x) > abs(p.y);
-    let radius = select(p.y, p.x, by_x);
-    let ratio = select(p.x, p.y, by_x) / select(1.0, radius, abs(radius) > 0.0);
-    let angle = select(0.5 * package_lib_warp_PI - 0.25 * package_lib_warp_PI * ratio, 0.25 * package_lib_warp_PI * ratio, by_x);
-    return radius * vec2f(cos(angle), sin(angle));
-}
-
-fn package_lib_warp__2triangle_from_square(u: vec2f) -> vec2f {
-    let s = sqrt(u.y);
-    return vec2f(s * (1.0 - u.x), s * u.x);
-}
-
-fn package_lib_warp__2polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
-    let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
-    let b = package_lib_warp__2triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
-    let step = 2.0 * package_lib_warp_PI / f32(count);
-    let angles = rotation + step * vec2f(edge, edge + 1.0);
-    return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
-}
-
-fn package_lib_warp__2cone_from_square(u: vec2f, depth: f32) -> vec3f {
-    let p = package_lib_warp__2disc_from_square(u);
-    let below = min(dot(p, p), 1.0) * depth;
-    return vec3f(p * sqrt(max(depth * (2.0 - below), 0.0)), 1.0 - below);
-}
-
-fn package_lib_warp__1turn_to(n: vec3f, direction: vec3f) -> vec3f {
-    let side = select(-1.0, 1.0, n.z >= 0.0);
-    let a = -1.0 / (side + n.z);
-    let b = n.x * n.y * a;
-    let x = vec3f(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
-    let y = vec3f(b, side + n.y * n.y * a, -n.y);
-    return direction.x * x + direction.y * y + direction.z * n;
-}
-
-fn package_lib_sampling_sobol(index: u32) -> vec2u {
-    var x = index;
-    x ^= (x >> 1u) & 1431655765u;
-    x ^= (x >> 2u) & 858993459u;
-    x ^= (x >> 4u) & 252645135u;
-    x ^= (x >> 8u) & 16711935u;
-    x ^= (x >> 16u) & 65535u;
-    return vec2u(reverseBits(index), reverseBits(x));
-}
-
-fn package_lib_sampling__1owen_scramble(fraction: u32, seed: u32) -> u32 {
-    var x = reverseBits(fraction);
-    x += seed;
-    x ^= x * 1817228412u;
-    x ^= x * 3090095698u;
-    x ^= x * 3350193720u;
-    x ^= x * 2367878886u;
-    return reverseBits(x);
-}
-
-fn package_lib_sampling__1sobol_34(index: u32) -> vec2u {
-    var z = vec2u(2147483648u, 3221225472u);
-    var w = vec3u(2147483648u, 3221225472u, 536870912u);
-    var point = vec2u(0u);
-    var bit = 0u;
-    loop {
-        point ^= select(vec2u(0u), vec2u(z.x, w.x), ((index >> bit) & 1u) != 0u);
-        z = vec2u(z.y, z.y ^ z.x ^ (z.x >> 2u));
-        w = vec3u(w.yz, w.y ^ w.x ^ (w.x >> 3u));
-        continuing {
-            bit += 1u;
-            break if bit >= 32u;
-        }
-    }
-    return point;
-}
-
-fn package_lib_sampling__1stratified_2d(index: u32, key: u32) -> vec2f {
-    return package_lib_sampling_scrambled(package_lib_sampling_sobol(package_lib_sampling__1owen_scramble(index, package_lib_rng_hash(key))), key);
-}
-
-fn package_lib_sampling__1stratified_34(index: u32, key: u32) -> vec2f {
-    return package_lib_sampling_scrambled(package_lib_sampling__1sobol_34(package_lib_sampling__1owen_scramble(index, package_lib_rng_hash(key))), key ^ 2654435769u);
-}
-
-fn package_lib_sampling__1stratified_1d(index: u32, key: u32) -> f32 {
-    let own = key ^ 1757159915u;
-    return package_lib_rng__1unit_float(package_lib_sampling__1owen_scramble(reverseBits(package_lib_sampling__1owen_scramble(index, package_lib_rng_hash(own))), package_lib_rng_hash(own ^ 48610963u)));
-}
-
-fn package_lib_sampling_scrambled(point: vec2u, key: u32) -> vec2f {
-    return vec2f(package_lib_rng__1unit_float(package_lib_sampling__1owen_scramble(point.x, package_lib_rng_hash(key ^ 2769414579u))), package_lib_rng__1unit_float(package_lib_sampling__1owen_scramble(point.y, package_lib_rng_hash(key ^ 1675113877u))));
-}
-
 fn package_lib_phong__1shininess_power(x: f32, shininess: f32) -> f32 {
     let power = exp2(shininess * log2(max(x, 1e-30)));
     return select(select(0.0, 1.0, shininess <= 0.0), power, x > 0.0);
@@ -2877,137 +3216,133 @@ fn package_lib_phong_phong(coefficients: package_types_Phong, n: vec3f, l: vec3f
 
 const package_scene_shadow__1MAX_CROSSINGS: u32 = 64u;
 
-fn package_scene_shadow__1light_through(ray: package_types_Ray, media: vec4u) -> vec3f {
+fn package_scene_shadow__1light_through(rays: package_scene_rays_Rays, media: package_scene__1ray_stack_Media) -> package_lib_wide_Vectors {
+    var through: package_lib_wide_Vectors;
     if (package_bindings__1HAS_REFRACTION && package_bindings__1FILTERED_SHADOWS) {
-        return package_scene_shadow_filtered(ray, media);
+        through = package_scene_shadow_filtered(rays, media);
     }
-    return select(vec3f(1.0), vec3f(0.0), package_scene_traverse_occluded(ray));
+    else {
+        let hits = package_scene_rays__1any_hits(rays);
+        let passed = select(package_lib_wide_Floats(0.0), package_lib_wide_Floats(1.0), hits.primitive == package_lib_wide_Words(package_types_NONE));
+        through = package_lib_wide_Vectors(passed, passed, passed);
+    }
+    if (package_bindings__1COUNT_RAYS) {
+        package_scene_shadow__1count_shadows(rays, through);
+    }
+    return through;
 }
 
-fn package_scene_shadow_filtered(shadow_ray: package_types_Ray, start: vec4u) -> vec3f {
-    var ray = shadow_ray;
+fn package_scene_shadow__1count_shadows(rays: package_scene_rays_Rays, through: package_lib_wide_Vectors) {
+    var k = 0u;
+    loop {
+        let is_cast = package_lib_wide__1float_at(rays.t_max, k) >= 0.0;
+        let is_blocked = is_cast & all(package_lib_wide__1vector_at(through, k) == vec3f(0.0));
+        package_scene_dispatch_counts.shadow += select(0u, 1u, is_cast);
+        package_scene_dispatch_counts.shadow_blocked += select(0u, 1u, is_blocked);
+        continuing {
+            k += 1u;
+            break if k >= package_lib_wide__2RAYS_PER_LANE;
+        }
+    }
+}
+
+fn package_scene_shadow_filtered(shadow_rays: package_scene_rays_Rays, start: package_scene__1ray_stack_Media) -> package_lib_wide_Vectors {
+    var rays = shadow_rays;
     var media = start;
-    var transmitted = vec3f(1.0);
+    var transmitted = package_lib_wide_Vectors(package_lib_wide_Floats(1.0), package_lib_wide_Floats(1.0), package_lib_wide_Floats(1.0));
     var crossings = 0u;
     var is_unfinished = true;
     loop {
-        let hit = package_scene_traverse__1closest_hit(ray);
-        if (hit.primitive == package_types_NONE) {
-            transmitted *= package_scene_medium_transmittance(package_scene_medium__1medium_of(package_scene_medium_dominant(media)), hit.t);
-            is_unfinished = false;
-        }
-        else {
-            let contact = package_scene_contact__1contact_at(ray, hit);
-            let surface = contact.surface;
-            let optics = package_scene_fetch__1load_optics(surface.material);
-            let here = package_scene_medium__1medium_before(media, surface.material, surface.outside);
-            media = package_scene_contact__1media_behind(media, contact);
-            let behind = package_scene_medium_dominant(media);
-            var through = package_scene_texture__1texture_optics(surface)[1] * optics.transmit * package_scene_medium_transmittance(package_scene_medium__1medium_of(here), hit.t);
-            if ((optics.flags & package_types__1MATERIAL_FRESNEL) != 0u) {
-                let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
-                let eta = package_scene_medium__1medium_of(here).ior / package_scene_medium__1medium_of(behind).ior;
-                through *= 1.0 - package_lib_fresnel_fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
+        let hits = package_scene_rays__1closest_hits(rays);
+        is_unfinished = false;
+        var k = 0u;
+        loop {
+            let ray = package_scene_rays__1ray_at(rays, k);
+            if (ray.t_max >= 0.0) {
+                let hit = package_scene_rays__1hit_at(hits, k);
+                var passed = package_lib_wide__1vector_at(transmitted, k);
+                var next = package_scene_rays_DEAD;
+                if (hit.primitive == package_types_NONE) {
+                    passed *= package_scene_medium_transmittance(package_scene_medium__1medium_of(package_scene_medium_dominant(package_scene__1ray_stack__1media_at(media, k))), hit.t);
+                }
+                else {
+                    package_scene__1ray_stack__1current_tree = k;
+                    let contact = package_scene_contact__1contact_at(ray, hit);
+                    let surface = contact.surface;
+                    let optics = package_scene_fetch__1load_optics(surface.material);
+                    let around = package_scene__1ray_stack__1media_at(media, k);
+                    let here = package_scene_medium__1medium_before(around, surface.material, surface.outside);
+                    let beyond = package_scene_contact__1media_behind(around, contact);
+                    media = package_scene__1ray_stack__1media_set(media, k, beyond);
+                    let behind = package_scene_medium_dominant(beyond);
+                    var through = package_scene_texture__1texture_optics(surface)[1] * optics.transmit * package_scene_medium_transmittance(package_scene_medium__1medium_of(here), hit.t);
+                    if ((optics.flags & package_types__1MATERIAL_FRESNEL) != 0u) {
+                        let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
+                        let eta = package_scene_medium__1medium_of(here).ior / package_scene_medium__1medium_of(behind).ior;
+                        through *= 1.0 - package_lib_fresnel_fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
+                    }
+                    passed *= through;
+                    let rest = ray.t_max - hit.t;
+                    if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
+                        next = package_scene_surface__1leaving_ray(surface, ray.direction, rest);
+                        is_unfinished = true;
+                        passed = select(passed, vec3f(0.0), crossings + 1u >= package_scene_shadow__1MAX_CROSSINGS);
+                    }
+                }
+                transmitted = package_lib_wide__1vector_set(transmitted, k, passed);
+                rays = package_scene_rays__1ray_set(rays, k, next);
             }
-            transmitted *= through;
-            let rest = ray.t_max - hit.t;
-            ray = package_scene_surface__1leaving_ray(surface, ray.direction, rest);
-            is_unfinished = any(transmitted > vec3f(0.0)) & (rest > 0.0);
+            continuing {
+                k += 1u;
+                break if k >= package_lib_wide__2RAYS_PER_LANE;
+            }
         }
         crossings += 1u;
         continuing {
         
-            break if !is_unfinished | (crossings >= package_scene_shadow__1MAX_CROSSINGS);
+            break if !package_scene_rays__1any_lane(is_unfinished) | (crossings >= package_scene_shadow__1MAX_CROSSINGS);
         }
     }
     package_scene_loops__1cut_off |= is_unfinished & (crossings < package_scene_shadow__1MAX_CROSSINGS);
-    return select(transmitted, vec3f(0.0), is_unfinished);
+    return transmitted;
 }
 
-const package_lib_filter_PI: f32 = 3.14159265;
+struct package_scene_film_Sample {
+    radiance: vec3f
+}
 
-const package_lib_filter_SIGMA: f32 = 0.5;
+struct package_scene_film_Sum {
+    radiance: vec4f,
+    squares: f32
+}
 
-const package_lib_filter_ROUNDS: u32 = 22u;
-
-const package_lib_filter__2BLACKMAN_HARRIS_1: f32 = 0.48829 / (package_lib_filter_PI * 0.35875);
-
-const package_lib_filter__2BLACKMAN_HARRIS_2: f32 = 0.14128 / (package_lib_filter_PI * 0.35875);
-
-const package_lib_filter__2BLACKMAN_HARRIS_3: f32 = 0.01168 / (3.0 * package_lib_filter_PI * 0.35875);
-
-const package_lib_filter__1MITCHELL_ZERO: f32 = 1.14285714;
-
-const package_lib_filter__1MITCHELL_POSITIVE: f32 = 0.51749271;
-
-const package_lib_filter__1MITCHELL_TOTAL: f32 = 0.53498542;
-
-fn package_lib_filter__1filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
-    let centred = 2.0 * u - 1.0;
-    if (kind == package_types__1FILTER_BOX) {
-        return 2.0 * radius * (u - 0.5);
+fn package_scene_film__1load_sum(work: package_scene_dispatch_Work) -> package_scene_film_Sum {
+    let row = package_bindings__1FILM_ROWS * work.film_index;
+    var sum = package_scene_film_Sum(package_bindings_film[row], 0.0);
+    if (package_bindings_ADAPTIVE) {
+        sum.squares = package_bindings_film[row + package_bindings__1SQUARES_ROW].x;
     }
-    let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
-    let fraction = abs(centred);
-    if (kind == package_types__1FILTER_TENT) {
-        return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
+    return sum;
+}
+
+fn package_scene_film__1store_sum(work: package_scene_dispatch_Work, sum: package_scene_film_Sum) {
+    let row = package_bindings__1FILM_ROWS * work.film_index;
+    package_bindings_film[row] = sum.radiance;
+    if (package_bindings_ADAPTIVE) {
+        package_bindings_film[row + package_bindings__1SQUARES_ROW].x = sum.squares;
     }
-    if (kind == package_types__1FILTER_GAUSSIAN) {
-        let scale = package_lib_filter_SIGMA * sqrt(2.0);
-        return scale * side * min(package_lib_filter__1inverse_erf(fraction * package_lib_filter_erf(radius / scale)), vec2f(radius / scale));
+}
+
+fn package_scene_film__1add_sample(sum: package_scene_film_Sum, sample: package_scene_film_Sample, weight: f32) -> package_scene_film_Sum {
+    let luminance = dot(sample.radiance, package_lib_tone__1LUMINANCE_REC709);
+    var next = sum;
+    next.radiance += weight * vec4f(sample.radiance, 1.0);
+    next.squares += luminance * luminance;
+    if (!package_lib_numeric__1is_finite(next.radiance.xyz) || (package_bindings_ADAPTIVE && !package_lib_numeric__1is_finite(vec3f(next.squares)))) {
+        atomicAdd(&package_bindings_dispatch.counters.nonfinite_samples, 1u);
+        return sum;
     }
-    return radius * side * package_lib_filter_searched(kind, fraction);
-}
-
-fn package_lib_filter__1filter_sign(kind: u32, u: vec2f) -> f32 {
-    let negative = abs(2.0 * u - 1.0) > vec2f(package_lib_filter__1MITCHELL_POSITIVE / package_lib_filter__1MITCHELL_TOTAL);
-    return select(1.0, -1.0, (kind == package_types__1FILTER_MITCHELL) & (negative.x != negative.y));
-}
-
-fn package_lib_filter_searched(kind: u32, fraction: vec2f) -> vec2f {
-    var low = vec2f(0.0);
-    var width = 1.0;
-    var done = 0u;
-    loop {
-        width *= 0.5;
-        let middle = low + width;
-        low = select(low, middle, package_lib_filter_cumulated(kind, middle) <= fraction);
-        continuing {
-            done += 1u;
-            break if done >= package_lib_filter_ROUNDS;
-        }
-    }
-    return low + 0.5 * width;
-}
-
-fn package_lib_filter_cumulated(kind: u32, x: vec2f) -> vec2f {
-    if (kind == package_types__2FILTER_BLACKMAN_HARRIS) {
-        let s = sin(package_lib_filter_PI * x);
-        let c = cos(package_lib_filter_PI * x);
-        return x + s * (package_lib_filter__2BLACKMAN_HARRIS_1 + package_lib_filter__2BLACKMAN_HARRIS_2 * c + package_lib_filter__2BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
-    }
-    let t = 2.0 * x;
-    let inner = t * (16.0 / 3.0 + t * t * (-4.0 + t * 1.75)) / 6.0;
-    let e = 2.0 - t;
-    let outer = e * e * e * (7.0 / 12.0 * e - 2.0 / 3.0) / 6.0;
-    let signed = select(0.5 - outer, inner, t < vec2f(1.0));
-    let absolute = select(signed, 2.0 * package_lib_filter__1MITCHELL_POSITIVE - signed, t > vec2f(package_lib_filter__1MITCHELL_ZERO));
-    return absolute / package_lib_filter__1MITCHELL_TOTAL;
-}
-
-fn package_lib_filter_erf(x: f32) -> f32 {
-    let t = 1.0 / (1.0 + 0.3275911 * x);
-    let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
-    return 1.0 - series * exp(-min(x * x, 80.0));
-}
-
-fn package_lib_filter__1inverse_erf(y: vec2f) -> vec2f {
-    let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
-    let a = w - 2.5;
-    let b = sqrt(max(w, vec2f(0.0))) - 3.0;
-    let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
-    let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
-    return y * select(far, near, w < vec2f(5.0));
+    return next;
 }
 
 const package_lib_tone__1LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);

@@ -202,6 +202,14 @@ fn enumerate(backends: wgpu::Backends) -> (Option<wgpu::Instance>, Vec<wgpu::Ada
     (instance, found.into_iter().filter(has_compute).collect())
 }
 
+/// Whether all subgroups of the adapter have 8 lanes, and it has the memory that packet kernels need.
+pub(super) fn can_trace_packets(adapter: &wgpu::Adapter) -> bool {
+    let info = adapter.get_info();
+    (info.subgroup_min_size, info.subgroup_max_size) == (8, 8)
+        && adapter.features().contains(wgpu::Features::SUBGROUP)
+        && adapter.limits().max_compute_workgroup_storage_size >= super::PACKET_WORKGROUP_BYTES
+}
+
 /// The report of an adapter with this index.
 pub(super) fn report(index: usize, adapter: &wgpu::Adapter) -> AdapterReport {
     let info = adapter.get_info();

@@ -15,7 +15,7 @@ pub(super) struct Pipelines(VecDeque<(PipelineKey, wgpu::ComputePipeline)>);
 #[derive(PartialEq)]
 struct PipelineKey {
     kernel: &'static str,
-    from_images: bool,
+    variant: Variant,
     overrides: Overrides,
 }
 
@@ -34,18 +34,29 @@ pub struct Kernel {
     /// The name of the kernel, its entry point and its file in `shaders/kernels/`; `explain` is `whitted` with
     /// recording.
     pub name: &'static str,
-    /// Its variants by name: geometry is fetched from images or from buffers.
-    pub sources: [(&'static str, &'static str); 2],
+    /// The sources of its variants.
+    pub sources: &'static [(Variant, &'static str)],
+}
+
+/// A variant of a kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variant {
+    /// Geometry is fetched from images.
+    Image,
+    /// Geometry is fetched from buffers.
+    Buffer,
+    /// As `Image`, and the lanes of a subgroup trace their rays together: see [`Gpu::traces_packets`].
+    Packet,
 }
 
 macro_rules! kernels {
-    ($($(#[$doc:meta])* $constant:ident $name:literal)*) => {
+    ($($(#[$doc:meta])* $constant:ident $name:literal $($variant:ident $file:literal),*;)*) => {
         $($(#[$doc])* pub const $constant: Kernel = Kernel {
             name: $name,
-            sources: [
-                ("image", include_str!(concat!("../../shaders/linked/", $name, "_image.wgsl"))),
-                ("buffer", include_str!(concat!("../../shaders/linked/", $name, "_buffer.wgsl"))),
-            ],
+            sources: &[$((
+                Variant::$variant,
+                include_str!(concat!("../../shaders/linked/", $name, "_", $file, ".wgsl")),
+            )),*],
         };)*
         /// All kernels.
         pub const ALL: &[Kernel] = &[$(Self::$constant),*];
@@ -55,30 +66,38 @@ macro_rules! kernels {
 impl Kernel {
     kernels! {
         /// Adds samples of [`crate::render::Integrator::Whitted`] to the film.
-        WHITTED "whitted"
+        WHITTED "whitted" Image "image", Buffer "buffer", Packet "packet";
         /// Adds samples of the other integrators to the film.
-        DEBUG_VIEW "debug_view"
+        DEBUG_VIEW "debug_view" Image "image", Buffer "buffer";
         /// Records all rays of single samples of [`crate::render::Integrator::Whitted`].
-        EXPLAIN "explain"
+        EXPLAIN "explain" Image "image", Buffer "buffer";
         /// Develops the film to a picture.
-        DEVELOP "develop"
+        DEVELOP "develop" Buffer "buffer";
         /// Develops the film to a texture for display.
-        SHOW "show"
+        SHOW "show" Buffer "buffer";
     }
 
-    /// The module of the variant that fetches geometry from images or from buffers, specialised by overrides of
-    /// `bindings.wesl`, by name. The error names an unknown override, or is naga's with the lines of the linked
-    /// source.
+    /// The module of a variant, specialised by overrides of `bindings.wesl`, by name. The error names a missing
+    /// variant or an unknown override, or is naga's with the lines of the linked source.
     pub fn specialized(
         &self,
-        from_images: bool,
+        variant: Variant,
         overrides: &[(&str, f64)],
     ) -> Result<naga::Module, String> {
-        specialize(self.source(from_images), overrides)
+        match self.source(variant) {
+            Some(source) => specialize(source, overrides),
+            None => Err(format!("{} has no variant {variant:?}", self.name)),
+        }
     }
 
-    fn source(&self, from_images: bool) -> &'static str {
-        self.sources[usize::from(!from_images)].1
+    /// Whether it has this variant.
+    pub fn has(&self, variant: Variant) -> bool {
+        self.source(variant).is_some()
+    }
+
+    fn source(&self, variant: Variant) -> Option<&'static str> {
+        let found = self.sources.iter().find(|(known, _)| *known == variant);
+        found.map(|(_, source)| *source)
     }
 }
 
@@ -89,13 +108,13 @@ impl Gpu {
     pub(crate) fn pipeline(
         &self,
         kernel: &Kernel,
-        from_images: bool,
+        variant: Variant,
         groups: &[Option<&wgpu::BindGroupLayout>],
         overrides: Overrides,
     ) -> Result<Compiled, GpuError> {
         let wanted = PipelineKey {
             kernel: kernel.name,
-            from_images,
+            variant,
             overrides,
         };
         let known = |Pipelines(kept): &Pipelines| {
@@ -109,7 +128,7 @@ impl Gpu {
         if let Some(report) = &self.on_compilation {
             report();
         }
-        let pipeline = self.compile(kernel, from_images, groups, &wanted.overrides)?;
+        let pipeline = self.compile(kernel, variant, groups, &wanted.overrides)?;
         if let Ok(mut kept) = self.pipelines.lock() {
             kept.0.truncate(MAX_PIPELINES - 1);
             kept.0.push_front((wanted, pipeline.clone()));
@@ -121,17 +140,15 @@ impl Gpu {
     fn compile(
         &self,
         kernel: &Kernel,
-        from_images: bool,
+        variant: Variant,
         groups: &[Option<&wgpu::BindGroupLayout>],
         overrides: &[(&str, f64)],
     ) -> Result<wgpu::ComputePipeline, GpuError> {
         let name = kernel.name;
         let refused = |what: String| GpuError::Internal {
-            what: with_dump(name, kernel.source(from_images), &what),
+            what: with_dump(name, kernel.source(variant).unwrap_or_default(), &what),
         };
-        let module = kernel
-            .specialized(from_images, overrides)
-            .map_err(refused)?;
+        let module = kernel.specialized(variant, overrides).map_err(refused)?;
         let made = self.scoped(name, || {
             let layout = self
                 .device
@@ -152,7 +169,11 @@ impl Gpu {
                     layout: Some(&layout),
                     module: &module,
                     entry_point: None,
-                    compilation_options: Default::default(),
+                    compilation_options: wgpu::PipelineCompilationOptions {
+                        // Kernels write workgroup memory before they read it.
+                        zero_initialize_workgroup_memory: false,
+                        ..Default::default()
+                    },
                     cache: None,
                 })
         });

@@ -30,6 +30,10 @@ pub const INSTANCE_ROWS: u32 = 10;
 pub const KEY_ROWS: u32 = 4;
 /// Rows of 16 bytes of a [`super::PackedCamera`].
 pub const CAMERA_ROWS: u32 = 4;
+/// Rows of 16 bytes of a [`super::PackedLight`].
+pub const LIGHT_ROWS: u32 = 6;
+/// Rows of 16 bytes of a [`super::PackedShape`].
+pub const SHAPE_ROWS: u32 = 5;
 /// Size of the traversal stack in entries.
 pub const STACK_SIZE: u32 = 96;
 /// Texels in a row of the geometry images, as a power of two.

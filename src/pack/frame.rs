@@ -19,6 +19,9 @@ use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
 use std::{slice, sync::Arc};
 
+/// Rows of 16 bytes of a [`crate::layout::PackedTriangle`].
+const TRIANGLE_ROWS: u32 = 3;
+
 /// A packed [`Frame`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedView {
@@ -99,7 +102,7 @@ impl PackedScene {
         let moving = if tlas.moves { MOVING } else { 0 };
         let instance_row = NODE_ROWS * (first_node + tlas.nodes.len() as u32);
         let key_row = instance_row + INSTANCE_ROWS * tlas.instances.len() as u32;
-        let camera_row = key_row + KEY_ROWS * tlas.keys.len() as u32;
+        let light_row = key_row + KEY_ROWS * tlas.keys.len() as u32;
         Ok(PackedView {
             frame: PackedFrame {
                 camera: cameras[0],
@@ -120,7 +123,8 @@ impl PackedScene {
                 instance_row,
                 instance_count: tlas.instances.len() as u32,
                 key_row,
-                camera_row,
+                light_row,
+                shape_row: TRIANGLE_ROWS * self.triangles.len() as u32,
                 camera_key_count: cameras.len() as u32,
                 light_key_count,
                 ..self.background(&first.background)
@@ -189,11 +193,7 @@ impl PackedScene {
 impl PackedView {
     /// All bytes of the view that a picture depends on.
     pub fn parts(&self) -> Vec<&[u8]> {
-        let mut parts = vec![
-            bytes_of(&self.frame),
-            cast_slice(&self.lights),
-            cast_slice(&self.materials),
-        ];
+        let mut parts = vec![bytes_of(&self.frame), cast_slice(&self.materials)];
         parts.extend(self.node_parts());
         if self.orthographic {
             parts.push(b"orthographic");
@@ -202,11 +202,12 @@ impl PackedView {
     }
 
     /// The data after the scene's nodes on the GPU.
-    pub fn node_parts(&self) -> [&[u8]; 4] {
+    pub fn node_parts(&self) -> [&[u8]; 5] {
         [
             cast_slice(&self.tlas.nodes),
             cast_slice(&self.tlas.instances),
             cast_slice(&self.tlas.keys),
+            cast_slice(&self.lights),
             cast_slice(&self.cameras),
         ]
     }

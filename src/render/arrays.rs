@@ -15,7 +15,7 @@ use wgpu::{Buffer, BufferUsages, TextureFormat};
 
 pub const ROW_BYTES: u64 = 16;
 pub const IMAGE_WIDTH: u32 = 1 << IMAGE_WIDTH_LOG2;
-pub const ARRAY_COUNT: usize = 6;
+pub const ARRAY_COUNT: usize = 5;
 
 /// Maximum number of bytes that are merged into one write.
 const MAX_GATHERED: usize = 16 << 20;
@@ -42,8 +42,6 @@ pub struct Piece<'a> {
 enum Kind {
     /// Rows of 16 bytes, in an image or a buffer.
     Rows,
-    /// Always in a buffer.
-    Buffer,
     /// Always an image of half floats.
     Texels,
 }
@@ -57,7 +55,9 @@ pub fn arrays<'a>(scene: &'a PackedScene, view: &'a PackedView) -> [Array<'a>; A
     let surfaces: Upload = |uploads| &mut uploads.surfaces;
     let mut nodes = Array::of("nodes", Kind::Rows, &scene.nodes, geometry);
     nodes.add_view(scene, view);
-    let triangles = Array::of("triangles", Kind::Rows, &scene.triangles, geometry);
+    let mut triangles = Array::of("triangles", Kind::Rows, &scene.triangles, geometry);
+    let shapes = scene.shapes.bytes();
+    shapes.for_each(|run| triangles.push(run, geometry));
     let mut vertices = Array::of("vertices", Kind::Rows, &scene.vertices, geometry);
     scene
         .uvs
@@ -72,9 +72,8 @@ pub fn arrays<'a>(scene: &'a PackedScene, view: &'a PackedView) -> [Array<'a>; A
         surfaces,
     );
     materials.push(cast_slice(&scene.textures), surfaces);
-    let shapes = Array::of("shapes", Kind::Buffer, &scene.shapes, geometry);
     let texels = Array::of("texels", Kind::Texels, &scene.texels, surfaces);
-    [nodes, triangles, vertices, materials, shapes, texels]
+    [nodes, triangles, vertices, materials, texels]
 }
 
 impl<'a> Array<'a> {
@@ -111,14 +110,16 @@ impl<'a> Array<'a> {
 
     /// Adds the data of a view to the nodes, with some spare room.
     fn add_view(&mut self, scene: &PackedScene, view: &'a PackedView) {
-        let [nodes, instances, keys, cameras] = view.node_parts();
+        let [nodes, instances, keys, lights, cameras] = view.node_parts();
         let scene_bytes = self.bytes;
         let first = u64::from(scene.first_view_node()) * size_of::<PackedNode>() as u64;
         self.bytes = first;
         for part in [nodes, instances, keys] {
             self.push(part, |uploads| &mut uploads.tlas);
         }
-        self.push(cameras, |uploads| &mut uploads.frames);
+        for part in [lights, cameras] {
+            self.push(part, |uploads| &mut uploads.frames);
+        }
         self.bytes = match self.bytes - first {
             0 => scene_bytes,
             view_bytes => first + view_bytes * 5 / 4,
@@ -191,7 +192,7 @@ impl Rows {
             Kind::Rows if fetch == Fetch::Image => image(ROW_FORMAT),
             Kind::Texels => image(TEXEL_FORMAT),
             // WebGPU requires a binding to hold at least one element; 256 bytes hold any of our structs.
-            Kind::Rows | Kind::Buffer => {
+            Kind::Rows => {
                 let buffer = gpu.allocate(array.what, bytes.max(256), usage)?;
                 Ok(Self::Buffer(buffer))
             }

@@ -11,7 +11,7 @@ use crate::{
     layout::{PackedCounters, PackedDispatch, PackedFrame, PackedTone},
     pack::{PackedScene, PackedView},
 };
-use bytemuck::{bytes_of, cast_slice};
+use bytemuck::bytes_of;
 use std::sync::Arc;
 use wgpu::{Buffer, BufferUsages};
 
@@ -19,6 +19,8 @@ use wgpu::{Buffer, BufferUsages};
 const READABLE: BufferUsages = BufferUsages::STORAGE
     .union(BufferUsages::COPY_SRC)
     .union(BufferUsages::COPY_DST);
+
+const FRAME_BYTES: u64 = size_of::<PackedFrame>() as u64;
 
 /// All GPU resources except the pipelines.
 pub struct Buffers {
@@ -46,7 +48,7 @@ impl Buffers {
         let dispatch = gpu.allocate("dispatch", size_of::<PackedDispatch>() as u64, READABLE)?;
         let (film, staging) = film(gpu, film_rows)?;
         let frame_group = frame_group(gpu, layouts, view, &dispatch)?;
-        uploads.frames += frame_bytes(view);
+        uploads.frames += FRAME_BYTES;
         let film_group = group(gpu, &layouts.film, &[film.as_entire_binding()]);
         Ok(Self {
             scene_group,
@@ -90,7 +92,7 @@ impl Buffers {
             self.scene_group = self.scene.group(gpu, layouts);
         }
         self.frame_group = frame_group(gpu, layouts, view, &self.dispatch)?;
-        uploads.frames += frame_bytes(view);
+        uploads.frames += FRAME_BYTES;
         Ok(())
     }
 }
@@ -179,23 +181,16 @@ fn film(gpu: &Gpu, rows: usize) -> Result<(Buffer, Buffer), GpuError> {
     Ok((film, staging))
 }
 
-/// The bind group of a frame with its lights, and of the dispatch parameters.
+/// The bind group of a frame and of the dispatch parameters.
 fn frame_group(
     gpu: &Gpu,
     layouts: &Layouts,
     view: &PackedView,
     dispatch: &Buffer,
 ) -> Result<wgpu::BindGroup, GpuError> {
-    let mut bytes = bytes_of(&view.frame).to_vec();
-    bytes.extend_from_slice(cast_slice(&view.lights));
-    let frame = gpu.upload("frame", &bytes)?;
+    let frame = gpu.upload("frame", bytes_of(&view.frame))?;
     let resources = [frame.as_entire_binding(), dispatch.as_entire_binding()];
     Ok(group(gpu, &layouts.frame, &resources))
-}
-
-/// Bytes of a frame and its lights.
-fn frame_bytes(view: &PackedView) -> u64 {
-    (size_of::<PackedFrame>() + size_of_val(&view.lights[..])) as u64
 }
 
 /// The fetch to use: the requested one, or by default images on software adapters, where they are twice as
@@ -211,19 +206,18 @@ pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene, view: &Packed
 
 /// The device limits needed for this scene and film.
 pub fn needs(scene: &PackedScene, view: &PackedView, fetch: Fetch, film_rows: usize) -> Needs {
-    let shapes = scene.shapes.byte_len();
     let film = film_rows as u64 * ROW_BYTES;
     let rows = largest_row_bytes(scene, view);
     if fetch != Fetch::Image {
         return Needs {
-            binding_bytes: shapes.max(film).max(rows),
+            binding_bytes: film.max(rows),
             texture_side: 0,
         };
     }
     // Texels stay within the limits that WebGPU guarantees.
     let height = rows.div_ceil(u64::from(IMAGE_WIDTH) * 16);
     Needs {
-        binding_bytes: shapes.max(film),
+        binding_bytes: film,
         texture_side: IMAGE_WIDTH.max(height.try_into().unwrap_or(u32::MAX)),
     }
 }
@@ -245,7 +239,7 @@ pub fn ledger(
         ledger.plan(array.what, array.bytes);
     }
     let tone = size_of::<PackedTone>() as u64;
-    ledger.plan("frame", frame_bytes(view) + tone);
+    ledger.plan("frame", FRAME_BYTES + tone);
     ledger.plan("film and its copies", 4 * film_rows as u64 * ROW_BYTES);
     ledger.plan("picture", picture_pixels * 2 * ROW_BYTES);
     ledger

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::clock::Instant;
 use crate::{
-    gpu::{Compiled, Gpu, GpuError, Kernel, Ledger, MEMORY_LIMIT_BYTES, Source},
+    gpu::{Compiled, Gpu, GpuError, Kernel, Ledger, MEMORY_LIMIT_BYTES, Source, Variant},
     image::Image,
     layout::{
         PackedDispatch, PackedFrame, PackedLight, PackedTone, TONE_ACES, TONE_AGX, TONE_NONE,
@@ -265,7 +265,7 @@ impl Developer {
             Some(&layouts.develop),
         ];
         let Compiled { pipeline, .. } =
-            gpu.pipeline(&Kernel::DEVELOP, false, &groups, Vec::new())?;
+            gpu.pipeline(&Kernel::DEVELOP, Variant::Buffer, &groups, Vec::new())?;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
         let developed = gpu.allocate("developed", max_pixels as u64 * 16, usage)?;
         let tone = gpu.upload("tone", bytes_of(&PackedTone::default()))?;

@@ -6,7 +6,7 @@ use super::{
     develop::Developer,
     film_tile::{FilmTile, GROUP_PIXELS},
     layouts::Layouts,
-    overrides, pipelines,
+    pipelines,
     policy::Fetch,
     settings::RenderSettings,
     show::Presenter,
@@ -201,9 +201,7 @@ fn compile(
     stats: &mut Stats,
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let start = Instant::now();
-    let kernel = task.settings.integrator.entry().kernel;
-    let Compiled { pipeline, is_new } =
-        pipelines::tracing(gpu, fetch, layouts, kernel, overrides::of(task))?;
+    let Compiled { pipeline, is_new } = pipelines::rendering(gpu, fetch, layouts, task)?;
     if is_new {
         let idle = PackedDispatch {
             group_count: 1,

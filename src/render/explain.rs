@@ -174,7 +174,7 @@ impl Renderer {
             layouts,
             ..
         } = &self.device;
-        let compiled = pipelines::tracing(gpu, *fetch, layouts, Kernel::EXPLAIN, overrides)?;
+        let compiled = pipelines::portable(gpu, *fetch, layouts, Kernel::EXPLAIN, overrides)?;
         Ok(compiled.pipeline)
     }
 

@@ -64,12 +64,9 @@ impl Layouts {
                     entries: &entries,
                 })
         };
-        let layout = |label, types: &[BindingType]| layout_at(label, &[0, 1, 2, 3, 4, 5], types);
+        let layout = |label, types: &[BindingType]| layout_at(label, &[0, 1, 2, 3, 4], types);
         Self {
-            scene: layout(
-                "scene",
-                &[geometry, geometry, geometry, geometry, read, texels],
-            ),
+            scene: layout("scene", &[geometry, geometry, geometry, geometry, texels]),
             frame: layout("frame", &[read, write]),
             film: layout("film", &[write]),
             develop: layout("develop", &[read, write]),

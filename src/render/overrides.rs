@@ -50,6 +50,10 @@ pub fn of(task: Task) -> Overrides {
         ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
         ("HAS_SHAPES", flag(scene.bounded_shape_count() > 0)),
         ("HAS_PLANES", flag(scene.plane_count > 0)),
+        (
+            "MOSTLY_SHAPES",
+            flag(scene.bounded_shape_count() as usize > scene.triangles.len()),
+        ),
         ("MIXED_MATERIALS", flag(scene.features.mixed_materials)),
         ("BRUTE_FORCE", flag(settings.brute_force)),
         ("FIXED_OFFSET", f64::from(fixed_offset)),

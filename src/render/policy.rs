@@ -30,10 +30,11 @@ impl Default for ExecutionPolicy {
     }
 }
 
-/// How shaders read nodes and triangles.
+/// How shaders read nodes and triangles, and whether neighbouring rays are traced together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Fetch {
-    /// Images on software adapters; elsewhere buffers if they are large enough.
+    /// Images on software adapters; elsewhere buffers if they are large enough. Where the adapter has subgroups
+    /// of 8 lanes, they trace packets of rays.
     #[default]
     Auto,
     /// Storage images: faster on software adapters.

@@ -6,7 +6,7 @@ use super::{
     slice::Slice,
 };
 use crate::{
-    gpu::{Gpu, GpuError, Kernel, Source},
+    gpu::{Gpu, GpuError, Kernel, Source, Variant},
     image::ScreenImage,
     layout::PackedTone,
 };
@@ -241,7 +241,7 @@ impl Renderer {
         ];
         Ok(Presenter {
             pipeline: gpu
-                .pipeline(&Kernel::SHOW, false, &groups, Vec::new())?
+                .pipeline(&Kernel::SHOW, Variant::Buffer, &groups, Vec::new())?
                 .pipeline,
             tone: gpu.upload("tone", bytes_of(&PackedTone::default()))?,
         })

@@ -2,7 +2,7 @@
 
 use super::{
     Cursor, RenderError, Renderer, device::Readback, effort::LongPath, film_tile::FilmTile,
-    film_tiles::FilmTiles, slice::Slice, sums::SAMPLE_BLOCK,
+    film_tiles::FilmTiles, policy::Fetch, slice::Slice, sums::SAMPLE_BLOCK,
 };
 use crate::{
     clock::Instant,
@@ -217,6 +217,12 @@ impl Renderer {
                 Some((first, last)) => vec![last, first],
                 None => vec![part],
             }
+        } else if self.policy.fetch == Fetch::Auto && self.device.gpu.traces_packets() {
+            // The rays of a packet share the loop limit, and a stack of fixed size. The portable kernels fetch
+            // the same data.
+            self.policy.fetch = Fetch::Image;
+            self.prepare_device(false, 0)?;
+            vec![part]
         } else if let Some((earlier, later)) = part.sample_halves() {
             self.planner.shorten_paths();
             vec![later, earlier]
