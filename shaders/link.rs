@@ -5,12 +5,13 @@ use std::error::Error;
 
 /// Names of kernels, and of the modules in `shaders/kernels` they are made of. `explain` is `whitted` that
 /// keeps records.
-const KERNELS: [(&str, &str); 5] = [
+const KERNELS: [(&str, &str); 6] = [
     ("whitted", "whitted"),
     ("debug_view", "debug_view"),
     ("develop", "develop"),
     ("show", "show"),
     ("explain", "whitted"),
+    ("trace_rays", "trace_rays"),
 ];
 
 /// Names of files for `shaders/linked`, and their text. A broken import is an error.

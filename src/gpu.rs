@@ -12,6 +12,7 @@ mod guard;
 mod readback;
 mod shader;
 mod specialize;
+mod timer;
 
 pub use adapter::{AdapterChoice, AdapterReport, Backend, adapters};
 pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
@@ -20,6 +21,7 @@ pub use guard::{is_guarded, surviving_loss};
 pub(crate) use readback::{Reading, Source};
 pub(crate) use shader::Compiled;
 pub use shader::{Kernel, Overrides};
+pub(crate) use timer::Timer;
 
 use std::{
     sync::{
@@ -32,6 +34,9 @@ use std::{
 /// Time limit of one wait for the device, and the number of waits before the device counts as lost.
 const WAIT: Duration = Duration::from_secs(10);
 const WAITS: u32 = 3;
+
+/// Features that are used where the adapter has them.
+const OPTIONAL_FEATURES: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY;
 
 /// An open device with its queue. A clone refers to the same device.
 #[derive(Clone)]
@@ -63,8 +68,8 @@ pub struct Needs {
 }
 
 impl Gpu {
-    /// Opens the adapter that `choice` names, or the fastest kind available. The device requires no optional
-    /// features and only the default limits of WebGPU.
+    /// Opens the adapter that `choice` names, or the fastest kind available. The device requires only the
+    /// default limits of WebGPU.
     pub fn new(choice: &AdapterChoice) -> Result<Self, GpuError> {
         Self::open(choice, Needs::default())
     }
@@ -102,6 +107,7 @@ impl Gpu {
         } = found;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("glimray"),
+            required_features: adapter.features() & OPTIONAL_FEATURES,
             required_limits,
             ..Default::default()
         };

@@ -64,6 +64,8 @@ impl Kernel {
         DEVELOP "develop"
         /// Develops the film to a texture for display.
         SHOW "show"
+        /// Traces the rays of a [`crate::render::RayQuery`].
+        TRACE_RAYS "trace_rays"
     }
 
     /// The module of the variant that fetches geometry from images or from buffers, specialised by overrides of

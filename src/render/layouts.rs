@@ -18,6 +18,7 @@ pub struct Layouts {
     pub film: BindGroupLayout,
     pub develop: BindGroupLayout,
     pub show: BindGroupLayout,
+    pub query: BindGroupLayout,
 }
 
 impl Layouts {
@@ -74,6 +75,7 @@ impl Layouts {
             film: layout("film", &[write]),
             develop: layout("develop", &[read, write]),
             show: layout_at("show", &[0, 2], &[read, screen]),
+            query: layout_at("query", &[3], &[geometry]),
         }
     }
 }

@@ -209,9 +209,11 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (1, 1, "dispatch", "read and write"),
     (2, 0, "film", "read and write"),
     (2, 0, "records", "read and write"),
+    (2, 0, "hits", "read and write"),
     (3, 0, "tone", "read"),
     (3, 1, "developed", "read and write"),
     (3, 2, "screen", "screen"),
+    (3, 3, "rays", "geometry"),
 ];
 
 /// The bindings of a module: group, slot, name and kind.
