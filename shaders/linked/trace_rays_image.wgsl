@@ -29,6 +29,9 @@ var package_bindings_nodes: texture_storage_2d<rgba32uint, read>;
 @group(0) @binding(1)
 var package_bindings_triangles: texture_storage_2d<rgba32uint, read>;
 
+@group(0) @binding(3)
+var package_bindings_rays: texture_storage_2d<rgba32uint, read>;
+
 @group(0) @binding(4)
 var<storage, read> package_bindings_shapes: array<package_types_PackedShape>;
 
@@ -40,9 +43,6 @@ var<storage, read_write> package_bindings_dispatch: package_types_PackedDispatch
 
 @group(2) @binding(0)
 var<storage, read_write> package_bindings_hits: array<vec4u>;
-
-@group(3) @binding(3)
-var package_bindings_rays: texture_storage_2d<rgba32uint, read>;
 
 override package_bindings__1TRIANGLE_TEST: u32 = package_types__2TRIANGLE_TEST_WATERTIGHT;
 

@@ -18,7 +18,6 @@ pub struct Layouts {
     pub film: BindGroupLayout,
     pub develop: BindGroupLayout,
     pub show: BindGroupLayout,
-    pub query: BindGroupLayout,
 }
 
 impl Layouts {
@@ -75,7 +74,6 @@ impl Layouts {
             film: layout("film", &[write]),
             develop: layout("develop", &[read, write]),
             show: layout_at("show", &[0, 2], &[read, screen]),
-            query: layout_at("query", &[3], &[geometry]),
         }
     }
 }

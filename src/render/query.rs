@@ -6,8 +6,8 @@ use super::{
     bindings::{self, Buffers},
     device,
     film_tile::coprime_stride,
-    layouts::{Layouts, group_at},
-    overrides,
+    layouts::Layouts,
+    overrides, pipelines,
     policy::Fetch,
     stats::Uploads,
 };
@@ -264,10 +264,10 @@ impl RayQuery {
         let array = Array::of_rows("rays", cast_slice(&rows));
         let uploaded = Rows::allocate(&self.gpu, self.fetch, &array, array.bytes)?;
         array.write(&self.gpu, &uploaded, &[], &mut Uploads::default())?;
-        let resources = [(3, uploaded.resource())];
+        let group = (self.buffers).query_group(&self.gpu, &self.layouts, &uploaded);
         Ok(Chunk {
             ray_count: rays.len(),
-            group: group_at(&self.gpu, &self.layouts.query, &resources),
+            group,
         })
     }
 
@@ -291,19 +291,11 @@ impl RayQuery {
         test: RayTest,
         counts_steps: bool,
     ) -> Result<wgpu::ComputePipeline, GpuError> {
-        let layouts = &self.layouts;
-        let groups = [
-            &layouts.scene,
-            &layouts.frame,
-            &layouts.film,
-            &layouts.query,
-        ]
-        .map(Some);
         let is_any = test == RayTest::Any;
         let overrides = overrides::of_query(&self.scene, &self.view, is_any, counts_steps);
-        let from_images = self.fetch == Fetch::Image;
+        let (gpu, layouts) = (&self.gpu, &self.layouts);
         let Compiled { pipeline, .. } =
-            (self.gpu).pipeline(&Kernel::TRACE_RAYS, from_images, &groups, overrides)?;
+            pipelines::tracing(gpu, self.fetch, layouts, Kernel::TRACE_RAYS, overrides)?;
         Ok(pipeline)
     }
 
@@ -326,10 +318,9 @@ impl RayQuery {
                 timestamp_writes: timer.as_ref().map(Timer::writes),
             });
             pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, &buffers.scene_group, &[]);
+            pass.set_bind_group(0, &chunk.group, &[]);
             pass.set_bind_group(1, &buffers.frame_group, &[]);
             pass.set_bind_group(2, &buffers.film_group, &[]);
-            pass.set_bind_group(3, &chunk.group, &[]);
             for _ in 0..passes {
                 pass.dispatch_workgroups(groups, 1, 1);
             }

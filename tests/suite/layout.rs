@@ -203,6 +203,7 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (0, 1, "triangles", "geometry"),
     (0, 2, "vertices", "geometry"),
     (0, 3, "materials", "geometry"),
+    (0, 3, "rays", "geometry"),
     (0, 4, "shapes", "read"),
     (0, 5, "texels", "texture"),
     (1, 0, "frame", "read"),
@@ -213,7 +214,6 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (3, 0, "tone", "read"),
     (3, 1, "developed", "read and write"),
     (3, 2, "screen", "screen"),
-    (3, 3, "rays", "geometry"),
 ];
 
 /// The bindings of a module: group, slot, name and kind.
