@@ -47,6 +47,14 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
         .filter(|scene| is_selected(scene.name) && !(is_quick && scene.is_large))
         .map(|scene| SceneRuns::new(scene, is_quick))
         .collect();
+    let program = program.filter(|_| is_selected("viewer"));
+    let has_none = pictures.is_empty() && renders.is_empty() && scenes.is_empty();
+    if let (true, None, Some(part)) = (has_none, program, &arguments.only) {
+        return Err(AppError::Usage(format!(
+            "nothing to measure (--only {part}): no measurement has such a name. `glimray bench --quick` prints \
+             most names."
+        )));
+    }
     for _ in 0..arguments.repeats() {
         pictures.iter_mut().try_for_each(|picture| picture.run())?;
         (renders.iter_mut()).try_for_each(|workload| workload.run(arguments))?;
@@ -55,7 +63,7 @@ pub(super) fn run(arguments: &BenchArgs, program: Option<&Window>) -> Result<(),
     let pictures: Vec<_> = pictures.iter().map(|picture| picture.row()).collect();
     let renders: Vec<_> = renders.iter().map(Renders::row).collect();
     let scenes: Vec<_> = scenes.iter().map(SceneRuns::row).collect();
-    let window = window(arguments, program.filter(|_| is_selected("viewer")))?;
+    let window = window(arguments, program)?;
     let (viewer, viewer_text) = window.unzip();
 
     let mut run = serde_json::json!({

@@ -115,7 +115,7 @@ pub fn of_query(
     overrides
 }
 
-/// What there is to traverse.
+/// The overrides for the contents of the trees.
 fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 6] {
     let features = scene.features;
     [

@@ -97,7 +97,7 @@ pub struct RaySteps {
     pub primitives: u32,
 }
 
-/// What a query looks for.
+/// The question that a query answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RayTest {
     /// The closest hit.

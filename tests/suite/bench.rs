@@ -68,7 +68,9 @@ const STEPS: [(&str, Steps); 6] = [
 #[test]
 fn nodes_and_primitives_per_ray_do_not_grow() {
     let mut verdict = Verdict::on("steps per ray");
+    let mut table = String::new();
     for (name, expected) in STEPS {
+        table += &format!("\n{name} ");
         let scene = ALL.iter().find(|scene| scene.name == name).expect(name);
         let scene = (scene.scene)(Detail::Small);
         let packed = Arc::new(pack::scene(&scene).expect("packed"));
@@ -87,6 +89,7 @@ fn nodes_and_primitives_per_ray_do_not_grow() {
                     / steps.len() as f64
             };
             let found = [mean(|steps| steps.nodes), mean(|steps| steps.primitives)];
+            table += &format!("[{:.3}, {:.3}], ", found[0], found[1]);
             let has_grown = found
                 .iter()
                 .zip(expected)
@@ -96,6 +99,8 @@ fn nodes_and_primitives_per_ray_do_not_grow() {
             });
         }
     }
+    // Shown if the test fails, to replace the table after a change on purpose.
+    println!("{table}");
     verdict.close();
 }
 
@@ -180,18 +185,23 @@ fn a_file_that_is_no_earlier_run_is_refused() {
     );
     for (file, why) in [
         ("missing.json", "missing.json"),
-        (
-            "foreign.json",
-            "is not the output of `glimray bench --json`",
-        ),
-        ("a.scene", "is not the output of `glimray bench --json`"),
+        ("foreign.json", "no figures of a benchmark"),
+        ("a.scene", "no figures of a benchmark"),
         ("quick.json", "with --quick"),
     ] {
         let run = workspace.run(&format!("bench --compare {file}")).expect(3);
         run.says(why);
+        run.says("Give a file with the output of `glimray bench --json`.");
         assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
         assert!(run.stdout.is_empty(), "{file}");
     }
+}
+
+#[test]
+fn a_name_of_no_measurement_is_refused() {
+    let run = Workspace::new().run("bench --only nonsense").expect(2);
+    run.says("nothing to measure (--only nonsense)");
+    assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
 }
 
 #[test]

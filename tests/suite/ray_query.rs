@@ -46,19 +46,22 @@ fn instanced() -> Scene {
     scene
 }
 
-/// Rays from all places in all directions, and some of limited length.
+/// Rays between random points, every third of limited length.
 fn rays(count: usize) -> Vec<QueryRay> {
     let mut random = Random::new(3);
     (0..count)
         .map(|index| QueryRay {
             t_max: if index % 3 == 0 { 0.7 } else { QueryRay::FAR },
-            ..QueryRay::new(3.0 * random.in_cube(), random.direction().as_vec3())
+            ..toward(3.0 * random.in_cube(), 2.0 * random.in_cube())
         })
         .collect()
 }
 
-/// The closest hit in f64: its distance and object, and how far the ray passes from its primitive's edge, as a
-/// fraction of the primitive.
+fn toward(origin: DVec3, target: DVec3) -> QueryRay {
+    QueryRay::new(origin, (target - origin).normalize().as_vec3())
+}
+
+/// The closest hit in f64: its distance and object.
 fn reference(scene: &Scene, ray: &QueryRay) -> Option<(f64, ObjectRef)> {
     let (origin, direction) = (ray.origin, ray.direction.as_dvec3());
     let triangles = scene

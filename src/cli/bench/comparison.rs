@@ -1,6 +1,7 @@
 //! `--compare OLD.json`: the ratios of this run's figures to those of an earlier one.
 
 use crate::app::error::AppError;
+use crate::output;
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -34,25 +35,21 @@ impl Baseline {
     /// # Errors
     /// [`AppError::Refused`]: the file cannot be read, is not such output, or differs in `--quick`.
     pub fn read(path: &Path, is_quick: bool) -> Result<Self, AppError> {
-        let refused = |why: String| {
+        let refused = |why: &str| {
             AppError::Refused(format!(
-                "cannot compare with an earlier run ({}): {why}.",
+                "cannot compare with an earlier run ({}): {why}. Give a file with the output of `glimray bench \
+                 --json`.",
                 path.display()
             ))
         };
-        let text = std::fs::read(path)
-            .map_err(|error| refused(format!("{}", crate::output::reason(&error))))?;
-        let run: Value = serde_json::from_slice(&text)
-            .map_err(|_| refused("it is not the output of `glimray bench --json`".into()))?;
+        let foreign = "it has no figures of a benchmark";
+        let text = std::fs::read(path).map_err(|error| refused(&output::reason(&error)))?;
+        let run: Value = serde_json::from_slice(&text).map_err(|_| refused(foreign))?;
         if !(run["glimray"].is_string() && run["workloads"].is_array()) {
-            return Err(refused(
-                "it is not the output of `glimray bench --json`".into(),
-            ));
+            return Err(refused(foreign));
         }
         if run["quick"].as_bool().unwrap_or(false) != is_quick {
-            return Err(refused(
-                "one of the runs is with --quick, the other without".into(),
-            ));
+            return Err(refused("only one of the two runs is with --quick"));
         }
         Ok(Self {
             figures: figures(&run),

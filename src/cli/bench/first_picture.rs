@@ -157,7 +157,7 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // What remains is in the folder for temporary files.
+        // A failure only leaves small files in the folder for temporary files.
         let _ = fs::remove_dir_all(&self.0);
     }
 }

@@ -2,8 +2,8 @@
 
 use glam::{DVec3, dvec3};
 
-/// A sequence of random numbers (SplitMix64 by Steele and Vigna). What it returns uses only operations that
-/// IEEE 754 rounds correctly, and no function of a mathematics library.
+/// A sequence of random numbers (SplitMix64 by Steele and Vigna). Results are computed with operations that
+/// IEEE 754 rounds correctly, without functions of a mathematics library.
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 

@@ -19,7 +19,7 @@ const OCCLUSION_LENGTH: f64 = 0.1;
 pub struct RaySet {
     /// `primary`, `shadow`, `ambient-occlusion`, `diffuse`, `mirror` or `random`.
     pub name: &'static str,
-    /// What they look for.
+    /// The question that they answer.
     pub test: RayTest,
     /// The rays, in order.
     pub rays: Vec<QueryRay>,

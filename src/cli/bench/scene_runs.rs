@@ -20,7 +20,8 @@ use std::time::Instant;
 /// Side of the picture whose pixels the rays belong to, and with `--quick`.
 const SIDE: u32 = 1024;
 const QUICK_SIDE: u32 = 512;
-/// A set is traced as often as this takes, in seconds, so that a fast adapter is measured accurately.
+/// Minimum time of a measurement in seconds: a set is traced repeatedly until it is reached, up to a maximum
+/// number of passes.
 const LEAST_SECONDS: f64 = 0.05;
 const MOST_PASSES: f64 = 256.0;
 /// Larger meshes are not loaded: their text would take gigabytes.
@@ -48,7 +49,7 @@ struct Set {
     mrays: Vec<f64>,
 }
 
-/// What does not change between repeats.
+/// Figures that are the same in every repeat.
 #[derive(Clone, Copy)]
 struct Counts {
     hits: usize,

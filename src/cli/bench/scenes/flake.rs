@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3, Vec3, dvec3};
 /// A sphere with nine smaller spheres on it, and so on, after `balls` of Haines' Standard Procedural Databases
 /// (1987): 7,381 spheres.
 pub fn sphereflake(detail: Detail) -> Scene {
-    let mut scene = empty([dvec3(2.1, 1.3, 1.7), DVec3::ZERO], dvec3(4.0, 3.0, 2.0));
+    let mut scene = empty([dvec3(1.5, 0.9, 1.2), DVec3::ZERO], dvec3(4.0, 3.0, 2.0));
     scene.cameras[0].up = DVec3::Z;
     scene.materials = vec![Material {
         diffuse: Vec3::new(0.5, 0.45, 0.35),

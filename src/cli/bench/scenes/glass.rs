@@ -1,4 +1,4 @@
-//! Mirrors and glass: paths of many bounces. It has no ray sets: the whole render is what it measures.
+//! Mirrors and glass: paths of many bounces. It has no ray sets; the whole render is measured.
 
 use super::{Detail, empty, parts::Builder, placed};
 use crate::scene::{Fresnel, Geometry, Material, Mesh, Scene, Shape};

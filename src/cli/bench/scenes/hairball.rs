@@ -30,6 +30,6 @@ pub fn hairball(detail: Detail) -> Scene {
         }
         builder.grid(1, segments, |i, j| ribbon[j as usize][i as usize]);
     }
-    let view = [dvec3(0.4, 0.3, 2.0), DVec3::ZERO];
+    let view = [dvec3(0.25, 0.2, 1.2), DVec3::ZERO];
     of_mesh(builder.mesh(), view, dvec3(2.0, 3.0, 2.0))
 }
