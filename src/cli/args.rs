@@ -136,7 +136,7 @@ pub enum Command {
             Values are compared as stored; 8-bit and 16-bit values are scaled to 0..1. One level is 1/255."
     )]
     Compare(CompareArgs),
-    /// Benchmark built-in scenes: rays per second, traversal steps, build rates, first pictures.
+    /// Benchmark built-in scenes: rays per second, traversal steps, build rates, start-up.
     #[command(after_help = "Examples:\n  \
             glimray bench --quick\n  \
             glimray bench --repeats 5 --json > new.json\n  \

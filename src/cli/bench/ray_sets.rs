@@ -169,7 +169,7 @@ fn primary(scene: &Scene, side: u32) -> Vec<QueryRay> {
     let pixels = (0..tiles * tiles).flat_map(|tile| {
         let corner = [tile % tiles * TILE, tile / tiles * TILE];
         (0..TILE * TILE).map(move |lane| {
-            let bit = |shift: u32, to: u32| (lane >> shift & 1) << to;
+            let bit = |shift: u32, to: u32| ((lane >> shift) & 1) << to;
             let x = bit(0, 0) | bit(2, 1) | bit(4, 2);
             let y = bit(1, 0) | bit(3, 1) | bit(5, 2);
             [corner[0] + x, corner[1] + y]

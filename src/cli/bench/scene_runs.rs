@@ -263,11 +263,11 @@ impl Row {
             (spheres, _) => format!("{spheres} spheres"),
         };
         let load = match self.load_mtriangles_per_second {
-            Some(rate) => format!("load {rate:.2} M/s, "),
+            Some(rate) => format!("load {rate:.2}, "),
             None => String::new(),
         };
         let mut text = format!(
-            "\n{}: {objects}; {load}build {:.2} M/s; {:.0} bytes per primitive, {:.0} with vertices and materials; \
+            "\n{}: {objects}; {load}build {:.2} million primitives/s; {:.0} bytes per primitive, {:.0} with vertices and materials; \
              render {}×{} {:.3} s, of which tracing {:.3} s\n{:<20} {:>9} {:>9} {:>9}  {:<17} {:>9} {:>15}\n",
             self.name,
             self.build_mprimitives_per_second,

@@ -53,12 +53,11 @@ impl<'a> Walker<'a> {
         let groups: Vec<_> = (0..boxes.len())
             .map(|index| u8::from(index >= scene.instances.len()))
             .collect();
-        let inverse = |placement: &DAffine3| placement.inverse();
         Self {
             scene,
             meshes: scene.meshes.iter().map(|mesh| tree_of(mesh)).collect(),
             object_from_world: (scene.instances.iter())
-                .map(|instance| inverse(&instance.placement))
+                .map(|instance| instance.placement.inverse())
                 .collect(),
             top: bvh::build(&boxes, &groups, 2, LIMITS),
         }
@@ -71,15 +70,16 @@ impl<'a> Walker<'a> {
         std::thread::scope(|scope| {
             let walks: Vec<_> = (rays.chunks(part))
                 .map(|rays| {
-                    let hits = move || rays.iter().map(|ray| self.closest_hit(*ray));
-                    scope.spawn(move || hits().collect::<Vec<_>>())
+                    scope.spawn(move || -> Vec<_> {
+                        rays.iter().map(|ray| self.closest_hit(*ray)).collect()
+                    })
                 })
                 .collect();
-            let join = |walk: std::thread::ScopedJoinHandle<Vec<_>>| match walk.join() {
+            let hits = walks.into_iter().map(|walk| match walk.join() {
                 Ok(hits) => hits,
                 Err(panic) => std::panic::resume_unwind(panic),
-            };
-            walks.into_iter().flat_map(join).collect()
+            });
+            hits.flatten().collect()
         })
     }
 

@@ -43,7 +43,7 @@ impl Builder {
     /// A ball of 8 × `rows`² small triangles: an octahedron whose vertices are moved to the sphere.
     pub fn ball(&mut self, center: DVec3, radius: f64, rows: u32) {
         for octant in 0..8_u32 {
-            let sign = |axis: u32| if octant >> axis & 1 == 0 { 1.0 } else { -1.0 };
+            let sign = |axis: u32| if (octant >> axis) & 1 == 0 { 1.0 } else { -1.0 };
             let at = |i: u32, j: u32| {
                 let [x, y, z] = [i, j, rows - i - j].map(f64::from);
                 center + radius * dvec3(sign(0) * x, sign(1) * y, sign(2) * z).normalize()
