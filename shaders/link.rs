@@ -12,12 +12,18 @@ const VARIANTS: [(&str, &[&str]); 3] = [
 
 /// Names of kernels, the modules in `shaders/kernels` they are made of, the features that all their variants
 /// have, and their variants.
-const KERNELS: [(&str, &str, &[&str], &[&str]); 5] = [
+const KERNELS: [(&str, &str, &[&str], &[&str]); 6] = [
     ("whitted", "whitted", &[], &["image", "buffer", "packet"]),
     ("debug_view", "debug_view", &[], &["image", "buffer"]),
     ("develop", "develop", &[], &["buffer"]),
     ("show", "show", &[], &["buffer"]),
     ("explain", "whitted", &["record"], &["image", "buffer"]),
+    (
+        "trace_rays",
+        "trace_rays",
+        &[],
+        &["image", "buffer", "packet"],
+    ),
 ];
 
 /// Every feature of `shaders`.

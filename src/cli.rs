@@ -3,7 +3,7 @@
 
 mod animate;
 mod args;
-mod bench;
+pub mod bench;
 mod compare;
 mod completions;
 mod convert;

@@ -12,6 +12,7 @@ mod guard;
 mod readback;
 mod shader;
 mod specialize;
+mod timer;
 
 pub use adapter::{AdapterChoice, AdapterReport, Backend, adapters};
 pub use buffer::{Ledger, MEMORY_LIMIT_BYTES};
@@ -20,6 +21,7 @@ pub use guard::{is_guarded, surviving_loss};
 pub(crate) use readback::{Reading, Source};
 pub(crate) use shader::Compiled;
 pub use shader::{Kernel, Overrides, Variant};
+pub(crate) use timer::Timer;
 
 use std::{
     sync::{
@@ -35,6 +37,9 @@ const WAITS: u32 = 3;
 
 /// Workgroup memory of packet kernels, for the stacks of their ray trees.
 const PACKET_WORKGROUP_BYTES: u32 = 32_256;
+
+/// Features that are used where the adapter has them.
+const OPTIONAL_FEATURES: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY;
 
 /// An open device with its queue. A clone refers to the same device.
 #[derive(Clone)]
@@ -109,7 +114,7 @@ impl Gpu {
         };
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("glimray"),
-            required_features,
+            required_features: required_features | (adapter.features() & OPTIONAL_FEATURES),
             required_limits: wgpu::Limits {
                 max_compute_workgroup_storage_size: required_limits
                     .max_compute_workgroup_storage_size

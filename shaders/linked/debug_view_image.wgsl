@@ -20,10 +20,10 @@ fn debug_view(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 }
 
 fn view(ray: package_types_Ray) -> vec3f {
-    let before = package_scene_loops_steps;
+    let before = package_scene_loops__1nodes_visited + package_scene_loops__1primitives_tested;
     let hit = package_scene_traverse__1closest_hit(ray);
     if (package_bindings_VIEW == package_types__1VIEW_HEAT) {
-        return vec3f(f32(package_scene_loops_steps - before));
+        return vec3f(f32(package_scene_loops__1nodes_visited + package_scene_loops__1primitives_tested - before));
     }
     if (hit.primitive == package_types_NONE) {
         return vec3f(0.0);
@@ -673,7 +673,9 @@ fn package_scene_film__1add_sample(sum: package_scene_film_Sum, sample: package_
     return next;
 }
 
-var<private> package_scene_loops_steps: u32 = 0u;
+var<private> package_scene_loops__1nodes_visited: u32 = 0u;
+
+var<private> package_scene_loops__1primitives_tested: u32 = 0u;
 
 var<private> package_scene_loops__1cut_off: bool = false;
 
@@ -757,7 +759,7 @@ fn package_scene_traverse_walk(ray: package_types_Ray, shear: package_lib_inters
                 current = select(popped, node.children[keys.x & 3u], is_hit.x);
                 top -= select(1u, 0u, is_hit.x | (popped == package_scene_traverse_EMPTY));
                 if (package_bindings__1COUNT_STEPS) {
-                    package_scene_loops_steps += 1u;
+                    package_scene_loops__1nodes_visited += 1u;
                 }
                 continuing {
                 
@@ -779,7 +781,7 @@ fn package_scene_traverse_walk(ray: package_types_Ray, shear: package_lib_inters
             current = select(current - package_types__2LEAF_COUNT_ONE + 1u, popped, is_last);
             current = select(current, package_scene_traverse_EMPTY, any & (hit.primitive != package_types_NONE));
             if (package_bindings__1COUNT_STEPS) {
-                package_scene_loops_steps += 1u;
+                package_scene_loops__1primitives_tested += 1u;
             }
             continuing {
             

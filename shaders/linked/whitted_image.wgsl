@@ -1549,7 +1549,7 @@ fn package_scene_traverse_walk(ray: package_types_Ray, shear: package_lib_inters
                 current = select(popped, node.children[keys.x & 3u], is_hit.x);
                 top -= select(1u, 0u, is_hit.x | (popped == package_scene_traverse_EMPTY));
                 if (package_bindings__1COUNT_STEPS) {
-                    package_scene_loops_steps += 1u;
+                    package_scene_loops__1nodes_visited += 1u;
                 }
                 continuing {
                 
@@ -1571,7 +1571,7 @@ fn package_scene_traverse_walk(ray: package_types_Ray, shear: package_lib_inters
             current = select(current - package_types__2LEAF_COUNT_ONE + 1u, popped, is_last);
             current = select(current, package_scene_traverse_EMPTY, any & (hit.primitive != package_types_NONE));
             if (package_bindings__1COUNT_STEPS) {
-                package_scene_loops_steps += 1u;
+                package_scene_loops__1primitives_tested += 1u;
             }
             continuing {
             
@@ -1761,7 +1761,9 @@ fn package_lib_intersect_plane__1intersect_plane(ray: package_types_Ray, point: 
     return package_types_Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
-var<private> package_scene_loops_steps: u32 = 0u;
+var<private> package_scene_loops__1nodes_visited: u32 = 0u;
+
+var<private> package_scene_loops__1primitives_tested: u32 = 0u;
 
 var<private> package_scene_loops__1cut_off: bool = false;
 

@@ -262,7 +262,7 @@ fn package_scene_packet_walk(ray0: package_types_Ray, ray1: package_types_Ray, r
                     current = select(package_scene_packet__1top_of(stack), subgroupShuffle(children.reference, 0u), children.count > 0u);
                     stack = package_scene_packet_pushed(stack, subgroupShuffle(children.reference, (package_scene_packet__1packet_lane + 1u) & 3u), children.count - 1u);
                     if (package_bindings__1COUNT_STEPS) {
-                        package_scene_loops_steps += 1u;
+                        package_scene_loops__1nodes_visited += 1u;
                     }
                     continuing {
                     
@@ -458,7 +458,7 @@ fn package_scene_packet__1meet_triangles(rays: package_scene_packet_FourRays, be
     let first = select(reference & package_types__2LEAF_FIRST_MASK, 0u, package_scene_packet__1has_shapes(reference));
     let row = package_scene_fetch__1triangle_row(3u * first + package_scene_packet__1packet_lane);
     if (package_bindings__1COUNT_STEPS) {
-        package_scene_loops_steps += count;
+        package_scene_loops__1primitives_tested += count;
     }
     let hits = package_scene_packet__1meet_triangle(rays, before, package_scene_packet__1triangle_of(row, 0u), first, true);
     return package_scene_packet__1meet_triangle(rays, hits, package_scene_packet__1triangle_of(row, 3u), first + 1u, count > 1u);
@@ -502,7 +502,7 @@ fn package_scene_packet__1meet_shape(rays: package_scene_packet_FourRays, before
     let primitive = package_types_SHAPE | index;
     let row = package_scene_fetch__1triangle_row(package_scene_fetch__1shape_row + package_types__1SHAPE_ROWS * index + package_scene_packet__1packet_lane);
     if (package_bindings__1COUNT_STEPS) {
-        package_scene_loops_steps += 1u;
+        package_scene_loops__1primitives_tested += 1u;
     }
     let shape = package_scene_fetch__1shape_of(package_scene_packet__1row_of(row, 0u), package_scene_packet__1row_of(row, 1u), package_scene_packet__1row_of(row, 2u), package_scene_packet__1row_of(row, 3u), package_scene_packet__1row_of(row, 4u));
     var hits = before;
@@ -1921,7 +1921,9 @@ fn package_lib_intersect_plane__1intersect_plane(ray: package_types_Ray, point: 
     return package_types_Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
-var<private> package_scene_loops_steps: u32 = 0u;
+var<private> package_scene_loops__1nodes_visited: u32 = 0u;
+
+var<private> package_scene_loops__1primitives_tested: u32 = 0u;
 
 var<private> package_scene_loops__1cut_off: bool = false;
 

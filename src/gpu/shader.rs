@@ -75,6 +75,8 @@ impl Kernel {
         DEVELOP "develop" Buffer "buffer";
         /// Develops the film to a texture for display.
         SHOW "show" Buffer "buffer";
+        /// Traces the rays of a [`crate::render::RayQuery`].
+        TRACE_RAYS "trace_rays" Image "image", Buffer "buffer", Packet "packet";
     }
 
     /// The module of a variant, specialised by overrides of `bindings.wesl`, by name. The error names a missing

@@ -97,6 +97,13 @@ impl<'a> Array<'a> {
         array
     }
 
+    /// An array of rows outside of the scene.
+    pub fn of_rows(what: &'static str, bytes: &'a [u8]) -> Self {
+        let mut array = Self::new(what, Kind::Rows);
+        array.push(bytes, |uploads| &mut uploads.geometry);
+        array
+    }
+
     fn push(&mut self, bytes: &'a [u8], counts_as: Upload) {
         if !bytes.is_empty() {
             self.pieces.push(Piece {

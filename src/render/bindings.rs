@@ -22,6 +22,9 @@ const READABLE: BufferUsages = BufferUsages::STORAGE
 
 const FRAME_BYTES: u64 = size_of::<PackedFrame>() as u64;
 
+/// Binding of the materials in the group of the scene.
+const MATERIALS: usize = 3;
+
 /// All GPU resources except the pipelines.
 pub struct Buffers {
     pub scene_group: wgpu::BindGroup,
@@ -76,6 +79,13 @@ impl Buffers {
         (self.film, self.staging) = film(gpu, film_rows)?;
         self.film_group = group(gpu, &layouts.film, &[self.film.as_entire_binding()]);
         Ok(true)
+    }
+
+    /// The bind group of the scene for a ray query, with `rays` in place of materials.
+    pub fn query_group(&self, gpu: &Gpu, layouts: &Layouts, rays: &Rows) -> wgpu::BindGroup {
+        let mut resources: Vec<_> = self.scene.buffers.iter().map(Rows::resource).collect();
+        resources[MATERIALS] = rays.resource();
+        group(gpu, &layouts.scene, &resources)
     }
 
     /// Switches to another frame, or to another scene with its frame, and uploads only the differences. Arrays

@@ -174,7 +174,13 @@ impl Renderer {
             layouts,
             ..
         } = &self.device;
-        let compiled = pipelines::portable(gpu, *fetch, layouts, Kernel::EXPLAIN, overrides)?;
+        let compiled = pipelines::tracing(
+            gpu,
+            pipelines::portable(*fetch),
+            layouts,
+            Kernel::EXPLAIN,
+            overrides,
+        )?;
         Ok(compiled.pipeline)
     }
 

@@ -111,9 +111,7 @@ impl FilmTile {
             0 => self.group_columns(),
             _ => count.isqrt(),
         };
-        (columns + 1..count)
-            .find(|&stride| gcd(stride, count) == 1)
-            .unwrap_or(1)
+        coprime_stride(columns + 1, count)
     }
 
     /// Number of pixels in film order, padding included.
@@ -199,6 +197,12 @@ pub fn rectangles(
         cuts(x, width).map(tile)
     };
     cuts(y, height).flat_map(row).collect()
+}
+
+/// The smallest number of at least `least` that is coprime to `count` and below it, or else 1.
+pub fn coprime_stride(least: u32, count: u32) -> u32 {
+    let is_coprime = |stride: &u32| gcd(*stride, count) == 1;
+    (least..count).find(is_coprime).unwrap_or(1)
 }
 
 fn gcd(a: u32, b: u32) -> u32 {

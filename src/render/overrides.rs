@@ -12,6 +12,7 @@ use crate::{
         FILTER_BLACKMAN_HARRIS, FILTER_BOX, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_TENT,
         TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT,
     },
+    pack::{PackedScene, PackedView},
     scene::{Antialias, Filter},
 };
 
@@ -47,20 +48,12 @@ pub fn of(task: Task) -> Overrides {
     let mut cameras = view.cameras.iter().chain([&view.frame.camera]);
     let mut overrides = vec![
         ("TRIANGLE_TEST", f64::from(triangle_test)),
-        ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
-        ("HAS_SHAPES", flag(scene.bounded_shape_count() > 0)),
-        ("HAS_PLANES", flag(scene.plane_count > 0)),
-        (
-            "MOSTLY_SHAPES",
-            flag(scene.bounded_shape_count() as usize > scene.triangles.len()),
-        ),
         ("MIXED_MATERIALS", flag(scene.features.mixed_materials)),
         ("BRUTE_FORCE", flag(settings.brute_force)),
         ("FIXED_OFFSET", f64::from(fixed_offset)),
         ("STRATIFIED", flag(settings.antialias != Antialias::None)),
         ("COUNT_RAYS", flag(policy.count_rays)),
         ("COUNT_STEPS", flag(integrator.counts_steps)),
-        ("SHAPE_KINDS", f64::from(features.shape_kinds)),
         (
             "HAS_REFLECTION",
             flag(features.reflection && settings.max_depth > 0),
@@ -86,8 +79,6 @@ pub fn of(task: Task) -> Overrides {
         ),
         ("HAS_EMISSION", flag(features.emission)),
         ("ADAPTIVE", flag(settings.is_adaptive())),
-        ("HAS_INSTANCES", flag(features.instances)),
-        ("HAS_MOTION", flag(view.has_moving_instances())),
         ("CAMERA_MOTION", flag(!view.cameras.is_empty())),
         ("LIGHT_MOTION", flag(view.frame.light_key_count > 1)),
         ("ORTHOGRAPHIC", flag(view.orthographic)),
@@ -95,6 +86,7 @@ pub fn of(task: Task) -> Overrides {
         ("FILM_ROWS", layers::rows(layers) as f64),
         ("SQUARES_ROW", squares_row as f64),
     ];
+    overrides.extend(geometry(scene, view));
     match integrator.is_lit {
         true => overrides.extend([
             ("HAS_LIGHTS", flag(view.has_lights)),
@@ -104,6 +96,40 @@ pub fn of(task: Task) -> Overrides {
         false => overrides.push(("VIEW", f64::from(integrator.view))),
     }
     overrides
+}
+
+/// The overrides of a ray query.
+pub fn of_query(
+    scene: &PackedScene,
+    view: &PackedView,
+    is_any: bool,
+    counts_steps: bool,
+) -> Overrides {
+    let mut overrides = vec![
+        ("TRIANGLE_TEST", f64::from(TRIANGLE_TEST_WATERTIGHT)),
+        ("HAS_CONTACT", flag(false)),
+        ("ANY_HIT", flag(is_any)),
+        ("COUNT_STEPS", flag(counts_steps)),
+    ];
+    overrides.extend(geometry(scene, view));
+    overrides
+}
+
+/// The overrides for the contents of the trees.
+fn geometry(scene: &PackedScene, view: &PackedView) -> [(&'static str, f64); 7] {
+    let features = scene.features;
+    [
+        ("HAS_TRIANGLES", flag(!scene.triangles.is_empty())),
+        ("HAS_SHAPES", flag(scene.bounded_shape_count() > 0)),
+        ("HAS_PLANES", flag(scene.plane_count > 0)),
+        (
+            "MOSTLY_SHAPES",
+            flag(scene.bounded_shape_count() as usize > scene.triangles.len()),
+        ),
+        ("SHAPE_KINDS", f64::from(features.shape_kinds)),
+        ("HAS_INSTANCES", flag(features.instances)),
+        ("HAS_MOTION", flag(view.has_moving_instances())),
+    ]
 }
 
 fn flag(on: bool) -> f64 {

@@ -1,7 +1,10 @@
 //! Pipelines of the kernels that trace rays.
 
 use super::{layouts::Layouts, overrides, policy::Fetch, task::Task};
-use crate::gpu::{Compiled, Gpu, GpuError, Kernel, Overrides, Variant};
+use crate::{
+    gpu::{Compiled, Gpu, GpuError, Kernel, Overrides, Variant},
+    pack::PackedView,
+};
 
 /// The number of materials from which on packet kernels cannot store their indices in 16 bits.
 const MAX_PACKET_MATERIALS: usize = 0xffff;
@@ -14,25 +17,18 @@ pub fn rendering(
     task: Task,
 ) -> Result<Compiled, GpuError> {
     let kernel = task.settings.integrator.entry().kernel;
-    let variant = match kernel.has(Variant::Packet) && gpu.traces_packets() && suits_packets(task) {
-        true => Variant::Packet,
-        false => variant_of(fetch),
+    let as_packets = task.policy.fetch == Fetch::Auto
+        && !task.settings.brute_force
+        && task.scene.materials.len() < MAX_PACKET_MATERIALS;
+    let variant = match as_packets && kernel.has(Variant::Packet) {
+        true => tracing_variant(gpu, fetch, task.view),
+        false => portable(fetch),
     };
     tracing(gpu, variant, layouts, kernel, overrides::of(task))
 }
 
-/// A pipeline for bind groups 0 to 2 of the portable variant of a kernel, specialised by these overrides.
-pub fn portable(
-    gpu: &Gpu,
-    fetch: Fetch,
-    layouts: &Layouts,
-    kernel: Kernel,
-    overrides: Overrides,
-) -> Result<Compiled, GpuError> {
-    tracing(gpu, variant_of(fetch), layouts, kernel, overrides)
-}
-
-fn tracing(
+/// A pipeline for bind groups 0 to 2 of a kernel, specialised by these overrides.
+pub fn tracing(
     gpu: &Gpu,
     variant: Variant,
     layouts: &Layouts,
@@ -43,25 +39,20 @@ fn tracing(
     gpu.pipeline(&kernel, variant, &groups, overrides)
 }
 
-fn variant_of(fetch: Fetch) -> Variant {
+/// The variant that does not depend on the adapter.
+pub fn portable(fetch: Fetch) -> Variant {
     match fetch {
         Fetch::Image => Variant::Image,
         _ => Variant::Buffer,
     }
 }
 
-/// Whether all rays of a packet can share nodes: nothing moves while the shutter is open.
-fn suits_packets(task: Task) -> bool {
-    let Task {
-        scene,
-        view,
-        settings,
-        policy,
-        ..
-    } = task;
-    policy.fetch == Fetch::Auto
-        && !settings.brute_force
-        && !view.has_moving_instances()
-        && view.frame.light_key_count == 1
-        && scene.materials.len() < MAX_PACKET_MATERIALS
+/// Packets if the adapter traces them, the data are in images, and nothing moves while the shutter is open: then
+/// the rays of a packet can share nodes.
+pub fn tracing_variant(gpu: &Gpu, fetch: Fetch, view: &PackedView) -> Variant {
+    let is_still = !view.has_moving_instances() && view.frame.light_key_count == 1;
+    match fetch == Fetch::Image && is_still && gpu.traces_packets() {
+        true => Variant::Packet,
+        false => portable(fetch),
+    }
 }

@@ -1,7 +1,7 @@
 //! Every kernel is valid WGSL within the minimum limits of WebGPU.
 
 use crate::support::verdict::Verdict;
-use glimray::gpu::Kernel;
+use glimray::gpu::{Kernel, Variant};
 use naga::{
     Expression,
     valid::{Capabilities, ValidationFlags, Validator},
@@ -29,22 +29,31 @@ fn linked_kernels_are_what_the_sources_link_to() {
     verdict.close();
 }
 
-/// All variants of every kernel: (name, WGSL).
-fn sources() -> impl Iterator<Item = (String, &'static str)> {
+/// All variants of every kernel, with names for messages.
+fn sources() -> impl Iterator<Item = (String, Variant, &'static str)> {
     Kernel::ALL.iter().flat_map(|kernel| {
-        let named = |(variant, source)| (format!("{} ({variant})", kernel.name), source);
-        kernel.sources.map(named)
+        let named =
+            |&(variant, source)| (format!("{} ({variant:?})", kernel.name), variant, source);
+        kernel.sources.iter().map(named)
     })
 }
 
+/// The optional capabilities that a variant needs.
+fn capabilities(variant: Variant) -> Capabilities {
+    match variant {
+        Variant::Packet => Capabilities::SUBGROUP,
+        Variant::Image | Variant::Buffer => Capabilities::empty(),
+    }
+}
+
 #[test]
-fn kernels_are_valid_without_any_optional_capability() {
+fn only_packet_kernels_need_an_optional_capability() {
     let mut verdict = Verdict::on("kernels");
-    for (name, source) in sources() {
+    for (name, variant, source) in sources() {
         let checked = naga::front::wgsl::parse_str(source)
             .map_err(|error| error.emit_to_string(source))
             .and_then(|module| {
-                let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+                let mut validator = Validator::new(ValidationFlags::all(), capabilities(variant));
                 validator
                     .validate(&module)
                     .map_err(|error| error.emit_to_string(source))
@@ -68,7 +77,7 @@ fn kernels_are_valid_without_any_optional_capability() {
 #[test]
 fn workgroups_are_rows_of_a_multiple_of_eight() {
     let mut verdict = Verdict::on("workgroups");
-    for (name, source) in sources() {
+    for (name, _, source) in sources() {
         let module = naga::front::wgsl::parse_str(source).expect("WGSL");
         verdict.that(
             format!("{name} has one entry point"),
@@ -138,13 +147,13 @@ fn branches_on_a_literal(function: &naga::Function, block: &naga::Block) -> bool
 fn specialised_kernels_are_valid_and_branch_on_no_constant() {
     let mut verdict = Verdict::on("specialised kernels");
     for kernel in Kernel::ALL {
-        for seed in 0..12 {
+        for (seed, (variant, _)) in (0..12).zip(kernel.sources.iter().cycle()) {
             let overrides = random_overrides(seed);
             let overrides: Vec<_> = overrides.iter().map(|(name, v)| (&**name, *v)).collect();
             let module = kernel
-                .specialized(seed % 2 == 0, &overrides)
+                .specialized(*variant, &overrides)
                 .unwrap_or_else(|error| panic!("{}: {error}", kernel.name));
-            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+            let mut validator = Validator::new(ValidationFlags::all(), capabilities(*variant));
             let checked = validator.validate(&module);
             let what = format!("{} with the choices of seed {seed}", kernel.name);
             verdict.that(&what, checked.is_ok(), || format!("{checked:?}"));
@@ -162,7 +171,9 @@ fn specialised_kernels_are_valid_and_branch_on_no_constant() {
 #[test]
 fn a_feature_that_is_off_leaves_no_function_behind() {
     let functions = |overrides: &[(&str, f64)]| -> String {
-        let module = Kernel::WHITTED.specialized(true, overrides).expect("WGSL");
+        let module = Kernel::WHITTED
+            .specialized(Variant::Image, overrides)
+            .expect("WGSL");
         let names = module.functions.iter();
         names
             .filter_map(|(_, function)| function.name.clone())
@@ -188,7 +199,8 @@ fn a_feature_that_is_off_leaves_no_function_behind() {
 
 #[test]
 fn an_undeclared_override_is_rejected() {
-    let refused = Kernel::WHITTED.specialized(true, &[("HAS_LIGHTS", 1.0), ("HAS_LIGHT", 1.0)]);
+    let refused =
+        Kernel::WHITTED.specialized(Variant::Image, &[("HAS_LIGHTS", 1.0), ("HAS_LIGHT", 1.0)]);
     assert_eq!(
         refused.map(|_| ()),
         Err("there is no override HAS_LIGHT".to_owned())

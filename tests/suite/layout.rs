@@ -26,8 +26,13 @@ fn shared_types() -> Module {
 fn linked() -> Vec<(String, Module)> {
     Kernel::ALL
         .iter()
-        .flat_map(|kernel| (kernel.sources).map(|(variant, source)| (kernel.name, variant, source)))
-        .map(|(name, variant, source)| (format!("{name} ({variant})"), parse(name, source)))
+        .flat_map(|kernel| {
+            kernel
+                .sources
+                .iter()
+                .map(|&(variant, source)| (kernel.name, variant, source))
+        })
+        .map(|(name, variant, source)| (format!("{name} ({variant:?})"), parse(name, source)))
         .collect()
 }
 
@@ -183,12 +188,14 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (0, 1, "triangles", "geometry"),
     (0, 2, "vertices", "geometry"),
     (0, 3, "materials", "geometry"),
+    (0, 3, "rays", "geometry"),
     (0, 4, "shapes", "read"),
     (0, 5, "texels", "texture"),
     (1, 0, "frame", "read"),
     (1, 1, "dispatch", "read and write"),
     (2, 0, "film", "read and write"),
     (2, 0, "records", "read and write"),
+    (2, 0, "hits", "read and write"),
     (3, 0, "tone", "read"),
     (3, 1, "developed", "read and write"),
     (3, 2, "screen", "screen"),

@@ -3,6 +3,7 @@
 mod adaptive;
 mod animate;
 mod backgrounds;
+mod bench;
 mod bvh;
 mod cli;
 mod closed_mirrors;
@@ -42,6 +43,7 @@ mod pack_again;
 mod pack_view;
 mod pictures;
 mod ray_offset;
+mod ray_query;
 mod readme;
 mod reference;
 mod render;

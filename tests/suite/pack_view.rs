@@ -39,7 +39,7 @@ struct Behind {
 }
 
 fn behind(packed: &PackedScene, view: &PackedView) -> Behind {
-    let [nodes, instances, keys, _] = view.node_parts();
+    let [nodes, instances, keys, ..] = view.node_parts();
     Behind {
         nodes: bytemuck::pod_collect_to_vec(nodes),
         instances: bytemuck::pod_collect_to_vec(instances),

@@ -1,15 +1,16 @@
 //! The benchmark's scenes, generated the same way every time.
 
+use super::random::Random;
+use super::scenes::{Detail, glass, hills};
 use crate::app::error::AppError;
 use crate::app::showcase;
 use crate::import;
 use crate::pack;
 use crate::scene::{
     Background, Beyond, Camera, CameraProperty, Curve, Easing, Instance, Interpolation, Light,
-    LightKind, Material, Mesh, Scene, Target, Track, Values,
+    LightKind, Material, Scene, Target, Track, Values,
 };
 use glam::{DAffine3, DQuat, DVec3, Vec3};
-use std::f32::consts::TAU;
 use std::fmt::Write;
 
 /// A scene with its render settings.
@@ -25,7 +26,7 @@ pub struct Workload {
 }
 
 impl Workload {
-    fn new(name: &'static str, scene: Scene, size: (u32, u32)) -> Self {
+    pub fn new(name: &'static str, scene: Scene, size: (u32, u32)) -> Self {
         Self {
             name,
             scene,
@@ -36,61 +37,64 @@ impl Workload {
     }
 }
 
-/// Every workload, from small to large.
-pub fn all() -> Result<Vec<Workload>, AppError> {
+/// Every workload, from small to large; with `is_quick` in pictures of half the width and height.
+///
+/// # Errors
+/// None, unless a built-in scene is broken.
+pub fn all(is_quick: bool) -> Result<Vec<Workload>, AppError> {
     let mut demo = showcase::scene()?;
     demo.output.samples = 1;
     let course = course_text(1500, 3);
     let course = import::parse("course.scene", &course, &import::Options::default())?;
     let size = demo.output.size;
-    let quick = (512, 512);
-    Ok(vec![
-        Workload::new("course", course, (640, 480)),
+    let (small, medium, large) = ((640, 480), (512, 512), (1024, 1024));
+    let mut all = vec![
+        Workload::new("course", course, small),
         Workload::new("demo", demo, size),
-        Workload::new(
-            "heightfield-primary",
-            height_field(300, Vec::new()),
-            (1024, 1024),
-        ),
-        Workload::new(
-            "heightfield-shadow",
-            height_field(300, vec![sun()]),
-            (1024, 1024),
-        ),
+        Workload::new("heightfield-primary", height_field(300, Vec::new()), large),
+        Workload::new("heightfield-shadow", height_field(300, vec![sun()]), large),
         Workload::new(
             "heightfield-16",
             sampled(height_field(300, Vec::new())),
-            quick,
+            medium,
         ),
         Workload {
             shutter_interval: (0.0, 1.0),
             ..Workload::new(
                 "heightfield-pan",
                 sampled(panned(height_field(300, Vec::new()))),
-                quick,
+                medium,
             )
         },
         Workload {
             most_baked: usize::MAX,
-            ..Workload::new("crowd-laid-out", crowd(), (640, 480))
+            ..Workload::new("crowd-laid-out", crowd(), small)
         },
         Workload {
             most_baked: 0,
-            ..Workload::new("crowd-instanced", crowd(), (640, 480))
+            ..Workload::new("crowd-instanced", crowd(), small)
         },
-    ])
+        Workload::new("glass", glass(Detail::Full), small),
+    ];
+    if is_quick {
+        for Workload { size, .. } in &mut all {
+            *size = (size.0 / 2, size.1 / 2);
+        }
+    }
+    Ok(all)
 }
 
 /// A scene in the course format: small triangles scattered in a box in front of the camera.
-fn course_text(triangle_count: u32, light_count: u32) -> String {
-    let mut random = Random(1);
+pub fn course_text(triangle_count: u32, light_count: u32) -> String {
+    let mut random = Random::new(1);
+    let mut next = || random.unit() as f32;
     let mut text = format!("{}\namb: 0.1 0.1 0.1\n", triangle_count + light_count);
     for _ in 0..triangle_count {
-        let center = [4.0, 3.0, 3.0].map(|extent| extent * (random.next() - 0.5));
+        let center = [4.0, 3.0, 3.0].map(|extent| extent * (next() - 0.5));
         text.push_str("triangle\n");
         for _ in 0..3 {
-            let [x, y, z] = center.map(|c| c + 0.4 * (random.next() - 0.5));
-            let [r, g, b] = [random.next(), random.next(), random.next()];
+            let [x, y, z] = center.map(|c| c + 0.4 * (next() - 0.5));
+            let [r, g, b] = [next(), next(), next()];
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
@@ -107,35 +111,11 @@ fn course_text(triangle_count: u32, light_count: u32) -> String {
     text
 }
 
-/// A height field of `columns` × `rows` quads over the unit square. `shift` varies its shape.
-fn hills(columns: u32, rows: u32, shift: f32) -> Mesh {
-    let side = columns + 1;
-    let height = |x: f32, z: f32| {
-        let x = x + shift;
-        0.06 * (TAU * 2.0 * x).sin() * (TAU * 3.0 * z).cos() + 0.01 * (TAU * 17.0 * (x + z)).sin()
-    };
-    let at = |i: u32, count: u32| i as f32 / count as f32 - 0.5;
-    let vertices = (0..side * (rows + 1)).map(|i| (at(i % side, columns), at(i / side, rows)));
-    let mut mesh = Mesh {
-        positions: vertices
-            .map(|(x, z)| Vec3::new(x, height(x, z), z))
-            .collect(),
-        materials: vec![0; (side * (rows + 1)) as usize],
-        triangles: (0..columns * rows)
-            .map(|i| i / columns * side + i % columns)
-            .flat_map(|i| [[i, i + side, i + 1], [i + 1, i + side, i + side + 1]])
-            .collect(),
-        ..Mesh::default()
-    };
-    mesh.repair();
-    mesh
-}
-
 /// A thousand different height fields of a thousand triangles each, in sunlight.
 pub fn thousand() -> Scene {
     let mut scene = height_field(1, vec![sun()]);
     scene.meshes = (0..1000)
-        .map(|i| hills(25, 20, i as f32 / 1000.0).into())
+        .map(|i| hills(25, 20, f64::from(i) / 1000.0).into())
         .collect();
     scene.instances = (0..1000)
         .map(|i| {
@@ -209,8 +189,8 @@ fn panned(mut scene: Scene) -> Scene {
 /// A hundred instances of a height field of 7,200 triangles, each with its own rotation and scale, in sunlight.
 fn crowd() -> Scene {
     let mut scene = height_field(60, vec![sun()]);
-    let mut random = Random(3);
-    let mut next = || f64::from(random.next());
+    let mut random = Random::new(3);
+    let mut next = || random.unit();
     scene.instances = (0..100)
         .map(|i| {
             let place = DVec3::new(
@@ -237,18 +217,5 @@ fn sun() -> Light {
         },
         color: Vec3::ONE,
         ..Light::default()
-    }
-}
-
-/// Random numbers in 0..1, the same on every machine (SplitMix64 by Steele and Vigna).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1_u32 << 24) as f32
     }
 }

@@ -84,7 +84,10 @@ fn help_documents_every_promised_flag_and_has_an_example() {
         ),
         ("doctor", ["--json", device].join(" ")),
         ("compare", "--tolerance --max-share --diff --json".into()),
-        ("bench", ["--json --repeats --only", device].join(" ")),
+        (
+            "bench",
+            ["--json --repeats --only --quick --compare", device].join(" "),
+        ),
         ("completions", "bash zsh fish".into()),
         ("man", "<DIR>".into()),
         ("schema", "--help".into()),

@@ -1,0 +1,75 @@
+//! Times of GPU work, from timestamps that the adapter writes.
+
+use super::{Gpu, GpuError, Source};
+use bytemuck::pod_collect_to_vec;
+
+/// Two timestamps: the beginning and the end of a pass.
+pub(crate) struct Timer {
+    queries: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+    /// Nanoseconds of a tick.
+    period: f64,
+}
+
+impl Gpu {
+    /// A timer; `None` if the adapter has no timestamps.
+    pub(crate) fn timer(&self) -> Result<Option<Timer>, GpuError> {
+        // A software renderer has no clock of its own.
+        if self.is_cpu()
+            || !self
+                .device
+                .features()
+                .contains(wgpu::Features::TIMESTAMP_QUERY)
+        {
+            return Ok(None);
+        }
+        let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
+        let resolved = self.allocate("timestamps", Timer::BYTES as u64, usage)?;
+        let queries = self.scoped("timestamps", || {
+            self.device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("timestamps"),
+                ty: wgpu::QueryType::Timestamp,
+                count: 2,
+            })
+        })?;
+        Ok(Some(Timer {
+            queries,
+            resolved,
+            period: self.queue.get_timestamp_period().into(),
+        }))
+    }
+}
+
+impl Timer {
+    /// Bytes of its source.
+    pub const BYTES: usize = 16;
+
+    /// For the descriptor of the pass.
+    pub fn writes(&self) -> wgpu::ComputePassTimestampWrites<'_> {
+        wgpu::ComputePassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(0),
+            end_of_pass_write_index: Some(1),
+        }
+    }
+
+    /// Makes the timestamps readable after the pass.
+    pub fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.resolve_query_set(&self.queries, 0..2, &self.resolved, 0);
+    }
+
+    /// The resolved timestamps, to be read back.
+    pub fn source(&self) -> Source<'_> {
+        Source {
+            buffer: &self.resolved,
+            offset: 0,
+            bytes: Self::BYTES as u64,
+        }
+    }
+
+    /// Seconds between the timestamps in `bytes`.
+    pub fn seconds(&self, bytes: &[u8]) -> f64 {
+        let ticks: Vec<u64> = pod_collect_to_vec(bytes);
+        ticks[1].saturating_sub(ticks[0]) as f64 * self.period * 1e-9
+    }
+}

@@ -1,0 +1,379 @@
+//! Ray queries: closest hits and occlusion of rays that the caller supplies: `kernels/trace_rays.wesl`.
+
+use super::{
+    ExecutionPolicy, LongPath, RenderError,
+    arrays::{Array, Rows},
+    bindings::{self, Buffers},
+    device,
+    film_tile::coprime_stride,
+    layouts::Layouts,
+    overrides, pipelines,
+    policy::Fetch,
+    stats::Uploads,
+};
+use crate::{
+    clock::Instant,
+    gpu::{Compiled, Gpu, GpuError, Kernel, Source, Timer},
+    layout::{NONE, PackedCounters, PackedDispatch},
+    pack::{PackedScene, PackedView},
+};
+use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec, pod_read_unaligned};
+use glam::{DVec3, Vec3};
+use std::sync::Arc;
+
+/// Lanes of a workgroup; each traces one ray.
+const LANES: usize = 64;
+/// Maximum number of rays of a dispatch: 16 MiB of results.
+const MAX_RAYS: usize = 1 << 20;
+const ROW_BYTES: u64 = 16;
+
+/// A ray in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct QueryRay {
+    /// Origin, finite.
+    pub origin: DVec3,
+    /// Direction, of unit length.
+    pub direction: Vec3,
+    /// Surfaces at this distance or beyond are ignored, in scene units. [`QueryRay::FAR`] has no limit.
+    pub t_max: f32,
+    /// Time in the shutter interval of the view, from 0 to 1; matters only if instances move.
+    pub time: f32,
+}
+
+impl QueryRay {
+    /// A `t_max` beyond every scene.
+    pub const FAR: f32 = 3e38;
+
+    /// A ray without a limit, at the time when the shutter opens.
+    pub fn new(origin: DVec3, direction: Vec3) -> Self {
+        Self {
+            origin,
+            direction,
+            t_max: Self::FAR,
+            time: 0.0,
+        }
+    }
+
+    /// The two rows that the shader reads; it traces in render space, whose origin is `origin` in world space.
+    fn rows(&self, origin: DVec3) -> [[f32; 4]; 2] {
+        let [x, y, z] = (self.origin - origin).as_vec3().to_array();
+        let [dx, dy, dz] = self.direction.to_array();
+        [[x, y, z, self.t_max], [dx, dy, dz, self.time]]
+    }
+}
+
+/// The closest hit of a ray. [`PackedScene::object_at`] returns the object with these indices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct QueryHit {
+    /// Distance along the ray, above 0 and below its `t_max`, in scene units.
+    pub t: f32,
+    /// Index of the triangle in [`PackedScene::triangles`], or [`crate::layout::SHAPE`] with the index of a shape.
+    pub primitive: u32,
+    /// Index of an instance of the view, or [`crate::layout::NO_INSTANCE`].
+    pub instance: u32,
+    /// Barycentric weights of the second and third corner of a triangle, rounded to 16 bits. Meaningless for
+    /// shapes.
+    pub weights: [f32; 2],
+}
+
+impl QueryHit {
+    fn of([t, primitive, instance, weights]: [u32; 4]) -> Option<Self> {
+        let weight = |bits: u32| (bits & 0xffff) as f32 / 65_535.0;
+        (primitive != NONE).then(|| Self {
+            t: f32::from_bits(t),
+            primitive,
+            instance,
+            weights: [weight(weights), weight(weights >> 16)],
+        })
+    }
+}
+
+/// The traversal steps of a ray.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RaySteps {
+    /// Nodes visited, in the TLAS and in BLASes.
+    pub nodes: u32,
+    /// Triangles and shapes tested, without planes.
+    pub primitives: u32,
+}
+
+/// The question that a query answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RayTest {
+    /// The closest hit.
+    Closest,
+    /// Whether there is any hit.
+    Any,
+}
+
+/// Rays on the device, for repeated tracing.
+pub struct RayBatch(Vec<Chunk>);
+
+/// The rays of one dispatch.
+struct Chunk {
+    ray_count: usize,
+    group: wgpu::BindGroup,
+}
+
+impl Chunk {
+    fn group_count(&self) -> u32 {
+        self.ray_count.div_ceil(LANES) as u32
+    }
+}
+
+/// Traces rays through a view of a packed scene:
+///
+/// ```no_run
+/// use glam::{DVec3, Vec3};
+/// use glimray::{gpu::Gpu, import, pack, render::{ExecutionPolicy, QueryRay, RayQuery}};
+///
+/// let scene = import::load("assets/scenes/spheres.toml".as_ref())?;
+/// let packed = std::sync::Arc::new(pack::scene(&scene)?);
+/// let view = packed.frame(&scene.frame(0.0))?;
+/// let query = RayQuery::new(Gpu::new(&Default::default())?, packed, &view, ExecutionPolicy::default())?;
+/// let down = QueryRay::new(DVec3::new(0.0, 10.0, 0.0), Vec3::NEG_Y);
+/// for hit in query.closest_hits(&[down])?.into_iter().flatten() {
+///     println!("{}", hit.t);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// It renders nothing and does not survive the loss of the device: every function then returns
+/// [`GpuError::Lost`].
+pub struct RayQuery {
+    gpu: Gpu,
+    fetch: Fetch,
+    /// Whether rays may be traced in packets.
+    as_packets: bool,
+    layouts: Layouts,
+    buffers: Buffers,
+    scene: Arc<PackedScene>,
+    view: PackedView,
+}
+
+impl RayQuery {
+    /// Uploads a scene. Of the policy, the fetch and the memory limit apply.
+    ///
+    /// # Errors
+    /// The device failed, or the scene exceeds the memory limit or the limits of the adapter.
+    pub fn new(
+        gpu: Gpu,
+        scene: Arc<PackedScene>,
+        view: &PackedView,
+        policy: ExecutionPolicy,
+    ) -> Result<Self, RenderError> {
+        bindings::ledger(&scene, view, MAX_RAYS, 0).check(policy.memory_limit_bytes)?;
+        let fetch = bindings::choose_fetch(policy.fetch, &gpu, &scene, view);
+        let gpu = gpu.with_limits_for(bindings::needs(&scene, view, fetch, MAX_RAYS))?;
+        let layouts = Layouts::new(&gpu, fetch);
+        let shown = (&scene, view);
+        let uploads = &mut Uploads::default();
+        let buffers = Buffers::new(&gpu, &layouts, fetch, shown, MAX_RAYS, uploads)?;
+        Ok(Self {
+            gpu,
+            fetch,
+            as_packets: policy.fetch == Fetch::Auto,
+            layouts,
+            buffers,
+            scene,
+            view: view.clone(),
+        })
+    }
+
+    /// The closest hit of each ray.
+    ///
+    /// # Errors
+    /// The device failed, or the driver ends the traversal of a ray early.
+    pub fn closest_hits(&self, rays: &[QueryRay]) -> Result<Vec<Option<QueryHit>>, RenderError> {
+        self.closest_hits_of(&self.batch(rays)?)
+    }
+
+    /// For each ray whether there is a surface between its origin and its `t_max`.
+    ///
+    /// # Errors
+    /// As [`Self::closest_hits`].
+    pub fn occluded(&self, rays: &[QueryRay]) -> Result<Vec<bool>, RenderError> {
+        self.occluded_of(&self.batch(rays)?)
+    }
+
+    /// [`Self::closest_hits`] of rays on the device.
+    ///
+    /// # Errors
+    /// As [`Self::closest_hits`].
+    pub fn closest_hits_of(&self, batch: &RayBatch) -> Result<Vec<Option<QueryHit>>, RenderError> {
+        let rows = self.rows(batch, RayTest::Closest, false)?;
+        Ok(rows.into_iter().map(QueryHit::of).collect())
+    }
+
+    /// [`Self::occluded`] of rays on the device.
+    ///
+    /// # Errors
+    /// As [`Self::closest_hits`].
+    pub fn occluded_of(&self, batch: &RayBatch) -> Result<Vec<bool>, RenderError> {
+        let rows = self.rows(batch, RayTest::Any, false)?;
+        let is_hit = |[_, primitive, ..]: [u32; 4]| primitive != NONE;
+        Ok(rows.into_iter().map(is_hit).collect())
+    }
+
+    /// The traversal steps of each ray. They do not depend on the adapter's speed, so they show whether a tree
+    /// or a traversal has become better or worse.
+    ///
+    /// # Errors
+    /// As [`Self::closest_hits`].
+    pub fn steps(&self, batch: &RayBatch, test: RayTest) -> Result<Vec<RaySteps>, RenderError> {
+        let rows = self.rows(batch, test, true)?;
+        let steps = |[_, _, nodes, primitives]: [u32; 4]| RaySteps { nodes, primitives };
+        Ok(rows.into_iter().map(steps).collect())
+    }
+
+    /// Traces the rays `passes` times and returns the seconds of one pass, without upload and readback. A GPU's
+    /// clock is used where it has one, otherwise the time from submission to completion. The first pass of a
+    /// test may include its compilation.
+    ///
+    /// # Errors
+    /// As [`Self::closest_hits`].
+    pub fn seconds(
+        &self,
+        batch: &RayBatch,
+        test: RayTest,
+        passes: u32,
+    ) -> Result<f64, RenderError> {
+        let pipeline = self.pipeline(test, false)?;
+        let passes = passes.max(1);
+        let mut seconds = 0.0;
+        for chunk in &batch.0 {
+            seconds += self.dispatch(chunk, &pipeline, passes, None)?;
+        }
+        Ok(seconds / f64::from(passes))
+    }
+
+    /// Uploads rays.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn batch(&self, rays: &[QueryRay]) -> Result<RayBatch, RenderError> {
+        let chunks = rays.chunks(MAX_RAYS).map(|rays| self.chunk(rays));
+        Ok(RayBatch(chunks.collect::<Result<_, GpuError>>()?))
+    }
+
+    fn chunk(&self, rays: &[QueryRay]) -> Result<Chunk, GpuError> {
+        let rows = rays.iter().map(|ray| ray.rows(self.scene.origin));
+        let mut rows: Vec<_> = rows.collect();
+        // Rays of negative length, which hit nothing, fill the last workgroup.
+        rows.resize(
+            rays.len().next_multiple_of(LANES),
+            [[0.0, 0.0, 0.0, -1.0], [0.0, 0.0, 1.0, 0.0]],
+        );
+        let array = Array::of_rows("rays", cast_slice(&rows));
+        let uploaded = Rows::allocate(&self.gpu, self.fetch, &array, array.bytes)?;
+        array.write(&self.gpu, &uploaded, &[], &mut Uploads::default())?;
+        let group = (self.buffers).query_group(&self.gpu, &self.layouts, &uploaded);
+        Ok(Chunk {
+            ray_count: rays.len(),
+            group,
+        })
+    }
+
+    /// The results of all rays, as `scene/query.wesl` stores them.
+    fn rows(
+        &self,
+        batch: &RayBatch,
+        test: RayTest,
+        counts_steps: bool,
+    ) -> Result<Vec<[u32; 4]>, RenderError> {
+        let pipeline = self.pipeline(test, counts_steps)?;
+        let mut all = Vec::new();
+        for chunk in &batch.0 {
+            self.dispatch(chunk, &pipeline, 1, Some(&mut all))?;
+        }
+        Ok(all)
+    }
+
+    fn pipeline(
+        &self,
+        test: RayTest,
+        counts_steps: bool,
+    ) -> Result<wgpu::ComputePipeline, GpuError> {
+        let is_any = test == RayTest::Any;
+        let overrides = overrides::of_query(&self.scene, &self.view, is_any, counts_steps);
+        let (gpu, layouts) = (&self.gpu, &self.layouts);
+        // Packets have no steps of single rays.
+        let variant = match counts_steps || !self.as_packets {
+            true => pipelines::portable(self.fetch),
+            false => pipelines::tracing_variant(gpu, self.fetch, &self.view),
+        };
+        let Compiled { pipeline, .. } =
+            pipelines::tracing(gpu, variant, layouts, Kernel::TRACE_RAYS, overrides)?;
+        Ok(pipeline)
+    }
+
+    /// Traces the rays `passes` times, appends the results to `all`, and returns the seconds that it took.
+    fn dispatch(
+        &self,
+        chunk: &Chunk,
+        pipeline: &wgpu::ComputePipeline,
+        passes: u32,
+        all: Option<&mut Vec<[u32; 4]>>,
+    ) -> Result<f64, RenderError> {
+        let Self { gpu, buffers, .. } = self;
+        let groups = chunk.group_count();
+        gpu.write(&buffers.dispatch, 0, bytes_of(&packed(groups)))?;
+        let timer = gpu.timer()?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: None,
+                timestamp_writes: timer.as_ref().map(Timer::writes),
+            });
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &chunk.group, &[]);
+            pass.set_bind_group(1, &buffers.frame_group, &[]);
+            pass.set_bind_group(2, &buffers.film_group, &[]);
+            for _ in 0..passes {
+                pass.dispatch_workgroups(groups, 1, 1);
+            }
+        }
+        let mut sources = vec![device::counters(&buffers.dispatch)];
+        if let Some(timer) = &timer {
+            timer.resolve(&mut encoder);
+            sources.push(timer.source());
+        }
+        if all.is_some() {
+            sources.push(Source {
+                buffer: &buffers.film,
+                offset: 0,
+                bytes: chunk.ray_count as u64 * ROW_BYTES,
+            });
+        }
+        let started = Instant::now();
+        let reading = gpu.submit_reading(encoder, &sources, &buffers.staging)?;
+        let (counters, seconds) = gpu.read(reading, |bytes| {
+            let (counters, bytes) = bytes.split_at(size_of::<PackedCounters>());
+            let waited = started.elapsed().as_secs_f64();
+            let (ticks, rows) = bytes.split_at(timer.as_ref().map_or(0, |_| Timer::BYTES));
+            if let Some(all) = all {
+                all.extend(pod_collect_to_vec::<u8, [u32; 4]>(rows));
+            }
+            let seconds = timer.as_ref().map_or(waited, |timer| timer.seconds(ticks));
+            (pod_read_unaligned::<PackedCounters>(counters), seconds)
+        })?;
+        // A driver that stops a dispatch is treated as lost.
+        if counters.groups_done != groups * passes {
+            return Err(GpuError::Lost.into());
+        }
+        match counters.cut_off_paths {
+            0 => Ok(seconds),
+            _ => Err(RenderError::PathTooLong(LongPath::Crowded)),
+        }
+    }
+}
+
+/// The dispatch parameters of so many workgroups. They visit the rays in strides of about the square root of
+/// their number: a software renderer gives each thread one contiguous part of them.
+fn packed(groups: u32) -> PackedDispatch {
+    PackedDispatch {
+        group_count: groups,
+        group_stride: coprime_stride(groups.isqrt() + 1, groups),
+        ..Default::default()
+    }
+}
