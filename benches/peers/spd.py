@@ -372,10 +372,11 @@ def pov(scene):
         yield f"light_source {{ {vector(light)} color rgb {numbers(1 / sqrt(len(scene.lights)))} }}"
     for number, (material, shapes) in enumerate(scene.groups):
         texture = list(finish(material))
-        meshes = [shape for shape in shapes if isinstance(shape, Polygon)]
-        if meshes:
-            yield "mesh {"
-            for shape in meshes:
+        flat = [shape for shape in shapes if isinstance(shape, Polygon)]
+        if flat:
+            # POV-Ray renders many small meshes faster than loose triangles, and loose triangles than one large mesh.
+            yield "mesh {" if len(scene.groups) > 2 else "union {"
+            for shape in flat:
                 for corners in triangles(shape.corners):
                     yield "  triangle { " + ", ".join(map(vector, corners)) + " }"
             yield from texture
@@ -395,17 +396,6 @@ def pov(scene):
                     case Cone(base, base_radius, apex, apex_radius):
                         radii = numbers(base_radius), numbers(apex_radius)
                         yield f"cone {{ {vector(base)}, {radii[0]}, {vector(apex)}, {radii[1]} open {ends} }}"
-
-
-def obj(scene):
-    """The lines of a Wavefront OBJ file with the triangles of a scene that has no curved shapes."""
-    count = 0
-    for _, shapes in scene.groups:
-        for shape in shapes:
-            for corners in triangles(shape.corners):
-                yield from ("v " + numbers(*corner) for corner in corners)
-                yield f"f {count + 1} {count + 2} {count + 3}"
-                count += 3
 
 
 def write(folder, kind, size):
