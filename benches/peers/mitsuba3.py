@@ -9,7 +9,6 @@ pixel and one shadow ray per light at each hit, as `glimray render --max-depth 0
 import argparse
 import json
 import os
-import statistics
 import subprocess
 from math import pi
 from typing import NamedTuple
@@ -21,6 +20,7 @@ import numpy as np
 import rays
 import raysets
 import spd
+import tables
 
 mi.set_variant("llvm_ad_rgb")
 
@@ -189,6 +189,7 @@ def render_meshes(parsed):
         yield {
             "peer": "Mitsuba",
             "render": name,
+            "what": "trace",
             "threads": threads,
             "peer_seconds": [a for a, _ in pairs],
             "glimray_seconds": [b for _, b in pairs],
@@ -202,12 +203,9 @@ def main():
     parsed = parser.parse_args()
     raysets.report(trace_sets(parsed), parsed.json)
     renders = list(render_meshes(parsed))
+    print(tables.renders(renders))
     for r in renders:
-        ours, theirs = (statistics.median(r[key]) for key in ("glimray_seconds", "peer_seconds"))
-        print(
-            f"{r['render']:12} render: Mitsuba {theirs:.3f} s, glimray {ours:.3f} s traced;"
-            f" mean radiance {r['means'][0]:.5f} and {r['means'][1]:.5f}"
-        )
+        print(f"{r['render']}: mean radiance {r['means'][0]:.5f} (Mitsuba), {r['means'][1]:.5f} (glimray)")
     if parsed.json:
         with parsed.json.open("a") as file:
             file.writelines(json.dumps(r) + "\n" for r in renders)

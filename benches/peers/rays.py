@@ -34,11 +34,14 @@ def hills():
 
 
 def camera_rays(side):
-    """A ray through the centre of each pixel, by tiles of 8×8 pixels."""
-    tiles = np.arange(side).reshape(-1, 8)
-    rows, columns = np.broadcast_arrays(tiles[:, None, :, None], tiles[None, :, None, :])
+    """A ray through the centre of each pixel, by tiles of 8×8 pixels, in Morton order within a tile."""
+    lanes = np.arange(64)
+    inside = [sum((lanes >> (2 * bit + axis) & 1) << bit for bit in range(3)) for axis in (0, 1)]
+    tiles = np.arange(0, side, 8)
+    columns = np.add.outer(np.tile(tiles, len(tiles)), inside[0])
+    lines = np.add.outer(np.repeat(tiles, len(tiles)), inside[1])
     half = np.tan(FIELD_OF_VIEW / 2)
-    x, y = ((2 * (v.reshape(-1, 1) + 0.5) / side - 1) * half for v in (columns, rows))
+    x, y = ((2 * (v.reshape(-1, 1) + 0.5) / side - 1) * half for v in (columns, lines))
     forwards = unit(LOOK_AT - LOOK_FROM)
     right = unit(np.cross(forwards, UP))
     return unit(forwards + x * right - y * np.cross(right, forwards))
@@ -86,7 +89,7 @@ def main():
     for name, any_hit, rays in [
         ("primary", False, rows(origins, directions, np.inf)),
         ("shadow", True, rows(points, np.broadcast_to(TO_SUN, points.shape), np.inf)),
-        ("ambient", True, rows(points, around(normals, random), 0.07)),
+        ("ambient-occlusion", True, rows(points, around(normals, random), 0.07)),
         ("diffuse", False, rows(points, around(normals, random), np.inf)),
         ("mirror", False, rows(points, mirrored, np.inf)),
         ("random", False, rows(random.uniform(low, high, (count, 3)), unit(random.normal(size=(count, 3))), np.inf)),

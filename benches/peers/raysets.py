@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+import tables
+
 
 class RaySet(NamedTuple):
     """Rows of `rays`: origin, direction, t_max."""
@@ -85,10 +87,6 @@ def arguments(parser):
 
 def report(records, path):
     """Prints a table of the records and writes them to `path` if there is one."""
-    for r in records:
-        print(
-            f"{r['peer']:22} {r['scene']:12} {r['set']:10} {r['threads']} threads"
-            f" {r['mrays_per_s']:8.2f} Mrays/s {r['hits']:9} hits, sum of t {r['sum_t']:.2f}"
-        )
+    print(tables.rates(records))
     if path:
         path.write_text("".join(json.dumps(r) + "\n" for r in records))
