@@ -17,7 +17,6 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 
-import rays
 import raysets
 import spd
 import tables
@@ -104,10 +103,11 @@ class Setting(NamedTuple):
     light: list
 
 
-def settings():
+def settings(folder):
     """Name, triangles and setting of each render."""
-    view = [list(map(float, v)) for v in (rays.LOOK_FROM, rays.LOOK_AT, rays.UP)]
-    yield "heightfield", rays.hills(), Setting(*view, 60.0, [-2.0, -1.0, -1.0])
+    hills = np.fromfile(folder / "heightfield" / "triangles.f32", "<f4").reshape(-1, 3, 3)
+    corner = [0.55, 0.45, 0.75]
+    yield "heightfield", hills, Setting(corner, [0.0, -0.05, 0.0], [0.0, 1.0, 0.0], 60.0, [-2.0, -1.0, -1.0])
     tetra = spd.tetra(spd.SIZES["tetra"])
     triangles = np.array([t for polygon in tetra.groups[0][1] for t in spd.triangles(polygon.corners)], np.float32)
     view = [list(map(float, v)) for v in tetra.view[:3]]
@@ -116,12 +116,26 @@ def settings():
 
 def glimray_scene(mesh_file, setting):
     """A native scene: a grey diffuse mesh in sunlight."""
-    return f"""
-camera = {{ look_from = {setting.look_from}, look_at = {setting.look_at}, up = {setting.up}, fov_y_deg = {setting.fov_y} }}
-output = {{ size = [{SIDE}, {SIDE}], samples = 1, max_depth = 0 }}
-materials.grey.phong = {{ diffuse = [0.5, 0.5, 0.5] }}
-lights = [{{ directional = {{ direction = {setting.light} }} }}]
-objects = [{{ mesh = {{ file = "{mesh_file.name}" }}, material = "grey" }}]
+    return f"""[camera]
+look_from = {setting.look_from}
+look_at = {setting.look_at}
+up = {setting.up}
+fov_y_deg = {setting.fov_y}
+
+[output]
+size = [{SIDE}, {SIDE}]
+samples = 1
+max_depth = 0
+
+[materials.grey.phong]
+diffuse = [0.5, 0.5, 0.5]
+
+[[lights]]
+directional = {{ direction = {setting.light} }}
+
+[[objects]]
+mesh = {{ file = "{mesh_file.name}" }}
+material = "grey"
 """
 
 
@@ -160,7 +174,7 @@ def render_meshes(parsed):
     environment = {**os.environ, "LP_NUM_THREADS": str(threads), "NODEVICE_SELECT": "1"}
     folder = parsed.folder / "renders"
     folder.mkdir(parents=True, exist_ok=True)
-    for name, triangles, setting in settings():
+    for name, triangles, setting in settings(parsed.folder):
         mesh_file, scene_file = folder / f"{name}.ply", folder / f"{name}.toml"
         write_ply(mesh_file, triangles)
         scene_file.write_text(glimray_scene(mesh_file, setting))
@@ -199,7 +213,7 @@ def render_meshes(parsed):
 
 def main():
     parser = raysets.arguments(argparse.ArgumentParser(description=__doc__))
-    parser.add_argument("--glimray", default="target/release/glimray", help="the program [default: target/release/glimray]")
+    parser.add_argument("--glimray", default="target/release/glimray", help="the program [default: %(default)s]")
     parsed = parser.parse_args()
     raysets.report(trace_sets(parsed), parsed.json)
     renders = list(render_meshes(parsed))

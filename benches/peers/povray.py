@@ -25,11 +25,20 @@ HERE = Path(__file__).parent
 SIZE = 512
 # The glass ball: pixels along a side, and settings of adaptive antialiasing that give similar errors.
 BALL_SIZE = 1024
-POVRAY_ADAPTIVE = ["+A0.03", "+AM2", "+R3", "-J"]
-GLIMRAY_ADAPTIVE = ["--antialias", "adaptive", "--samples", "16", "--noise", "0.04"]
+POVRAY_ADAPTIVE = ["+A0.05", "+AM1", "+R4", "-J"]
+GLIMRAY_ADAPTIVE = ["--antialias", "adaptive", "--samples", "16", "--noise", "0.1"]
 # Pictures with many samples, from which the error is measured.
 POVRAY_REFERENCE = ["+A0.0", "+AM1", "+R9", "-J"]
-GLIMRAY_REFERENCE = ["--antialias", "stratified", "--samples", "256"]
+GLIMRAY_REFERENCE = ["--antialias", "stratified", "--samples", "64"]
+
+
+# Numbers of rays in POV-Ray's statistics.
+POVRAY_COUNTS = {
+    "all": "Rays",
+    "shadow": "Shadow Ray Tests",
+    "mirrored": "Reflected Rays",
+    "refracted": "Refracted Rays",
+}
 
 
 class Run(NamedTuple):
@@ -78,9 +87,11 @@ class Programs:
         command = ["povray", f"+I{scene}.pov", f"+O{picture}", f"+W{size}", f"+H{size}", f"+WT{self.threads}"]
         whole, cpu, text = run([*command, "-D", "-V", "+FN", *antialiasing], self.folder)
         trace = re.search(r"Trace Time: .*\(([\d.]+) seconds\)", text)
-        kinds = {"all": "Rays", "shadow": "Shadow Ray Tests", "mirrored": "Reflected Rays", "refracted": "Refracted Rays"}
-        counts = {kind: re.search(rf"^ *{name}: +(\d+)", text, re.MULTILINE) for kind, name in kinds.items()}
-        return Run(float(trace[1]), whole, cpu), {kind: int(found[1]) if found else 0 for kind, found in counts.items()}
+        counts = {}
+        for kind, name in POVRAY_COUNTS.items():
+            found = re.search(rf"^ *{name}: +(\d+)", text, re.MULTILINE)
+            counts[kind] = int(found[1]) if found else 0
+        return Run(float(trace[1]), whole, cpu), counts
 
     def render(self, scene, picture, size, flags):
         """The same of glimray. Rays are counted with --count-rays only."""
@@ -191,7 +202,7 @@ def main():
     parser.add_argument("--spd", type=Path, help="a folder with SPD's teapot.nff and teapot.pov")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--glimray", default="target/release/glimray", help="the program [default: target/release/glimray]")
+    parser.add_argument("--glimray", default="target/release/glimray", help="the program [default: %(default)s]")
     parser.add_argument("--json", type=Path, metavar="FILE", help="also write the results as JSON lines")
     parsed = parser.parse_args()
     if not Path(parsed.glimray).exists():

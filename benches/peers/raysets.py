@@ -80,7 +80,7 @@ def arguments(parser):
     """Adds the arguments that all peers have."""
     parser.add_argument("folder", type=Path, help="ray sets, written by rays.py or another exporter")
     parser.add_argument("--threads", default="1,2", help="numbers of threads [default: 1,2]")
-    parser.add_argument("--rounds", type=int, default=5, help="measurements of each set; the median counts [default: 5]")
+    parser.add_argument("--rounds", type=int, default=5, help="measurements of each set [default: 5]")
     parser.add_argument("--json", type=Path, metavar="FILE", help="also write the results as JSON lines")
     return parser
 

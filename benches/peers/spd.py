@@ -240,7 +240,8 @@ def rings(size):
     look_from = (-1, -spread, 0.5)
     far = spread * (size + 1)
     half = 1.01 * (far + spread) * tan(pi / 8)
-    wall = [add(look_from, (x, far + spread, z)) for x, z in [(half, half), (-half, half), (-half, -half), (half, -half)]]
+    corners = [(half, half), (-half, half), (-half, -half), (half, -half)]
+    wall = [add(look_from, (x, far + spread, z)) for x, z in corners]
     groups = [(Material((1, 1, 1), 1), [Polygon(wall)])]
     for depth in range(size):
         for z in range(-depth, depth + 1, 2):
@@ -348,7 +349,7 @@ def vector(v):
 
 
 def finish(m):
-    """A texture with the shading of the NFF material. POV-Ray multiplies diffuse light by 1 − transmit; NFF does not."""
+    """A texture that shades as the NFF material. POV-Ray multiplies diffuse light by 1 − transmit; NFF does not."""
     yield f"  texture {{ pigment {{ color rgb {vector(m.color)} transmit {numbers(m.transmit)} }}"
     diffuse = m.diffuse / (1 - m.transmit)
     shading = f"phong {numbers(m.specular)} phong_size {numbers(m.shine)} reflection {numbers(m.specular)} "

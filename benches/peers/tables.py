@@ -23,35 +23,45 @@ def renders(records):
     for r in records:
         peer, ours = r["peer_seconds"], r["glimray_seconds"]
         ratios = [a / b for a, b in zip(peer, ours)]
-        rows.append(
-            [r["render"], r["what"], r["peer"], f"{median(peer):.3f}", f"{median(ours):.3f}", spread(ratios), r.get("rmse", "")]
-        )
+        seconds = [f"{median(values):.3f}" for values in (peer, ours)]
+        rows.append([r["render"], r["what"], r["peer"], *seconds, spread(ratios), r.get("rmse", "")])
     return table(["scene", "seconds", "peer", "peer's", "glimray's", "ratio (range)", "RMSE in levels"], rows)
 
 
 def rates(records):
     """Millions of rays per second, a row for each peer and set."""
     rows = [
-        [r["scene"], r["set"], r["threads"], r["peer"], f"{r['mrays_per_s']:.2f}", f"{r['hits']:,}", f"{r['sum_t']:.2f}"]
+        [
+            *(r[key] for key in ("scene", "set", "threads", "peer")),
+            f"{r['mrays_per_s']:.2f}",
+            f"{r['hits']:,}",
+            f"{r['sum_t']:.2f}",
+        ]
         for r in records
     ]
     return table(["scene", "rays", "threads", "peer", "Mrays/s", "hits", "sum of t"], rows)
 
 
 def rates_beside(records):
-    """A row for each set and number of threads, a column for each peer; glimray's ratio to the fastest at the end."""
+    """A row for each set and number of threads, a column for each peer; at the end glimray's ratio to the fastest.
+
+    A peer that was measured several times counts with its median.
+    """
     peers = list(dict.fromkeys(r["peer"] for r in records))
     cells = {}
     for r in records:
-        cells.setdefault((r["scene"], r["set"], r["threads"]), {})[r["peer"]] = r
+        row = cells.setdefault((r["scene"], r["set"], r["threads"]), {})
+        row.setdefault(r["peer"], []).append(r["mrays_per_s"])
+    hits = {}
+    for r in records:
+        hits.setdefault((r["scene"], r["set"]), []).append(r["hits"])
     rows = []
-    for key, found in sorted(cells.items()):
-        rates_found = {peer: r["mrays_per_s"] for peer, r in found.items()}
-        ours = rates_found.pop("glimray", None)
-        best = max(rates_found.values(), default=None)
-        ratio = f"{ours / best:.2f}" if ours and best else ""
-        hits = [r["hits"] for r in found.values()]
-        agreement = (max(hits) - min(hits)) / max(1, max(hits))
-        values = [f"{found[peer]['mrays_per_s']:.2f}" if peer in found else "" for peer in peers]
-        rows.append([*key, *values, ratio, f"{agreement:.1e}"])
-    return table(["scene", "rays", "threads", *peers, "glimray / fastest peer", "spread of hits"], rows)
+    for (scene, name, threads), found in sorted(cells.items()):
+        rate = {peer: median(values) for peer, values in found.items()}
+        best = max((value for peer, value in rate.items() if peer != "glimray"), default=0)
+        ratio = f"{rate['glimray'] / best:.2f}" if best and "glimray" in rate else ""
+        counts = hits[scene, name]
+        differ = f"{(max(counts) - min(counts)) / max(1, max(counts)):.0e}"
+        columns = [f"{rate[peer]:.2f}" if peer in rate else "" for peer in peers]
+        rows.append([scene, name, threads, *columns, ratio, differ])
+    return table(["scene", "rays", "threads", *peers, "glimray / fastest", "hits differ by"], rows)
