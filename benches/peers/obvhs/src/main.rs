@@ -64,7 +64,9 @@ fn trace_all(tree: &Tree, set: &RaySet, threads: usize, distances: &mut [f32]) -
         while let Some(block) = blocks.get(next.fetch_add(1, Ordering::Relaxed)) {
             let mut block = block.lock().expect("no thread has panicked");
             let (rays, distances) = &mut *block;
-            for (&[ox, oy, oz, dx, dy, dz, t_max], distance) in rays.iter().zip(distances.iter_mut()) {
+            for (&[ox, oy, oz, dx, dy, dz, t_max], distance) in
+                rays.iter().zip(distances.iter_mut())
+            {
                 let (origin, direction) = (Vec3A::new(ox, oy, oz), Vec3A::new(dx, dy, dz));
                 let t = tree.trace(Ray::new(origin, direction, 0.0, t_max), set.is_any_hit);
                 *distance = t.unwrap_or(f32::INFINITY);
@@ -76,7 +78,9 @@ fn trace_all(tree: &Tree, set: &RaySet, threads: usize, distances: &mut [f32]) -
     };
     thread::scope(|scope| {
         let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        let parts = workers.into_iter().map(|worker| worker.join().expect("no panic"));
+        let parts = workers
+            .into_iter()
+            .map(|worker| worker.join().expect("no panic"));
         parts.fold((0, 0.0), |(hits, sum), part| (hits + part.0, sum + part.1))
     })
 }
@@ -86,31 +90,53 @@ fn read(path: &Path) -> Result<Vec<f32>, Box<dyn error::Error>> {
     if bytes.len() % 4 != 0 {
         return Err(format!("{}: not a list of f32", path.display()).into());
     }
-    Ok(bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect())
+    Ok(bytes
+        .chunks_exact(4)
+        .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+        .collect())
 }
 
 fn ray_sets(folder: &Path) -> Result<Vec<RaySet>, Box<dyn error::Error>> {
     let mut sets = Vec::new();
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        let [name, query @ ("closest" | "any"), "f32"] = name.split('.').collect::<Vec<_>>()[..] else {
+        let name = path
+            .file_name()
+            .and_then(|name| name.to_str())
+            .unwrap_or_default();
+        let [name, query @ ("closest" | "any"), "f32"] = name.split('.').collect::<Vec<_>>()[..]
+        else {
             continue;
         };
         let rays = read(&path)?.as_chunks::<7>().0.to_vec();
-        sets.push(RaySet { name: name.to_owned(), is_any_hit: query == "any", rays });
+        sets.push(RaySet {
+            name: name.to_owned(),
+            is_any_hit: query == "any",
+            rays,
+        });
     }
     sets.sort_by(|a, b| (a.is_any_hit, &a.name).cmp(&(b.is_any_hit, &b.name)));
     Ok(sets)
 }
 
 fn trees(triangles: &[Triangle]) -> [(&'static str, Tree); 2] {
-    let in_order = |order: &[u32]| order.iter().map(|&i| (&triangles[i as usize]).into()).collect();
+    let in_order = |order: &[u32]| {
+        order
+            .iter()
+            .map(|&i| (&triangles[i as usize]).into())
+            .collect()
+    };
     let mut unused = Duration::ZERO;
     let bvh2 = build_bvh2_from_tris(triangles, BvhBuildParams::medium_build(), &mut unused);
     let cwbvh = build_cwbvh_from_tris(triangles, BvhBuildParams::medium_build(), &mut unused);
-    let (first, second) = (in_order(&bvh2.primitive_indices), in_order(&cwbvh.primitive_indices));
-    [("obvhs BVH2", Tree::Bvh2(bvh2, first)), ("obvhs CWBVH", Tree::CwBvh(cwbvh, second))]
+    let (first, second) = (
+        in_order(&bvh2.primitive_indices),
+        in_order(&cwbvh.primitive_indices),
+    );
+    [
+        ("obvhs BVH2", Tree::Bvh2(bvh2, first)),
+        ("obvhs CWBVH", Tree::CwBvh(cwbvh, second)),
+    ]
 }
 
 /// The command line.
@@ -122,13 +148,21 @@ struct Arguments {
 }
 
 fn arguments() -> Result<Arguments, Box<dyn error::Error>> {
-    let mut arguments = Arguments { folder: PathBuf::new(), threads: vec![1, 2], rounds: 5, json: None };
+    let mut arguments = Arguments {
+        folder: PathBuf::new(),
+        threads: vec![1, 2],
+        rounds: 5,
+        json: None,
+    };
     let mut words = env::args().skip(1);
     while let Some(word) = words.next() {
         let mut value = || words.next().ok_or(format!("{word} needs a value"));
         match &*word {
             "--threads" => {
-                arguments.threads = value()?.split(',').map(str::parse).collect::<Result<_, _>>()?;
+                arguments.threads = value()?
+                    .split(',')
+                    .map(str::parse)
+                    .collect::<Result<_, _>>()?;
             }
             "--rounds" => arguments.rounds = value()?.parse()?,
             "--json" => arguments.json = Some(value()?.into()),
@@ -146,12 +180,19 @@ fn main() -> Result<(), Box<dyn error::Error>> {
     let mut json = String::new();
     let mut folders: Vec<_> = fs::read_dir(&arguments.folder)?.collect::<Result<_, _>>()?;
     folders.sort_by_key(|folder| folder.file_name());
-    for folder in folders.iter().filter(|folder| folder.path().join("triangles.f32").exists()) {
+    for folder in folders
+        .iter()
+        .filter(|folder| folder.path().join("triangles.f32").exists())
+    {
         let corners = read(&folder.path().join("triangles.f32"))?;
         let corner = |v: &[f32]| Vec3A::from_slice(v);
         let triangles: Vec<_> = corners
             .chunks_exact(9)
-            .map(|v| Triangle { v0: corner(v), v1: corner(&v[3..]), v2: corner(&v[6..]) })
+            .map(|v| Triangle {
+                v0: corner(v),
+                v1: corner(&v[3..]),
+                v2: corner(&v[6..]),
+            })
             .collect();
         let sets = ray_sets(&folder.path())?;
         let scene = folder.file_name().to_string_lossy().into_owned();
@@ -162,17 +203,27 @@ fn main() -> Result<(), Box<dyn error::Error>> {
             let mut results = vec![(0, 0.0); seconds.len()];
             let mut distances = vec![0.0; sets.iter().map(|set| set.rays.len()).max().unwrap_or(0)];
             for _ in 0..arguments.rounds {
-                for (i, (set, (_, tree))) in sets.iter().flat_map(|set| trees.iter().map(move |t| (set, t))).enumerate() {
+                for (i, (set, (_, tree))) in sets
+                    .iter()
+                    .flat_map(|set| trees.iter().map(move |t| (set, t)))
+                    .enumerate()
+                {
                     let start = Instant::now();
                     results[i] = trace_all(tree, set, threads, &mut distances[..set.rays.len()]);
                     seconds[i].push(start.elapsed().as_secs_f64());
                 }
             }
-            for (i, (set, (peer, _))) in sets.iter().flat_map(|set| trees.iter().map(move |t| (set, t))).enumerate() {
+            for (i, (set, (peer, _))) in sets
+                .iter()
+                .flat_map(|set| trees.iter().map(move |t| (set, t)))
+                .enumerate()
+            {
                 seconds[i].sort_by(f64::total_cmp);
                 let rate = set.rays.len() as f64 / seconds[i][arguments.rounds / 2] / 1e6;
                 let (name, (hits, sum)) = (&set.name, results[i]);
-                println!("{peer:22} {scene:12} {name:10} {threads} threads {rate:8.2} Mrays/s {hits:9} hits, sum of t {sum:.2}");
+                println!(
+                    "{peer:22} {scene:12} {name:10} {threads} threads {rate:8.2} Mrays/s {hits:9} hits, sum of t {sum:.2}"
+                );
                 writeln!(
                     json,
                     r#"{{"peer": "{peer}", "scene": "{scene}", "set": "{name}", "threads": {threads}, "mrays_per_s": {rate}, "hits": {hits}, "sum_t": {sum}}}"#
