@@ -6,7 +6,6 @@ The loop over the rays is compiled code that holds Python's lock, so each thread
 
 import argparse
 import multiprocessing
-from importlib.metadata import version
 
 import numpy as np
 from embreex.mesh_construction import TriangleMesh
@@ -74,8 +73,7 @@ def main():
                 seconds, parts = raysets.timed(everywhere, ray_set.name)
                 return seconds, sum(hits for hits, _ in parts), sum(total for _, total in parts)
 
-            peer = f"Embree (embreex {version('embreex')})"
-            records += raysets.measure(peer, sets, threads, parsed.rounds, trace)
+            records += raysets.measure("Embree, single rays", sets, threads, parsed.rounds, trace)
             everywhere(None)
             for worker in workers:
                 worker.join()

@@ -174,16 +174,19 @@ def compare_ball(programs, rounds):
     def glimray(picture, flags):
         return programs.render("glass_ball.toml", picture, BALL_SIZE, flags)
 
-    povray("ball.povray.reference.png", POVRAY_REFERENCE)
-    glimray("ball.glimray.reference.png", GLIMRAY_REFERENCE)
+    # These take minutes and are kept in the folder.
+    references = ["ball.povray.reference.png", "ball.glimray.reference.png"]
+    for render, picture, flags in zip((povray, glimray), references, (POVRAY_REFERENCE, GLIMRAY_REFERENCE)):
+        if not (programs.folder / picture).exists():
+            render(picture, flags)
     glimray("ball.glimray.png", GLIMRAY_ADAPTIVE)
     runs = programs.in_turn(
         rounds,
         lambda: povray("ball.povray.png", POVRAY_ADAPTIVE),
         lambda: glimray("ball.glimray.png", GLIMRAY_ADAPTIVE),
     )
-    errors = [programs.levels(f"ball.{name}.png", f"ball.{name}.reference.png") for name in ("povray", "glimray")]
-    between = programs.levels("ball.povray.reference.png", "ball.glimray.reference.png")
+    errors = [programs.levels(*pair) for pair in zip(("ball.povray.png", "ball.glimray.png"), references)]
+    between = programs.levels(*references)
     rmse = f"own error {errors[0]:.2f} / {errors[1]:.2f}, references {between:.2f} apart"
     return [programs.record("glass-ball", "cpu", runs, rmse=rmse), programs.record("glass-ball", "whole", runs)]
 

@@ -3,7 +3,8 @@
 #
 #   benches/peers/run.sh OUT_FOLDER
 #
-# Environment: GLIMRAY, the program (target/release/glimray); ROUNDS (5); THREADS (2); SPD, a folder with SPD's
+# The report is also written to OUT_FOLDER/report.md, and the tables of each peer, with numbers of rays, to log.txt.
+# Environment: GLIMRAY, the program (target/release/glimray); ROUNDS of each of the two passes (3); THREADS (2); SPD, a folder with SPD's
 # teapot.nff and teapot.pov.
 set -euo pipefail
 
@@ -15,7 +16,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 mkdir -p "$1"
 out=$(cd "$1" && pwd)
 peers=benches/peers
-rounds=${ROUNDS:-5}
+rounds=${ROUNDS:-3}
 threads=${THREADS:-2}
 glimray=${GLIMRAY:-${CARGO_TARGET_DIR:-target}/release/glimray}
 export NODEVICE_SELECT=1 LP_NUM_THREADS=$threads PYTHONDONTWRITEBYTECODE=1
@@ -31,18 +32,31 @@ python=$out/venv/bin/python
 RUSTFLAGS="-C target-cpu=native" cargo build --quiet --release --locked --manifest-path $peers/obvhs/Cargo.toml \
 	--target-dir "$out/obvhs"
 
-"$python" $peers/povray.py "$out/povray" --rounds "$rounds" --threads "$threads" --glimray "$glimray" \
-	--json "$out/povray.json" ${SPD:+--spd "$SPD"}
-
-"$python" $peers/rays.py "$out/rays"
-bench() { # FILE: the ray sets of glimray's own bench
+# Everything is measured in two passes, the second in the opposite order, so that a busy machine affects all.
+exec 3>"$out/log.txt"
+results=()
+measure() { # NAME COMMAND…: one peer; the command gets the file for its results as its last argument
+	echo "pass $pass: $1" >&2
+	results+=("$out/$1-$pass.json")
+	"${@:2}" "$out/$1-$pass.json" >&3
+}
+bench() {
 	"$glimray" bench --only heightfield --repeats "$rounds" --json >"$1"
 }
-ray_sets=("$out/rays" --rounds "$rounds" --threads "1,$threads")
-bench "$out/glimray-before.json"
-"$python" $peers/embree.py "${ray_sets[@]}" --json "$out/embree.json"
-"$python" $peers/mitsuba3.py "${ray_sets[@]}" --json "$out/mitsuba.json" --glimray "$glimray"
-"$out/obvhs/release/obvhs-peer" "${ray_sets[@]}" --json "$out/obvhs.json"
-bench "$out/glimray-after.json"
-
-"$python" $peers/report.py "$out"/{glimray-before,embree,mitsuba,obvhs,glimray-after,povray}.json | tee "$out/report.md"
+"$python" $peers/rays.py "$out/rays" >&3
+sets=("$out/rays" --rounds "$rounds" --threads "1,$threads")
+for pass in 1 2; do
+	order=(povray glimray embree mitsuba obvhs)
+	[ $pass = 1 ] || order=(obvhs mitsuba embree glimray povray)
+	for peer in "${order[@]}"; do
+		case $peer in
+			povray) measure povray "$python" $peers/povray.py "$out/povray" --rounds "$rounds" --threads "$threads" \
+				--glimray "$glimray" ${SPD:+--spd "$SPD"} --json ;;
+			glimray) measure glimray bench ;;
+			embree) measure embree "$python" $peers/embree.py "${sets[@]}" --json ;;
+			mitsuba) measure mitsuba "$python" $peers/mitsuba3.py "${sets[@]}" --glimray "$glimray" --json ;;
+			obvhs) measure obvhs "$out/obvhs/release/obvhs-peer" "${sets[@]}" --json ;;
+		esac
+	done
+done
+"$python" $peers/report.py "${results[@]}" | tee "$out/report.md"

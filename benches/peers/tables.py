@@ -18,13 +18,16 @@ def spread(values):
 
 
 def renders(records):
-    """Whole renders: seconds and ratios. A ratio above 1 means that glimray is faster."""
-    rows = []
+    """Whole renders: seconds and ratios, of all records of a render together."""
+    pairs, errors = {}, {}
     for r in records:
-        peer, ours = r["peer_seconds"], r["glimray_seconds"]
-        ratios = [a / b for a, b in zip(peer, ours)]
-        seconds = [f"{median(values):.3f}" for values in (peer, ours)]
-        rows.append([r["render"], r["what"], r["peer"], *seconds, spread(ratios), r.get("rmse", "")])
+        key = r["render"], r["what"], r["peer"]
+        pairs.setdefault(key, []).extend(zip(r["peer_seconds"], r["glimray_seconds"]))
+        errors[key] = r.get("rmse", "")
+    rows = []
+    for key, found in pairs.items():
+        seconds = [f"{median(values):.3f}" for values in zip(*found)]
+        rows.append([*key, *seconds, spread([a / b for a, b in found]), errors[key]])
     return table(["scene", "seconds", "peer", "peer's", "glimray's", "ratio (range)", "RMSE in levels"], rows)
 
 
@@ -61,7 +64,7 @@ def rates_beside(records):
         best = max((value for peer, value in rate.items() if peer != "glimray"), default=0)
         ratio = f"{rate['glimray'] / best:.2f}" if best and "glimray" in rate else ""
         counts = hits[scene, name]
-        differ = f"{(max(counts) - min(counts)) / max(1, max(counts)):.0e}"
+        differ = f"{(max(counts) - min(counts)) / max(counts):.0e}" if max(counts) > min(counts) else "0"
         columns = [f"{rate[peer]:.2f}" if peer in rate else "" for peer in peers]
         rows.append([scene, name, threads, *columns, ratio, differ])
     return table(["scene", "rays", "threads", *peers, "glimray / fastest", "hits differ by"], rows)

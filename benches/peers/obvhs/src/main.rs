@@ -139,6 +139,12 @@ fn trees(triangles: &[Triangle]) -> [(&'static str, Tree); 2] {
     ]
 }
 
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    (values[(values.len() - 1) / 2] + values[middle]) / 2.0
+}
+
 /// The command line.
 struct Arguments {
     folder: PathBuf,
@@ -197,37 +203,38 @@ fn main() -> Result<(), Box<dyn error::Error>> {
         let sets = ray_sets(&folder.path())?;
         let scene = folder.file_name().to_string_lossy().into_owned();
         let trees = trees(&triangles);
+        let pairs: Vec<_> = sets
+            .iter()
+            .flat_map(|set| trees.iter().map(move |(peer, tree)| (set, peer, tree)))
+            .collect();
+        let most = sets.iter().map(|set| set.rays.len()).max();
+        let mut distances = vec![0.0; most.unwrap_or(0)];
         for &threads in &arguments.threads {
-            // Sets and trees in turn, so that a busy machine affects all.
-            let mut seconds = vec![Vec::new(); sets.len() * trees.len()];
-            let mut results = vec![(0, 0.0); seconds.len()];
-            let mut distances = vec![0.0; sets.iter().map(|set| set.rays.len()).max().unwrap_or(0)];
+            // All in turn, so that a busy machine affects all.
+            let mut seconds = vec![Vec::new(); pairs.len()];
+            let mut results = vec![(0, 0.0); pairs.len()];
             for _ in 0..arguments.rounds {
-                for (i, (set, (_, tree))) in sets
-                    .iter()
-                    .flat_map(|set| trees.iter().map(move |t| (set, t)))
-                    .enumerate()
-                {
+                for (i, (set, _, tree)) in pairs.iter().enumerate() {
                     let start = Instant::now();
                     results[i] = trace_all(tree, set, threads, &mut distances[..set.rays.len()]);
                     seconds[i].push(start.elapsed().as_secs_f64());
                 }
             }
-            for (i, (set, (peer, _))) in sets
-                .iter()
-                .flat_map(|set| trees.iter().map(move |t| (set, t)))
-                .enumerate()
+            for ((set, peer, _), (seconds, (hits, sum))) in
+                pairs.iter().zip(seconds.into_iter().zip(results))
             {
-                seconds[i].sort_by(f64::total_cmp);
-                let rate = set.rays.len() as f64 / seconds[i][arguments.rounds / 2] / 1e6;
-                let (name, (hits, sum)) = (&set.name, results[i]);
+                let rate = set.rays.len() as f64 / median(seconds) / 1e6;
+                let name = &set.name;
                 println!(
-                    "{peer:22} {scene:12} {name:10} {threads} threads {rate:8.2} Mrays/s {hits:9} hits, sum of t {sum:.2}"
+                    "{peer:12} {scene:12} {name:18} {threads} threads {rate:8.2} Mrays/s \
+                     {hits:9} hits, sum of t {sum:.2}"
                 );
-                writeln!(
+                write!(
                     json,
-                    r#"{{"peer": "{peer}", "scene": "{scene}", "set": "{name}", "threads": {threads}, "mrays_per_s": {rate}, "hits": {hits}, "sum_t": {sum}}}"#
+                    r#"{{"peer": "{peer}", "scene": "{scene}", "set": "{name}", "#
                 )?;
+                write!(json, r#""threads": {threads}, "mrays_per_s": {rate}, "#)?;
+                writeln!(json, r#""hits": {hits}, "sum_t": {sum}}}"#)?;
             }
         }
     }
