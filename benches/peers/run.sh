@@ -12,9 +12,9 @@ if [ $# -ne 1 ]; then
 	echo "usage: $0 OUT_FOLDER" >&2
 	exit 2
 fi
-cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 mkdir -p "$1"
 out=$(cd "$1" && pwd)
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 peers=benches/peers
 rounds=${ROUNDS:-3}
 threads=${THREADS:-2}

@@ -181,63 +181,69 @@ fn arguments() -> Result<Arguments, Box<dyn error::Error>> {
     Ok(arguments)
 }
 
-fn main() -> Result<(), Box<dyn error::Error>> {
-    let arguments = arguments()?;
+fn triangles(folder: &Path) -> Result<Vec<Triangle>, Box<dyn error::Error>> {
+    let corner = |v: &[f32]| Vec3A::from_slice(v);
+    let triangle = |v: &[f32]| Triangle {
+        v0: corner(v),
+        v1: corner(&v[3..]),
+        v2: corner(&v[6..]),
+    };
+    let corners = read(&folder.join("triangles.f32"))?;
+    Ok(corners.chunks_exact(9).map(triangle).collect())
+}
+
+/// Measures every ray set of a scene with both trees. The results are JSON lines.
+fn measure(folder: &Path, arguments: &Arguments) -> Result<String, Box<dyn error::Error>> {
+    let scene = folder.file_name().unwrap_or_default().to_string_lossy();
+    let (sets, trees) = (ray_sets(folder)?, trees(&triangles(folder)?));
+    let pairs: Vec<_> = (sets.iter())
+        .flat_map(|set| trees.iter().map(move |(peer, tree)| (set, peer, tree)))
+        .collect();
+    let most = sets.iter().map(|set| set.rays.len()).max();
+    let mut distances = vec![0.0; most.unwrap_or(0)];
     let mut json = String::new();
-    let mut folders: Vec<_> = fs::read_dir(&arguments.folder)?.collect::<Result<_, _>>()?;
-    folders.sort_by_key(|folder| folder.file_name());
-    for folder in folders
-        .iter()
-        .filter(|folder| folder.path().join("triangles.f32").exists())
-    {
-        let corners = read(&folder.path().join("triangles.f32"))?;
-        let corner = |v: &[f32]| Vec3A::from_slice(v);
-        let triangles: Vec<_> = corners
-            .chunks_exact(9)
-            .map(|v| Triangle {
-                v0: corner(v),
-                v1: corner(&v[3..]),
-                v2: corner(&v[6..]),
-            })
-            .collect();
-        let sets = ray_sets(&folder.path())?;
-        let scene = folder.file_name().to_string_lossy().into_owned();
-        let trees = trees(&triangles);
-        let pairs: Vec<_> = sets
-            .iter()
-            .flat_map(|set| trees.iter().map(move |(peer, tree)| (set, peer, tree)))
-            .collect();
-        let most = sets.iter().map(|set| set.rays.len()).max();
-        let mut distances = vec![0.0; most.unwrap_or(0)];
-        for &threads in &arguments.threads {
-            // All in turn, so that a busy machine affects all.
-            let mut seconds = vec![Vec::new(); pairs.len()];
-            let mut results = vec![(0, 0.0); pairs.len()];
-            for _ in 0..arguments.rounds {
-                for (i, (set, _, tree)) in pairs.iter().enumerate() {
-                    let start = Instant::now();
-                    results[i] = trace_all(tree, set, threads, &mut distances[..set.rays.len()]);
-                    seconds[i].push(start.elapsed().as_secs_f64());
-                }
-            }
-            for ((set, peer, _), (seconds, (hits, sum))) in
-                pairs.iter().zip(seconds.into_iter().zip(results))
-            {
-                let rate = set.rays.len() as f64 / median(seconds) / 1e6;
-                let name = &set.name;
-                println!(
-                    "{peer:12} {scene:12} {name:18} {threads} threads {rate:8.2} Mrays/s \
-                     {hits:9} hits, sum of t {sum:.2}"
-                );
-                write!(
-                    json,
-                    r#"{{"peer": "{peer}", "scene": "{scene}", "set": "{name}", "#
-                )?;
-                write!(json, r#""threads": {threads}, "mrays_per_s": {rate}, "#)?;
-                writeln!(json, r#""hits": {hits}, "sum_t": {sum}}}"#)?;
+    for &threads in &arguments.threads {
+        // All in turn, so that a busy machine affects all.
+        let mut seconds = vec![Vec::new(); pairs.len()];
+        let mut results = vec![(0, 0.0); pairs.len()];
+        for _ in 0..arguments.rounds {
+            for (i, (set, _, tree)) in pairs.iter().enumerate() {
+                let start = Instant::now();
+                results[i] = trace_all(tree, set, threads, &mut distances[..set.rays.len()]);
+                seconds[i].push(start.elapsed().as_secs_f64());
             }
         }
+        for ((set, peer, _), (seconds, (hits, sum))) in
+            pairs.iter().zip(seconds.into_iter().zip(results))
+        {
+            let rate = set.rays.len() as f64 / median(seconds) / 1e6;
+            let name = &set.name;
+            println!(
+                "{peer:12} {scene:12} {name:18} {threads} threads {rate:8.2} Mrays/s \
+                 {hits:9} hits, sum of t {sum:.2}"
+            );
+            write!(
+                json,
+                r#"{{"peer": "{peer}", "scene": "{scene}", "set": "{name}", "#
+            )?;
+            write!(json, r#""threads": {threads}, "mrays_per_s": {rate}, "#)?;
+            writeln!(json, r#""hits": {hits}, "sum_t": {sum}}}"#)?;
+        }
     }
+    Ok(json)
+}
+
+fn main() -> Result<(), Box<dyn error::Error>> {
+    let arguments = arguments()?;
+    let entries = fs::read_dir(&arguments.folder)?;
+    let folders = entries.map(|entry| entry.map(|entry| entry.path()));
+    let mut folders = folders.collect::<Result<Vec<_>, _>>()?;
+    folders.retain(|folder| folder.join("triangles.f32").exists());
+    folders.sort();
+    let json = folders
+        .iter()
+        .map(|folder| measure(folder, &arguments))
+        .collect::<Result<String, _>>()?;
     if let Some(path) = arguments.json {
         fs::write(path, json)?;
     }
