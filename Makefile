@@ -29,12 +29,13 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench docs gallery strips man size hand-in build shaders linker compiler display driver opengl lint features headless wasm
+.PHONY: help demo test bench peers docs gallery strips man size hand-in build shaders linker compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
 	@echo 'make test      format, lints, documentation, all tests (about 20 minutes the first time)'
 	@echo 'make bench     measure speed on built-in scenes'
+	@echo 'make peers     measure speed beside POV-Ray, Embree, Mitsuba and obvhs, which it installs'
 	@echo 'make docs      build the manual with mdBook and check its links'
 	@echo 'make gallery   render the pictures of the manual again'
 	@echo 'make strips    render the strips of its page on failures again'
@@ -60,6 +61,9 @@ test: lint features headless wasm
 
 bench: build driver
 	$(GLIMRAY) bench
+
+peers: build driver
+	GLIMRAY=$(GLIMRAY) benches/peers/run.sh $(TARGET)/peers
 
 # The commands are those that README.md and the manual's gallery show with each picture; the pictures of the window
 # are taken of a real one.

@@ -120,7 +120,7 @@ fn the_polygons_of_the_files_keep_their_area() {
     }
 }
 
-/// For comparison with other renderers: see benches/povray.sh.
+/// For comparison with other renderers: see benches/peers.
 #[test]
 #[ignore = "prints, and saves pictures in the folder for temporary files"]
 fn rays_of_the_files() {
