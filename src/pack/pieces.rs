@@ -2,7 +2,7 @@
 //! its pieces are not (Ernst and Greiner, Early Split Clipping for Bounding Volume Hierarchies, 2007). The triangle
 //! is stored once; each piece is a leaf that refers to it.
 
-use crate::bvh::Aabb;
+use crate::bvh::{Aabb, threads};
 use glam::Vec3;
 
 /// A triangle may be divided if its box is larger than the mean of all boxes by this factor.
@@ -80,7 +80,7 @@ pub struct Divided {
 
 impl Divided {
     /// `boxes` are those of the triangles, `corners` gives the corners of each.
-    pub fn new(mut boxes: Vec<Aabb>, corners: impl Fn(u32) -> [Vec3; 3]) -> Self {
+    pub fn new(mut boxes: Vec<Aabb>, corners: impl Fn(u32) -> [Vec3; 3] + Sync) -> Self {
         let mut pieces = pieces(&boxes, &corners);
         let mut divided: Vec<_> = pieces.iter().map(|piece| piece.triangle).collect();
         divided.dedup();
@@ -121,21 +121,28 @@ impl Divided {
 }
 
 /// The pieces of all triangles worth dividing, triangle by triangle.
-fn pieces(boxes: &[Aabb], corners: &impl Fn(u32) -> [Vec3; 3]) -> Vec<Piece> {
+fn pieces(boxes: &[Aabb], corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<Piece> {
     let total: f64 = boxes.iter().map(|aabb| f64::from(aabb.half_area())).sum();
-    let mut least = LARGE * (total / boxes.len() as f64) as f32;
-    loop {
-        let large = (0u32..)
-            .zip(boxes)
-            .filter(|(_, aabb)| aabb.half_area() > least);
-        let mut pieces = Vec::new();
-        for (triangle, _) in large {
-            let before = pieces.len();
+    let mean = (total / boxes.len() as f64) as f32;
+    let pays = threads::collect(boxes.len(), |index| {
+        let triangle = index as u32;
+        let is_large = boxes[index].half_area() > LARGE * mean;
+        is_large && {
             let corners = corners(triangle);
-            divide(Piece::whole(triangle, corners), corners, least, &mut pieces);
-            if pieces.len() == before + 1 {
-                pieces.pop();
-            }
+            pays(&Piece::whole(triangle, corners), corners)
+        }
+    });
+    let worth = |least: f32| {
+        let triangles = (0u32..).zip(boxes).zip(&pays);
+        triangles.filter_map(move |((triangle, aabb), pays)| {
+            (*pays && aabb.half_area() > least).then_some(triangle)
+        })
+    };
+    let mut least = LARGE * mean;
+    loop {
+        let mut pieces = Vec::new();
+        for triangle in worth(least) {
+            divide(triangle, corners(triangle), least, &mut pieces);
         }
         if pieces.len() <= boxes.len() / TRIANGLES_PER_PIECE {
             return pieces;
@@ -144,16 +151,19 @@ fn pieces(boxes: &[Aabb], corners: &impl Fn(u32) -> [Vec3; 3]) -> Vec<Piece> {
     }
 }
 
-/// Adds the parts of a piece to `pieces`, or the piece itself if no division pays.
-fn divide(piece: Piece, corners: [Vec3; 3], least: f32, pieces: &mut Vec<Piece>) {
-    let mut open = vec![(piece, 0)];
+/// Whether both halves of a piece have much smaller boxes than the piece.
+fn pays(piece: &Piece, corners: [Vec3; 3]) -> bool {
+    let [left, right] = piece.halves().map(|half| half.aabb(corners).half_area());
+    (left + right) * GAIN < piece.aabb(corners).half_area()
+}
+
+/// Adds the pieces of a triangle. Pieces with smaller boxes than `least` are not divided further.
+fn divide(triangle: u32, corners: [Vec3; 3], least: f32, pieces: &mut Vec<Piece>) {
+    let mut open = vec![(Piece::whole(triangle, corners), 0)];
     while let Some((piece, depth)) = open.pop() {
-        let area = piece.aabb(corners).half_area();
-        let halves = piece.halves();
-        let [left, right] = halves.map(|half| half.aabb(corners).half_area());
-        let pays = area > least && (left + right) * GAIN < area;
-        match pays && depth < MOST_HALVINGS {
-            true => open.extend(halves.map(|half| (half, depth + 1))),
+        let is_large = piece.aabb(corners).half_area() > least;
+        match depth < MOST_HALVINGS && is_large && pays(&piece, corners) {
+            true => open.extend(piece.halves().map(|half| (half, depth + 1))),
             false => pieces.push(piece),
         }
     }
