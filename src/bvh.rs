@@ -1,13 +1,17 @@
 //! Bounding volume hierarchies over boxes, for four-way traversal.
 //!
 //! The builder knows boxes and the group that each belongs to, but not the primitives in them: the caller
-//! reorders its primitives by the order in [`Bvh`]. `obvhs` builds a binary tree (PLOC, then
-//! reinsertion), and `wide` collapses it.
+//! reorders its primitives by the order in [`Bvh`]. A binary tree is built (`ploc`), improved (`reinsertion`)
+//! and collapsed (`wide`).
 
 mod binary;
+mod linked;
+mod ploc;
+mod reinsertion;
+pub mod threads;
 mod wide;
 
-pub use wide::{Child, WideNode};
+pub use wide::{Child, Children, WideNode};
 
 use glam::Vec3;
 
@@ -59,6 +63,9 @@ pub struct Bvh {
     pub order: Vec<Vec<u32>>,
     /// The largest number of entries on a traversal's stack when children are pushed far to near.
     pub stack_need: usize,
+    /// The number of pairs of boxes that were compared to build it: a measure of time that is the same on every
+    /// machine.
+    pub work: u64,
 }
 
 /// Constraints on the tree.
@@ -66,7 +73,9 @@ pub struct Bvh {
 pub struct Limits {
     /// Largest number of boxes in a leaf; all of them belong to one group.
     pub leaf_size: u32,
-    /// Bound on [`Bvh::stack_need`]. A tree that exceeds it is rebuilt as a balanced tree.
+    /// A group whose boxes are alone in their leaves.
+    pub alone: Option<u8>,
+    /// Bound on [`Bvh::stack_need`]. The deepest parts of a tree that exceeds it are rebuilt as balanced ones.
     pub stack_size: usize,
 }
 
@@ -76,14 +85,14 @@ pub struct Limits {
 /// If the two slices differ in length.
 pub fn build(boxes: &[Aabb], groups: &[u8], group_count: usize, limits: Limits) -> Bvh {
     assert_eq!(boxes.len(), groups.len());
-    let bvh = wide::collapse(&binary::build(boxes), groups, group_count, limits.leaf_size);
-    if bvh.stack_need <= limits.stack_size {
-        return bvh;
+    let collapsed = |tree: &[_]| wide::collapse(tree, groups, group_count, limits);
+    let (tree, work) = binary::build(boxes);
+    let mut bvh = collapsed(&tree);
+    // Usually a step down the binary tree takes one stack entry, in the worst case three.
+    let mut height = limits.stack_size as u32;
+    while bvh.stack_need > limits.stack_size && height > 0 {
+        bvh = collapsed(&binary::limit_height(boxes, &tree, height));
+        height = height * 3 / 4;
     }
-    wide::collapse(
-        &binary::build_balanced(boxes),
-        groups,
-        group_count,
-        limits.leaf_size,
-    )
+    Bvh { work, ..bvh }
 }

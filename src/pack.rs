@@ -11,6 +11,7 @@ mod media;
 mod mesh;
 mod nodes;
 mod object;
+mod pieces;
 mod placement;
 mod segments;
 mod shell;

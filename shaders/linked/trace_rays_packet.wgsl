@@ -857,10 +857,11 @@ fn package_scene_primitive__1closer_of(at: package_scene_primitive_TraversalRay,
 }
 
 fn package_scene_primitive__2keep_runner_up(hit: package_types_Hit, found: package_types_Hit, counts: bool, wins: bool) {
+    let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
     if (wins) {
         package_scene_primitive__1runner_up = hit;
     }
-    else if (counts & (found.t < package_scene_primitive__1runner_up.t)) {
+    else if (counts & !is_same & (found.t < package_scene_primitive__1runner_up.t)) {
         package_scene_primitive__1runner_up = found;
     }
 }

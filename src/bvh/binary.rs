@@ -1,147 +1,105 @@
-//! Binary trees with one box in every leaf.
+//! Finished binary trees with one box in every leaf.
 
-use super::Aabb;
+use super::{Aabb, linked, ploc, reinsertion};
 use glam::Vec3;
-use obvhs::{
-    Boundable, BvhBuildParams, bvh2::reinsertion::ReinsertionOptimizer, ploc::PlocBuilder,
-};
+use std::ops::Range;
 
-/// PLOC does not handle longer runs well; see [`longest_run`].
-const LONGEST_RUN: usize = 256;
-
-/// A node of a binary tree: a box and the contents. Children come after their parent.
-#[derive(Clone, Copy, Debug)]
-pub struct BinaryNode {
+/// A node of a tree in depth-first order: an inner node is followed by its left subtree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
     pub aabb: Aabb,
-    pub kind: BinaryKind,
+    pub kind: Kind,
 }
 
-#[derive(Clone, Copy, Debug)]
-pub enum BinaryKind {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
     /// Index of a box.
     Leaf(u32),
-    /// Indices of two nodes.
-    Inner(usize, usize),
+    /// Index of the right child. The left one comes next after the node.
+    Inner(u32),
 }
 
-impl Boundable for Aabb {
-    fn aabb(&self) -> obvhs::aabb::Aabb {
-        obvhs::aabb::Aabb::new(self.min.into(), self.max.into())
+/// A tree of good quality, and the number of pairs of boxes that were compared to build it.
+pub fn build(boxes: &[Aabb]) -> (Vec<Node>, u64) {
+    match boxes.len() {
+        0 => return (Vec::new(), 0),
+        1 => return (balanced(boxes), 0),
+        _ => {}
     }
+    let (mut linked, compared) = ploc::build(boxes);
+    linked::link_parents(&mut linked);
+    let tried = reinsertion::optimize(&mut linked);
+    (depth_first(&linked), compared + tried)
 }
 
-/// A tree of good quality: PLOC (Meister and Bittner 2018) followed by reinsertion (Meister and Bittner
-/// 2017), both by `obvhs`. Empty for no boxes; node 0 is the root.
-pub fn build(boxes: &[Aabb]) -> Vec<BinaryNode> {
-    if boxes.is_empty() {
-        return Vec::new();
-    }
-    if longest_run(boxes) > LONGEST_RUN {
-        return build_balanced(boxes);
-    }
-    let params = BvhBuildParams::medium_build();
-    let mut tree = PlocBuilder::with_capacity(boxes.len()).build(
-        params.ploc_search_distance,
-        boxes,
-        (0..boxes.len() as u32).collect(),
-        params.sort_precision,
-        params.search_depth_threshold,
-    );
-    ReinsertionOptimizer::default().run(&mut tree, params.reinsertion_batch_ratio, None);
-
-    // obvhs may order nodes arbitrarily; here children come after parents.
-    let mut nodes = Vec::with_capacity(tree.nodes.len());
-    let mut open = vec![(0usize, None)];
+fn depth_first(linked: &[linked::Node]) -> Vec<Node> {
+    let mut tree = Vec::with_capacity(linked.len());
+    // Nodes to add, and the parents of right children.
+    let mut open = vec![(0, None)];
     while let Some((source, parent)) = open.pop() {
-        let node = &tree.nodes[source];
-        let index = nodes.len();
-        let aabb = Aabb {
-            min: node.aabb().min.into(),
-            max: node.aabb().max.into(),
+        let node: &linked::Node = &linked[source as usize];
+        let index = tree.len() as u32;
+        let kind = match node.is_leaf() {
+            true => Kind::Leaf(node.link & !linked::LEAF),
+            false => {
+                open.push((node.link + 1, Some(index)));
+                open.push((node.link, None));
+                Kind::Inner(u32::MAX)
+            }
         };
-        let first = node.first_index as usize;
-        let kind = if node.is_leaf() {
-            BinaryKind::Leaf(tree.primitive_indices[first])
-        } else {
-            open.push((first + 1, Some((index, 1))));
-            open.push((first, Some((index, 0))));
-            BinaryKind::Inner(usize::MAX, usize::MAX)
-        };
-        nodes.push(BinaryNode { aabb, kind });
-        attach(&mut nodes, parent, index);
+        let aabb = node.aabb();
+        tree.push(Node {
+            aabb: Aabb {
+                min: aabb.min.into(),
+                max: aabb.max.into(),
+            },
+            kind,
+        });
+        attach(&mut tree, parent, index);
     }
-    nodes
+    tree
 }
 
-/// Length of the longest sequence of neighbours along the Morton curve whose joint boxes all have the
-/// same area, or monotonically growing (or shrinking) areas. PLOC merges pairs that are each other's
-/// nearest neighbours, and such a sequence has only one: PLOC takes as many passes as the sequence is
-/// long and produces a chain. Equal boxes, boxes in a row and nested boxes cause this.
-fn longest_run(boxes: &[Aabb]) -> usize {
-    let all = boxes[1..].iter().fold(boxes[0], |a, b| a.union(*b));
-    let extent = (all.max - all.min).max(Vec3::splat(f32::MIN_POSITIVE));
-    let code = |aabb: &Aabb| {
-        let center = (aabb.min * 0.5 + aabb.max * 0.5 - all.min) / extent;
-        let [x, y, z] = (center * 1023.0).to_array().map(|c| spread_bits(c as u32));
-        x | y << 1 | z << 2
-    };
-    let mut order: Vec<_> = (0u32..)
-        .zip(boxes)
-        .map(|(i, aabb)| (code(aabb), i))
-        .collect();
-    order.sort_unstable();
-    let areas = order.windows(2).map(|pair| {
-        let [a, b] = [pair[0], pair[1]].map(|(_, i)| boxes[i as usize]);
-        a.union(b).half_area()
-    });
-    let (mut rising, mut falling, mut longest, mut last) = (0, 0, 0, 0.0);
-    for area in areas {
-        rising = if area >= last { rising + 1 } else { 0 };
-        falling = if area <= last { falling + 1 } else { 0 };
-        longest = longest.max(rising).max(falling);
-        last = area;
+/// Records the right child of a node.
+fn attach(tree: &mut [Node], parent: Option<u32>, right: u32) {
+    if let Some(parent) = parent {
+        tree[parent as usize].kind = Kind::Inner(right);
     }
-    longest
 }
 
-/// Spreads ten bits out to every third bit.
-fn spread_bits(x: u32) -> u32 {
-    let x = (x | x << 16) & 0x0300_00ff;
-    let x = (x | x << 8) & 0x0300_f00f;
-    let x = (x | x << 4) & 0x030c_30c3;
-    (x | x << 2) & 0x0924_9249
-}
-
-/// A tree of logarithmic depth, by halving along the longest axis of the boxes' centres. For inputs on
-/// which PLOC produces a tree that is too deep.
-pub fn build_balanced(boxes: &[Aabb]) -> Vec<BinaryNode> {
+/// A tree of logarithmic height, by halving along the longest axis of the boxes' centres.
+pub fn balanced(boxes: &[Aabb]) -> Vec<Node> {
+    let mut tree = Vec::with_capacity(2 * boxes.len());
     let mut indices: Vec<u32> = (0..boxes.len() as u32).collect();
-    let mut nodes = Vec::with_capacity(2 * boxes.len());
-    let mut open = Vec::new();
-    if !boxes.is_empty() {
-        open.push((0..indices.len(), None));
+    if !indices.is_empty() {
+        halve(boxes, &mut indices, &mut tree);
     }
+    tree
+}
+
+/// Appends a balanced tree over some of the boxes, at least one.
+fn halve(boxes: &[Aabb], indices: &mut [u32], tree: &mut Vec<Node>) {
+    let of = |i: &u32| boxes[*i as usize];
+    let mut open: Vec<(Range<usize>, _)> = vec![(0..indices.len(), None)];
     while let Some((range, parent)) = open.pop() {
         let part = &mut indices[range.clone()];
-        let index = nodes.len();
-        let of = |i: &u32| boxes[*i as usize];
-        let aabb = part[1..].iter().fold(of(&part[0]), |a, i| a.union(of(i)));
+        let index = tree.len() as u32;
+        let aabb = part.iter().fold(Aabb::EMPTY, |all, i| all.union(of(i)));
         let kind = if part.len() == 1 {
-            BinaryKind::Leaf(part[0])
+            Kind::Leaf(part[0])
         } else {
             let axis = longest_axis_of_centers(part.iter().map(of));
             let middle = part.len() / 2;
             let center = |i: &u32| of(i).min[axis] + of(i).max[axis];
             part.select_nth_unstable_by(middle, |a, b| center(a).total_cmp(&center(b)));
             let split = range.start + middle;
-            open.push((split..range.end, Some((index, 1))));
-            open.push((range.start..split, Some((index, 0))));
-            BinaryKind::Inner(usize::MAX, usize::MAX)
+            open.push((split..range.end, Some(index)));
+            open.push((range.start..split, None));
+            Kind::Inner(u32::MAX)
         };
-        nodes.push(BinaryNode { aabb, kind });
-        attach(&mut nodes, parent, index);
+        tree.push(Node { aabb, kind });
+        attach(tree, parent, index);
     }
-    nodes
 }
 
 fn longest_axis_of_centers(boxes: impl Iterator<Item = Aabb>) -> usize {
@@ -152,11 +110,55 @@ fn longest_axis_of_centers(boxes: impl Iterator<Item = Aabb>) -> usize {
     (max - min).max_position()
 }
 
-/// Records in the parent, if there is one, the index of its left (0) or right (1) child.
-fn attach(nodes: &mut [BinaryNode], parent: Option<(usize, u8)>, child: usize) {
-    if let Some((parent, side)) = parent
-        && let BinaryKind::Inner(left, right) = &mut nodes[parent].kind
-    {
-        *(if side == 0 { left } else { right }) = child;
+/// The same tree with subtrees replaced by balanced ones as far down as possible, such that no leaf is more than
+/// `height` steps below the root; or a balanced tree where that is impossible.
+pub fn limit_height(boxes: &[Aabb], tree: &[Node], height: u32) -> Vec<Node> {
+    // Of each subtree, the number of steps to its deepest leaf and the index after its last node.
+    let mut shapes = vec![(0u32, 0u32); tree.len()];
+    for (index, node) in tree.iter().enumerate().rev() {
+        shapes[index] = match node.kind {
+            Kind::Leaf(_) => (0, index as u32 + 1),
+            Kind::Inner(right) => {
+                let (left, right) = (shapes[index + 1], shapes[right as usize]);
+                (1 + left.0.max(right.0), right.1)
+            }
+        };
     }
+    // The least height of a tree over the leaves of a subtree.
+    let least = |index: u32| {
+        let count = (shapes[index as usize].1 - index).div_ceil(2);
+        count.next_power_of_two().ilog2()
+    };
+    let mut limited = Vec::with_capacity(tree.len());
+    let mut open = vec![(0u32, height, None)];
+    while let Some((source, left, parent)) = open.pop() {
+        let index = limited.len() as u32;
+        let (tall, end) = shapes[source as usize];
+        let part = &tree[source as usize..end as usize];
+        match part[0].kind {
+            _ if tall <= left => limited.extend(part.iter().map(|node| Node {
+                kind: match node.kind {
+                    Kind::Inner(right) => Kind::Inner(right - source + index),
+                    leaf => leaf,
+                },
+                ..*node
+            })),
+            Kind::Inner(right) if least(source + 1).max(least(right)) < left => {
+                limited.push(part[0]);
+                open.push((right, left - 1, Some(index)));
+                open.push((source + 1, left - 1, None));
+            }
+            _ => {
+                let mut leaves: Vec<_> = (part.iter())
+                    .filter_map(|node| match node.kind {
+                        Kind::Leaf(index) => Some(index),
+                        Kind::Inner(_) => None,
+                    })
+                    .collect();
+                halve(boxes, &mut leaves, &mut limited);
+            }
+        }
+        attach(&mut limited, parent, index);
+    }
+    limited
 }

@@ -1,19 +1,59 @@
 //! Collapses a binary tree to nodes of up to four children.
 
 use super::{
-    Aabb, Bvh,
-    binary::{BinaryKind, BinaryNode},
+    Aabb, Bvh, Limits,
+    binary::{Kind, Node},
 };
+use std::ops::Deref;
 
-/// Cost of visiting a node, in primitive tests: how much more a leaf may cost before it is split. A
-/// four-way node spreads this cost over several splits.
+/// Cost of visiting a node, in primitive tests.
 const NODE_COST: f32 = 1.0;
 
 /// Up to four children with their boxes.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WideNode {
     /// Each box bounds all boxes below it.
-    pub children: Vec<(Aabb, Child)>,
+    pub children: Children,
+}
+
+/// A list of at most four children.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Children {
+    list: [(Aabb, Child); 4],
+    count: u32,
+}
+
+impl Children {
+    fn push(&mut self, aabb: Aabb, child: Child) {
+        self.list[self.count as usize] = (aabb, child);
+        self.count += 1;
+    }
+}
+
+impl Default for Children {
+    fn default() -> Self {
+        Self {
+            list: [(Aabb::EMPTY, Child::Node(0)); 4],
+            count: 0,
+        }
+    }
+}
+
+impl Deref for Children {
+    type Target = [(Aabb, Child)];
+
+    fn deref(&self) -> &Self::Target {
+        &self.list[..self.count as usize]
+    }
+}
+
+impl<'a> IntoIterator for &'a Children {
+    type Item = &'a (Aabb, Child);
+    type IntoIter = std::slice::Iter<'a, (Aabb, Child)>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
 }
 
 /// A child of a [`WideNode`].
@@ -32,57 +72,116 @@ pub enum Child {
     },
 }
 
-/// Summary of a subtree for the collapse.
-#[derive(Clone, Copy)]
-struct Summary {
-    count: u32,
-    /// The common group of all its boxes, if there is one.
-    group: Option<u8>,
-    /// Expected cost of a ray that hits it, times its area.
-    cost: f32,
+/// How a subtree is best represented by children of a node (after Ylitie, Karras, Laine 2017, section 3.1).
+#[derive(Clone, Copy, Debug, Default)]
+struct Plan {
+    /// Expected cost of a ray that hits it, times its area, when it becomes at most 1, 2 or 3 children.
+    costs: [f32; 3],
+    /// How it is divided when it becomes at most 2, 3 or 4 children: two bits each for the number of children
+    /// that its left subtree becomes, or 0 if it is best to use one child less.
+    division: u8,
+    /// Whether it becomes a leaf when it becomes one child.
     is_leaf: bool,
+    /// The common group of all its boxes, or [`MIXED`].
+    group: u8,
+    /// Number of boxes, at most [`u8::MAX`].
+    count: u8,
 }
 
-/// Opens the child with the largest area until there are four, and makes leaves of up to `leaf_size`
-/// boxes of one group where that costs no more than a further split.
-pub fn collapse(tree: &[BinaryNode], groups: &[u8], group_count: usize, leaf_size: u32) -> Bvh {
+/// Stands for several groups.
+const MIXED: u8 = u8::MAX;
+
+impl Plan {
+    fn of_box(area: f32, group: u8) -> Self {
+        Self {
+            costs: [area; 3],
+            division: 0,
+            is_leaf: true,
+            group,
+            count: 1,
+        }
+    }
+
+    fn of_subtrees(area: f32, left: &Self, right: &Self, limits: Limits) -> Self {
+        let count = left.count.saturating_add(right.count);
+        let group = match left.group == right.group {
+            true => left.group,
+            false => MIXED,
+        };
+        // The least cost when both become at most `slots` children, and how many of them are left ones.
+        let divided = |slots: usize| {
+            let cost = |on_left: usize| left.costs[on_left - 1] + right.costs[slots - on_left - 1];
+            (2..slots).fold((cost(1), 1), |(least, best), on_left| match cost(on_left) {
+                cost if cost < least => (cost, on_left as u8),
+                _ => (least, best),
+            })
+        };
+        let (four, division_of_four) = divided(4);
+        let (leaf, node) = (f32::from(count) * area, NODE_COST * area + four);
+        let may_share = group != MIXED && Some(group) != limits.alone;
+        let is_leaf = may_share && u32::from(count) <= limits.leaf_size && leaf <= node;
+        let mut costs = [if is_leaf { leaf } else { node }; 3];
+        let mut division = division_of_four << 4;
+        for slots in [2, 3] {
+            let (cost, on_left) = divided(slots);
+            costs[slots - 1] = costs[slots - 2];
+            if cost < costs[slots - 1] {
+                costs[slots - 1] = cost;
+                division |= on_left << (2 * (slots - 2));
+            }
+        }
+        Self {
+            costs,
+            division,
+            is_leaf,
+            group,
+            count,
+        }
+    }
+
+    /// The number of children that the left subtree becomes if all become at most `slots`, 2 to 4; 0 if it is
+    /// best to use one child less.
+    fn left_of(&self, slots: u8) -> u8 {
+        self.division >> (2 * (slots - 2)) & 3
+    }
+}
+
+/// The tree of least expected cost that four-way nodes can make of a binary one.
+pub fn collapse(tree: &[Node], groups: &[u8], group_count: usize, limits: Limits) -> Bvh {
+    let mut nodes = Vec::with_capacity(tree.len() / 4 + 1);
+    nodes.push(WideNode::default());
     let mut bvh = Bvh {
-        nodes: vec![WideNode::default()],
+        nodes,
         order: vec![Vec::new(); group_count],
         stack_need: 1,
+        work: 0,
     };
     if tree.is_empty() {
         return bvh;
     }
-    let summaries = summarize(tree, groups, leaf_size);
-    let mut open = vec![(0usize, 0usize)];
+    let plans = plans(tree, groups, limits);
+    let mut open = vec![(0u32, 0usize)];
     while let Some((binary, wide)) = open.pop() {
-        let mut children = Vec::with_capacity(4);
-        for source in gather(tree, &summaries, binary) {
-            let child = match summaries[source] {
-                Summary {
-                    group: Some(group),
-                    count,
-                    is_leaf: true,
-                    ..
-                } => {
-                    let order = &mut bvh.order[group as usize];
-                    let first = order.len() as u32;
-                    push_boxes(tree, source, order);
-                    Child::Leaf {
-                        group,
-                        first,
-                        count,
-                    }
+        let (parts, count) = divide(tree, &plans, binary);
+        let mut children = Children::default();
+        for &source in &parts[..count] {
+            let plan = &plans[source as usize];
+            let child = if plan.is_leaf {
+                let order = &mut bvh.order[plan.group as usize];
+                let first = order.len() as u32;
+                order.extend(boxes_below(tree, source, plan.count));
+                Child::Leaf {
+                    group: plan.group,
+                    first,
+                    count: plan.count.into(),
                 }
-                _ => {
-                    bvh.nodes.push(WideNode::default());
-                    let index = bvh.nodes.len() - 1;
-                    open.push((source, index));
-                    Child::Node(index as u32)
-                }
+            } else {
+                bvh.nodes.push(WideNode::default());
+                let index = bvh.nodes.len() - 1;
+                open.push((source, index));
+                Child::Node(index as u32)
             };
-            children.push((tree[source].aabb, child));
+            children.push(tree[source as usize].aabb, child);
         }
         bvh.nodes[wide].children = children;
     }
@@ -90,75 +189,62 @@ pub fn collapse(tree: &[BinaryNode], groups: &[u8], group_count: usize, leaf_siz
     bvh
 }
 
-/// Summaries of all subtrees. Children come after their parents, so a single backward pass suffices.
-fn summarize(tree: &[BinaryNode], groups: &[u8], leaf_size: u32) -> Vec<Summary> {
-    let nothing = Summary {
-        count: 0,
-        group: None,
-        cost: 0.0,
-        is_leaf: false,
-    };
-    let mut summaries = vec![nothing; tree.len()];
-    for (i, node) in tree.iter().enumerate().rev() {
+/// Plans for all subtrees. Children come after their parents, so a single backward pass suffices.
+fn plans(tree: &[Node], groups: &[u8], limits: Limits) -> Vec<Plan> {
+    let mut plans = vec![Plan::default(); tree.len()];
+    for (index, node) in tree.iter().enumerate().rev() {
         let area = node.aabb.half_area();
-        summaries[i] = match node.kind {
-            BinaryKind::Leaf(index) => Summary {
-                count: 1,
-                group: Some(groups[index as usize]),
-                cost: area,
-                is_leaf: true,
-            },
-            BinaryKind::Inner(left, right) => {
-                let (left, right) = (summaries[left], summaries[right]);
-                let count = left.count + right.count;
-                let group = left.group.filter(|_| left.group == right.group);
-                let split_cost = NODE_COST * area + left.cost + right.cost;
-                let leaf_cost = count as f32 * area;
-                let is_leaf = group.is_some() && count <= leaf_size && leaf_cost <= split_cost;
-                let cost = if is_leaf { leaf_cost } else { split_cost };
-                Summary {
-                    count,
-                    group,
-                    cost,
-                    is_leaf,
-                }
+        plans[index] = match node.kind {
+            Kind::Leaf(of) => Plan::of_box(area, groups[of as usize]),
+            Kind::Inner(right) => {
+                Plan::of_subtrees(area, &plans[index + 1], &plans[right as usize], limits)
             }
         };
     }
-    summaries
+    plans
 }
 
-/// The one to four subtrees that become the children of a wide node.
-fn gather(tree: &[BinaryNode], summaries: &[Summary], root: usize) -> Vec<usize> {
-    let mut parts = vec![root];
-    while parts.len() < 4 {
-        let largest = parts
-            .iter()
-            .enumerate()
-            .filter(|(_, part)| !summaries[**part].is_leaf)
-            .max_by(|(_, a), (_, b)| {
-                let area = |i: &usize| tree[*i].aabb.half_area();
-                area(a).total_cmp(&area(b))
-            });
-        let Some((place, &part)) = largest else { break };
-        let BinaryKind::Inner(left, right) = tree[part].kind else {
-            break;
-        };
-        parts[place] = left;
-        parts.push(right);
-    }
-    parts
-}
-
-/// Appends the boxes below a node to `order`, left to right.
-fn push_boxes(tree: &[BinaryNode], root: usize, order: &mut Vec<u32>) {
-    let mut open = vec![root];
-    while let Some(node) = open.pop() {
-        match tree[node].kind {
-            BinaryKind::Leaf(index) => order.push(index),
-            BinaryKind::Inner(left, right) => open.extend([right, left]),
+/// The one to four subtrees that become the children of the wide node for a subtree.
+fn divide(tree: &[Node], plans: &[Plan], root: u32) -> ([u32; 4], usize) {
+    let (mut parts, mut count) = ([root; 4], 0);
+    // Subtrees with the number of children that they become at most; at most three wait at a time.
+    let (mut open, mut waiting) = ([(root, 4u8); 4], 1);
+    while waiting > 0 {
+        waiting -= 1;
+        let (source, slots) = open[waiting];
+        let plan = &plans[source as usize];
+        match tree[source as usize].kind {
+            Kind::Inner(right) if slots > 1 && !(plan.is_leaf && source == root) => {
+                match plan.left_of(slots) {
+                    0 => {
+                        open[waiting] = (source, slots - 1);
+                        waiting += 1;
+                    }
+                    left => {
+                        open[waiting] = (right, slots - left);
+                        open[waiting + 1] = (source + 1, left);
+                        waiting += 2;
+                    }
+                }
+            }
+            _ => {
+                parts[count] = source;
+                count += 1;
+            }
         }
     }
+    (parts, count)
+}
+
+/// The boxes below a node with `count` of them, left to right.
+fn boxes_below(tree: &[Node], root: u32, count: u8) -> impl Iterator<Item = u32> {
+    let boxes = tree[root as usize..]
+        .iter()
+        .filter_map(|node| match node.kind {
+            Kind::Leaf(index) => Some(index),
+            Kind::Inner(_) => None,
+        });
+    boxes.take(count.into())
 }
 
 /// Stack entries when every child of every node on the path is hit: a node with n children leaves n − 1

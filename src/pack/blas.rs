@@ -2,18 +2,19 @@
 //! refitted to the position at which the mesh is baked.
 
 use super::{
-    geometry::{self, Flat},
+    geometry::{self, Flat, PlacedMesh},
     nodes::{self, Children, Offsets},
+    pieces::{Divided, Piece},
 };
 use crate::{
-    bvh::{self, Aabb},
+    bvh::{self, Aabb, Bvh, Child, threads},
     layout::{
         LEAF, LEAF_COUNT_MASK, LEAF_COUNT_SHIFT, LEAF_FIRST_MASK, PackedNode, PackedShape,
-        PackedTriangle, PackedVertex,
+        PackedTriangle, PackedVertex, SHAPE, leaf_reference,
     },
     scene::Mesh,
 };
-use std::{collections::BinaryHeap, sync::Arc};
+use std::{borrow::Cow, collections::BinaryHeap, sync::Arc};
 
 /// Maximum number of primitives in a leaf.
 const LEAF_SIZE: u32 = 4;
@@ -24,13 +25,19 @@ pub const STACK_BELOW: usize = 60;
 /// Maximum number of parts into which one BVH is opened.
 pub const MAX_PARTS: usize = 64;
 
+/// The group of the pieces of triangles; see [`nodes::TRIANGLES`].
+const PIECES: u8 = nodes::GROUP_COUNT as u8;
+
 /// The assignment of the triangles of a mesh to leaves, without boxes, which depend on the position.
 #[derive(Debug)]
 pub struct Topology {
-    /// Child references of each node, for offsets of 0. Children come after their parents.
+    /// Child references of each node, for offsets of 0; those to shapes stand for `pieces`. Children come after
+    /// their parents.
     children: Vec<[u32; 4]>,
-    /// Triangles of the mesh in leaf order.
+    /// Triangles of the mesh in leaf order, then those in pieces.
     order: Vec<u32>,
+    /// Their triangles are places in `order`.
+    pieces: Vec<Piece>,
     stack_need: usize,
 }
 
@@ -40,32 +47,53 @@ impl Topology {
         let largest =
             (mesh.positions.iter()).fold(0.0, |most: f32, p| most.max(p.abs().max_element()));
         let scale = (-largest.log2().floor()).clamp(-126.0, 126.0).exp2();
-        let corner = |i: u32| mesh.positions[i as usize] * scale;
-        let boxes: Vec<_> = (mesh.triangles.iter())
-            .map(|&[a, b, c]| Aabb::of([corner(a), corner(b), corner(c)]))
-            .collect();
-        let bvh = bvh::build(&boxes, &vec![nodes::TRIANGLES; boxes.len()], 1, limits());
+        let corners = |triangle: u32| {
+            mesh.triangles[triangle as usize].map(|corner| mesh.positions[corner as usize] * scale)
+        };
+        let boxes = threads::collect(mesh.triangles.len(), |triangle| {
+            Aabb::of(corners(triangle as u32))
+        });
+        let divided = Divided::new(boxes, corners);
+        let bvh = build(&divided, &[], STACK_BELOW);
         let offsets = Offsets::default();
+        let reference = |child: &Child| match *child {
+            Child::Leaf { group, first, .. } if group == PIECES => {
+                let piece = divided.piece(bvh.order[usize::from(PIECES)][first as usize]);
+                leaf_reference(piece as u32, 1, true)
+            }
+            _ => offsets.reference(child),
+        };
         let references = |node: &bvh::WideNode| {
             let mut references = [0; 4];
             for (slot, (_, child)) in references.iter_mut().zip(&node.children) {
-                *slot = offsets.reference(child);
+                *slot = reference(child);
             }
             references
         };
         Self {
             children: bvh.nodes.iter().map(references).collect(),
-            order: bvh.order.into_iter().next().unwrap_or_default(),
+            order: divided.order(&bvh.order[usize::from(nodes::TRIANGLES)]),
+            pieces: divided.pieces,
             stack_need: bvh.stack_need,
         }
     }
 }
 
-fn limits() -> bvh::Limits {
-    bvh::Limits {
+/// A BVH over triangles and the boxes of shapes.
+fn build(triangles: &Divided, shapes: &[Aabb], stack_size: usize) -> Bvh {
+    let mut groups = vec![nodes::TRIANGLES; triangles.whole_count()];
+    groups.resize(triangles.boxes.len(), PIECES);
+    groups.resize(triangles.boxes.len() + shapes.len(), nodes::SHAPES);
+    let boxes = match shapes {
+        [] => Cow::Borrowed(&triangles.boxes),
+        _ => Cow::Owned([&triangles.boxes, shapes].concat()),
+    };
+    let limits = bvh::Limits {
         leaf_size: LEAF_SIZE,
-        stack_size: STACK_BELOW,
-    }
+        alone: Some(PIECES),
+        stack_size,
+    };
+    bvh::build(&boxes, &groups, nodes::GROUP_COUNT + 1, limits)
 }
 
 /// A BLAS with its offsets in the arrays of a scene.
@@ -86,67 +114,89 @@ pub struct Blas {
 }
 
 impl Blas {
-    /// The BLAS of one mesh, whose geometry is in `flat`, with refitted boxes.
-    pub fn refitted(topology: &Topology, flat: Flat, offsets: Offsets) -> Self {
-        let triangles: Arc<[_]> = (topology.order.iter())
-            .map(|&i| flat.triangles[i as usize])
-            .collect();
-        let boxes: Vec<_> = triangles.iter().map(geometry::triangle_box).collect();
-        let mut bounds = vec![Aabb::EMPTY; topology.children.len()];
-        let mut packed = vec![PackedNode::default(); topology.children.len()];
+    /// The BLAS of one mesh, with boxes for its position.
+    pub fn refitted(topology: &Topology, placed: PlacedMesh, offsets: Offsets) -> Self {
+        let count = topology.order.len();
+        let triangles = threads::collect_shared(count, |place| {
+            placed.triangle(topology.order[place] as usize)
+        });
+        let leaf_box = |reference: u32| match reference & SHAPE {
+            0 => {
+                let boxes = triangles[leaf_range(reference)]
+                    .iter()
+                    .map(geometry::triangle_box);
+                boxes.fold(Aabb::EMPTY, Aabb::union)
+            }
+            _ => {
+                let piece = &topology.pieces[leaf_range(reference).start];
+                piece.aabb(geometry::corners(&triangles[piece.triangle as usize]))
+            }
+        };
+        // First the leaves of each node, then the nodes below it, which come after it.
+        let mut bounds = threads::collect(topology.children.len(), |index| {
+            let leaves = topology.children[index].iter().filter(|r| **r & LEAF != 0);
+            leaves.fold(Aabb::EMPTY, |all, &leaf| all.union(leaf_box(leaf)))
+        });
+        for (index, children) in topology.children.iter().enumerate().rev() {
+            for &node in children.iter().filter(|r| **r != 0 && **r & LEAF == 0) {
+                bounds[index] = bounds[index].union(bounds[node as usize]);
+            }
+        }
         let zero = Offsets::default();
-        let children_of = |bounds: &[Aabb], index: usize| {
+        let packed_leaf = |reference: u32| match reference & SHAPE {
+            0 => offsets.moved(reference, &zero),
+            _ => {
+                let piece = &topology.pieces[leaf_range(reference).start];
+                leaf_reference(offsets.triangle + piece.triangle, 1, false)
+            }
+        };
+        let children_of = |index: usize| {
             let references = topology.children[index].iter().filter(|r| **r != 0);
-            Children::new(references.map(|&reference| {
-                let aabb = match reference & LEAF {
-                    0 => bounds[reference as usize],
-                    _ => boxes[leaf_range(reference)]
-                        .iter()
-                        .fold(Aabb::EMPTY, |all, one| all.union(*one)),
-                };
-                (aabb, offsets.moved(reference, &zero))
+            Children::new(references.map(|&reference| match reference & LEAF {
+                0 => (bounds[reference as usize], offsets.moved(reference, &zero)),
+                _ => (leaf_box(reference), packed_leaf(reference)),
             }))
         };
-        for index in (0..packed.len()).rev() {
-            let children = children_of(&bounds, index);
-            bounds[index] = children.bounds();
-            packed[index] = nodes::quantize(children.as_slice());
-        }
         Self {
             offsets,
-            nodes: packed.into(),
-            triangles,
+            nodes: threads::collect_shared(topology.children.len(), |index| {
+                nodes::quantize(children_of(index).as_slice())
+            }),
+            top: top_of(&offsets, children_of),
             shapes: Arc::default(),
-            vertices: flat.vertices.into(),
+            vertices: placed.vertices,
             stack_need: topology.stack_need,
-            top: top_of(&offsets, |index| children_of(&bounds, index)),
+            triangles,
         }
     }
 
     /// One BLAS over several meshes and shapes.
     pub fn joint(flat: Flat, stack_size: usize, offsets: Offsets) -> Self {
-        let boxes: Vec<_> = (flat.triangles.iter().map(geometry::triangle_box))
-            .chain(flat.bounded.iter().map(|(_, bounds)| *bounds))
-            .collect();
-        let count = flat.triangles.len();
-        let mut groups = vec![nodes::TRIANGLES; count];
-        groups.resize(boxes.len(), nodes::SHAPES);
-        let limits = bvh::Limits {
-            stack_size,
-            ..limits()
+        let corners = |triangle: u32| geometry::corners(&flat.triangles[triangle as usize]);
+        let boxes = flat.triangles.iter().map(geometry::triangle_box);
+        let divided = Divided::new(boxes.collect(), corners);
+        let shapes: Vec<_> = flat.bounded.iter().map(|(_, bounds)| *bounds).collect();
+        let bvh = build(&divided, &shapes, stack_size);
+        let reference = |child: &Child| match *child {
+            Child::Leaf { group, first, .. } if group == PIECES => {
+                let piece = divided.piece(bvh.order[usize::from(PIECES)][first as usize]);
+                leaf_reference(offsets.triangle + divided.pieces[piece].triangle, 1, false)
+            }
+            _ => offsets.reference(child),
         };
-        let bvh = bvh::build(&boxes, &groups, nodes::GROUP_COUNT, limits);
-        let order = |group: u8| bvh.order[group as usize].iter().map(|&i| i as usize);
-        let children_of = |index: usize| Children::of(&bvh.nodes[index], &offsets);
+        let children_of = |index: usize| {
+            let children = bvh.nodes[index].children.iter();
+            Children::new(children.map(|(aabb, child)| (*aabb, reference(child))))
+        };
+        let triangles = divided.order(&bvh.order[usize::from(nodes::TRIANGLES)]);
+        let shapes = bvh.order[usize::from(nodes::SHAPES)].iter();
         Self {
             offsets,
             nodes: (0..bvh.nodes.len())
                 .map(|index| nodes::quantize(children_of(index).as_slice()))
                 .collect(),
-            triangles: order(nodes::TRIANGLES).map(|i| flat.triangles[i]).collect(),
-            shapes: (order(nodes::SHAPES))
-                .map(|i| flat.bounded[i - count].0)
-                .collect(),
+            triangles: (triangles.iter().map(|&i| flat.triangles[i as usize])).collect(),
+            shapes: (shapes.map(|&i| flat.bounded[i as usize - divided.boxes.len()].0)).collect(),
             vertices: flat.vertices.into(),
             stack_need: bvh.stack_need,
             top: top_of(&offsets, children_of),

@@ -2,7 +2,7 @@
 
 use super::PackError;
 use crate::{
-    bvh::Aabb,
+    bvh::{Aabb, threads},
     layout::{
         PackedShape, PackedTriangle, PackedVertex, SHAPE_BOX, SHAPE_CAPPED, SHAPE_CONE, SHAPE_DISC,
         SHAPE_ELLIPSOID, SHAPE_GLOBE, SHAPE_PLANE, SHAPE_RECTANGLE, SHAPE_SPHERE, SHAPE_TORUS,
@@ -10,6 +10,7 @@ use crate::{
     scene::{CanonicalShape, Geometry, Mesh},
 };
 use glam::{DAffine3, DMat3, DVec3, Vec3};
+use std::sync::Arc;
 
 /// Beyond this limit, squares of coordinates overflow f32.
 const COORDINATE_LIMIT: f64 = 1e15;
@@ -29,18 +30,6 @@ pub struct Flat {
 }
 
 impl Flat {
-    /// A single mesh; see [`Self::add_mesh`].
-    pub fn of_mesh(
-        mesh: &Mesh,
-        world_from_object: DAffine3,
-        origin: DVec3,
-        vertex: u32,
-    ) -> Result<Self, PackError> {
-        let mut flat = Self::default();
-        flat.add_mesh(mesh, world_from_object, origin, vertex)?;
-        Ok(flat)
-    }
-
     /// Adds a shape in render space with this origin, or in its own space.
     pub fn add_shape(
         &mut self,
@@ -132,8 +121,7 @@ impl Flat {
         Ok(())
     }
 
-    /// Adds a mesh in render space. Its vertex indices start at `vertex` plus the vertices added so far. All
-    /// arithmetic before the final rounding is f64.
+    /// Adds a mesh in render space. Its vertex indices start at `vertex` plus the vertices added so far.
     pub fn add_mesh(
         &mut self,
         mesh: &Mesh,
@@ -141,41 +129,80 @@ impl Flat {
         origin: DVec3,
         vertex: u32,
     ) -> Result<(), PackError> {
+        let first_vertex = vertex as usize + self.vertices.len();
+        let placed = PlacedMesh::new(mesh, world_from_object, origin, first_vertex)?;
+        self.vertices.extend_from_slice(&placed.vertices);
+        let triangles = (0..mesh.triangles.len()).map(|index| placed.triangle(index));
+        self.triangles.extend(triangles);
+        Ok(())
+    }
+}
+
+/// A mesh in render space, or in the space of an instanced BLAS.
+pub struct PlacedMesh<'a> {
+    mesh: &'a Mesh,
+    positions: Vec<Vec3>,
+    /// In mesh order.
+    pub vertices: Arc<[PackedVertex]>,
+    first_vertex: u32,
+}
+
+impl<'a> PlacedMesh<'a> {
+    /// The vertices get indices from `first_vertex` on. All arithmetic before the final rounding is f64.
+    pub fn new(
+        mesh: &'a Mesh,
+        world_from_object: DAffine3,
+        origin: DVec3,
+        first_vertex: usize,
+    ) -> Result<Self, PackError> {
+        let count = first_vertex + mesh.positions.len();
+        let limit = u32::MAX as usize;
+        if count > limit {
+            let what = "vertices";
+            return Err(PackError::TooMany { what, count, limit });
+        }
+        let from_origin =
+            |position: &Vec3| world_from_object.transform_point3(position.as_dvec3()) - origin;
+        let positions = threads::collect(mesh.positions.len(), |index| {
+            from_origin(&mesh.positions[index]).as_vec3()
+        });
+        // Rounding may move a coordinate across the limit, so that those near it are checked before.
+        let near_limit = (COORDINATE_LIMIT * 0.5) as f32;
+        for (position, rounded) in mesh.positions.iter().zip(&positions) {
+            if rounded.abs().max_element() > near_limit {
+                in_range(from_origin(position).abs().max_element())?;
+            }
+        }
         // Normals transform by the inverse transpose; mirroring keeps them on their side.
         let normal_matrix: DMat3 = world_from_object.matrix3.inverse().transpose();
-        let first_vertex = vertex as usize + self.vertices.len();
-        if first_vertex + mesh.positions.len() > u32::MAX as usize {
-            return Err(PackError::TooMany {
-                what: "vertices",
-                count: first_vertex + mesh.positions.len(),
-                limit: u32::MAX as usize,
-            });
-        }
-        let mut positions = Vec::with_capacity(mesh.positions.len());
-        self.vertices.reserve(mesh.positions.len());
-        for (i, position) in mesh.positions.iter().enumerate() {
-            let world = world_from_object.transform_point3(position.as_dvec3());
-            positions.push(render_point(world, origin)?);
-            let normal = (normal_matrix * mesh.normals[i].as_dvec3()).normalize_or(DVec3::Y);
-            self.vertices.push(PackedVertex {
+        let vertices = threads::collect_shared(mesh.positions.len(), |index| {
+            let normal = (normal_matrix * mesh.normals[index].as_dvec3()).normalize_or(DVec3::Y);
+            PackedVertex {
                 normal: normal.as_vec3().into(),
-                material: mesh.materials[i],
-            });
+                material: mesh.materials[index],
+            }
+        });
+        Ok(Self {
+            mesh,
+            positions,
+            vertices,
+            first_vertex: first_vertex as u32,
+        })
+    }
+
+    /// A triangle of the mesh.
+    pub fn triangle(&self, index: usize) -> PackedTriangle {
+        let [a, b, c] = self.mesh.triangles[index];
+        let corner = |i: u32| self.positions[i as usize].into();
+        let vertex = |i: u32| self.first_vertex + i;
+        PackedTriangle {
+            v0: corner(a),
+            i0: vertex(a),
+            v1: corner(b),
+            i1: vertex(b),
+            v2: corner(c),
+            i2: vertex(c),
         }
-        self.triangles
-            .extend(mesh.triangles.iter().map(|&[a, b, c]| {
-                let corner = |i: u32| positions[i as usize].into();
-                let vertex = |i: u32| first_vertex as u32 + i;
-                PackedTriangle {
-                    v0: corner(a),
-                    i0: vertex(a),
-                    v1: corner(b),
-                    i1: vertex(b),
-                    v2: corner(c),
-                    i2: vertex(c),
-                }
-            }));
-        Ok(())
     }
 }
 
@@ -207,5 +234,9 @@ fn large_enough(size: f64) -> Result<(), PackError> {
 }
 
 pub fn triangle_box(triangle: &PackedTriangle) -> Aabb {
-    Aabb::of([triangle.v0, triangle.v1, triangle.v2].map(Vec3::from))
+    Aabb::of(corners(triangle))
+}
+
+pub fn corners(triangle: &PackedTriangle) -> [Vec3; 3] {
+    [triangle.v0, triangle.v1, triangle.v2].map(Vec3::from)
 }

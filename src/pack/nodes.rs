@@ -2,7 +2,7 @@
 //! Ylitie, Karras, Laine, Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs, 2017).
 
 use crate::{
-    bvh::{Aabb, Child, WideNode},
+    bvh::{Aabb, Child},
     layout::{LEAF, LEAF_FIRST_MASK, PackedNode, SHAPE, leaf_reference},
 };
 use glam::Vec3;
@@ -77,12 +77,6 @@ impl Children {
             all.count += 1;
         }
         all
-    }
-
-    /// The children of a node of a BLAS at `offsets`.
-    pub fn of(node: &WideNode, offsets: &Offsets) -> Self {
-        let children = node.children.iter();
-        Self::new(children.map(|(aabb, child)| (*aabb, offsets.reference(child))))
     }
 
     pub fn map_references(&mut self, map: impl Fn(u32) -> u32) {

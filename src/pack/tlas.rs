@@ -124,6 +124,7 @@ impl Tlas {
         let limit = STACK_SIZE as usize - 2;
         let limits = bvh::Limits {
             leaf_size: 1,
+            alone: None,
             stack_size: limit.saturating_sub(source.stack_need),
         };
         let unions: Vec<_> = (boxes.iter())

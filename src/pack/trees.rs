@@ -4,7 +4,7 @@
 use super::{
     PackError,
     blas::{Blas, MAX_PARTS, STACK_BELOW, opened},
-    geometry::Flat,
+    geometry::{Flat, PlacedMesh},
     instance::{InstancedBlas, Plan},
     light,
     mesh::CachedMesh,
@@ -146,10 +146,11 @@ impl Trees {
                             Some(transform) => (transform, origin),
                             None => (DAffine3::IDENTITY, DVec3::ZERO),
                         };
-                        let flat = Flat::of_mesh(&mesh.mesh, transform, origin, offsets.vertex)?;
                         work.refits += 1;
                         let topology = mesh.topology(&mut work.topologies);
-                        Arc::new(Blas::refitted(topology, flat, offsets))
+                        let first_vertex = offsets.vertex as usize;
+                        let placed = PlacedMesh::new(&mesh.mesh, transform, origin, first_vertex)?;
+                        Arc::new(Blas::refitted(topology, placed, offsets))
                     }
                 },
             };
@@ -380,6 +381,7 @@ impl Top {
         let below = (trees.iter().map(|tree| tree.stack_need)).fold(0, usize::max);
         let limits = bvh::Limits {
             leaf_size: 1,
+            alone: None,
             stack_size: STACK_ENTRIES - below,
         };
         let bvh = bvh::build(&boxes, &vec![0; boxes.len()], 1, limits);
@@ -398,9 +400,12 @@ impl Top {
             nodes::quantize(Children::new(children).as_slice())
         };
         let (root, others) = (&bvh.nodes[..1], &bvh.nodes[1..]);
+        // As many nodes as there may be over these trees, so that an edit does not require a larger buffer.
+        let spare = (limit - 1).saturating_sub(others.len());
+        let unused = std::iter::repeat_n(PackedNode::default(), spare);
         let (root, nodes) = (
             root.iter().map(pack).collect(),
-            others.iter().map(pack).collect(),
+            others.iter().map(pack).chain(unused).collect(),
         );
         Ok(Arc::new(Self {
             root,

@@ -82,6 +82,7 @@ mod soft_shadows;
 mod spd;
 mod support;
 mod textures;
+mod trees;
 mod uv_view;
 #[cfg(feature = "video")]
 mod video;

@@ -1,0 +1,220 @@
+//! Parallel locally-ordered clustering (Meister and Bittner 2018): boxes are sorted along a Morton curve, and
+//! neighbours whose joint box is smallest for both are merged, pass by pass.
+//!
+//! Equal, nested and evenly spaced boxes have few such pairs: each box prefers its predecessor, which prefers
+//! its own, and a pass merges only the first two. Ties are therefore broken in favour of disjoint pairs, and
+//! long chains of preferences are cut into pairs, so that the number of passes stays logarithmic.
+
+use super::{
+    Aabb,
+    linked::{Box4, LEAF, Node},
+    threads,
+};
+
+/// How far along the curve neighbours are searched, in either direction.
+const RADIUS: usize = 14;
+
+/// A preference is part of a long chain if this many steps along it do not lead to a pair.
+const CHAIN: usize = 6;
+
+/// Rows of areas that a search remembers; a power of two greater than [`RADIUS`].
+const ROWS: usize = 16;
+
+/// The nodes over at least one box, without parents, and the number of pairs of boxes that were compared.
+pub fn build(boxes: &[Aabb]) -> (Vec<Node>, u64) {
+    let mut nodes = vec![Node::default(); 2 * boxes.len() - 1];
+    let mut clusters = along_curve(boxes);
+    let mut next = Clusters::default();
+    let mut near = vec![0i8; boxes.len()];
+    let mut end = nodes.len();
+    let mut work = 0;
+    while clusters.boxes.len() > 1 {
+        let count = clusters.boxes.len();
+        let near = &mut near[..count];
+        threads::for_chunks(near, |first, near| search(&clusters.boxes, first, near));
+        work += (count * RADIUS) as u64;
+        // A pass over a mesh usually merges more than half of the boxes.
+        let mut pairs = count_pairs(near);
+        if pairs < count / 6 {
+            pairs += cut_chains(near);
+        }
+        next.resize(count - pairs);
+        let first = end - 2 * pairs;
+        merge(&clusters, near, &mut next, &mut nodes[first..end], first);
+        end = first;
+        std::mem::swap(&mut clusters, &mut next);
+    }
+    nodes[0] = Node::new(&clusters.boxes[0], clusters.links[0]);
+    (nodes, work)
+}
+
+/// Roots of the subtrees that are not yet merged.
+#[derive(Default)]
+struct Clusters {
+    boxes: Vec<Box4>,
+    links: Vec<u32>,
+}
+
+impl Clusters {
+    fn resize(&mut self, count: usize) {
+        self.boxes.resize(count, Box4::default());
+        self.links.resize(count, 0);
+    }
+}
+
+/// All boxes, sorted by the Morton codes of their centres.
+fn along_curve(boxes: &[Aabb]) -> Clusters {
+    let all = boxes[1..].iter().fold(boxes[0], |a, b| a.union(*b));
+    let center = |aabb: &Aabb| (aabb.min.as_dvec3() + aabb.max.as_dvec3()) * 0.5;
+    let low = all.min.as_dvec3();
+    let extent = (all.max.as_dvec3() - low).max_element();
+    // The same for all axes: neighbours in cubic cells have smaller joint boxes than those in flat ones.
+    let scale = f64::from((1 << 21) - 1) / extent.max(f64::from(f32::MIN_POSITIVE));
+    let mut order = threads::collect(boxes.len(), |index| {
+        let cell = (center(&boxes[index]) - low) * scale;
+        let [x, y, z] = cell.to_array().map(|c| spread_bits(c as u64));
+        (x | y << 1 | z << 2, index as u32)
+    });
+    threads::sort(&mut order);
+    Clusters {
+        boxes: threads::collect(boxes.len(), |place| {
+            let Aabb { min, max } = boxes[order[place].1 as usize];
+            Box4 {
+                min: min.into(),
+                max: max.into(),
+            }
+        }),
+        links: order.iter().map(|(_, index)| LEAF | index).collect(),
+    }
+}
+
+/// Spreads 21 bits out to every third bit.
+fn spread_bits(x: u64) -> u64 {
+    let x = (x | x << 32) & 0x001f_0000_0000_ffff;
+    let x = (x | x << 16) & 0x001f_0000_ff00_00ff;
+    let x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
+    let x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
+    (x | x << 2) & 0x1249_2492_4924_9249
+}
+
+/// For each box from `first` on, the distance to the neighbour with which its joint box is smallest. Among
+/// equal ones the nearest wins, and among two at the same distance d the one in the same pair when every d
+/// boxes are paired with the next d. All preferences then lead to a pair that prefer each other.
+fn search(boxes: &[Box4], first: usize, near: &mut [i8]) {
+    // For each recent box, the area of the joint box with the one at each distance after it.
+    let mut rows = [[f32::INFINITY; ROWS]; ROWS];
+    let fill = |row: &mut [f32; ROWS], index: usize| {
+        let after = &boxes[index + 1..boxes.len().min(index + 1 + RADIUS)];
+        for (slot, other) in row[1..].iter_mut().zip(after) {
+            *slot = boxes[index].union(other).half_area();
+        }
+        row[1 + after.len()..=RADIUS].fill(f32::INFINITY);
+    };
+    for index in first.saturating_sub(RADIUS)..first {
+        fill(&mut rows[index % ROWS], index);
+    }
+    for (index, near) in (first..).zip(near) {
+        fill(&mut rows[index % ROWS], index);
+        let (mut best, mut least) = (0, f32::INFINITY);
+        for distance in 1..=RADIUS {
+            let before = rows[index.wrapping_sub(distance) % ROWS][distance];
+            let after = rows[index % ROWS][distance];
+            if before < least {
+                (best, least) = (-(distance as i8), before);
+            }
+            let is_tie = after == least && best == -(distance as i8);
+            if after < least || is_tie && (index / distance).is_multiple_of(2) {
+                (best, least) = (distance as i8, after);
+            }
+        }
+        *near = best;
+    }
+}
+
+/// The place that a box prefers.
+#[inline(always)]
+fn preferred(near: &[i8], place: usize) -> usize {
+    place.wrapping_add_signed(near[place] as isize)
+}
+
+#[inline(always)]
+fn is_paired(near: &[i8], place: usize) -> bool {
+    preferred(near, preferred(near, place)) == place
+}
+
+/// The number of pairs that prefer each other.
+fn count_pairs(near: &[i8]) -> usize {
+    (0..near.len())
+        .filter(|&place| is_paired(near, place))
+        .count()
+        / 2
+}
+
+/// Pairs boxes on long chains of preferences with the one they prefer; returns the number of new pairs.
+fn cut_chains(near: &mut [i8]) -> usize {
+    let is_deep = |near: &[i8], mut place: usize| {
+        (0..CHAIN).all(|_| {
+            let next = preferred(near, place);
+            let is_open = preferred(near, next) != place;
+            place = next;
+            is_open
+        })
+    };
+    let mut is_free: Vec<bool> = (0..near.len()).map(|place| is_deep(near, place)).collect();
+    let mut pairs = 0;
+    for place in 0..near.len() {
+        let other = preferred(near, place);
+        if is_free[place] && is_free[other] {
+            (is_free[place], is_free[other]) = (false, false);
+            near[other] = -near[place];
+            pairs += 1;
+        }
+    }
+    pairs
+}
+
+/// Merges the pairs of `clusters` into `next`. The merged ones become nodes, the first at index `first`.
+fn merge(clusters: &Clusters, near: &[i8], next: &mut Clusters, nodes: &mut [Node], first: usize) {
+    let len = threads::chunk_len(near.len());
+    let (mut boxes, mut links, mut nodes, mut first) =
+        (&mut next.boxes[..], &mut next.links[..], nodes, first);
+    let mut jobs = Vec::new();
+    for start in (0..near.len()).step_by(len) {
+        let places = start..near.len().min(start + len);
+        // A pair belongs to the chunk of its first box.
+        let is_first = |place: &usize| near[*place] > 0 && is_paired(near, *place);
+        let is_second = |place: &usize| near[*place] < 0 && is_paired(near, *place);
+        let pairs = places.clone().filter(is_first).count();
+        let seconds = places.clone().filter(is_second).count();
+        let (own_boxes, rest) = boxes.split_at_mut(places.len() - seconds);
+        boxes = rest;
+        let (own_links, rest) = links.split_at_mut(places.len() - seconds);
+        links = rest;
+        let (own_nodes, rest) = nodes.split_at_mut(2 * pairs);
+        nodes = rest;
+        jobs.push((places, own_boxes, own_links, own_nodes, first));
+        first += 2 * pairs;
+    }
+    threads::for_each(jobs, |(places, boxes, links, nodes, mut first)| {
+        let mut slots = boxes.iter_mut().zip(links);
+        let mut nodes = nodes.chunks_exact_mut(2);
+        for place in places {
+            let other = preferred(near, place);
+            let is_paired = preferred(near, other) == place;
+            if is_paired && other < place {
+                continue;
+            }
+            let Some((aabb, link)) = slots.next() else {
+                break;
+            };
+            (*aabb, *link) = (clusters.boxes[place], clusters.links[place]);
+            if is_paired && let Some(children) = nodes.next() {
+                children[0] = Node::new(aabb, *link);
+                children[1] = Node::new(&clusters.boxes[other], clusters.links[other]);
+                *aabb = aabb.union(&clusters.boxes[other]);
+                *link = first as u32;
+                first += 2;
+            }
+        }
+    });
+}

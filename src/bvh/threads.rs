@@ -1,0 +1,126 @@
+//! Work on slices by all cores. Results never depend on the number of threads.
+
+use std::{
+    cell::Cell,
+    num::NonZero,
+    sync::{Arc, OnceLock},
+    thread,
+};
+
+/// Slices shorter than this are not divided: starting a thread costs more than it saves.
+const LEAST: usize = 1 << 14;
+
+thread_local! {
+    static CHOSEN: Cell<Option<usize>> = const { Cell::new(None) };
+}
+
+/// Runs `work`, in which functions of this module use `count` threads, the calling one included.
+///
+/// # Panics
+/// If `count` is 0.
+pub fn with<R>(count: usize, work: impl FnOnce() -> R) -> R {
+    assert!(count > 0, "no thread is left to work");
+    let before = CHOSEN.replace(Some(count));
+    let result = work();
+    CHOSEN.set(before);
+    result
+}
+
+/// The number of threads: unless chosen by [`with`], as many as cores, or 1 without the feature `parallel`.
+pub fn count() -> usize {
+    // Asking the system takes longer than a small task.
+    static CORES: OnceLock<usize> = OnceLock::new();
+    let cores = || match cfg!(feature = "parallel") {
+        true => thread::available_parallelism().map_or(1, NonZero::get),
+        false => 1,
+    };
+    (CHOSEN.get()).unwrap_or_else(|| *CORES.get_or_init(cores))
+}
+
+/// The length of the chunks into which a slice of this length is divided, at least 1.
+pub fn chunk_len(len: usize) -> usize {
+    match len < LEAST {
+        true => len.max(1),
+        false => len.div_ceil(count()),
+    }
+}
+
+/// Calls `work` with each job, each on a thread of its own; the last one on the calling thread.
+pub fn for_each<J: Send>(jobs: impl IntoIterator<Item = J>, work: impl Fn(J) + Sync) {
+    let mut jobs = jobs.into_iter();
+    let Some(mut last) = jobs.next() else { return };
+    thread::scope(|scope| {
+        let work = &work;
+        for next in jobs {
+            let job = std::mem::replace(&mut last, next);
+            scope.spawn(move || work(job));
+        }
+        work(last);
+    });
+}
+
+/// Divides a slice into chunks, and calls `work` with the index of the first element of each and the chunk.
+pub fn for_chunks<T: Send>(slice: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
+    let len = chunk_len(slice.len());
+    for_each(slice.chunks_mut(len).enumerate(), |(index, chunk)| {
+        work(index * len, chunk);
+    });
+}
+
+/// A list of `len` elements, made from their indices.
+pub fn collect<T: Copy + Send>(len: usize, make: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let mut list: Vec<T> = (len > 0).then(|| vec![make(0); len]).unwrap_or_default();
+    fill(&mut list, make);
+    list
+}
+
+/// As [`collect`], without a copy when the list is shared.
+pub fn collect_shared<T: Copy + Send>(len: usize, make: impl Fn(usize) -> T + Sync) -> Arc<[T]> {
+    let mut list: Arc<[T]> = match len {
+        0 => Arc::from([]),
+        _ => std::iter::repeat_n(make(0), len).collect(),
+    };
+    if let Some(list) = Arc::get_mut(&mut list) {
+        fill(list, make);
+    }
+    list
+}
+
+fn fill<T: Send>(list: &mut [T], make: impl Fn(usize) -> T + Sync) {
+    for_chunks(list, |first, chunk| {
+        for (index, slot) in (first..).zip(chunk) {
+            *slot = make(index);
+        }
+    });
+}
+
+/// Sorts a list without equal elements.
+pub fn sort<T: Copy + Ord + Send + Sync>(list: &mut Vec<T>) {
+    let mut run = chunk_len(list.len());
+    for_chunks(list, |_, chunk| chunk.sort_unstable());
+    if run >= list.len() {
+        return;
+    }
+    let mut merged = list.clone();
+    while run < list.len() {
+        let pairs = list.chunks(2 * run).zip(merged.chunks_mut(2 * run));
+        for_each(pairs, |(pair, out)| {
+            merge(pair.split_at(run.min(pair.len())), out);
+        });
+        std::mem::swap(list, &mut merged);
+        run *= 2;
+    }
+}
+
+/// Merges two sorted slices.
+fn merge<T: Copy + Ord>((mut left, mut right): (&[T], &[T]), out: &mut [T]) {
+    for slot in out {
+        let from = match (left.first(), right.first()) {
+            (Some(a), Some(b)) if b < a => &mut right,
+            (Some(_), _) => &mut left,
+            _ => &mut right,
+        };
+        *slot = from[0];
+        *from = &from[1..];
+    }
+}
