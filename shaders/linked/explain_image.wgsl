@@ -7,7 +7,7 @@ fn explain(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
         let pixel = vec2u(probe.pixel_x, probe.pixel_y);
         package_scene_record__1start_record(probe);
         let rays = package_scene_rays__1ray_set(package_scene_rays__1dead_rays(), 0u, package_scene_dispatch__1sample_ray(batch, pixel, probe.sample));
-        probe.color = package_lib_wide__1vector_at(trace(batch, rays, package_lib_rng__1pixel_key(batch.seed, pixel), probe.sample), 0u);
+        probe.color = package_scene_wide__1vector_at(trace(batch, rays, package_lib_rng__1pixel_key(batch.seed, pixel), probe.sample), 0u);
         probe.weight = package_scene_dispatch__1sample_weight(batch, pixel, probe.sample);
         probe.time = package_scene_shutter__1shutter_time;
         probe.cut_off = package_scene__1ray_stack__2cut_off_trees;
@@ -16,16 +16,16 @@ fn explain(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
     package_scene_dispatch__1add_counts(lane);
 }
 
-fn trace(batch: package_scene_dispatch_Batch, rays: package_scene_rays_Rays, keys: package_lib_wide_Words, sample: u32) -> package_lib_wide_Vectors {
-    var radiance = package_lib_wide__1no_vectors();
+fn trace(batch: package_scene_dispatch_Batch, rays: package_scene_rays_Rays, keys: package_scene_wide_Words, sample: u32) -> package_scene_wide_Vectors {
+    var radiance = package_scene_wide__1no_vectors();
     var states = package_scene__1ray_stack__1camera_states(rays, batch.camera_media);
     var is_unfinished = false;
     loop {
         let hits = package_scene_rays__1closest_hits(states.rays);
         var next = states;
         var receivers = package_scene_direct__1no_receivers();
-        var arriving = package_lib_wide__1no_vectors();
-        var color = package_lib_wide__1no_vectors();
+        var arriving = package_scene_wide__1no_vectors();
+        var color = package_scene_wide__1no_vectors();
         is_unfinished = false;
         var k = 0u;
         loop {
@@ -38,7 +38,7 @@ fn trace(batch: package_scene_dispatch_Batch, rays: package_scene_rays_Rays, key
                 package_scene_record__1open_ray(state.ray, hit, state.kind, state.throughput, state.media);
                 if (hit.primitive == package_types_NONE) {
                     let seen = escaping_throughput(state) * package_scene_background_background(batch, state.ray.direction);
-                    radiance = package_lib_wide__1vector_set(radiance, k, package_lib_wide__1vector_at(radiance, k) + seen);
+                    radiance = package_scene_wide__1vector_set(radiance, k, package_scene_wide__1vector_at(radiance, k) + seen);
                     package_scene_record__1record_miss(seen);
                 }
                 else {
@@ -56,14 +56,14 @@ fn trace(batch: package_scene_dispatch_Batch, rays: package_scene_rays_Rays, key
                     }
                     package_scene_record__1record_surface(contact.surface);
                     package_scene_record__1record_arriving(event.arriving);
-                    var key = package_types_SampleKey(package_lib_wide__1word_at(keys, k), sample, 1.0);
+                    var key = package_types_SampleKey(package_scene_wide__1word_at(keys, k), sample, 1.0);
                     if (state.node > 1u) {
                         key.hash = package_lib_rng__1hash_combine(key.hash, state.node);
                         key.weight = package_lib_numeric__1max_component(event.arriving);
                     }
                     receivers = package_scene_direct__1receiver_set(receivers, k, surface, -state.ray.direction, key);
-                    arriving = package_lib_wide__1vector_set(arriving, k, event.arriving);
-                    color = package_lib_wide__1vector_set(color, k, own_light(batch, surface, factors[2]));
+                    arriving = package_scene_wide__1vector_set(arriving, k, event.arriving);
+                    color = package_scene_wide__1vector_set(color, k, own_light(batch, surface, factors[2]));
                 }
             }
             if (package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) {
@@ -73,9 +73,10 @@ fn trace(batch: package_scene_dispatch_Batch, rays: package_scene_rays_Rays, key
             }
             continuing {
                 k += 1u;
-                break if k >= package_lib_wide__2RAYS_PER_LANE;
+                break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
             }
         }
+        package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
         let direct = package_scene_direct__1direct_light(batch, receivers, states.media, sample);
         radiance.x += arriving.x * (color.x + direct.x);
         radiance.y += arriving.y * (color.y + direct.y);
@@ -1067,37 +1068,37 @@ fn package_scene_fetch__1material_row(row: u32) -> vec4u {
 }
 
 struct package_scene_rays_Rays {
-    origin: package_lib_wide_Vectors,
-    direction: package_lib_wide_Vectors,
-    t_max: package_lib_wide_Floats,
-    leaving: package_lib_wide_Words,
-    leaving_instance: package_lib_wide_Words
+    origin: package_scene_wide_Vectors,
+    direction: package_scene_wide_Vectors,
+    t_max: package_scene_wide_Floats,
+    leaving: package_scene_wide_Words,
+    leaving_instance: package_scene_wide_Words
 }
 
 struct package_scene_rays_Hits {
-    t: package_lib_wide_Floats,
-    primitive: package_lib_wide_Words,
-    b1: package_lib_wide_Floats,
-    b2: package_lib_wide_Floats,
-    instance: package_lib_wide_Words
+    t: package_scene_wide_Floats,
+    primitive: package_scene_wide_Words,
+    b1: package_scene_wide_Floats,
+    b2: package_scene_wide_Floats,
+    instance: package_scene_wide_Words
 }
 
 const package_scene_rays_DEAD: package_types_Ray = package_types_Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), package_types_NONE, package_types__1NO_INSTANCE);
 
 fn package_scene_rays__1dead_rays() -> package_scene_rays_Rays {
-    return package_scene_rays_Rays(package_lib_wide_Vectors(package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0)), package_lib_wide_Vectors(package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0), package_lib_wide_Floats(1.0)), package_lib_wide_Floats(-1.0), package_lib_wide_Words(package_types_NONE), package_lib_wide_Words(package_types__1NO_INSTANCE));
+    return package_scene_rays_Rays(package_scene_wide_Vectors(package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0)), package_scene_wide_Vectors(package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0), package_scene_wide_Floats(1.0)), package_scene_wide_Floats(-1.0), package_scene_wide_Words(package_types_NONE), package_scene_wide_Words(package_types__1NO_INSTANCE));
 }
 
 fn package_scene_rays__1ray_at(rays: package_scene_rays_Rays, k: u32) -> package_types_Ray {
-    return package_types_Ray(package_lib_wide__1vector_at(rays.origin, k), package_lib_wide__1float_at(rays.t_max, k), package_lib_wide__1vector_at(rays.direction, k), package_lib_wide__1word_at(rays.leaving, k), package_lib_wide__1word_at(rays.leaving_instance, k));
+    return package_types_Ray(package_scene_wide__1vector_at(rays.origin, k), package_scene_wide__1float_at(rays.t_max, k), package_scene_wide__1vector_at(rays.direction, k), package_scene_wide__1word_at(rays.leaving, k), package_scene_wide__1word_at(rays.leaving_instance, k));
 }
 
 fn package_scene_rays__1ray_set(rays: package_scene_rays_Rays, k: u32, ray: package_types_Ray) -> package_scene_rays_Rays {
-    return package_scene_rays_Rays(package_lib_wide__1vector_set(rays.origin, k, ray.origin), package_lib_wide__1vector_set(rays.direction, k, ray.direction), package_lib_wide__1float_set(rays.t_max, k, ray.t_max), package_lib_wide__1word_set(rays.leaving, k, ray.leaving), package_lib_wide__1word_set(rays.leaving_instance, k, ray.leaving_instance));
+    return package_scene_rays_Rays(package_scene_wide__1vector_set(rays.origin, k, ray.origin), package_scene_wide__1vector_set(rays.direction, k, ray.direction), package_scene_wide__1float_set(rays.t_max, k, ray.t_max), package_scene_wide__1word_set(rays.leaving, k, ray.leaving), package_scene_wide__1word_set(rays.leaving_instance, k, ray.leaving_instance));
 }
 
 fn package_scene_rays__1hit_at(hits: package_scene_rays_Hits, k: u32) -> package_types_Hit {
-    return package_types_Hit(package_lib_wide__1float_at(hits.t, k), package_lib_wide__1word_at(hits.primitive, k), package_lib_wide__1float_at(hits.b1, k), package_lib_wide__1float_at(hits.b2, k), package_lib_wide__1word_at(hits.instance, k));
+    return package_types_Hit(package_scene_wide__1float_at(hits.t, k), package_scene_wide__1word_at(hits.primitive, k), package_scene_wide__1float_at(hits.b1, k), package_scene_wide__1float_at(hits.b2, k), package_scene_wide__1word_at(hits.instance, k));
 }
 
 fn package_scene_rays__1hits_of(hit: package_types_Hit) -> package_scene_rays_Hits {
@@ -1122,48 +1123,50 @@ fn package_scene_rays__1any_lane(condition: bool) -> bool {
     }
 }
 
-const package_lib_wide__2RAYS_PER_LANE: u32 = 1u;
+const package_scene_wide__2RAYS_PER_LANE: u32 = 1u;
 
-alias package_lib_wide_Floats = f32;
+const package_scene_wide__1ONE_RAY: bool = package_scene_wide__2RAYS_PER_LANE == 1u;
 
-alias package_lib_wide_Words = u32;
+alias package_scene_wide_Floats = f32;
 
-struct package_lib_wide_Vectors {
-    x: package_lib_wide_Floats,
-    y: package_lib_wide_Floats,
-    z: package_lib_wide_Floats
+alias package_scene_wide_Words = u32;
+
+struct package_scene_wide_Vectors {
+    x: package_scene_wide_Floats,
+    y: package_scene_wide_Floats,
+    z: package_scene_wide_Floats
 }
 
-fn package_lib_wide__1no_vectors() -> package_lib_wide_Vectors {
-    return package_lib_wide_Vectors(package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0));
+fn package_scene_wide__1no_vectors() -> package_scene_wide_Vectors {
+    return package_scene_wide_Vectors(package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0));
 }
 
-fn package_lib_wide__1float_at(all: package_lib_wide_Floats, k: u32) -> f32 {
+fn package_scene_wide__1float_at(all: package_scene_wide_Floats, k: u32) -> f32 {
     return all;
 }
 
-fn package_lib_wide__1word_at(all: package_lib_wide_Words, k: u32) -> u32 {
+fn package_scene_wide__1word_at(all: package_scene_wide_Words, k: u32) -> u32 {
     return all;
 }
 
-fn package_lib_wide__1vector_at(all: package_lib_wide_Vectors, k: u32) -> vec3f {
-    return vec3f(package_lib_wide__1float_at(all.x, k), package_lib_wide__1float_at(all.y, k), package_lib_wide__1float_at(all.z, k));
+fn package_scene_wide__1vector_at(all: package_scene_wide_Vectors, k: u32) -> vec3f {
+    return vec3f(package_scene_wide__1float_at(all.x, k), package_scene_wide__1float_at(all.y, k), package_scene_wide__1float_at(all.z, k));
 }
 
-fn package_lib_wide__1float_set(all: package_lib_wide_Floats, k: u32, value: f32) -> package_lib_wide_Floats {
+fn package_scene_wide__1float_set(all: package_scene_wide_Floats, k: u32, value: f32) -> package_scene_wide_Floats {
     {
         return value;
     }
 }
 
-fn package_lib_wide__1word_set(all: package_lib_wide_Words, k: u32, value: u32) -> package_lib_wide_Words {
+fn package_scene_wide__1word_set(all: package_scene_wide_Words, k: u32, value: u32) -> package_scene_wide_Words {
     {
         return value;
     }
 }
 
-fn package_lib_wide__1vector_set(all: package_lib_wide_Vectors, k: u32, value: vec3f) -> package_lib_wide_Vectors {
-    return package_lib_wide_Vectors(package_lib_wide__1float_set(all.x, k, value.x), package_lib_wide__1float_set(all.y, k, value.y), package_lib_wide__1float_set(all.z, k, value.z));
+fn package_scene_wide__1vector_set(all: package_scene_wide_Vectors, k: u32, value: vec3f) -> package_scene_wide_Vectors {
+    return package_scene_wide_Vectors(package_scene_wide__1float_set(all.x, k, value.x), package_scene_wide__1float_set(all.y, k, value.y), package_scene_wide__1float_set(all.z, k, value.z));
 }
 
 fn package_lib_rng_hash(x: u32) -> u32 {
@@ -1498,18 +1501,18 @@ struct package_scene__1ray_stack_RayState {
 }
 
 struct package_scene__1ray_stack_Media {
-    x: package_lib_wide_Words,
-    y: package_lib_wide_Words,
-    z: package_lib_wide_Words,
-    w: package_lib_wide_Words
+    x: package_scene_wide_Words,
+    y: package_scene_wide_Words,
+    z: package_scene_wide_Words,
+    w: package_scene_wide_Words
 }
 
 struct package_scene__1ray_stack_RayStates {
     rays: package_scene_rays_Rays,
-    throughput: package_lib_wide_Vectors,
+    throughput: package_scene_wide_Vectors,
     media: package_scene__1ray_stack_Media,
-    step: package_lib_wide_Words,
-    node: package_lib_wide_Words
+    step: package_scene_wide_Words,
+    node: package_scene_wide_Words
 }
 
 const package_scene__1ray_stack__2RAY_STACK_SIZE: u32 = 9u;
@@ -1518,15 +1521,15 @@ const package_scene__1ray_stack__2MAX_TREE_RAYS: u32 = 1024u;
 
 var<private> package_scene__1ray_stack__1ray_stack: array<vec4u, 36>;
 
-var<private> package_scene__1ray_stack__1stack_counts: package_lib_wide_Words;
+var<private> package_scene__1ray_stack__1stack_counts: package_scene_wide_Words;
 
 var<private> package_scene__1ray_stack__1stack_senders: array<u32, package_scene__1ray_stack__2RAY_STACK_SIZE>;
 
-var<private> package_scene__1ray_stack__1tree_rays: package_lib_wide_Words;
+var<private> package_scene__1ray_stack__1tree_rays: package_scene_wide_Words;
 
 var<private> package_scene__1ray_stack__1current_tree: u32;
 
-var<private> package_scene__1ray_stack__2trees_cut_off: package_lib_wide_Words;
+var<private> package_scene__1ray_stack__2trees_cut_off: package_scene_wide_Words;
 
 var<private> package_scene__1ray_stack__2cut_off_trees: u32 = 0u;
 
@@ -1535,28 +1538,28 @@ fn package_scene__1ray_stack__1is_alive(state: package_scene__1ray_stack_RayStat
 }
 
 fn package_scene__1ray_stack__1camera_states(rays: package_scene_rays_Rays, media: vec4u) -> package_scene__1ray_stack_RayStates {
-    package_scene__1ray_stack__1stack_counts = package_lib_wide_Words(0u);
-    package_scene__1ray_stack__1tree_rays = package_lib_wide_Words(0u);
-    package_scene__1ray_stack__2trees_cut_off = package_lib_wide_Words(0u);
-    let all = package_lib_wide_Floats(1.0);
-    return package_scene__1ray_stack_RayStates(rays, package_lib_wide_Vectors(all, all, all), package_scene__1ray_stack_Media(package_lib_wide_Words(media.x), package_lib_wide_Words(media.y), package_lib_wide_Words(media.z), package_lib_wide_Words(media.w)), package_lib_wide_Words(package_scene__1ray_stack__1KIND_PRIMARY), package_lib_wide_Words(1u));
+    package_scene__1ray_stack__1stack_counts = package_scene_wide_Words(0u);
+    package_scene__1ray_stack__1tree_rays = package_scene_wide_Words(0u);
+    package_scene__1ray_stack__2trees_cut_off = package_scene_wide_Words(0u);
+    let all = package_scene_wide_Floats(1.0);
+    return package_scene__1ray_stack_RayStates(rays, package_scene_wide_Vectors(all, all, all), package_scene__1ray_stack_Media(package_scene_wide_Words(media.x), package_scene_wide_Words(media.y), package_scene_wide_Words(media.z), package_scene_wide_Words(media.w)), package_scene_wide_Words(package_scene__1ray_stack__1KIND_PRIMARY), package_scene_wide_Words(1u));
 }
 
 fn package_scene__1ray_stack__1state_at(states: package_scene__1ray_stack_RayStates, k: u32) -> package_scene__1ray_stack_RayState {
-    let step = package_lib_wide__1word_at(states.step, k);
-    return package_scene__1ray_stack_RayState(package_scene_rays__1ray_at(states.rays, k), package_lib_wide__1vector_at(states.throughput, k), package_scene__1ray_stack__1media_at(states.media, k), step >> 2u, step & 3u, package_lib_wide__1word_at(states.node, k));
+    let step = package_scene_wide__1word_at(states.step, k);
+    return package_scene__1ray_stack_RayState(package_scene_rays__1ray_at(states.rays, k), package_scene_wide__1vector_at(states.throughput, k), package_scene__1ray_stack__1media_at(states.media, k), step >> 2u, step & 3u, package_scene_wide__1word_at(states.node, k));
 }
 
 fn package_scene__1ray_stack__1state_set(states: package_scene__1ray_stack_RayStates, k: u32, state: package_scene__1ray_stack_RayState) -> package_scene__1ray_stack_RayStates {
-    return package_scene__1ray_stack_RayStates(package_scene_rays__1ray_set(states.rays, k, state.ray), package_lib_wide__1vector_set(states.throughput, k, state.throughput), package_scene__1ray_stack__1media_set(states.media, k, state.media), package_lib_wide__1word_set(states.step, k, (state.depth << 2u) | state.kind), package_lib_wide__1word_set(states.node, k, state.node));
+    return package_scene__1ray_stack_RayStates(package_scene_rays__1ray_set(states.rays, k, state.ray), package_scene_wide__1vector_set(states.throughput, k, state.throughput), package_scene__1ray_stack__1media_set(states.media, k, state.media), package_scene_wide__1word_set(states.step, k, (state.depth << 2u) | state.kind), package_scene_wide__1word_set(states.node, k, state.node));
 }
 
 fn package_scene__1ray_stack__1media_at(all: package_scene__1ray_stack_Media, k: u32) -> vec4u {
-    return vec4u(package_lib_wide__1word_at(all.x, k), package_lib_wide__1word_at(all.y, k), package_lib_wide__1word_at(all.z, k), package_lib_wide__1word_at(all.w, k));
+    return vec4u(package_scene_wide__1word_at(all.x, k), package_scene_wide__1word_at(all.y, k), package_scene_wide__1word_at(all.z, k), package_scene_wide__1word_at(all.w, k));
 }
 
 fn package_scene__1ray_stack__1media_set(all: package_scene__1ray_stack_Media, k: u32, media: vec4u) -> package_scene__1ray_stack_Media {
-    return package_scene__1ray_stack_Media(package_lib_wide__1word_set(all.x, k, media.x), package_lib_wide__1word_set(all.y, k, media.y), package_lib_wide__1word_set(all.z, k, media.z), package_lib_wide__1word_set(all.w, k, media.w));
+    return package_scene__1ray_stack_Media(package_scene_wide__1word_set(all.x, k, media.x), package_scene_wide__1word_set(all.y, k, media.y), package_scene_wide__1word_set(all.z, k, media.z), package_scene_wide__1word_set(all.w, k, media.w));
 }
 
 fn package_scene__1ray_stack__1no_ray() -> package_scene__1ray_stack_RayState {
@@ -1565,15 +1568,15 @@ fn package_scene__1ray_stack__1no_ray() -> package_scene__1ray_stack_RayState {
 
 fn package_scene__1ray_stack__1next_ray(reflected: package_scene__1ray_stack_RayState, refracted: package_scene__1ray_stack_RayState) -> package_scene__1ray_stack_RayState {
     let k = package_scene__1ray_stack__1current_tree;
-    let count = package_lib_wide__1word_at(package_scene__1ray_stack__1stack_counts, k);
-    let rays = package_lib_wide__1word_at(package_scene__1ray_stack__1tree_rays, k) + 1u;
-    package_scene__1ray_stack__1tree_rays = package_lib_wide__1word_set(package_scene__1ray_stack__1tree_rays, k, rays);
+    let count = package_scene_wide__1word_at(package_scene__1ray_stack__1stack_counts, k);
+    let rays = package_scene_wide__1word_at(package_scene__1ray_stack__1tree_rays, k) + 1u;
+    package_scene__1ray_stack__1tree_rays = package_scene_wide__1word_set(package_scene__1ray_stack__1tree_rays, k, rays);
     package_scene_record_sender = package_scene_record__1traced_index;
     let sends_both = package_scene__1ray_stack__1is_alive(reflected) && package_scene__1ray_stack__1is_alive(refracted);
     let goes_on = package_scene__1ray_stack__1is_alive(reflected) || package_scene__1ray_stack__1is_alive(refracted) || count > 0u;
     if (goes_on && rays >= package_scene__1ray_stack__2MAX_TREE_RAYS) {
         package_scene__1ray_stack__1cut_tree();
-        package_scene__1ray_stack__1stack_counts = package_lib_wide__1word_set(package_scene__1ray_stack__1stack_counts, k, 0u);
+        package_scene__1ray_stack__1stack_counts = package_scene_wide__1word_set(package_scene__1ray_stack__1stack_counts, k, 0u);
         return package_scene__1ray_stack__1no_ray();
     }
     if (sends_both) {
@@ -1595,8 +1598,8 @@ fn package_scene__1ray_stack__1next_ray(reflected: package_scene__1ray_stack_Ray
 }
 
 fn package_scene__1ray_stack__1cut_tree() {
-    package_scene__1ray_stack__2cut_off_trees += 1u - package_lib_wide__1word_at(package_scene__1ray_stack__2trees_cut_off, package_scene__1ray_stack__1current_tree);
-    package_scene__1ray_stack__2trees_cut_off = package_lib_wide__1word_set(package_scene__1ray_stack__2trees_cut_off, package_scene__1ray_stack__1current_tree, 1u);
+    package_scene__1ray_stack__2cut_off_trees += 1u - package_scene_wide__1word_at(package_scene__1ray_stack__2trees_cut_off, package_scene__1ray_stack__1current_tree);
+    package_scene__1ray_stack__2trees_cut_off = package_scene_wide__1word_set(package_scene__1ray_stack__2trees_cut_off, package_scene__1ray_stack__1current_tree, 1u);
 }
 
 fn package_scene__1ray_stack_choose(reflected: package_scene__1ray_stack_RayState, refracted: package_scene__1ray_stack_RayState, first: bool) -> package_scene__1ray_stack_RayState {
@@ -1611,14 +1614,14 @@ fn package_scene__1ray_stack_strength(state: package_scene__1ray_stack_RayState)
 }
 
 fn package_scene__1ray_stack_push(k: u32, state: package_scene__1ray_stack_RayState) {
-    let count = package_lib_wide__1word_at(package_scene__1ray_stack__1stack_counts, k);
+    let count = package_scene_wide__1word_at(package_scene__1ray_stack__1stack_counts, k);
     let row = 4u * count;
     package_scene__1ray_stack__1ray_stack[row] = vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving);
     package_scene__1ray_stack__1ray_stack[row + 1u] = vec4u(bitcast<vec3u>(state.ray.direction), package_scene__1ray_stack__1place_of(state));
     package_scene__1ray_stack__1ray_stack[row + 2u] = vec4u(bitcast<vec3u>(state.throughput), state.node);
     package_scene__1ray_stack__1ray_stack[row + 3u] = state.media;
     package_scene__1ray_stack__1stack_senders[count] = package_scene_record_sender;
-    package_scene__1ray_stack__1stack_counts = package_lib_wide__1word_set(package_scene__1ray_stack__1stack_counts, k, count + 1u);
+    package_scene__1ray_stack__1stack_counts = package_scene_wide__1word_set(package_scene__1ray_stack__1stack_counts, k, count + 1u);
 }
 
 fn package_scene__1ray_stack_pop(k: u32) -> package_scene__1ray_stack_RayState {
@@ -2545,46 +2548,46 @@ struct package_scene_direct_Receiver {
 }
 
 struct package_scene_direct_Receivers {
-    p: package_lib_wide_Vectors,
-    error: package_lib_wide_Vectors,
-    ng: package_lib_wide_Vectors,
-    n: package_lib_wide_Vectors,
-    v: package_lib_wide_Vectors,
-    diffuse: package_lib_wide_Vectors,
-    specular: package_lib_wide_Vectors,
-    shininess: package_lib_wide_Floats,
-    leaving: package_lib_wide_Words,
-    instance: package_lib_wide_Words,
-    hash: package_lib_wide_Words,
-    weight: package_lib_wide_Floats,
-    is_lit: package_lib_wide_Words
+    p: package_scene_wide_Vectors,
+    error: package_scene_wide_Vectors,
+    ng: package_scene_wide_Vectors,
+    n: package_scene_wide_Vectors,
+    v: package_scene_wide_Vectors,
+    diffuse: package_scene_wide_Vectors,
+    specular: package_scene_wide_Vectors,
+    shininess: package_scene_wide_Floats,
+    leaving: package_scene_wide_Words,
+    instance: package_scene_wide_Words,
+    hash: package_scene_wide_Words,
+    weight: package_scene_wide_Floats,
+    is_lit: package_scene_wide_Words
 }
 
 fn package_scene_direct__1no_receivers() -> package_scene_direct_Receivers {
-    let none = package_lib_wide__1no_vectors();
-    return package_scene_direct_Receivers(none, none, none, none, none, none, none, package_lib_wide_Floats(0.0), package_lib_wide_Words(0u), package_lib_wide_Words(0u), package_lib_wide_Words(0u), package_lib_wide_Floats(0.0), package_lib_wide_Words(0u));
+    let none = package_scene_wide__1no_vectors();
+    return package_scene_direct_Receivers(none, none, none, none, none, none, none, package_scene_wide_Floats(0.0), package_scene_wide_Words(0u), package_scene_wide_Words(0u), package_scene_wide_Words(0u), package_scene_wide_Floats(0.0), package_scene_wide_Words(0u));
 }
 
 fn package_scene_direct__1receiver_set(all: package_scene_direct_Receivers, k: u32, surface: package_types_Surface, v: vec3f, key: package_types_SampleKey) -> package_scene_direct_Receivers {
-    return package_scene_direct_Receivers(package_lib_wide__1vector_set(all.p, k, surface.p), package_lib_wide__1vector_set(all.error, k, surface.error), package_lib_wide__1vector_set(all.ng, k, surface.ng), package_lib_wide__1vector_set(all.n, k, surface.n), package_lib_wide__1vector_set(all.v, k, v), package_lib_wide__1vector_set(all.diffuse, k, surface.phong.diffuse), package_lib_wide__1vector_set(all.specular, k, surface.phong.specular), package_lib_wide__1float_set(all.shininess, k, surface.phong.shininess), package_lib_wide__1word_set(all.leaving, k, surface.leaving), package_lib_wide__1word_set(all.instance, k, surface.instance), package_lib_wide__1word_set(all.hash, k, key.hash), package_lib_wide__1float_set(all.weight, k, key.weight), package_lib_wide__1word_set(all.is_lit, k, 1u));
+    return package_scene_direct_Receivers(package_scene_wide__1vector_set(all.p, k, surface.p), package_scene_wide__1vector_set(all.error, k, surface.error), package_scene_wide__1vector_set(all.ng, k, surface.ng), package_scene_wide__1vector_set(all.n, k, surface.n), package_scene_wide__1vector_set(all.v, k, v), package_scene_wide__1vector_set(all.diffuse, k, surface.phong.diffuse), package_scene_wide__1vector_set(all.specular, k, surface.phong.specular), package_scene_wide__1float_set(all.shininess, k, surface.phong.shininess), package_scene_wide__1word_set(all.leaving, k, surface.leaving), package_scene_wide__1word_set(all.instance, k, surface.instance), package_scene_wide__1word_set(all.hash, k, key.hash), package_scene_wide__1float_set(all.weight, k, key.weight), package_scene_wide__1word_set(all.is_lit, k, 1u));
 }
 
 fn package_scene_direct__1receiver_at(all: package_scene_direct_Receivers, k: u32) -> package_scene_direct_Receiver {
     var surface: package_types_Surface;
-    surface.p = package_lib_wide__1vector_at(all.p, k);
-    surface.error = package_lib_wide__1vector_at(all.error, k);
-    surface.ng = package_lib_wide__1vector_at(all.ng, k);
-    surface.n = package_lib_wide__1vector_at(all.n, k);
-    surface.leaving = package_lib_wide__1word_at(all.leaving, k);
-    surface.instance = package_lib_wide__1word_at(all.instance, k);
-    surface.phong.diffuse = package_lib_wide__1vector_at(all.diffuse, k);
-    surface.phong.specular = package_lib_wide__1vector_at(all.specular, k);
-    surface.phong.shininess = package_lib_wide__1float_at(all.shininess, k);
-    return package_scene_direct_Receiver(surface, package_lib_wide__1vector_at(all.v, k), package_types_SampleKey(package_lib_wide__1word_at(all.hash, k), 0u, package_lib_wide__1float_at(all.weight, k)));
+    surface.p = package_scene_wide__1vector_at(all.p, k);
+    surface.error = package_scene_wide__1vector_at(all.error, k);
+    surface.ng = package_scene_wide__1vector_at(all.ng, k);
+    surface.n = package_scene_wide__1vector_at(all.n, k);
+    surface.leaving = package_scene_wide__1word_at(all.leaving, k);
+    surface.instance = package_scene_wide__1word_at(all.instance, k);
+    surface.phong.diffuse = package_scene_wide__1vector_at(all.diffuse, k);
+    surface.phong.specular = package_scene_wide__1vector_at(all.specular, k);
+    surface.phong.shininess = package_scene_wide__1float_at(all.shininess, k);
+    return package_scene_direct_Receiver(surface, package_scene_wide__1vector_at(all.v, k), package_types_SampleKey(package_scene_wide__1word_at(all.hash, k), 0u, package_scene_wide__1float_at(all.weight, k)));
 }
 
-fn package_scene_direct__1direct_light(batch: package_scene_dispatch_Batch, receivers: package_scene_direct_Receivers, media: package_scene__1ray_stack_Media, sample: u32) -> package_lib_wide_Vectors {
-    var color = package_lib_wide__1no_vectors();
+fn package_scene_direct__1direct_light(batch: package_scene_dispatch_Batch, receivers: package_scene_direct_Receivers, media: package_scene__1ray_stack_Media, sample: u32) -> package_scene_wide_Vectors {
+    var color = package_scene_wide__1no_vectors();
     if (!package_bindings__1HAS_LIGHTS) {
         return color;
     }
@@ -2602,25 +2605,25 @@ fn package_scene_direct__1direct_light(batch: package_scene_dispatch_Batch, rece
     return color;
 }
 
-fn package_scene_direct__1with_light(batch: package_scene_dispatch_Batch, before: package_lib_wide_Vectors, receivers: package_scene_direct_Receivers, media: package_scene__1ray_stack_Media, sample: u32, light: package_types_PackedLight, index: u32) -> package_lib_wide_Vectors {
-    var sum = package_lib_wide__1no_vectors();
-    var counts = package_lib_wide_Floats(1.0);
+fn package_scene_direct__1with_light(batch: package_scene_dispatch_Batch, before: package_scene_wide_Vectors, receivers: package_scene_direct_Receivers, media: package_scene__1ray_stack_Media, sample: u32, light: package_types_PackedLight, index: u32) -> package_scene_wide_Vectors {
+    var sum = package_scene_wide__1no_vectors();
+    var counts = package_scene_wide_Floats(1.0);
     let has_extent = package_bindings__2HAS_AREA_LIGHTS && light.kind >= package_types__1LIGHT_RECTANGLE;
     var drawn = 0u;
     var is_unfinished = false;
     loop {
         var rays = package_scene_rays__1dead_rays();
-        var unshadowed = package_lib_wide__1no_vectors();
+        var unshadowed = package_scene_wide__1no_vectors();
         is_unfinished = false;
         var k = 0u;
         loop {
-            if (package_lib_wide__1word_at(receivers.is_lit, k) != 0u) {
+            if (package_scene_wide__1word_at(receivers.is_lit, k) != 0u) {
                 let receiver = package_scene_direct__1receiver_at(receivers, k);
                 var count = 1u;
                 if (has_extent) {
                     let wanted = max(round(f32(light.sample_count) * batch.light_samples * receiver.key.weight), 1.0);
                     count = u32(wanted);
-                    counts = package_lib_wide__1float_set(counts, k, f32(count));
+                    counts = package_scene_wide__1float_set(counts, k, f32(count));
                     package_scene_record__1open_light(index, 1.0 / f32(count));
                 }
                 if (drawn < count) {
@@ -2632,16 +2635,17 @@ fn package_scene_direct__1with_light(batch: package_scene_dispatch_Batch, before
                     let reflected = arriving.radiance * package_lib_phong_phong(receiver.surface.phong, receiver.surface.n, arriving.direction, receiver.v);
                     if (any(reflected > vec3f(0.0))) {
                         rays = package_scene_rays__1ray_set(rays, k, package_scene_direct__1shadow_ray(receiver.surface, arriving));
-                        unshadowed = package_lib_wide__1vector_set(unshadowed, k, reflected);
+                        unshadowed = package_scene_wide__1vector_set(unshadowed, k, reflected);
                     }
                     is_unfinished |= drawn + 1u < count;
                 }
             }
             continuing {
                 k += 1u;
-                break if k >= package_lib_wide__2RAYS_PER_LANE;
+                break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
             }
         }
+        package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
         let through = package_scene_shadow__1light_through(rays, media);
         package_scene_direct__1record_shadows(rays, unshadowed, through);
         sum.x += through.x * unshadowed.x;
@@ -2654,7 +2658,7 @@ fn package_scene_direct__1with_light(batch: package_scene_dispatch_Batch, before
         }
     }
     package_scene_loops__1cut_off |= is_unfinished;
-    return package_lib_wide_Vectors(before.x + sum.x / counts, before.y + sum.y / counts, before.z + sum.z / counts);
+    return package_scene_wide_Vectors(before.x + sum.x / counts, before.y + sum.y / counts, before.z + sum.z / counts);
 }
 
 fn package_scene_direct__1shadow_ray(surface: package_types_Surface, arriving: package_types_Incident) -> package_types_Ray {
@@ -2663,10 +2667,10 @@ fn package_scene_direct__1shadow_ray(surface: package_types_Surface, arriving: p
     return ray;
 }
 
-fn package_scene_direct__1record_shadows(rays: package_scene_rays_Rays, unshadowed: package_lib_wide_Vectors, through: package_lib_wide_Vectors) {
+fn package_scene_direct__1record_shadows(rays: package_scene_rays_Rays, unshadowed: package_scene_wide_Vectors, through: package_scene_wide_Vectors) {
     let ray = package_scene_rays__1ray_at(rays, 0u);
     if (ray.t_max >= 0.0) {
-        package_scene_record__1record_shadow(ray, package_lib_wide__1vector_at(unshadowed, 0u), package_lib_wide__1vector_at(through, 0u));
+        package_scene_record__1record_shadow(ray, package_scene_wide__1vector_at(unshadowed, 0u), package_scene_wide__1vector_at(through, 0u));
     }
 }
 
@@ -3405,17 +3409,17 @@ fn package_lib_phong_phong(coefficients: package_types_Phong, n: vec3f, l: vec3f
 
 const package_scene_shadow__1MAX_CROSSINGS: u32 = 64u;
 
-fn package_scene_shadow__1light_through(rays: package_scene_rays_Rays, media: package_scene__1ray_stack_Media) -> package_lib_wide_Vectors {
+fn package_scene_shadow__1light_through(rays: package_scene_rays_Rays, media: package_scene__1ray_stack_Media) -> package_scene_wide_Vectors {
     package_scene_record__1open_shadow(package_scene_rays__1ray_at(rays, 0u).t_max);
-    var through: package_lib_wide_Vectors;
+    var through: package_scene_wide_Vectors;
     if (package_bindings__1HAS_REFRACTION && package_bindings__1FILTERED_SHADOWS) {
         through = package_scene_shadow_filtered(rays, media);
     }
     else {
         package_scene_record__1record_met(package_scene_rays__1hit_at(package_scene_rays__1closest_hits(rays), 0u), 0.0);
         let hits = package_scene_rays__1any_hits(rays);
-        let passed = select(package_lib_wide_Floats(0.0), package_lib_wide_Floats(1.0), hits.primitive == package_lib_wide_Words(package_types_NONE));
-        through = package_lib_wide_Vectors(passed, passed, passed);
+        let passed = select(package_scene_wide_Floats(0.0), package_scene_wide_Floats(1.0), hits.primitive == package_scene_wide_Words(package_types_NONE));
+        through = package_scene_wide_Vectors(passed, passed, passed);
     }
     if (package_bindings__1COUNT_RAYS) {
         package_scene_shadow__1count_shadows(rays, through);
@@ -3423,24 +3427,25 @@ fn package_scene_shadow__1light_through(rays: package_scene_rays_Rays, media: pa
     return through;
 }
 
-fn package_scene_shadow__1count_shadows(rays: package_scene_rays_Rays, through: package_lib_wide_Vectors) {
+fn package_scene_shadow__1count_shadows(rays: package_scene_rays_Rays, through: package_scene_wide_Vectors) {
     var k = 0u;
     loop {
-        let is_cast = package_lib_wide__1float_at(rays.t_max, k) >= 0.0;
-        let is_blocked = is_cast & all(package_lib_wide__1vector_at(through, k) == vec3f(0.0));
+        let is_cast = package_scene_wide__1float_at(rays.t_max, k) >= 0.0;
+        let is_blocked = is_cast & all(package_scene_wide__1vector_at(through, k) == vec3f(0.0));
         package_scene_dispatch_counts.shadow += select(0u, 1u, is_cast);
         package_scene_dispatch_counts.shadow_blocked += select(0u, 1u, is_blocked);
         continuing {
             k += 1u;
-            break if k >= package_lib_wide__2RAYS_PER_LANE;
+            break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
         }
     }
+    package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
 }
 
-fn package_scene_shadow_filtered(shadow_rays: package_scene_rays_Rays, start: package_scene__1ray_stack_Media) -> package_lib_wide_Vectors {
+fn package_scene_shadow_filtered(shadow_rays: package_scene_rays_Rays, start: package_scene__1ray_stack_Media) -> package_scene_wide_Vectors {
     var rays = shadow_rays;
     var media = start;
-    var transmitted = package_lib_wide_Vectors(package_lib_wide_Floats(1.0), package_lib_wide_Floats(1.0), package_lib_wide_Floats(1.0));
+    var transmitted = package_scene_wide_Vectors(package_scene_wide_Floats(1.0), package_scene_wide_Floats(1.0), package_scene_wide_Floats(1.0));
     var crossings = 0u;
     var is_unfinished = true;
     loop {
@@ -3451,7 +3456,7 @@ fn package_scene_shadow_filtered(shadow_rays: package_scene_rays_Rays, start: pa
             let ray = package_scene_rays__1ray_at(rays, k);
             if (ray.t_max >= 0.0) {
                 let hit = package_scene_rays__1hit_at(hits, k);
-                var passed = package_lib_wide__1vector_at(transmitted, k);
+                var passed = package_scene_wide__1vector_at(transmitted, k);
                 var next = package_scene_rays_DEAD;
                 if (hit.primitive == package_types_NONE) {
                     passed *= package_scene_medium_transmittance(package_scene_medium__1medium_of(package_scene_medium_dominant(package_scene__1ray_stack__1media_at(media, k))), hit.t);
@@ -3481,14 +3486,15 @@ fn package_scene_shadow_filtered(shadow_rays: package_scene_rays_Rays, start: pa
                         passed = select(passed, vec3f(0.0), crossings + 1u >= package_scene_shadow__1MAX_CROSSINGS);
                     }
                 }
-                transmitted = package_lib_wide__1vector_set(transmitted, k, passed);
+                transmitted = package_scene_wide__1vector_set(transmitted, k, passed);
                 rays = package_scene_rays__1ray_set(rays, k, next);
             }
             continuing {
                 k += 1u;
-                break if k >= package_lib_wide__2RAYS_PER_LANE;
+                break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
             }
         }
+        package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
         crossings += 1u;
         continuing {
         

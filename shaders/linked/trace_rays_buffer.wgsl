@@ -14,18 +14,20 @@ fn answer(group: vec3u, lane: u32) {
         package_scene_shutter__1shutter_time = query.time;
         continuing {
             k += 1u;
-            break if k >= package_lib_wide__2RAYS_PER_LANE;
+            break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
         }
     }
+    package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
     let hits = trace(rays);
     k = 0u;
     loop {
         package_scene_query__1store_hit(first + package_scene_dispatch__1place_of(lane, k), package_scene_rays__1hit_at(hits, k));
         continuing {
             k += 1u;
-            break if k >= package_lib_wide__2RAYS_PER_LANE;
+            break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
         }
     }
+    package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
     if (package_scene_loops__1cut_off) {
         atomicAdd(&package_bindings_dispatch.counters.cut_off_paths, 1u);
     }
@@ -364,35 +366,35 @@ fn package_lib_tile__1permuted_group(index: u32, group_count: u32, stride: u32) 
 }
 
 struct package_scene_rays_Rays {
-    origin: package_lib_wide_Vectors,
-    direction: package_lib_wide_Vectors,
-    t_max: package_lib_wide_Floats,
-    leaving: package_lib_wide_Words,
-    leaving_instance: package_lib_wide_Words
+    origin: package_scene_wide_Vectors,
+    direction: package_scene_wide_Vectors,
+    t_max: package_scene_wide_Floats,
+    leaving: package_scene_wide_Words,
+    leaving_instance: package_scene_wide_Words
 }
 
 struct package_scene_rays_Hits {
-    t: package_lib_wide_Floats,
-    primitive: package_lib_wide_Words,
-    b1: package_lib_wide_Floats,
-    b2: package_lib_wide_Floats,
-    instance: package_lib_wide_Words
+    t: package_scene_wide_Floats,
+    primitive: package_scene_wide_Words,
+    b1: package_scene_wide_Floats,
+    b2: package_scene_wide_Floats,
+    instance: package_scene_wide_Words
 }
 
 fn package_scene_rays__1dead_rays() -> package_scene_rays_Rays {
-    return package_scene_rays_Rays(package_lib_wide_Vectors(package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0)), package_lib_wide_Vectors(package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0), package_lib_wide_Floats(1.0)), package_lib_wide_Floats(-1.0), package_lib_wide_Words(package_types_NONE), package_lib_wide_Words(package_types__1NO_INSTANCE));
+    return package_scene_rays_Rays(package_scene_wide_Vectors(package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0)), package_scene_wide_Vectors(package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0), package_scene_wide_Floats(1.0)), package_scene_wide_Floats(-1.0), package_scene_wide_Words(package_types_NONE), package_scene_wide_Words(package_types__1NO_INSTANCE));
 }
 
 fn package_scene_rays__1ray_at(rays: package_scene_rays_Rays, k: u32) -> package_types_Ray {
-    return package_types_Ray(package_lib_wide__1vector_at(rays.origin, k), package_lib_wide__1float_at(rays.t_max, k), package_lib_wide__1vector_at(rays.direction, k), package_lib_wide__1word_at(rays.leaving, k), package_lib_wide__1word_at(rays.leaving_instance, k));
+    return package_types_Ray(package_scene_wide__1vector_at(rays.origin, k), package_scene_wide__1float_at(rays.t_max, k), package_scene_wide__1vector_at(rays.direction, k), package_scene_wide__1word_at(rays.leaving, k), package_scene_wide__1word_at(rays.leaving_instance, k));
 }
 
 fn package_scene_rays__1ray_set(rays: package_scene_rays_Rays, k: u32, ray: package_types_Ray) -> package_scene_rays_Rays {
-    return package_scene_rays_Rays(package_lib_wide__1vector_set(rays.origin, k, ray.origin), package_lib_wide__1vector_set(rays.direction, k, ray.direction), package_lib_wide__1float_set(rays.t_max, k, ray.t_max), package_lib_wide__1word_set(rays.leaving, k, ray.leaving), package_lib_wide__1word_set(rays.leaving_instance, k, ray.leaving_instance));
+    return package_scene_rays_Rays(package_scene_wide__1vector_set(rays.origin, k, ray.origin), package_scene_wide__1vector_set(rays.direction, k, ray.direction), package_scene_wide__1float_set(rays.t_max, k, ray.t_max), package_scene_wide__1word_set(rays.leaving, k, ray.leaving), package_scene_wide__1word_set(rays.leaving_instance, k, ray.leaving_instance));
 }
 
 fn package_scene_rays__1hit_at(hits: package_scene_rays_Hits, k: u32) -> package_types_Hit {
-    return package_types_Hit(package_lib_wide__1float_at(hits.t, k), package_lib_wide__1word_at(hits.primitive, k), package_lib_wide__1float_at(hits.b1, k), package_lib_wide__1float_at(hits.b2, k), package_lib_wide__1word_at(hits.instance, k));
+    return package_types_Hit(package_scene_wide__1float_at(hits.t, k), package_scene_wide__1word_at(hits.primitive, k), package_scene_wide__1float_at(hits.b1, k), package_scene_wide__1float_at(hits.b2, k), package_scene_wide__1word_at(hits.instance, k));
 }
 
 fn package_scene_rays__1hits_of(hit: package_types_Hit) -> package_scene_rays_Hits {
@@ -411,44 +413,46 @@ fn package_scene_rays__1any_hits(rays: package_scene_rays_Rays) -> package_scene
     }
 }
 
-const package_lib_wide__2RAYS_PER_LANE: u32 = 1u;
+const package_scene_wide__2RAYS_PER_LANE: u32 = 1u;
 
-alias package_lib_wide_Floats = f32;
+const package_scene_wide__1ONE_RAY: bool = package_scene_wide__2RAYS_PER_LANE == 1u;
 
-alias package_lib_wide_Words = u32;
+alias package_scene_wide_Floats = f32;
 
-struct package_lib_wide_Vectors {
-    x: package_lib_wide_Floats,
-    y: package_lib_wide_Floats,
-    z: package_lib_wide_Floats
+alias package_scene_wide_Words = u32;
+
+struct package_scene_wide_Vectors {
+    x: package_scene_wide_Floats,
+    y: package_scene_wide_Floats,
+    z: package_scene_wide_Floats
 }
 
-fn package_lib_wide__1float_at(all: package_lib_wide_Floats, k: u32) -> f32 {
+fn package_scene_wide__1float_at(all: package_scene_wide_Floats, k: u32) -> f32 {
     return all;
 }
 
-fn package_lib_wide__1word_at(all: package_lib_wide_Words, k: u32) -> u32 {
+fn package_scene_wide__1word_at(all: package_scene_wide_Words, k: u32) -> u32 {
     return all;
 }
 
-fn package_lib_wide__1vector_at(all: package_lib_wide_Vectors, k: u32) -> vec3f {
-    return vec3f(package_lib_wide__1float_at(all.x, k), package_lib_wide__1float_at(all.y, k), package_lib_wide__1float_at(all.z, k));
+fn package_scene_wide__1vector_at(all: package_scene_wide_Vectors, k: u32) -> vec3f {
+    return vec3f(package_scene_wide__1float_at(all.x, k), package_scene_wide__1float_at(all.y, k), package_scene_wide__1float_at(all.z, k));
 }
 
-fn package_lib_wide__1float_set(all: package_lib_wide_Floats, k: u32, value: f32) -> package_lib_wide_Floats {
+fn package_scene_wide__1float_set(all: package_scene_wide_Floats, k: u32, value: f32) -> package_scene_wide_Floats {
     {
         return value;
     }
 }
 
-fn package_lib_wide__1word_set(all: package_lib_wide_Words, k: u32, value: u32) -> package_lib_wide_Words {
+fn package_scene_wide__1word_set(all: package_scene_wide_Words, k: u32, value: u32) -> package_scene_wide_Words {
     {
         return value;
     }
 }
 
-fn package_lib_wide__1vector_set(all: package_lib_wide_Vectors, k: u32, value: vec3f) -> package_lib_wide_Vectors {
-    return package_lib_wide_Vectors(package_lib_wide__1float_set(all.x, k, value.x), package_lib_wide__1float_set(all.y, k, value.y), package_lib_wide__1float_set(all.z, k, value.z));
+fn package_scene_wide__1vector_set(all: package_scene_wide_Vectors, k: u32, value: vec3f) -> package_scene_wide_Vectors {
+    return package_scene_wide_Vectors(package_scene_wide__1float_set(all.x, k, value.x), package_scene_wide__1float_set(all.y, k, value.y), package_scene_wide__1float_set(all.z, k, value.z));
 }
 
 struct package_scene_query_QueryRay {
@@ -482,6 +486,12 @@ fn package_scene_dispatch__1place_of(lane: u32, k: u32) -> u32 {
 }
 
 var<private> package_scene_shutter__1shutter_time: f32 = 0.0;
+
+var<private> package_scene_loops__1nodes_visited: u32 = 0u;
+
+var<private> package_scene_loops__1primitives_tested: u32 = 0u;
+
+var<private> package_scene_loops__1cut_off: bool = false;
 
 const package_scene_traverse_EMPTY: u32 = 4294967295u;
 
@@ -779,12 +789,6 @@ fn package_scene_primitive__1test_triangle(ray: package_types_Ray, corners: pack
     }
     return package_lib_intersect__1triangle_watertight__2intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
 }
-
-var<private> package_scene_loops__1nodes_visited: u32 = 0u;
-
-var<private> package_scene_loops__1primitives_tested: u32 = 0u;
-
-var<private> package_scene_loops__1cut_off: bool = false;
 
 const package_lib_numeric_ROUNDING: f32 = 5.9604645e-8;
 

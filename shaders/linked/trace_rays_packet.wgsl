@@ -1,6 +1,6 @@
 @compute @workgroup_size(16, 1, 1)
 fn trace_rays(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32, @builtin(subgroup_invocation_id) packet_lane: u32) {
-    package_scene_packet__1start_packets(packet_lane);
+    package_scene_packet_lanes__1start_packets(packet_lane);
     answer(group, lane);
 }
 
@@ -15,18 +15,20 @@ fn answer(group: vec3u, lane: u32) {
         package_scene_shutter__1shutter_time = query.time;
         continuing {
             k += 1u;
-            break if k >= package_lib_wide__2RAYS_PER_LANE;
+            break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
         }
     }
+    package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
     let hits = trace(rays);
     k = 0u;
     loop {
         package_scene_query__1store_hit(first + package_scene_dispatch__1place_of(lane, k), package_scene_rays__1hit_at(hits, k));
         continuing {
             k += 1u;
-            break if k >= package_lib_wide__2RAYS_PER_LANE;
+            break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
         }
     }
+    package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
     if (package_scene_loops__1cut_off) {
         atomicAdd(&package_bindings_dispatch.counters.cut_off_paths, 1u);
     }
@@ -42,379 +44,43 @@ fn trace(rays: package_scene_rays_Rays) -> package_scene_rays_Hits {
     return package_scene_rays__1closest_hits(rays);
 }
 
-const package_scene_packet_MISS: u32 = 2147483644u;
+var<private> package_scene_packet_lanes__1packet_lane: u32;
 
-const package_scene_packet_POP: u32 = 4294967295u;
-
-var<private> package_scene_packet__1packet_lane: u32;
-
-var<private> package_scene_packet__1is_full: bool = false;
-
-var<private> package_scene_packet_seconds: package_scene_packet_FourHits;
-
-struct package_scene_packet_FourHits {
-    h0: package_types_Hit,
-    h1: package_types_Hit,
-    h2: package_types_Hit,
-    h3: package_types_Hit
-}
-
-struct package_scene_packet_FourRays {
+struct package_scene_packet_lanes_FourRays {
     r0: package_scene_primitive_TraversalRay,
     r1: package_scene_primitive_TraversalRay,
     r2: package_scene_primitive_TraversalRay,
     r3: package_scene_primitive_TraversalRay
 }
 
-struct package_scene_packet_Stack {
-    s0: u32,
-    s1: u32,
-    s2: u32,
-    s3: u32
+struct package_scene_packet_lanes_TwoHits {
+    hit: package_types_Hit,
+    second: package_types_Hit
 }
 
-fn package_scene_packet__1start_packets(lane: u32) {
-    package_scene_packet__1packet_lane = lane;
+struct package_scene_packet_lanes_FourHits {
+    h0: package_scene_packet_lanes_TwoHits,
+    h1: package_scene_packet_lanes_TwoHits,
+    h2: package_scene_packet_lanes_TwoHits,
+    h3: package_scene_packet_lanes_TwoHits
 }
 
-fn package_scene_packet__3any_lane_of_packet(condition: bool) -> bool {
+fn package_scene_packet_lanes__1start_packets(lane: u32) {
+    package_scene_packet_lanes__1packet_lane = lane;
+}
+
+fn package_scene_packet_lanes__3any_lane_of_packet(condition: bool) -> bool {
     var found = select(0u, 1u, condition);
-    found |= subgroupShuffle(found, package_scene_packet__1packet_lane ^ 1u);
-    found |= subgroupShuffle(found, package_scene_packet__1packet_lane ^ 2u);
-    found |= subgroupShuffle(found, package_scene_packet__1packet_lane ^ 4u);
+    found |= subgroupShuffle(found, package_scene_packet_lanes__1packet_lane ^ 1u);
+    found |= subgroupShuffle(found, package_scene_packet_lanes__1packet_lane ^ 2u);
+    found |= subgroupShuffle(found, package_scene_packet_lanes__1packet_lane ^ 4u);
     return found != 0u;
 }
 
-fn package_scene_packet__1packet_hits(rays: package_scene_rays_Rays, any: bool) -> package_scene_rays_Hits {
-    let found = package_scene_packet_walk(package_scene_rays__1ray_at(rays, 0u), package_scene_rays__1ray_at(rays, 1u), package_scene_rays__1ray_at(rays, 2u), package_scene_rays__1ray_at(rays, 3u), any);
-    return package_scene_rays_Hits(package_lib_wide_Floats(found.h0.t, found.h1.t, found.h2.t, found.h3.t), package_lib_wide_Words(found.h0.primitive, found.h1.primitive, found.h2.primitive, found.h3.primitive), package_lib_wide_Floats(found.h0.b1, found.h1.b1, found.h2.b1, found.h3.b1), package_lib_wide_Floats(found.h0.b2, found.h1.b2, found.h2.b2, found.h3.b2), package_lib_wide_Words(found.h0.instance, found.h1.instance, found.h2.instance, found.h3.instance));
-}
-
-fn package_scene_packet__1first_hit(ray: package_types_Ray) -> package_types_Hit {
-    let hit = package_types_Hit(ray.t_max, package_types_NONE, 0.0, 0.0, package_types__1NO_INSTANCE);
-    if (package_bindings__1HAS_PLANES) {
-        return package_scene_exhaustive__1hit_planes(ray, hit);
-    }
-    return hit;
-}
-
-fn package_scene_packet__1world_ray(ray: package_types_Ray) -> package_scene_primitive_TraversalRay {
-    return package_scene_primitive__1traversal_ray(ray, package_lib_intersect__1triangle_watertight__1shear_of(ray.direction), package_types__1NO_INSTANCE);
-}
-
-fn package_scene_packet_walk(ray0: package_types_Ray, ray1: package_types_Ray, ray2: package_types_Ray, ray3: package_types_Ray, any: bool) -> package_scene_packet_FourHits {
-    if (package_bindings__1HAS_CONTACT) {
-        let none = package_types_Hit(package_lib_camera__1T_FAR, package_types_NONE, 0.0, 0.0, package_types__1NO_INSTANCE);
-        package_scene_packet_seconds = package_scene_packet_FourHits(none, none, none, none);
-    }
-    package_scene_primitive__1runner_up = package_scene_packet_seconds.h0;
-    var hits: package_scene_packet_FourHits;
-    hits.h0 = package_scene_packet__1first_hit(ray0);
-    package_scene_packet_seconds.h0 = package_scene_primitive__1runner_up;
-    package_scene_primitive__1runner_up = package_scene_packet_seconds.h1;
-    hits.h1 = package_scene_packet__1first_hit(ray1);
-    package_scene_packet_seconds.h1 = package_scene_primitive__1runner_up;
-    package_scene_primitive__1runner_up = package_scene_packet_seconds.h2;
-    hits.h2 = package_scene_packet__1first_hit(ray2);
-    package_scene_packet_seconds.h2 = package_scene_primitive__1runner_up;
-    package_scene_primitive__1runner_up = package_scene_packet_seconds.h3;
-    hits.h3 = package_scene_packet__1first_hit(ray3);
-    package_scene_packet_seconds.h3 = package_scene_primitive__1runner_up;
-    if (!(package_bindings__1HAS_TRIANGLES || package_bindings__1HAS_SHAPES)) {
-        return hits;
-    }
-    var rays = package_scene_packet_FourRays(package_scene_packet__1world_ray(ray0), package_scene_packet__1world_ray(ray1), package_scene_packet__1world_ray(ray2), package_scene_packet__1world_ray(ray3));
-    var stack = package_scene_packet_Stack(package_scene_traverse_EMPTY, package_scene_traverse_EMPTY, package_scene_traverse_EMPTY, package_scene_traverse_EMPTY);
-    var current = 0u;
-    if (package_bindings__1HAS_INSTANCES) {
-        current = package_bindings_frame.root;
-    }
-    loop {
-        loop {
-            if (package_bindings__1HAS_INSTANCES) {
-                if (current == package_scene_traverse_RETURN) {
-                    rays = package_scene_packet_FourRays(package_scene_packet__1world_ray(ray0), package_scene_packet__1world_ray(ray1), package_scene_packet__1world_ray(ray2), package_scene_packet__1world_ray(ray3));
-                    current = package_scene_packet__1top_of(stack);
-                    stack = package_scene_packet_popped(stack);
-                }
-                if ((current >= package_types_INSTANCE) & (current != package_scene_traverse_EMPTY)) {
-                    let index = current & package_types__2LEAF_FIRST_MASK;
-                    let instance = package_scene_fetch__1load_instance(index);
-                    let space = package_scene_instance__1space_of(instance);
-                    let o0 = package_scene_instance__1object_ray(ray0, space);
-                    let o1 = package_scene_instance__1object_ray(ray1, space);
-                    let o2 = package_scene_instance__1object_ray(ray2, space);
-                    let o3 = package_scene_instance__1object_ray(ray3, space);
-                    rays = package_scene_packet_FourRays(package_scene_primitive__1traversal_ray(o0, package_lib_intersect__1triangle_watertight__1shear_of(o0.direction), index), package_scene_primitive__1traversal_ray(o1, package_lib_intersect__1triangle_watertight__1shear_of(o1.direction), index), package_scene_primitive__1traversal_ray(o2, package_lib_intersect__1triangle_watertight__1shear_of(o2.direction), index), package_scene_primitive__1traversal_ray(o3, package_lib_intersect__1triangle_watertight__1shear_of(o3.direction), index));
-                    stack = package_scene_packet_pushed(stack, package_scene_traverse_RETURN, 1u);
-                    current = instance.root;
-                }
-            }
-            if ((current & package_types_LEAF) == 0u) {
-                let limits = vec4i(package_scene_packet__1limit_of(ray0, hits.h0, any), package_scene_packet__1limit_of(ray1, hits.h1, any), package_scene_packet__1limit_of(ray2, hits.h2, any), package_scene_packet__1limit_of(ray3, hits.h3, any));
-                loop {
-                    let node = package_scene_packet__2load_shared_node(current);
-                    let children = package_scene_packet__1order_children(node, rays, limits);
-                    current = select(package_scene_packet__1top_of(stack), subgroupShuffle(children.reference, 0u), children.count > 0u);
-                    stack = package_scene_packet_pushed(stack, subgroupShuffle(children.reference, (package_scene_packet__1packet_lane + 1u) & 3u), children.count - 1u);
-                    if (package_bindings__1COUNT_STEPS) {
-                        package_scene_loops__1nodes_visited += 1u;
-                    }
-                    continuing {
-                    
-                        break if (current & package_types_LEAF) != 0u;
-                    }
-                }
-            }
-            loop {
-                let is_here = package_scene_packet__1is_common(current);
-                let next = package_scene_packet_after(current, package_scene_packet__1top_of(stack));
-                if (is_here) {
-                    hits = package_scene_packet__1meet_common(rays, hits, current);
-                    stack = package_scene_packet_pushed(stack, package_scene_traverse_EMPTY, select(0u, package_scene_packet_POP, next.is_last));
-                    current = next.reference;
-                    if (any) {
-                        current = select(package_scene_traverse_EMPTY, current, package_scene_packet__1is_open(hits, ray0, ray1, ray2, ray3));
-                    }
-                }
-                continuing {
-                
-                    break if !package_scene_packet__1is_common(current);
-                }
-            }
-            continuing {
-            
-                break if (current == package_scene_traverse_EMPTY) | package_scene_packet__1is_rare(current);
-            }
-        }
-        if (package_bindings__1HAS_SHAPES && package_bindings__1HAS_TRIANGLES) {
-            let next = package_scene_packet_after(current, package_scene_packet__1top_of(stack));
-            if (package_scene_packet__1is_rare(current)) {
-                hits = package_scene_packet__1meet_rare(rays, hits, current);
-                stack = package_scene_packet_pushed(stack, package_scene_traverse_EMPTY, select(0u, package_scene_packet_POP, next.is_last));
-                current = next.reference;
-                if (any) {
-                    current = select(package_scene_traverse_EMPTY, current, package_scene_packet__1is_open(hits, ray0, ray1, ray2, ray3));
-                }
-            }
-        }
-        continuing {
-        
-            break if current == package_scene_traverse_EMPTY;
-        }
-    }
-    package_scene_loops__1cut_off |= package_scene_packet__1is_full | (current != package_scene_traverse_EMPTY);
-    return hits;
-}
-
-fn package_scene_packet__1is_unoccluded(ray: package_types_Ray, hit: package_types_Hit) -> bool {
-    return (hit.primitive == package_types_NONE) & (ray.t_max >= 0.0);
-}
-
-fn package_scene_packet__1is_open(hits: package_scene_packet_FourHits, ray0: package_types_Ray, ray1: package_types_Ray, ray2: package_types_Ray, ray3: package_types_Ray) -> bool {
-    return package_scene_packet__3any_lane_of_packet(package_scene_packet__1is_unoccluded(ray0, hits.h0) | package_scene_packet__1is_unoccluded(ray1, hits.h1) | package_scene_packet__1is_unoccluded(ray2, hits.h2) | package_scene_packet__1is_unoccluded(ray3, hits.h3));
-}
-
-fn package_scene_packet__1is_common(reference: u32) -> bool {
-    return (reference & package_types_LEAF) != 0u && reference < package_types_INSTANCE && package_scene_packet__1has_shapes(reference) == package_bindings__1MOSTLY_SHAPES;
-}
-
-fn package_scene_packet__1is_rare(reference: u32) -> bool {
-    return (reference & package_types_LEAF) != 0u && reference < package_types_INSTANCE && package_scene_packet__1has_shapes(reference) != package_bindings__1MOSTLY_SHAPES;
-}
-
-fn package_scene_packet__1has_shapes(reference: u32) -> bool {
-    return (reference & package_types_SHAPE) != 0u;
-}
-
-struct package_scene_packet_Next {
-    reference: u32,
-    is_last: bool
-}
-
-fn package_scene_packet_after(reference: u32, top: u32) -> package_scene_packet_Next {
-    let left = (reference & package_types__2LEAF_COUNT_MASK) / package_types__2LEAF_COUNT_ONE;
-    let tested = select(package_scene_packet__1tested_triangles(reference), 1u, package_scene_packet__1has_shapes(reference));
-    let is_last = left < tested;
-    return package_scene_packet_Next(select(reference - tested * (package_types__2LEAF_COUNT_ONE - 1u), top, is_last), is_last);
-}
-
-fn package_scene_packet__1tested_triangles(reference: u32) -> u32 {
-    return min((reference & package_types__2LEAF_COUNT_MASK) / package_types__2LEAF_COUNT_ONE + 1u, 2u);
-}
-
-fn package_scene_packet__1meet_common(rays: package_scene_packet_FourRays, hits: package_scene_packet_FourHits, reference: u32) -> package_scene_packet_FourHits {
-    if (package_bindings__1MOSTLY_SHAPES) {
-        return package_scene_packet__1meet_shape(rays, hits, reference);
-    }
-    return package_scene_packet__1meet_triangles(rays, hits, reference);
-}
-
-fn package_scene_packet__1meet_rare(rays: package_scene_packet_FourRays, hits: package_scene_packet_FourHits, reference: u32) -> package_scene_packet_FourHits {
-    if (package_bindings__1MOSTLY_SHAPES) {
-        return package_scene_packet__1meet_triangles(rays, hits, reference);
-    }
-    return package_scene_packet__1meet_shape(rays, hits, reference);
-}
-
-fn package_scene_packet__1top_of(stack: package_scene_packet_Stack) -> u32 {
-    return subgroupShuffle(stack.s0, 0u);
-}
-
-fn package_scene_packet__1limit_of(ray: package_types_Ray, hit: package_types_Hit, any: bool) -> i32 {
-    let limit = bitcast<i32>(package_scene_traverse__1search_limit(ray, hit)) + package_lib_intersect_node_WIDENING;
-    return select(limit, -1, any & (hit.primitive != package_types_NONE));
-}
-
-struct package_scene_packet_SharedNode {
-    lo: vec3f,
-    scale: vec3f,
-    plane: vec3f,
-    reference: u32
-}
-
-fn package_scene_packet__2load_shared_node(index: u32) -> package_scene_packet_SharedNode {
-    let child = package_scene_packet__1packet_lane & 3u;
-    let is_max = package_scene_packet__1packet_lane >= 4u;
-    let row = package_scene_fetch__1node_row(4u * index + child);
-    let words = vec3u(select(subgroupShuffle(row.z, 1u), subgroupShuffle(row.w, 1u), is_max), select(subgroupShuffle(row.x, 2u), subgroupShuffle(row.y, 2u), is_max), select(subgroupShuffle(row.z, 2u), subgroupShuffle(row.w, 2u), is_max));
-    let is_even = (child & 1u) == 0u;
-    let c01 = select(subgroupShuffle(row.y, 3u), subgroupShuffle(row.x, 3u), is_even);
-    let c23 = select(subgroupShuffle(row.w, 3u), subgroupShuffle(row.z, 3u), is_even);
-    return package_scene_packet_SharedNode(bitcast<vec3f>(vec3u(subgroupShuffle(row.x, 0u), subgroupShuffle(row.y, 0u), subgroupShuffle(row.z, 0u))), bitcast<vec3f>(vec3u(subgroupShuffle(row.w, 0u), subgroupShuffle(row.x, 1u), subgroupShuffle(row.y, 1u))), vec3f((words >> vec3u(8u * child)) & vec3u(255u)), select(c23, c01, child < 2u));
-}
-
-struct package_scene_packet_Children {
-    reference: u32,
-    count: u32
-}
-
-fn package_scene_packet__1order_children(node: package_scene_packet_SharedNode, rays: package_scene_packet_FourRays, limits: vec4i) -> package_scene_packet_Children {
-    let lane = package_scene_packet__1packet_lane;
-    let is_even = (lane & 1u) == 0u;
-    let is_low = (lane & 2u) == 0u;
-    let v0 = package_scene_packet__1closest_entry(node, rays, limits, 0u);
-    let v1 = package_scene_packet__1closest_entry(node, rays, limits, 1u);
-    let v2 = package_scene_packet__1closest_entry(node, rays, limits, 2u);
-    let v3 = package_scene_packet__1closest_entry(node, rays, limits, 3u);
-    let a = min(select(v1, v0, is_even), subgroupShuffle(select(v0, v1, is_even), lane ^ 1u));
-    let b = min(select(v3, v2, is_even), subgroupShuffle(select(v2, v3, is_even), lane ^ 1u));
-    let c = min(select(b, a, is_low), subgroupShuffle(select(a, b, is_low), lane ^ 2u));
-    let closest = min(c, subgroupShuffle(c, lane ^ 4u));
-    var key = (select(closest, package_scene_packet_MISS, node.reference == 0u) & 4294967292u) | (lane & 3u);
-    var other = subgroupShuffle(key, lane ^ 1u);
-    key = select(max(key, other), min(key, other), is_even == is_low);
-    other = subgroupShuffle(key, lane ^ 2u);
-    key = select(max(key, other), min(key, other), is_low);
-    other = subgroupShuffle(key, lane ^ 1u);
-    key = select(max(key, other), min(key, other), is_even);
-    var count = select(0u, 1u, key < package_scene_packet_MISS);
-    count += subgroupShuffle(count, lane ^ 1u);
-    count += subgroupShuffle(count, lane ^ 2u);
-    return package_scene_packet_Children(subgroupShuffle(node.reference, key & 3u), count);
-}
-
-fn package_scene_packet__1closest_entry(node: package_scene_packet_SharedNode, rays: package_scene_packet_FourRays, limits: vec4i, child: u32) -> u32 {
-    let low = vec3f(subgroupShuffle(node.plane.x, child), subgroupShuffle(node.plane.y, child), subgroupShuffle(node.plane.z, child));
-    let high = vec3f(subgroupShuffle(node.plane.x, child + 4u), subgroupShuffle(node.plane.y, child + 4u), subgroupShuffle(node.plane.z, child + 4u));
-    return min(min(package_scene_packet_entry(node, low, high, rays.r0, limits.x), package_scene_packet_entry(node, low, high, rays.r1, limits.y)), min(package_scene_packet_entry(node, low, high, rays.r2, limits.z), package_scene_packet_entry(node, low, high, rays.r3, limits.w)));
-}
-
-fn package_scene_packet_entry(node: package_scene_packet_SharedNode, low: vec3f, high: vec3f, at: package_scene_primitive_TraversalRay, limit: i32) -> u32 {
-    let base = (node.lo - at.ray.origin) * at.inv;
-    let step = node.scale * at.inv;
-    let t0 = bitcast<vec3i>(low * step + base);
-    let t1 = bitcast<vec3i>(high * step + base);
-    let first = min(t0, t1);
-    let last = max(t0, t1);
-    let near = max(max(first.x, first.y), max(first.z, 0));
-    let far = min(min(last.x, last.y), last.z);
-    return select(package_scene_packet_MISS, bitcast<u32>(near), near <= min(far + package_lib_intersect_node_WIDENING, limit));
-}
-
-fn package_scene_packet_pushed(stack: package_scene_packet_Stack, reference: u32, count: u32) -> package_scene_packet_Stack {
-    let source = (package_scene_packet__1packet_lane - count) & 7u;
-    let is_pop = count == package_scene_packet_POP;
-    let is_new = !is_pop & (package_scene_packet__1packet_lane < count);
-    let is_last = is_pop & (package_scene_packet__1packet_lane == 7u);
-    package_scene_packet__1is_full |= !is_pop & (package_scene_packet__1packet_lane + count >= 8u) & (stack.s3 != package_scene_traverse_EMPTY);
-    let m0 = subgroupShuffle(stack.s0, source);
-    let m1 = subgroupShuffle(stack.s1, source);
-    let m2 = subgroupShuffle(stack.s2, source);
-    let m3 = subgroupShuffle(stack.s3, source);
-    return package_scene_packet_Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), package_scene_traverse_EMPTY, is_last));
-}
-
-fn package_scene_packet_popped(stack: package_scene_packet_Stack) -> package_scene_packet_Stack {
-    return package_scene_packet_pushed(stack, package_scene_traverse_EMPTY, package_scene_packet_POP);
-}
-
-fn package_scene_packet__1meet_triangles(rays: package_scene_packet_FourRays, before: package_scene_packet_FourHits, reference: u32) -> package_scene_packet_FourHits {
-    let count = package_scene_packet__1tested_triangles(reference);
-    let first = select(reference & package_types__2LEAF_FIRST_MASK, 0u, package_scene_packet__1has_shapes(reference));
-    let row = package_scene_fetch__1triangle_row(3u * first + package_scene_packet__1packet_lane);
-    if (package_bindings__1COUNT_STEPS) {
-        package_scene_loops__1primitives_tested += count;
-    }
-    let hits = package_scene_packet__1meet_triangle(rays, before, package_scene_packet__1triangle_of(row, 0u), first, true);
-    return package_scene_packet__1meet_triangle(rays, hits, package_scene_packet__1triangle_of(row, 3u), first + 1u, count > 1u);
-}
-
-fn package_scene_packet__1triangle_of(row: vec4u, lane: u32) -> package_types_PackedTriangle {
-    return package_types_PackedTriangle(package_scene_packet__1corner_of(row, lane), 0u, package_scene_packet__1corner_of(row, lane + 1u), 0u, package_scene_packet__1corner_of(row, lane + 2u), 0u);
-}
-
-fn package_scene_packet__1row_of(row: vec4u, lane: u32) -> vec4u {
-    return vec4u(subgroupShuffle(row.x, lane), subgroupShuffle(row.y, lane), subgroupShuffle(row.z, lane), subgroupShuffle(row.w, lane));
-}
-
-fn package_scene_packet__1corner_of(row: vec4u, lane: u32) -> vec3f {
-    return bitcast<vec3f>(vec3u(subgroupShuffle(row.x, lane), subgroupShuffle(row.y, lane), subgroupShuffle(row.z, lane)));
-}
-
-fn package_scene_packet__1meet_triangle(rays: package_scene_packet_FourRays, before: package_scene_packet_FourHits, triangle: package_types_PackedTriangle, primitive: u32, is_there: bool) -> package_scene_packet_FourHits {
-    var hits = before;
-    package_scene_primitive__1runner_up = package_scene_packet_seconds.h0;
-    hits.h0 = package_scene_primitive__1closer_of(rays.r0, hits.h0, package_scene_packet_masked(package_scene_primitive__1test_triangle(rays.r0.ray, triangle, rays.r0.shear), is_there), primitive);
-    package_scene_packet_seconds.h0 = package_scene_primitive__1runner_up;
-    package_scene_primitive__1runner_up = package_scene_packet_seconds.h1;
-    hits.h1 = package_scene_primitive__1closer_of(rays.r1, hits.h1, package_scene_packet_masked(package_scene_primitive__1test_triangle(rays.r1.ray, triangle, rays.r1.shear), is_there), primitive);
-    package_scene_packet_seconds.h1 = package_scene_primitive__1runner_up;
-    package_scene_primitive__1runner_up = package_scene_packet_seconds.h2;
-    hits.h2 = package_scene_primitive__1closer_of(rays.r2, hits.h2, package_scene_packet_masked(package_scene_primitive__1test_triangle(rays.r2.ray, triangle, rays.r2.shear), is_there), primitive);
-    package_scene_packet_seconds.h2 = package_scene_primitive__1runner_up;
-    package_scene_primitive__1runner_up = package_scene_packet_seconds.h3;
-    hits.h3 = package_scene_primitive__1closer_of(rays.r3, hits.h3, package_scene_packet_masked(package_scene_primitive__1test_triangle(rays.r3.ray, triangle, rays.r3.shear), is_there), primitive);
-    package_scene_packet_seconds.h3 = package_scene_primitive__1runner_up;
-    return hits;
-}
-
-fn package_scene_packet_masked(candidate: package_types_Candidate, is_there: bool) -> package_types_Candidate {
-    return package_types_Candidate(candidate.hit & is_there, candidate.t, candidate.b1, candidate.b2);
-}
-
-fn package_scene_packet__1meet_shape(rays: package_scene_packet_FourRays, before: package_scene_packet_FourHits, reference: u32) -> package_scene_packet_FourHits {
-    let index = select(0u, reference & package_types__2LEAF_FIRST_MASK, package_scene_packet__1has_shapes(reference));
-    let primitive = package_types_SHAPE | index;
-    let row = package_scene_fetch__1triangle_row(package_scene_fetch__1shape_row + package_types__1SHAPE_ROWS * index + package_scene_packet__1packet_lane);
-    if (package_bindings__1COUNT_STEPS) {
-        package_scene_loops__1primitives_tested += 1u;
-    }
-    let shape = package_scene_fetch__1shape_of(package_scene_packet__1row_of(row, 0u), package_scene_packet__1row_of(row, 1u), package_scene_packet__1row_of(row, 2u), package_scene_packet__1row_of(row, 3u), package_scene_packet__1row_of(row, 4u));
-    var hits = before;
-    package_scene_primitive__1runner_up = package_scene_packet_seconds.h0;
-    hits.h0 = package_scene_primitive__1closer_of(rays.r0, hits.h0, package_scene_shape__1test_shape(rays.r0.ray, shape), primitive);
-    package_scene_packet_seconds.h0 = package_scene_primitive__1runner_up;
-    package_scene_primitive__1runner_up = package_scene_packet_seconds.h1;
-    hits.h1 = package_scene_primitive__1closer_of(rays.r1, hits.h1, package_scene_shape__1test_shape(rays.r1.ray, shape), primitive);
-    package_scene_packet_seconds.h1 = package_scene_primitive__1runner_up;
-    package_scene_primitive__1runner_up = package_scene_packet_seconds.h2;
-    hits.h2 = package_scene_primitive__1closer_of(rays.r2, hits.h2, package_scene_shape__1test_shape(rays.r2.ray, shape), primitive);
-    package_scene_packet_seconds.h2 = package_scene_primitive__1runner_up;
-    package_scene_primitive__1runner_up = package_scene_packet_seconds.h3;
-    hits.h3 = package_scene_primitive__1closer_of(rays.r3, hits.h3, package_scene_shape__1test_shape(rays.r3.ray, shape), primitive);
-    package_scene_packet_seconds.h3 = package_scene_primitive__1runner_up;
-    return hits;
+fn package_scene_packet_lanes__1closer_two(at: package_scene_primitive_TraversalRay, before: package_scene_packet_lanes_TwoHits, candidate: package_types_Candidate, primitive: u32) -> package_scene_packet_lanes_TwoHits {
+    package_scene_primitive__1runner_up = before.second;
+    let hit = package_scene_primitive__1closer_of(at, before.hit, candidate, primitive);
+    return package_scene_packet_lanes_TwoHits(hit, package_scene_primitive__1runner_up);
 }
 
 var<private> package_scene_fetch__1shape_row: u32;
@@ -709,87 +375,89 @@ fn package_lib_tile__1permuted_group(index: u32, group_count: u32, stride: u32) 
 }
 
 struct package_scene_rays_Rays {
-    origin: package_lib_wide_Vectors,
-    direction: package_lib_wide_Vectors,
-    t_max: package_lib_wide_Floats,
-    leaving: package_lib_wide_Words,
-    leaving_instance: package_lib_wide_Words
+    origin: package_scene_wide_Vectors,
+    direction: package_scene_wide_Vectors,
+    t_max: package_scene_wide_Floats,
+    leaving: package_scene_wide_Words,
+    leaving_instance: package_scene_wide_Words
 }
 
 struct package_scene_rays_Hits {
-    t: package_lib_wide_Floats,
-    primitive: package_lib_wide_Words,
-    b1: package_lib_wide_Floats,
-    b2: package_lib_wide_Floats,
-    instance: package_lib_wide_Words
+    t: package_scene_wide_Floats,
+    primitive: package_scene_wide_Words,
+    b1: package_scene_wide_Floats,
+    b2: package_scene_wide_Floats,
+    instance: package_scene_wide_Words
 }
 
 fn package_scene_rays__1dead_rays() -> package_scene_rays_Rays {
-    return package_scene_rays_Rays(package_lib_wide_Vectors(package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0)), package_lib_wide_Vectors(package_lib_wide_Floats(0.0), package_lib_wide_Floats(0.0), package_lib_wide_Floats(1.0)), package_lib_wide_Floats(-1.0), package_lib_wide_Words(package_types_NONE), package_lib_wide_Words(package_types__1NO_INSTANCE));
+    return package_scene_rays_Rays(package_scene_wide_Vectors(package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0)), package_scene_wide_Vectors(package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0), package_scene_wide_Floats(1.0)), package_scene_wide_Floats(-1.0), package_scene_wide_Words(package_types_NONE), package_scene_wide_Words(package_types__1NO_INSTANCE));
 }
 
 fn package_scene_rays__1ray_at(rays: package_scene_rays_Rays, k: u32) -> package_types_Ray {
-    return package_types_Ray(package_lib_wide__1vector_at(rays.origin, k), package_lib_wide__1float_at(rays.t_max, k), package_lib_wide__1vector_at(rays.direction, k), package_lib_wide__1word_at(rays.leaving, k), package_lib_wide__1word_at(rays.leaving_instance, k));
+    return package_types_Ray(package_scene_wide__1vector_at(rays.origin, k), package_scene_wide__1float_at(rays.t_max, k), package_scene_wide__1vector_at(rays.direction, k), package_scene_wide__1word_at(rays.leaving, k), package_scene_wide__1word_at(rays.leaving_instance, k));
 }
 
 fn package_scene_rays__1ray_set(rays: package_scene_rays_Rays, k: u32, ray: package_types_Ray) -> package_scene_rays_Rays {
-    return package_scene_rays_Rays(package_lib_wide__1vector_set(rays.origin, k, ray.origin), package_lib_wide__1vector_set(rays.direction, k, ray.direction), package_lib_wide__1float_set(rays.t_max, k, ray.t_max), package_lib_wide__1word_set(rays.leaving, k, ray.leaving), package_lib_wide__1word_set(rays.leaving_instance, k, ray.leaving_instance));
+    return package_scene_rays_Rays(package_scene_wide__1vector_set(rays.origin, k, ray.origin), package_scene_wide__1vector_set(rays.direction, k, ray.direction), package_scene_wide__1float_set(rays.t_max, k, ray.t_max), package_scene_wide__1word_set(rays.leaving, k, ray.leaving), package_scene_wide__1word_set(rays.leaving_instance, k, ray.leaving_instance));
 }
 
 fn package_scene_rays__1hit_at(hits: package_scene_rays_Hits, k: u32) -> package_types_Hit {
-    return package_types_Hit(package_lib_wide__1float_at(hits.t, k), package_lib_wide__1word_at(hits.primitive, k), package_lib_wide__1float_at(hits.b1, k), package_lib_wide__1float_at(hits.b2, k), package_lib_wide__1word_at(hits.instance, k));
+    return package_types_Hit(package_scene_wide__1float_at(hits.t, k), package_scene_wide__1word_at(hits.primitive, k), package_scene_wide__1float_at(hits.b1, k), package_scene_wide__1float_at(hits.b2, k), package_scene_wide__1word_at(hits.instance, k));
 }
 
 fn package_scene_rays__1closest_hits(rays: package_scene_rays_Rays) -> package_scene_rays_Hits {
     {
-        return package_scene_packet__1packet_hits(rays, false);
+        return package_scene_packet_walk__1packet_hits(rays, false);
     }
 }
 
 fn package_scene_rays__1any_hits(rays: package_scene_rays_Rays) -> package_scene_rays_Hits {
     {
-        return package_scene_packet__1packet_hits(rays, true);
+        return package_scene_packet_walk__1packet_hits(rays, true);
     }
 }
 
-const package_lib_wide__2RAYS_PER_LANE: u32 = 4u;
+const package_scene_wide__2RAYS_PER_LANE: u32 = 4u;
 
-alias package_lib_wide_Floats = vec4f;
+const package_scene_wide__1ONE_RAY: bool = package_scene_wide__2RAYS_PER_LANE == 1u;
 
-alias package_lib_wide_Words = vec4u;
+alias package_scene_wide_Floats = vec4f;
 
-struct package_lib_wide_Vectors {
-    x: package_lib_wide_Floats,
-    y: package_lib_wide_Floats,
-    z: package_lib_wide_Floats
+alias package_scene_wide_Words = vec4u;
+
+struct package_scene_wide_Vectors {
+    x: package_scene_wide_Floats,
+    y: package_scene_wide_Floats,
+    z: package_scene_wide_Floats
 }
 
-fn package_lib_wide__1float_at(all: package_lib_wide_Floats, k: u32) -> f32 {
+fn package_scene_wide__1float_at(all: package_scene_wide_Floats, k: u32) -> f32 {
     return all[k];
 }
 
-fn package_lib_wide__1word_at(all: package_lib_wide_Words, k: u32) -> u32 {
+fn package_scene_wide__1word_at(all: package_scene_wide_Words, k: u32) -> u32 {
     return all[k];
 }
 
-fn package_lib_wide__1vector_at(all: package_lib_wide_Vectors, k: u32) -> vec3f {
-    return vec3f(package_lib_wide__1float_at(all.x, k), package_lib_wide__1float_at(all.y, k), package_lib_wide__1float_at(all.z, k));
+fn package_scene_wide__1vector_at(all: package_scene_wide_Vectors, k: u32) -> vec3f {
+    return vec3f(package_scene_wide__1float_at(all.x, k), package_scene_wide__1float_at(all.y, k), package_scene_wide__1float_at(all.z, k));
 }
 
-fn package_lib_wide__1float_set(all: package_lib_wide_Floats, k: u32, value: f32) -> package_lib_wide_Floats {
+fn package_scene_wide__1float_set(all: package_scene_wide_Floats, k: u32, value: f32) -> package_scene_wide_Floats {
     {
         return select(all, vec4f(value), vec4u(0u, 1u, 2u, 3u) == vec4u(k));
     }
 }
 
-fn package_lib_wide__1word_set(all: package_lib_wide_Words, k: u32, value: u32) -> package_lib_wide_Words {
+fn package_scene_wide__1word_set(all: package_scene_wide_Words, k: u32, value: u32) -> package_scene_wide_Words {
     {
         return select(all, vec4u(value), vec4u(0u, 1u, 2u, 3u) == vec4u(k));
     }
 }
 
-fn package_lib_wide__1vector_set(all: package_lib_wide_Vectors, k: u32, value: vec3f) -> package_lib_wide_Vectors {
-    return package_lib_wide_Vectors(package_lib_wide__1float_set(all.x, k, value.x), package_lib_wide__1float_set(all.y, k, value.y), package_lib_wide__1float_set(all.z, k, value.z));
+fn package_scene_wide__1vector_set(all: package_scene_wide_Vectors, k: u32, value: vec3f) -> package_scene_wide_Vectors {
+    return package_scene_wide_Vectors(package_scene_wide__1float_set(all.x, k, value.x), package_scene_wide__1float_set(all.y, k, value.y), package_scene_wide__1float_set(all.z, k, value.z));
 }
 
 struct package_scene_query_QueryRay {
@@ -824,7 +492,134 @@ fn package_scene_dispatch__1place_of(lane: u32, k: u32) -> u32 {
 
 var<private> package_scene_shutter__1shutter_time: f32 = 0.0;
 
-const package_lib_camera__1T_FAR: f32 = 3e38;
+var<private> package_scene_loops__1nodes_visited: u32 = 0u;
+
+var<private> package_scene_loops__1primitives_tested: u32 = 0u;
+
+var<private> package_scene_loops__1cut_off: bool = false;
+
+var<private> package_scene_packet_walk_seconds: package_scene_packet_lanes_FourHits;
+
+fn package_scene_packet_walk__1packet_hits(rays: package_scene_rays_Rays, any: bool) -> package_scene_rays_Hits {
+    let found = package_scene_packet_walk_walk(package_scene_rays__1ray_at(rays, 0u), package_scene_rays__1ray_at(rays, 1u), package_scene_rays__1ray_at(rays, 2u), package_scene_rays__1ray_at(rays, 3u), any);
+    package_scene_packet_walk_seconds = found;
+    return package_scene_rays_Hits(package_scene_wide_Floats(found.h0.hit.t, found.h1.hit.t, found.h2.hit.t, found.h3.hit.t), package_scene_wide_Words(found.h0.hit.primitive, found.h1.hit.primitive, found.h2.hit.primitive, found.h3.hit.primitive), package_scene_wide_Floats(found.h0.hit.b1, found.h1.hit.b1, found.h2.hit.b1, found.h3.hit.b1), package_scene_wide_Floats(found.h0.hit.b2, found.h1.hit.b2, found.h2.hit.b2, found.h3.hit.b2), package_scene_wide_Words(found.h0.hit.instance, found.h1.hit.instance, found.h2.hit.instance, found.h3.hit.instance));
+}
+
+fn package_scene_packet_walk__1first_hit(ray: package_types_Ray) -> package_scene_packet_lanes_TwoHits {
+    var hit = package_types_Hit(ray.t_max, package_types_NONE, 0.0, 0.0, package_types__1NO_INSTANCE);
+    package_scene_primitive__1runner_up = package_types_Hit(package_lib_camera__1T_FAR, package_types_NONE, 0.0, 0.0, package_types__1NO_INSTANCE);
+    if (package_bindings__1HAS_PLANES) {
+        hit = package_scene_exhaustive__1hit_planes(ray, hit);
+    }
+    return package_scene_packet_lanes_TwoHits(hit, package_scene_primitive__1runner_up);
+}
+
+fn package_scene_packet_walk__1world_ray(ray: package_types_Ray) -> package_scene_primitive_TraversalRay {
+    return package_scene_primitive__1traversal_ray(ray, package_lib_intersect__1triangle_watertight__1shear_of(ray.direction), package_types__1NO_INSTANCE);
+}
+
+fn package_scene_packet_walk_walk(ray0: package_types_Ray, ray1: package_types_Ray, ray2: package_types_Ray, ray3: package_types_Ray, any: bool) -> package_scene_packet_lanes_FourHits {
+    var hits = package_scene_packet_lanes_FourHits(package_scene_packet_walk__1first_hit(ray0), package_scene_packet_walk__1first_hit(ray1), package_scene_packet_walk__1first_hit(ray2), package_scene_packet_walk__1first_hit(ray3));
+    if (!(package_bindings__1HAS_TRIANGLES || package_bindings__1HAS_SHAPES)) {
+        return hits;
+    }
+    var rays = package_scene_packet_lanes_FourRays(package_scene_packet_walk__1world_ray(ray0), package_scene_packet_walk__1world_ray(ray1), package_scene_packet_walk__1world_ray(ray2), package_scene_packet_walk__1world_ray(ray3));
+    var stack = package_scene_packet_stack_Stack(package_scene_traverse_EMPTY, package_scene_traverse_EMPTY, package_scene_traverse_EMPTY, package_scene_traverse_EMPTY);
+    var current = 0u;
+    if (package_bindings__1HAS_INSTANCES) {
+        current = package_bindings_frame.root;
+    }
+    loop {
+        loop {
+            if (package_bindings__1HAS_INSTANCES) {
+                if (current == package_scene_traverse_RETURN) {
+                    rays = package_scene_packet_lanes_FourRays(package_scene_packet_walk__1world_ray(ray0), package_scene_packet_walk__1world_ray(ray1), package_scene_packet_walk__1world_ray(ray2), package_scene_packet_walk__1world_ray(ray3));
+                    current = package_scene_packet_stack__1top_of(stack);
+                    stack = package_scene_packet_stack_popped(stack);
+                }
+                if ((current >= package_types_INSTANCE) & (current != package_scene_traverse_EMPTY)) {
+                    let index = current & package_types__2LEAF_FIRST_MASK;
+                    let instance = package_scene_fetch__1load_instance(index);
+                    let space = package_scene_instance__1space_of(instance);
+                    let o0 = package_scene_instance__1object_ray(ray0, space);
+                    let o1 = package_scene_instance__1object_ray(ray1, space);
+                    let o2 = package_scene_instance__1object_ray(ray2, space);
+                    let o3 = package_scene_instance__1object_ray(ray3, space);
+                    rays = package_scene_packet_lanes_FourRays(package_scene_primitive__1traversal_ray(o0, package_lib_intersect__1triangle_watertight__1shear_of(o0.direction), index), package_scene_primitive__1traversal_ray(o1, package_lib_intersect__1triangle_watertight__1shear_of(o1.direction), index), package_scene_primitive__1traversal_ray(o2, package_lib_intersect__1triangle_watertight__1shear_of(o2.direction), index), package_scene_primitive__1traversal_ray(o3, package_lib_intersect__1triangle_watertight__1shear_of(o3.direction), index));
+                    stack = package_scene_packet_stack_pushed(stack, package_scene_traverse_RETURN, 1u);
+                    current = instance.root;
+                }
+            }
+            if ((current & package_types_LEAF) == 0u) {
+                let limits = vec4i(package_scene_packet_walk__1limit_of(ray0, hits.h0.hit, any), package_scene_packet_walk__1limit_of(ray1, hits.h1.hit, any), package_scene_packet_walk__1limit_of(ray2, hits.h2.hit, any), package_scene_packet_walk__1limit_of(ray3, hits.h3.hit, any));
+                loop {
+                    let node = package_scene_packet_node__2load_shared_node(current);
+                    let children = package_scene_packet_node__1order_children(node, rays, limits);
+                    current = select(package_scene_packet_stack__1top_of(stack), subgroupShuffle(children.reference, 0u), children.count > 0u);
+                    stack = package_scene_packet_stack_pushed(stack, subgroupShuffle(children.reference, (package_scene_packet_lanes__1packet_lane + 1u) & 3u), children.count - 1u);
+                    if (package_bindings__1COUNT_STEPS) {
+                        package_scene_loops__1nodes_visited += 1u;
+                    }
+                    continuing {
+                    
+                        break if (current & package_types_LEAF) != 0u;
+                    }
+                }
+            }
+            loop {
+                let is_here = package_scene_packet_leaf__1is_common(current);
+                let next = package_scene_packet_leaf_after(current, package_scene_packet_stack__1top_of(stack));
+                if (is_here) {
+                    hits = package_scene_packet_leaf__1meet_common(rays, hits, current);
+                    stack = package_scene_packet_stack_pushed(stack, package_scene_traverse_EMPTY, select(0u, package_scene_packet_stack_POP, next.is_last));
+                    current = next.reference;
+                    if (any) {
+                        current = select(package_scene_traverse_EMPTY, current, package_scene_packet_walk__1is_open(hits, ray0, ray1, ray2, ray3));
+                    }
+                }
+                continuing {
+                
+                    break if !package_scene_packet_leaf__1is_common(current);
+                }
+            }
+            continuing {
+            
+                break if (current == package_scene_traverse_EMPTY) | package_scene_packet_leaf__1is_rare(current);
+            }
+        }
+        if (package_bindings__1HAS_SHAPES && package_bindings__1HAS_TRIANGLES) {
+            let next = package_scene_packet_leaf_after(current, package_scene_packet_stack__1top_of(stack));
+            if (package_scene_packet_leaf__1is_rare(current)) {
+                hits = package_scene_packet_leaf__1meet_rare(rays, hits, current);
+                stack = package_scene_packet_stack_pushed(stack, package_scene_traverse_EMPTY, select(0u, package_scene_packet_stack_POP, next.is_last));
+                current = next.reference;
+                if (any) {
+                    current = select(package_scene_traverse_EMPTY, current, package_scene_packet_walk__1is_open(hits, ray0, ray1, ray2, ray3));
+                }
+            }
+        }
+        continuing {
+        
+            break if current == package_scene_traverse_EMPTY;
+        }
+    }
+    package_scene_loops__1cut_off |= package_scene_packet_stack__1is_full | (current != package_scene_traverse_EMPTY);
+    return hits;
+}
+
+fn package_scene_packet_walk__1is_open(hits: package_scene_packet_lanes_FourHits, ray0: package_types_Ray, ray1: package_types_Ray, ray2: package_types_Ray, ray3: package_types_Ray) -> bool {
+    return package_scene_packet_lanes__3any_lane_of_packet(package_scene_packet_walk__1is_unoccluded(ray0, hits.h0.hit) | package_scene_packet_walk__1is_unoccluded(ray1, hits.h1.hit) | package_scene_packet_walk__1is_unoccluded(ray2, hits.h2.hit) | package_scene_packet_walk__1is_unoccluded(ray3, hits.h3.hit));
+}
+
+fn package_scene_packet_walk__1is_unoccluded(ray: package_types_Ray, hit: package_types_Hit) -> bool {
+    return (hit.primitive == package_types_NONE) & (ray.t_max >= 0.0);
+}
+
+fn package_scene_packet_walk__1limit_of(ray: package_types_Ray, hit: package_types_Hit, any: bool) -> i32 {
+    let limit = bitcast<i32>(package_scene_traverse__1search_limit(ray, hit)) + package_lib_intersect_node_WIDENING;
+    return select(limit, -1, any & (hit.primitive != package_types_NONE));
+}
 
 var<private> package_scene_primitive__1runner_up: package_types_Hit;
 
@@ -876,6 +671,8 @@ fn package_scene_primitive__1test_triangle(ray: package_types_Ray, corners: pack
     return package_lib_intersect__1triangle_watertight__2intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
 }
 
+const package_lib_camera__1T_FAR: f32 = 3e38;
+
 fn package_scene_exhaustive__1hit_planes(ray: package_types_Ray, start: package_types_Hit) -> package_types_Hit {
     var hit = start;
     let end = package_bindings_frame.shape_count + package_bindings_frame.plane_count;
@@ -908,12 +705,6 @@ fn package_lib_intersect_plane__1intersect_plane(ray: package_types_Ray, point: 
     let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
     return package_types_Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
-
-var<private> package_scene_loops__1nodes_visited: u32 = 0u;
-
-var<private> package_scene_loops__1primitives_tested: u32 = 0u;
-
-var<private> package_scene_loops__1cut_off: bool = false;
 
 struct package_lib_intersect__1triangle_watertight_Shear {
     x: vec3f,
@@ -963,6 +754,38 @@ fn package_lib_numeric__1safe_reciprocal(d: vec3f) -> vec3f {
 
 fn package_lib_numeric__1max_component(v: vec3f) -> f32 {
     return max(v.x, max(v.y, v.z));
+}
+
+const package_scene_packet_stack_POP: u32 = 4294967295u;
+
+var<private> package_scene_packet_stack__1is_full: bool = false;
+
+struct package_scene_packet_stack_Stack {
+    s0: u32,
+    s1: u32,
+    s2: u32,
+    s3: u32
+}
+
+fn package_scene_packet_stack__1top_of(stack: package_scene_packet_stack_Stack) -> u32 {
+    return subgroupShuffle(stack.s0, 0u);
+}
+
+fn package_scene_packet_stack_pushed(stack: package_scene_packet_stack_Stack, reference: u32, count: u32) -> package_scene_packet_stack_Stack {
+    let source = (package_scene_packet_lanes__1packet_lane - count) & 7u;
+    let is_pop = count == package_scene_packet_stack_POP;
+    let is_new = !is_pop & (package_scene_packet_lanes__1packet_lane < count);
+    let is_last = is_pop & (package_scene_packet_lanes__1packet_lane == 7u);
+    package_scene_packet_stack__1is_full |= !is_pop & (package_scene_packet_lanes__1packet_lane + count >= 8u) & (stack.s3 != package_scene_traverse_EMPTY);
+    let m0 = subgroupShuffle(stack.s0, source);
+    let m1 = subgroupShuffle(stack.s1, source);
+    let m2 = subgroupShuffle(stack.s2, source);
+    let m3 = subgroupShuffle(stack.s3, source);
+    return package_scene_packet_stack_Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), package_scene_traverse_EMPTY, is_last));
+}
+
+fn package_scene_packet_stack_popped(stack: package_scene_packet_stack_Stack) -> package_scene_packet_stack_Stack {
+    return package_scene_packet_stack_pushed(stack, package_scene_traverse_EMPTY, package_scene_packet_stack_POP);
 }
 
 const package_scene_traverse_EMPTY: u32 = 4294967295u;
@@ -1037,6 +860,159 @@ fn package_lib_motion__1rotation_matrix(q: vec4f) -> mat3x3f {
 }
 
 const package_lib_intersect_node_WIDENING: i32 = 8;
+
+const package_scene_packet_node_MISS: u32 = 2147483644u;
+
+struct package_scene_packet_node_SharedNode {
+    lo: vec3f,
+    scale: vec3f,
+    plane: vec3f,
+    reference: u32
+}
+
+fn package_scene_packet_node__2load_shared_node(index: u32) -> package_scene_packet_node_SharedNode {
+    let child = package_scene_packet_lanes__1packet_lane & 3u;
+    let is_max = package_scene_packet_lanes__1packet_lane >= 4u;
+    let row = package_scene_fetch__1node_row(4u * index + child);
+    let words = vec3u(select(subgroupShuffle(row.z, 1u), subgroupShuffle(row.w, 1u), is_max), select(subgroupShuffle(row.x, 2u), subgroupShuffle(row.y, 2u), is_max), select(subgroupShuffle(row.z, 2u), subgroupShuffle(row.w, 2u), is_max));
+    let is_even = (child & 1u) == 0u;
+    let c01 = select(subgroupShuffle(row.y, 3u), subgroupShuffle(row.x, 3u), is_even);
+    let c23 = select(subgroupShuffle(row.w, 3u), subgroupShuffle(row.z, 3u), is_even);
+    return package_scene_packet_node_SharedNode(bitcast<vec3f>(vec3u(subgroupShuffle(row.x, 0u), subgroupShuffle(row.y, 0u), subgroupShuffle(row.z, 0u))), bitcast<vec3f>(vec3u(subgroupShuffle(row.w, 0u), subgroupShuffle(row.x, 1u), subgroupShuffle(row.y, 1u))), vec3f((words >> vec3u(8u * child)) & vec3u(255u)), select(c23, c01, child < 2u));
+}
+
+struct package_scene_packet_node_Children {
+    reference: u32,
+    count: u32
+}
+
+fn package_scene_packet_node__1order_children(node: package_scene_packet_node_SharedNode, rays: package_scene_packet_lanes_FourRays, limits: vec4i) -> package_scene_packet_node_Children {
+    let lane = package_scene_packet_lanes__1packet_lane;
+    let is_even = (lane & 1u) == 0u;
+    let is_low = (lane & 2u) == 0u;
+    let v0 = package_scene_packet_node__1closest_entry(node, rays, limits, 0u);
+    let v1 = package_scene_packet_node__1closest_entry(node, rays, limits, 1u);
+    let v2 = package_scene_packet_node__1closest_entry(node, rays, limits, 2u);
+    let v3 = package_scene_packet_node__1closest_entry(node, rays, limits, 3u);
+    let a = min(select(v1, v0, is_even), subgroupShuffle(select(v0, v1, is_even), lane ^ 1u));
+    let b = min(select(v3, v2, is_even), subgroupShuffle(select(v2, v3, is_even), lane ^ 1u));
+    let c = min(select(b, a, is_low), subgroupShuffle(select(a, b, is_low), lane ^ 2u));
+    let closest = min(c, subgroupShuffle(c, lane ^ 4u));
+    var key = (select(closest, package_scene_packet_node_MISS, node.reference == 0u) & 4294967292u) | (lane & 3u);
+    var other = subgroupShuffle(key, lane ^ 1u);
+    key = select(max(key, other), min(key, other), is_even == is_low);
+    other = subgroupShuffle(key, lane ^ 2u);
+    key = select(max(key, other), min(key, other), is_low);
+    other = subgroupShuffle(key, lane ^ 1u);
+    key = select(max(key, other), min(key, other), is_even);
+    var count = select(0u, 1u, key < package_scene_packet_node_MISS);
+    count += subgroupShuffle(count, lane ^ 1u);
+    count += subgroupShuffle(count, lane ^ 2u);
+    return package_scene_packet_node_Children(subgroupShuffle(node.reference, key & 3u), count);
+}
+
+fn package_scene_packet_node__1closest_entry(node: package_scene_packet_node_SharedNode, rays: package_scene_packet_lanes_FourRays, limits: vec4i, child: u32) -> u32 {
+    let low = vec3f(subgroupShuffle(node.plane.x, child), subgroupShuffle(node.plane.y, child), subgroupShuffle(node.plane.z, child));
+    let high = vec3f(subgroupShuffle(node.plane.x, child + 4u), subgroupShuffle(node.plane.y, child + 4u), subgroupShuffle(node.plane.z, child + 4u));
+    return min(min(package_scene_packet_node_entry(node, low, high, rays.r0, limits.x), package_scene_packet_node_entry(node, low, high, rays.r1, limits.y)), min(package_scene_packet_node_entry(node, low, high, rays.r2, limits.z), package_scene_packet_node_entry(node, low, high, rays.r3, limits.w)));
+}
+
+fn package_scene_packet_node_entry(node: package_scene_packet_node_SharedNode, low: vec3f, high: vec3f, at: package_scene_primitive_TraversalRay, limit: i32) -> u32 {
+    let base = (node.lo - at.ray.origin) * at.inv;
+    let step = node.scale * at.inv;
+    let t0 = bitcast<vec3i>(low * step + base);
+    let t1 = bitcast<vec3i>(high * step + base);
+    let first = min(t0, t1);
+    let last = max(t0, t1);
+    let near = max(max(first.x, first.y), max(first.z, 0));
+    let far = min(min(last.x, last.y), last.z);
+    return select(package_scene_packet_node_MISS, bitcast<u32>(near), near <= min(far + package_lib_intersect_node_WIDENING, limit));
+}
+
+fn package_scene_packet_leaf__1is_common(reference: u32) -> bool {
+    return (reference & package_types_LEAF) != 0u && reference < package_types_INSTANCE && package_scene_packet_leaf__1has_shapes(reference) == package_bindings__1MOSTLY_SHAPES;
+}
+
+fn package_scene_packet_leaf__1is_rare(reference: u32) -> bool {
+    return (reference & package_types_LEAF) != 0u && reference < package_types_INSTANCE && package_scene_packet_leaf__1has_shapes(reference) != package_bindings__1MOSTLY_SHAPES;
+}
+
+fn package_scene_packet_leaf__1has_shapes(reference: u32) -> bool {
+    return (reference & package_types_SHAPE) != 0u;
+}
+
+struct package_scene_packet_leaf_Next {
+    reference: u32,
+    is_last: bool
+}
+
+fn package_scene_packet_leaf_after(reference: u32, top: u32) -> package_scene_packet_leaf_Next {
+    let left = (reference & package_types__2LEAF_COUNT_MASK) / package_types__2LEAF_COUNT_ONE;
+    let tested = select(package_scene_packet_leaf__1tested_triangles(reference), 1u, package_scene_packet_leaf__1has_shapes(reference));
+    let is_last = left < tested;
+    return package_scene_packet_leaf_Next(select(reference - tested * (package_types__2LEAF_COUNT_ONE - 1u), top, is_last), is_last);
+}
+
+fn package_scene_packet_leaf__1tested_triangles(reference: u32) -> u32 {
+    return min((reference & package_types__2LEAF_COUNT_MASK) / package_types__2LEAF_COUNT_ONE + 1u, 2u);
+}
+
+fn package_scene_packet_leaf__1meet_common(rays: package_scene_packet_lanes_FourRays, hits: package_scene_packet_lanes_FourHits, reference: u32) -> package_scene_packet_lanes_FourHits {
+    if (package_bindings__1MOSTLY_SHAPES) {
+        return package_scene_packet_leaf__1meet_shape(rays, hits, reference);
+    }
+    return package_scene_packet_leaf__1meet_triangles(rays, hits, reference);
+}
+
+fn package_scene_packet_leaf__1meet_rare(rays: package_scene_packet_lanes_FourRays, hits: package_scene_packet_lanes_FourHits, reference: u32) -> package_scene_packet_lanes_FourHits {
+    if (package_bindings__1MOSTLY_SHAPES) {
+        return package_scene_packet_leaf__1meet_triangles(rays, hits, reference);
+    }
+    return package_scene_packet_leaf__1meet_shape(rays, hits, reference);
+}
+
+fn package_scene_packet_leaf__1meet_triangles(rays: package_scene_packet_lanes_FourRays, before: package_scene_packet_lanes_FourHits, reference: u32) -> package_scene_packet_lanes_FourHits {
+    let count = package_scene_packet_leaf__1tested_triangles(reference);
+    let first = select(reference & package_types__2LEAF_FIRST_MASK, 0u, package_scene_packet_leaf__1has_shapes(reference));
+    let row = package_scene_fetch__1triangle_row(3u * first + package_scene_packet_lanes__1packet_lane);
+    if (package_bindings__1COUNT_STEPS) {
+        package_scene_loops__1primitives_tested += count;
+    }
+    let hits = package_scene_packet_leaf__1meet_triangle(rays, before, package_scene_packet_leaf__1triangle_of(row, 0u), first, true);
+    return package_scene_packet_leaf__1meet_triangle(rays, hits, package_scene_packet_leaf__1triangle_of(row, 3u), first + 1u, count > 1u);
+}
+
+fn package_scene_packet_leaf__1triangle_of(row: vec4u, lane: u32) -> package_types_PackedTriangle {
+    return package_types_PackedTriangle(package_scene_packet_leaf__1corner_of(row, lane), 0u, package_scene_packet_leaf__1corner_of(row, lane + 1u), 0u, package_scene_packet_leaf__1corner_of(row, lane + 2u), 0u);
+}
+
+fn package_scene_packet_leaf__1row_of(row: vec4u, lane: u32) -> vec4u {
+    return vec4u(subgroupShuffle(row.x, lane), subgroupShuffle(row.y, lane), subgroupShuffle(row.z, lane), subgroupShuffle(row.w, lane));
+}
+
+fn package_scene_packet_leaf__1corner_of(row: vec4u, lane: u32) -> vec3f {
+    return bitcast<vec3f>(vec3u(subgroupShuffle(row.x, lane), subgroupShuffle(row.y, lane), subgroupShuffle(row.z, lane)));
+}
+
+fn package_scene_packet_leaf__1meet_triangle(rays: package_scene_packet_lanes_FourRays, before: package_scene_packet_lanes_FourHits, triangle: package_types_PackedTriangle, primitive: u32, is_there: bool) -> package_scene_packet_lanes_FourHits {
+    return package_scene_packet_lanes_FourHits(package_scene_packet_lanes__1closer_two(rays.r0, before.h0, package_scene_packet_leaf__1candidate_of(rays.r0, triangle, is_there), primitive), package_scene_packet_lanes__1closer_two(rays.r1, before.h1, package_scene_packet_leaf__1candidate_of(rays.r1, triangle, is_there), primitive), package_scene_packet_lanes__1closer_two(rays.r2, before.h2, package_scene_packet_leaf__1candidate_of(rays.r2, triangle, is_there), primitive), package_scene_packet_lanes__1closer_two(rays.r3, before.h3, package_scene_packet_leaf__1candidate_of(rays.r3, triangle, is_there), primitive));
+}
+
+fn package_scene_packet_leaf__1candidate_of(at: package_scene_primitive_TraversalRay, triangle: package_types_PackedTriangle, is_there: bool) -> package_types_Candidate {
+    let candidate = package_scene_primitive__1test_triangle(at.ray, triangle, at.shear);
+    return package_types_Candidate(candidate.hit & is_there, candidate.t, candidate.b1, candidate.b2);
+}
+
+fn package_scene_packet_leaf__1meet_shape(rays: package_scene_packet_lanes_FourRays, before: package_scene_packet_lanes_FourHits, reference: u32) -> package_scene_packet_lanes_FourHits {
+    let index = select(0u, reference & package_types__2LEAF_FIRST_MASK, package_scene_packet_leaf__1has_shapes(reference));
+    let primitive = package_types_SHAPE | index;
+    let row = package_scene_fetch__1triangle_row(package_scene_fetch__1shape_row + package_types__1SHAPE_ROWS * index + package_scene_packet_lanes__1packet_lane);
+    if (package_bindings__1COUNT_STEPS) {
+        package_scene_loops__1primitives_tested += 1u;
+    }
+    let shape = package_scene_fetch__1shape_of(package_scene_packet_leaf__1row_of(row, 0u), package_scene_packet_leaf__1row_of(row, 1u), package_scene_packet_leaf__1row_of(row, 2u), package_scene_packet_leaf__1row_of(row, 3u), package_scene_packet_leaf__1row_of(row, 4u));
+    return package_scene_packet_lanes_FourHits(package_scene_packet_lanes__1closer_two(rays.r0, before.h0, package_scene_shape__1test_shape(rays.r0.ray, shape), primitive), package_scene_packet_lanes__1closer_two(rays.r1, before.h1, package_scene_shape__1test_shape(rays.r1.ray, shape), primitive), package_scene_packet_lanes__1closer_two(rays.r2, before.h2, package_scene_shape__1test_shape(rays.r2.ray, shape), primitive), package_scene_packet_lanes__1closer_two(rays.r3, before.h3, package_scene_shape__1test_shape(rays.r3.ray, shape), primitive));
+}
 
 const package_scene_shape_SPHERES: u32 = 1u << package_types__1SHAPE_SPHERE;
 

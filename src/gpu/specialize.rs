@@ -3,7 +3,8 @@
 //! removing the code that overrides disable, and no disk cache saves that time.
 
 use naga::{
-    Arena, Block, Expression, Handle, Literal, LocalVariable, Module, Statement, UnaryOperator,
+    Arena, BinaryOperator, Block, Expression, Handle, Literal, LocalVariable, Module, Statement,
+    UnaryOperator,
     compact::{KeepUnused, compact},
 };
 use std::collections::HashMap;
@@ -126,8 +127,8 @@ struct Fold<'a> {
 }
 
 impl Fold<'_> {
-    /// The block, with each `if` on a constant replaced by the taken branch, and without statements after one
-    /// that ends the block.
+    /// The block, with each `if` on a constant replaced by the taken branch, each loop that always ends after its
+    /// first iteration replaced by its body, and without statements after one that ends the block.
     fn block(&self, block: Block) -> Block {
         let mut folded = Block::with_capacity(block.len());
         for (mut statement, span) in block.span_into_iter() {
@@ -158,11 +159,25 @@ impl Fold<'_> {
                     folded.push(statement, span);
                 }
                 Statement::Loop {
-                    body, continuing, ..
+                    body,
+                    continuing,
+                    break_if,
                 } => {
-                    *body = self.block(std::mem::take(body));
-                    *continuing = self.block(std::mem::take(continuing));
-                    folded.push(statement, span);
+                    let body = self.block(std::mem::take(body));
+                    let continuing = self.block(std::mem::take(continuing));
+                    let break_if = *break_if;
+                    let ends = break_if.and_then(|condition| self.constant(condition));
+                    if ends == Some(true) && !jumps(&body) {
+                        folded.extend_block(body);
+                        folded.extend_block(continuing);
+                    } else {
+                        let kept = Statement::Loop {
+                            body,
+                            continuing,
+                            break_if,
+                        };
+                        folded.push(kept, span);
+                    }
                 }
                 Statement::Switch { cases, .. } => {
                     for case in cases {
@@ -217,6 +232,14 @@ impl Fold<'_> {
                 op: UnaryOperator::LogicalNot,
                 expr,
             } => return self.constant(expr).map(|value| !value),
+            Expression::Binary {
+                op: BinaryOperator::InclusiveOr,
+                left,
+                right,
+            } => {
+                let sides = [left, right].map(|side| self.constant(side));
+                return sides.contains(&Some(true)).then_some(true);
+            }
             Expression::Constant(constant) => &self.globals[self.constants[constant].init],
             ref other => other,
         };
@@ -251,6 +274,18 @@ fn stores(block: &Block, found: &mut Vec<(Handle<Expression>, Handle<Expression>
             _ => {}
         }
     }
+}
+
+/// Whether a block of a loop leaves it, or its iteration, by a statement.
+fn jumps(block: &Block) -> bool {
+    block.iter().any(|statement| match statement {
+        Statement::Break | Statement::Continue => true,
+        Statement::If { accept, reject, .. } => jumps(accept) || jumps(reject),
+        Statement::Block(inner) => jumps(inner),
+        // `break` in a switch ends the switch, but `continue` belongs to the loop.
+        Statement::Switch { .. } => true,
+        _ => false,
+    })
 }
 
 /// Whether the statements after this one in its block are unreachable.

@@ -208,8 +208,8 @@ fn frame_group(
 pub fn choose_fetch(wanted: Fetch, gpu: &Gpu, scene: &PackedScene, view: &PackedView) -> Fetch {
     let fits = largest_row_bytes(scene, view) <= gpu.adapter().max_binding_bytes;
     match wanted {
-        Fetch::Auto if gpu.is_cpu() || !fits => Fetch::Image,
-        Fetch::Auto => Fetch::Buffer,
+        Fetch::Auto | Fetch::Packet if gpu.is_cpu() || !fits => Fetch::Image,
+        Fetch::Auto | Fetch::Packet => Fetch::Buffer,
         chosen => chosen,
     }
 }

@@ -1,6 +1,6 @@
 //! Pipelines of the kernels that trace rays.
 
-use super::{layouts::Layouts, overrides, policy::Fetch, task::Task};
+use super::{effort, layouts::Layouts, overrides, policy::Fetch, task::Task};
 use crate::{
     gpu::{Compiled, Gpu, GpuError, Kernel, Overrides, Variant},
     pack::PackedView,
@@ -8,6 +8,9 @@ use crate::{
 
 /// The number of materials from which on packet kernels cannot store their indices in 16 bits.
 const MAX_PACKET_MATERIALS: usize = 0xffff;
+
+/// The number of rays from which on packets save more time than their kernel takes longer to compile.
+const MIN_PACKET_RAYS: u64 = 1_500_000;
 
 /// A pipeline for bind groups 0 to 2 of the kernel of the task's integrator.
 pub fn rendering(
@@ -17,7 +20,11 @@ pub fn rendering(
     task: Task,
 ) -> Result<Compiled, GpuError> {
     let kernel = task.settings.integrator.entry().kernel;
-    let as_packets = task.policy.fetch == Fetch::Auto
+    let as_packets = match task.policy.fetch {
+        Fetch::Auto => least_rays(task) >= MIN_PACKET_RAYS,
+        fetch => fetch.allows_packets(),
+    };
+    let as_packets = as_packets
         && !task.settings.brute_force
         && task.scene.materials.len() < MAX_PACKET_MATERIALS;
     let variant = match as_packets && kernel.has(Variant::Packet) {
@@ -55,4 +62,12 @@ pub fn tracing_variant(gpu: &Gpu, fetch: Fetch, view: &PackedView) -> Variant {
         true => Variant::Packet,
         false => portable(fetch),
     }
+}
+
+/// The rays of a picture if every camera ray hits an opaque surface.
+fn least_rays(task: Task) -> u64 {
+    let [.., width, height] = task.settings.region();
+    let pixels = u64::from(width) * u64::from(height);
+    let of_pixel = effort::shadow_rays(task.view, task.settings).saturating_add(1);
+    (pixels * u64::from(task.settings.samples)).saturating_mul(of_pixel)
 }

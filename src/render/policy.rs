@@ -33,14 +33,23 @@ impl Default for ExecutionPolicy {
 /// How shaders read nodes and triangles, and whether neighbouring rays are traced together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Fetch {
-    /// Images on software adapters; elsewhere buffers if they are large enough. Where the adapter has subgroups
-    /// of 8 lanes, they trace packets of rays.
+    /// Images on software adapters; elsewhere buffers if they are large enough. Larger pictures are traced in
+    /// packets where the adapter can do so.
     #[default]
     Auto,
     /// Storage images: faster on software adapters.
     Image,
     /// Storage buffers: faster on most GPUs, if one binding can hold the scene.
     Buffer,
+    /// As `Auto`, but also small pictures are traced in packets, whose kernels take longer to compile.
+    Packet,
+}
+
+impl Fetch {
+    /// Whether rays may be traced in packets.
+    pub(super) fn allows_packets(self) -> bool {
+        matches!(self, Self::Auto | Self::Packet)
+    }
 }
 
 /// How work is split into submissions.

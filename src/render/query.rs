@@ -172,7 +172,7 @@ impl RayQuery {
         Ok(Self {
             gpu,
             fetch,
-            as_packets: policy.fetch == Fetch::Auto,
+            as_packets: policy.fetch.allows_packets(),
             layouts,
             buffers,
             scene,

@@ -217,7 +217,7 @@ impl Renderer {
                 Some((first, last)) => vec![last, first],
                 None => vec![part],
             }
-        } else if self.policy.fetch == Fetch::Auto && self.device.gpu.traces_packets() {
+        } else if self.policy.fetch.allows_packets() && self.device.gpu.traces_packets() {
             // The rays of a packet share the loop limit, and a stack of fixed size. The portable kernels fetch
             // the same data.
             self.policy.fetch = Fetch::Image;

@@ -189,8 +189,7 @@ const BINDINGS: &[(u32, u32, &str, &str)] = &[
     (0, 2, "vertices", "geometry"),
     (0, 3, "materials", "geometry"),
     (0, 3, "rays", "geometry"),
-    (0, 4, "shapes", "read"),
-    (0, 5, "texels", "texture"),
+    (0, 4, "texels", "texture"),
     (1, 0, "frame", "read"),
     (1, 1, "dispatch", "read and write"),
     (2, 0, "film", "read and write"),
@@ -272,10 +271,10 @@ fn bindings_are_where_the_host_puts_them() {
     let mut verdict = Verdict::on("bindings");
     let mut used = BTreeSet::new();
     for (kernel, module) in linked() {
-        let geometry = if kernel.ends_with("image)") {
-            "image"
-        } else {
+        let geometry = if kernel.ends_with("(Buffer)") {
             "read"
+        } else {
+            "image"
         };
         for (group, slot, name, kind) in bindings(&module) {
             // Two bindings may share a slot in different kernels.

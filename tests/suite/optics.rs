@@ -346,7 +346,7 @@ fn counts_do_not_depend_on_slicing() {
     for (max_groups, max_samples, tile_side, fetch) in [
         (1, 1, 8, Fetch::Buffer),
         (3, 2, 2048, Fetch::Image),
-        (2, 4, 16, Fetch::Auto),
+        (2, 4, 16, Fetch::Packet),
     ] {
         let slicing = Slicing {
             max_groups,

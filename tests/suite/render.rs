@@ -590,7 +590,7 @@ fn more_coincident_triangles_than_the_drivers_loop_limit_are_refused_as_such() {
             vec3(9.0, -9.0, 0.0),
             vec3(0.0, 9.0, 0.0),
         ],
-        triangles: vec![[0, 1, 2]; 70_000],
+        triangles: vec![[0, 1, 2]; 140_000],
         materials: vec![0; 3],
         ..Mesh::default()
     };

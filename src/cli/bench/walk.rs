@@ -38,6 +38,7 @@ struct Best {
 const LIMITS: Limits = Limits {
     leaf_size: 4,
     stack_size: usize::MAX,
+    alone: None,
 };
 
 impl<'a> Walker<'a> {
