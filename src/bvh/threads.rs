@@ -69,7 +69,11 @@ pub fn for_chunks<T: Send>(slice: &mut [T], work: impl Fn(usize, &mut [T]) + Syn
 
 /// A list of `len` elements, made from their indices.
 pub fn collect<T: Copy + Send>(len: usize, make: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let mut list: Vec<T> = (len > 0).then(|| vec![make(0); len]).unwrap_or_default();
+    let mut list = if len > 0 {
+        vec![make(0); len]
+    } else {
+        Vec::new()
+    };
     fill(&mut list, make);
     list
 }
