@@ -525,7 +525,7 @@ fn package_scene_packet_walk_walk(ray0: package_types_Ray, ray1: package_types_R
         return hits;
     }
     var rays = package_scene_packet_lanes_FourRays(package_scene_packet_walk__1world_ray(ray0), package_scene_packet_walk__1world_ray(ray1), package_scene_packet_walk__1world_ray(ray2), package_scene_packet_walk__1world_ray(ray3));
-    var stack = package_scene_packet_stack_Stack(package_scene_traverse_EMPTY, package_scene_traverse_EMPTY, package_scene_traverse_EMPTY, package_scene_traverse_EMPTY);
+    var stack = package_scene_packet_stack_Stack(package_scene_traverse_EMPTY, package_scene_traverse_EMPTY, package_scene_traverse_EMPTY, package_scene_traverse_EMPTY, package_scene_traverse_EMPTY, package_scene_traverse_EMPTY);
     var current = 0u;
     if (package_bindings__1HAS_INSTANCES) {
         current = package_bindings_frame.root;
@@ -764,7 +764,9 @@ struct package_scene_packet_stack_Stack {
     s0: u32,
     s1: u32,
     s2: u32,
-    s3: u32
+    s3: u32,
+    s4: u32,
+    s5: u32
 }
 
 fn package_scene_packet_stack__1top_of(stack: package_scene_packet_stack_Stack) -> u32 {
@@ -776,12 +778,14 @@ fn package_scene_packet_stack_pushed(stack: package_scene_packet_stack_Stack, re
     let is_pop = count == package_scene_packet_stack_POP;
     let is_new = !is_pop & (package_scene_packet_lanes__1packet_lane < count);
     let is_last = is_pop & (package_scene_packet_lanes__1packet_lane == 7u);
-    package_scene_packet_stack__1is_full |= !is_pop & (package_scene_packet_lanes__1packet_lane + count >= 8u) & (stack.s3 != package_scene_traverse_EMPTY);
+    package_scene_packet_stack__1is_full |= !is_pop & (package_scene_packet_lanes__1packet_lane + count >= 8u) & (stack.s5 != package_scene_traverse_EMPTY);
     let m0 = subgroupShuffle(stack.s0, source);
     let m1 = subgroupShuffle(stack.s1, source);
     let m2 = subgroupShuffle(stack.s2, source);
     let m3 = subgroupShuffle(stack.s3, source);
-    return package_scene_packet_stack_Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), package_scene_traverse_EMPTY, is_last));
+    let m4 = subgroupShuffle(stack.s4, source);
+    let m5 = subgroupShuffle(stack.s5, source);
+    return package_scene_packet_stack_Stack(select(select(m0, reference, is_new), m1, is_last), select(select(m1, m0, is_new), m2, is_last), select(select(m2, m1, is_new), m3, is_last), select(select(m3, m2, is_new), m4, is_last), select(select(m4, m3, is_new), m5, is_last), select(select(m5, m4, is_new), package_scene_traverse_EMPTY, is_last));
 }
 
 fn package_scene_packet_stack_popped(stack: package_scene_packet_stack_Stack) -> package_scene_packet_stack_Stack {

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     clock::Instant,
-    gpu::{Compiled, Gpu, GpuError, Kernel, Source, Timer},
+    gpu::{Compiled, Gpu, GpuError, Kernel, Source, Timer, Variant},
     layout::{NONE, PackedCounters, PackedDispatch},
     pack::{PackedScene, PackedView},
 };
@@ -238,12 +238,12 @@ impl RayQuery {
         test: RayTest,
         passes: u32,
     ) -> Result<f64, RenderError> {
-        let pipeline = self.pipeline(test, false)?;
         let passes = passes.max(1);
-        let mut seconds = 0.0;
-        for chunk in &batch.0 {
-            seconds += self.dispatch(chunk, &pipeline, passes, None)?;
-        }
+        let seconds = self.with_pipeline(test, false, |pipeline| {
+            let chunks = batch.0.iter();
+            let seconds = chunks.map(|chunk| self.dispatch(chunk, pipeline, passes, None));
+            seconds.sum::<Result<f64, _>>()
+        })?;
         Ok(seconds / f64::from(passes))
     }
 
@@ -281,27 +281,46 @@ impl RayQuery {
         test: RayTest,
         counts_steps: bool,
     ) -> Result<Vec<[u32; 4]>, RenderError> {
-        let pipeline = self.pipeline(test, counts_steps)?;
-        let mut all = Vec::new();
-        for chunk in &batch.0 {
-            self.dispatch(chunk, &pipeline, 1, Some(&mut all))?;
+        self.with_pipeline(test, counts_steps, |pipeline| {
+            let mut all = Vec::new();
+            for chunk in &batch.0 {
+                self.dispatch(chunk, pipeline, 1, Some(&mut all))?;
+            }
+            Ok(all)
+        })
+    }
+
+    /// Calls `trace` with a pipeline, and again with that of the portable kernel if a packet exceeds its stack or
+    /// the loop limit of the driver.
+    fn with_pipeline<T>(
+        &self,
+        test: RayTest,
+        counts_steps: bool,
+        mut trace: impl FnMut(&wgpu::ComputePipeline) -> Result<T, RenderError>,
+    ) -> Result<T, RenderError> {
+        let portable = pipelines::portable(self.fetch);
+        // Packets have no steps of single rays.
+        let variant = match counts_steps || !self.as_packets {
+            true => portable,
+            false => pipelines::tracing_variant(&self.gpu, self.fetch, &self.view),
+        };
+        match trace(&self.pipeline(test, counts_steps, variant)?) {
+            Err(RenderError::PathTooLong(_)) if variant != portable => {
+                trace(&self.pipeline(test, counts_steps, portable)?)
+            }
+            traced => traced,
         }
-        Ok(all)
     }
 
     fn pipeline(
         &self,
         test: RayTest,
         counts_steps: bool,
+        variant: Variant,
     ) -> Result<wgpu::ComputePipeline, GpuError> {
         let is_any = test == RayTest::Any;
         let overrides = overrides::of_query(&self.scene, &self.view, is_any, counts_steps);
         let (gpu, layouts) = (&self.gpu, &self.layouts);
-        // Packets have no steps of single rays.
-        let variant = match counts_steps || !self.as_packets {
-            true => pipelines::portable(self.fetch),
-            false => pipelines::tracing_variant(gpu, self.fetch, &self.view),
-        };
         let Compiled { pipeline, .. } =
             pipelines::tracing(gpu, variant, layouts, Kernel::TRACE_RAYS, overrides)?;
         Ok(pipeline)

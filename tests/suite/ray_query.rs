@@ -240,3 +240,29 @@ fn steps_are_exact_and_any_hit_takes_no_more_of_them() {
     let seconds = query.seconds(&batch, RayTest::Closest, 3).expect("a time");
     assert!(seconds > 0.0 && seconds < 60.0, "{seconds}");
 }
+
+/// The lanes of a packet share a stack, which a deep tree can fill: the query is then repeated ray by ray.
+#[test]
+fn packets_and_single_rays_find_the_same_in_a_deep_tree() {
+    let center = |i: i32| {
+        let turn = f64::from(i);
+        2f64.powi(i) * dvec3(0.3 * turn.cos(), 0.3 * turn.sin(), -1.0)
+    };
+    let mut scene = scenes::empty();
+    for i in -40..46 {
+        scene.add_sphere(center(i), 2f64.powi(i) / 20.0, 0);
+    }
+    let rays: Vec<_> = (0..512)
+        .map(|index| toward(6.0 * DVec3::Z, center(index % 86 - 40)))
+        .collect();
+    let hits = |fetch| {
+        let (query, ..) = query(&scene, pack::MAX_BAKED, fetch);
+        query.closest_hits(&rays).expect("hits")
+    };
+    let expected = hits(Fetch::Image);
+    assert!(
+        expected.iter().flatten().count() > 50,
+        "the rays hit spheres"
+    );
+    assert!(hits(Fetch::Packet) == expected);
+}
