@@ -21,8 +21,8 @@ use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec, pod_read_unaligned};
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
-/// Lanes of a workgroup; each traces one ray.
-const LANES: usize = 64;
+/// Rays of a workgroup.
+const GROUP_RAYS: usize = 64;
 /// Maximum number of rays of a dispatch: 16 MiB of results.
 const MAX_RAYS: usize = 1 << 20;
 const ROW_BYTES: u64 = 16;
@@ -117,7 +117,7 @@ struct Chunk {
 
 impl Chunk {
     fn group_count(&self) -> u32 {
-        self.ray_count.div_ceil(LANES) as u32
+        self.ray_count.div_ceil(GROUP_RAYS) as u32
     }
 }
 
@@ -261,7 +261,7 @@ impl RayQuery {
         let mut rows: Vec<_> = rows.collect();
         // Rays of negative length, which hit nothing, fill the last workgroup.
         rows.resize(
-            rays.len().next_multiple_of(LANES),
+            rays.len().next_multiple_of(GROUP_RAYS),
             [[0.0, 0.0, 0.0, -1.0], [0.0, 0.0, 1.0, 0.0]],
         );
         let array = Array::of_rows("rays", cast_slice(&rows));
