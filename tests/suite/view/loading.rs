@@ -16,7 +16,7 @@ use glimray::viewer::worker::request::{PreparedScene, RenderRequest};
 use glimray::viewer::worker::stage::Stage;
 use std::fmt::Write;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, mpsc};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
@@ -177,23 +177,35 @@ fn the_render_thread_tells_its_stage_until_there_is_a_picture() {
     let outcome = loaded.expect("a result").outcome;
     let imported = outcome.unwrap_or_else(|trouble| panic!("{trouble:?}"));
     let gpu = Gpu::new(&AdapterChoice::default()).expect("an adapter");
-    let thread: RenderThread<()> = RenderThread::new(gpu, || {}).expect("a thread");
+    // The thread waits at each wake-up until its stage has been read: polling would miss short stages.
+    let (wake, wakes) = mpsc::sync_channel(0);
+    let thread = RenderThread::new(gpu, move || {
+        if wake.send(()).is_ok() {
+            let _ = wake.send(());
+        }
+    });
+    let thread: RenderThread<()> = thread.expect("a thread");
+    // Dropped before the thread, which then waits no longer.
+    let wakes = wakes;
+    let stage = || {
+        wakes.recv_timeout(Duration::from_millis(1)).ok()?;
+        let activity = thread.activity();
+        wakes.recv().expect("the end of a wake-up");
+        activity
+    };
     assert_eq!(thread.activity(), None);
     let mut orders = RenderRequests::default();
     orders.pictures[PictureSlot::Main as usize] = Some(order(Arc::new(imported.scene)));
-    thread.order(orders);
     let start = Instant::now();
+    thread.order(orders);
     let mut seen = Vec::new();
     while !thread.is_settled() {
         assert!(start.elapsed() < PATIENCE, "never settled");
-        let activity = thread.activity();
-        if let Some(activity) = activity {
+        if let Some(activity) = stage() {
             assert!(activity.since >= start);
             seen.push(activity.stage);
         }
-        std::thread::sleep(Duration::from_millis(1));
     }
-    // The other stages of so small a scene are over at once.
     assert!(seen.contains(&Stage::CompilingShaders), "{seen:?}");
     assert_eq!(thread.activity(), None);
     // Recording rays needs another kernel; after that there is nothing left to wait for.
@@ -204,7 +216,7 @@ fn the_render_thread_tells_its_stage_until_there_is_a_picture() {
     let start = Instant::now();
     while thread.answers().is_empty() {
         assert!(start.elapsed() < PATIENCE, "no answer");
-        std::thread::sleep(Duration::from_millis(1));
+        let _ = stage();
     }
     assert_eq!(thread.activity(), None);
 }
