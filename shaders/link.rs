@@ -29,6 +29,16 @@ const KERNELS: [(&str, &str, &[&str], &[&str]); 6] = [
 /// Every feature of `shaders`.
 const FEATURES: [&str; 3] = ["image_fetch", "packet", "record"];
 
+/// Names items of modules as `module__item`, where wesl would repeat the whole path: the program embeds the text.
+/// Modules that share a name have no item of the same name; naga would reject the second.
+struct ShortNames;
+
+impl wesl::Mangler for ShortNames {
+    fn mangle(&self, path: &wesl::ModulePath, item: &str) -> String {
+        format!("{}__{item}", path.last().unwrap_or_default())
+    }
+}
+
 /// Names of files for `shaders/linked`, and their text. A broken import is an error.
 pub fn kernels() -> Result<Vec<(String, String)>, Box<dyn Error>> {
     let mut files = Vec::new();
@@ -38,6 +48,7 @@ pub fn kernels() -> Result<Vec<(String, String)>, Box<dyn Error>> {
                 continue;
             }
             let mut compiler = wesl::Wesl::new("shaders");
+            compiler.set_custom_mangler(ShortNames);
             for feature in FEATURES {
                 let is_on = own.contains(&feature) || features.contains(&feature);
                 compiler.set_feature(feature, is_on);

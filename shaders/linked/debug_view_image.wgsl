@@ -1,53 +1,53 @@
 @compute @workgroup_size(64, 1, 1)
 fn debug_view(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let work = package_scene_dispatch__1work_of(group, lane);
-    let batch = package_scene_dispatch__1load_batch();
+    let work = dispatch__work_of(group, lane);
+    let batch = dispatch__load_batch();
     if (work.inside) {
-        var sum = package_scene_film__1load_sum(work);
+        var sum = film__load_sum(work);
         var sample = batch.first_sample;
         loop {
-            let color = view(package_scene_dispatch__1sample_ray(batch, work.pixel, sample));
-            sum = package_scene_film__1add_sample(sum, package_scene_film_Sample(color), package_scene_dispatch__1sample_weight(batch, work.pixel, sample));
+            let color = view(dispatch__sample_ray(batch, work.pixel, sample));
+            sum = film__add_sample(sum, film__Sample(color), dispatch__sample_weight(batch, work.pixel, sample));
             continuing {
                 sample += 1u;
                 break if sample >= batch.end_sample;
             }
         }
-        package_scene_loops__1cut_off |= sample < batch.end_sample;
-        package_scene_film__1store_sum(work, sum);
+        loops__cut_off |= sample < batch.end_sample;
+        film__store_sum(work, sum);
     }
-    package_scene_dispatch__1add_counts(lane);
+    dispatch__add_counts(lane);
 }
 
-fn view(ray: package_types_Ray) -> vec3f {
-    let before = package_scene_loops__1nodes_visited + package_scene_loops__1primitives_tested;
-    let hit = package_scene_traverse__1closest_hit(ray);
-    if (package_bindings_VIEW == package_types__1VIEW_HEAT) {
-        return vec3f(f32(package_scene_loops__1nodes_visited + package_scene_loops__1primitives_tested - before));
+fn view(ray: types__Ray) -> vec3f {
+    let before = loops__nodes_visited + loops__primitives_tested;
+    let hit = traverse__closest_hit(ray);
+    if (bindings__VIEW == types__VIEW_HEAT) {
+        return vec3f(f32(loops__nodes_visited + loops__primitives_tested - before));
     }
-    if (hit.primitive == package_types_NONE) {
+    if (hit.primitive == types__NONE) {
         return vec3f(0.0);
     }
-    if (package_bindings_VIEW == package_types__1VIEW_DEPTH) {
+    if (bindings__VIEW == types__VIEW_DEPTH) {
         return vec3f(hit.t, 1.0, 0.0);
     }
-    let surface = package_scene_surface__1surface_at(ray, hit);
-    if (package_bindings_VIEW == package_types__1VIEW_IDS) {
-        return package_lib_colormap__1id_color(surface.id);
+    let surface = surface__surface_at(ray, hit);
+    if (bindings__VIEW == types__VIEW_IDS) {
+        return colormap__id_color(surface.id);
     }
-    if (package_bindings_VIEW == package_types__1VIEW_UV) {
-        return package_lib_colormap__1uv_color(surface.uv);
+    if (bindings__VIEW == types__VIEW_UV) {
+        return colormap__uv_color(surface.uv);
     }
     return 0.5 * surface.n + 0.5;
 }
 
-struct package_scene_dispatch_Work {
+struct dispatch__Work {
     inside: bool,
     film_index: u32,
     pixel: vec2u
 }
 
-struct package_scene_dispatch_RayCounts {
+struct dispatch__RayCounts {
     primary: u32,
     primary_hits: u32,
     shadow: u32,
@@ -58,22 +58,22 @@ struct package_scene_dispatch_RayCounts {
     refraction_hits: u32
 }
 
-var<private> package_scene_dispatch_counts: package_scene_dispatch_RayCounts;
+var<private> dispatch__counts: dispatch__RayCounts;
 
-fn package_scene_dispatch__1work_of(group: vec3u, lane: u32) -> package_scene_dispatch_Work {
-    let index = package_bindings_dispatch.first_group + group.y * package_bindings_dispatch.grid_width + group.x;
-    let visited = package_lib_tile__1permuted_group(min(index, package_bindings_dispatch.group_count - 1u), package_bindings_dispatch.group_count, package_bindings_dispatch.group_stride);
-    let pixel = package_lib_tile__1tile_pixel(visited, lane, package_bindings_dispatch.group_columns);
-    if (package_bindings_ADAPTIVE) {
-        let entry = package_bindings_film[package_bindings__1FILM_ROWS * (index * 64u + lane) + package_bindings__1SQUARES_ROW];
-        return package_scene_dispatch_Work(index < package_bindings_dispatch.end_group && entry.w > 0.0, index * 64u + lane, vec2u(entry.yz));
+fn dispatch__work_of(group: vec3u, lane: u32) -> dispatch__Work {
+    let index = bindings__dispatch.first_group + group.y * bindings__dispatch.grid_width + group.x;
+    let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
+    let pixel = tile__tile_pixel(visited, lane, bindings__dispatch.group_columns);
+    if (bindings__ADAPTIVE) {
+        let entry = bindings__film[bindings__FILM_ROWS * (index * 64u + lane) + bindings__SQUARES_ROW];
+        return dispatch__Work(index < bindings__dispatch.end_group && entry.w > 0.0, index * 64u + lane, vec2u(entry.yz));
     }
-    let inside = index < package_bindings_dispatch.end_group && pixel.x < package_bindings_dispatch.tile_width && pixel.y < package_bindings_dispatch.tile_height;
-    return package_scene_dispatch_Work(inside, index * 64u + lane, pixel + vec2u(package_bindings_dispatch.tile_x, package_bindings_dispatch.tile_y));
+    let inside = index < bindings__dispatch.end_group && pixel.x < bindings__dispatch.tile_width && pixel.y < bindings__dispatch.tile_height;
+    return dispatch__Work(inside, index * 64u + lane, pixel + vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y));
 }
 
-struct package_scene_dispatch_Batch {
-    camera: package_types_PackedCamera,
+struct dispatch__Batch {
+    camera: types__PackedCamera,
     background: vec3f,
     background_top: vec3f,
     background_rotation: f32,
@@ -91,233 +91,233 @@ struct package_scene_dispatch_Batch {
     camera_media: vec4u
 }
 
-fn package_scene_dispatch__1load_batch() -> package_scene_dispatch_Batch {
-    package_scene_fetch__1load_starts();
-    let picture_size = vec2f(vec2u(package_bindings_dispatch.picture_width, package_bindings_dispatch.picture_height));
-    return package_scene_dispatch_Batch(package_bindings_frame.camera, package_bindings_frame.background, package_bindings_frame.background_top, package_bindings_frame.background_rotation, package_bindings_frame.background_first_texel, vec2u(package_bindings_frame.background_width, package_bindings_frame.background_height), package_bindings_frame.ambient, package_bindings_frame.light_count, picture_size, package_bindings_dispatch.seed, package_bindings_dispatch.first_sample, package_bindings_dispatch.end_sample, package_bindings_dispatch.max_depth, package_bindings_dispatch.min_throughput, package_bindings_dispatch.light_samples, package_bindings_frame.camera_media);
+fn dispatch__load_batch() -> dispatch__Batch {
+    fetch__load_starts();
+    let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
+    return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_first_texel, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
 }
 
-fn package_scene_dispatch__1sample_ray(batch: package_scene_dispatch_Batch, pixel: vec2u, sample: u32) -> package_types_Ray {
-    let key = package_lib_rng__1pixel_key(batch.seed, pixel);
+fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, sample: u32) -> types__Ray {
+    let key = rng__pixel_key(batch.seed, pixel);
     var within = vec2f(0.5);
-    if (package_bindings_STRATIFIED) {
-        within += package_lib_filter__1filter_offset(package_bindings_FILTER, package_bindings__1FILTER_RADIUS, package_lib_sampling__1stratified_2d(sample, key));
+    if (bindings__STRATIFIED) {
+        within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
     }
     let position = vec2f(pixel) + within;
-    if (package_bindings__1HAS_MOTION || package_bindings__1CAMERA_MOTION || package_bindings__1LIGHT_MOTION) {
-        package_scene_shutter__1shutter_time = package_scene_dispatch__1sample_time(sample, key);
+    if (bindings__HAS_MOTION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
+        shutter__shutter_time = dispatch__sample_time(sample, key);
     }
-    let camera = package_scene_shutter__1shutter_camera(batch.camera);
-    if (package_bindings__1HAS_LENS && package_bindings_ORTHOGRAPHIC) {
-        return package_lib_camera__2parallel_lens_ray(camera, position, batch.picture_size, package_lib_sampling__1stratified_34(sample, key));
+    let camera = shutter__shutter_camera(batch.camera);
+    if (bindings__HAS_LENS && bindings__ORTHOGRAPHIC) {
+        return camera__parallel_lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
     }
-    if (package_bindings__1HAS_LENS) {
-        return package_lib_camera__1lens_ray(camera, position, batch.picture_size, package_lib_sampling__1stratified_34(sample, key));
+    if (bindings__HAS_LENS) {
+        return camera__lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
     }
-    if (package_bindings_ORTHOGRAPHIC) {
-        return package_lib_camera__1parallel_ray(camera, position, batch.picture_size);
+    if (bindings__ORTHOGRAPHIC) {
+        return camera__parallel_ray(camera, position, batch.picture_size);
     }
-    return package_lib_camera__1camera_ray(camera, position, batch.picture_size);
+    return camera__camera_ray(camera, position, batch.picture_size);
 }
 
-fn package_scene_dispatch__1sample_time(sample: u32, key: u32) -> f32 {
-    if (package_bindings__1HAS_LENS) {
-        return package_lib_sampling__1stratified_1d(sample, key);
+fn dispatch__sample_time(sample: u32, key: u32) -> f32 {
+    if (bindings__HAS_LENS) {
+        return sampling__stratified_1d(sample, key);
     }
-    return package_lib_sampling__1stratified_34(sample, key).x;
+    return sampling__stratified_34(sample, key).x;
 }
 
-fn package_scene_dispatch__1sample_weight(batch: package_scene_dispatch_Batch, pixel: vec2u, sample: u32) -> f32 {
-    if (!package_bindings_STRATIFIED) {
+fn dispatch__sample_weight(batch: dispatch__Batch, pixel: vec2u, sample: u32) -> f32 {
+    if (!bindings__STRATIFIED) {
         return 1.0;
     }
-    return package_lib_filter__1filter_sign(package_bindings_FILTER, package_lib_sampling__1stratified_2d(sample, package_lib_rng__1pixel_key(batch.seed, pixel)));
+    return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, rng__pixel_key(batch.seed, pixel)));
 }
 
-fn package_scene_dispatch__1add_counts(lane: u32) {
-    if (package_bindings__1COUNT_RAYS) {
-        atomicAdd(&package_bindings_dispatch.counters.primary, package_scene_dispatch_counts.primary);
-        atomicAdd(&package_bindings_dispatch.counters.primary_hits, package_scene_dispatch_counts.primary_hits);
-        atomicAdd(&package_bindings_dispatch.counters.shadow, package_scene_dispatch_counts.shadow);
-        atomicAdd(&package_bindings_dispatch.counters.shadow_blocked, package_scene_dispatch_counts.shadow_blocked);
-        if (package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) {
-            atomicAdd(&package_bindings_dispatch.counters.reflection, package_scene_dispatch_counts.reflection);
-            atomicAdd(&package_bindings_dispatch.counters.reflection_hits, package_scene_dispatch_counts.reflection_hits);
-            atomicAdd(&package_bindings_dispatch.counters.refraction, package_scene_dispatch_counts.refraction);
-            atomicAdd(&package_bindings_dispatch.counters.refraction_hits, package_scene_dispatch_counts.refraction_hits);
+fn dispatch__add_counts(lane: u32) {
+    if (bindings__COUNT_RAYS) {
+        atomicAdd(&bindings__dispatch.counters.primary, dispatch__counts.primary);
+        atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
+        atomicAdd(&bindings__dispatch.counters.shadow, dispatch__counts.shadow);
+        atomicAdd(&bindings__dispatch.counters.shadow_blocked, dispatch__counts.shadow_blocked);
+        if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+            atomicAdd(&bindings__dispatch.counters.reflection, dispatch__counts.reflection);
+            atomicAdd(&bindings__dispatch.counters.reflection_hits, dispatch__counts.reflection_hits);
+            atomicAdd(&bindings__dispatch.counters.refraction, dispatch__counts.refraction);
+            atomicAdd(&bindings__dispatch.counters.refraction_hits, dispatch__counts.refraction_hits);
         }
     }
-    if ((package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) && package_scene__1ray_stack__2cut_off_trees > 0u) {
-        atomicAdd(&package_bindings_dispatch.counters.cut_off_trees, package_scene__1ray_stack__2cut_off_trees);
+    if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && ray_stack__cut_off_trees > 0u) {
+        atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
     }
-    if (package_scene_loops__1cut_off) {
-        atomicAdd(&package_bindings_dispatch.counters.cut_off_paths, 1u);
+    if (loops__cut_off) {
+        atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
     }
     if (lane == 0u) {
-        atomicAdd(&package_bindings_dispatch.counters.groups_done, 1u);
+        atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
     }
 }
 
 @group(0) @binding(0)
-var package_bindings_nodes: texture_storage_2d<rgba32uint, read>;
+var bindings__nodes: texture_storage_2d<rgba32uint, read>;
 
 @group(0) @binding(1)
-var package_bindings_triangles: texture_storage_2d<rgba32uint, read>;
+var bindings__triangles: texture_storage_2d<rgba32uint, read>;
 
 @group(0) @binding(2)
-var package_bindings_vertices: texture_storage_2d<rgba32uint, read>;
+var bindings__vertices: texture_storage_2d<rgba32uint, read>;
 
 @group(0) @binding(3)
-var package_bindings_materials: texture_storage_2d<rgba32uint, read>;
+var bindings__materials: texture_storage_2d<rgba32uint, read>;
 
 @group(1) @binding(0)
-var<storage, read> package_bindings_frame: package_types_PackedFrame;
+var<storage, read> bindings__frame: types__PackedFrame;
 
 @group(1) @binding(1)
-var<storage, read_write> package_bindings_dispatch: package_types_PackedDispatch;
+var<storage, read_write> bindings__dispatch: types__PackedDispatch;
 
 @group(2) @binding(0)
-var<storage, read_write> package_bindings_film: array<vec4f>;
+var<storage, read_write> bindings__film: array<vec4f>;
 
-override package_bindings__1TRIANGLE_TEST: u32 = package_types__2TRIANGLE_TEST_WATERTIGHT;
+override bindings__TRIANGLE_TEST: u32 = types__TRIANGLE_TEST_WATERTIGHT;
 
-override package_bindings__1HAS_TRIANGLES: bool = true;
+override bindings__HAS_TRIANGLES: bool = true;
 
-override package_bindings__1HAS_SHAPES: bool = true;
+override bindings__HAS_SHAPES: bool = true;
 
-override package_bindings__1HAS_PLANES: bool = true;
+override bindings__HAS_PLANES: bool = true;
 
-override package_bindings__1MIXED_MATERIALS: bool = true;
+override bindings__MIXED_MATERIALS: bool = true;
 
-override package_bindings__1BRUTE_FORCE: bool = false;
+override bindings__BRUTE_FORCE: bool = false;
 
-override package_bindings_STRATIFIED: bool = false;
+override bindings__STRATIFIED: bool = false;
 
-override package_bindings__1COUNT_RAYS: bool = false;
+override bindings__COUNT_RAYS: bool = false;
 
-override package_bindings__1COUNT_STEPS: bool = false;
+override bindings__COUNT_STEPS: bool = false;
 
-override package_bindings_VIEW: u32 = package_types__1VIEW_NORMALS;
+override bindings__VIEW: u32 = types__VIEW_NORMALS;
 
-override package_bindings__1SHAPE_KINDS: u32 = 4294967295u;
+override bindings__SHAPE_KINDS: u32 = 4294967295u;
 
-override package_bindings__1HAS_REFLECTION: bool = true;
+override bindings__HAS_REFLECTION: bool = true;
 
-override package_bindings__1HAS_REFRACTION: bool = true;
+override bindings__HAS_REFRACTION: bool = true;
 
-override package_bindings__1HAS_CONTACT: bool = true;
+override bindings__HAS_CONTACT: bool = true;
 
-override package_bindings__1HAS_LENS: bool = true;
+override bindings__HAS_LENS: bool = true;
 
-override package_bindings_FILTER: u32 = package_types__1FILTER_BOX;
+override bindings__FILTER: u32 = types__FILTER_BOX;
 
-override package_bindings__1FILTER_RADIUS: f32 = 0.5;
+override bindings__FILTER_RADIUS: f32 = 0.5;
 
-override package_bindings__1HAS_TEXTURES: bool = true;
+override bindings__HAS_TEXTURES: bool = true;
 
-override package_bindings_ADAPTIVE: bool = false;
+override bindings__ADAPTIVE: bool = false;
 
-override package_bindings__1HAS_INSTANCES: bool = true;
+override bindings__HAS_INSTANCES: bool = true;
 
-override package_bindings__1HAS_MOTION: bool = true;
+override bindings__HAS_MOTION: bool = true;
 
-override package_bindings__1CAMERA_MOTION: bool = true;
+override bindings__CAMERA_MOTION: bool = true;
 
-override package_bindings__1LIGHT_MOTION: bool = true;
+override bindings__LIGHT_MOTION: bool = true;
 
-override package_bindings_ORTHOGRAPHIC: bool = false;
+override bindings__ORTHOGRAPHIC: bool = false;
 
-override package_bindings__1HAS_UVS: bool = true;
+override bindings__HAS_UVS: bool = true;
 
-override package_bindings__1FILM_ROWS: u32 = 1u;
+override bindings__FILM_ROWS: u32 = 1u;
 
-override package_bindings__1SQUARES_ROW: u32 = 1u;
+override bindings__SQUARES_ROW: u32 = 1u;
 
-const package_types_NONE: u32 = 4294967295u;
+const types__NONE: u32 = 4294967295u;
 
-const package_types_LEAF: u32 = 2147483648u;
+const types__LEAF: u32 = 2147483648u;
 
-const package_types_SHAPE: u32 = 1073741824u;
+const types__SHAPE: u32 = 1073741824u;
 
-const package_types__2LEAF_COUNT_ONE: u32 = 134217728u;
+const types__LEAF_COUNT_ONE: u32 = 134217728u;
 
-const package_types__2LEAF_COUNT_MASK: u32 = 939524096u;
+const types__LEAF_COUNT_MASK: u32 = 939524096u;
 
-const package_types__2LEAF_FIRST_MASK: u32 = 134217727u;
+const types__LEAF_FIRST_MASK: u32 = 134217727u;
 
-const package_types_INSTANCE: u32 = 4160749568u;
+const types__INSTANCE: u32 = 4160749568u;
 
-const package_types_MOVING: u32 = 1073741824u;
+const types__MOVING: u32 = 1073741824u;
 
-const package_types__1STACK_SIZE: u32 = 96u;
+const types__STACK_SIZE: u32 = 96u;
 
-const package_types__1NO_INSTANCE: u32 = 1048575u;
+const types__NO_INSTANCE: u32 = 1048575u;
 
-const package_types__1NODE_ROWS: u32 = 4u;
+const types__NODE_ROWS: u32 = 4u;
 
-const package_types__1INSTANCE_ROWS: u32 = 10u;
+const types__INSTANCE_ROWS: u32 = 10u;
 
-const package_types__1KEY_ROWS: u32 = 4u;
+const types__KEY_ROWS: u32 = 4u;
 
-const package_types__1LIGHT_ROWS: u32 = 6u;
+const types__LIGHT_ROWS: u32 = 6u;
 
-const package_types__1CAMERA_ROWS: u32 = 4u;
+const types__CAMERA_ROWS: u32 = 4u;
 
-const package_types__1SHAPE_ROWS: u32 = 5u;
+const types__SHAPE_ROWS: u32 = 5u;
 
-const package_types__2IMAGE_WIDTH_LOG2: u32 = 12u;
+const types__IMAGE_WIDTH_LOG2: u32 = 12u;
 
-const package_types__1SHAPE_SPHERE: u32 = 0u;
+const types__SHAPE_SPHERE: u32 = 0u;
 
-const package_types__1SHAPE_PLANE: u32 = 1u;
+const types__SHAPE_PLANE: u32 = 1u;
 
-const package_types__1SHAPE_DISC: u32 = 2u;
+const types__SHAPE_DISC: u32 = 2u;
 
-const package_types__1SHAPE_RECTANGLE: u32 = 3u;
+const types__SHAPE_RECTANGLE: u32 = 3u;
 
-const package_types__1SHAPE_BOX: u32 = 4u;
+const types__SHAPE_BOX: u32 = 4u;
 
-const package_types__1SHAPE_CONE: u32 = 5u;
+const types__SHAPE_CONE: u32 = 5u;
 
-const package_types__1SHAPE_TORUS: u32 = 6u;
+const types__SHAPE_TORUS: u32 = 6u;
 
-const package_types__1SHAPE_ELLIPSOID: u32 = 7u;
+const types__SHAPE_ELLIPSOID: u32 = 7u;
 
-const package_types__1SHAPE_GLOBE: u32 = 8u;
+const types__SHAPE_GLOBE: u32 = 8u;
 
-const package_types__1SHAPE_CAPPED: u32 = 1u;
+const types__SHAPE_CAPPED: u32 = 1u;
 
-const package_types__2MATERIAL_TWO_SIDED: u32 = 1u;
+const types__MATERIAL_TWO_SIDED: u32 = 1u;
 
-const package_types__1MATERIAL_ROWS: u32 = 8u;
+const types__MATERIAL_ROWS: u32 = 8u;
 
-const package_types__1FILTER_BOX: u32 = 0u;
+const types__FILTER_BOX: u32 = 0u;
 
-const package_types__1FILTER_TENT: u32 = 1u;
+const types__FILTER_TENT: u32 = 1u;
 
-const package_types__1FILTER_GAUSSIAN: u32 = 2u;
+const types__FILTER_GAUSSIAN: u32 = 2u;
 
-const package_types__2FILTER_BLACKMAN_HARRIS: u32 = 3u;
+const types__FILTER_BLACKMAN_HARRIS: u32 = 3u;
 
-const package_types__1FILTER_MITCHELL: u32 = 4u;
+const types__FILTER_MITCHELL: u32 = 4u;
 
-const package_types__2TRIANGLE_TEST_PLANE: u32 = 0u;
+const types__TRIANGLE_TEST_PLANE: u32 = 0u;
 
-const package_types__3TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
+const types__TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
 
-const package_types__2TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
+const types__TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
 
-const package_types__1VIEW_NORMALS: u32 = 0u;
+const types__VIEW_NORMALS: u32 = 0u;
 
-const package_types__1VIEW_DEPTH: u32 = 1u;
+const types__VIEW_DEPTH: u32 = 1u;
 
-const package_types__1VIEW_IDS: u32 = 2u;
+const types__VIEW_IDS: u32 = 2u;
 
-const package_types__1VIEW_HEAT: u32 = 3u;
+const types__VIEW_HEAT: u32 = 3u;
 
-const package_types__1VIEW_UV: u32 = 4u;
+const types__VIEW_UV: u32 = 4u;
 
-struct package_types_PackedTriangle {
+struct types__PackedTriangle {
     v0: vec3f,
     i0: u32,
     v1: vec3f,
@@ -326,12 +326,12 @@ struct package_types_PackedTriangle {
     i2: u32
 }
 
-struct package_types_PackedVertex {
+struct types__PackedVertex {
     normal: vec3f,
     material: u32
 }
 
-struct package_types_PackedShape {
+struct types__PackedShape {
     position: vec3f,
     kind: u32,
     row_x: vec3f,
@@ -346,7 +346,7 @@ struct package_types_PackedShape {
     _pad1: u32
 }
 
-struct package_types_PackedInstance {
+struct types__PackedInstance {
     translation: vec3f,
     root: u32,
     inverse_x: vec3f,
@@ -366,7 +366,7 @@ struct package_types_PackedInstance {
     pattern_z: vec4f
 }
 
-struct package_types_PackedKey {
+struct types__PackedKey {
     translation: vec3f,
     _pad0: u32,
     rotation: vec4f,
@@ -376,7 +376,7 @@ struct package_types_PackedKey {
     _pad2: u32
 }
 
-struct package_types_PackedCamera {
+struct types__PackedCamera {
     origin: vec3f,
     lens_radius: f32,
     forward: vec3f,
@@ -387,8 +387,8 @@ struct package_types_PackedCamera {
     blade_count: u32
 }
 
-struct package_types_PackedFrame {
-    camera: package_types_PackedCamera,
+struct types__PackedFrame {
+    camera: types__PackedCamera,
     background: vec3f,
     light_count: u32,
     ambient: vec3f,
@@ -414,7 +414,7 @@ struct package_types_PackedFrame {
     shape_row: u32
 }
 
-struct package_types_PackedDispatch {
+struct types__PackedDispatch {
     picture_width: u32,
     picture_height: u32,
     tile_x: u32,
@@ -433,10 +433,10 @@ struct package_types_PackedDispatch {
     max_depth: u32,
     min_throughput: f32,
     light_samples: f32,
-    counters: package_types_PackedCounters
+    counters: types__PackedCounters
 }
 
-struct package_types_PackedCounters {
+struct types__PackedCounters {
     groups_done: atomic<u32>,
     nonfinite_samples: atomic<u32>,
     cut_off_paths: atomic<u32>,
@@ -451,7 +451,7 @@ struct package_types_PackedCounters {
     refraction_hits: atomic<u32>
 }
 
-struct package_types_Ray {
+struct types__Ray {
     origin: vec3f,
     t_max: f32,
     direction: vec3f,
@@ -459,14 +459,14 @@ struct package_types_Ray {
     leaving_instance: u32
 }
 
-struct package_types_Candidate {
+struct types__Candidate {
     hit: bool,
     t: f32,
     b1: f32,
     b2: f32
 }
 
-struct package_types_Hit {
+struct types__Hit {
     t: f32,
     primitive: u32,
     b1: f32,
@@ -474,7 +474,7 @@ struct package_types_Hit {
     instance: u32
 }
 
-struct package_types_Node {
+struct types__Node {
     lo: vec3f,
     scale: vec3f,
     min_x: vec4f,
@@ -486,7 +486,7 @@ struct package_types_Node {
     children: vec4u
 }
 
-struct package_types_Phong {
+struct types__Phong {
     diffuse: vec3f,
     specular: vec3f,
     shininess: f32,
@@ -494,7 +494,7 @@ struct package_types_Phong {
     reflect: vec3f
 }
 
-struct package_types_Surface {
+struct types__Surface {
     p: vec3f,
     n: vec3f,
     ng: vec3f,
@@ -503,424 +503,424 @@ struct package_types_Surface {
     outside: bool,
     uv: vec2f,
     material: u32,
-    phong: package_types_Phong,
+    phong: types__Phong,
     id: u32,
     place: vec3f,
     instance: u32
 }
 
-const package_lib_tile__1GROUP_SIDE: u32 = 8u;
+const tile__GROUP_SIDE: u32 = 8u;
 
-fn package_lib_tile__1permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
+fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
     return (index * stride) % group_count;
 }
 
-fn package_lib_tile__1morton_8x8(lane: u32) -> vec2u {
+fn tile__morton_8x8(lane: u32) -> vec2u {
     let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
     let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
     return vec2u(x, y);
 }
 
-fn package_lib_tile__1tile_pixel(group: u32, lane: u32, group_columns: u32) -> vec2u {
-    return package_lib_tile__1GROUP_SIDE * vec2u(group % group_columns, group / group_columns) + package_lib_tile__1morton_8x8(lane);
+fn tile__tile_pixel(group: u32, lane: u32, group_columns: u32) -> vec2u {
+    return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns) + tile__morton_8x8(lane);
 }
 
-var<private> package_scene_fetch__1shape_row: u32;
+var<private> fetch__shape_row: u32;
 
-var<private> package_scene_fetch__1light_row: u32;
+var<private> fetch__light_row: u32;
 
-fn package_scene_fetch__1load_starts() {
-    package_scene_fetch__1shape_row = package_bindings_frame.shape_row;
-    package_scene_fetch__1light_row = package_bindings_frame.light_row;
+fn fetch__load_starts() {
+    fetch__shape_row = bindings__frame.shape_row;
+    fetch__light_row = bindings__frame.light_row;
 }
 
-fn package_scene_fetch__1load_node(index: u32) -> package_types_Node {
-    let row = package_types__1NODE_ROWS * index;
-    return package_lib_intersect_node__1decode_node(package_scene_fetch__1node_row(row), package_scene_fetch__1node_row(row + 1u), package_scene_fetch__1node_row(row + 2u), package_scene_fetch__1node_row(row + 3u));
+fn fetch__load_node(index: u32) -> types__Node {
+    let row = types__NODE_ROWS * index;
+    return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
 }
 
-fn package_scene_fetch__2load_moving_node(reference: u32, time: f32) -> package_types_Node {
-    let index = reference & ~package_types_MOVING;
-    let last = index + select(0u, 1u, (reference & package_types_MOVING) != 0u);
-    return package_lib_intersect_node__1node_between(package_scene_fetch__1load_node(index), package_scene_fetch__1load_node(last), time);
+fn fetch__load_moving_node(reference: u32, time: f32) -> types__Node {
+    let index = reference & ~types__MOVING;
+    let last = index + select(0u, 1u, (reference & types__MOVING) != 0u);
+    return node__node_between(fetch__load_node(index), fetch__load_node(last), time);
 }
 
-fn package_scene_fetch__1load_instance(index: u32) -> package_types_PackedInstance {
-    let row = package_bindings_frame.instance_row + package_types__1INSTANCE_ROWS * index;
-    let r0 = package_scene_fetch__1node_row(row);
-    let r1 = package_scene_fetch__1node_row(row + 1u);
-    let r2 = package_scene_fetch__1node_row(row + 2u);
-    let r3 = package_scene_fetch__1node_row(row + 3u);
-    let r4 = package_scene_fetch__1node_row(row + 4u);
-    let r5 = package_scene_fetch__1node_row(row + 5u);
-    let r6 = package_scene_fetch__1node_row(row + 6u);
-    return package_types_PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(package_scene_fetch__1node_row(row + 7u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 8u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 9u)));
+fn fetch__load_instance(index: u32) -> types__PackedInstance {
+    let row = bindings__frame.instance_row + types__INSTANCE_ROWS * index;
+    let r0 = fetch__node_row(row);
+    let r1 = fetch__node_row(row + 1u);
+    let r2 = fetch__node_row(row + 2u);
+    let r3 = fetch__node_row(row + 3u);
+    let r4 = fetch__node_row(row + 4u);
+    let r5 = fetch__node_row(row + 5u);
+    let r6 = fetch__node_row(row + 6u);
+    return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
 }
 
-fn package_scene_fetch__1load_key(index: u32) -> package_types_PackedKey {
-    let row = package_bindings_frame.key_row + package_types__1KEY_ROWS * index;
-    return package_types_PackedKey(bitcast<vec3f>(package_scene_fetch__1node_row(row).xyz), 0u, bitcast<vec4f>(package_scene_fetch__1node_row(row + 1u)), bitcast<vec3f>(package_scene_fetch__1node_row(row + 2u).xyz), 0u, bitcast<vec3f>(package_scene_fetch__1node_row(row + 3u).xyz), 0u);
+fn fetch__load_key(index: u32) -> types__PackedKey {
+    let row = bindings__frame.key_row + types__KEY_ROWS * index;
+    return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
 }
 
-fn package_scene_fetch__1load_camera(key: u32) -> package_types_PackedCamera {
-    let row = package_scene_fetch__1light_row + package_types__1LIGHT_ROWS * package_bindings_frame.light_count * package_bindings_frame.light_key_count + package_types__1CAMERA_ROWS * key;
-    let r0 = package_scene_fetch__1node_row(row);
-    let r1 = package_scene_fetch__1node_row(row + 1u);
-    let r2 = package_scene_fetch__1node_row(row + 2u);
-    let r3 = package_scene_fetch__1node_row(row + 3u);
-    return package_types_PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
+fn fetch__load_camera(key: u32) -> types__PackedCamera {
+    let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
+    let r0 = fetch__node_row(row);
+    let r1 = fetch__node_row(row + 1u);
+    let r2 = fetch__node_row(row + 2u);
+    let r3 = fetch__node_row(row + 3u);
+    return types__PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
 }
 
-fn package_scene_fetch__1load_triangle(index: u32) -> package_types_PackedTriangle {
+fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
     let row = 3u * index;
-    let r0 = package_scene_fetch__1triangle_row(row);
-    let r1 = package_scene_fetch__1triangle_row(row + 1u);
-    let r2 = package_scene_fetch__1triangle_row(row + 2u);
-    return package_types_PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
+    let r0 = fetch__triangle_row(row);
+    let r1 = fetch__triangle_row(row + 1u);
+    let r2 = fetch__triangle_row(row + 2u);
+    return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
-fn package_scene_fetch__1load_shape(index: u32) -> package_types_PackedShape {
-    let row = package_scene_fetch__1shape_row + package_types__1SHAPE_ROWS * index;
-    return package_scene_fetch__1shape_of(package_scene_fetch__1triangle_row(row), package_scene_fetch__1triangle_row(row + 1u), package_scene_fetch__1triangle_row(row + 2u), package_scene_fetch__1triangle_row(row + 3u), package_scene_fetch__1triangle_row(row + 4u));
+fn fetch__load_shape(index: u32) -> types__PackedShape {
+    let row = fetch__shape_row + types__SHAPE_ROWS * index;
+    return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
 }
 
-fn package_scene_fetch__1shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> package_types_PackedShape {
-    return package_types_PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
+fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
+    return types__PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
 }
 
-fn package_scene_fetch__1load_vertex(index: u32) -> package_types_PackedVertex {
-    let r0 = package_scene_fetch__1vertex_row(index);
-    return package_types_PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
+fn fetch__load_vertex(index: u32) -> types__PackedVertex {
+    let r0 = fetch__vertex_row(index);
+    return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
 }
 
-struct package_scene_fetch_PhongMaterial {
-    phong: package_types_Phong,
+struct fetch__PhongMaterial {
+    phong: types__Phong,
     flags: u32
 }
 
-fn package_scene_fetch__1load_material(index: u32) -> package_scene_fetch_PhongMaterial {
-    let row = package_types__1MATERIAL_ROWS * index;
-    let r0 = package_scene_fetch__1material_row(row);
-    let r1 = package_scene_fetch__1material_row(row + 1u);
-    let r2 = package_scene_fetch__1material_row(row + 2u);
+fn fetch__load_material(index: u32) -> fetch__PhongMaterial {
+    let row = types__MATERIAL_ROWS * index;
+    let r0 = fetch__material_row(row);
+    let r1 = fetch__material_row(row + 1u);
+    let r2 = fetch__material_row(row + 2u);
     var reflect = vec3f(0.0);
-    if (package_bindings__1HAS_REFLECTION) {
-        reflect = bitcast<vec3f>(package_scene_fetch__1material_row(row + 3u).xyz);
+    if (bindings__HAS_REFLECTION) {
+        reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
     }
-    let phong = package_types_Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
-    return package_scene_fetch_PhongMaterial(phong, r1.w);
+    let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+    return fetch__PhongMaterial(phong, r1.w);
 }
 
-fn package_scene_fetch__1load_uv(index: u32) -> vec2f {
-    return bitcast<vec2f>(package_scene_fetch__1vertex_row(package_bindings_frame.vertex_count + index).xy);
+fn fetch__load_uv(index: u32) -> vec2f {
+    return bitcast<vec2f>(fetch__vertex_row(bindings__frame.vertex_count + index).xy);
 }
 
-fn package_scene_fetch_texel(row: u32) -> vec2u {
-    return vec2u(row & ((1u << package_types__2IMAGE_WIDTH_LOG2) - 1u), row >> package_types__2IMAGE_WIDTH_LOG2);
+fn fetch__texel(row: u32) -> vec2u {
+    return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
 }
 
-fn package_scene_fetch__1node_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_nodes, package_scene_fetch_texel(row));
+fn fetch__node_row(row: u32) -> vec4u {
+    return textureLoad(bindings__nodes, fetch__texel(row));
 }
 
-fn package_scene_fetch__1triangle_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_triangles, package_scene_fetch_texel(row));
+fn fetch__triangle_row(row: u32) -> vec4u {
+    return textureLoad(bindings__triangles, fetch__texel(row));
 }
 
-fn package_scene_fetch__1vertex_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_vertices, package_scene_fetch_texel(row));
+fn fetch__vertex_row(row: u32) -> vec4u {
+    return textureLoad(bindings__vertices, fetch__texel(row));
 }
 
-fn package_scene_fetch__1material_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_materials, package_scene_fetch_texel(row));
+fn fetch__material_row(row: u32) -> vec4u {
+    return textureLoad(bindings__materials, fetch__texel(row));
 }
 
-struct package_scene_film_Sample {
+struct film__Sample {
     radiance: vec3f
 }
 
-struct package_scene_film_Sum {
+struct film__Sum {
     radiance: vec4f,
     squares: f32
 }
 
-fn package_scene_film__1load_sum(work: package_scene_dispatch_Work) -> package_scene_film_Sum {
-    let row = package_bindings__1FILM_ROWS * work.film_index;
-    var sum = package_scene_film_Sum(package_bindings_film[row], 0.0);
-    if (package_bindings_ADAPTIVE) {
-        sum.squares = package_bindings_film[row + package_bindings__1SQUARES_ROW].x;
+fn film__load_sum(work: dispatch__Work) -> film__Sum {
+    let row = bindings__FILM_ROWS * work.film_index;
+    var sum = film__Sum(bindings__film[row], 0.0);
+    if (bindings__ADAPTIVE) {
+        sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
     }
     return sum;
 }
 
-fn package_scene_film__1store_sum(work: package_scene_dispatch_Work, sum: package_scene_film_Sum) {
-    let row = package_bindings__1FILM_ROWS * work.film_index;
-    package_bindings_film[row] = sum.radiance;
-    if (package_bindings_ADAPTIVE) {
-        package_bindings_film[row + package_bindings__1SQUARES_ROW].x = sum.squares;
+fn film__store_sum(work: dispatch__Work, sum: film__Sum) {
+    let row = bindings__FILM_ROWS * work.film_index;
+    bindings__film[row] = sum.radiance;
+    if (bindings__ADAPTIVE) {
+        bindings__film[row + bindings__SQUARES_ROW].x = sum.squares;
     }
 }
 
-fn package_scene_film__1add_sample(sum: package_scene_film_Sum, sample: package_scene_film_Sample, weight: f32) -> package_scene_film_Sum {
-    let luminance = dot(sample.radiance, package_lib_tone__1LUMINANCE_REC709);
+fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__Sum {
+    let luminance = dot(sample.radiance, tone__LUMINANCE_REC709);
     var next = sum;
     next.radiance += weight * vec4f(sample.radiance, 1.0);
     next.squares += luminance * luminance;
-    if (!package_lib_numeric__1is_finite(next.radiance.xyz) || (package_bindings_ADAPTIVE && !package_lib_numeric__1is_finite(vec3f(next.squares)))) {
-        atomicAdd(&package_bindings_dispatch.counters.nonfinite_samples, 1u);
+    if (!numeric__is_finite(next.radiance.xyz) || (bindings__ADAPTIVE && !numeric__is_finite(vec3f(next.squares)))) {
+        atomicAdd(&bindings__dispatch.counters.nonfinite_samples, 1u);
         return sum;
     }
     return next;
 }
 
-var<private> package_scene_loops__1nodes_visited: u32 = 0u;
+var<private> loops__nodes_visited: u32 = 0u;
 
-var<private> package_scene_loops__1primitives_tested: u32 = 0u;
+var<private> loops__primitives_tested: u32 = 0u;
 
-var<private> package_scene_loops__1cut_off: bool = false;
+var<private> loops__cut_off: bool = false;
 
-const package_scene_traverse_EMPTY: u32 = 4294967295u;
+const traverse__EMPTY: u32 = 4294967295u;
 
-const package_scene_traverse_RETURN: u32 = 4294967294u;
+const traverse__RETURN: u32 = 4294967294u;
 
-var<private> package_scene_traverse_stack: array<u32, package_types__1STACK_SIZE>;
+var<private> traverse__stack: array<u32, types__STACK_SIZE>;
 
-const package_scene_traverse__1CONTACT_RANGE: f32 = 0.0001;
+const traverse__CONTACT_RANGE: f32 = 0.0001;
 
-fn package_scene_traverse__1closest_hit(ray: package_types_Ray) -> package_types_Hit {
-    if (package_bindings__1HAS_CONTACT) {
-        package_scene_primitive__1runner_up = package_types_Hit(package_lib_camera__1T_FAR, package_types_NONE, 0.0, 0.0, package_types__1NO_INSTANCE);
+fn traverse__closest_hit(ray: types__Ray) -> types__Hit {
+    if (bindings__HAS_CONTACT) {
+        primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
     }
-    return package_scene_traverse_traverse(ray, false);
+    return traverse__traverse(ray, false);
 }
 
-fn package_scene_traverse__1search_limit(ray: package_types_Ray, hit: package_types_Hit) -> f32 {
-    if (package_bindings__1HAS_CONTACT) {
-        return hit.t + package_scene_traverse__1CONTACT_RANGE * (hit.t + package_lib_numeric__1max_component(abs(ray.origin)));
+fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
+    if (bindings__HAS_CONTACT) {
+        return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
     }
     return hit.t;
 }
 
-fn package_scene_traverse_traverse(ray: package_types_Ray, any: bool) -> package_types_Hit {
-    var hit = package_types_Hit(ray.t_max, package_types_NONE, 0.0, 0.0, package_types__1NO_INSTANCE);
-    let shear = package_lib_intersect__1triangle_watertight__1shear_of(ray.direction);
-    if (package_bindings__1HAS_PLANES) {
-        hit = package_scene_exhaustive__1hit_planes(ray, hit);
+fn traverse__traverse(ray: types__Ray, any: bool) -> types__Hit {
+    var hit = types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+    let shear = triangle_watertight__shear_of(ray.direction);
+    if (bindings__HAS_PLANES) {
+        hit = exhaustive__hit_planes(ray, hit);
     }
-    if (package_bindings__1BRUTE_FORCE) {
-        return package_scene_exhaustive__1hit_everything(ray, shear, hit);
+    if (bindings__BRUTE_FORCE) {
+        return exhaustive__hit_everything(ray, shear, hit);
     }
-    if (!(package_bindings__1HAS_TRIANGLES || package_bindings__1HAS_SHAPES) || (any && hit.primitive != package_types_NONE)) {
+    if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) || (any && hit.primitive != types__NONE)) {
         return hit;
     }
-    return package_scene_traverse_walk(ray, shear, any, hit);
+    return traverse__walk(ray, shear, any, hit);
 }
 
-fn package_scene_traverse_walk(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, any: bool, start: package_types_Hit) -> package_types_Hit {
+fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool, start: types__Hit) -> types__Hit {
     var hit = start;
-    var at = package_scene_primitive__1traversal_ray(ray, shear, package_types__1NO_INSTANCE);
-    package_scene_traverse_stack[0] = package_scene_traverse_EMPTY;
+    var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+    traverse__stack[0] = traverse__EMPTY;
     var top = 0u;
     var current = 0u;
-    if (package_bindings__1HAS_INSTANCES) {
-        current = package_bindings_frame.root;
+    if (bindings__HAS_INSTANCES) {
+        current = bindings__frame.root;
     }
     loop {
-        if (package_bindings__1HAS_INSTANCES) {
-            if (current == package_scene_traverse_RETURN) {
-                at = package_scene_primitive__1traversal_ray(ray, shear, package_types__1NO_INSTANCE);
-                current = package_scene_traverse_stack[top];
-                top -= select(1u, 0u, current == package_scene_traverse_EMPTY);
+        if (bindings__HAS_INSTANCES) {
+            if (current == traverse__RETURN) {
+                at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+                current = traverse__stack[top];
+                top -= select(1u, 0u, current == traverse__EMPTY);
             }
-            if ((current >= package_types_INSTANCE) & (current != package_scene_traverse_EMPTY)) {
-                let index = current & package_types__2LEAF_FIRST_MASK;
-                let instance = package_scene_fetch__1load_instance(index);
-                let local = package_scene_instance__1object_ray(ray, package_scene_instance__1space_of(instance));
-                at = package_scene_primitive__1traversal_ray(local, package_lib_intersect__1triangle_watertight__1shear_of(local.direction), index);
+            if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
+                let index = current & types__LEAF_FIRST_MASK;
+                let instance = fetch__load_instance(index);
+                let local = instance__object_ray(ray, instance__space_of(instance));
+                at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index);
                 top += 1u;
-                package_scene_traverse_stack[top] = package_scene_traverse_RETURN;
+                traverse__stack[top] = traverse__RETURN;
                 current = instance.root;
             }
         }
-        let is_node = !package_bindings__1HAS_INSTANCES || (current & package_types_LEAF) == 0u;
+        let is_node = !bindings__HAS_INSTANCES || (current & types__LEAF) == 0u;
         if (is_node) {
             loop {
-                let node = package_scene_traverse__2load_current_node(current);
-                let keys = package_lib_intersect_node_sort4(package_lib_intersect_node__1child_keys(node, at.ray.origin, at.inv, package_scene_traverse__1search_limit(ray, hit)));
-                let is_hit = keys < vec4u(package_lib_intersect_node_MISS);
+                let node = traverse__load_current_node(current);
+                let keys = node__sort4(node__child_keys(node, at.ray.origin, at.inv, traverse__search_limit(ray, hit)));
+                let is_hit = keys < vec4u(node__MISS);
                 let pushed = select(vec4u(0u), vec4u(1u), is_hit);
-                package_scene_traverse_stack[top + 1u] = node.children[keys.w & 3u];
+                traverse__stack[top + 1u] = node.children[keys.w & 3u];
                 top += pushed.w;
-                package_scene_traverse_stack[top + 1u] = node.children[keys.z & 3u];
+                traverse__stack[top + 1u] = node.children[keys.z & 3u];
                 top += pushed.z;
-                package_scene_traverse_stack[top + 1u] = node.children[keys.y & 3u];
+                traverse__stack[top + 1u] = node.children[keys.y & 3u];
                 top += pushed.y;
-                let popped = package_scene_traverse_stack[top];
+                let popped = traverse__stack[top];
                 current = select(popped, node.children[keys.x & 3u], is_hit.x);
-                top -= select(1u, 0u, is_hit.x | (popped == package_scene_traverse_EMPTY));
-                if (package_bindings__1COUNT_STEPS) {
-                    package_scene_loops__1nodes_visited += 1u;
+                top -= select(1u, 0u, is_hit.x | (popped == traverse__EMPTY));
+                if (bindings__COUNT_STEPS) {
+                    loops__nodes_visited += 1u;
                 }
                 continuing {
                 
-                    break if (current & package_types_LEAF) != 0u;
+                    break if (current & types__LEAF) != 0u;
                 }
             }
         }
-        if (current == package_scene_traverse_EMPTY) {
+        if (current == traverse__EMPTY) {
             break;
         }
-        if (package_bindings__1HAS_INSTANCES && current >= package_types_INSTANCE) {
+        if (bindings__HAS_INSTANCES && current >= types__INSTANCE) {
             continue;
         }
         loop {
-            hit = package_scene_primitive_closer(at, hit, current & (package_types_SHAPE | package_types__2LEAF_FIRST_MASK));
-            let popped = package_scene_traverse_stack[top];
-            let is_last = (current & package_types__2LEAF_COUNT_MASK) == 0u;
-            top -= select(0u, 1u, is_last & (popped != package_scene_traverse_EMPTY));
-            current = select(current - package_types__2LEAF_COUNT_ONE + 1u, popped, is_last);
-            current = select(current, package_scene_traverse_EMPTY, any & (hit.primitive != package_types_NONE));
-            if (package_bindings__1COUNT_STEPS) {
-                package_scene_loops__1primitives_tested += 1u;
+            hit = primitive__closer(at, hit, current & (types__SHAPE | types__LEAF_FIRST_MASK));
+            let popped = traverse__stack[top];
+            let is_last = (current & types__LEAF_COUNT_MASK) == 0u;
+            top -= select(0u, 1u, is_last & (popped != traverse__EMPTY));
+            current = select(current - types__LEAF_COUNT_ONE + 1u, popped, is_last);
+            current = select(current, traverse__EMPTY, any & (hit.primitive != types__NONE));
+            if (bindings__COUNT_STEPS) {
+                loops__primitives_tested += 1u;
             }
             continuing {
             
-                break if ((current & package_types_LEAF) == 0u) | (current >= package_types_INSTANCE);
+                break if ((current & types__LEAF) == 0u) | (current >= types__INSTANCE);
             }
         }
         continuing {
         
-            break if current == package_scene_traverse_EMPTY;
+            break if current == traverse__EMPTY;
         }
     }
-    package_scene_loops__1cut_off |= current != package_scene_traverse_EMPTY;
+    loops__cut_off |= current != traverse__EMPTY;
     return hit;
 }
 
-fn package_scene_traverse__2load_current_node(reference: u32) -> package_types_Node {
-    if (package_bindings__1HAS_MOTION) {
-        return package_scene_fetch__2load_moving_node(reference, package_scene_shutter__1shutter_time);
+fn traverse__load_current_node(reference: u32) -> types__Node {
+    if (bindings__HAS_MOTION) {
+        return fetch__load_moving_node(reference, shutter__shutter_time);
     }
-    return package_scene_fetch__1load_node(reference);
+    return fetch__load_node(reference);
 }
 
-var<private> package_scene_primitive__1runner_up: package_types_Hit;
+var<private> primitive__runner_up: types__Hit;
 
-struct package_scene_primitive_TraversalRay {
-    ray: package_types_Ray,
+struct primitive__TraversalRay {
+    ray: types__Ray,
     inv: vec3f,
-    shear: package_lib_intersect__1triangle_watertight_Shear,
+    shear: triangle_watertight__Shear,
     instance: u32
 }
 
-fn package_scene_primitive__1traversal_ray(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, instance: u32) -> package_scene_primitive_TraversalRay {
-    return package_scene_primitive_TraversalRay(ray, package_lib_numeric__1safe_reciprocal(ray.direction), shear, instance);
+fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32) -> primitive__TraversalRay {
+    return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance);
 }
 
-fn package_scene_primitive_closer(at: package_scene_primitive_TraversalRay, hit: package_types_Hit, primitive: u32) -> package_types_Hit {
-    return package_scene_primitive__1closer_of(at, hit, package_scene_primitive__1test_primitive(at.ray, primitive, at.shear), primitive);
+fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
+    return primitive__closer_of(at, hit, primitive__test_primitive(at.ray, primitive, at.shear), primitive);
 }
 
-fn package_scene_primitive__1closer_of(at: package_scene_primitive_TraversalRay, hit: package_types_Hit, candidate: package_types_Candidate, primitive: u32) -> package_types_Hit {
+fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
     var is_lower = primitive < hit.primitive;
     var is_left = primitive == at.ray.leaving;
-    if (package_bindings__1HAS_INSTANCES) {
+    if (bindings__HAS_INSTANCES) {
         is_lower = (at.instance < hit.instance) | ((at.instance == hit.instance) & is_lower);
         is_left = is_left & (at.instance == at.ray.leaving_instance);
     }
-    let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != package_types_NONE);
+    let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
     let counts = candidate.hit & !is_left;
     let wins = counts & ((candidate.t < hit.t) | ties);
-    if (package_bindings__1HAS_CONTACT) {
-        let found = package_types_Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
-        package_scene_primitive__2keep_runner_up(hit, found, counts, wins);
+    if (bindings__HAS_CONTACT) {
+        let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+        primitive__keep_runner_up(hit, found, counts, wins);
     }
-    return package_types_Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+    return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
 }
 
-fn package_scene_primitive__2keep_runner_up(hit: package_types_Hit, found: package_types_Hit, counts: bool, wins: bool) {
+fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
     let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
     if (wins) {
-        package_scene_primitive__1runner_up = hit;
+        primitive__runner_up = hit;
     }
-    else if (counts & !is_same & (found.t < package_scene_primitive__1runner_up.t)) {
-        package_scene_primitive__1runner_up = found;
+    else if (counts & !is_same & (found.t < primitive__runner_up.t)) {
+        primitive__runner_up = found;
     }
 }
 
-fn package_scene_primitive__1test_primitive(ray: package_types_Ray, primitive: u32, shear: package_lib_intersect__1triangle_watertight_Shear) -> package_types_Candidate {
-    var candidate = package_types_Candidate(false, 0.0, 0.0, 0.0);
-    if (package_bindings__1HAS_TRIANGLES && (!package_bindings__1HAS_SHAPES || (primitive & package_types_SHAPE) == 0u)) {
-        candidate = package_scene_primitive__1test_triangle(ray, package_scene_fetch__1load_triangle(primitive), shear);
+fn primitive__test_primitive(ray: types__Ray, primitive: u32, shear: triangle_watertight__Shear) -> types__Candidate {
+    var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+    if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
+        candidate = primitive__test_triangle(ray, fetch__load_triangle(primitive), shear);
     }
-    if (package_bindings__1HAS_SHAPES && (!package_bindings__1HAS_TRIANGLES || (primitive & package_types_SHAPE) != 0u)) {
-        candidate = package_scene_shape__1test_shape(ray, package_scene_fetch__1load_shape(primitive & ~package_types_SHAPE));
+    if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
+        candidate = shape__test_shape(ray, fetch__load_shape(primitive & ~types__SHAPE));
     }
     return candidate;
 }
 
-fn package_scene_primitive__1test_triangle(ray: package_types_Ray, corners: package_types_PackedTriangle, shear: package_lib_intersect__1triangle_watertight_Shear) -> package_types_Candidate {
-    if (package_bindings__1TRIANGLE_TEST == package_types__2TRIANGLE_TEST_PLANE) {
-        return package_lib_intersect__1triangle_plane__2intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
+fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
+    if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
+        return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
     }
-    if (package_bindings__1TRIANGLE_TEST == package_types__3TRIANGLE_TEST_MOLLER_TRUMBORE) {
-        return package_lib_intersect__2triangle_moller_trumbore__3intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
+    if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
+        return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
     }
-    return package_lib_intersect__1triangle_watertight__2intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
+    return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
 }
 
-const package_lib_camera__1T_FAR: f32 = 3e38;
+const camera__T_FAR: f32 = 3e38;
 
-fn package_lib_camera__1camera_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> package_types_Ray {
-    return package_types_Ray(camera.origin, package_lib_camera__1T_FAR, normalize(package_lib_camera_through(camera, position, size)), package_types_NONE, package_types__1NO_INSTANCE);
+fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
+    return types__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
 }
 
-fn package_lib_camera_through(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
     let x = 2.0 * position.x / size.x - 1.0;
     let y = 1.0 - 2.0 * position.y / size.y;
     return camera.forward + x * camera.right + y * camera.up;
 }
 
-fn package_lib_camera__1parallel_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> package_types_Ray {
-    let origin = camera.origin + package_lib_camera_across(camera, position, size);
-    return package_types_Ray(origin, package_lib_camera__1T_FAR, normalize(camera.forward), package_types_NONE, package_types__1NO_INSTANCE);
+fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
+    let origin = camera.origin + camera__across(camera, position, size);
+    return types__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
 }
 
-fn package_lib_camera_across(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
     let x = 2.0 * position.x / size.x - 1.0;
     let y = 1.0 - 2.0 * position.y / size.y;
     return x * camera.right + y * camera.up;
 }
 
-fn package_lib_camera__1lens_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> package_types_Ray {
-    let off_axis = package_lib_camera__1aperture_point(camera, u);
-    let direction = package_lib_camera_through(camera, position, size) - off_axis / camera.focus_distance;
-    return package_types_Ray(camera.origin + off_axis, package_lib_camera__1T_FAR, normalize(direction), package_types_NONE, package_types__1NO_INSTANCE);
+fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+    let off_axis = camera__aperture_point(camera, u);
+    let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
+    return types__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
-fn package_lib_camera__2parallel_lens_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> package_types_Ray {
-    let off_axis = package_lib_camera__1aperture_point(camera, u);
-    let origin = camera.origin + package_lib_camera_across(camera, position, size) + off_axis;
+fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+    let off_axis = camera__aperture_point(camera, u);
+    let origin = camera.origin + camera__across(camera, position, size) + off_axis;
     let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
-    return package_types_Ray(origin, package_lib_camera__1T_FAR, normalize(direction), package_types_NONE, package_types__1NO_INSTANCE);
+    return types__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
-fn package_lib_camera__1aperture_point(camera: package_types_PackedCamera, u: vec2f) -> vec3f {
-    var aperture = package_lib_warp__2disc_from_square(u);
+fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
+    var aperture = warp__disc_from_square(u);
     if (camera.blade_count >= 3u) {
-        aperture = package_lib_warp__2polygon_from_square(u, camera.blade_count, camera.blade_rotation);
+        aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
     }
     let p = camera.lens_radius * aperture;
     return p.x * normalize(camera.right) + p.y * normalize(camera.up);
 }
 
-struct package_lib_intersect__1triangle_watertight_Shear {
+struct triangle_watertight__Shear {
     x: vec3f,
     y: vec3f,
     z: vec3f
 }
 
-fn package_lib_intersect__1triangle_watertight__1shear_of(direction: vec3f) -> package_lib_intersect__1triangle_watertight_Shear {
+fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
     let size = abs(direction);
     let is_x = (size.x >= size.y) & (size.x >= size.z);
     let is_y = !is_x & (size.y >= size.z);
@@ -928,10 +928,10 @@ fn package_lib_intersect__1triangle_watertight__1shear_of(direction: vec3f) -> p
     let axis_x = axis_z.zxy;
     let axis_y = axis_z.yzx;
     let scale = 1.0 / dot(direction, axis_z);
-    return package_lib_intersect__1triangle_watertight_Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
+    return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
 }
 
-fn package_lib_intersect__1triangle_watertight__2intersect_triangle_watertight(origin: vec3f, shear: package_lib_intersect__1triangle_watertight_Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> package_types_Candidate {
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
     let a = v0 - origin;
     let b = v1 - origin;
     let c = v2 - origin;
@@ -950,22 +950,22 @@ fn package_lib_intersect__1triangle_watertight__2intersect_triangle_watertight(o
     let inv_det = 1.0 / select(1.0, det, usable);
     let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
     let t = dot(edges, depths) * inv_det;
-    return package_types_Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+    return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
 
-fn package_scene_exhaustive__1hit_planes(ray: package_types_Ray, start: package_types_Hit) -> package_types_Hit {
+fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
     var hit = start;
-    let end = package_bindings_frame.shape_count + package_bindings_frame.plane_count;
-    var index = package_bindings_frame.shape_count;
+    let end = bindings__frame.shape_count + bindings__frame.plane_count;
+    var index = bindings__frame.shape_count;
     loop {
-        let shape = package_scene_fetch__1load_shape(index);
-        let candidate = package_lib_intersect_plane__1intersect_plane(ray, shape.position, shape.row_y);
-        let primitive = package_types_SHAPE | index;
+        let shape = fetch__load_shape(index);
+        let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
+        let primitive = types__SHAPE | index;
         let counts = candidate.hit & (primitive != ray.leaving);
         let wins = counts & (candidate.t < hit.t);
-        let found = package_types_Hit(candidate.t, primitive, 0.0, 0.0, package_types__1NO_INSTANCE);
-        if (package_bindings__1HAS_CONTACT) {
-            package_scene_primitive__2keep_runner_up(hit, found, counts, wins);
+        let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+        if (bindings__HAS_CONTACT) {
+            primitive__keep_runner_up(hit, found, counts, wins);
         }
         if (wins) {
             hit = found;
@@ -975,92 +975,92 @@ fn package_scene_exhaustive__1hit_planes(ray: package_types_Ray, start: package_
             break if index >= end;
         }
     }
-    package_scene_loops__1cut_off |= index < end;
+    loops__cut_off |= index < end;
     return hit;
 }
 
-fn package_scene_exhaustive__1hit_everything(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, start: package_types_Hit) -> package_types_Hit {
-    let world = package_scene_primitive__1traversal_ray(ray, shear, package_types__1NO_INSTANCE);
+fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
+    let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
     var hit = start;
-    if (package_bindings__1HAS_TRIANGLES) {
-        hit = package_scene_exhaustive__1hit_run(world, hit, package_bindings_frame.first_triangle, package_bindings_frame.triangle_count);
+    if (bindings__HAS_TRIANGLES) {
+        hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
     }
-    if (package_bindings__1HAS_SHAPES) {
-        hit = package_scene_exhaustive__1hit_run(world, hit, package_types_SHAPE, package_bindings_frame.shape_count);
+    if (bindings__HAS_SHAPES) {
+        hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
     }
-    if (package_bindings__1HAS_INSTANCES) {
+    if (bindings__HAS_INSTANCES) {
         var index = 0u;
-        for (; index < package_bindings_frame.instance_count; index += 1u) {
-            let instance = package_scene_fetch__1load_instance(index);
-            let local = package_scene_instance__1object_ray(ray, package_scene_instance__1space_of(instance));
-            hit = package_scene_exhaustive__1hit_run(package_scene_primitive__1traversal_ray(local, package_lib_intersect__1triangle_watertight__1shear_of(local.direction), index), hit, instance.first, instance.count);
+        for (; index < bindings__frame.instance_count; index += 1u) {
+            let instance = fetch__load_instance(index);
+            let local = instance__object_ray(ray, instance__space_of(instance));
+            hit = exhaustive__hit_run(primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index), hit, instance.first, instance.count);
         }
-        package_scene_loops__1cut_off |= index < package_bindings_frame.instance_count;
+        loops__cut_off |= index < bindings__frame.instance_count;
     }
     return hit;
 }
 
-fn package_scene_exhaustive__1hit_run(at: package_scene_primitive_TraversalRay, start: package_types_Hit, first: u32, count: u32) -> package_types_Hit {
+fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
     var hit = start;
     var index = 0u;
     for (; index < count; index += 1u) {
-        hit = package_scene_primitive_closer(at, hit, first + index);
+        hit = primitive__closer(at, hit, first + index);
     }
-    package_scene_loops__1cut_off |= index < count;
+    loops__cut_off |= index < count;
     return hit;
 }
 
-fn package_lib_intersect_plane__1intersect_plane(ray: package_types_Ray, point: vec3f, n: vec3f) -> package_types_Candidate {
+fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
     let slope = dot(n, ray.direction);
     let steep = abs(slope) > 1e-12;
     let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-    return package_types_Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+    return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
-const package_lib_numeric_ROUNDING: f32 = 5.9604645e-8;
+const numeric__ROUNDING: f32 = 5.9604645e-8;
 
-fn package_lib_numeric__1normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
+fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
     let largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
     let usable = largest > 1e-30;
     let scaled = select(vec3f(1.0, 0.0, 0.0), v / select(1.0, largest, usable), usable);
     return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
 }
 
-fn package_lib_numeric__1safe_reciprocal(d: vec3f) -> vec3f {
+fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
     let tiny = abs(d) < vec3f(1e-18);
     return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
 }
 
-fn package_lib_numeric__1is_finite(v: vec3f) -> bool {
+fn numeric__is_finite(v: vec3f) -> bool {
     let exponents = bitcast<vec3u>(v) & vec3u(2139095040u);
     return all(exponents != vec3u(2139095040u));
 }
 
-fn package_lib_numeric__1max_component(v: vec3f) -> f32 {
+fn numeric__max_component(v: vec3f) -> f32 {
     return max(v.x, max(v.y, v.z));
 }
 
-fn package_lib_intersect__1triangle_plane__2intersect_triangle_plane(ray: package_types_Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> package_types_Candidate {
+fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
     let e1 = v1 - v0;
     let e2 = v2 - v0;
     let n = cross(e1, e2);
     let slope = dot(n, ray.direction);
     let area = dot(n, n);
-    let usable = (abs(slope) > 4.0 * package_lib_numeric_ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
+    let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
     let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
     let w = ray.origin + t * ray.direction - v0;
     let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
     let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
     let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-    return package_types_Candidate(usable & inside & (t > 0.0), t, b1, b2);
+    return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
-fn package_lib_intersect__2triangle_moller_trumbore__3intersect_triangle_moller_trumbore(ray: package_types_Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> package_types_Candidate {
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
     let e1 = v1 - v0;
     let e2 = v2 - v0;
     let p = cross(ray.direction, e2);
     let det = dot(e1, p);
-    let usable = abs(det) > 4.0 * package_lib_numeric_ROUNDING * length(e1) * length(e2);
+    let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
     let inv_det = 1.0 / select(1.0, det, usable);
     let s = ray.origin - v0;
     let b1 = inv_det * dot(s, p);
@@ -1068,101 +1068,101 @@ fn package_lib_intersect__2triangle_moller_trumbore__3intersect_triangle_moller_
     let b2 = inv_det * dot(ray.direction, q);
     let t = inv_det * dot(e2, q);
     let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-    return package_types_Candidate(usable & inside & (t > 0.0), t, b1, b2);
+    return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
-const package_scene_shape_SPHERES: u32 = 1u << package_types__1SHAPE_SPHERE;
+const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
 
-const package_scene_shape_DISCS: u32 = 1u << package_types__1SHAPE_DISC;
+const shape__DISCS: u32 = 1u << types__SHAPE_DISC;
 
-const package_scene_shape_RECTANGLES: u32 = 1u << package_types__1SHAPE_RECTANGLE;
+const shape__RECTANGLES: u32 = 1u << types__SHAPE_RECTANGLE;
 
-const package_scene_shape_BOXES: u32 = 1u << package_types__1SHAPE_BOX;
+const shape__BOXES: u32 = 1u << types__SHAPE_BOX;
 
-const package_scene_shape_CONES: u32 = 1u << package_types__1SHAPE_CONE;
+const shape__CONES: u32 = 1u << types__SHAPE_CONE;
 
-const package_scene_shape_TORI: u32 = 1u << package_types__1SHAPE_TORUS;
+const shape__TORI: u32 = 1u << types__SHAPE_TORUS;
 
-const package_scene_shape_ELLIPSOIDS: u32 = 1u << package_types__1SHAPE_ELLIPSOID;
+const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
 
-const package_scene_shape_GLOBES: u32 = 1u << package_types__1SHAPE_GLOBE;
+const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
 
-fn package_scene_shape__1test_shape(ray: package_types_Ray, shape: package_types_PackedShape) -> package_types_Candidate {
-    if (package_bindings__1SHAPE_KINDS == package_scene_shape_SPHERES) {
-        return package_lib_intersect_sphere__1intersect_sphere(ray, shape.position, shape.size0);
+fn shape__test_shape(ray: types__Ray, shape: types__PackedShape) -> types__Candidate {
+    if (bindings__SHAPE_KINDS == shape__SPHERES) {
+        return sphere__intersect_sphere(ray, shape.position, shape.size0);
     }
-    var candidate = package_types_Candidate(false, 0.0, 0.0, 0.0);
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_SPHERES) != 0u && shape.kind == package_types__1SHAPE_SPHERE) {
-        candidate = package_lib_intersect_sphere__1intersect_sphere(ray, shape.position, shape.size0);
+    var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+    if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
+        candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_GLOBES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_GLOBES || shape.kind == package_types__1SHAPE_GLOBE)) {
-        candidate = package_lib_intersect_globe__1intersect_globe(ray, shape.position, shape.row_y, shape.size0);
+    if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
+        candidate = globe__intersect_globe(ray, shape.position, shape.row_y, shape.size0);
     }
-    let local = package_lib_canonical__1canonical_ray(ray, shape);
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_DISCS) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_DISCS || shape.kind == package_types__1SHAPE_DISC)) {
-        candidate = package_lib_intersect_disc__1intersect_disc(local, shape.size0);
+    let local = canonical__canonical_ray(ray, shape);
+    if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+        candidate = disc__intersect_disc(local, shape.size0);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_RECTANGLES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_RECTANGLES || shape.kind == package_types__1SHAPE_RECTANGLE)) {
-        candidate = package_lib_intersect_rectangle__1intersect_rectangle(local);
+    if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+        candidate = rectangle__intersect_rectangle(local);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_BOXES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_BOXES || shape.kind == package_types__1SHAPE_BOX)) {
-        candidate = package_lib_intersect_box__1intersect_box(local);
+    if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+        candidate = box__intersect_box(local);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_CONES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_CONES || shape.kind == package_types__1SHAPE_CONE)) {
-        candidate = package_lib_intersect_cone__1intersect_cone(local, shape.size0, shape.size1, (shape.flags & package_types__1SHAPE_CAPPED) != 0u);
+    if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+        candidate = cone__intersect_cone(local, shape.size0, shape.size1, (shape.flags & types__SHAPE_CAPPED) != 0u);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_TORI) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_TORI || shape.kind == package_types__1SHAPE_TORUS)) {
-        candidate = package_lib_intersect_torus__1intersect_torus(local, shape.size0);
+    if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+        candidate = torus__intersect_torus(local, shape.size0);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_ELLIPSOIDS) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_ELLIPSOIDS || shape.kind == package_types__1SHAPE_ELLIPSOID)) {
-        candidate = package_lib_intersect_ellipsoid__1intersect_ellipsoid(local);
+    if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+        candidate = ellipsoid__intersect_ellipsoid(local);
     }
     return candidate;
 }
 
-fn package_scene_shape__1canonical_point(shape: package_types_PackedShape, reached: vec3f, part: f32) -> package_lib_canonical_CanonicalPoint {
-    let p = package_lib_canonical__1canonical_vector(shape, reached - shape.position);
-    var point: package_lib_canonical_CanonicalPoint;
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_DISCS) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_DISCS || shape.kind == package_types__1SHAPE_DISC)) {
-        point = package_lib_intersect_disc__1disc_point(p);
+fn shape__canonical_point(shape: types__PackedShape, reached: vec3f, part: f32) -> canonical__CanonicalPoint {
+    let p = canonical__canonical_vector(shape, reached - shape.position);
+    var point: canonical__CanonicalPoint;
+    if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+        point = disc__disc_point(p);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_RECTANGLES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_RECTANGLES || shape.kind == package_types__1SHAPE_RECTANGLE)) {
-        point = package_lib_intersect_rectangle__1rectangle_point(p);
+    if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+        point = rectangle__rectangle_point(p);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_BOXES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_BOXES || shape.kind == package_types__1SHAPE_BOX)) {
-        point = package_lib_intersect_box__1box_point(p, part);
+    if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+        point = box__box_point(p, part);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_CONES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_CONES || shape.kind == package_types__1SHAPE_CONE)) {
-        point = package_lib_intersect_cone__1cone_point(p, shape.size0, shape.size1, part);
+    if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+        point = cone__cone_point(p, shape.size0, shape.size1, part);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_TORI) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_TORI || shape.kind == package_types__1SHAPE_TORUS)) {
-        point = package_lib_intersect_torus__1torus_point(p, shape.size0);
+    if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+        point = torus__torus_point(p, shape.size0);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_ELLIPSOIDS) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_ELLIPSOIDS || shape.kind == package_types__1SHAPE_ELLIPSOID)) {
-        point = package_lib_intersect_ellipsoid__1ellipsoid_point(p);
+    if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+        point = ellipsoid__ellipsoid_point(p);
     }
     return point;
 }
 
-fn package_scene_shape__1is_round(kind: u32) -> bool {
-    if ((package_bindings__1SHAPE_KINDS & (package_scene_shape_SPHERES | package_scene_shape_GLOBES)) == 0u) {
+fn shape__is_round(kind: u32) -> bool {
+    if ((bindings__SHAPE_KINDS & (shape__SPHERES | shape__GLOBES)) == 0u) {
         return false;
     }
-    return (package_bindings__1SHAPE_KINDS & ~(package_scene_shape_SPHERES | package_scene_shape_GLOBES)) == 0u || kind == package_types__1SHAPE_SPHERE || kind == package_types__1SHAPE_GLOBE;
+    return (bindings__SHAPE_KINDS & ~(shape__SPHERES | shape__GLOBES)) == 0u || kind == types__SHAPE_SPHERE || kind == types__SHAPE_GLOBE;
 }
 
-fn package_scene_shape__1is_flat(kind: u32) -> bool {
-    return (package_bindings__1SHAPE_KINDS & (package_scene_shape_DISCS | package_scene_shape_RECTANGLES)) != 0u && (kind == package_types__1SHAPE_DISC || kind == package_types__1SHAPE_RECTANGLE);
+fn shape__is_flat(kind: u32) -> bool {
+    return (bindings__SHAPE_KINDS & (shape__DISCS | shape__RECTANGLES)) != 0u && (kind == types__SHAPE_DISC || kind == types__SHAPE_RECTANGLE);
 }
 
-fn package_lib_intersect_sphere__1intersect_sphere(ray: package_types_Ray, center: vec3f, radius: f32) -> package_types_Candidate {
+fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
     let f = ray.origin - center;
     let a = dot(ray.direction, ray.direction);
     let b = -dot(f, ray.direction);
     let nearest = f + (b / a) * ray.direction;
     let discriminant = radius * radius - dot(nearest, nearest);
     if (discriminant < 0.0) {
-        return package_types_Candidate(false, 0.0, 0.0, 0.0);
+        return types__Candidate(false, 0.0, 0.0, 0.0);
     }
     let c = dot(f, f) - radius * radius;
     let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
@@ -1170,10 +1170,10 @@ fn package_lib_intersect_sphere__1intersect_sphere(ray: package_types_Ray, cente
     let t1 = q / a;
     let near = min(t0, t1);
     let t = select(max(t0, t1), near, near > 0.0);
-    return package_types_Candidate(t > 0.0, t, 0.0, 0.0);
+    return types__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_globe__1intersect_globe(ray: package_types_Ray, anchor: vec3f, n: vec3f, curvature: f32) -> package_types_Candidate {
+fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
     let w = ray.origin - anchor;
     let f = n + curvature * w;
     let c = curvature * dot(w, w) + 2.0 * dot(n, w);
@@ -1184,40 +1184,40 @@ fn package_lib_intersect_globe__1intersect_globe(ray: package_types_Ray, anchor:
     let is_near = abs(curvature * c) < 1.0;
     let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
     if (discriminant < 0.0) {
-        return package_types_Candidate(false, 0.0, 0.0, 0.0);
+        return types__Candidate(false, 0.0, 0.0, 0.0);
     }
     let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
     let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
     let t1 = q / a;
     let near = min(t0, t1);
     let t = select(max(t0, t1), near, near > 0.0);
-    return package_types_Candidate(t > 0.0, t, 0.0, 0.0);
+    return types__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_globe__1globe_point(shape: package_types_PackedShape, reached: vec3f) -> package_lib_canonical_PlacedPoint {
+fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
     let w = reached - shape.position;
     let f = shape.row_y + shape.size0 * w;
     let height = (shape.size0 * dot(w, w) + 2.0 * dot(shape.row_y, w)) / (1.0 + length(f));
-    let ng = package_lib_numeric__1normalize_or(f, shape.row_y);
+    let ng = numeric__normalize_or(f, shape.row_y);
     let p = reached - height * ng;
-    return package_lib_canonical_PlacedPoint(p, ng, 16.0 * package_lib_numeric_ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
+    return canonical__PlacedPoint(p, ng, 16.0 * numeric__ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
 }
 
-const package_lib_canonical__1TWO_PI: f32 = 6.2831855;
+const canonical__TWO_PI: f32 = 6.2831855;
 
-struct package_lib_canonical_CanonicalPoint {
+struct canonical__CanonicalPoint {
     p: vec3f,
     n: vec3f,
     uv: vec2f
 }
 
-struct package_lib_canonical_PlacedPoint {
+struct canonical__PlacedPoint {
     p: vec3f,
     ng: vec3f,
     error: vec3f
 }
 
-struct package_lib_canonical_Approach {
+struct canonical__Approach {
     origin: vec3f,
     start: f32,
     direction: vec3f,
@@ -1225,15 +1225,15 @@ struct package_lib_canonical_Approach {
     near: bool
 }
 
-fn package_lib_canonical__1canonical_vector(shape: package_types_PackedShape, v: vec3f) -> vec3f {
+fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
     return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
 }
 
-fn package_lib_canonical__1canonical_ray(ray: package_types_Ray, shape: package_types_PackedShape) -> package_types_Ray {
-    return package_types_Ray(package_lib_canonical__1canonical_vector(shape, ray.origin - shape.position), ray.t_max, package_lib_canonical__1canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+fn canonical__canonical_ray(ray: types__Ray, shape: types__PackedShape) -> types__Ray {
+    return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
 }
 
-fn package_lib_canonical_approach(ray: package_types_Ray, center: vec3f, reach: f32) -> package_lib_canonical_Approach {
+fn canonical__approach(ray: types__Ray, center: vec3f, reach: f32) -> canonical__Approach {
     let size = abs(ray.direction);
     let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
     let scaled = ray.direction / largest;
@@ -1243,14 +1243,14 @@ fn package_lib_canonical_approach(ray: package_types_Ray, center: vec3f, reach: 
     let origin = ray.origin + start * direction;
     let off = abs(origin - center);
     let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
-    return package_lib_canonical_Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
+    return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
 }
 
-fn package_lib_canonical__1approached_t(near: package_lib_canonical_Approach, s: f32) -> f32 {
+fn canonical__approached_t(near: canonical__Approach, s: f32) -> f32 {
     return (near.start + s) * near.t_per_length;
 }
 
-fn package_lib_canonical__1placed_point(shape: package_types_PackedShape, reached: vec3f, point: package_lib_canonical_CanonicalPoint) -> package_lib_canonical_PlacedPoint {
+fn canonical__placed_point(shape: types__PackedShape, reached: vec3f, point: canonical__CanonicalPoint) -> canonical__PlacedPoint {
     let inv_lengths = 1.0 / vec3f(length(shape.row_x), length(shape.row_y), length(shape.row_z));
     let x = shape.row_x * inv_lengths.x;
     let y = shape.row_y * inv_lengths.y;
@@ -1262,61 +1262,61 @@ fn package_lib_canonical__1placed_point(shape: package_types_PackedShape, reache
     let column_y = scale.y * cross(z, x);
     let column_z = scale.z * cross(x, y);
     let q = reached - shape.position;
-    let way = point.p - package_lib_canonical__1canonical_vector(shape, q);
+    let way = point.p - canonical__canonical_vector(shape, q);
     let p = reached + (way.x * column_x + way.y * column_y + way.z * column_z);
     let size = vec3f(dot(abs(shape.row_x), abs(q)), dot(abs(shape.row_y), abs(q)), dot(abs(shape.row_z), abs(q))) + 1.0;
     let reach = size.x * abs(column_x) + size.y * abs(column_y) + size.z * abs(column_z);
     let normal = point.n.x * shape.row_x + point.n.y * shape.row_y + point.n.z * shape.row_z;
-    return package_lib_canonical_PlacedPoint(p, package_lib_numeric__1normalize_or(normal, y), package_lib_offset__1placed_error(p, shape.position, reach));
+    return canonical__PlacedPoint(p, numeric__normalize_or(normal, y), offset__placed_error(p, shape.position, reach));
 }
 
-fn package_lib_canonical_longitude(x: f32, z: f32) -> f32 {
+fn canonical__longitude(x: f32, z: f32) -> f32 {
     let on_axis = (x == 0.0) & (z == 0.0);
-    return saturate(0.5 + atan2(x, select(z, 1.0, on_axis)) / package_lib_canonical__1TWO_PI);
+    return saturate(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
 }
 
-fn package_lib_canonical__1sphere_uv(n: vec3f) -> vec2f {
+fn canonical__sphere_uv(n: vec3f) -> vec2f {
     let off_axis = length(n.xz);
     let at_center = (off_axis == 0.0) & (n.y == 0.0);
     let latitude = atan2(n.y, select(off_axis, 1.0, at_center));
-    return vec2f(package_lib_canonical_longitude(n.x, n.z), saturate(0.5 + 2.0 * latitude / package_lib_canonical__1TWO_PI));
+    return vec2f(canonical__longitude(n.x, n.z), saturate(0.5 + 2.0 * latitude / canonical__TWO_PI));
 }
 
-fn package_lib_canonical_outwards(v: vec2f) -> vec2f {
+fn canonical__outwards(v: vec2f) -> vec2f {
     let size = length(v);
     let usable = size > 1e-18;
     return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
 }
 
-fn package_lib_intersect_disc__1intersect_disc(ray: package_types_Ray, hole: f32) -> package_types_Candidate {
+fn disc__intersect_disc(ray: types__Ray, hole: f32) -> types__Candidate {
     let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
     let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
     let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
     let distance = dot(p, p);
-    return package_types_Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+    return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_disc__1disc_point(p: vec3f) -> package_lib_canonical_CanonicalPoint {
-    return package_lib_canonical_CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
+    return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
-fn package_lib_intersect_rectangle__1intersect_rectangle(ray: package_types_Ray) -> package_types_Candidate {
+fn rectangle__intersect_rectangle(ray: types__Ray) -> types__Candidate {
     let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
     let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
     let way = t * ray.direction.xz;
-    let slack = 4.0 * package_lib_numeric_ROUNDING * (abs(ray.origin.xz) + abs(way));
+    let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
     let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
-    return package_types_Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+    return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_rectangle__1rectangle_point(p: vec3f) -> package_lib_canonical_CanonicalPoint {
-    return package_lib_canonical_CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
+    return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
-fn package_lib_intersect_box__1intersect_box(ray: package_types_Ray) -> package_types_Candidate {
+fn box__intersect_box(ray: types__Ray) -> types__Candidate {
     let size = abs(ray.direction);
     let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
-    let inv = package_lib_numeric__1safe_reciprocal(ray.direction / largest);
+    let inv = numeric__safe_reciprocal(ray.direction / largest);
     let origin = clamp(ray.origin, vec3f(-1e18), vec3f(1e18));
     let t0 = (-1.0 - origin) * inv;
     let t1 = (1.0 - origin) * inv;
@@ -1331,10 +1331,10 @@ fn package_lib_intersect_box__1intersect_box(ray: package_types_Ray) -> package_
     let positive = (inv[axis] < 0.0) == from_outside;
     let side = f32(axis) + select(0.0, 3.0, positive);
     let hit = (enter <= leave) & (s > 0.0);
-    return package_types_Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+    return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
 }
 
-fn package_lib_intersect_box__1box_point(p: vec3f, side: f32) -> package_lib_canonical_CanonicalPoint {
+fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
     let code = u32(side + 0.5);
     let positive = code >= 3u;
     let axis = code - select(0u, 3u, positive);
@@ -1343,19 +1343,19 @@ fn package_lib_intersect_box__1box_point(p: vec3f, side: f32) -> package_lib_can
     let place = select(p, n, n != vec3f(0.0));
     let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
     let up = select(p.y, -sign * p.z, axis == 1u);
-    return package_lib_canonical_CanonicalPoint(place, n, saturate(0.5 + 0.5 * vec2f(right, up)));
+    return canonical__CanonicalPoint(place, n, saturate(0.5 + 0.5 * vec2f(right, up)));
 }
 
-const package_lib_intersect_cone_FAR: f32 = 1e30;
+const cone__FAR: f32 = 1e30;
 
-const package_lib_intersect_cone_SIDE: f32 = 0.0;
+const cone__SIDE: f32 = 0.0;
 
-const package_lib_intersect_cone_BOTTOM: f32 = 1.0;
+const cone__BOTTOM: f32 = 1.0;
 
-const package_lib_intersect_cone_TOP: f32 = 2.0;
+const cone__TOP: f32 = 2.0;
 
-fn package_lib_intersect_cone__1intersect_cone(ray: package_types_Ray, bottom: f32, top: f32, capped: bool) -> package_types_Candidate {
-    let near = package_lib_canonical_approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
+fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) -> types__Candidate {
+    let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
     let o = near.origin;
     let d = near.direction;
     let slope = top - bottom;
@@ -1377,8 +1377,8 @@ fn package_lib_intersect_cone__1intersect_cone(ray: package_types_Ray, bottom: f
     let high = max(r1, r2);
     let steep = a < 0.0;
     let widens = slope * d.y > 0.0;
-    let side_in = select(low, select(-package_lib_intersect_cone_FAR, high, widens), steep);
-    let side_out = select(high, select(low, package_lib_intersect_cone_FAR, widens), steep);
+    let side_in = select(low, select(-cone__FAR, high, widens), steep);
+    let side_out = select(high, select(low, cone__FAR, widens), steep);
     let level = abs(d.y) < 1e-18;
     let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
     let y0 = -o.y * inv_y;
@@ -1395,13 +1395,13 @@ fn package_lib_intersect_cone__1intersect_cone(ray: package_types_Ray, bottom: f
     let hit = near.near & met & (takes_enter | takes_leave);
     let rough = select(0.0, select(leave, enter, takes_enter), hit);
     let is_side = select(leaves_side, enters_side, takes_enter);
-    let end = select(package_lib_intersect_cone_BOTTOM, package_lib_intersect_cone_TOP, (d.y > 0.0) != takes_enter);
-    let s = select(rough, package_lib_intersect_cone_polish(o, d, bottom, slope, rough), is_side);
-    let t = package_lib_canonical__1approached_t(near, s);
-    return package_types_Candidate(hit & (t > 0.0), t, select(end, package_lib_intersect_cone_SIDE, is_side), 0.0);
+    let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
+    let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
+    let t = canonical__approached_t(near, s);
+    return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
 }
 
-fn package_lib_intersect_cone_polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
+fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
     let p = o + s * d;
     let off_axis = length(p.xz);
     let rate = dot(p.xz, d.xz) / max(off_axis, 1e-18) - slope * d.y;
@@ -1410,59 +1410,59 @@ fn package_lib_intersect_cone_polish(o: vec3f, d: vec3f, bottom: f32, slope: f32
     return s - clamp(select(0.0, step, usable), -0.001, 0.001);
 }
 
-fn package_lib_intersect_cone__1cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> package_lib_canonical_CanonicalPoint {
+fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__CanonicalPoint {
     let slope = top - bottom;
-    let out = package_lib_canonical_outwards(p.xz);
+    let out = canonical__outwards(p.xz);
     if (part < 0.5) {
         let y = saturate(p.y);
         let radius = bottom + slope * y;
         let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
-        return package_lib_canonical_CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(package_lib_canonical_longitude(p.x, p.z), y));
+        return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(canonical__longitude(p.x, p.z), y));
     }
     let is_top = part > 1.5;
     let radius = select(bottom, top, is_top);
     let flat = out * min(length(p.xz), radius);
     let sign = select(-1.0, 1.0, is_top);
     let uv = vec2f(flat.x, -sign * flat.y) / max(radius, 1e-18);
-    return package_lib_canonical_CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate(0.5 + 0.5 * uv));
+    return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate(0.5 + 0.5 * uv));
 }
 
-const package_lib_intersect_torus__1MOST_ROUNDS: u32 = 40u;
+const torus__MOST_ROUNDS: u32 = 40u;
 
-const package_lib_intersect_torus_NARROW: f32 = 1.2e-7;
+const torus__NARROW: f32 = 1.2e-7;
 
-fn package_lib_intersect_torus__1torus_distance(p: vec3f, minor: f32) -> f32 {
+fn torus__torus_distance(p: vec3f, minor: f32) -> f32 {
     return length(vec2f(length(p.xz) - 1.0, p.y)) - minor;
 }
 
-fn package_lib_intersect_torus_polish(s: f32, p: f32, q: f32) -> f32 {
+fn torus__polish(s: f32, p: f32, q: f32) -> f32 {
     let slope = 3.0 * s * s + p;
     let steep = abs(slope) > 0.001;
     return s - clamp(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
 }
 
-fn package_lib_intersect_torus__1cubic_zeros(p: f32, q: f32) -> vec3f {
+fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
     let third = p / 3.0;
     let half = 0.5 * q;
     let discriminant = half * half + third * third * third;
     let cube = abs(half) + sqrt(max(discriminant, 0.0));
     let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max(cube, 1e-30)) / 3.0), cube > 1e-30);
     let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
-    let one = package_lib_intersect_torus_polish(large + small, p, q);
+    let one = torus__polish(large + small, p, q);
     let size = sqrt(max(-third, 0.0));
     let usable = size > 1e-10;
     let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
     let angle = acos(cosine) / 3.0;
-    let a = package_lib_intersect_torus_polish(2.0 * size * cos(angle + package_lib_canonical__1TWO_PI / 3.0), p, q);
-    let b = package_lib_intersect_torus_polish(2.0 * size * cos(angle - package_lib_canonical__1TWO_PI / 3.0), p, q);
-    let c = package_lib_intersect_torus_polish(2.0 * size * cos(angle), p, q);
+    let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
+    let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
+    let c = torus__polish(2.0 * size * cos(angle), p, q);
     let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
     return select(three, vec3f(one), discriminant > 0.0);
 }
 
-fn package_lib_intersect_torus__1intersect_torus(ray: package_types_Ray, minor: f32) -> package_types_Candidate {
+fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
     let outer = 1.0 + minor;
-    let near = package_lib_canonical_approach(ray, vec3f(0.0), 1.5 * outer);
+    let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
     let o = near.origin;
     let d = near.direction;
     let middle = -dot(o, d);
@@ -1472,19 +1472,19 @@ fn package_lib_intersect_torus__1intersect_torus(ray: package_types_Ray, minor: 
     let half_chord = sqrt(max(ball * ball - apart, 0.0));
     let start = max(middle - half_chord, 0.0);
     let end = middle + half_chord;
-    let zeros = middle + package_lib_intersect_torus__1cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
+    let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
     let cuts = vec4f(clamp(zeros, vec3f(start), vec3f(max(end, start))), end);
-    let outside = package_lib_intersect_torus__1torus_distance(o + start * d, minor) >= 0.0;
-    let changes = vec4<bool>((package_lib_intersect_torus__1torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (package_lib_intersect_torus__1torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (package_lib_intersect_torus__1torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (package_lib_intersect_torus__1torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
+    let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
+    let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
     let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
     let last = select(select(select(cuts.w, cuts.z, changes.z), cuts.y, changes.y), cuts.x, changes.x);
     let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
-    let s = package_lib_intersect_torus__1root_between(o, d, minor, select(last, first, found), last, outside);
-    let t = package_lib_canonical__1approached_t(near, s);
-    return package_types_Candidate(found & (t > 0.0), t, 0.0, 0.0);
+    let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
+    let t = canonical__approached_t(near, s);
+    return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_torus__1root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
+fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
     var low = first;
     var high = last;
     var s = 0.5 * (first + last);
@@ -1510,86 +1510,86 @@ fn package_lib_intersect_torus__1root_between(o: vec3f, d: vec3f, minor: f32, fi
         rounds += 1u;
         continuing {
         
-            break if (moved <= package_lib_intersect_torus_NARROW * (1.0 + abs(s))) | (rounds >= package_lib_intersect_torus__1MOST_ROUNDS);
+            break if (moved <= torus__NARROW * (1.0 + abs(s))) | (rounds >= torus__MOST_ROUNDS);
         }
     }
     return s;
 }
 
-fn package_lib_intersect_torus__1torus_point(p: vec3f, minor: f32) -> package_lib_canonical_CanonicalPoint {
-    let out = package_lib_canonical_outwards(p.xz);
-    let tube = package_lib_canonical_outwards(vec2f(length(p.xz) - 1.0, p.y));
+fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
+    let out = canonical__outwards(p.xz);
+    let tube = canonical__outwards(vec2f(length(p.xz) - 1.0, p.y));
     let n = vec3f(tube.x * out.x, tube.y, tube.x * out.y);
     let ring = 1.0 + minor * tube.x;
     let place = vec3f(ring * out.x, minor * tube.y, ring * out.y);
-    return package_lib_canonical_CanonicalPoint(place, n, vec2f(package_lib_canonical_longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / package_lib_canonical__1TWO_PI)));
+    return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
 }
 
-fn package_lib_intersect_ellipsoid__1intersect_ellipsoid(ray: package_types_Ray) -> package_types_Candidate {
-    let near = package_lib_canonical_approach(ray, vec3f(0.0), 1.5);
-    let found = package_lib_intersect_sphere__1intersect_sphere(package_types_Ray(near.origin, ray.t_max, near.direction, package_types_NONE, ray.leaving_instance), vec3f(0.0), 1.0);
-    return package_types_Candidate(near.near & found.hit, package_lib_canonical__1approached_t(near, found.t), 0.0, 0.0);
+fn ellipsoid__intersect_ellipsoid(ray: types__Ray) -> types__Candidate {
+    let near = canonical__approach(ray, vec3f(0.0), 1.5);
+    let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
+    return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
 }
 
-fn package_lib_intersect_ellipsoid__1ellipsoid_point(p: vec3f) -> package_lib_canonical_CanonicalPoint {
-    let n = package_lib_numeric__1normalize_or(p, vec3f(0.0, 1.0, 0.0));
-    return package_lib_canonical_CanonicalPoint(n, n, package_lib_canonical__1sphere_uv(n));
+fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
+    let n = numeric__normalize_or(p, vec3f(0.0, 1.0, 0.0));
+    return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
 }
 
-fn package_scene_instance__1space_of(instance: package_types_PackedInstance) -> package_lib_motion_Space {
-    if (package_bindings__1HAS_MOTION) {
+fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
+    if (bindings__HAS_MOTION) {
         if (instance.key_count > 1u) {
-            let moment = package_lib_motion__1moment_of(package_scene_shutter__1shutter_time, instance.key_count);
+            let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
             let key = instance.first_key + moment.key;
-            return package_lib_motion__1space_between(package_scene_fetch__1load_key(key), package_scene_fetch__1load_key(key + 1u), moment.fraction);
+            return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
         }
     }
-    return package_lib_motion_Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
+    return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
 }
 
-fn package_scene_instance__1object_ray(ray: package_types_Ray, space: package_lib_motion_Space) -> package_types_Ray {
-    return package_types_Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
+    return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
 }
 
-fn package_scene_instance__1placed_normal(space: package_lib_motion_Space, n: vec3f) -> vec3f {
+fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
     return n * space.inverse;
 }
 
-fn package_scene_instance__1placement_error(space: package_lib_motion_Space, p: vec3f, q: vec3f) -> vec3f {
-    let from_p = package_scene_instance__1abs_times(space.inverse, abs(p) + abs(space.translation));
-    return 16.0 * package_lib_numeric_ROUNDING * (abs(p) + abs(space.translation) + package_scene_instance__1abs_times(space.linear, abs(q) + from_p));
+fn instance__placement_error(space: motion__Space, p: vec3f, q: vec3f) -> vec3f {
+    let from_p = instance__abs_times(space.inverse, abs(p) + abs(space.translation));
+    return 16.0 * numeric__ROUNDING * (abs(p) + abs(space.translation) + instance__abs_times(space.linear, abs(q) + from_p));
 }
 
-fn package_scene_instance__1abs_times(m: mat3x3f, v: vec3f) -> vec3f {
+fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
     return abs(m[0]) * v.x + abs(m[1]) * v.y + abs(m[2]) * v.z;
 }
 
-fn package_scene_instance__1pattern_place(instance: package_types_PackedInstance, q: vec3f) -> vec3f {
+fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
     let at = vec4f(q, 1.0);
     return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
 }
 
-struct package_lib_motion_Moment {
+struct motion__Moment {
     key: u32,
     fraction: f32
 }
 
-fn package_lib_motion__1moment_of(time: f32, key_count: u32) -> package_lib_motion_Moment {
+fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
     let intervals = max(key_count, 2u) - 1u;
     let at = time * f32(intervals);
     let key = min(u32(at), intervals - 1u);
-    return package_lib_motion_Moment(key, at - f32(key));
+    return motion__Moment(key, at - f32(key));
 }
 
-struct package_lib_motion_Space {
+struct motion__Space {
     translation: vec3f,
     linear: mat3x3f,
     inverse: mat3x3f
 }
 
-fn package_lib_motion__1space_between(a: package_types_PackedKey, b: package_types_PackedKey, fraction: f32) -> package_lib_motion_Space {
+fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
     let q = mix(a.rotation, b.rotation, vec4f(fraction));
-    let rotation = package_lib_motion__1rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+    let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
     let d = mix(a.stretch, b.stretch, vec3f(fraction));
     let s = mix(a.shear, b.shear, vec3f(fraction));
     let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
@@ -1600,10 +1600,10 @@ fn package_lib_motion__1space_between(a: package_types_PackedKey, b: package_typ
     let usable = abs(determinant) > 1e-30;
     let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
     let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-    return package_lib_motion_Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+    return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
 }
 
-fn package_lib_motion__1rotation_matrix(q: vec4f) -> mat3x3f {
+fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
     let d = 2.0 * q.xyz * q.xyz;
     let xy = 2.0 * q.x * q.y;
     let xz = 2.0 * q.x * q.z;
@@ -1612,41 +1612,41 @@ fn package_lib_motion__1rotation_matrix(q: vec4f) -> mat3x3f {
     return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
 }
 
-fn package_lib_motion__1camera_between(a: package_types_PackedCamera, b: package_types_PackedCamera, fraction: f32) -> package_types_PackedCamera {
-    return package_types_PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
+fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
+    return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
 }
 
-var<private> package_scene_shutter__1shutter_time: f32 = 0.0;
+var<private> shutter__shutter_time: f32 = 0.0;
 
-fn package_scene_shutter__1shutter_camera(still: package_types_PackedCamera) -> package_types_PackedCamera {
-    if (package_bindings__1CAMERA_MOTION) {
-        let moment = package_lib_motion__1moment_of(package_scene_shutter__1shutter_time, package_bindings_frame.camera_key_count);
-        return package_lib_motion__1camera_between(package_scene_fetch__1load_camera(moment.key), package_scene_fetch__1load_camera(moment.key + 1u), moment.fraction);
+fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
+    if (bindings__CAMERA_MOTION) {
+        let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
+        return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
     }
     return still;
 }
 
-const package_lib_intersect_node_MISS: u32 = 4294967292u;
+const node__MISS: u32 = 4294967292u;
 
-const package_lib_intersect_node_WIDENING: i32 = 8;
+const node__WIDENING: i32 = 8;
 
-fn package_lib_intersect_node_bytes(word: u32) -> vec4f {
+fn node__bytes(word: u32) -> vec4f {
     return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
 }
 
-fn package_lib_intersect_node__1decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> package_types_Node {
-    return package_types_Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), package_lib_intersect_node_bytes(r1.z), package_lib_intersect_node_bytes(r1.w), package_lib_intersect_node_bytes(r2.x), package_lib_intersect_node_bytes(r2.y), package_lib_intersect_node_bytes(r2.z), package_lib_intersect_node_bytes(r2.w), r3);
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
+    return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
 }
 
-fn package_lib_intersect_node__1node_between(a: package_types_Node, b: package_types_Node, fraction: f32) -> package_types_Node {
+fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
     let lo = mix(a.lo, b.lo, vec3f(fraction));
     let shift_a = a.lo - lo;
     let shift_b = b.lo - lo;
     let s = vec4f(fraction);
-    return package_types_Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+    return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
 }
 
-fn package_lib_intersect_node__1child_keys(node: package_types_Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
     let base = (node.lo - origin) * inv;
     let step = node.scale * inv;
     let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
@@ -1657,13 +1657,13 @@ fn package_lib_intersect_node__1child_keys(node: package_types_Node, origin: vec
     let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
     let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
     let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
-    let limit = min(far + package_lib_intersect_node_WIDENING, vec4i(bitcast<i32>(t_max) + package_lib_intersect_node_WIDENING));
+    let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
     let hit = (near <= limit) & (node.children != vec4u(0u));
     let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
-    return select(vec4u(package_lib_intersect_node_MISS), keys, hit);
+    return select(vec4u(node__MISS), keys, hit);
 }
 
-fn package_lib_intersect_node_sort4(keys: vec4u) -> vec4u {
+fn node__sort4(keys: vec4u) -> vec4u {
     let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
     let lowest = min(a.x, a.y);
     let middle_low = max(a.x, a.y);
@@ -1672,153 +1672,153 @@ fn package_lib_intersect_node_sort4(keys: vec4u) -> vec4u {
     return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
-fn package_scene_surface__1surface_at(ray: package_types_Ray, hit: package_types_Hit) -> package_types_Surface {
-    var instance: package_types_PackedInstance;
-    var space: package_lib_motion_Space;
+fn surface__surface_at(ray: types__Ray, hit: types__Hit) -> types__Surface {
+    var instance: types__PackedInstance;
+    var space: motion__Space;
     var local = ray;
-    let is_placed = package_bindings__1HAS_INSTANCES && hit.instance != package_types__1NO_INSTANCE;
+    let is_placed = bindings__HAS_INSTANCES && hit.instance != types__NO_INSTANCE;
     if (is_placed) {
-        instance = package_scene_fetch__1load_instance(hit.instance);
-        space = package_scene_instance__1space_of(instance);
-        local = package_scene_instance__1object_ray(ray, space);
+        instance = fetch__load_instance(hit.instance);
+        space = instance__space_of(instance);
+        local = instance__object_ray(ray, space);
     }
-    var surface: package_types_Surface;
-    if (package_bindings__1HAS_TRIANGLES && (!(package_bindings__1HAS_SHAPES || package_bindings__1HAS_PLANES) || (hit.primitive & package_types_SHAPE) == 0u)) {
-        surface = package_scene_surface__1triangle_surface(ray, hit, space, is_placed);
+    var surface: types__Surface;
+    if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
+        surface = surface__triangle_surface(ray, hit, space, is_placed);
     }
-    if ((package_bindings__1HAS_SHAPES || package_bindings__1HAS_PLANES) && (!package_bindings__1HAS_TRIANGLES || (hit.primitive & package_types_SHAPE) != 0u)) {
-        surface = package_scene_surface__1shape_surface(local, hit);
+    if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+        surface = surface__shape_surface(local, hit);
         if (is_placed) {
-            surface = package_scene_surface__1placed_surface(ray, surface, space);
+            surface = surface__placed_surface(ray, surface, space);
         }
     }
     if (is_placed) {
         let q = surface.place;
-        surface.error += package_scene_instance__1placement_error(space, surface.p, q);
+        surface.error += instance__placement_error(space, surface.p, q);
         surface.id += 2654435761u * instance.id;
-        surface.place = package_scene_instance__1pattern_place(instance, q);
+        surface.place = instance__pattern_place(instance, q);
         surface.instance = hit.instance;
     }
     return surface;
 }
 
-fn package_scene_surface__1placed_surface(ray: package_types_Ray, own: package_types_Surface, space: package_lib_motion_Space) -> package_types_Surface {
+fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__Space) -> types__Surface {
     var surface = own;
     surface.p = space.linear * own.p + space.translation;
-    surface.ng = package_lib_numeric__1normalize_or(package_scene_instance__1placed_normal(space, own.ng), -ray.direction);
-    surface.n = package_lib_numeric__1normalize_or(package_scene_instance__1placed_normal(space, own.n), surface.ng);
-    surface.error = package_scene_instance__1abs_times(space.linear, own.error);
+    surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
+    surface.n = numeric__normalize_or(instance__placed_normal(space, own.n), surface.ng);
+    surface.error = instance__abs_times(space.linear, own.error);
     return surface;
 }
 
-fn package_scene_surface__1triangle_surface(ray: package_types_Ray, hit: package_types_Hit, space: package_lib_motion_Space, is_placed: bool) -> package_types_Surface {
-    let own = package_scene_fetch__1load_triangle(hit.primitive);
-    let v0 = package_scene_fetch__1load_vertex(own.i0);
-    let v1 = package_scene_fetch__1load_vertex(own.i1);
-    let v2 = package_scene_fetch__1load_vertex(own.i2);
+fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Space, is_placed: bool) -> types__Surface {
+    let own = fetch__load_triangle(hit.primitive);
+    let v0 = fetch__load_vertex(own.i0);
+    let v1 = fetch__load_vertex(own.i1);
+    let v2 = fetch__load_vertex(own.i2);
     let b1 = hit.b1;
     let b2 = hit.b2;
     let b0 = 1.0 - b1 - b2;
     var corners = mat3x3f(own.v0, own.v1, own.v2);
     var normals = mat3x3f(v0.normal, v1.normal, v2.normal);
     let place = corners * vec3f(b0, b1, b2);
-    if (package_bindings__1HAS_INSTANCES && is_placed) {
+    if (bindings__HAS_INSTANCES && is_placed) {
         corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
-        normals = mat3x3f(package_lib_numeric__1normalize_or(package_scene_instance__1placed_normal(space, v0.normal), -ray.direction), package_lib_numeric__1normalize_or(package_scene_instance__1placed_normal(space, v1.normal), -ray.direction), package_lib_numeric__1normalize_or(package_scene_instance__1placed_normal(space, v2.normal), -ray.direction));
+        normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, v0.normal), -ray.direction), numeric__normalize_or(instance__placed_normal(space, v1.normal), -ray.direction), numeric__normalize_or(instance__placed_normal(space, v2.normal), -ray.direction));
     }
-    let material = package_scene_fetch__1load_material(v0.material);
+    let material = fetch__load_material(v0.material);
     var phong = material.phong;
-    if (package_bindings__1MIXED_MATERIALS) {
-        phong = package_scene_surface__1mix_phong(phong, package_scene_fetch__1load_material(v1.material).phong, package_scene_fetch__1load_material(v2.material).phong, b0, b1, b2);
+    if (bindings__MIXED_MATERIALS) {
+        phong = surface__mix_phong(phong, fetch__load_material(v1.material).phong, fetch__load_material(v2.material).phong, b0, b1, b2);
     }
     var uv = vec2f(b1, b2);
-    if (package_bindings__1HAS_TEXTURES) {
+    if (bindings__HAS_TEXTURES) {
         uv = vec2f(0.0);
     }
-    if (package_bindings__1HAS_TEXTURES && package_bindings__1HAS_UVS) {
-        uv = b0 * package_scene_fetch__1load_uv(own.i0) + b1 * package_scene_fetch__1load_uv(own.i1) + b2 * package_scene_fetch__1load_uv(own.i2);
+    if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
+        uv = b0 * fetch__load_uv(own.i0) + b1 * fetch__load_uv(own.i1) + b2 * fetch__load_uv(own.i2);
     }
-    let ng = package_lib_numeric__1normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
-    let n = package_lib_numeric__1normalize_or(normals * vec3f(b0, b1, b2), ng);
-    return package_types_Surface(corners * vec3f(b0, b1, b2), select(n, -n, package_scene_surface__1must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, package_lib_offset__1triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, package_types__1NO_INSTANCE);
+    let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
+    let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
+    return types__Surface(corners * vec3f(b0, b1, b2), select(n, -n, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE);
 }
 
-fn package_scene_surface__1shape_surface(ray: package_types_Ray, hit: package_types_Hit) -> package_types_Surface {
-    let shape = package_scene_fetch__1load_shape(hit.primitive & ~package_types_SHAPE);
+fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+    let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
     let reached = ray.origin + hit.t * ray.direction;
-    let material = package_scene_fetch__1load_material(shape.material);
-    if (package_bindings__1HAS_PLANES && (!package_bindings__1HAS_SHAPES || shape.kind == package_types__1SHAPE_PLANE)) {
+    let material = fetch__load_material(shape.material);
+    if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
         let ng = shape.row_y;
         let p = reached - dot(reached - shape.position, ng) * ng;
         let outside = dot(ng, ray.direction) <= 0.0;
         var plane_uv = vec2f(0.0);
-        if (package_bindings__1HAS_TEXTURES) {
+        if (bindings__HAS_TEXTURES) {
             plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
         }
-        return package_types_Surface(p, select(ng, -ng, package_scene_surface__1must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, package_lib_offset__1plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, package_types__1NO_INSTANCE);
+        return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE);
     }
-    if (!package_scene_shape__1is_round(shape.kind)) {
-        let point = package_scene_shape__1canonical_point(shape, reached, hit.b1);
-        let placed = package_lib_canonical__1placed_point(shape, reached, point);
+    if (!shape__is_round(shape.kind)) {
+        let point = shape__canonical_point(shape, reached, hit.b1);
+        let placed = canonical__placed_point(shape, reached, point);
         let ng = placed.ng;
-        return package_types_Surface(placed.p, select(ng, -ng, package_scene_surface__1must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(package_types_NONE, hit.primitive, package_scene_shape__1is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, package_types__1NO_INSTANCE);
+        return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE);
     }
-    let placed = package_scene_surface__1sphere_point(shape, reached, ray.direction);
+    let placed = surface__sphere_point(shape, reached, ray.direction);
     let ng = placed.ng;
     let outside = dot(ng, ray.direction) <= 0.0;
     var uv = vec2f(0.0);
-    if (package_bindings__1HAS_TEXTURES) {
-        uv = package_lib_canonical__1sphere_uv(ng);
+    if (bindings__HAS_TEXTURES) {
+        uv = canonical__sphere_uv(ng);
     }
-    return package_types_Surface(placed.p, select(ng, -ng, package_scene_surface__1must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, package_types_NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, package_types__1NO_INSTANCE);
+    return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE);
 }
 
-fn package_scene_surface__1sphere_point(shape: package_types_PackedShape, reached: vec3f, direction: vec3f) -> package_lib_canonical_PlacedPoint {
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_GLOBES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_GLOBES || shape.kind == package_types__1SHAPE_GLOBE)) {
-        return package_lib_intersect_globe__1globe_point(shape, reached);
+fn surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
+    if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
+        return globe__globe_point(shape, reached);
     }
-    let ng = package_lib_numeric__1normalize_or(reached - shape.position, -direction);
-    return package_lib_canonical_PlacedPoint(shape.position + shape.size0 * ng, ng, package_lib_offset__1sphere_error(shape.position, shape.size0));
+    let ng = numeric__normalize_or(reached - shape.position, -direction);
+    return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
 }
 
-fn package_scene_surface__1must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
+fn surface__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
     let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
-    return (flags & package_types__2MATERIAL_TWO_SIDED) != 0u && faces_away;
+    return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
 }
 
-fn package_scene_surface__1mix_phong(p0: package_types_Phong, p1: package_types_Phong, p2: package_types_Phong, b0: f32, b1: f32, b2: f32) -> package_types_Phong {
-    return package_types_Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+fn surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
+    return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
 }
 
-fn package_lib_offset__1triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
+fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
     let b0 = abs(1.0 - b1 - b2);
-    return 16.0 * package_lib_numeric_ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
+    return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
 }
 
-fn package_lib_offset__1sphere_error(center: vec3f, radius: f32) -> vec3f {
-    return 16.0 * package_lib_numeric_ROUNDING * (abs(center) + vec3f(radius));
+fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
+    return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
 }
 
-fn package_lib_offset__1plane_error(p: vec3f, point: vec3f) -> vec3f {
-    return 16.0 * package_lib_numeric_ROUNDING * (abs(p) + abs(point));
+fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
+    return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
 }
 
-fn package_lib_offset__1placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
-    return 16.0 * package_lib_numeric_ROUNDING * (abs(p) + abs(position) + reach);
+fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
+    return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
 }
 
-fn package_lib_colormap__1id_color(id: u32) -> vec3f {
-    let h = package_lib_rng_hash(id);
-    return 0.15 + 0.85 * vec3f(package_lib_rng__1unit_float(h), package_lib_rng__1unit_float(package_lib_rng_hash(h)), package_lib_rng__1unit_float(package_lib_rng_hash(h ^ 1540483477u)));
+fn colormap__id_color(id: u32) -> vec3f {
+    let h = rng__hash(id);
+    return 0.15 + 0.85 * vec3f(rng__unit_float(h), rng__unit_float(rng__hash(h)), rng__unit_float(rng__hash(h ^ 1540483477u)));
 }
 
-fn package_lib_colormap__1uv_color(uv: vec2f) -> vec3f {
+fn colormap__uv_color(uv: vec2f) -> vec3f {
     let field = vec2i(floor(fract(uv) * 8.0));
     let shade = select(0.7, 1.0, ((field.x + field.y) & 1) == 0);
     return vec3f(fract(uv) * shade, 0.0);
 }
 
-fn package_lib_rng_hash(x: u32) -> u32 {
+fn rng__hash(x: u32) -> u32 {
     var h = x;
     h ^= h >> 16u;
     h *= 2146121005u;
@@ -1828,96 +1828,96 @@ fn package_lib_rng_hash(x: u32) -> u32 {
     return h;
 }
 
-fn package_lib_rng__1hash_combine(a: u32, b: u32) -> u32 {
-    return package_lib_rng_hash(a ^ (package_lib_rng_hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
+fn rng__hash_combine(a: u32, b: u32) -> u32 {
+    return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
 }
 
-fn package_lib_rng__1pixel_key(seed: u32, pixel: vec2u) -> u32 {
-    return package_lib_rng__1hash_combine(package_lib_rng__1hash_combine(package_lib_rng_hash(seed), pixel.x), pixel.y);
+fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
+    return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
 }
 
-fn package_lib_rng__1unit_float(x: u32) -> f32 {
+fn rng__unit_float(x: u32) -> f32 {
     return f32(x >> 8u) * 5.9604645e-8;
 }
 
-const package_lib_filter_PI: f32 = 3.14159265;
+const filter__PI: f32 = 3.14159265;
 
-const package_lib_filter_SIGMA: f32 = 0.5;
+const filter__SIGMA: f32 = 0.5;
 
-const package_lib_filter_ROUNDS: u32 = 22u;
+const filter__ROUNDS: u32 = 22u;
 
-const package_lib_filter__2BLACKMAN_HARRIS_1: f32 = 0.48829 / (package_lib_filter_PI * 0.35875);
+const filter__BLACKMAN_HARRIS_1: f32 = 0.48829 / (filter__PI * 0.35875);
 
-const package_lib_filter__2BLACKMAN_HARRIS_2: f32 = 0.14128 / (package_lib_filter_PI * 0.35875);
+const filter__BLACKMAN_HARRIS_2: f32 = 0.14128 / (filter__PI * 0.35875);
 
-const package_lib_filter__2BLACKMAN_HARRIS_3: f32 = 0.01168 / (3.0 * package_lib_filter_PI * 0.35875);
+const filter__BLACKMAN_HARRIS_3: f32 = 0.01168 / (3.0 * filter__PI * 0.35875);
 
-const package_lib_filter__1MITCHELL_ZERO: f32 = 1.14285714;
+const filter__MITCHELL_ZERO: f32 = 1.14285714;
 
-const package_lib_filter__1MITCHELL_POSITIVE: f32 = 0.51749271;
+const filter__MITCHELL_POSITIVE: f32 = 0.51749271;
 
-const package_lib_filter__1MITCHELL_TOTAL: f32 = 0.53498542;
+const filter__MITCHELL_TOTAL: f32 = 0.53498542;
 
-fn package_lib_filter__1filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
+fn filter__filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
     let centred = 2.0 * u - 1.0;
-    if (kind == package_types__1FILTER_BOX) {
+    if (kind == types__FILTER_BOX) {
         return 2.0 * radius * (u - 0.5);
     }
     let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
     let fraction = abs(centred);
-    if (kind == package_types__1FILTER_TENT) {
+    if (kind == types__FILTER_TENT) {
         return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
     }
-    if (kind == package_types__1FILTER_GAUSSIAN) {
-        let scale = package_lib_filter_SIGMA * sqrt(2.0);
-        return scale * side * min(package_lib_filter__1inverse_erf(fraction * package_lib_filter_erf(radius / scale)), vec2f(radius / scale));
+    if (kind == types__FILTER_GAUSSIAN) {
+        let scale = filter__SIGMA * sqrt(2.0);
+        return scale * side * min(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
     }
-    return radius * side * package_lib_filter_searched(kind, fraction);
+    return radius * side * filter__searched(kind, fraction);
 }
 
-fn package_lib_filter__1filter_sign(kind: u32, u: vec2f) -> f32 {
-    let negative = abs(2.0 * u - 1.0) > vec2f(package_lib_filter__1MITCHELL_POSITIVE / package_lib_filter__1MITCHELL_TOTAL);
-    return select(1.0, -1.0, (kind == package_types__1FILTER_MITCHELL) & (negative.x != negative.y));
+fn filter__filter_sign(kind: u32, u: vec2f) -> f32 {
+    let negative = abs(2.0 * u - 1.0) > vec2f(filter__MITCHELL_POSITIVE / filter__MITCHELL_TOTAL);
+    return select(1.0, -1.0, (kind == types__FILTER_MITCHELL) & (negative.x != negative.y));
 }
 
-fn package_lib_filter_searched(kind: u32, fraction: vec2f) -> vec2f {
+fn filter__searched(kind: u32, fraction: vec2f) -> vec2f {
     var low = vec2f(0.0);
     var width = 1.0;
     var done = 0u;
     loop {
         width *= 0.5;
         let middle = low + width;
-        low = select(low, middle, package_lib_filter_cumulated(kind, middle) <= fraction);
+        low = select(low, middle, filter__cumulated(kind, middle) <= fraction);
         continuing {
             done += 1u;
-            break if done >= package_lib_filter_ROUNDS;
+            break if done >= filter__ROUNDS;
         }
     }
     return low + 0.5 * width;
 }
 
-fn package_lib_filter_cumulated(kind: u32, x: vec2f) -> vec2f {
-    if (kind == package_types__2FILTER_BLACKMAN_HARRIS) {
-        let s = sin(package_lib_filter_PI * x);
-        let c = cos(package_lib_filter_PI * x);
-        return x + s * (package_lib_filter__2BLACKMAN_HARRIS_1 + package_lib_filter__2BLACKMAN_HARRIS_2 * c + package_lib_filter__2BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
+fn filter__cumulated(kind: u32, x: vec2f) -> vec2f {
+    if (kind == types__FILTER_BLACKMAN_HARRIS) {
+        let s = sin(filter__PI * x);
+        let c = cos(filter__PI * x);
+        return x + s * (filter__BLACKMAN_HARRIS_1 + filter__BLACKMAN_HARRIS_2 * c + filter__BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
     }
     let t = 2.0 * x;
     let inner = t * (16.0 / 3.0 + t * t * (-4.0 + t * 1.75)) / 6.0;
     let e = 2.0 - t;
     let outer = e * e * e * (7.0 / 12.0 * e - 2.0 / 3.0) / 6.0;
     let signed = select(0.5 - outer, inner, t < vec2f(1.0));
-    let absolute = select(signed, 2.0 * package_lib_filter__1MITCHELL_POSITIVE - signed, t > vec2f(package_lib_filter__1MITCHELL_ZERO));
-    return absolute / package_lib_filter__1MITCHELL_TOTAL;
+    let absolute = select(signed, 2.0 * filter__MITCHELL_POSITIVE - signed, t > vec2f(filter__MITCHELL_ZERO));
+    return absolute / filter__MITCHELL_TOTAL;
 }
 
-fn package_lib_filter_erf(x: f32) -> f32 {
+fn filter__erf(x: f32) -> f32 {
     let t = 1.0 / (1.0 + 0.3275911 * x);
     let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
     return 1.0 - series * exp(-min(x * x, 80.0));
 }
 
-fn package_lib_filter__1inverse_erf(y: vec2f) -> vec2f {
+fn filter__inverse_erf(y: vec2f) -> vec2f {
     let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
     let a = w - 2.5;
     let b = sqrt(max(w, vec2f(0.0))) - 3.0;
@@ -1926,7 +1926,7 @@ fn package_lib_filter__1inverse_erf(y: vec2f) -> vec2f {
     return y * select(far, near, w < vec2f(5.0));
 }
 
-fn package_lib_sampling_sobol(index: u32) -> vec2u {
+fn sampling__sobol(index: u32) -> vec2u {
     var x = index;
     x ^= (x >> 1u) & 1431655765u;
     x ^= (x >> 2u) & 858993459u;
@@ -1936,7 +1936,7 @@ fn package_lib_sampling_sobol(index: u32) -> vec2u {
     return vec2u(reverseBits(index), reverseBits(x));
 }
 
-fn package_lib_sampling__1owen_scramble(fraction: u32, seed: u32) -> u32 {
+fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
     var x = reverseBits(fraction);
     x += seed;
     x ^= x * 1817228412u;
@@ -1946,7 +1946,7 @@ fn package_lib_sampling__1owen_scramble(fraction: u32, seed: u32) -> u32 {
     return reverseBits(x);
 }
 
-fn package_lib_sampling__1sobol_34(index: u32) -> vec2u {
+fn sampling__sobol_34(index: u32) -> vec2u {
     var z = vec2u(2147483648u, 3221225472u);
     var w = vec3u(2147483648u, 3221225472u, 536870912u);
     var point = vec2u(0u);
@@ -1963,47 +1963,47 @@ fn package_lib_sampling__1sobol_34(index: u32) -> vec2u {
     return point;
 }
 
-fn package_lib_sampling__1stratified_2d(index: u32, key: u32) -> vec2f {
-    return package_lib_sampling_scrambled(package_lib_sampling_sobol(package_lib_sampling__1owen_scramble(index, package_lib_rng_hash(key))), key);
+fn sampling__stratified_2d(index: u32, key: u32) -> vec2f {
+    return sampling__scrambled(sampling__sobol(sampling__owen_scramble(index, rng__hash(key))), key);
 }
 
-fn package_lib_sampling__1stratified_34(index: u32, key: u32) -> vec2f {
-    return package_lib_sampling_scrambled(package_lib_sampling__1sobol_34(package_lib_sampling__1owen_scramble(index, package_lib_rng_hash(key))), key ^ 2654435769u);
+fn sampling__stratified_34(index: u32, key: u32) -> vec2f {
+    return sampling__scrambled(sampling__sobol_34(sampling__owen_scramble(index, rng__hash(key))), key ^ 2654435769u);
 }
 
-fn package_lib_sampling__1stratified_1d(index: u32, key: u32) -> f32 {
+fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
     let own = key ^ 1757159915u;
-    return package_lib_rng__1unit_float(package_lib_sampling__1owen_scramble(reverseBits(package_lib_sampling__1owen_scramble(index, package_lib_rng_hash(own))), package_lib_rng_hash(own ^ 48610963u)));
+    return rng__unit_float(sampling__owen_scramble(reverseBits(sampling__owen_scramble(index, rng__hash(own))), rng__hash(own ^ 48610963u)));
 }
 
-fn package_lib_sampling_scrambled(point: vec2u, key: u32) -> vec2f {
-    return vec2f(package_lib_rng__1unit_float(package_lib_sampling__1owen_scramble(point.x, package_lib_rng_hash(key ^ 2769414579u))), package_lib_rng__1unit_float(package_lib_sampling__1owen_scramble(point.y, package_lib_rng_hash(key ^ 1675113877u))));
+fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
+    return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
 }
 
-const package_lib_warp_PI: f32 = 3.14159265;
+const warp__PI: f32 = 3.14159265;
 
-fn package_lib_warp__2disc_from_square(u: vec2f) -> vec2f {
+fn warp__disc_from_square(u: vec2f) -> vec2f {
     let p = 2.0 * u - 1.0;
     let by_x = abs(p.x) > abs(p.y);
     let radius = select(p.y, p.x, by_x);
     let ratio = select(p.x, p.y, by_x) / select(1.0, radius, abs(radius) > 0.0);
-    let angle = select(0.5 * package_lib_warp_PI - 0.25 * package_lib_warp_PI * ratio, 0.25 * package_lib_warp_PI * ratio, by_x);
+    let angle = select(0.5 * warp__PI - 0.25 * warp__PI * ratio, 0.25 * warp__PI * ratio, by_x);
     return radius * vec2f(cos(angle), sin(angle));
 }
 
-fn package_lib_warp__2triangle_from_square(u: vec2f) -> vec2f {
+fn warp__triangle_from_square(u: vec2f) -> vec2f {
     let s = sqrt(u.y);
     return vec2f(s * (1.0 - u.x), s * u.x);
 }
 
-fn package_lib_warp__2polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
+fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
     let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
-    let b = package_lib_warp__2triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
-    let step = 2.0 * package_lib_warp_PI / f32(count);
+    let b = warp__triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
+    let step = 2.0 * warp__PI / f32(count);
     let angles = rotation + step * vec2f(edge, edge + 1.0);
     return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
 }
 
-const package_lib_tone__1LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
+const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
-var<private> package_scene__1ray_stack__2cut_off_trees: u32 = 0u;
+var<private> ray_stack__cut_off_trees: u32 = 0u;

@@ -1,328 +1,328 @@
 @compute @workgroup_size(64, 1, 1)
 fn explain(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let index = 64u * (group.y * package_bindings_dispatch.grid_width + group.x) + lane;
-    var probe = package_scene_record__1load_probe(index);
-    let batch = package_scene_dispatch__1load_batch();
-    if (probe.pixel_x != package_types_NONE) {
+    let index = 64u * (group.y * bindings__dispatch.grid_width + group.x) + lane;
+    var probe = record__load_probe(index);
+    let batch = dispatch__load_batch();
+    if (probe.pixel_x != types__NONE) {
         let pixel = vec2u(probe.pixel_x, probe.pixel_y);
-        package_scene_record__1start_record(probe);
-        let rays = package_scene_rays__1ray_set(package_scene_rays__1dead_rays(), 0u, package_scene_dispatch__1sample_ray(batch, pixel, probe.sample));
-        probe.color = package_scene_wide__1vector_at(trace(batch, rays, package_lib_rng__1pixel_key(batch.seed, pixel), probe.sample), 0u);
-        probe.weight = package_scene_dispatch__1sample_weight(batch, pixel, probe.sample);
-        probe.time = package_scene_shutter__1shutter_time;
-        probe.cut_off = package_scene__1ray_stack__2cut_off_trees;
-        package_scene_record__1store_probe(index, probe);
+        record__start_record(probe);
+        let rays = rays__ray_set(rays__dead_rays(), 0u, dispatch__sample_ray(batch, pixel, probe.sample));
+        probe.color = wide__vector_at(trace(batch, rays, rng__pixel_key(batch.seed, pixel), probe.sample), 0u);
+        probe.weight = dispatch__sample_weight(batch, pixel, probe.sample);
+        probe.time = shutter__shutter_time;
+        probe.cut_off = ray_stack__cut_off_trees;
+        record__store_probe(index, probe);
     }
-    package_scene_dispatch__1add_counts(lane);
+    dispatch__add_counts(lane);
 }
 
-fn trace(batch: package_scene_dispatch_Batch, rays: package_scene_rays_Rays, keys: package_scene_wide_Words, sample: u32) -> package_scene_wide_Vectors {
-    var radiance = package_scene_wide__1no_vectors();
-    var states = package_scene__1ray_stack__1camera_states(rays, batch.camera_media);
+fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u32) -> wide__Vectors {
+    var radiance = wide__no_vectors();
+    var states = ray_stack__camera_states(rays, batch.camera_media);
     var is_unfinished = false;
     loop {
-        let hits = package_scene_rays__1closest_hits(states.rays);
+        let hits = rays__closest_hits(states.rays);
         var next = states;
-        var receivers = package_scene_direct__1no_receivers();
-        var arriving = package_scene_wide__1no_vectors();
-        var color = package_scene_wide__1no_vectors();
+        var receivers = direct__no_receivers();
+        var arriving = wide__no_vectors();
+        var color = wide__no_vectors();
         is_unfinished = false;
         var k = 0u;
         loop {
-            package_scene__1ray_stack__1current_tree = k;
-            let state = package_scene__1ray_stack__1state_at(states, k);
-            let hit = package_scene_rays__1hit_at(hits, k);
-            var event = package_scene_optics_ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), package_scene__1ray_stack__1no_ray(), package_scene__1ray_stack__1no_ray());
+            ray_stack__current_tree = k;
+            let state = ray_stack__state_at(states, k);
+            let hit = rays__hit_at(hits, k);
+            var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_stack__no_ray(), ray_stack__no_ray());
             if (state.ray.t_max >= 0.0) {
-                package_scene_dispatch__1count_hit(state.kind, hit);
-                package_scene_record__1open_ray(state.ray, hit, state.kind, state.throughput, state.media);
-                if (hit.primitive == package_types_NONE) {
-                    let seen = escaping_throughput(state) * package_scene_background_background(batch, state.ray.direction);
-                    radiance = package_scene_wide__1vector_set(radiance, k, package_scene_wide__1vector_at(radiance, k) + seen);
-                    package_scene_record__1record_miss(seen);
+                dispatch__count_hit(state.kind, hit);
+                record__open_ray(state.ray, hit, state.kind, state.throughput, state.media);
+                if (hit.primitive == types__NONE) {
+                    let seen = escaping_throughput(state) * background__background(batch, state.ray.direction);
+                    radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + seen);
+                    record__record_miss(seen);
                 }
                 else {
-                    let contact = package_scene_contact__1contact_at(state.ray, hit);
+                    let contact = contact__contact_at(state.ray, hit);
                     var surface = contact.surface;
-                    if (package_bindings__1HAS_TEXTURES) {
-                        surface.phong = package_scene_texture__1textured_phong(surface.phong, surface.material, surface.place, surface.uv);
+                    if (bindings__HAS_TEXTURES) {
+                        surface.phong = texture__textured_phong(surface.phong, surface.material, surface.place, surface.uv);
                     }
-                    let factors = package_scene_texture__1texture_optics(surface);
-                    if (package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) {
-                        event = package_scene_optics_scatter(batch, state, hit.t, contact, factors);
+                    let factors = texture__texture_optics(surface);
+                    if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+                        event = optics__scatter(batch, state, hit.t, contact, factors);
                         surface.phong.diffuse *= event.diffuse;
                         surface.phong.ambient *= event.diffuse;
                         surface.phong.specular *= event.highlight;
                     }
-                    package_scene_record__1record_surface(contact.surface);
-                    package_scene_record__1record_arriving(event.arriving);
-                    var key = package_types_SampleKey(package_scene_wide__1word_at(keys, k), sample, 1.0);
+                    record__record_surface(contact.surface);
+                    record__record_arriving(event.arriving);
+                    var key = types__SampleKey(wide__word_at(keys, k), sample, 1.0);
                     if (state.node > 1u) {
-                        key.hash = package_lib_rng__1hash_combine(key.hash, state.node);
-                        key.weight = package_lib_numeric__1max_component(event.arriving);
+                        key.hash = rng__hash_combine(key.hash, state.node);
+                        key.weight = numeric__max_component(event.arriving);
                     }
-                    receivers = package_scene_direct__1receiver_set(receivers, k, surface, -state.ray.direction, key);
-                    arriving = package_scene_wide__1vector_set(arriving, k, event.arriving);
-                    color = package_scene_wide__1vector_set(color, k, own_light(batch, surface, factors[2]));
+                    receivers = direct__receiver_set(receivers, k, surface, -state.ray.direction, key);
+                    arriving = wide__vector_set(arriving, k, event.arriving);
+                    color = wide__vector_set(color, k, own_light(batch, surface, factors[2]));
                 }
             }
-            if (package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) {
-                let following = package_scene__1ray_stack__1next_ray(event.reflected, event.refracted);
-                next = package_scene__1ray_stack__1state_set(next, k, following);
-                is_unfinished |= package_scene__1ray_stack__1is_alive(following);
+            if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+                let following = ray_stack__next_ray(event.reflected, event.refracted);
+                next = ray_stack__state_set(next, k, following);
+                is_unfinished |= ray_stack__is_alive(following);
             }
             continuing {
                 k += 1u;
-                break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
+                break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
             }
         }
-        package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
-        let direct = package_scene_direct__1direct_light(batch, receivers, states.media, sample);
+        loops__cut_off |= k < wide__RAYS_PER_LANE;
+        let direct = direct__direct_light(batch, receivers, states.media, sample);
         radiance.x += arriving.x * (color.x + direct.x);
         radiance.y += arriving.y * (color.y + direct.y);
         radiance.z += arriving.z * (color.z + direct.z);
-        package_scene_record__1close_ray();
+        record__close_ray();
         states = next;
         continuing {
         
-            break if !package_scene_rays__1any_lane(is_unfinished);
+            break if !rays__any_lane(is_unfinished);
         }
     }
-    package_scene_loops__1cut_off |= is_unfinished;
+    loops__cut_off |= is_unfinished;
     return radiance;
 }
 
-fn escaping_throughput(state: package_scene__1ray_stack_RayState) -> vec3f {
+fn escaping_throughput(state: ray_stack__RayState) -> vec3f {
     var throughput = state.throughput;
-    if (package_bindings__1HAS_REFRACTION) {
-        throughput *= package_scene_medium_transmittance(package_scene_medium__1medium_of(package_scene_medium_dominant(state.media)), state.ray.t_max);
+    if (bindings__HAS_REFRACTION) {
+        throughput *= medium__transmittance(medium__medium_of(medium__dominant(state.media)), state.ray.t_max);
     }
     return throughput;
 }
 
-fn own_light(batch: package_scene_dispatch_Batch, surface: package_types_Surface, glow: vec3f) -> vec3f {
+fn own_light(batch: dispatch__Batch, surface: types__Surface, glow: vec3f) -> vec3f {
     var color = batch.ambient * surface.phong.ambient;
-    package_scene_record__1record_ambient(color);
-    if (package_bindings__1HAS_EMISSION) {
-        let shines = surface.outside || (package_scene_fetch__1load_optics(surface.material).flags & package_types__2MATERIAL_TWO_SIDED) != 0u;
-        let emission = select(vec3f(0.0), glow * package_scene_fetch__1load_emission(surface.material), shines);
+    record__record_ambient(color);
+    if (bindings__HAS_EMISSION) {
+        let shines = surface.outside || (fetch__load_optics(surface.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
+        let emission = select(vec3f(0.0), glow * fetch__load_emission(surface.material), shines);
         color += emission;
-        package_scene_record__1record_emission(emission);
+        record__record_emission(emission);
     }
     return color;
 }
 
 @group(0) @binding(0)
-var<storage, read> package_bindings_nodes: array<vec4u>;
+var<storage, read> bindings__nodes: array<vec4u>;
 
 @group(0) @binding(1)
-var<storage, read> package_bindings_triangles: array<vec4u>;
+var<storage, read> bindings__triangles: array<vec4u>;
 
 @group(0) @binding(2)
-var<storage, read> package_bindings_vertices: array<vec4u>;
+var<storage, read> bindings__vertices: array<vec4u>;
 
 @group(0) @binding(3)
-var<storage, read> package_bindings_materials: array<vec4u>;
+var<storage, read> bindings__materials: array<vec4u>;
 
 @group(0) @binding(4)
-var package_bindings_texels: texture_2d<f32>;
+var bindings__texels: texture_2d<f32>;
 
 @group(1) @binding(0)
-var<storage, read> package_bindings_frame: package_types_PackedFrame;
+var<storage, read> bindings__frame: types__PackedFrame;
 
 @group(1) @binding(1)
-var<storage, read_write> package_bindings_dispatch: package_types_PackedDispatch;
+var<storage, read_write> bindings__dispatch: types__PackedDispatch;
 
 @group(2) @binding(0)
-var<storage, read_write> package_bindings_records: array<vec4u>;
+var<storage, read_write> bindings__records: array<vec4u>;
 
-override package_bindings__1TRIANGLE_TEST: u32 = package_types__2TRIANGLE_TEST_WATERTIGHT;
+override bindings__TRIANGLE_TEST: u32 = types__TRIANGLE_TEST_WATERTIGHT;
 
-override package_bindings__1HAS_TRIANGLES: bool = true;
+override bindings__HAS_TRIANGLES: bool = true;
 
-override package_bindings__1HAS_SHAPES: bool = true;
+override bindings__HAS_SHAPES: bool = true;
 
-override package_bindings__1HAS_PLANES: bool = true;
+override bindings__HAS_PLANES: bool = true;
 
-override package_bindings__1MIXED_MATERIALS: bool = true;
+override bindings__MIXED_MATERIALS: bool = true;
 
-override package_bindings__1BRUTE_FORCE: bool = false;
+override bindings__BRUTE_FORCE: bool = false;
 
-override package_bindings__1FIXED_OFFSET: f32 = 0.0;
+override bindings__FIXED_OFFSET: f32 = 0.0;
 
-override package_bindings_STRATIFIED: bool = false;
+override bindings__STRATIFIED: bool = false;
 
-override package_bindings__1COUNT_RAYS: bool = false;
+override bindings__COUNT_RAYS: bool = false;
 
-override package_bindings__1COUNT_STEPS: bool = false;
+override bindings__COUNT_STEPS: bool = false;
 
-override package_bindings__1HAS_LIGHTS: bool = true;
+override bindings__HAS_LIGHTS: bool = true;
 
-override package_bindings__1SHAPE_KINDS: u32 = 4294967295u;
+override bindings__SHAPE_KINDS: u32 = 4294967295u;
 
-override package_bindings__1HAS_REFLECTION: bool = true;
+override bindings__HAS_REFLECTION: bool = true;
 
-override package_bindings__1HAS_REFRACTION: bool = true;
+override bindings__HAS_REFRACTION: bool = true;
 
-override package_bindings__1HAS_CONTACT: bool = true;
+override bindings__HAS_CONTACT: bool = true;
 
-override package_bindings__1FILTERED_SHADOWS: bool = false;
+override bindings__FILTERED_SHADOWS: bool = false;
 
-override package_bindings__2HAS_AREA_LIGHTS: bool = true;
+override bindings__HAS_AREA_LIGHTS: bool = true;
 
-override package_bindings__1HAS_LENS: bool = true;
+override bindings__HAS_LENS: bool = true;
 
-override package_bindings_FILTER: u32 = package_types__1FILTER_BOX;
+override bindings__FILTER: u32 = types__FILTER_BOX;
 
-override package_bindings__1FILTER_RADIUS: f32 = 0.5;
+override bindings__FILTER_RADIUS: f32 = 0.5;
 
-override package_bindings_BACKGROUND: u32 = package_types__1BACKGROUND_COLOR;
+override bindings__BACKGROUND: u32 = types__BACKGROUND_COLOR;
 
-override package_bindings__1HAS_TEXTURES: bool = true;
+override bindings__HAS_TEXTURES: bool = true;
 
-override package_bindings__1HAS_EMISSION: bool = true;
+override bindings__HAS_EMISSION: bool = true;
 
-override package_bindings__1HAS_INSTANCES: bool = true;
+override bindings__HAS_INSTANCES: bool = true;
 
-override package_bindings__1HAS_MOTION: bool = true;
+override bindings__HAS_MOTION: bool = true;
 
-override package_bindings__1CAMERA_MOTION: bool = true;
+override bindings__CAMERA_MOTION: bool = true;
 
-override package_bindings__1LIGHT_MOTION: bool = true;
+override bindings__LIGHT_MOTION: bool = true;
 
-override package_bindings_ORTHOGRAPHIC: bool = false;
+override bindings__ORTHOGRAPHIC: bool = false;
 
-override package_bindings__1HAS_UVS: bool = true;
+override bindings__HAS_UVS: bool = true;
 
-const package_types_NONE: u32 = 4294967295u;
+const types__NONE: u32 = 4294967295u;
 
-const package_types_LEAF: u32 = 2147483648u;
+const types__LEAF: u32 = 2147483648u;
 
-const package_types_SHAPE: u32 = 1073741824u;
+const types__SHAPE: u32 = 1073741824u;
 
-const package_types__2LEAF_COUNT_ONE: u32 = 134217728u;
+const types__LEAF_COUNT_ONE: u32 = 134217728u;
 
-const package_types__2LEAF_COUNT_MASK: u32 = 939524096u;
+const types__LEAF_COUNT_MASK: u32 = 939524096u;
 
-const package_types__2LEAF_FIRST_MASK: u32 = 134217727u;
+const types__LEAF_FIRST_MASK: u32 = 134217727u;
 
-const package_types_INSTANCE: u32 = 4160749568u;
+const types__INSTANCE: u32 = 4160749568u;
 
-const package_types_MOVING: u32 = 1073741824u;
+const types__MOVING: u32 = 1073741824u;
 
-const package_types__1STACK_SIZE: u32 = 96u;
+const types__STACK_SIZE: u32 = 96u;
 
-const package_types__1NO_INSTANCE: u32 = 1048575u;
+const types__NO_INSTANCE: u32 = 1048575u;
 
-const package_types__1NODE_ROWS: u32 = 4u;
+const types__NODE_ROWS: u32 = 4u;
 
-const package_types__1INSTANCE_ROWS: u32 = 10u;
+const types__INSTANCE_ROWS: u32 = 10u;
 
-const package_types__1KEY_ROWS: u32 = 4u;
+const types__KEY_ROWS: u32 = 4u;
 
-const package_types__1LIGHT_ROWS: u32 = 6u;
+const types__LIGHT_ROWS: u32 = 6u;
 
-const package_types__1CAMERA_ROWS: u32 = 4u;
+const types__CAMERA_ROWS: u32 = 4u;
 
-const package_types__1SHAPE_ROWS: u32 = 5u;
+const types__SHAPE_ROWS: u32 = 5u;
 
-const package_types__2IMAGE_WIDTH_LOG2: u32 = 12u;
+const types__IMAGE_WIDTH_LOG2: u32 = 12u;
 
-const package_types__1SHAPE_SPHERE: u32 = 0u;
+const types__SHAPE_SPHERE: u32 = 0u;
 
-const package_types__1SHAPE_PLANE: u32 = 1u;
+const types__SHAPE_PLANE: u32 = 1u;
 
-const package_types__1SHAPE_DISC: u32 = 2u;
+const types__SHAPE_DISC: u32 = 2u;
 
-const package_types__1SHAPE_RECTANGLE: u32 = 3u;
+const types__SHAPE_RECTANGLE: u32 = 3u;
 
-const package_types__1SHAPE_BOX: u32 = 4u;
+const types__SHAPE_BOX: u32 = 4u;
 
-const package_types__1SHAPE_CONE: u32 = 5u;
+const types__SHAPE_CONE: u32 = 5u;
 
-const package_types__1SHAPE_TORUS: u32 = 6u;
+const types__SHAPE_TORUS: u32 = 6u;
 
-const package_types__1SHAPE_ELLIPSOID: u32 = 7u;
+const types__SHAPE_ELLIPSOID: u32 = 7u;
 
-const package_types__1SHAPE_GLOBE: u32 = 8u;
+const types__SHAPE_GLOBE: u32 = 8u;
 
-const package_types__1SHAPE_CAPPED: u32 = 1u;
+const types__SHAPE_CAPPED: u32 = 1u;
 
-const package_types__1LIGHT_DIRECTIONAL: u32 = 1u;
+const types__LIGHT_DIRECTIONAL: u32 = 1u;
 
-const package_types__1LIGHT_SPOT: u32 = 2u;
+const types__LIGHT_SPOT: u32 = 2u;
 
-const package_types__1LIGHT_RECTANGLE: u32 = 3u;
+const types__LIGHT_RECTANGLE: u32 = 3u;
 
-const package_types__1LIGHT_SPHERE: u32 = 5u;
+const types__LIGHT_SPHERE: u32 = 5u;
 
-const package_types__2ATTENUATION_INVERSE_SQUARE: u32 = 1u;
+const types__ATTENUATION_INVERSE_SQUARE: u32 = 1u;
 
-const package_types__2MATERIAL_TWO_SIDED: u32 = 1u;
+const types__MATERIAL_TWO_SIDED: u32 = 1u;
 
-const package_types__1MATERIAL_FRESNEL: u32 = 2u;
+const types__MATERIAL_FRESNEL: u32 = 2u;
 
-const package_types__1MATERIAL_SCHLICK: u32 = 4u;
+const types__MATERIAL_SCHLICK: u32 = 4u;
 
-const package_types__1MATERIAL_SUM: u32 = 8u;
+const types__MATERIAL_SUM: u32 = 8u;
 
-const package_types__1MATERIAL_BLEND: u32 = 16u;
+const types__MATERIAL_BLEND: u32 = 16u;
 
-const package_types__1MATERIAL_ROWS: u32 = 8u;
+const types__MATERIAL_ROWS: u32 = 8u;
 
-const package_types__1TEXTURE_ROWS: u32 = 6u;
+const types__TEXTURE_ROWS: u32 = 6u;
 
-const package_types__1NO_TEXTURE: u32 = 65535u;
+const types__NO_TEXTURE: u32 = 65535u;
 
-const package_types__1PATTERN_STRIPES: u32 = 1u;
+const types__PATTERN_STRIPES: u32 = 1u;
 
-const package_types__1PATTERN_GRADIENT: u32 = 2u;
+const types__PATTERN_GRADIENT: u32 = 2u;
 
-const package_types__1PATTERN_NOISE: u32 = 3u;
+const types__PATTERN_NOISE: u32 = 3u;
 
-const package_types__1PATTERN_PICTURE: u32 = 4u;
+const types__PATTERN_PICTURE: u32 = 4u;
 
-const package_types__1TEXTURE_UV: u32 = 1u;
+const types__TEXTURE_UV: u32 = 1u;
 
-const package_types__1TEXTURE_NEAREST: u32 = 2u;
+const types__TEXTURE_NEAREST: u32 = 2u;
 
-const package_types__1BACKGROUND_COLOR: u32 = 0u;
+const types__BACKGROUND_COLOR: u32 = 0u;
 
-const package_types__1BACKGROUND_GRADIENT: u32 = 1u;
+const types__BACKGROUND_GRADIENT: u32 = 1u;
 
-const package_types__1BACKGROUND_PICTURE: u32 = 2u;
+const types__BACKGROUND_PICTURE: u32 = 2u;
 
-const package_types__1FILTER_BOX: u32 = 0u;
+const types__FILTER_BOX: u32 = 0u;
 
-const package_types__1FILTER_TENT: u32 = 1u;
+const types__FILTER_TENT: u32 = 1u;
 
-const package_types__1FILTER_GAUSSIAN: u32 = 2u;
+const types__FILTER_GAUSSIAN: u32 = 2u;
 
-const package_types__2FILTER_BLACKMAN_HARRIS: u32 = 3u;
+const types__FILTER_BLACKMAN_HARRIS: u32 = 3u;
 
-const package_types__1FILTER_MITCHELL: u32 = 4u;
+const types__FILTER_MITCHELL: u32 = 4u;
 
-const package_types__2TRIANGLE_TEST_PLANE: u32 = 0u;
+const types__TRIANGLE_TEST_PLANE: u32 = 0u;
 
-const package_types__3TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
+const types__TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
 
-const package_types__2TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
+const types__TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
 
-const package_types__1RAY_SHADOW: u32 = 3u;
+const types__RAY_SHADOW: u32 = 3u;
 
-const package_types__1RAY_OUTSIDE: u32 = 1u;
+const types__RAY_OUTSIDE: u32 = 1u;
 
-const package_types__1RAY_TRANSPARENT: u32 = 2u;
+const types__RAY_TRANSPARENT: u32 = 2u;
 
-const package_types__1RAY_BOUNDARY: u32 = 4u;
+const types__RAY_BOUNDARY: u32 = 4u;
 
-const package_types__1RAY_TOTAL: u32 = 8u;
+const types__RAY_TOTAL: u32 = 8u;
 
-const package_types__1PROBE_ROWS: u32 = 3u;
+const types__PROBE_ROWS: u32 = 3u;
 
-const package_types__1RAY_ROWS: u32 = 14u;
+const types__RAY_ROWS: u32 = 14u;
 
-struct package_types_PackedTriangle {
+struct types__PackedTriangle {
     v0: vec3f,
     i0: u32,
     v1: vec3f,
@@ -331,12 +331,12 @@ struct package_types_PackedTriangle {
     i2: u32
 }
 
-struct package_types_PackedVertex {
+struct types__PackedVertex {
     normal: vec3f,
     material: u32
 }
 
-struct package_types_PackedShape {
+struct types__PackedShape {
     position: vec3f,
     kind: u32,
     row_x: vec3f,
@@ -351,7 +351,7 @@ struct package_types_PackedShape {
     _pad1: u32
 }
 
-struct package_types_PackedInstance {
+struct types__PackedInstance {
     translation: vec3f,
     root: u32,
     inverse_x: vec3f,
@@ -371,7 +371,7 @@ struct package_types_PackedInstance {
     pattern_z: vec4f
 }
 
-struct package_types_PackedKey {
+struct types__PackedKey {
     translation: vec3f,
     _pad0: u32,
     rotation: vec4f,
@@ -381,7 +381,7 @@ struct package_types_PackedKey {
     _pad2: u32
 }
 
-struct package_types_PackedTexture {
+struct types__PackedTexture {
     color_a: vec3f,
     kind: u32,
     color_b: vec3f,
@@ -395,7 +395,7 @@ struct package_types_PackedTexture {
     octaves: u32
 }
 
-struct package_types_PackedLight {
+struct types__PackedLight {
     position: vec3f,
     kind: u32,
     direction: vec3f,
@@ -412,7 +412,7 @@ struct package_types_PackedLight {
     _pad2: u32
 }
 
-struct package_types_PackedCamera {
+struct types__PackedCamera {
     origin: vec3f,
     lens_radius: f32,
     forward: vec3f,
@@ -423,8 +423,8 @@ struct package_types_PackedCamera {
     blade_count: u32
 }
 
-struct package_types_PackedFrame {
-    camera: package_types_PackedCamera,
+struct types__PackedFrame {
+    camera: types__PackedCamera,
     background: vec3f,
     light_count: u32,
     ambient: vec3f,
@@ -450,7 +450,7 @@ struct package_types_PackedFrame {
     shape_row: u32
 }
 
-struct package_types_PackedDispatch {
+struct types__PackedDispatch {
     picture_width: u32,
     picture_height: u32,
     tile_x: u32,
@@ -469,10 +469,10 @@ struct package_types_PackedDispatch {
     max_depth: u32,
     min_throughput: f32,
     light_samples: f32,
-    counters: package_types_PackedCounters
+    counters: types__PackedCounters
 }
 
-struct package_types_PackedCounters {
+struct types__PackedCounters {
     groups_done: atomic<u32>,
     nonfinite_samples: atomic<u32>,
     cut_off_paths: atomic<u32>,
@@ -487,7 +487,7 @@ struct package_types_PackedCounters {
     refraction_hits: atomic<u32>
 }
 
-struct package_types_PackedProbe {
+struct types__PackedProbe {
     pixel_x: u32,
     pixel_y: u32,
     sample: u32,
@@ -500,7 +500,7 @@ struct package_types_PackedProbe {
     cut_off: u32
 }
 
-struct package_types_PackedRay {
+struct types__PackedRay {
     origin: vec3f,
     kind: u32,
     direction: vec3f,
@@ -532,7 +532,7 @@ struct package_types_PackedRay {
     _pad: u32
 }
 
-struct package_types_Ray {
+struct types__Ray {
     origin: vec3f,
     t_max: f32,
     direction: vec3f,
@@ -540,14 +540,14 @@ struct package_types_Ray {
     leaving_instance: u32
 }
 
-struct package_types_Candidate {
+struct types__Candidate {
     hit: bool,
     t: f32,
     b1: f32,
     b2: f32
 }
 
-struct package_types_Hit {
+struct types__Hit {
     t: f32,
     primitive: u32,
     b1: f32,
@@ -555,7 +555,7 @@ struct package_types_Hit {
     instance: u32
 }
 
-struct package_types_Node {
+struct types__Node {
     lo: vec3f,
     scale: vec3f,
     min_x: vec4f,
@@ -567,7 +567,7 @@ struct package_types_Node {
     children: vec4u
 }
 
-struct package_types_Phong {
+struct types__Phong {
     diffuse: vec3f,
     specular: vec3f,
     shininess: f32,
@@ -575,13 +575,13 @@ struct package_types_Phong {
     reflect: vec3f
 }
 
-struct package_types_Medium {
+struct types__Medium {
     absorption: vec3f,
     ior: f32,
     priority: i32
 }
 
-struct package_types_Surface {
+struct types__Surface {
     p: vec3f,
     n: vec3f,
     ng: vec3f,
@@ -590,211 +590,211 @@ struct package_types_Surface {
     outside: bool,
     uv: vec2f,
     material: u32,
-    phong: package_types_Phong,
+    phong: types__Phong,
     id: u32,
     place: vec3f,
     instance: u32
 }
 
-struct package_types_Optics {
+struct types__Optics {
     transmit: vec3f,
     opacity: f32,
     ior: f32,
     flags: u32
 }
 
-struct package_types_Incident {
+struct types__Incident {
     direction: vec3f,
     distance: f32,
     radiance: vec3f
 }
 
-struct package_types_SampleKey {
+struct types__SampleKey {
     hash: u32,
     index: u32,
     weight: f32
 }
 
-var<private> package_scene_record_traced: package_types_PackedRay;
+var<private> record__traced: types__PackedRay;
 
-var<private> package_scene_record__1traced_index: u32;
+var<private> record__traced_index: u32;
 
-var<private> package_scene_record_sender: u32;
+var<private> record__sender: u32;
 
-var<private> package_scene_record_seen: package_types_Hit;
+var<private> record__seen: types__Hit;
 
-var<private> package_scene_record__1ray_count: u32;
+var<private> record__ray_count: u32;
 
-var<private> package_scene_record__1ray_limit: u32;
+var<private> record__ray_limit: u32;
 
-var<private> package_scene_record__1first_row: u32;
+var<private> record__first_row: u32;
 
-var<private> package_scene_record__1light_index: u32;
+var<private> record__light_index: u32;
 
-var<private> package_scene_record__1light_weight: f32;
+var<private> record__light_weight: f32;
 
-var<private> package_scene_record_met: package_types_Hit;
+var<private> record__met: types__Hit;
 
-var<private> package_scene_record__1met_count: u32;
+var<private> record__met_count: u32;
 
-fn package_scene_record__1load_probe(index: u32) -> package_types_PackedProbe {
-    let row = package_types__1PROBE_ROWS * index;
-    let r0 = package_bindings_records[row];
-    var probe = package_types_PackedProbe();
+fn record__load_probe(index: u32) -> types__PackedProbe {
+    let row = types__PROBE_ROWS * index;
+    let r0 = bindings__records[row];
+    var probe = types__PackedProbe();
     probe.pixel_x = r0.x;
     probe.pixel_y = r0.y;
     probe.sample = r0.z;
     probe.first_row = r0.w;
-    probe.ray_limit = package_bindings_records[row + 1u].x;
+    probe.ray_limit = bindings__records[row + 1u].x;
     return probe;
 }
 
-fn package_scene_record__1store_probe(index: u32, probe: package_types_PackedProbe) {
-    let row = package_types__1PROBE_ROWS * index;
+fn record__store_probe(index: u32, probe: types__PackedProbe) {
+    let row = types__PROBE_ROWS * index;
     let weight_and_time = bitcast<vec2u>(vec2f(probe.weight, probe.time));
-    package_bindings_records[row + 1u] = vec4u(probe.ray_limit, package_scene_record__1ray_count, weight_and_time);
-    package_bindings_records[row + 2u] = vec4u(bitcast<vec3u>(probe.color), probe.cut_off);
+    bindings__records[row + 1u] = vec4u(probe.ray_limit, record__ray_count, weight_and_time);
+    bindings__records[row + 2u] = vec4u(bitcast<vec3u>(probe.color), probe.cut_off);
 }
 
-fn package_scene_record__1start_record(probe: package_types_PackedProbe) {
-    package_scene_record__1ray_count = 0u;
-    package_scene_record__1ray_limit = probe.ray_limit;
-    package_scene_record__1first_row = probe.first_row;
-    package_scene_record_sender = package_types_NONE;
+fn record__start_record(probe: types__PackedProbe) {
+    record__ray_count = 0u;
+    record__ray_limit = probe.ray_limit;
+    record__first_row = probe.first_row;
+    record__sender = types__NONE;
 }
 
-fn package_scene_record__1open_ray(ray: package_types_Ray, hit: package_types_Hit, kind: u32, throughput: vec3f, media: vec4u) {
-    package_scene_record_traced = package_types_PackedRay();
-    package_scene_record_traced.origin = ray.origin;
-    package_scene_record_traced.kind = kind;
-    package_scene_record_traced.direction = ray.direction;
-    package_scene_record_traced.t = hit.t;
-    package_scene_record_traced.t_max = ray.t_max;
-    package_scene_record_traced.primitive = hit.primitive;
-    package_scene_record_traced.instance = hit.instance;
-    package_scene_record_traced.material = package_types_NONE;
-    package_scene_record_traced.throughput = throughput;
-    package_scene_record_traced.parent = package_scene_record_sender;
-    package_scene_record_traced.arriving = throughput;
-    package_scene_record_traced.light = package_types_NONE;
-    package_scene_record_traced.medium = package_types_NONE;
-    package_scene_record_traced.medium_behind = package_types_NONE;
-    package_scene_record_traced.media = select(vec4u(package_types_NONE), media, package_bindings__1HAS_REFRACTION);
-    package_scene_record__1traced_index = package_scene_record__1ray_count;
-    package_scene_record__1ray_count += 1u;
+fn record__open_ray(ray: types__Ray, hit: types__Hit, kind: u32, throughput: vec3f, media: vec4u) {
+    record__traced = types__PackedRay();
+    record__traced.origin = ray.origin;
+    record__traced.kind = kind;
+    record__traced.direction = ray.direction;
+    record__traced.t = hit.t;
+    record__traced.t_max = ray.t_max;
+    record__traced.primitive = hit.primitive;
+    record__traced.instance = hit.instance;
+    record__traced.material = types__NONE;
+    record__traced.throughput = throughput;
+    record__traced.parent = record__sender;
+    record__traced.arriving = throughput;
+    record__traced.light = types__NONE;
+    record__traced.medium = types__NONE;
+    record__traced.medium_behind = types__NONE;
+    record__traced.media = select(vec4u(types__NONE), media, bindings__HAS_REFRACTION);
+    record__traced_index = record__ray_count;
+    record__ray_count += 1u;
 }
 
-fn package_scene_record__1record_miss(contribution: vec3f) {
-    package_scene_record_traced.contribution = contribution;
+fn record__record_miss(contribution: vec3f) {
+    record__traced.contribution = contribution;
 }
 
-fn package_scene_record__1record_surface(surface: package_types_Surface) {
-    package_scene_record_traced.primitive = package_scene_record_seen.primitive;
-    package_scene_record_traced.instance = package_scene_record_seen.instance;
-    package_scene_record_traced.p = surface.p;
-    package_scene_record_traced.n = surface.n;
-    package_scene_record_traced.ng = surface.ng;
-    package_scene_record_traced.material = surface.material;
-    package_scene_record_traced.flags |= select(0u, package_types__1RAY_OUTSIDE, surface.outside);
+fn record__record_surface(surface: types__Surface) {
+    record__traced.primitive = record__seen.primitive;
+    record__traced.instance = record__seen.instance;
+    record__traced.p = surface.p;
+    record__traced.n = surface.n;
+    record__traced.ng = surface.ng;
+    record__traced.material = surface.material;
+    record__traced.flags |= select(0u, types__RAY_OUTSIDE, surface.outside);
 }
 
-fn package_scene_record__1record_media(medium: u32, medium_behind: u32, transparent: bool) {
-    package_scene_record_traced.medium = medium;
-    package_scene_record_traced.medium_behind = select(package_types_NONE, medium_behind, transparent);
-    package_scene_record_traced.flags |= select(0u, package_types__1RAY_TRANSPARENT, transparent);
+fn record__record_media(medium: u32, medium_behind: u32, transparent: bool) {
+    record__traced.medium = medium;
+    record__traced.medium_behind = select(types__NONE, medium_behind, transparent);
+    record__traced.flags |= select(0u, types__RAY_TRANSPARENT, transparent);
 }
 
-fn package_scene_record__1record_scatter(reflect: vec3f, transmit: vec3f, boundary: package_lib_fresnel_Boundary, iors: vec2f, is_boundary: bool) {
-    package_scene_record_traced.reflect = reflect;
-    package_scene_record_traced.transmit = transmit;
-    package_scene_record_traced.reflectance = select(0.0, boundary.reflectance, is_boundary);
-    package_scene_record_traced.ior = iors.x;
-    package_scene_record_traced.ior_behind = iors.y;
-    package_scene_record_traced.flags |= select(0u, package_types__1RAY_BOUNDARY, is_boundary) | select(0u, package_types__1RAY_TOTAL, is_boundary & boundary.total);
+fn record__record_scatter(reflect: vec3f, transmit: vec3f, boundary: fresnel__Boundary, iors: vec2f, is_boundary: bool) {
+    record__traced.reflect = reflect;
+    record__traced.transmit = transmit;
+    record__traced.reflectance = select(0.0, boundary.reflectance, is_boundary);
+    record__traced.ior = iors.x;
+    record__traced.ior_behind = iors.y;
+    record__traced.flags |= select(0u, types__RAY_BOUNDARY, is_boundary) | select(0u, types__RAY_TOTAL, is_boundary & boundary.total);
 }
 
-fn package_scene_record__1record_arriving(arriving: vec3f) {
-    package_scene_record_traced.arriving = arriving;
+fn record__record_arriving(arriving: vec3f) {
+    record__traced.arriving = arriving;
 }
 
-fn package_scene_record__1record_ambient(ambient: vec3f) {
-    package_scene_record_traced.ambient = ambient;
-    package_scene_record_traced.contribution += package_scene_record_traced.arriving * ambient;
+fn record__record_ambient(ambient: vec3f) {
+    record__traced.ambient = ambient;
+    record__traced.contribution += record__traced.arriving * ambient;
 }
 
-fn package_scene_record__1record_emission(emission: vec3f) {
-    package_scene_record_traced.emission = emission;
-    package_scene_record_traced.contribution += package_scene_record_traced.arriving * emission;
+fn record__record_emission(emission: vec3f) {
+    record__traced.emission = emission;
+    record__traced.contribution += record__traced.arriving * emission;
 }
 
-fn package_scene_record__1open_light(index: u32, weight: f32) {
-    package_scene_record__1light_index = index;
-    package_scene_record__1light_weight = weight;
+fn record__open_light(index: u32, weight: f32) {
+    record__light_index = index;
+    record__light_weight = weight;
 }
 
-fn package_scene_record__1open_shadow(t_max: f32) {
-    package_scene_record_met = package_types_Hit(t_max, package_types_NONE, 0.0, 0.0, package_types__1NO_INSTANCE);
-    package_scene_record__1met_count = 0u;
+fn record__open_shadow(t_max: f32) {
+    record__met = types__Hit(t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+    record__met_count = 0u;
 }
 
-fn package_scene_record__1record_met(hit: package_types_Hit, before: f32) {
-    if (hit.primitive != package_types_NONE) {
-        package_scene_record_met = hit;
-        package_scene_record_met.t = before + hit.t;
-        package_scene_record__1met_count += 1u;
+fn record__record_met(hit: types__Hit, before: f32) {
+    if (hit.primitive != types__NONE) {
+        record__met = hit;
+        record__met.t = before + hit.t;
+        record__met_count += 1u;
     }
 }
 
-fn package_scene_record__1record_shadow(ray: package_types_Ray, reflected: vec3f, through: vec3f) {
-    var shadow = package_types_PackedRay();
+fn record__record_shadow(ray: types__Ray, reflected: vec3f, through: vec3f) {
+    var shadow = types__PackedRay();
     shadow.origin = ray.origin;
-    shadow.kind = package_types__1RAY_SHADOW;
+    shadow.kind = types__RAY_SHADOW;
     shadow.direction = ray.direction;
-    shadow.t = package_scene_record_met.t;
+    shadow.t = record__met.t;
     shadow.t_max = ray.t_max;
-    shadow.primitive = package_scene_record_met.primitive;
-    shadow.instance = package_scene_record_met.instance;
-    shadow.crossings = package_scene_record__1met_count;
-    shadow.material = package_types_NONE;
-    shadow.throughput = package_scene_record__1light_weight * package_scene_record_traced.arriving;
+    shadow.primitive = record__met.primitive;
+    shadow.instance = record__met.instance;
+    shadow.crossings = record__met_count;
+    shadow.material = types__NONE;
+    shadow.throughput = record__light_weight * record__traced.arriving;
     shadow.arriving = shadow.throughput * through;
-    shadow.parent = package_scene_record__1traced_index;
+    shadow.parent = record__traced_index;
     shadow.contribution = shadow.throughput * (through * reflected);
-    shadow.light = package_scene_record__1light_index;
+    shadow.light = record__light_index;
     shadow.ambient = reflected;
     shadow.transmit = through;
-    shadow.medium = package_types_NONE;
-    shadow.medium_behind = package_types_NONE;
-    shadow.media = vec4u(package_types_NONE);
-    package_scene_record__1store_ray(package_scene_record__1ray_count, shadow);
-    package_scene_record__1ray_count += 1u;
+    shadow.medium = types__NONE;
+    shadow.medium_behind = types__NONE;
+    shadow.media = vec4u(types__NONE);
+    record__store_ray(record__ray_count, shadow);
+    record__ray_count += 1u;
 }
 
-fn package_scene_record__1close_ray() {
-    package_scene_record__1store_ray(package_scene_record__1traced_index, package_scene_record_traced);
+fn record__close_ray() {
+    record__store_ray(record__traced_index, record__traced);
 }
 
-fn package_scene_record__1store_ray(index: u32, ray: package_types_PackedRay) {
-    if (index < package_scene_record__1ray_limit) {
-        let row = package_scene_record__1first_row + package_types__1RAY_ROWS * index;
-        package_bindings_records[row] = vec4u(bitcast<vec3u>(ray.origin), ray.kind);
-        package_bindings_records[row + 1u] = bitcast<vec4u>(vec4f(ray.direction, ray.t));
-        package_bindings_records[row + 2u] = vec4u(bitcast<vec3u>(ray.p), ray.primitive);
-        package_bindings_records[row + 3u] = vec4u(bitcast<vec3u>(ray.n), ray.instance);
-        package_bindings_records[row + 4u] = vec4u(bitcast<vec3u>(ray.ng), ray.material);
-        package_bindings_records[row + 5u] = vec4u(bitcast<vec3u>(ray.throughput), ray.parent);
-        package_bindings_records[row + 6u] = vec4u(bitcast<vec3u>(ray.arriving), ray.flags);
-        package_bindings_records[row + 7u] = vec4u(bitcast<vec3u>(ray.contribution), ray.light);
-        package_bindings_records[row + 8u] = vec4u(bitcast<vec3u>(ray.ambient), ray.medium);
-        package_bindings_records[row + 9u] = vec4u(bitcast<vec3u>(ray.emission), ray.medium_behind);
-        package_bindings_records[row + 10u] = bitcast<vec4u>(vec4f(ray.reflect, ray.reflectance));
-        package_bindings_records[row + 11u] = bitcast<vec4u>(vec4f(ray.transmit, ray.ior));
-        package_bindings_records[row + 12u] = ray.media;
-        package_bindings_records[row + 13u] = vec4u(bitcast<vec2u>(vec2f(ray.ior_behind, ray.t_max)), ray.crossings, 0u);
+fn record__store_ray(index: u32, ray: types__PackedRay) {
+    if (index < record__ray_limit) {
+        let row = record__first_row + types__RAY_ROWS * index;
+        bindings__records[row] = vec4u(bitcast<vec3u>(ray.origin), ray.kind);
+        bindings__records[row + 1u] = bitcast<vec4u>(vec4f(ray.direction, ray.t));
+        bindings__records[row + 2u] = vec4u(bitcast<vec3u>(ray.p), ray.primitive);
+        bindings__records[row + 3u] = vec4u(bitcast<vec3u>(ray.n), ray.instance);
+        bindings__records[row + 4u] = vec4u(bitcast<vec3u>(ray.ng), ray.material);
+        bindings__records[row + 5u] = vec4u(bitcast<vec3u>(ray.throughput), ray.parent);
+        bindings__records[row + 6u] = vec4u(bitcast<vec3u>(ray.arriving), ray.flags);
+        bindings__records[row + 7u] = vec4u(bitcast<vec3u>(ray.contribution), ray.light);
+        bindings__records[row + 8u] = vec4u(bitcast<vec3u>(ray.ambient), ray.medium);
+        bindings__records[row + 9u] = vec4u(bitcast<vec3u>(ray.emission), ray.medium_behind);
+        bindings__records[row + 10u] = bitcast<vec4u>(vec4f(ray.reflect, ray.reflectance));
+        bindings__records[row + 11u] = bitcast<vec4u>(vec4f(ray.transmit, ray.ior));
+        bindings__records[row + 12u] = ray.media;
+        bindings__records[row + 13u] = vec4u(bitcast<vec2u>(vec2f(ray.ior_behind, ray.t_max)), ray.crossings, 0u);
     }
 }
 
-struct package_scene_dispatch_RayCounts {
+struct dispatch__RayCounts {
     primary: u32,
     primary_hits: u32,
     shadow: u32,
@@ -805,10 +805,10 @@ struct package_scene_dispatch_RayCounts {
     refraction_hits: u32
 }
 
-var<private> package_scene_dispatch_counts: package_scene_dispatch_RayCounts;
+var<private> dispatch__counts: dispatch__RayCounts;
 
-struct package_scene_dispatch_Batch {
-    camera: package_types_PackedCamera,
+struct dispatch__Batch {
+    camera: types__PackedCamera,
     background: vec3f,
     background_top: vec3f,
     background_rotation: f32,
@@ -826,346 +826,346 @@ struct package_scene_dispatch_Batch {
     camera_media: vec4u
 }
 
-fn package_scene_dispatch__1load_batch() -> package_scene_dispatch_Batch {
-    package_scene_fetch__1load_starts();
-    let picture_size = vec2f(vec2u(package_bindings_dispatch.picture_width, package_bindings_dispatch.picture_height));
-    return package_scene_dispatch_Batch(package_bindings_frame.camera, package_bindings_frame.background, package_bindings_frame.background_top, package_bindings_frame.background_rotation, package_bindings_frame.background_first_texel, vec2u(package_bindings_frame.background_width, package_bindings_frame.background_height), package_bindings_frame.ambient, package_bindings_frame.light_count, picture_size, package_bindings_dispatch.seed, package_bindings_dispatch.first_sample, package_bindings_dispatch.end_sample, package_bindings_dispatch.max_depth, package_bindings_dispatch.min_throughput, package_bindings_dispatch.light_samples, package_bindings_frame.camera_media);
+fn dispatch__load_batch() -> dispatch__Batch {
+    fetch__load_starts();
+    let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
+    return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_first_texel, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
 }
 
-fn package_scene_dispatch__1sample_ray(batch: package_scene_dispatch_Batch, pixel: vec2u, sample: u32) -> package_types_Ray {
-    let key = package_lib_rng__1pixel_key(batch.seed, pixel);
+fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, sample: u32) -> types__Ray {
+    let key = rng__pixel_key(batch.seed, pixel);
     var within = vec2f(0.5);
-    if (package_bindings_STRATIFIED) {
-        within += package_lib_filter__1filter_offset(package_bindings_FILTER, package_bindings__1FILTER_RADIUS, package_lib_sampling__1stratified_2d(sample, key));
+    if (bindings__STRATIFIED) {
+        within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
     }
     let position = vec2f(pixel) + within;
-    if (package_bindings__1HAS_MOTION || package_bindings__1CAMERA_MOTION || package_bindings__1LIGHT_MOTION) {
-        package_scene_shutter__1shutter_time = package_scene_dispatch__1sample_time(sample, key);
+    if (bindings__HAS_MOTION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
+        shutter__shutter_time = dispatch__sample_time(sample, key);
     }
-    let camera = package_scene_shutter__1shutter_camera(batch.camera);
-    if (package_bindings__1HAS_LENS && package_bindings_ORTHOGRAPHIC) {
-        return package_lib_camera__2parallel_lens_ray(camera, position, batch.picture_size, package_lib_sampling__1stratified_34(sample, key));
+    let camera = shutter__shutter_camera(batch.camera);
+    if (bindings__HAS_LENS && bindings__ORTHOGRAPHIC) {
+        return camera__parallel_lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
     }
-    if (package_bindings__1HAS_LENS) {
-        return package_lib_camera__1lens_ray(camera, position, batch.picture_size, package_lib_sampling__1stratified_34(sample, key));
+    if (bindings__HAS_LENS) {
+        return camera__lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
     }
-    if (package_bindings_ORTHOGRAPHIC) {
-        return package_lib_camera__1parallel_ray(camera, position, batch.picture_size);
+    if (bindings__ORTHOGRAPHIC) {
+        return camera__parallel_ray(camera, position, batch.picture_size);
     }
-    return package_lib_camera__1camera_ray(camera, position, batch.picture_size);
+    return camera__camera_ray(camera, position, batch.picture_size);
 }
 
-fn package_scene_dispatch__1sample_time(sample: u32, key: u32) -> f32 {
-    if (package_bindings__1HAS_LENS) {
-        return package_lib_sampling__1stratified_1d(sample, key);
+fn dispatch__sample_time(sample: u32, key: u32) -> f32 {
+    if (bindings__HAS_LENS) {
+        return sampling__stratified_1d(sample, key);
     }
-    return package_lib_sampling__1stratified_34(sample, key).x;
+    return sampling__stratified_34(sample, key).x;
 }
 
-fn package_scene_dispatch__1sample_weight(batch: package_scene_dispatch_Batch, pixel: vec2u, sample: u32) -> f32 {
-    if (!package_bindings_STRATIFIED) {
+fn dispatch__sample_weight(batch: dispatch__Batch, pixel: vec2u, sample: u32) -> f32 {
+    if (!bindings__STRATIFIED) {
         return 1.0;
     }
-    return package_lib_filter__1filter_sign(package_bindings_FILTER, package_lib_sampling__1stratified_2d(sample, package_lib_rng__1pixel_key(batch.seed, pixel)));
+    return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, rng__pixel_key(batch.seed, pixel)));
 }
 
-fn package_scene_dispatch__1count_hit(kind: u32, hit: package_types_Hit) {
-    if (package_bindings__1COUNT_RAYS) {
-        let hits = select(0u, 1u, hit.primitive != package_types_NONE);
-        if (kind == package_scene__1ray_stack__1KIND_PRIMARY) {
-            package_scene_dispatch_counts.primary += 1u;
-            package_scene_dispatch_counts.primary_hits += hits;
+fn dispatch__count_hit(kind: u32, hit: types__Hit) {
+    if (bindings__COUNT_RAYS) {
+        let hits = select(0u, 1u, hit.primitive != types__NONE);
+        if (kind == ray_stack__KIND_PRIMARY) {
+            dispatch__counts.primary += 1u;
+            dispatch__counts.primary_hits += hits;
         }
-        else if (kind == package_scene__1ray_stack__1KIND_REFLECTED) {
-            package_scene_dispatch_counts.reflection += 1u;
-            package_scene_dispatch_counts.reflection_hits += hits;
+        else if (kind == ray_stack__KIND_REFLECTED) {
+            dispatch__counts.reflection += 1u;
+            dispatch__counts.reflection_hits += hits;
         }
         else {
-            package_scene_dispatch_counts.refraction += 1u;
-            package_scene_dispatch_counts.refraction_hits += hits;
+            dispatch__counts.refraction += 1u;
+            dispatch__counts.refraction_hits += hits;
         }
     }
 }
 
-fn package_scene_dispatch__1add_counts(lane: u32) {
-    if (package_bindings__1COUNT_RAYS) {
-        atomicAdd(&package_bindings_dispatch.counters.primary, package_scene_dispatch_counts.primary);
-        atomicAdd(&package_bindings_dispatch.counters.primary_hits, package_scene_dispatch_counts.primary_hits);
-        atomicAdd(&package_bindings_dispatch.counters.shadow, package_scene_dispatch_counts.shadow);
-        atomicAdd(&package_bindings_dispatch.counters.shadow_blocked, package_scene_dispatch_counts.shadow_blocked);
-        if (package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) {
-            atomicAdd(&package_bindings_dispatch.counters.reflection, package_scene_dispatch_counts.reflection);
-            atomicAdd(&package_bindings_dispatch.counters.reflection_hits, package_scene_dispatch_counts.reflection_hits);
-            atomicAdd(&package_bindings_dispatch.counters.refraction, package_scene_dispatch_counts.refraction);
-            atomicAdd(&package_bindings_dispatch.counters.refraction_hits, package_scene_dispatch_counts.refraction_hits);
+fn dispatch__add_counts(lane: u32) {
+    if (bindings__COUNT_RAYS) {
+        atomicAdd(&bindings__dispatch.counters.primary, dispatch__counts.primary);
+        atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
+        atomicAdd(&bindings__dispatch.counters.shadow, dispatch__counts.shadow);
+        atomicAdd(&bindings__dispatch.counters.shadow_blocked, dispatch__counts.shadow_blocked);
+        if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+            atomicAdd(&bindings__dispatch.counters.reflection, dispatch__counts.reflection);
+            atomicAdd(&bindings__dispatch.counters.reflection_hits, dispatch__counts.reflection_hits);
+            atomicAdd(&bindings__dispatch.counters.refraction, dispatch__counts.refraction);
+            atomicAdd(&bindings__dispatch.counters.refraction_hits, dispatch__counts.refraction_hits);
         }
     }
-    if ((package_bindings__1HAS_REFLECTION || package_bindings__1HAS_REFRACTION) && package_scene__1ray_stack__2cut_off_trees > 0u) {
-        atomicAdd(&package_bindings_dispatch.counters.cut_off_trees, package_scene__1ray_stack__2cut_off_trees);
+    if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && ray_stack__cut_off_trees > 0u) {
+        atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
     }
-    if (package_scene_loops__1cut_off) {
-        atomicAdd(&package_bindings_dispatch.counters.cut_off_paths, 1u);
+    if (loops__cut_off) {
+        atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
     }
     if (lane == 0u) {
-        atomicAdd(&package_bindings_dispatch.counters.groups_done, 1u);
+        atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
     }
 }
 
-var<private> package_scene_fetch__1shape_row: u32;
+var<private> fetch__shape_row: u32;
 
-var<private> package_scene_fetch__1light_row: u32;
+var<private> fetch__light_row: u32;
 
-fn package_scene_fetch__1load_starts() {
-    package_scene_fetch__1shape_row = package_bindings_frame.shape_row;
-    package_scene_fetch__1light_row = package_bindings_frame.light_row;
+fn fetch__load_starts() {
+    fetch__shape_row = bindings__frame.shape_row;
+    fetch__light_row = bindings__frame.light_row;
 }
 
-fn package_scene_fetch__1load_node(index: u32) -> package_types_Node {
-    let row = package_types__1NODE_ROWS * index;
-    return package_lib_intersect_node__1decode_node(package_scene_fetch__1node_row(row), package_scene_fetch__1node_row(row + 1u), package_scene_fetch__1node_row(row + 2u), package_scene_fetch__1node_row(row + 3u));
+fn fetch__load_node(index: u32) -> types__Node {
+    let row = types__NODE_ROWS * index;
+    return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
 }
 
-fn package_scene_fetch__2load_moving_node(reference: u32, time: f32) -> package_types_Node {
-    let index = reference & ~package_types_MOVING;
-    let last = index + select(0u, 1u, (reference & package_types_MOVING) != 0u);
-    return package_lib_intersect_node__1node_between(package_scene_fetch__1load_node(index), package_scene_fetch__1load_node(last), time);
+fn fetch__load_moving_node(reference: u32, time: f32) -> types__Node {
+    let index = reference & ~types__MOVING;
+    let last = index + select(0u, 1u, (reference & types__MOVING) != 0u);
+    return node__node_between(fetch__load_node(index), fetch__load_node(last), time);
 }
 
-fn package_scene_fetch__1load_instance(index: u32) -> package_types_PackedInstance {
-    let row = package_bindings_frame.instance_row + package_types__1INSTANCE_ROWS * index;
-    let r0 = package_scene_fetch__1node_row(row);
-    let r1 = package_scene_fetch__1node_row(row + 1u);
-    let r2 = package_scene_fetch__1node_row(row + 2u);
-    let r3 = package_scene_fetch__1node_row(row + 3u);
-    let r4 = package_scene_fetch__1node_row(row + 4u);
-    let r5 = package_scene_fetch__1node_row(row + 5u);
-    let r6 = package_scene_fetch__1node_row(row + 6u);
-    return package_types_PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(package_scene_fetch__1node_row(row + 7u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 8u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 9u)));
+fn fetch__load_instance(index: u32) -> types__PackedInstance {
+    let row = bindings__frame.instance_row + types__INSTANCE_ROWS * index;
+    let r0 = fetch__node_row(row);
+    let r1 = fetch__node_row(row + 1u);
+    let r2 = fetch__node_row(row + 2u);
+    let r3 = fetch__node_row(row + 3u);
+    let r4 = fetch__node_row(row + 4u);
+    let r5 = fetch__node_row(row + 5u);
+    let r6 = fetch__node_row(row + 6u);
+    return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
 }
 
-fn package_scene_fetch__1load_key(index: u32) -> package_types_PackedKey {
-    let row = package_bindings_frame.key_row + package_types__1KEY_ROWS * index;
-    return package_types_PackedKey(bitcast<vec3f>(package_scene_fetch__1node_row(row).xyz), 0u, bitcast<vec4f>(package_scene_fetch__1node_row(row + 1u)), bitcast<vec3f>(package_scene_fetch__1node_row(row + 2u).xyz), 0u, bitcast<vec3f>(package_scene_fetch__1node_row(row + 3u).xyz), 0u);
+fn fetch__load_key(index: u32) -> types__PackedKey {
+    let row = bindings__frame.key_row + types__KEY_ROWS * index;
+    return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
 }
 
-fn package_scene_fetch__1load_light(index: u32) -> package_types_PackedLight {
-    let row = package_scene_fetch__1light_row + package_types__1LIGHT_ROWS * index;
-    let r0 = package_scene_fetch__1node_row(row);
-    let r1 = package_scene_fetch__1node_row(row + 1u);
-    let r2 = package_scene_fetch__1node_row(row + 2u);
-    let r3 = package_scene_fetch__1node_row(row + 3u);
-    let r4 = package_scene_fetch__1node_row(row + 4u);
-    return package_types_PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), package_scene_fetch__1node_row(row + 5u).x, 0u, 0u, 0u);
+fn fetch__load_light(index: u32) -> types__PackedLight {
+    let row = fetch__light_row + types__LIGHT_ROWS * index;
+    let r0 = fetch__node_row(row);
+    let r1 = fetch__node_row(row + 1u);
+    let r2 = fetch__node_row(row + 2u);
+    let r3 = fetch__node_row(row + 3u);
+    let r4 = fetch__node_row(row + 4u);
+    return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), fetch__node_row(row + 5u).x, 0u, 0u, 0u);
 }
 
-fn package_scene_fetch__1load_camera(key: u32) -> package_types_PackedCamera {
-    let row = package_scene_fetch__1light_row + package_types__1LIGHT_ROWS * package_bindings_frame.light_count * package_bindings_frame.light_key_count + package_types__1CAMERA_ROWS * key;
-    let r0 = package_scene_fetch__1node_row(row);
-    let r1 = package_scene_fetch__1node_row(row + 1u);
-    let r2 = package_scene_fetch__1node_row(row + 2u);
-    let r3 = package_scene_fetch__1node_row(row + 3u);
-    return package_types_PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
+fn fetch__load_camera(key: u32) -> types__PackedCamera {
+    let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
+    let r0 = fetch__node_row(row);
+    let r1 = fetch__node_row(row + 1u);
+    let r2 = fetch__node_row(row + 2u);
+    let r3 = fetch__node_row(row + 3u);
+    return types__PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
 }
 
-fn package_scene_fetch__1load_triangle(index: u32) -> package_types_PackedTriangle {
+fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
     let row = 3u * index;
-    let r0 = package_scene_fetch__1triangle_row(row);
-    let r1 = package_scene_fetch__1triangle_row(row + 1u);
-    let r2 = package_scene_fetch__1triangle_row(row + 2u);
-    return package_types_PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
+    let r0 = fetch__triangle_row(row);
+    let r1 = fetch__triangle_row(row + 1u);
+    let r2 = fetch__triangle_row(row + 2u);
+    return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
-fn package_scene_fetch__1load_shape(index: u32) -> package_types_PackedShape {
-    let row = package_scene_fetch__1shape_row + package_types__1SHAPE_ROWS * index;
-    return package_scene_fetch__1shape_of(package_scene_fetch__1triangle_row(row), package_scene_fetch__1triangle_row(row + 1u), package_scene_fetch__1triangle_row(row + 2u), package_scene_fetch__1triangle_row(row + 3u), package_scene_fetch__1triangle_row(row + 4u));
+fn fetch__load_shape(index: u32) -> types__PackedShape {
+    let row = fetch__shape_row + types__SHAPE_ROWS * index;
+    return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
 }
 
-fn package_scene_fetch__1shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> package_types_PackedShape {
-    return package_types_PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
+fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
+    return types__PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
 }
 
-fn package_scene_fetch__1load_vertex(index: u32) -> package_types_PackedVertex {
-    let r0 = package_scene_fetch__1vertex_row(index);
-    return package_types_PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
+fn fetch__load_vertex(index: u32) -> types__PackedVertex {
+    let r0 = fetch__vertex_row(index);
+    return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
 }
 
-struct package_scene_fetch_PhongMaterial {
-    phong: package_types_Phong,
+struct fetch__PhongMaterial {
+    phong: types__Phong,
     flags: u32
 }
 
-fn package_scene_fetch__1load_material(index: u32) -> package_scene_fetch_PhongMaterial {
-    let row = package_types__1MATERIAL_ROWS * index;
-    let r0 = package_scene_fetch__1material_row(row);
-    let r1 = package_scene_fetch__1material_row(row + 1u);
-    let r2 = package_scene_fetch__1material_row(row + 2u);
+fn fetch__load_material(index: u32) -> fetch__PhongMaterial {
+    let row = types__MATERIAL_ROWS * index;
+    let r0 = fetch__material_row(row);
+    let r1 = fetch__material_row(row + 1u);
+    let r2 = fetch__material_row(row + 2u);
     var reflect = vec3f(0.0);
-    if (package_bindings__1HAS_REFLECTION) {
-        reflect = bitcast<vec3f>(package_scene_fetch__1material_row(row + 3u).xyz);
+    if (bindings__HAS_REFLECTION) {
+        reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
     }
-    let phong = package_types_Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
-    return package_scene_fetch_PhongMaterial(phong, r1.w);
+    let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+    return fetch__PhongMaterial(phong, r1.w);
 }
 
-fn package_scene_fetch__1load_optics(index: u32) -> package_types_Optics {
-    let row = package_types__1MATERIAL_ROWS * index;
-    let r1 = package_scene_fetch__1material_row(row + 1u);
-    let r2 = package_scene_fetch__1material_row(row + 2u);
-    let r3 = package_scene_fetch__1material_row(row + 3u);
-    let r4 = package_scene_fetch__1material_row(row + 4u);
-    return package_types_Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
+fn fetch__load_optics(index: u32) -> types__Optics {
+    let row = types__MATERIAL_ROWS * index;
+    let r1 = fetch__material_row(row + 1u);
+    let r2 = fetch__material_row(row + 2u);
+    let r3 = fetch__material_row(row + 3u);
+    let r4 = fetch__material_row(row + 4u);
+    return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
 }
 
-fn package_scene_fetch__1load_medium(index: u32) -> package_types_Medium {
-    let row = package_types__1MATERIAL_ROWS * index;
-    let r5 = package_scene_fetch__1material_row(row + 5u);
-    return package_types_Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(package_scene_fetch__1material_row(row + 3u).w), bitcast<i32>(package_scene_fetch__1material_row(row + 4u).w));
+fn fetch__load_medium(index: u32) -> types__Medium {
+    let row = types__MATERIAL_ROWS * index;
+    let r5 = fetch__material_row(row + 5u);
+    return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
 }
 
-fn package_scene_fetch__1load_emission(index: u32) -> vec3f {
-    return bitcast<vec3f>(package_scene_fetch__1material_row(package_types__1MATERIAL_ROWS * index + 6u).xyz);
+fn fetch__load_emission(index: u32) -> vec3f {
+    return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
 }
 
-fn package_scene_fetch__2load_texture_indices(index: u32) -> vec3u {
-    return package_scene_fetch__1material_row(package_types__1MATERIAL_ROWS * index + 7u).xyz;
+fn fetch__load_texture_indices(index: u32) -> vec3u {
+    return fetch__material_row(types__MATERIAL_ROWS * index + 7u).xyz;
 }
 
-fn package_scene_fetch__1load_texture(index: u32) -> package_types_PackedTexture {
-    let row = package_types__1MATERIAL_ROWS * package_bindings_frame.material_count + package_types__1TEXTURE_ROWS * index;
-    let r0 = package_scene_fetch__1material_row(row);
-    let r1 = package_scene_fetch__1material_row(row + 1u);
-    let r5 = package_scene_fetch__1material_row(row + 5u);
-    return package_types_PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(package_scene_fetch__1material_row(row + 2u)), bitcast<vec4f>(package_scene_fetch__1material_row(row + 3u)), bitcast<vec4f>(package_scene_fetch__1material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+fn fetch__load_texture(index: u32) -> types__PackedTexture {
+    let row = types__MATERIAL_ROWS * bindings__frame.material_count + types__TEXTURE_ROWS * index;
+    let r0 = fetch__material_row(row);
+    let r1 = fetch__material_row(row + 1u);
+    let r5 = fetch__material_row(row + 5u);
+    return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
-fn package_scene_fetch__1load_uv(index: u32) -> vec2f {
-    return bitcast<vec2f>(package_scene_fetch__1vertex_row(package_bindings_frame.vertex_count + index).xy);
+fn fetch__load_uv(index: u32) -> vec2f {
+    return bitcast<vec2f>(fetch__vertex_row(bindings__frame.vertex_count + index).xy);
 }
 
-fn package_scene_fetch__1load_texel(index: u32) -> vec3f {
-    let place = vec2u(index & ((1u << package_types__2IMAGE_WIDTH_LOG2) - 1u), index >> package_types__2IMAGE_WIDTH_LOG2);
-    return textureLoad(package_bindings_texels, place, 0).xyz;
+fn fetch__load_texel(index: u32) -> vec3f {
+    let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), index >> types__IMAGE_WIDTH_LOG2);
+    return textureLoad(bindings__texels, place, 0).xyz;
 }
 
-fn package_scene_fetch__1node_row(row: u32) -> vec4u {
-    return package_bindings_nodes[row];
+fn fetch__node_row(row: u32) -> vec4u {
+    return bindings__nodes[row];
 }
 
-fn package_scene_fetch__1triangle_row(row: u32) -> vec4u {
-    return package_bindings_triangles[row];
+fn fetch__triangle_row(row: u32) -> vec4u {
+    return bindings__triangles[row];
 }
 
-fn package_scene_fetch__1vertex_row(row: u32) -> vec4u {
-    return package_bindings_vertices[row];
+fn fetch__vertex_row(row: u32) -> vec4u {
+    return bindings__vertices[row];
 }
 
-fn package_scene_fetch__1material_row(row: u32) -> vec4u {
-    return package_bindings_materials[row];
+fn fetch__material_row(row: u32) -> vec4u {
+    return bindings__materials[row];
 }
 
-struct package_scene_rays_Rays {
-    origin: package_scene_wide_Vectors,
-    direction: package_scene_wide_Vectors,
-    t_max: package_scene_wide_Floats,
-    leaving: package_scene_wide_Words,
-    leaving_instance: package_scene_wide_Words
+struct rays__Rays {
+    origin: wide__Vectors,
+    direction: wide__Vectors,
+    t_max: wide__Floats,
+    leaving: wide__Words,
+    leaving_instance: wide__Words
 }
 
-struct package_scene_rays_Hits {
-    t: package_scene_wide_Floats,
-    primitive: package_scene_wide_Words,
-    b1: package_scene_wide_Floats,
-    b2: package_scene_wide_Floats,
-    instance: package_scene_wide_Words
+struct rays__Hits {
+    t: wide__Floats,
+    primitive: wide__Words,
+    b1: wide__Floats,
+    b2: wide__Floats,
+    instance: wide__Words
 }
 
-const package_scene_rays_DEAD: package_types_Ray = package_types_Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), package_types_NONE, package_types__1NO_INSTANCE);
+const rays__DEAD: types__Ray = types__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
-fn package_scene_rays__1dead_rays() -> package_scene_rays_Rays {
-    return package_scene_rays_Rays(package_scene_wide_Vectors(package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0)), package_scene_wide_Vectors(package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0), package_scene_wide_Floats(1.0)), package_scene_wide_Floats(-1.0), package_scene_wide_Words(package_types_NONE), package_scene_wide_Words(package_types__1NO_INSTANCE));
+fn rays__dead_rays() -> rays__Rays {
+    return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
 }
 
-fn package_scene_rays__1ray_at(rays: package_scene_rays_Rays, k: u32) -> package_types_Ray {
-    return package_types_Ray(package_scene_wide__1vector_at(rays.origin, k), package_scene_wide__1float_at(rays.t_max, k), package_scene_wide__1vector_at(rays.direction, k), package_scene_wide__1word_at(rays.leaving, k), package_scene_wide__1word_at(rays.leaving_instance, k));
+fn rays__ray_at(rays: rays__Rays, k: u32) -> types__Ray {
+    return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
 }
 
-fn package_scene_rays__1ray_set(rays: package_scene_rays_Rays, k: u32, ray: package_types_Ray) -> package_scene_rays_Rays {
-    return package_scene_rays_Rays(package_scene_wide__1vector_set(rays.origin, k, ray.origin), package_scene_wide__1vector_set(rays.direction, k, ray.direction), package_scene_wide__1float_set(rays.t_max, k, ray.t_max), package_scene_wide__1word_set(rays.leaving, k, ray.leaving), package_scene_wide__1word_set(rays.leaving_instance, k, ray.leaving_instance));
+fn rays__ray_set(rays: rays__Rays, k: u32, ray: types__Ray) -> rays__Rays {
+    return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
 }
 
-fn package_scene_rays__1hit_at(hits: package_scene_rays_Hits, k: u32) -> package_types_Hit {
-    return package_types_Hit(package_scene_wide__1float_at(hits.t, k), package_scene_wide__1word_at(hits.primitive, k), package_scene_wide__1float_at(hits.b1, k), package_scene_wide__1float_at(hits.b2, k), package_scene_wide__1word_at(hits.instance, k));
+fn rays__hit_at(hits: rays__Hits, k: u32) -> types__Hit {
+    return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
 }
 
-fn package_scene_rays__1hits_of(hit: package_types_Hit) -> package_scene_rays_Hits {
-    return package_scene_rays_Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
+fn rays__hits_of(hit: types__Hit) -> rays__Hits {
+    return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
 }
 
-fn package_scene_rays__1closest_hits(rays: package_scene_rays_Rays) -> package_scene_rays_Hits {
+fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
     {
-        return package_scene_rays__1hits_of(package_scene_traverse__1closest_hit(package_scene_rays__1ray_at(rays, 0u)));
+        return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
     }
 }
 
-fn package_scene_rays__1any_hits(rays: package_scene_rays_Rays) -> package_scene_rays_Hits {
+fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
     {
-        return package_scene_rays__1hits_of(package_scene_traverse__1any_hit(package_scene_rays__1ray_at(rays, 0u)));
+        return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
     }
 }
 
-fn package_scene_rays__1any_lane(condition: bool) -> bool {
+fn rays__any_lane(condition: bool) -> bool {
     {
         return condition;
     }
 }
 
-const package_scene_wide__2RAYS_PER_LANE: u32 = 1u;
+const wide__RAYS_PER_LANE: u32 = 1u;
 
-const package_scene_wide__1ONE_RAY: bool = package_scene_wide__2RAYS_PER_LANE == 1u;
+const wide__ONE_RAY: bool = wide__RAYS_PER_LANE == 1u;
 
-alias package_scene_wide_Floats = f32;
+alias wide__Floats = f32;
 
-alias package_scene_wide_Words = u32;
+alias wide__Words = u32;
 
-struct package_scene_wide_Vectors {
-    x: package_scene_wide_Floats,
-    y: package_scene_wide_Floats,
-    z: package_scene_wide_Floats
+struct wide__Vectors {
+    x: wide__Floats,
+    y: wide__Floats,
+    z: wide__Floats
 }
 
-fn package_scene_wide__1no_vectors() -> package_scene_wide_Vectors {
-    return package_scene_wide_Vectors(package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0));
+fn wide__no_vectors() -> wide__Vectors {
+    return wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0));
 }
 
-fn package_scene_wide__1float_at(all: package_scene_wide_Floats, k: u32) -> f32 {
+fn wide__float_at(all: wide__Floats, k: u32) -> f32 {
     return all;
 }
 
-fn package_scene_wide__1word_at(all: package_scene_wide_Words, k: u32) -> u32 {
+fn wide__word_at(all: wide__Words, k: u32) -> u32 {
     return all;
 }
 
-fn package_scene_wide__1vector_at(all: package_scene_wide_Vectors, k: u32) -> vec3f {
-    return vec3f(package_scene_wide__1float_at(all.x, k), package_scene_wide__1float_at(all.y, k), package_scene_wide__1float_at(all.z, k));
+fn wide__vector_at(all: wide__Vectors, k: u32) -> vec3f {
+    return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
 }
 
-fn package_scene_wide__1float_set(all: package_scene_wide_Floats, k: u32, value: f32) -> package_scene_wide_Floats {
+fn wide__float_set(all: wide__Floats, k: u32, value: f32) -> wide__Floats {
     {
         return value;
     }
 }
 
-fn package_scene_wide__1word_set(all: package_scene_wide_Words, k: u32, value: u32) -> package_scene_wide_Words {
+fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
     {
         return value;
     }
 }
 
-fn package_scene_wide__1vector_set(all: package_scene_wide_Vectors, k: u32, value: vec3f) -> package_scene_wide_Vectors {
-    return package_scene_wide_Vectors(package_scene_wide__1float_set(all.x, k, value.x), package_scene_wide__1float_set(all.y, k, value.y), package_scene_wide__1float_set(all.z, k, value.z));
+fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
+    return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
 }
 
-fn package_lib_rng_hash(x: u32) -> u32 {
+fn rng__hash(x: u32) -> u32 {
     var h = x;
     h ^= h >> 16u;
     h *= 2146121005u;
@@ -1175,96 +1175,96 @@ fn package_lib_rng_hash(x: u32) -> u32 {
     return h;
 }
 
-fn package_lib_rng__1hash_combine(a: u32, b: u32) -> u32 {
-    return package_lib_rng_hash(a ^ (package_lib_rng_hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
+fn rng__hash_combine(a: u32, b: u32) -> u32 {
+    return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
 }
 
-fn package_lib_rng__1pixel_key(seed: u32, pixel: vec2u) -> u32 {
-    return package_lib_rng__1hash_combine(package_lib_rng__1hash_combine(package_lib_rng_hash(seed), pixel.x), pixel.y);
+fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
+    return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
 }
 
-fn package_lib_rng__1unit_float(x: u32) -> f32 {
+fn rng__unit_float(x: u32) -> f32 {
     return f32(x >> 8u) * 5.9604645e-8;
 }
 
-const package_lib_filter_PI: f32 = 3.14159265;
+const filter__PI: f32 = 3.14159265;
 
-const package_lib_filter_SIGMA: f32 = 0.5;
+const filter__SIGMA: f32 = 0.5;
 
-const package_lib_filter_ROUNDS: u32 = 22u;
+const filter__ROUNDS: u32 = 22u;
 
-const package_lib_filter__2BLACKMAN_HARRIS_1: f32 = 0.48829 / (package_lib_filter_PI * 0.35875);
+const filter__BLACKMAN_HARRIS_1: f32 = 0.48829 / (filter__PI * 0.35875);
 
-const package_lib_filter__2BLACKMAN_HARRIS_2: f32 = 0.14128 / (package_lib_filter_PI * 0.35875);
+const filter__BLACKMAN_HARRIS_2: f32 = 0.14128 / (filter__PI * 0.35875);
 
-const package_lib_filter__2BLACKMAN_HARRIS_3: f32 = 0.01168 / (3.0 * package_lib_filter_PI * 0.35875);
+const filter__BLACKMAN_HARRIS_3: f32 = 0.01168 / (3.0 * filter__PI * 0.35875);
 
-const package_lib_filter__1MITCHELL_ZERO: f32 = 1.14285714;
+const filter__MITCHELL_ZERO: f32 = 1.14285714;
 
-const package_lib_filter__1MITCHELL_POSITIVE: f32 = 0.51749271;
+const filter__MITCHELL_POSITIVE: f32 = 0.51749271;
 
-const package_lib_filter__1MITCHELL_TOTAL: f32 = 0.53498542;
+const filter__MITCHELL_TOTAL: f32 = 0.53498542;
 
-fn package_lib_filter__1filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
+fn filter__filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
     let centred = 2.0 * u - 1.0;
-    if (kind == package_types__1FILTER_BOX) {
+    if (kind == types__FILTER_BOX) {
         return 2.0 * radius * (u - 0.5);
     }
     let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
     let fraction = abs(centred);
-    if (kind == package_types__1FILTER_TENT) {
+    if (kind == types__FILTER_TENT) {
         return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
     }
-    if (kind == package_types__1FILTER_GAUSSIAN) {
-        let scale = package_lib_filter_SIGMA * sqrt(2.0);
-        return scale * side * min(package_lib_filter__1inverse_erf(fraction * package_lib_filter_erf(radius / scale)), vec2f(radius / scale));
+    if (kind == types__FILTER_GAUSSIAN) {
+        let scale = filter__SIGMA * sqrt(2.0);
+        return scale * side * min(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
     }
-    return radius * side * package_lib_filter_searched(kind, fraction);
+    return radius * side * filter__searched(kind, fraction);
 }
 
-fn package_lib_filter__1filter_sign(kind: u32, u: vec2f) -> f32 {
-    let negative = abs(2.0 * u - 1.0) > vec2f(package_lib_filter__1MITCHELL_POSITIVE / package_lib_filter__1MITCHELL_TOTAL);
-    return select(1.0, -1.0, (kind == package_types__1FILTER_MITCHELL) & (negative.x != negative.y));
+fn filter__filter_sign(kind: u32, u: vec2f) -> f32 {
+    let negative = abs(2.0 * u - 1.0) > vec2f(filter__MITCHELL_POSITIVE / filter__MITCHELL_TOTAL);
+    return select(1.0, -1.0, (kind == types__FILTER_MITCHELL) & (negative.x != negative.y));
 }
 
-fn package_lib_filter_searched(kind: u32, fraction: vec2f) -> vec2f {
+fn filter__searched(kind: u32, fraction: vec2f) -> vec2f {
     var low = vec2f(0.0);
     var width = 1.0;
     var done = 0u;
     loop {
         width *= 0.5;
         let middle = low + width;
-        low = select(low, middle, package_lib_filter_cumulated(kind, middle) <= fraction);
+        low = select(low, middle, filter__cumulated(kind, middle) <= fraction);
         continuing {
             done += 1u;
-            break if done >= package_lib_filter_ROUNDS;
+            break if done >= filter__ROUNDS;
         }
     }
     return low + 0.5 * width;
 }
 
-fn package_lib_filter_cumulated(kind: u32, x: vec2f) -> vec2f {
-    if (kind == package_types__2FILTER_BLACKMAN_HARRIS) {
-        let s = sin(package_lib_filter_PI * x);
-        let c = cos(package_lib_filter_PI * x);
-        return x + s * (package_lib_filter__2BLACKMAN_HARRIS_1 + package_lib_filter__2BLACKMAN_HARRIS_2 * c + package_lib_filter__2BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
+fn filter__cumulated(kind: u32, x: vec2f) -> vec2f {
+    if (kind == types__FILTER_BLACKMAN_HARRIS) {
+        let s = sin(filter__PI * x);
+        let c = cos(filter__PI * x);
+        return x + s * (filter__BLACKMAN_HARRIS_1 + filter__BLACKMAN_HARRIS_2 * c + filter__BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
     }
     let t = 2.0 * x;
     let inner = t * (16.0 / 3.0 + t * t * (-4.0 + t * 1.75)) / 6.0;
     let e = 2.0 - t;
     let outer = e * e * e * (7.0 / 12.0 * e - 2.0 / 3.0) / 6.0;
     let signed = select(0.5 - outer, inner, t < vec2f(1.0));
-    let absolute = select(signed, 2.0 * package_lib_filter__1MITCHELL_POSITIVE - signed, t > vec2f(package_lib_filter__1MITCHELL_ZERO));
-    return absolute / package_lib_filter__1MITCHELL_TOTAL;
+    let absolute = select(signed, 2.0 * filter__MITCHELL_POSITIVE - signed, t > vec2f(filter__MITCHELL_ZERO));
+    return absolute / filter__MITCHELL_TOTAL;
 }
 
-fn package_lib_filter_erf(x: f32) -> f32 {
+fn filter__erf(x: f32) -> f32 {
     let t = 1.0 / (1.0 + 0.3275911 * x);
     let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
     return 1.0 - series * exp(-min(x * x, 80.0));
 }
 
-fn package_lib_filter__1inverse_erf(y: vec2f) -> vec2f {
+fn filter__inverse_erf(y: vec2f) -> vec2f {
     let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
     let a = w - 2.5;
     let b = sqrt(max(w, vec2f(0.0))) - 3.0;
@@ -1273,7 +1273,7 @@ fn package_lib_filter__1inverse_erf(y: vec2f) -> vec2f {
     return y * select(far, near, w < vec2f(5.0));
 }
 
-fn package_lib_sampling_sobol(index: u32) -> vec2u {
+fn sampling__sobol(index: u32) -> vec2u {
     var x = index;
     x ^= (x >> 1u) & 1431655765u;
     x ^= (x >> 2u) & 858993459u;
@@ -1283,7 +1283,7 @@ fn package_lib_sampling_sobol(index: u32) -> vec2u {
     return vec2u(reverseBits(index), reverseBits(x));
 }
 
-fn package_lib_sampling__1owen_scramble(fraction: u32, seed: u32) -> u32 {
+fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
     var x = reverseBits(fraction);
     x += seed;
     x ^= x * 1817228412u;
@@ -1293,7 +1293,7 @@ fn package_lib_sampling__1owen_scramble(fraction: u32, seed: u32) -> u32 {
     return reverseBits(x);
 }
 
-fn package_lib_sampling__1sobol_34(index: u32) -> vec2u {
+fn sampling__sobol_34(index: u32) -> vec2u {
     var z = vec2u(2147483648u, 3221225472u);
     var w = vec3u(2147483648u, 3221225472u, 536870912u);
     var point = vec2u(0u);
@@ -1310,63 +1310,63 @@ fn package_lib_sampling__1sobol_34(index: u32) -> vec2u {
     return point;
 }
 
-fn package_lib_sampling__1stratified_2d(index: u32, key: u32) -> vec2f {
-    return package_lib_sampling_scrambled(package_lib_sampling_sobol(package_lib_sampling__1owen_scramble(index, package_lib_rng_hash(key))), key);
+fn sampling__stratified_2d(index: u32, key: u32) -> vec2f {
+    return sampling__scrambled(sampling__sobol(sampling__owen_scramble(index, rng__hash(key))), key);
 }
 
-fn package_lib_sampling__1stratified_34(index: u32, key: u32) -> vec2f {
-    return package_lib_sampling_scrambled(package_lib_sampling__1sobol_34(package_lib_sampling__1owen_scramble(index, package_lib_rng_hash(key))), key ^ 2654435769u);
+fn sampling__stratified_34(index: u32, key: u32) -> vec2f {
+    return sampling__scrambled(sampling__sobol_34(sampling__owen_scramble(index, rng__hash(key))), key ^ 2654435769u);
 }
 
-fn package_lib_sampling__1stratified_1d(index: u32, key: u32) -> f32 {
+fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
     let own = key ^ 1757159915u;
-    return package_lib_rng__1unit_float(package_lib_sampling__1owen_scramble(reverseBits(package_lib_sampling__1owen_scramble(index, package_lib_rng_hash(own))), package_lib_rng_hash(own ^ 48610963u)));
+    return rng__unit_float(sampling__owen_scramble(reverseBits(sampling__owen_scramble(index, rng__hash(own))), rng__hash(own ^ 48610963u)));
 }
 
-fn package_lib_sampling_scrambled(point: vec2u, key: u32) -> vec2f {
-    return vec2f(package_lib_rng__1unit_float(package_lib_sampling__1owen_scramble(point.x, package_lib_rng_hash(key ^ 2769414579u))), package_lib_rng__1unit_float(package_lib_sampling__1owen_scramble(point.y, package_lib_rng_hash(key ^ 1675113877u))));
+fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
+    return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
 }
 
-var<private> package_scene_shutter__1shutter_time: f32 = 0.0;
+var<private> shutter__shutter_time: f32 = 0.0;
 
-fn package_scene_shutter__1shutter_camera(still: package_types_PackedCamera) -> package_types_PackedCamera {
-    if (package_bindings__1CAMERA_MOTION) {
-        let moment = package_lib_motion__1moment_of(package_scene_shutter__1shutter_time, package_bindings_frame.camera_key_count);
-        return package_lib_motion__1camera_between(package_scene_fetch__1load_camera(moment.key), package_scene_fetch__1load_camera(moment.key + 1u), moment.fraction);
+fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
+    if (bindings__CAMERA_MOTION) {
+        let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
+        return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
     }
     return still;
 }
 
-fn package_scene_shutter__1shutter_light(index: u32, light_count: u32) -> package_types_PackedLight {
-    if (package_bindings__1LIGHT_MOTION) {
-        let moment = package_lib_motion__1moment_of(package_scene_shutter__1shutter_time, package_bindings_frame.light_key_count);
+fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
+    if (bindings__LIGHT_MOTION) {
+        let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
         let place = moment.key * light_count + index;
-        return package_lib_motion__1light_between(package_scene_fetch__1load_light(place), package_scene_fetch__1load_light(place + light_count), moment.fraction);
+        return motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
     }
-    return package_scene_fetch__1load_light(index);
+    return fetch__load_light(index);
 }
 
-struct package_lib_motion_Moment {
+struct motion__Moment {
     key: u32,
     fraction: f32
 }
 
-fn package_lib_motion__1moment_of(time: f32, key_count: u32) -> package_lib_motion_Moment {
+fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
     let intervals = max(key_count, 2u) - 1u;
     let at = time * f32(intervals);
     let key = min(u32(at), intervals - 1u);
-    return package_lib_motion_Moment(key, at - f32(key));
+    return motion__Moment(key, at - f32(key));
 }
 
-struct package_lib_motion_Space {
+struct motion__Space {
     translation: vec3f,
     linear: mat3x3f,
     inverse: mat3x3f
 }
 
-fn package_lib_motion__1space_between(a: package_types_PackedKey, b: package_types_PackedKey, fraction: f32) -> package_lib_motion_Space {
+fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
     let q = mix(a.rotation, b.rotation, vec4f(fraction));
-    let rotation = package_lib_motion__1rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+    let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
     let d = mix(a.stretch, b.stretch, vec3f(fraction));
     let s = mix(a.shear, b.shear, vec3f(fraction));
     let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
@@ -1377,10 +1377,10 @@ fn package_lib_motion__1space_between(a: package_types_PackedKey, b: package_typ
     let usable = abs(determinant) > 1e-30;
     let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
     let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-    return package_lib_motion_Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+    return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
 }
 
-fn package_lib_motion__1rotation_matrix(q: vec4f) -> mat3x3f {
+fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
     let d = 2.0 * q.xyz * q.xyz;
     let xy = 2.0 * q.x * q.y;
     let xz = 2.0 * q.x * q.z;
@@ -1389,90 +1389,90 @@ fn package_lib_motion__1rotation_matrix(q: vec4f) -> mat3x3f {
     return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
 }
 
-fn package_lib_motion__1camera_between(a: package_types_PackedCamera, b: package_types_PackedCamera, fraction: f32) -> package_types_PackedCamera {
-    return package_types_PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
+fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
+    return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
 }
 
-fn package_lib_motion__1light_between(a: package_types_PackedLight, b: package_types_PackedLight, fraction: f32) -> package_types_PackedLight {
-    return package_types_PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, package_lib_numeric__1normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, 0u, 0u, 0u);
+fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
+    return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, 0u, 0u, 0u);
 }
 
-const package_lib_camera__1T_FAR: f32 = 3e38;
+const camera__T_FAR: f32 = 3e38;
 
-fn package_lib_camera__1camera_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> package_types_Ray {
-    return package_types_Ray(camera.origin, package_lib_camera__1T_FAR, normalize(package_lib_camera_through(camera, position, size)), package_types_NONE, package_types__1NO_INSTANCE);
+fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
+    return types__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
 }
 
-fn package_lib_camera_through(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
     let x = 2.0 * position.x / size.x - 1.0;
     let y = 1.0 - 2.0 * position.y / size.y;
     return camera.forward + x * camera.right + y * camera.up;
 }
 
-fn package_lib_camera__1parallel_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> package_types_Ray {
-    let origin = camera.origin + package_lib_camera_across(camera, position, size);
-    return package_types_Ray(origin, package_lib_camera__1T_FAR, normalize(camera.forward), package_types_NONE, package_types__1NO_INSTANCE);
+fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
+    let origin = camera.origin + camera__across(camera, position, size);
+    return types__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
 }
 
-fn package_lib_camera_across(camera: package_types_PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
     let x = 2.0 * position.x / size.x - 1.0;
     let y = 1.0 - 2.0 * position.y / size.y;
     return x * camera.right + y * camera.up;
 }
 
-fn package_lib_camera__1lens_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> package_types_Ray {
-    let off_axis = package_lib_camera__1aperture_point(camera, u);
-    let direction = package_lib_camera_through(camera, position, size) - off_axis / camera.focus_distance;
-    return package_types_Ray(camera.origin + off_axis, package_lib_camera__1T_FAR, normalize(direction), package_types_NONE, package_types__1NO_INSTANCE);
+fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+    let off_axis = camera__aperture_point(camera, u);
+    let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
+    return types__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
-fn package_lib_camera__2parallel_lens_ray(camera: package_types_PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> package_types_Ray {
-    let off_axis = package_lib_camera__1aperture_point(camera, u);
-    let origin = camera.origin + package_lib_camera_across(camera, position, size) + off_axis;
+fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+    let off_axis = camera__aperture_point(camera, u);
+    let origin = camera.origin + camera__across(camera, position, size) + off_axis;
     let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
-    return package_types_Ray(origin, package_lib_camera__1T_FAR, normalize(direction), package_types_NONE, package_types__1NO_INSTANCE);
+    return types__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
-fn package_lib_camera__1aperture_point(camera: package_types_PackedCamera, u: vec2f) -> vec3f {
-    var aperture = package_lib_warp__2disc_from_square(u);
+fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
+    var aperture = warp__disc_from_square(u);
     if (camera.blade_count >= 3u) {
-        aperture = package_lib_warp__2polygon_from_square(u, camera.blade_count, camera.blade_rotation);
+        aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
     }
     let p = camera.lens_radius * aperture;
     return p.x * normalize(camera.right) + p.y * normalize(camera.up);
 }
 
-const package_lib_warp_PI: f32 = 3.14159265;
+const warp__PI: f32 = 3.14159265;
 
-fn package_lib_warp__2disc_from_square(u: vec2f) -> vec2f {
+fn warp__disc_from_square(u: vec2f) -> vec2f {
     let p = 2.0 * u - 1.0;
     let by_x = abs(p.x) > abs(p.y);
     let radius = select(p.y, p.x, by_x);
     let ratio = select(p.x, p.y, by_x) / select(1.0, radius, abs(radius) > 0.0);
-    let angle = select(0.5 * package_lib_warp_PI - 0.25 * package_lib_warp_PI * ratio, 0.25 * package_lib_warp_PI * ratio, by_x);
+    let angle = select(0.5 * warp__PI - 0.25 * warp__PI * ratio, 0.25 * warp__PI * ratio, by_x);
     return radius * vec2f(cos(angle), sin(angle));
 }
 
-fn package_lib_warp__2triangle_from_square(u: vec2f) -> vec2f {
+fn warp__triangle_from_square(u: vec2f) -> vec2f {
     let s = sqrt(u.y);
     return vec2f(s * (1.0 - u.x), s * u.x);
 }
 
-fn package_lib_warp__2polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
+fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
     let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
-    let b = package_lib_warp__2triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
-    let step = 2.0 * package_lib_warp_PI / f32(count);
+    let b = warp__triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
+    let step = 2.0 * warp__PI / f32(count);
     let angles = rotation + step * vec2f(edge, edge + 1.0);
     return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
 }
 
-fn package_lib_warp__2cone_from_square(u: vec2f, depth: f32) -> vec3f {
-    let p = package_lib_warp__2disc_from_square(u);
+fn warp__cone_from_square(u: vec2f, depth: f32) -> vec3f {
+    let p = warp__disc_from_square(u);
     let below = min(dot(p, p), 1.0) * depth;
     return vec3f(p * sqrt(max(depth * (2.0 - below), 0.0)), 1.0 - below);
 }
 
-fn package_lib_warp__1turn_to(n: vec3f, direction: vec3f) -> vec3f {
+fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
     let side = select(-1.0, 1.0, n.z >= 0.0);
     let a = -1.0 / (side + n.z);
     let b = n.x * n.y * a;
@@ -1481,14 +1481,14 @@ fn package_lib_warp__1turn_to(n: vec3f, direction: vec3f) -> vec3f {
     return direction.x * x + direction.y * y + direction.z * n;
 }
 
-const package_scene__1ray_stack__1KIND_PRIMARY: u32 = 0u;
+const ray_stack__KIND_PRIMARY: u32 = 0u;
 
-const package_scene__1ray_stack__1KIND_REFLECTED: u32 = 1u;
+const ray_stack__KIND_REFLECTED: u32 = 1u;
 
-const package_scene__1ray_stack__1KIND_REFRACTED: u32 = 2u;
+const ray_stack__KIND_REFRACTED: u32 = 2u;
 
-struct package_scene__1ray_stack_RayState {
-    ray: package_types_Ray,
+struct ray_stack__RayState {
+    ray: types__Ray,
     throughput: vec3f,
     media: vec4u,
     depth: u32,
@@ -1496,352 +1496,352 @@ struct package_scene__1ray_stack_RayState {
     node: u32
 }
 
-struct package_scene__1ray_stack_Media {
-    x: package_scene_wide_Words,
-    y: package_scene_wide_Words,
-    z: package_scene_wide_Words,
-    w: package_scene_wide_Words
+struct ray_stack__Media {
+    x: wide__Words,
+    y: wide__Words,
+    z: wide__Words,
+    w: wide__Words
 }
 
-struct package_scene__1ray_stack_RayStates {
-    rays: package_scene_rays_Rays,
-    throughput: package_scene_wide_Vectors,
-    media: package_scene__1ray_stack_Media,
-    step: package_scene_wide_Words,
-    node: package_scene_wide_Words
+struct ray_stack__RayStates {
+    rays: rays__Rays,
+    throughput: wide__Vectors,
+    media: ray_stack__Media,
+    step: wide__Words,
+    node: wide__Words
 }
 
-const package_scene__1ray_stack__2RAY_STACK_SIZE: u32 = 9u;
+const ray_stack__RAY_STACK_SIZE: u32 = 9u;
 
-const package_scene__1ray_stack__2MAX_TREE_RAYS: u32 = 1024u;
+const ray_stack__MAX_TREE_RAYS: u32 = 1024u;
 
-var<private> package_scene__1ray_stack__1ray_stack: array<vec4u, 36>;
+var<private> ray_stack__ray_stack: array<vec4u, 36>;
 
-var<private> package_scene__1ray_stack__1stack_counts: package_scene_wide_Words;
+var<private> ray_stack__stack_counts: wide__Words;
 
-var<private> package_scene__1ray_stack__1stack_senders: array<u32, package_scene__1ray_stack__2RAY_STACK_SIZE>;
+var<private> ray_stack__stack_senders: array<u32, ray_stack__RAY_STACK_SIZE>;
 
-var<private> package_scene__1ray_stack__1tree_rays: package_scene_wide_Words;
+var<private> ray_stack__tree_rays: wide__Words;
 
-var<private> package_scene__1ray_stack__1current_tree: u32;
+var<private> ray_stack__current_tree: u32;
 
-var<private> package_scene__1ray_stack__2trees_cut_off: package_scene_wide_Words;
+var<private> ray_stack__trees_cut_off: wide__Words;
 
-var<private> package_scene__1ray_stack__2cut_off_trees: u32 = 0u;
+var<private> ray_stack__cut_off_trees: u32 = 0u;
 
-fn package_scene__1ray_stack__1is_alive(state: package_scene__1ray_stack_RayState) -> bool {
+fn ray_stack__is_alive(state: ray_stack__RayState) -> bool {
     return any(state.throughput > vec3f(0.0));
 }
 
-fn package_scene__1ray_stack__1camera_states(rays: package_scene_rays_Rays, media: vec4u) -> package_scene__1ray_stack_RayStates {
-    package_scene__1ray_stack__1stack_counts = package_scene_wide_Words(0u);
-    package_scene__1ray_stack__1tree_rays = package_scene_wide_Words(0u);
-    package_scene__1ray_stack__2trees_cut_off = package_scene_wide_Words(0u);
-    let all = package_scene_wide_Floats(1.0);
-    return package_scene__1ray_stack_RayStates(rays, package_scene_wide_Vectors(all, all, all), package_scene__1ray_stack_Media(package_scene_wide_Words(media.x), package_scene_wide_Words(media.y), package_scene_wide_Words(media.z), package_scene_wide_Words(media.w)), package_scene_wide_Words(package_scene__1ray_stack__1KIND_PRIMARY), package_scene_wide_Words(1u));
+fn ray_stack__camera_states(rays: rays__Rays, media: vec4u) -> ray_stack__RayStates {
+    ray_stack__stack_counts = wide__Words(0u);
+    ray_stack__tree_rays = wide__Words(0u);
+    ray_stack__trees_cut_off = wide__Words(0u);
+    let all = wide__Floats(1.0);
+    return ray_stack__RayStates(rays, wide__Vectors(all, all, all), ray_stack__Media(wide__Words(media.x), wide__Words(media.y), wide__Words(media.z), wide__Words(media.w)), wide__Words(ray_stack__KIND_PRIMARY), wide__Words(1u));
 }
 
-fn package_scene__1ray_stack__1state_at(states: package_scene__1ray_stack_RayStates, k: u32) -> package_scene__1ray_stack_RayState {
-    let step = package_scene_wide__1word_at(states.step, k);
-    return package_scene__1ray_stack_RayState(package_scene_rays__1ray_at(states.rays, k), package_scene_wide__1vector_at(states.throughput, k), package_scene__1ray_stack__1media_at(states.media, k), step >> 2u, step & 3u, package_scene_wide__1word_at(states.node, k));
+fn ray_stack__state_at(states: ray_stack__RayStates, k: u32) -> ray_stack__RayState {
+    let step = wide__word_at(states.step, k);
+    return ray_stack__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_stack__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k));
 }
 
-fn package_scene__1ray_stack__1state_set(states: package_scene__1ray_stack_RayStates, k: u32, state: package_scene__1ray_stack_RayState) -> package_scene__1ray_stack_RayStates {
-    return package_scene__1ray_stack_RayStates(package_scene_rays__1ray_set(states.rays, k, state.ray), package_scene_wide__1vector_set(states.throughput, k, state.throughput), package_scene__1ray_stack__1media_set(states.media, k, state.media), package_scene_wide__1word_set(states.step, k, (state.depth << 2u) | state.kind), package_scene_wide__1word_set(states.node, k, state.node));
+fn ray_stack__state_set(states: ray_stack__RayStates, k: u32, state: ray_stack__RayState) -> ray_stack__RayStates {
+    return ray_stack__RayStates(rays__ray_set(states.rays, k, state.ray), wide__vector_set(states.throughput, k, state.throughput), ray_stack__media_set(states.media, k, state.media), wide__word_set(states.step, k, (state.depth << 2u) | state.kind), wide__word_set(states.node, k, state.node));
 }
 
-fn package_scene__1ray_stack__1media_at(all: package_scene__1ray_stack_Media, k: u32) -> vec4u {
-    return vec4u(package_scene_wide__1word_at(all.x, k), package_scene_wide__1word_at(all.y, k), package_scene_wide__1word_at(all.z, k), package_scene_wide__1word_at(all.w, k));
+fn ray_stack__media_at(all: ray_stack__Media, k: u32) -> vec4u {
+    return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
 }
 
-fn package_scene__1ray_stack__1media_set(all: package_scene__1ray_stack_Media, k: u32, media: vec4u) -> package_scene__1ray_stack_Media {
-    return package_scene__1ray_stack_Media(package_scene_wide__1word_set(all.x, k, media.x), package_scene_wide__1word_set(all.y, k, media.y), package_scene_wide__1word_set(all.z, k, media.z), package_scene_wide__1word_set(all.w, k, media.w));
+fn ray_stack__media_set(all: ray_stack__Media, k: u32, media: vec4u) -> ray_stack__Media {
+    return ray_stack__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
 }
 
-fn package_scene__1ray_stack__1no_ray() -> package_scene__1ray_stack_RayState {
-    return package_scene__1ray_stack_RayState(package_scene_rays_DEAD, vec3f(0.0), vec4u(package_types_NONE), 0u, 0u, 0u);
+fn ray_stack__no_ray() -> ray_stack__RayState {
+    return ray_stack__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u);
 }
 
-fn package_scene__1ray_stack__1next_ray(reflected: package_scene__1ray_stack_RayState, refracted: package_scene__1ray_stack_RayState) -> package_scene__1ray_stack_RayState {
-    let k = package_scene__1ray_stack__1current_tree;
-    let count = package_scene_wide__1word_at(package_scene__1ray_stack__1stack_counts, k);
-    let rays = package_scene_wide__1word_at(package_scene__1ray_stack__1tree_rays, k) + 1u;
-    package_scene__1ray_stack__1tree_rays = package_scene_wide__1word_set(package_scene__1ray_stack__1tree_rays, k, rays);
-    package_scene_record_sender = package_scene_record__1traced_index;
-    let sends_both = package_scene__1ray_stack__1is_alive(reflected) && package_scene__1ray_stack__1is_alive(refracted);
-    let goes_on = package_scene__1ray_stack__1is_alive(reflected) || package_scene__1ray_stack__1is_alive(refracted) || count > 0u;
-    if (goes_on && rays >= package_scene__1ray_stack__2MAX_TREE_RAYS) {
-        package_scene__1ray_stack__1cut_tree();
-        package_scene__1ray_stack__1stack_counts = package_scene_wide__1word_set(package_scene__1ray_stack__1stack_counts, k, 0u);
-        return package_scene__1ray_stack__1no_ray();
+fn ray_stack__next_ray(reflected: ray_stack__RayState, refracted: ray_stack__RayState) -> ray_stack__RayState {
+    let k = ray_stack__current_tree;
+    let count = wide__word_at(ray_stack__stack_counts, k);
+    let rays = wide__word_at(ray_stack__tree_rays, k) + 1u;
+    ray_stack__tree_rays = wide__word_set(ray_stack__tree_rays, k, rays);
+    record__sender = record__traced_index;
+    let sends_both = ray_stack__is_alive(reflected) && ray_stack__is_alive(refracted);
+    let goes_on = ray_stack__is_alive(reflected) || ray_stack__is_alive(refracted) || count > 0u;
+    if (goes_on && rays >= ray_stack__MAX_TREE_RAYS) {
+        ray_stack__cut_tree();
+        ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, 0u);
+        return ray_stack__no_ray();
     }
     if (sends_both) {
-        let reflected_is_weaker = package_scene__1ray_stack_strength(reflected) < package_scene__1ray_stack_strength(refracted);
-        if (count == package_scene__1ray_stack__2RAY_STACK_SIZE) {
-            package_scene__1ray_stack__1cut_tree();
-            return package_scene__1ray_stack_choose(reflected, refracted, !reflected_is_weaker);
+        let reflected_is_weaker = ray_stack__strength(reflected) < ray_stack__strength(refracted);
+        if (count == ray_stack__RAY_STACK_SIZE) {
+            ray_stack__cut_tree();
+            return ray_stack__choose(reflected, refracted, !reflected_is_weaker);
         }
-        package_scene__1ray_stack_push(k, package_scene__1ray_stack_choose(reflected, refracted, !reflected_is_weaker));
-        return package_scene__1ray_stack_choose(reflected, refracted, reflected_is_weaker);
+        ray_stack__push(k, ray_stack__choose(reflected, refracted, !reflected_is_weaker));
+        return ray_stack__choose(reflected, refracted, reflected_is_weaker);
     }
-    if (package_scene__1ray_stack__1is_alive(refracted)) {
+    if (ray_stack__is_alive(refracted)) {
         return refracted;
     }
-    if (package_scene__1ray_stack__1is_alive(reflected)) {
+    if (ray_stack__is_alive(reflected)) {
         return reflected;
     }
-    return package_scene__1ray_stack_pop(k);
+    return ray_stack__pop(k);
 }
 
-fn package_scene__1ray_stack__1cut_tree() {
-    package_scene__1ray_stack__2cut_off_trees += 1u - package_scene_wide__1word_at(package_scene__1ray_stack__2trees_cut_off, package_scene__1ray_stack__1current_tree);
-    package_scene__1ray_stack__2trees_cut_off = package_scene_wide__1word_set(package_scene__1ray_stack__2trees_cut_off, package_scene__1ray_stack__1current_tree, 1u);
+fn ray_stack__cut_tree() {
+    ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
+    ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
 }
 
-fn package_scene__1ray_stack_choose(reflected: package_scene__1ray_stack_RayState, refracted: package_scene__1ray_stack_RayState, first: bool) -> package_scene__1ray_stack_RayState {
+fn ray_stack__choose(reflected: ray_stack__RayState, refracted: ray_stack__RayState, first: bool) -> ray_stack__RayState {
     if (first) {
         return reflected;
     }
     return refracted;
 }
 
-fn package_scene__1ray_stack_strength(state: package_scene__1ray_stack_RayState) -> f32 {
+fn ray_stack__strength(state: ray_stack__RayState) -> f32 {
     return dot(state.throughput, vec3f(1.0));
 }
 
-fn package_scene__1ray_stack_push(k: u32, state: package_scene__1ray_stack_RayState) {
-    let count = package_scene_wide__1word_at(package_scene__1ray_stack__1stack_counts, k);
+fn ray_stack__push(k: u32, state: ray_stack__RayState) {
+    let count = wide__word_at(ray_stack__stack_counts, k);
     let row = 4u * count;
-    package_scene__1ray_stack__1ray_stack[row] = vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving);
-    package_scene__1ray_stack__1ray_stack[row + 1u] = vec4u(bitcast<vec3u>(state.ray.direction), package_scene__1ray_stack__1place_of(state));
-    package_scene__1ray_stack__1ray_stack[row + 2u] = vec4u(bitcast<vec3u>(state.throughput), state.node);
-    package_scene__1ray_stack__1ray_stack[row + 3u] = state.media;
-    package_scene__1ray_stack__1stack_senders[count] = package_scene_record_sender;
-    package_scene__1ray_stack__1stack_counts = package_scene_wide__1word_set(package_scene__1ray_stack__1stack_counts, k, count + 1u);
+    ray_stack__ray_stack[row] = vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving);
+    ray_stack__ray_stack[row + 1u] = vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__place_of(state));
+    ray_stack__ray_stack[row + 2u] = vec4u(bitcast<vec3u>(state.throughput), state.node);
+    ray_stack__ray_stack[row + 3u] = state.media;
+    ray_stack__stack_senders[count] = record__sender;
+    ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, count + 1u);
 }
 
-fn package_scene__1ray_stack_pop(k: u32) -> package_scene__1ray_stack_RayState {
-    if (package_scene__1ray_stack__1stack_counts == 0u) {
-        return package_scene__1ray_stack__1no_ray();
+fn ray_stack__pop(k: u32) -> ray_stack__RayState {
+    if (ray_stack__stack_counts == 0u) {
+        return ray_stack__no_ray();
     }
-    package_scene__1ray_stack__1stack_counts -= 1u;
-    package_scene_record_sender = package_scene__1ray_stack__1stack_senders[package_scene__1ray_stack__1stack_counts];
-    let row = 4u * package_scene__1ray_stack__1stack_counts;
-    let r0 = package_scene__1ray_stack__1ray_stack[row];
-    let r1 = package_scene__1ray_stack__1ray_stack[row + 1u];
-    let r2 = package_scene__1ray_stack__1ray_stack[row + 2u];
-    return package_scene__1ray_stack_stored(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, package_scene__1ray_stack__1ray_stack[row + 3u]);
+    ray_stack__stack_counts -= 1u;
+    record__sender = ray_stack__stack_senders[ray_stack__stack_counts];
+    let row = 4u * ray_stack__stack_counts;
+    let r0 = ray_stack__ray_stack[row];
+    let r1 = ray_stack__ray_stack[row + 1u];
+    let r2 = ray_stack__ray_stack[row + 2u];
+    return ray_stack__stored(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, ray_stack__ray_stack[row + 3u]);
 }
 
-fn package_scene__1ray_stack__1place_of(state: package_scene__1ray_stack_RayState) -> u32 {
+fn ray_stack__place_of(state: ray_stack__RayState) -> u32 {
     return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
 }
 
-fn package_scene__1ray_stack_stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u) -> package_scene__1ray_stack_RayState {
-    return package_scene__1ray_stack_RayState(package_types_Ray(origin, package_lib_camera__1T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node);
+fn ray_stack__stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u) -> ray_stack__RayState {
+    return ray_stack__RayState(types__Ray(origin, camera__T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node);
 }
 
-const package_scene_traverse_EMPTY: u32 = 4294967295u;
+const traverse__EMPTY: u32 = 4294967295u;
 
-const package_scene_traverse_RETURN: u32 = 4294967294u;
+const traverse__RETURN: u32 = 4294967294u;
 
-var<private> package_scene_traverse_stack: array<u32, package_types__1STACK_SIZE>;
+var<private> traverse__stack: array<u32, types__STACK_SIZE>;
 
-const package_scene_traverse__1CONTACT_RANGE: f32 = 0.0001;
+const traverse__CONTACT_RANGE: f32 = 0.0001;
 
-fn package_scene_traverse__1closest_hit(ray: package_types_Ray) -> package_types_Hit {
-    if (package_bindings__1HAS_CONTACT) {
-        package_scene_primitive__1runner_up = package_types_Hit(package_lib_camera__1T_FAR, package_types_NONE, 0.0, 0.0, package_types__1NO_INSTANCE);
+fn traverse__closest_hit(ray: types__Ray) -> types__Hit {
+    if (bindings__HAS_CONTACT) {
+        primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
     }
-    return package_scene_traverse_traverse(ray, false);
+    return traverse__traverse(ray, false);
 }
 
-fn package_scene_traverse__1search_limit(ray: package_types_Ray, hit: package_types_Hit) -> f32 {
-    if (package_bindings__1HAS_CONTACT) {
-        return hit.t + package_scene_traverse__1CONTACT_RANGE * (hit.t + package_lib_numeric__1max_component(abs(ray.origin)));
+fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
+    if (bindings__HAS_CONTACT) {
+        return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
     }
     return hit.t;
 }
 
-fn package_scene_traverse__1any_hit(ray: package_types_Ray) -> package_types_Hit {
-    return package_scene_traverse_traverse(ray, true);
+fn traverse__any_hit(ray: types__Ray) -> types__Hit {
+    return traverse__traverse(ray, true);
 }
 
-fn package_scene_traverse_traverse(ray: package_types_Ray, any: bool) -> package_types_Hit {
-    var hit = package_types_Hit(ray.t_max, package_types_NONE, 0.0, 0.0, package_types__1NO_INSTANCE);
-    let shear = package_lib_intersect__1triangle_watertight__1shear_of(ray.direction);
-    if (package_bindings__1HAS_PLANES) {
-        hit = package_scene_exhaustive__1hit_planes(ray, hit);
+fn traverse__traverse(ray: types__Ray, any: bool) -> types__Hit {
+    var hit = types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+    let shear = triangle_watertight__shear_of(ray.direction);
+    if (bindings__HAS_PLANES) {
+        hit = exhaustive__hit_planes(ray, hit);
     }
-    if (package_bindings__1BRUTE_FORCE) {
-        return package_scene_exhaustive__1hit_everything(ray, shear, hit);
+    if (bindings__BRUTE_FORCE) {
+        return exhaustive__hit_everything(ray, shear, hit);
     }
-    if (!(package_bindings__1HAS_TRIANGLES || package_bindings__1HAS_SHAPES) || (any && hit.primitive != package_types_NONE)) {
+    if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) || (any && hit.primitive != types__NONE)) {
         return hit;
     }
-    return package_scene_traverse_walk(ray, shear, any, hit);
+    return traverse__walk(ray, shear, any, hit);
 }
 
-fn package_scene_traverse_walk(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, any: bool, start: package_types_Hit) -> package_types_Hit {
+fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool, start: types__Hit) -> types__Hit {
     var hit = start;
-    var at = package_scene_primitive__1traversal_ray(ray, shear, package_types__1NO_INSTANCE);
-    package_scene_traverse_stack[0] = package_scene_traverse_EMPTY;
+    var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+    traverse__stack[0] = traverse__EMPTY;
     var top = 0u;
     var current = 0u;
-    if (package_bindings__1HAS_INSTANCES) {
-        current = package_bindings_frame.root;
+    if (bindings__HAS_INSTANCES) {
+        current = bindings__frame.root;
     }
     loop {
-        if (package_bindings__1HAS_INSTANCES) {
-            if (current == package_scene_traverse_RETURN) {
-                at = package_scene_primitive__1traversal_ray(ray, shear, package_types__1NO_INSTANCE);
-                current = package_scene_traverse_stack[top];
-                top -= select(1u, 0u, current == package_scene_traverse_EMPTY);
+        if (bindings__HAS_INSTANCES) {
+            if (current == traverse__RETURN) {
+                at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+                current = traverse__stack[top];
+                top -= select(1u, 0u, current == traverse__EMPTY);
             }
-            if ((current >= package_types_INSTANCE) & (current != package_scene_traverse_EMPTY)) {
-                let index = current & package_types__2LEAF_FIRST_MASK;
-                let instance = package_scene_fetch__1load_instance(index);
-                let local = package_scene_instance__1object_ray(ray, package_scene_instance__1space_of(instance));
-                at = package_scene_primitive__1traversal_ray(local, package_lib_intersect__1triangle_watertight__1shear_of(local.direction), index);
+            if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
+                let index = current & types__LEAF_FIRST_MASK;
+                let instance = fetch__load_instance(index);
+                let local = instance__object_ray(ray, instance__space_of(instance));
+                at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index);
                 top += 1u;
-                package_scene_traverse_stack[top] = package_scene_traverse_RETURN;
+                traverse__stack[top] = traverse__RETURN;
                 current = instance.root;
             }
         }
-        let is_node = !package_bindings__1HAS_INSTANCES || (current & package_types_LEAF) == 0u;
+        let is_node = !bindings__HAS_INSTANCES || (current & types__LEAF) == 0u;
         if (is_node) {
             loop {
-                let node = package_scene_traverse__2load_current_node(current);
-                let keys = package_lib_intersect_node_sort4(package_lib_intersect_node__1child_keys(node, at.ray.origin, at.inv, package_scene_traverse__1search_limit(ray, hit)));
-                let is_hit = keys < vec4u(package_lib_intersect_node_MISS);
+                let node = traverse__load_current_node(current);
+                let keys = node__sort4(node__child_keys(node, at.ray.origin, at.inv, traverse__search_limit(ray, hit)));
+                let is_hit = keys < vec4u(node__MISS);
                 let pushed = select(vec4u(0u), vec4u(1u), is_hit);
-                package_scene_traverse_stack[top + 1u] = node.children[keys.w & 3u];
+                traverse__stack[top + 1u] = node.children[keys.w & 3u];
                 top += pushed.w;
-                package_scene_traverse_stack[top + 1u] = node.children[keys.z & 3u];
+                traverse__stack[top + 1u] = node.children[keys.z & 3u];
                 top += pushed.z;
-                package_scene_traverse_stack[top + 1u] = node.children[keys.y & 3u];
+                traverse__stack[top + 1u] = node.children[keys.y & 3u];
                 top += pushed.y;
-                let popped = package_scene_traverse_stack[top];
+                let popped = traverse__stack[top];
                 current = select(popped, node.children[keys.x & 3u], is_hit.x);
-                top -= select(1u, 0u, is_hit.x | (popped == package_scene_traverse_EMPTY));
-                if (package_bindings__1COUNT_STEPS) {
-                    package_scene_loops__1nodes_visited += 1u;
+                top -= select(1u, 0u, is_hit.x | (popped == traverse__EMPTY));
+                if (bindings__COUNT_STEPS) {
+                    loops__nodes_visited += 1u;
                 }
                 continuing {
                 
-                    break if (current & package_types_LEAF) != 0u;
+                    break if (current & types__LEAF) != 0u;
                 }
             }
         }
-        if (current == package_scene_traverse_EMPTY) {
+        if (current == traverse__EMPTY) {
             break;
         }
-        if (package_bindings__1HAS_INSTANCES && current >= package_types_INSTANCE) {
+        if (bindings__HAS_INSTANCES && current >= types__INSTANCE) {
             continue;
         }
         loop {
-            hit = package_scene_primitive_closer(at, hit, current & (package_types_SHAPE | package_types__2LEAF_FIRST_MASK));
-            let popped = package_scene_traverse_stack[top];
-            let is_last = (current & package_types__2LEAF_COUNT_MASK) == 0u;
-            top -= select(0u, 1u, is_last & (popped != package_scene_traverse_EMPTY));
-            current = select(current - package_types__2LEAF_COUNT_ONE + 1u, popped, is_last);
-            current = select(current, package_scene_traverse_EMPTY, any & (hit.primitive != package_types_NONE));
-            if (package_bindings__1COUNT_STEPS) {
-                package_scene_loops__1primitives_tested += 1u;
+            hit = primitive__closer(at, hit, current & (types__SHAPE | types__LEAF_FIRST_MASK));
+            let popped = traverse__stack[top];
+            let is_last = (current & types__LEAF_COUNT_MASK) == 0u;
+            top -= select(0u, 1u, is_last & (popped != traverse__EMPTY));
+            current = select(current - types__LEAF_COUNT_ONE + 1u, popped, is_last);
+            current = select(current, traverse__EMPTY, any & (hit.primitive != types__NONE));
+            if (bindings__COUNT_STEPS) {
+                loops__primitives_tested += 1u;
             }
             continuing {
             
-                break if ((current & package_types_LEAF) == 0u) | (current >= package_types_INSTANCE);
+                break if ((current & types__LEAF) == 0u) | (current >= types__INSTANCE);
             }
         }
         continuing {
         
-            break if current == package_scene_traverse_EMPTY;
+            break if current == traverse__EMPTY;
         }
     }
-    package_scene_loops__1cut_off |= current != package_scene_traverse_EMPTY;
+    loops__cut_off |= current != traverse__EMPTY;
     return hit;
 }
 
-fn package_scene_traverse__2load_current_node(reference: u32) -> package_types_Node {
-    if (package_bindings__1HAS_MOTION) {
-        return package_scene_fetch__2load_moving_node(reference, package_scene_shutter__1shutter_time);
+fn traverse__load_current_node(reference: u32) -> types__Node {
+    if (bindings__HAS_MOTION) {
+        return fetch__load_moving_node(reference, shutter__shutter_time);
     }
-    return package_scene_fetch__1load_node(reference);
+    return fetch__load_node(reference);
 }
 
-var<private> package_scene_primitive__1runner_up: package_types_Hit;
+var<private> primitive__runner_up: types__Hit;
 
-struct package_scene_primitive_TraversalRay {
-    ray: package_types_Ray,
+struct primitive__TraversalRay {
+    ray: types__Ray,
     inv: vec3f,
-    shear: package_lib_intersect__1triangle_watertight_Shear,
+    shear: triangle_watertight__Shear,
     instance: u32
 }
 
-fn package_scene_primitive__1traversal_ray(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, instance: u32) -> package_scene_primitive_TraversalRay {
-    return package_scene_primitive_TraversalRay(ray, package_lib_numeric__1safe_reciprocal(ray.direction), shear, instance);
+fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32) -> primitive__TraversalRay {
+    return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance);
 }
 
-fn package_scene_primitive_closer(at: package_scene_primitive_TraversalRay, hit: package_types_Hit, primitive: u32) -> package_types_Hit {
-    return package_scene_primitive__1closer_of(at, hit, package_scene_primitive__1test_primitive(at.ray, primitive, at.shear), primitive);
+fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
+    return primitive__closer_of(at, hit, primitive__test_primitive(at.ray, primitive, at.shear), primitive);
 }
 
-fn package_scene_primitive__1closer_of(at: package_scene_primitive_TraversalRay, hit: package_types_Hit, candidate: package_types_Candidate, primitive: u32) -> package_types_Hit {
+fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
     var is_lower = primitive < hit.primitive;
     var is_left = primitive == at.ray.leaving;
-    if (package_bindings__1HAS_INSTANCES) {
+    if (bindings__HAS_INSTANCES) {
         is_lower = (at.instance < hit.instance) | ((at.instance == hit.instance) & is_lower);
         is_left = is_left & (at.instance == at.ray.leaving_instance);
     }
-    let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != package_types_NONE);
+    let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
     let counts = candidate.hit & !is_left;
     let wins = counts & ((candidate.t < hit.t) | ties);
-    if (package_bindings__1HAS_CONTACT) {
-        let found = package_types_Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
-        package_scene_primitive__2keep_runner_up(hit, found, counts, wins);
+    if (bindings__HAS_CONTACT) {
+        let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+        primitive__keep_runner_up(hit, found, counts, wins);
     }
-    return package_types_Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+    return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
 }
 
-fn package_scene_primitive__2keep_runner_up(hit: package_types_Hit, found: package_types_Hit, counts: bool, wins: bool) {
+fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
     let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
     if (wins) {
-        package_scene_primitive__1runner_up = hit;
+        primitive__runner_up = hit;
     }
-    else if (counts & !is_same & (found.t < package_scene_primitive__1runner_up.t)) {
-        package_scene_primitive__1runner_up = found;
+    else if (counts & !is_same & (found.t < primitive__runner_up.t)) {
+        primitive__runner_up = found;
     }
 }
 
-fn package_scene_primitive__1test_primitive(ray: package_types_Ray, primitive: u32, shear: package_lib_intersect__1triangle_watertight_Shear) -> package_types_Candidate {
-    var candidate = package_types_Candidate(false, 0.0, 0.0, 0.0);
-    if (package_bindings__1HAS_TRIANGLES && (!package_bindings__1HAS_SHAPES || (primitive & package_types_SHAPE) == 0u)) {
-        candidate = package_scene_primitive__1test_triangle(ray, package_scene_fetch__1load_triangle(primitive), shear);
+fn primitive__test_primitive(ray: types__Ray, primitive: u32, shear: triangle_watertight__Shear) -> types__Candidate {
+    var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+    if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
+        candidate = primitive__test_triangle(ray, fetch__load_triangle(primitive), shear);
     }
-    if (package_bindings__1HAS_SHAPES && (!package_bindings__1HAS_TRIANGLES || (primitive & package_types_SHAPE) != 0u)) {
-        candidate = package_scene_shape__1test_shape(ray, package_scene_fetch__1load_shape(primitive & ~package_types_SHAPE));
+    if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
+        candidate = shape__test_shape(ray, fetch__load_shape(primitive & ~types__SHAPE));
     }
     return candidate;
 }
 
-fn package_scene_primitive__1test_triangle(ray: package_types_Ray, corners: package_types_PackedTriangle, shear: package_lib_intersect__1triangle_watertight_Shear) -> package_types_Candidate {
-    if (package_bindings__1TRIANGLE_TEST == package_types__2TRIANGLE_TEST_PLANE) {
-        return package_lib_intersect__1triangle_plane__2intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
+fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
+    if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
+        return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
     }
-    if (package_bindings__1TRIANGLE_TEST == package_types__3TRIANGLE_TEST_MOLLER_TRUMBORE) {
-        return package_lib_intersect__2triangle_moller_trumbore__3intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
+    if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
+        return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
     }
-    return package_lib_intersect__1triangle_watertight__2intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
+    return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
 }
 
-struct package_lib_intersect__1triangle_watertight_Shear {
+struct triangle_watertight__Shear {
     x: vec3f,
     y: vec3f,
     z: vec3f
 }
 
-fn package_lib_intersect__1triangle_watertight__1shear_of(direction: vec3f) -> package_lib_intersect__1triangle_watertight_Shear {
+fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
     let size = abs(direction);
     let is_x = (size.x >= size.y) & (size.x >= size.z);
     let is_y = !is_x & (size.y >= size.z);
@@ -1849,10 +1849,10 @@ fn package_lib_intersect__1triangle_watertight__1shear_of(direction: vec3f) -> p
     let axis_x = axis_z.zxy;
     let axis_y = axis_z.yzx;
     let scale = 1.0 / dot(direction, axis_z);
-    return package_lib_intersect__1triangle_watertight_Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
+    return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
 }
 
-fn package_lib_intersect__1triangle_watertight__2intersect_triangle_watertight(origin: vec3f, shear: package_lib_intersect__1triangle_watertight_Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> package_types_Candidate {
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
     let a = v0 - origin;
     let b = v1 - origin;
     let c = v2 - origin;
@@ -1871,22 +1871,22 @@ fn package_lib_intersect__1triangle_watertight__2intersect_triangle_watertight(o
     let inv_det = 1.0 / select(1.0, det, usable);
     let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
     let t = dot(edges, depths) * inv_det;
-    return package_types_Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+    return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
 
-fn package_scene_exhaustive__1hit_planes(ray: package_types_Ray, start: package_types_Hit) -> package_types_Hit {
+fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
     var hit = start;
-    let end = package_bindings_frame.shape_count + package_bindings_frame.plane_count;
-    var index = package_bindings_frame.shape_count;
+    let end = bindings__frame.shape_count + bindings__frame.plane_count;
+    var index = bindings__frame.shape_count;
     loop {
-        let shape = package_scene_fetch__1load_shape(index);
-        let candidate = package_lib_intersect_plane__1intersect_plane(ray, shape.position, shape.row_y);
-        let primitive = package_types_SHAPE | index;
+        let shape = fetch__load_shape(index);
+        let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
+        let primitive = types__SHAPE | index;
         let counts = candidate.hit & (primitive != ray.leaving);
         let wins = counts & (candidate.t < hit.t);
-        let found = package_types_Hit(candidate.t, primitive, 0.0, 0.0, package_types__1NO_INSTANCE);
-        if (package_bindings__1HAS_CONTACT) {
-            package_scene_primitive__2keep_runner_up(hit, found, counts, wins);
+        let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+        if (bindings__HAS_CONTACT) {
+            primitive__keep_runner_up(hit, found, counts, wins);
         }
         if (wins) {
             hit = found;
@@ -1896,93 +1896,93 @@ fn package_scene_exhaustive__1hit_planes(ray: package_types_Ray, start: package_
             break if index >= end;
         }
     }
-    package_scene_loops__1cut_off |= index < end;
+    loops__cut_off |= index < end;
     return hit;
 }
 
-fn package_scene_exhaustive__1hit_everything(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, start: package_types_Hit) -> package_types_Hit {
-    let world = package_scene_primitive__1traversal_ray(ray, shear, package_types__1NO_INSTANCE);
+fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
+    let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
     var hit = start;
-    if (package_bindings__1HAS_TRIANGLES) {
-        hit = package_scene_exhaustive__1hit_run(world, hit, package_bindings_frame.first_triangle, package_bindings_frame.triangle_count);
+    if (bindings__HAS_TRIANGLES) {
+        hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
     }
-    if (package_bindings__1HAS_SHAPES) {
-        hit = package_scene_exhaustive__1hit_run(world, hit, package_types_SHAPE, package_bindings_frame.shape_count);
+    if (bindings__HAS_SHAPES) {
+        hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
     }
-    if (package_bindings__1HAS_INSTANCES) {
+    if (bindings__HAS_INSTANCES) {
         var index = 0u;
-        for (; index < package_bindings_frame.instance_count; index += 1u) {
-            let instance = package_scene_fetch__1load_instance(index);
-            let local = package_scene_instance__1object_ray(ray, package_scene_instance__1space_of(instance));
-            hit = package_scene_exhaustive__1hit_run(package_scene_primitive__1traversal_ray(local, package_lib_intersect__1triangle_watertight__1shear_of(local.direction), index), hit, instance.first, instance.count);
+        for (; index < bindings__frame.instance_count; index += 1u) {
+            let instance = fetch__load_instance(index);
+            let local = instance__object_ray(ray, instance__space_of(instance));
+            hit = exhaustive__hit_run(primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index), hit, instance.first, instance.count);
         }
-        package_scene_loops__1cut_off |= index < package_bindings_frame.instance_count;
+        loops__cut_off |= index < bindings__frame.instance_count;
     }
     return hit;
 }
 
-fn package_scene_exhaustive__1hit_run(at: package_scene_primitive_TraversalRay, start: package_types_Hit, first: u32, count: u32) -> package_types_Hit {
+fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
     var hit = start;
     var index = 0u;
     for (; index < count; index += 1u) {
-        hit = package_scene_primitive_closer(at, hit, first + index);
+        hit = primitive__closer(at, hit, first + index);
     }
-    package_scene_loops__1cut_off |= index < count;
+    loops__cut_off |= index < count;
     return hit;
 }
 
-fn package_lib_intersect_plane__1intersect_plane(ray: package_types_Ray, point: vec3f, n: vec3f) -> package_types_Candidate {
+fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
     let slope = dot(n, ray.direction);
     let steep = abs(slope) > 1e-12;
     let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-    return package_types_Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+    return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
-var<private> package_scene_loops__1nodes_visited: u32 = 0u;
+var<private> loops__nodes_visited: u32 = 0u;
 
-var<private> package_scene_loops__1primitives_tested: u32 = 0u;
+var<private> loops__primitives_tested: u32 = 0u;
 
-var<private> package_scene_loops__1cut_off: bool = false;
+var<private> loops__cut_off: bool = false;
 
-const package_lib_numeric_ROUNDING: f32 = 5.9604645e-8;
+const numeric__ROUNDING: f32 = 5.9604645e-8;
 
-fn package_lib_numeric__1normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
+fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
     let largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
     let usable = largest > 1e-30;
     let scaled = select(vec3f(1.0, 0.0, 0.0), v / select(1.0, largest, usable), usable);
     return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
 }
 
-fn package_lib_numeric__1safe_reciprocal(d: vec3f) -> vec3f {
+fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
     let tiny = abs(d) < vec3f(1e-18);
     return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
 }
 
-fn package_lib_numeric__1max_component(v: vec3f) -> f32 {
+fn numeric__max_component(v: vec3f) -> f32 {
     return max(v.x, max(v.y, v.z));
 }
 
-fn package_lib_intersect__1triangle_plane__2intersect_triangle_plane(ray: package_types_Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> package_types_Candidate {
+fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
     let e1 = v1 - v0;
     let e2 = v2 - v0;
     let n = cross(e1, e2);
     let slope = dot(n, ray.direction);
     let area = dot(n, n);
-    let usable = (abs(slope) > 4.0 * package_lib_numeric_ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
+    let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
     let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
     let w = ray.origin + t * ray.direction - v0;
     let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
     let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
     let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-    return package_types_Candidate(usable & inside & (t > 0.0), t, b1, b2);
+    return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
-fn package_lib_intersect__2triangle_moller_trumbore__3intersect_triangle_moller_trumbore(ray: package_types_Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> package_types_Candidate {
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
     let e1 = v1 - v0;
     let e2 = v2 - v0;
     let p = cross(ray.direction, e2);
     let det = dot(e1, p);
-    let usable = abs(det) > 4.0 * package_lib_numeric_ROUNDING * length(e1) * length(e2);
+    let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
     let inv_det = 1.0 / select(1.0, det, usable);
     let s = ray.origin - v0;
     let b1 = inv_det * dot(s, p);
@@ -1990,101 +1990,101 @@ fn package_lib_intersect__2triangle_moller_trumbore__3intersect_triangle_moller_
     let b2 = inv_det * dot(ray.direction, q);
     let t = inv_det * dot(e2, q);
     let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-    return package_types_Candidate(usable & inside & (t > 0.0), t, b1, b2);
+    return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
-const package_scene_shape_SPHERES: u32 = 1u << package_types__1SHAPE_SPHERE;
+const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
 
-const package_scene_shape_DISCS: u32 = 1u << package_types__1SHAPE_DISC;
+const shape__DISCS: u32 = 1u << types__SHAPE_DISC;
 
-const package_scene_shape_RECTANGLES: u32 = 1u << package_types__1SHAPE_RECTANGLE;
+const shape__RECTANGLES: u32 = 1u << types__SHAPE_RECTANGLE;
 
-const package_scene_shape_BOXES: u32 = 1u << package_types__1SHAPE_BOX;
+const shape__BOXES: u32 = 1u << types__SHAPE_BOX;
 
-const package_scene_shape_CONES: u32 = 1u << package_types__1SHAPE_CONE;
+const shape__CONES: u32 = 1u << types__SHAPE_CONE;
 
-const package_scene_shape_TORI: u32 = 1u << package_types__1SHAPE_TORUS;
+const shape__TORI: u32 = 1u << types__SHAPE_TORUS;
 
-const package_scene_shape_ELLIPSOIDS: u32 = 1u << package_types__1SHAPE_ELLIPSOID;
+const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
 
-const package_scene_shape_GLOBES: u32 = 1u << package_types__1SHAPE_GLOBE;
+const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
 
-fn package_scene_shape__1test_shape(ray: package_types_Ray, shape: package_types_PackedShape) -> package_types_Candidate {
-    if (package_bindings__1SHAPE_KINDS == package_scene_shape_SPHERES) {
-        return package_lib_intersect_sphere__1intersect_sphere(ray, shape.position, shape.size0);
+fn shape__test_shape(ray: types__Ray, shape: types__PackedShape) -> types__Candidate {
+    if (bindings__SHAPE_KINDS == shape__SPHERES) {
+        return sphere__intersect_sphere(ray, shape.position, shape.size0);
     }
-    var candidate = package_types_Candidate(false, 0.0, 0.0, 0.0);
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_SPHERES) != 0u && shape.kind == package_types__1SHAPE_SPHERE) {
-        candidate = package_lib_intersect_sphere__1intersect_sphere(ray, shape.position, shape.size0);
+    var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+    if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
+        candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_GLOBES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_GLOBES || shape.kind == package_types__1SHAPE_GLOBE)) {
-        candidate = package_lib_intersect_globe__1intersect_globe(ray, shape.position, shape.row_y, shape.size0);
+    if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
+        candidate = globe__intersect_globe(ray, shape.position, shape.row_y, shape.size0);
     }
-    let local = package_lib_canonical__1canonical_ray(ray, shape);
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_DISCS) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_DISCS || shape.kind == package_types__1SHAPE_DISC)) {
-        candidate = package_lib_intersect_disc__1intersect_disc(local, shape.size0);
+    let local = canonical__canonical_ray(ray, shape);
+    if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+        candidate = disc__intersect_disc(local, shape.size0);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_RECTANGLES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_RECTANGLES || shape.kind == package_types__1SHAPE_RECTANGLE)) {
-        candidate = package_lib_intersect_rectangle__1intersect_rectangle(local);
+    if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+        candidate = rectangle__intersect_rectangle(local);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_BOXES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_BOXES || shape.kind == package_types__1SHAPE_BOX)) {
-        candidate = package_lib_intersect_box__1intersect_box(local);
+    if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+        candidate = box__intersect_box(local);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_CONES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_CONES || shape.kind == package_types__1SHAPE_CONE)) {
-        candidate = package_lib_intersect_cone__1intersect_cone(local, shape.size0, shape.size1, (shape.flags & package_types__1SHAPE_CAPPED) != 0u);
+    if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+        candidate = cone__intersect_cone(local, shape.size0, shape.size1, (shape.flags & types__SHAPE_CAPPED) != 0u);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_TORI) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_TORI || shape.kind == package_types__1SHAPE_TORUS)) {
-        candidate = package_lib_intersect_torus__1intersect_torus(local, shape.size0);
+    if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+        candidate = torus__intersect_torus(local, shape.size0);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_ELLIPSOIDS) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_ELLIPSOIDS || shape.kind == package_types__1SHAPE_ELLIPSOID)) {
-        candidate = package_lib_intersect_ellipsoid__1intersect_ellipsoid(local);
+    if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+        candidate = ellipsoid__intersect_ellipsoid(local);
     }
     return candidate;
 }
 
-fn package_scene_shape__1canonical_point(shape: package_types_PackedShape, reached: vec3f, part: f32) -> package_lib_canonical_CanonicalPoint {
-    let p = package_lib_canonical__1canonical_vector(shape, reached - shape.position);
-    var point: package_lib_canonical_CanonicalPoint;
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_DISCS) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_DISCS || shape.kind == package_types__1SHAPE_DISC)) {
-        point = package_lib_intersect_disc__1disc_point(p);
+fn shape__canonical_point(shape: types__PackedShape, reached: vec3f, part: f32) -> canonical__CanonicalPoint {
+    let p = canonical__canonical_vector(shape, reached - shape.position);
+    var point: canonical__CanonicalPoint;
+    if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+        point = disc__disc_point(p);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_RECTANGLES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_RECTANGLES || shape.kind == package_types__1SHAPE_RECTANGLE)) {
-        point = package_lib_intersect_rectangle__1rectangle_point(p);
+    if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+        point = rectangle__rectangle_point(p);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_BOXES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_BOXES || shape.kind == package_types__1SHAPE_BOX)) {
-        point = package_lib_intersect_box__1box_point(p, part);
+    if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+        point = box__box_point(p, part);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_CONES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_CONES || shape.kind == package_types__1SHAPE_CONE)) {
-        point = package_lib_intersect_cone__1cone_point(p, shape.size0, shape.size1, part);
+    if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+        point = cone__cone_point(p, shape.size0, shape.size1, part);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_TORI) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_TORI || shape.kind == package_types__1SHAPE_TORUS)) {
-        point = package_lib_intersect_torus__1torus_point(p, shape.size0);
+    if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+        point = torus__torus_point(p, shape.size0);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_ELLIPSOIDS) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_ELLIPSOIDS || shape.kind == package_types__1SHAPE_ELLIPSOID)) {
-        point = package_lib_intersect_ellipsoid__1ellipsoid_point(p);
+    if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+        point = ellipsoid__ellipsoid_point(p);
     }
     return point;
 }
 
-fn package_scene_shape__1is_round(kind: u32) -> bool {
-    if ((package_bindings__1SHAPE_KINDS & (package_scene_shape_SPHERES | package_scene_shape_GLOBES)) == 0u) {
+fn shape__is_round(kind: u32) -> bool {
+    if ((bindings__SHAPE_KINDS & (shape__SPHERES | shape__GLOBES)) == 0u) {
         return false;
     }
-    return (package_bindings__1SHAPE_KINDS & ~(package_scene_shape_SPHERES | package_scene_shape_GLOBES)) == 0u || kind == package_types__1SHAPE_SPHERE || kind == package_types__1SHAPE_GLOBE;
+    return (bindings__SHAPE_KINDS & ~(shape__SPHERES | shape__GLOBES)) == 0u || kind == types__SHAPE_SPHERE || kind == types__SHAPE_GLOBE;
 }
 
-fn package_scene_shape__1is_flat(kind: u32) -> bool {
-    return (package_bindings__1SHAPE_KINDS & (package_scene_shape_DISCS | package_scene_shape_RECTANGLES)) != 0u && (kind == package_types__1SHAPE_DISC || kind == package_types__1SHAPE_RECTANGLE);
+fn shape__is_flat(kind: u32) -> bool {
+    return (bindings__SHAPE_KINDS & (shape__DISCS | shape__RECTANGLES)) != 0u && (kind == types__SHAPE_DISC || kind == types__SHAPE_RECTANGLE);
 }
 
-fn package_lib_intersect_sphere__1intersect_sphere(ray: package_types_Ray, center: vec3f, radius: f32) -> package_types_Candidate {
+fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
     let f = ray.origin - center;
     let a = dot(ray.direction, ray.direction);
     let b = -dot(f, ray.direction);
     let nearest = f + (b / a) * ray.direction;
     let discriminant = radius * radius - dot(nearest, nearest);
     if (discriminant < 0.0) {
-        return package_types_Candidate(false, 0.0, 0.0, 0.0);
+        return types__Candidate(false, 0.0, 0.0, 0.0);
     }
     let c = dot(f, f) - radius * radius;
     let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
@@ -2092,10 +2092,10 @@ fn package_lib_intersect_sphere__1intersect_sphere(ray: package_types_Ray, cente
     let t1 = q / a;
     let near = min(t0, t1);
     let t = select(max(t0, t1), near, near > 0.0);
-    return package_types_Candidate(t > 0.0, t, 0.0, 0.0);
+    return types__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_globe__1intersect_globe(ray: package_types_Ray, anchor: vec3f, n: vec3f, curvature: f32) -> package_types_Candidate {
+fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
     let w = ray.origin - anchor;
     let f = n + curvature * w;
     let c = curvature * dot(w, w) + 2.0 * dot(n, w);
@@ -2106,40 +2106,40 @@ fn package_lib_intersect_globe__1intersect_globe(ray: package_types_Ray, anchor:
     let is_near = abs(curvature * c) < 1.0;
     let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
     if (discriminant < 0.0) {
-        return package_types_Candidate(false, 0.0, 0.0, 0.0);
+        return types__Candidate(false, 0.0, 0.0, 0.0);
     }
     let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
     let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
     let t1 = q / a;
     let near = min(t0, t1);
     let t = select(max(t0, t1), near, near > 0.0);
-    return package_types_Candidate(t > 0.0, t, 0.0, 0.0);
+    return types__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_globe__1globe_point(shape: package_types_PackedShape, reached: vec3f) -> package_lib_canonical_PlacedPoint {
+fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
     let w = reached - shape.position;
     let f = shape.row_y + shape.size0 * w;
     let height = (shape.size0 * dot(w, w) + 2.0 * dot(shape.row_y, w)) / (1.0 + length(f));
-    let ng = package_lib_numeric__1normalize_or(f, shape.row_y);
+    let ng = numeric__normalize_or(f, shape.row_y);
     let p = reached - height * ng;
-    return package_lib_canonical_PlacedPoint(p, ng, 16.0 * package_lib_numeric_ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
+    return canonical__PlacedPoint(p, ng, 16.0 * numeric__ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
 }
 
-const package_lib_canonical__1TWO_PI: f32 = 6.2831855;
+const canonical__TWO_PI: f32 = 6.2831855;
 
-struct package_lib_canonical_CanonicalPoint {
+struct canonical__CanonicalPoint {
     p: vec3f,
     n: vec3f,
     uv: vec2f
 }
 
-struct package_lib_canonical_PlacedPoint {
+struct canonical__PlacedPoint {
     p: vec3f,
     ng: vec3f,
     error: vec3f
 }
 
-struct package_lib_canonical_Approach {
+struct canonical__Approach {
     origin: vec3f,
     start: f32,
     direction: vec3f,
@@ -2147,15 +2147,15 @@ struct package_lib_canonical_Approach {
     near: bool
 }
 
-fn package_lib_canonical__1canonical_vector(shape: package_types_PackedShape, v: vec3f) -> vec3f {
+fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
     return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
 }
 
-fn package_lib_canonical__1canonical_ray(ray: package_types_Ray, shape: package_types_PackedShape) -> package_types_Ray {
-    return package_types_Ray(package_lib_canonical__1canonical_vector(shape, ray.origin - shape.position), ray.t_max, package_lib_canonical__1canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+fn canonical__canonical_ray(ray: types__Ray, shape: types__PackedShape) -> types__Ray {
+    return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
 }
 
-fn package_lib_canonical_approach(ray: package_types_Ray, center: vec3f, reach: f32) -> package_lib_canonical_Approach {
+fn canonical__approach(ray: types__Ray, center: vec3f, reach: f32) -> canonical__Approach {
     let size = abs(ray.direction);
     let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
     let scaled = ray.direction / largest;
@@ -2165,14 +2165,14 @@ fn package_lib_canonical_approach(ray: package_types_Ray, center: vec3f, reach: 
     let origin = ray.origin + start * direction;
     let off = abs(origin - center);
     let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
-    return package_lib_canonical_Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
+    return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
 }
 
-fn package_lib_canonical__1approached_t(near: package_lib_canonical_Approach, s: f32) -> f32 {
+fn canonical__approached_t(near: canonical__Approach, s: f32) -> f32 {
     return (near.start + s) * near.t_per_length;
 }
 
-fn package_lib_canonical__1placed_point(shape: package_types_PackedShape, reached: vec3f, point: package_lib_canonical_CanonicalPoint) -> package_lib_canonical_PlacedPoint {
+fn canonical__placed_point(shape: types__PackedShape, reached: vec3f, point: canonical__CanonicalPoint) -> canonical__PlacedPoint {
     let inv_lengths = 1.0 / vec3f(length(shape.row_x), length(shape.row_y), length(shape.row_z));
     let x = shape.row_x * inv_lengths.x;
     let y = shape.row_y * inv_lengths.y;
@@ -2184,61 +2184,61 @@ fn package_lib_canonical__1placed_point(shape: package_types_PackedShape, reache
     let column_y = scale.y * cross(z, x);
     let column_z = scale.z * cross(x, y);
     let q = reached - shape.position;
-    let way = point.p - package_lib_canonical__1canonical_vector(shape, q);
+    let way = point.p - canonical__canonical_vector(shape, q);
     let p = reached + (way.x * column_x + way.y * column_y + way.z * column_z);
     let size = vec3f(dot(abs(shape.row_x), abs(q)), dot(abs(shape.row_y), abs(q)), dot(abs(shape.row_z), abs(q))) + 1.0;
     let reach = size.x * abs(column_x) + size.y * abs(column_y) + size.z * abs(column_z);
     let normal = point.n.x * shape.row_x + point.n.y * shape.row_y + point.n.z * shape.row_z;
-    return package_lib_canonical_PlacedPoint(p, package_lib_numeric__1normalize_or(normal, y), package_lib_offset__1placed_error(p, shape.position, reach));
+    return canonical__PlacedPoint(p, numeric__normalize_or(normal, y), offset__placed_error(p, shape.position, reach));
 }
 
-fn package_lib_canonical_longitude(x: f32, z: f32) -> f32 {
+fn canonical__longitude(x: f32, z: f32) -> f32 {
     let on_axis = (x == 0.0) & (z == 0.0);
-    return saturate(0.5 + atan2(x, select(z, 1.0, on_axis)) / package_lib_canonical__1TWO_PI);
+    return saturate(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
 }
 
-fn package_lib_canonical__1sphere_uv(n: vec3f) -> vec2f {
+fn canonical__sphere_uv(n: vec3f) -> vec2f {
     let off_axis = length(n.xz);
     let at_center = (off_axis == 0.0) & (n.y == 0.0);
     let latitude = atan2(n.y, select(off_axis, 1.0, at_center));
-    return vec2f(package_lib_canonical_longitude(n.x, n.z), saturate(0.5 + 2.0 * latitude / package_lib_canonical__1TWO_PI));
+    return vec2f(canonical__longitude(n.x, n.z), saturate(0.5 + 2.0 * latitude / canonical__TWO_PI));
 }
 
-fn package_lib_canonical_outwards(v: vec2f) -> vec2f {
+fn canonical__outwards(v: vec2f) -> vec2f {
     let size = length(v);
     let usable = size > 1e-18;
     return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
 }
 
-fn package_lib_intersect_disc__1intersect_disc(ray: package_types_Ray, hole: f32) -> package_types_Candidate {
+fn disc__intersect_disc(ray: types__Ray, hole: f32) -> types__Candidate {
     let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
     let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
     let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
     let distance = dot(p, p);
-    return package_types_Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+    return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_disc__1disc_point(p: vec3f) -> package_lib_canonical_CanonicalPoint {
-    return package_lib_canonical_CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
+    return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
-fn package_lib_intersect_rectangle__1intersect_rectangle(ray: package_types_Ray) -> package_types_Candidate {
+fn rectangle__intersect_rectangle(ray: types__Ray) -> types__Candidate {
     let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
     let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
     let way = t * ray.direction.xz;
-    let slack = 4.0 * package_lib_numeric_ROUNDING * (abs(ray.origin.xz) + abs(way));
+    let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
     let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
-    return package_types_Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+    return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_rectangle__1rectangle_point(p: vec3f) -> package_lib_canonical_CanonicalPoint {
-    return package_lib_canonical_CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
+    return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
-fn package_lib_intersect_box__1intersect_box(ray: package_types_Ray) -> package_types_Candidate {
+fn box__intersect_box(ray: types__Ray) -> types__Candidate {
     let size = abs(ray.direction);
     let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
-    let inv = package_lib_numeric__1safe_reciprocal(ray.direction / largest);
+    let inv = numeric__safe_reciprocal(ray.direction / largest);
     let origin = clamp(ray.origin, vec3f(-1e18), vec3f(1e18));
     let t0 = (-1.0 - origin) * inv;
     let t1 = (1.0 - origin) * inv;
@@ -2253,10 +2253,10 @@ fn package_lib_intersect_box__1intersect_box(ray: package_types_Ray) -> package_
     let positive = (inv[axis] < 0.0) == from_outside;
     let side = f32(axis) + select(0.0, 3.0, positive);
     let hit = (enter <= leave) & (s > 0.0);
-    return package_types_Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+    return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
 }
 
-fn package_lib_intersect_box__1box_point(p: vec3f, side: f32) -> package_lib_canonical_CanonicalPoint {
+fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
     let code = u32(side + 0.5);
     let positive = code >= 3u;
     let axis = code - select(0u, 3u, positive);
@@ -2265,19 +2265,19 @@ fn package_lib_intersect_box__1box_point(p: vec3f, side: f32) -> package_lib_can
     let place = select(p, n, n != vec3f(0.0));
     let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
     let up = select(p.y, -sign * p.z, axis == 1u);
-    return package_lib_canonical_CanonicalPoint(place, n, saturate(0.5 + 0.5 * vec2f(right, up)));
+    return canonical__CanonicalPoint(place, n, saturate(0.5 + 0.5 * vec2f(right, up)));
 }
 
-const package_lib_intersect_cone_FAR: f32 = 1e30;
+const cone__FAR: f32 = 1e30;
 
-const package_lib_intersect_cone_SIDE: f32 = 0.0;
+const cone__SIDE: f32 = 0.0;
 
-const package_lib_intersect_cone_BOTTOM: f32 = 1.0;
+const cone__BOTTOM: f32 = 1.0;
 
-const package_lib_intersect_cone_TOP: f32 = 2.0;
+const cone__TOP: f32 = 2.0;
 
-fn package_lib_intersect_cone__1intersect_cone(ray: package_types_Ray, bottom: f32, top: f32, capped: bool) -> package_types_Candidate {
-    let near = package_lib_canonical_approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
+fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) -> types__Candidate {
+    let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
     let o = near.origin;
     let d = near.direction;
     let slope = top - bottom;
@@ -2299,8 +2299,8 @@ fn package_lib_intersect_cone__1intersect_cone(ray: package_types_Ray, bottom: f
     let high = max(r1, r2);
     let steep = a < 0.0;
     let widens = slope * d.y > 0.0;
-    let side_in = select(low, select(-package_lib_intersect_cone_FAR, high, widens), steep);
-    let side_out = select(high, select(low, package_lib_intersect_cone_FAR, widens), steep);
+    let side_in = select(low, select(-cone__FAR, high, widens), steep);
+    let side_out = select(high, select(low, cone__FAR, widens), steep);
     let level = abs(d.y) < 1e-18;
     let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
     let y0 = -o.y * inv_y;
@@ -2317,13 +2317,13 @@ fn package_lib_intersect_cone__1intersect_cone(ray: package_types_Ray, bottom: f
     let hit = near.near & met & (takes_enter | takes_leave);
     let rough = select(0.0, select(leave, enter, takes_enter), hit);
     let is_side = select(leaves_side, enters_side, takes_enter);
-    let end = select(package_lib_intersect_cone_BOTTOM, package_lib_intersect_cone_TOP, (d.y > 0.0) != takes_enter);
-    let s = select(rough, package_lib_intersect_cone_polish(o, d, bottom, slope, rough), is_side);
-    let t = package_lib_canonical__1approached_t(near, s);
-    return package_types_Candidate(hit & (t > 0.0), t, select(end, package_lib_intersect_cone_SIDE, is_side), 0.0);
+    let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
+    let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
+    let t = canonical__approached_t(near, s);
+    return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
 }
 
-fn package_lib_intersect_cone_polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
+fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
     let p = o + s * d;
     let off_axis = length(p.xz);
     let rate = dot(p.xz, d.xz) / max(off_axis, 1e-18) - slope * d.y;
@@ -2332,59 +2332,59 @@ fn package_lib_intersect_cone_polish(o: vec3f, d: vec3f, bottom: f32, slope: f32
     return s - clamp(select(0.0, step, usable), -0.001, 0.001);
 }
 
-fn package_lib_intersect_cone__1cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> package_lib_canonical_CanonicalPoint {
+fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__CanonicalPoint {
     let slope = top - bottom;
-    let out = package_lib_canonical_outwards(p.xz);
+    let out = canonical__outwards(p.xz);
     if (part < 0.5) {
         let y = saturate(p.y);
         let radius = bottom + slope * y;
         let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
-        return package_lib_canonical_CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(package_lib_canonical_longitude(p.x, p.z), y));
+        return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(canonical__longitude(p.x, p.z), y));
     }
     let is_top = part > 1.5;
     let radius = select(bottom, top, is_top);
     let flat = out * min(length(p.xz), radius);
     let sign = select(-1.0, 1.0, is_top);
     let uv = vec2f(flat.x, -sign * flat.y) / max(radius, 1e-18);
-    return package_lib_canonical_CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate(0.5 + 0.5 * uv));
+    return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate(0.5 + 0.5 * uv));
 }
 
-const package_lib_intersect_torus__1MOST_ROUNDS: u32 = 40u;
+const torus__MOST_ROUNDS: u32 = 40u;
 
-const package_lib_intersect_torus_NARROW: f32 = 1.2e-7;
+const torus__NARROW: f32 = 1.2e-7;
 
-fn package_lib_intersect_torus__1torus_distance(p: vec3f, minor: f32) -> f32 {
+fn torus__torus_distance(p: vec3f, minor: f32) -> f32 {
     return length(vec2f(length(p.xz) - 1.0, p.y)) - minor;
 }
 
-fn package_lib_intersect_torus_polish(s: f32, p: f32, q: f32) -> f32 {
+fn torus__polish(s: f32, p: f32, q: f32) -> f32 {
     let slope = 3.0 * s * s + p;
     let steep = abs(slope) > 0.001;
     return s - clamp(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
 }
 
-fn package_lib_intersect_torus__1cubic_zeros(p: f32, q: f32) -> vec3f {
+fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
     let third = p / 3.0;
     let half = 0.5 * q;
     let discriminant = half * half + third * third * third;
     let cube = abs(half) + sqrt(max(discriminant, 0.0));
     let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max(cube, 1e-30)) / 3.0), cube > 1e-30);
     let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
-    let one = package_lib_intersect_torus_polish(large + small, p, q);
+    let one = torus__polish(large + small, p, q);
     let size = sqrt(max(-third, 0.0));
     let usable = size > 1e-10;
     let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
     let angle = acos(cosine) / 3.0;
-    let a = package_lib_intersect_torus_polish(2.0 * size * cos(angle + package_lib_canonical__1TWO_PI / 3.0), p, q);
-    let b = package_lib_intersect_torus_polish(2.0 * size * cos(angle - package_lib_canonical__1TWO_PI / 3.0), p, q);
-    let c = package_lib_intersect_torus_polish(2.0 * size * cos(angle), p, q);
+    let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
+    let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
+    let c = torus__polish(2.0 * size * cos(angle), p, q);
     let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
     return select(three, vec3f(one), discriminant > 0.0);
 }
 
-fn package_lib_intersect_torus__1intersect_torus(ray: package_types_Ray, minor: f32) -> package_types_Candidate {
+fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
     let outer = 1.0 + minor;
-    let near = package_lib_canonical_approach(ray, vec3f(0.0), 1.5 * outer);
+    let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
     let o = near.origin;
     let d = near.direction;
     let middle = -dot(o, d);
@@ -2394,19 +2394,19 @@ fn package_lib_intersect_torus__1intersect_torus(ray: package_types_Ray, minor: 
     let half_chord = sqrt(max(ball * ball - apart, 0.0));
     let start = max(middle - half_chord, 0.0);
     let end = middle + half_chord;
-    let zeros = middle + package_lib_intersect_torus__1cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
+    let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
     let cuts = vec4f(clamp(zeros, vec3f(start), vec3f(max(end, start))), end);
-    let outside = package_lib_intersect_torus__1torus_distance(o + start * d, minor) >= 0.0;
-    let changes = vec4<bool>((package_lib_intersect_torus__1torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (package_lib_intersect_torus__1torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (package_lib_intersect_torus__1torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (package_lib_intersect_torus__1torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
+    let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
+    let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
     let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
     let last = select(select(select(cuts.w, cuts.z, changes.z), cuts.y, changes.y), cuts.x, changes.x);
     let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
-    let s = package_lib_intersect_torus__1root_between(o, d, minor, select(last, first, found), last, outside);
-    let t = package_lib_canonical__1approached_t(near, s);
-    return package_types_Candidate(found & (t > 0.0), t, 0.0, 0.0);
+    let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
+    let t = canonical__approached_t(near, s);
+    return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_torus__1root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
+fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
     var low = first;
     var high = last;
     var s = 0.5 * (first + last);
@@ -2432,86 +2432,86 @@ fn package_lib_intersect_torus__1root_between(o: vec3f, d: vec3f, minor: f32, fi
         rounds += 1u;
         continuing {
         
-            break if (moved <= package_lib_intersect_torus_NARROW * (1.0 + abs(s))) | (rounds >= package_lib_intersect_torus__1MOST_ROUNDS);
+            break if (moved <= torus__NARROW * (1.0 + abs(s))) | (rounds >= torus__MOST_ROUNDS);
         }
     }
     return s;
 }
 
-fn package_lib_intersect_torus__1torus_point(p: vec3f, minor: f32) -> package_lib_canonical_CanonicalPoint {
-    let out = package_lib_canonical_outwards(p.xz);
-    let tube = package_lib_canonical_outwards(vec2f(length(p.xz) - 1.0, p.y));
+fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
+    let out = canonical__outwards(p.xz);
+    let tube = canonical__outwards(vec2f(length(p.xz) - 1.0, p.y));
     let n = vec3f(tube.x * out.x, tube.y, tube.x * out.y);
     let ring = 1.0 + minor * tube.x;
     let place = vec3f(ring * out.x, minor * tube.y, ring * out.y);
-    return package_lib_canonical_CanonicalPoint(place, n, vec2f(package_lib_canonical_longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / package_lib_canonical__1TWO_PI)));
+    return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
 }
 
-fn package_lib_intersect_ellipsoid__1intersect_ellipsoid(ray: package_types_Ray) -> package_types_Candidate {
-    let near = package_lib_canonical_approach(ray, vec3f(0.0), 1.5);
-    let found = package_lib_intersect_sphere__1intersect_sphere(package_types_Ray(near.origin, ray.t_max, near.direction, package_types_NONE, ray.leaving_instance), vec3f(0.0), 1.0);
-    return package_types_Candidate(near.near & found.hit, package_lib_canonical__1approached_t(near, found.t), 0.0, 0.0);
+fn ellipsoid__intersect_ellipsoid(ray: types__Ray) -> types__Candidate {
+    let near = canonical__approach(ray, vec3f(0.0), 1.5);
+    let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
+    return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
 }
 
-fn package_lib_intersect_ellipsoid__1ellipsoid_point(p: vec3f) -> package_lib_canonical_CanonicalPoint {
-    let n = package_lib_numeric__1normalize_or(p, vec3f(0.0, 1.0, 0.0));
-    return package_lib_canonical_CanonicalPoint(n, n, package_lib_canonical__1sphere_uv(n));
+fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
+    let n = numeric__normalize_or(p, vec3f(0.0, 1.0, 0.0));
+    return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
 }
 
-fn package_scene_instance__1space_of(instance: package_types_PackedInstance) -> package_lib_motion_Space {
-    if (package_bindings__1HAS_MOTION) {
+fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
+    if (bindings__HAS_MOTION) {
         if (instance.key_count > 1u) {
-            let moment = package_lib_motion__1moment_of(package_scene_shutter__1shutter_time, instance.key_count);
+            let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
             let key = instance.first_key + moment.key;
-            return package_lib_motion__1space_between(package_scene_fetch__1load_key(key), package_scene_fetch__1load_key(key + 1u), moment.fraction);
+            return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
         }
     }
-    return package_lib_motion_Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
+    return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
 }
 
-fn package_scene_instance__1object_ray(ray: package_types_Ray, space: package_lib_motion_Space) -> package_types_Ray {
-    return package_types_Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
+    return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
 }
 
-fn package_scene_instance__1placed_normal(space: package_lib_motion_Space, n: vec3f) -> vec3f {
+fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
     return n * space.inverse;
 }
 
-fn package_scene_instance__1placement_error(space: package_lib_motion_Space, p: vec3f, q: vec3f) -> vec3f {
-    let from_p = package_scene_instance__1abs_times(space.inverse, abs(p) + abs(space.translation));
-    return 16.0 * package_lib_numeric_ROUNDING * (abs(p) + abs(space.translation) + package_scene_instance__1abs_times(space.linear, abs(q) + from_p));
+fn instance__placement_error(space: motion__Space, p: vec3f, q: vec3f) -> vec3f {
+    let from_p = instance__abs_times(space.inverse, abs(p) + abs(space.translation));
+    return 16.0 * numeric__ROUNDING * (abs(p) + abs(space.translation) + instance__abs_times(space.linear, abs(q) + from_p));
 }
 
-fn package_scene_instance__1abs_times(m: mat3x3f, v: vec3f) -> vec3f {
+fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
     return abs(m[0]) * v.x + abs(m[1]) * v.y + abs(m[2]) * v.z;
 }
 
-fn package_scene_instance__1pattern_place(instance: package_types_PackedInstance, q: vec3f) -> vec3f {
+fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
     let at = vec4f(q, 1.0);
     return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
 }
 
-const package_lib_intersect_node_MISS: u32 = 4294967292u;
+const node__MISS: u32 = 4294967292u;
 
-const package_lib_intersect_node_WIDENING: i32 = 8;
+const node__WIDENING: i32 = 8;
 
-fn package_lib_intersect_node_bytes(word: u32) -> vec4f {
+fn node__bytes(word: u32) -> vec4f {
     return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
 }
 
-fn package_lib_intersect_node__1decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> package_types_Node {
-    return package_types_Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), package_lib_intersect_node_bytes(r1.z), package_lib_intersect_node_bytes(r1.w), package_lib_intersect_node_bytes(r2.x), package_lib_intersect_node_bytes(r2.y), package_lib_intersect_node_bytes(r2.z), package_lib_intersect_node_bytes(r2.w), r3);
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
+    return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
 }
 
-fn package_lib_intersect_node__1node_between(a: package_types_Node, b: package_types_Node, fraction: f32) -> package_types_Node {
+fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
     let lo = mix(a.lo, b.lo, vec3f(fraction));
     let shift_a = a.lo - lo;
     let shift_b = b.lo - lo;
     let s = vec4f(fraction);
-    return package_types_Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+    return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
 }
 
-fn package_lib_intersect_node__1child_keys(node: package_types_Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
     let base = (node.lo - origin) * inv;
     let step = node.scale * inv;
     let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
@@ -2522,13 +2522,13 @@ fn package_lib_intersect_node__1child_keys(node: package_types_Node, origin: vec
     let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
     let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
     let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
-    let limit = min(far + package_lib_intersect_node_WIDENING, vec4i(bitcast<i32>(t_max) + package_lib_intersect_node_WIDENING));
+    let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
     let hit = (near <= limit) & (node.children != vec4u(0u));
     let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
-    return select(vec4u(package_lib_intersect_node_MISS), keys, hit);
+    return select(vec4u(node__MISS), keys, hit);
 }
 
-fn package_lib_intersect_node_sort4(keys: vec4u) -> vec4u {
+fn node__sort4(keys: vec4u) -> vec4u {
     let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
     let lowest = min(a.x, a.y);
     let middle_low = max(a.x, a.y);
@@ -2537,599 +2537,599 @@ fn package_lib_intersect_node_sort4(keys: vec4u) -> vec4u {
     return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
-struct package_scene_direct_Receiver {
-    surface: package_types_Surface,
+struct direct__Receiver {
+    surface: types__Surface,
     v: vec3f,
-    key: package_types_SampleKey
+    key: types__SampleKey
 }
 
-struct package_scene_direct_Receivers {
-    p: package_scene_wide_Vectors,
-    error: package_scene_wide_Vectors,
-    ng: package_scene_wide_Vectors,
-    n: package_scene_wide_Vectors,
-    v: package_scene_wide_Vectors,
-    diffuse: package_scene_wide_Vectors,
-    specular: package_scene_wide_Vectors,
-    shininess: package_scene_wide_Floats,
-    leaving: package_scene_wide_Words,
-    instance: package_scene_wide_Words,
-    hash: package_scene_wide_Words,
-    weight: package_scene_wide_Floats,
-    is_lit: package_scene_wide_Words
+struct direct__Receivers {
+    p: wide__Vectors,
+    error: wide__Vectors,
+    ng: wide__Vectors,
+    n: wide__Vectors,
+    v: wide__Vectors,
+    diffuse: wide__Vectors,
+    specular: wide__Vectors,
+    shininess: wide__Floats,
+    leaving: wide__Words,
+    instance: wide__Words,
+    hash: wide__Words,
+    weight: wide__Floats,
+    is_lit: wide__Words
 }
 
-fn package_scene_direct__1no_receivers() -> package_scene_direct_Receivers {
-    let none = package_scene_wide__1no_vectors();
-    return package_scene_direct_Receivers(none, none, none, none, none, none, none, package_scene_wide_Floats(0.0), package_scene_wide_Words(0u), package_scene_wide_Words(0u), package_scene_wide_Words(0u), package_scene_wide_Floats(0.0), package_scene_wide_Words(0u));
+fn direct__no_receivers() -> direct__Receivers {
+    let none = wide__no_vectors();
+    return direct__Receivers(none, none, none, none, none, none, none, wide__Floats(0.0), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__Floats(0.0), wide__Words(0u));
 }
 
-fn package_scene_direct__1receiver_set(all: package_scene_direct_Receivers, k: u32, surface: package_types_Surface, v: vec3f, key: package_types_SampleKey) -> package_scene_direct_Receivers {
-    return package_scene_direct_Receivers(package_scene_wide__1vector_set(all.p, k, surface.p), package_scene_wide__1vector_set(all.error, k, surface.error), package_scene_wide__1vector_set(all.ng, k, surface.ng), package_scene_wide__1vector_set(all.n, k, surface.n), package_scene_wide__1vector_set(all.v, k, v), package_scene_wide__1vector_set(all.diffuse, k, surface.phong.diffuse), package_scene_wide__1vector_set(all.specular, k, surface.phong.specular), package_scene_wide__1float_set(all.shininess, k, surface.phong.shininess), package_scene_wide__1word_set(all.leaving, k, surface.leaving), package_scene_wide__1word_set(all.instance, k, surface.instance), package_scene_wide__1word_set(all.hash, k, key.hash), package_scene_wide__1float_set(all.weight, k, key.weight), package_scene_wide__1word_set(all.is_lit, k, 1u));
+fn direct__receiver_set(all: direct__Receivers, k: u32, surface: types__Surface, v: vec3f, key: types__SampleKey) -> direct__Receivers {
+    return direct__Receivers(wide__vector_set(all.p, k, surface.p), wide__vector_set(all.error, k, surface.error), wide__vector_set(all.ng, k, surface.ng), wide__vector_set(all.n, k, surface.n), wide__vector_set(all.v, k, v), wide__vector_set(all.diffuse, k, surface.phong.diffuse), wide__vector_set(all.specular, k, surface.phong.specular), wide__float_set(all.shininess, k, surface.phong.shininess), wide__word_set(all.leaving, k, surface.leaving), wide__word_set(all.instance, k, surface.instance), wide__word_set(all.hash, k, key.hash), wide__float_set(all.weight, k, key.weight), wide__word_set(all.is_lit, k, 1u));
 }
 
-fn package_scene_direct__1receiver_at(all: package_scene_direct_Receivers, k: u32) -> package_scene_direct_Receiver {
-    var surface: package_types_Surface;
-    surface.p = package_scene_wide__1vector_at(all.p, k);
-    surface.error = package_scene_wide__1vector_at(all.error, k);
-    surface.ng = package_scene_wide__1vector_at(all.ng, k);
-    surface.n = package_scene_wide__1vector_at(all.n, k);
-    surface.leaving = package_scene_wide__1word_at(all.leaving, k);
-    surface.instance = package_scene_wide__1word_at(all.instance, k);
-    surface.phong.diffuse = package_scene_wide__1vector_at(all.diffuse, k);
-    surface.phong.specular = package_scene_wide__1vector_at(all.specular, k);
-    surface.phong.shininess = package_scene_wide__1float_at(all.shininess, k);
-    return package_scene_direct_Receiver(surface, package_scene_wide__1vector_at(all.v, k), package_types_SampleKey(package_scene_wide__1word_at(all.hash, k), 0u, package_scene_wide__1float_at(all.weight, k)));
+fn direct__receiver_at(all: direct__Receivers, k: u32) -> direct__Receiver {
+    var surface: types__Surface;
+    surface.p = wide__vector_at(all.p, k);
+    surface.error = wide__vector_at(all.error, k);
+    surface.ng = wide__vector_at(all.ng, k);
+    surface.n = wide__vector_at(all.n, k);
+    surface.leaving = wide__word_at(all.leaving, k);
+    surface.instance = wide__word_at(all.instance, k);
+    surface.phong.diffuse = wide__vector_at(all.diffuse, k);
+    surface.phong.specular = wide__vector_at(all.specular, k);
+    surface.phong.shininess = wide__float_at(all.shininess, k);
+    return direct__Receiver(surface, wide__vector_at(all.v, k), types__SampleKey(wide__word_at(all.hash, k), 0u, wide__float_at(all.weight, k)));
 }
 
-fn package_scene_direct__1direct_light(batch: package_scene_dispatch_Batch, receivers: package_scene_direct_Receivers, media: package_scene__1ray_stack_Media, sample: u32) -> package_scene_wide_Vectors {
-    var color = package_scene_wide__1no_vectors();
-    if (!package_bindings__1HAS_LIGHTS) {
+fn direct__direct_light(batch: dispatch__Batch, receivers: direct__Receivers, media: ray_stack__Media, sample: u32) -> wide__Vectors {
+    var color = wide__no_vectors();
+    if (!bindings__HAS_LIGHTS) {
         return color;
     }
     var index = 0u;
     loop {
-        let light = package_scene_shutter__1shutter_light(index, batch.light_count);
-        package_scene_record__1open_light(index, 1.0);
-        color = package_scene_direct__1with_light(batch, color, receivers, media, sample, light, index);
+        let light = shutter__shutter_light(index, batch.light_count);
+        record__open_light(index, 1.0);
+        color = direct__with_light(batch, color, receivers, media, sample, light, index);
         continuing {
             index += 1u;
             break if index >= batch.light_count;
         }
     }
-    package_scene_loops__1cut_off |= index < batch.light_count;
+    loops__cut_off |= index < batch.light_count;
     return color;
 }
 
-fn package_scene_direct__1with_light(batch: package_scene_dispatch_Batch, before: package_scene_wide_Vectors, receivers: package_scene_direct_Receivers, media: package_scene__1ray_stack_Media, sample: u32, light: package_types_PackedLight, index: u32) -> package_scene_wide_Vectors {
-    var sum = package_scene_wide__1no_vectors();
-    var counts = package_scene_wide_Floats(1.0);
-    let has_extent = package_bindings__2HAS_AREA_LIGHTS && light.kind >= package_types__1LIGHT_RECTANGLE;
+fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: direct__Receivers, media: ray_stack__Media, sample: u32, light: types__PackedLight, index: u32) -> wide__Vectors {
+    var sum = wide__no_vectors();
+    var counts = wide__Floats(1.0);
+    let has_extent = bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE;
     var drawn = 0u;
     var is_unfinished = false;
     loop {
-        var rays = package_scene_rays__1dead_rays();
-        var unshadowed = package_scene_wide__1no_vectors();
+        var rays = rays__dead_rays();
+        var unshadowed = wide__no_vectors();
         is_unfinished = false;
         var k = 0u;
         loop {
-            if (package_scene_wide__1word_at(receivers.is_lit, k) != 0u) {
-                let receiver = package_scene_direct__1receiver_at(receivers, k);
+            if (wide__word_at(receivers.is_lit, k) != 0u) {
+                let receiver = direct__receiver_at(receivers, k);
                 var count = 1u;
                 if (has_extent) {
                     let wanted = max(round(f32(light.sample_count) * batch.light_samples * receiver.key.weight), 1.0);
                     count = u32(wanted);
-                    counts = package_scene_wide__1float_set(counts, k, f32(count));
-                    package_scene_record__1open_light(index, 1.0 / f32(count));
+                    counts = wide__float_set(counts, k, f32(count));
+                    record__open_light(index, 1.0 / f32(count));
                 }
                 if (drawn < count) {
-                    var arriving = package_lib_light_incident(light, receiver.surface.p);
+                    var arriving = light__incident(light, receiver.surface.p);
                     if (has_extent) {
-                        let hash = package_lib_rng__1hash_combine(receiver.key.hash, index);
-                        arriving = package_lib__1area_light__1area_incident(light, receiver.surface.p, package_lib_sampling__1stratified_2d(sample * count + drawn, hash));
+                        let hash = rng__hash_combine(receiver.key.hash, index);
+                        arriving = area_light__area_incident(light, receiver.surface.p, sampling__stratified_2d(sample * count + drawn, hash));
                     }
-                    let reflected = arriving.radiance * package_lib_phong_phong(receiver.surface.phong, receiver.surface.n, arriving.direction, receiver.v);
+                    let reflected = arriving.radiance * phong__phong(receiver.surface.phong, receiver.surface.n, arriving.direction, receiver.v);
                     if (any(reflected > vec3f(0.0))) {
-                        rays = package_scene_rays__1ray_set(rays, k, package_scene_direct__1shadow_ray(receiver.surface, arriving));
-                        unshadowed = package_scene_wide__1vector_set(unshadowed, k, reflected);
+                        rays = rays__ray_set(rays, k, direct__shadow_ray(receiver.surface, arriving));
+                        unshadowed = wide__vector_set(unshadowed, k, reflected);
                     }
                     is_unfinished |= drawn + 1u < count;
                 }
             }
             continuing {
                 k += 1u;
-                break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
+                break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
             }
         }
-        package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
-        let through = package_scene_shadow__1light_through(rays, media);
-        package_scene_direct__1record_shadows(rays, unshadowed, through);
+        loops__cut_off |= k < wide__RAYS_PER_LANE;
+        let through = shadow__light_through(rays, media);
+        direct__record_shadows(rays, unshadowed, through);
         sum.x += through.x * unshadowed.x;
         sum.y += through.y * unshadowed.y;
         sum.z += through.z * unshadowed.z;
         drawn += 1u;
         continuing {
         
-            break if !package_scene_rays__1any_lane(is_unfinished);
+            break if !rays__any_lane(is_unfinished);
         }
     }
-    package_scene_loops__1cut_off |= is_unfinished;
-    return package_scene_wide_Vectors(before.x + sum.x / counts, before.y + sum.y / counts, before.z + sum.z / counts);
+    loops__cut_off |= is_unfinished;
+    return wide__Vectors(before.x + sum.x / counts, before.y + sum.y / counts, before.z + sum.z / counts);
 }
 
-fn package_scene_direct__1shadow_ray(surface: package_types_Surface, arriving: package_types_Incident) -> package_types_Ray {
-    var ray = package_scene_surface__1leaving_ray(surface, arriving.direction, arriving.distance);
+fn direct__shadow_ray(surface: types__Surface, arriving: types__Incident) -> types__Ray {
+    var ray = surface__leaving_ray(surface, arriving.direction, arriving.distance);
     ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
     return ray;
 }
 
-fn package_scene_direct__1record_shadows(rays: package_scene_rays_Rays, unshadowed: package_scene_wide_Vectors, through: package_scene_wide_Vectors) {
-    let ray = package_scene_rays__1ray_at(rays, 0u);
+fn direct__record_shadows(rays: rays__Rays, unshadowed: wide__Vectors, through: wide__Vectors) {
+    let ray = rays__ray_at(rays, 0u);
     if (ray.t_max >= 0.0) {
-        package_scene_record__1record_shadow(ray, package_scene_wide__1vector_at(unshadowed, 0u), package_scene_wide__1vector_at(through, 0u));
+        record__record_shadow(ray, wide__vector_at(unshadowed, 0u), wide__vector_at(through, 0u));
     }
 }
 
-struct package_scene_optics_ScatterEvent {
+struct optics__ScatterEvent {
     arriving: vec3f,
     diffuse: vec3f,
     highlight: vec3f,
-    reflected: package_scene__1ray_stack_RayState,
-    refracted: package_scene__1ray_stack_RayState
+    reflected: ray_stack__RayState,
+    refracted: ray_stack__RayState
 }
 
-struct package_scene_optics_Weights {
+struct optics__Weights {
     diffuse: vec3f,
     highlight: vec3f
 }
 
-fn package_scene_optics_scatter(batch: package_scene_dispatch_Batch, state: package_scene__1ray_stack_RayState, distance: f32, contact: package_scene_contact_Contact, factors: mat3x3f) -> package_scene_optics_ScatterEvent {
+fn optics__scatter(batch: dispatch__Batch, state: ray_stack__RayState, distance: f32, contact: contact__Contact, factors: mat3x3f) -> optics__ScatterEvent {
     let surface = contact.surface;
     let direction = state.ray.direction;
-    let optics = package_scene_fetch__1load_optics(surface.material);
-    let transparent = package_bindings__1HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
+    let optics = fetch__load_optics(surface.material);
+    let transparent = bindings__HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
     var media = state.media;
     var ior = 1.0;
     var ior_behind = optics.ior;
     var arriving = state.throughput;
     var is_boundary = true;
-    if (package_bindings__1HAS_REFRACTION) {
-        var here = package_scene_medium_dominant(state.media);
+    if (bindings__HAS_REFRACTION) {
+        var here = medium__dominant(state.media);
         if (transparent) {
-            here = package_scene_medium__1medium_before(state.media, surface.material, surface.outside);
-            media = package_scene_contact__1media_behind(state.media, contact);
-            let behind = package_scene_medium_dominant(media);
-            ior_behind = package_scene_medium__1medium_of(behind).ior;
-            is_boundary = !package_bindings__1HAS_CONTACT || here != behind;
+            here = medium__medium_before(state.media, surface.material, surface.outside);
+            media = contact__media_behind(state.media, contact);
+            let behind = medium__dominant(media);
+            ior_behind = medium__medium_of(behind).ior;
+            is_boundary = !bindings__HAS_CONTACT || here != behind;
         }
-        package_scene_record__1record_media(here, package_scene_medium_dominant(media), transparent);
-        let medium = package_scene_medium__1medium_of(here);
+        record__record_media(here, medium__dominant(media), transparent);
+        let medium = medium__medium_of(here);
         ior = medium.ior;
-        arriving *= package_scene_medium_transmittance(medium, distance);
+        arriving *= medium__transmittance(medium, distance);
     }
     let ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
     var n = select(surface.n, -surface.n, dot(surface.n, direction) > 0.0);
-    n = select(ng, n, dot(package_lib_fresnel_mirrored(direction, n), ng) > 0.0);
-    let boundary = package_scene_optics__1boundary_at(optics.flags, clamp(-dot(direction, n), 0.0, 1.0), ior / ior_behind);
+    n = select(ng, n, dot(fresnel__mirrored(direction, n), ng) > 0.0);
+    let boundary = optics__boundary_at(optics.flags, clamp(-dot(direction, n), 0.0, 1.0), ior / ior_behind);
     var reflect = factors[0] * surface.phong.reflect;
     var transmit = factors[1] * optics.transmit;
-    if ((optics.flags & package_types__1MATERIAL_FRESNEL) != 0u) {
+    if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
         reflect *= boundary.reflectance;
         transmit *= 1.0 - boundary.reflectance;
     }
     else if (boundary.total && transparent) {
-        reflect += select(transmit, vec3f(0.0), (optics.flags & package_types__1MATERIAL_SUM) != 0u);
+        reflect += select(transmit, vec3f(0.0), (optics.flags & types__MATERIAL_SUM) != 0u);
         transmit = vec3f(0.0);
     }
     var straight = direction;
     if (is_boundary) {
-        straight = package_lib_fresnel_refracted(direction, n, ior / ior_behind, boundary.cos_t);
+        straight = fresnel__refracted(direction, n, ior / ior_behind, boundary.cos_t);
     }
     else {
         reflect = vec3f(0.0);
         transmit = vec3f(1.0);
     }
-    package_scene_record__1record_scatter(reflect, transmit, boundary, vec2f(ior, ior_behind), is_boundary);
-    var reflected_ray = package_scene__1ray_stack__1no_ray();
-    var refracted_ray = package_scene__1ray_stack__1no_ray();
+    record__record_scatter(reflect, transmit, boundary, vec2f(ior, ior_behind), is_boundary);
+    var reflected_ray = ray_stack__no_ray();
+    var refracted_ray = ray_stack__no_ray();
     let deeper = state.depth < batch.max_depth;
-    if (package_bindings__1HAS_REFLECTION && deeper && package_scene_optics__2is_worth_tracing(batch, arriving * reflect)) {
-        let way = package_lib_fresnel_mirrored(direction, n);
-        let ray = package_scene_surface__1mirrored_ray(surface, way, package_lib_camera__1T_FAR, state.ray, distance);
-        reflected_ray = package_scene__1ray_stack_RayState(ray, arriving * reflect, state.media, state.depth + 1u, package_scene__1ray_stack__1KIND_REFLECTED, 2u * state.node);
+    if (bindings__HAS_REFLECTION && deeper && optics__is_worth_tracing(batch, arriving * reflect)) {
+        let way = fresnel__mirrored(direction, n);
+        let ray = surface__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
+        reflected_ray = ray_stack__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_stack__KIND_REFLECTED, 2u * state.node);
     }
-    if (package_bindings__1HAS_REFRACTION && transparent && (deeper || !is_boundary) && package_scene_optics__2is_worth_tracing(batch, arriving * transmit)) {
-        let ray = package_scene_surface__1leaving_ray(surface, straight, package_lib_camera__1T_FAR);
-        refracted_ray = package_scene__1ray_stack_RayState(ray, arriving * transmit, media, select(state.depth, state.depth + 1u, is_boundary), package_scene__1ray_stack__1KIND_REFRACTED, 2u * state.node + 1u);
+    if (bindings__HAS_REFRACTION && transparent && (deeper || !is_boundary) && optics__is_worth_tracing(batch, arriving * transmit)) {
+        let ray = surface__leaving_ray(surface, straight, camera__T_FAR);
+        refracted_ray = ray_stack__RayState(ray, arriving * transmit, media, select(state.depth, state.depth + 1u, is_boundary), ray_stack__KIND_REFRACTED, 2u * state.node + 1u);
     }
     let sends = any(reflected_ray.throughput > vec3f(0.0));
-    let kept = package_scene_optics__1local_weights(optics, reflect, sends);
+    let kept = optics__local_weights(optics, reflect, sends);
     let visible = select(0.0, 1.0, is_boundary);
-    return package_scene_optics_ScatterEvent(arriving, visible * kept.diffuse, visible * kept.highlight, reflected_ray, refracted_ray);
+    return optics__ScatterEvent(arriving, visible * kept.diffuse, visible * kept.highlight, reflected_ray, refracted_ray);
 }
 
-fn package_scene_optics__1boundary_at(flags: u32, cos_i: f32, eta: f32) -> package_lib_fresnel_Boundary {
-    if ((flags & package_types__1MATERIAL_SCHLICK) != 0u) {
-        return package_lib_fresnel_schlick(cos_i, eta);
+fn optics__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
+    if ((flags & types__MATERIAL_SCHLICK) != 0u) {
+        return fresnel__schlick(cos_i, eta);
     }
-    return package_lib_fresnel_fresnel(cos_i, eta);
+    return fresnel__fresnel(cos_i, eta);
 }
 
-fn package_scene_optics__2is_worth_tracing(batch: package_scene_dispatch_Batch, throughput: vec3f) -> bool {
+fn optics__is_worth_tracing(batch: dispatch__Batch, throughput: vec3f) -> bool {
     let mean = dot(throughput, vec3f(1.0 / 3.0));
     return (mean > 0.0) & (mean >= batch.min_throughput);
 }
 
-fn package_scene_optics__1local_weights(optics: package_types_Optics, reflect: vec3f, sends: bool) -> package_scene_optics_Weights {
+fn optics__local_weights(optics: types__Optics, reflect: vec3f, sends: bool) -> optics__Weights {
     let left = max(1.0 - reflect, vec3f(0.0));
-    if ((optics.flags & package_types__1MATERIAL_SUM) != 0u) {
-        return package_scene_optics_Weights(vec3f(1.0), vec3f(1.0));
+    if ((optics.flags & types__MATERIAL_SUM) != 0u) {
+        return optics__Weights(vec3f(1.0), vec3f(1.0));
     }
-    if ((optics.flags & package_types__1MATERIAL_BLEND) != 0u) {
+    if ((optics.flags & types__MATERIAL_BLEND) != 0u) {
         let weight = select(vec3f(1.0), left, sends);
-        return package_scene_optics_Weights(weight, weight);
+        return optics__Weights(weight, weight);
     }
-    return package_scene_optics_Weights(optics.opacity * left, vec3f(1.0));
+    return optics__Weights(optics.opacity * left, vec3f(1.0));
 }
 
-const package_scene_medium_VACUUM: package_types_Medium = package_types_Medium(vec3f(0.0), 1.0, 0);
+const medium__VACUUM: types__Medium = types__Medium(vec3f(0.0), 1.0, 0);
 
-fn package_scene_medium_dominant(media: vec4u) -> u32 {
-    if (!package_bindings__1HAS_CONTACT) {
+fn medium__dominant(media: vec4u) -> u32 {
+    if (!bindings__HAS_CONTACT) {
         return media.x;
     }
     var best = media.x;
-    best = package_scene_medium_higher(best, media.y);
-    best = package_scene_medium_higher(best, media.z);
-    return package_scene_medium_higher(best, media.w);
+    best = medium__higher(best, media.y);
+    best = medium__higher(best, media.z);
+    return medium__higher(best, media.w);
 }
 
-fn package_scene_medium_higher(best: u32, next: u32) -> u32 {
-    if (next == package_types_NONE) {
+fn medium__higher(best: u32, next: u32) -> u32 {
+    if (next == types__NONE) {
         return best;
     }
-    return select(best, next, package_scene_fetch__1load_medium(next).priority >= package_scene_fetch__1load_medium(best).priority);
+    return select(best, next, fetch__load_medium(next).priority >= fetch__load_medium(best).priority);
 }
 
-fn package_scene_medium__1medium_of(material: u32) -> package_types_Medium {
-    if (material == package_types_NONE) {
-        return package_scene_medium_VACUUM;
+fn medium__medium_of(material: u32) -> types__Medium {
+    if (material == types__NONE) {
+        return medium__VACUUM;
     }
-    return package_scene_fetch__1load_medium(material);
+    return fetch__load_medium(material);
 }
 
-fn package_scene_medium_transmittance(medium: package_types_Medium, distance: f32) -> vec3f {
+fn medium__transmittance(medium: types__Medium, distance: f32) -> vec3f {
     return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
 }
 
-fn package_scene_medium__1cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
-    return select(package_lib_media_left(media, material), package_lib_media_entered(media, material), vec4<bool>(entering));
+fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
+    return select(media__left(media, material), media__entered(media, material), vec4<bool>(entering));
 }
 
-fn package_scene_medium__1medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
-    let started_inside = !entering & !package_lib_media_contains(media, material);
-    return select(package_scene_medium_dominant(media), material, started_inside);
+fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
+    let started_inside = !entering & !media__contains(media, material);
+    return select(medium__dominant(media), material, started_inside);
 }
 
-fn package_scene_background_background(batch: package_scene_dispatch_Batch, direction: vec3f) -> vec3f {
-    if (package_bindings_BACKGROUND == package_types__1BACKGROUND_GRADIENT) {
+fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
+    if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
         return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
     }
-    if (package_bindings_BACKGROUND == package_types__1BACKGROUND_PICTURE) {
+    if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
         let size = batch.background_size;
-        let uv = package_lib_picture_equirectangular(direction, batch.background_rotation);
-        let color = package_scene_picture__1blend_texels(batch.background_first_texel, size.x, size.y, package_lib_picture_repeated(uv.x, size.x, false), package_lib_picture_ended(uv.y, size.y));
+        let uv = picture__equirectangular(direction, batch.background_rotation);
+        let color = picture__blend_texels(batch.background_first_texel, size.x, size.y, picture__repeated(uv.x, size.x, false), picture__ended(uv.y, size.y));
         return batch.background * color;
     }
     return batch.background;
 }
 
-const package_lib_picture_PI: f32 = 3.14159265;
+const picture__PI: f32 = 3.14159265;
 
-struct package_lib_picture_Neighbours {
+struct picture__Neighbours {
     first: u32,
     second: u32,
     weight: f32
 }
 
-fn package_lib_picture_repeated(at: f32, count: u32, nearest: bool) -> package_lib_picture_Neighbours {
+fn picture__repeated(at: f32, count: u32, nearest: bool) -> picture__Neighbours {
     let place = f32(count) * fract(at) + select(-0.5, 0.0, nearest);
     let below = floor(place);
     let index = i32(below);
     let last = i32(count) - 1;
     let first = select(select(index, last, index < 0), 0, index > last);
-    return package_lib_picture_Neighbours(u32(first), u32(select(first + 1, 0, first >= last)), select(place - below, 0.0, nearest));
+    return picture__Neighbours(u32(first), u32(select(first + 1, 0, first >= last)), select(place - below, 0.0, nearest));
 }
 
-fn package_lib_picture_ended(at: f32, count: u32) -> package_lib_picture_Neighbours {
+fn picture__ended(at: f32, count: u32) -> picture__Neighbours {
     let place = clamp(f32(count) * at - 0.5, 0.0, f32(count - 1u));
     let below = floor(place);
-    return package_lib_picture_Neighbours(u32(below), min(u32(below) + 1u, count - 1u), place - below);
+    return picture__Neighbours(u32(below), min(u32(below) + 1u, count - 1u), place - below);
 }
 
-fn package_lib_picture_equirectangular(direction: vec3f, rotation: f32) -> vec2f {
+fn picture__equirectangular(direction: vec3f, rotation: f32) -> vec2f {
     let level = length(direction.xz);
     let around = atan2(direction.x, select(-direction.z, 1.0, level < 1e-12));
-    return vec2f(0.5 + (around + rotation) / (2.0 * package_lib_picture_PI), 0.5 + atan2(direction.y, level) / package_lib_picture_PI);
+    return vec2f(0.5 + (around + rotation) / (2.0 * picture__PI), 0.5 + atan2(direction.y, level) / picture__PI);
 }
 
-fn package_scene_picture__1blend_texels(first_texel: u32, width: u32, height: u32, columns: package_lib_picture_Neighbours, rows: package_lib_picture_Neighbours) -> vec3f {
+fn picture__blend_texels(first_texel: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec3f {
     let lower = first_texel + (height - 1u - rows.first) * width;
     let upper = first_texel + (height - 1u - rows.second) * width;
-    return mix(mix(package_scene_fetch__1load_texel(lower + columns.first), package_scene_fetch__1load_texel(lower + columns.second), columns.weight), mix(package_scene_fetch__1load_texel(upper + columns.first), package_scene_fetch__1load_texel(upper + columns.second), columns.weight), rows.weight);
+    return mix(mix(fetch__load_texel(lower + columns.first), fetch__load_texel(lower + columns.second), columns.weight), mix(fetch__load_texel(upper + columns.first), fetch__load_texel(upper + columns.second), columns.weight), rows.weight);
 }
 
-const package_scene_contact_NEAR: f32 = 1e-5;
+const contact__NEAR: f32 = 1e-5;
 
-const package_scene_contact_EDGE: f32 = 1e-6;
+const contact__EDGE: f32 = 1e-6;
 
-const package_scene_contact__1VAGUE_EDGE: f32 = 0.0001;
+const contact__VAGUE_EDGE: f32 = 0.0001;
 
-struct package_scene_contact_Contact {
-    surface: package_types_Surface,
+struct contact__Contact {
+    surface: types__Surface,
     touching: u32,
     enters_touching: bool
 }
 
-fn package_scene_contact__1contact_at(ray: package_types_Ray, hit: package_types_Hit) -> package_scene_contact_Contact {
-    var contact: package_scene_contact_Contact;
-    package_scene_record_seen = hit;
-    contact.touching = package_types_NONE;
+fn contact__contact_at(ray: types__Ray, hit: types__Hit) -> contact__Contact {
+    var contact: contact__Contact;
+    record__seen = hit;
+    contact.touching = types__NONE;
     var current = hit;
     var first = true;
     var second_wanted = false;
     loop {
-        let surface = package_scene_surface__1surface_at(ray, current);
+        let surface = surface__surface_at(ray, current);
         if (first) {
             contact.surface = surface;
-            second_wanted = package_bindings__1HAS_REFRACTION && package_bindings__1HAS_CONTACT && package_scene_contact__1is_near(ray, hit, surface);
+            second_wanted = bindings__HAS_REFRACTION && bindings__HAS_CONTACT && contact__is_near(ray, hit, surface);
         }
         else {
-            contact = package_scene_contact_merge(contact, surface, package_scene_contact__2is_same_volume(hit, package_scene_primitive__1runner_up));
+            contact = contact__merge(contact, surface, contact__is_same_volume(hit, primitive__runner_up));
             second_wanted = false;
         }
         first = false;
-        current = package_scene_primitive__1runner_up;
+        current = primitive__runner_up;
         continuing {
         
             break if !second_wanted;
         }
     }
-    package_scene_loops__1cut_off |= second_wanted;
+    loops__cut_off |= second_wanted;
     return contact;
 }
 
-fn package_scene_contact__1media_behind(media: vec4u, contact: package_scene_contact_Contact) -> vec4u {
+fn contact__media_behind(media: vec4u, contact: contact__Contact) -> vec4u {
     var behind = media;
-    if (contact.surface.outside && !package_lib_media__1has_room(behind)) {
-        package_scene__1ray_stack__1cut_tree();
+    if (contact.surface.outside && !media__has_room(behind)) {
+        ray_stack__cut_tree();
     }
-    behind = package_scene_medium__1cross_surface(behind, contact.surface.material, contact.surface.outside);
-    if (package_bindings__1HAS_CONTACT && contact.touching != package_types_NONE) {
-        if (contact.enters_touching && !package_lib_media__1has_room(behind)) {
-            package_scene__1ray_stack__1cut_tree();
+    behind = medium__cross_surface(behind, contact.surface.material, contact.surface.outside);
+    if (bindings__HAS_CONTACT && contact.touching != types__NONE) {
+        if (contact.enters_touching && !media__has_room(behind)) {
+            ray_stack__cut_tree();
         }
-        behind = package_scene_medium__1cross_surface(behind, contact.touching, contact.enters_touching);
+        behind = medium__cross_surface(behind, contact.touching, contact.enters_touching);
     }
     return behind;
 }
 
-fn package_scene_contact__1is_near(ray: package_types_Ray, hit: package_types_Hit, surface: package_types_Surface) -> bool {
-    let gap = (package_scene_primitive__1runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
-    let reach = package_lib_numeric__1max_component(abs(surface.p)) + hit.t;
-    return package_scene_primitive__1runner_up.primitive != package_types_NONE && gap <= package_scene_contact_NEAR * reach && package_scene_contact__1is_transparent(surface);
+fn contact__is_near(ray: types__Ray, hit: types__Hit, surface: types__Surface) -> bool {
+    let gap = (primitive__runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
+    let reach = numeric__max_component(abs(surface.p)) + hit.t;
+    return primitive__runner_up.primitive != types__NONE && gap <= contact__NEAR * reach && contact__is_transparent(surface);
 }
 
-fn package_scene_contact__1is_transparent(surface: package_types_Surface) -> bool {
-    return any(package_scene_fetch__1load_optics(surface.material).transmit > vec3f(0.0));
+fn contact__is_transparent(surface: types__Surface) -> bool {
+    return any(fetch__load_optics(surface.material).transmit > vec3f(0.0));
 }
 
-fn package_scene_contact_merge(contact: package_scene_contact_Contact, second: package_types_Surface, is_same_volume: bool) -> package_scene_contact_Contact {
+fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_volume: bool) -> contact__Contact {
     let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
     let is_other = !(is_alike & is_same_volume);
     let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
     var both = contact;
-    if (together && package_scene_contact__1is_transparent(second)) {
+    if (together && contact__is_transparent(second)) {
         both.touching = second.material;
         both.enters_touching = second.outside;
     }
     else if (together) {
         both.surface = second;
-        package_scene_record_seen = package_scene_primitive__1runner_up;
+        record__seen = primitive__runner_up;
     }
     return both;
 }
 
-fn package_scene_contact__2is_same_volume(first: package_types_Hit, second: package_types_Hit) -> bool {
-    let are_triangles = package_bindings__1HAS_TRIANGLES && ((first.primitive | second.primitive) & package_types_SHAPE) == 0u;
+fn contact__is_same_volume(first: types__Hit, second: types__Hit) -> bool {
+    let are_triangles = bindings__HAS_TRIANGLES && ((first.primitive | second.primitive) & types__SHAPE) == 0u;
     if (!are_triangles || first.instance != second.instance) {
         return false;
     }
-    return (package_scene_contact__2is_at_edge(first) && package_scene_contact__2is_at_edge(second)) || package_scene_contact__1is_twin(first.primitive, second.primitive);
+    return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(first.primitive, second.primitive);
 }
 
-fn package_scene_contact__2is_at_edge(hit: package_types_Hit) -> bool {
+fn contact__is_at_edge(hit: types__Hit) -> bool {
     let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
-    return nearest <= select(package_scene_contact__1VAGUE_EDGE, package_scene_contact_EDGE, package_bindings__1TRIANGLE_TEST == package_types__2TRIANGLE_TEST_WATERTIGHT);
+    return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
 }
 
-fn package_scene_contact__1is_twin(first: u32, second: u32) -> bool {
-    let a = package_scene_fetch__1load_triangle(first);
-    let b = package_scene_fetch__1load_triangle(second);
-    return package_scene_contact__1has_vertex(b, a.i0) && package_scene_contact__1has_vertex(b, a.i1) && package_scene_contact__1has_vertex(b, a.i2);
+fn contact__is_twin(first: u32, second: u32) -> bool {
+    let a = fetch__load_triangle(first);
+    let b = fetch__load_triangle(second);
+    return contact__has_vertex(b, a.i0) && contact__has_vertex(b, a.i1) && contact__has_vertex(b, a.i2);
 }
 
-fn package_scene_contact__1has_vertex(triangle: package_types_PackedTriangle, index: u32) -> bool {
+fn contact__has_vertex(triangle: types__PackedTriangle, index: u32) -> bool {
     return (triangle.i0 == index) | (triangle.i1 == index) | (triangle.i2 == index);
 }
 
-fn package_scene_surface__1surface_at(ray: package_types_Ray, hit: package_types_Hit) -> package_types_Surface {
-    var instance: package_types_PackedInstance;
-    var space: package_lib_motion_Space;
+fn surface__surface_at(ray: types__Ray, hit: types__Hit) -> types__Surface {
+    var instance: types__PackedInstance;
+    var space: motion__Space;
     var local = ray;
-    let is_placed = package_bindings__1HAS_INSTANCES && hit.instance != package_types__1NO_INSTANCE;
+    let is_placed = bindings__HAS_INSTANCES && hit.instance != types__NO_INSTANCE;
     if (is_placed) {
-        instance = package_scene_fetch__1load_instance(hit.instance);
-        space = package_scene_instance__1space_of(instance);
-        local = package_scene_instance__1object_ray(ray, space);
+        instance = fetch__load_instance(hit.instance);
+        space = instance__space_of(instance);
+        local = instance__object_ray(ray, space);
     }
-    var surface: package_types_Surface;
-    if (package_bindings__1HAS_TRIANGLES && (!(package_bindings__1HAS_SHAPES || package_bindings__1HAS_PLANES) || (hit.primitive & package_types_SHAPE) == 0u)) {
-        surface = package_scene_surface__1triangle_surface(ray, hit, space, is_placed);
+    var surface: types__Surface;
+    if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
+        surface = surface__triangle_surface(ray, hit, space, is_placed);
     }
-    if ((package_bindings__1HAS_SHAPES || package_bindings__1HAS_PLANES) && (!package_bindings__1HAS_TRIANGLES || (hit.primitive & package_types_SHAPE) != 0u)) {
-        surface = package_scene_surface__1shape_surface(local, hit);
+    if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+        surface = surface__shape_surface(local, hit);
         if (is_placed) {
-            surface = package_scene_surface__1placed_surface(ray, surface, space);
+            surface = surface__placed_surface(ray, surface, space);
         }
     }
     if (is_placed) {
         let q = surface.place;
-        surface.error += package_scene_instance__1placement_error(space, surface.p, q);
+        surface.error += instance__placement_error(space, surface.p, q);
         surface.id += 2654435761u * instance.id;
-        surface.place = package_scene_instance__1pattern_place(instance, q);
+        surface.place = instance__pattern_place(instance, q);
         surface.instance = hit.instance;
     }
     return surface;
 }
 
-fn package_scene_surface__1placed_surface(ray: package_types_Ray, own: package_types_Surface, space: package_lib_motion_Space) -> package_types_Surface {
+fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__Space) -> types__Surface {
     var surface = own;
     surface.p = space.linear * own.p + space.translation;
-    surface.ng = package_lib_numeric__1normalize_or(package_scene_instance__1placed_normal(space, own.ng), -ray.direction);
-    surface.n = package_lib_numeric__1normalize_or(package_scene_instance__1placed_normal(space, own.n), surface.ng);
-    surface.error = package_scene_instance__1abs_times(space.linear, own.error);
+    surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
+    surface.n = numeric__normalize_or(instance__placed_normal(space, own.n), surface.ng);
+    surface.error = instance__abs_times(space.linear, own.error);
     return surface;
 }
 
-fn package_scene_surface__1triangle_surface(ray: package_types_Ray, hit: package_types_Hit, space: package_lib_motion_Space, is_placed: bool) -> package_types_Surface {
-    let own = package_scene_fetch__1load_triangle(hit.primitive);
-    let v0 = package_scene_fetch__1load_vertex(own.i0);
-    let v1 = package_scene_fetch__1load_vertex(own.i1);
-    let v2 = package_scene_fetch__1load_vertex(own.i2);
+fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Space, is_placed: bool) -> types__Surface {
+    let own = fetch__load_triangle(hit.primitive);
+    let v0 = fetch__load_vertex(own.i0);
+    let v1 = fetch__load_vertex(own.i1);
+    let v2 = fetch__load_vertex(own.i2);
     let b1 = hit.b1;
     let b2 = hit.b2;
     let b0 = 1.0 - b1 - b2;
     var corners = mat3x3f(own.v0, own.v1, own.v2);
     var normals = mat3x3f(v0.normal, v1.normal, v2.normal);
     let place = corners * vec3f(b0, b1, b2);
-    if (package_bindings__1HAS_INSTANCES && is_placed) {
+    if (bindings__HAS_INSTANCES && is_placed) {
         corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
-        normals = mat3x3f(package_lib_numeric__1normalize_or(package_scene_instance__1placed_normal(space, v0.normal), -ray.direction), package_lib_numeric__1normalize_or(package_scene_instance__1placed_normal(space, v1.normal), -ray.direction), package_lib_numeric__1normalize_or(package_scene_instance__1placed_normal(space, v2.normal), -ray.direction));
+        normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, v0.normal), -ray.direction), numeric__normalize_or(instance__placed_normal(space, v1.normal), -ray.direction), numeric__normalize_or(instance__placed_normal(space, v2.normal), -ray.direction));
     }
-    let material = package_scene_fetch__1load_material(v0.material);
+    let material = fetch__load_material(v0.material);
     var phong = material.phong;
-    if (package_bindings__1MIXED_MATERIALS) {
-        phong = package_scene_surface__1mix_phong(phong, package_scene_fetch__1load_material(v1.material).phong, package_scene_fetch__1load_material(v2.material).phong, b0, b1, b2);
+    if (bindings__MIXED_MATERIALS) {
+        phong = surface__mix_phong(phong, fetch__load_material(v1.material).phong, fetch__load_material(v2.material).phong, b0, b1, b2);
     }
     var uv = vec2f(b1, b2);
-    if (package_bindings__1HAS_TEXTURES) {
+    if (bindings__HAS_TEXTURES) {
         uv = vec2f(0.0);
     }
-    if (package_bindings__1HAS_TEXTURES && package_bindings__1HAS_UVS) {
-        uv = b0 * package_scene_fetch__1load_uv(own.i0) + b1 * package_scene_fetch__1load_uv(own.i1) + b2 * package_scene_fetch__1load_uv(own.i2);
+    if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
+        uv = b0 * fetch__load_uv(own.i0) + b1 * fetch__load_uv(own.i1) + b2 * fetch__load_uv(own.i2);
     }
-    let ng = package_lib_numeric__1normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
-    let n = package_lib_numeric__1normalize_or(normals * vec3f(b0, b1, b2), ng);
-    return package_types_Surface(corners * vec3f(b0, b1, b2), select(n, -n, package_scene_surface__1must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, package_lib_offset__1triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, package_types__1NO_INSTANCE);
+    let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
+    let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
+    return types__Surface(corners * vec3f(b0, b1, b2), select(n, -n, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE);
 }
 
-fn package_scene_surface__1shape_surface(ray: package_types_Ray, hit: package_types_Hit) -> package_types_Surface {
-    let shape = package_scene_fetch__1load_shape(hit.primitive & ~package_types_SHAPE);
+fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
+    let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
     let reached = ray.origin + hit.t * ray.direction;
-    let material = package_scene_fetch__1load_material(shape.material);
-    if (package_bindings__1HAS_PLANES && (!package_bindings__1HAS_SHAPES || shape.kind == package_types__1SHAPE_PLANE)) {
+    let material = fetch__load_material(shape.material);
+    if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
         let ng = shape.row_y;
         let p = reached - dot(reached - shape.position, ng) * ng;
         let outside = dot(ng, ray.direction) <= 0.0;
         var plane_uv = vec2f(0.0);
-        if (package_bindings__1HAS_TEXTURES) {
+        if (bindings__HAS_TEXTURES) {
             plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
         }
-        return package_types_Surface(p, select(ng, -ng, package_scene_surface__1must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, package_lib_offset__1plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, package_types__1NO_INSTANCE);
+        return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE);
     }
-    if (!package_scene_shape__1is_round(shape.kind)) {
-        let point = package_scene_shape__1canonical_point(shape, reached, hit.b1);
-        let placed = package_lib_canonical__1placed_point(shape, reached, point);
+    if (!shape__is_round(shape.kind)) {
+        let point = shape__canonical_point(shape, reached, hit.b1);
+        let placed = canonical__placed_point(shape, reached, point);
         let ng = placed.ng;
-        return package_types_Surface(placed.p, select(ng, -ng, package_scene_surface__1must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(package_types_NONE, hit.primitive, package_scene_shape__1is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, package_types__1NO_INSTANCE);
+        return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE);
     }
-    let placed = package_scene_surface__1sphere_point(shape, reached, ray.direction);
+    let placed = surface__sphere_point(shape, reached, ray.direction);
     let ng = placed.ng;
     let outside = dot(ng, ray.direction) <= 0.0;
     var uv = vec2f(0.0);
-    if (package_bindings__1HAS_TEXTURES) {
-        uv = package_lib_canonical__1sphere_uv(ng);
+    if (bindings__HAS_TEXTURES) {
+        uv = canonical__sphere_uv(ng);
     }
-    return package_types_Surface(placed.p, select(ng, -ng, package_scene_surface__1must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, package_types_NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, package_types__1NO_INSTANCE);
+    return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE);
 }
 
-fn package_scene_surface__1sphere_point(shape: package_types_PackedShape, reached: vec3f, direction: vec3f) -> package_lib_canonical_PlacedPoint {
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_GLOBES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_GLOBES || shape.kind == package_types__1SHAPE_GLOBE)) {
-        return package_lib_intersect_globe__1globe_point(shape, reached);
+fn surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
+    if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
+        return globe__globe_point(shape, reached);
     }
-    let ng = package_lib_numeric__1normalize_or(reached - shape.position, -direction);
-    return package_lib_canonical_PlacedPoint(shape.position + shape.size0 * ng, ng, package_lib_offset__1sphere_error(shape.position, shape.size0));
+    let ng = numeric__normalize_or(reached - shape.position, -direction);
+    return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
 }
 
-fn package_scene_surface__1must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
+fn surface__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
     let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
-    return (flags & package_types__2MATERIAL_TWO_SIDED) != 0u && faces_away;
+    return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
 }
 
-fn package_scene_surface__1mix_phong(p0: package_types_Phong, p1: package_types_Phong, p2: package_types_Phong, b0: f32, b1: f32, b2: f32) -> package_types_Phong {
-    return package_types_Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+fn surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
+    return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
 }
 
-fn package_scene_surface__1leaving_ray(surface: package_types_Surface, direction: vec3f, t_max: f32) -> package_types_Ray {
-    if (package_bindings__1FIXED_OFFSET > 0.0) {
-        let origin = package_lib_offset__1fixed_origin(surface.p, surface.ng, direction, package_bindings__1FIXED_OFFSET);
-        return package_types_Ray(origin, t_max, direction, package_types_NONE, surface.instance);
+fn surface__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -> types__Ray {
+    if (bindings__FIXED_OFFSET > 0.0) {
+        let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
+        return types__Ray(origin, t_max, direction, types__NONE, surface.instance);
     }
-    let origin = package_lib_offset__1offset_origin(surface.p, surface.error, surface.ng, direction);
-    return package_types_Ray(origin, t_max, direction, surface.leaving, surface.instance);
+    let origin = offset__offset_origin(surface.p, surface.error, surface.ng, direction);
+    return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
-fn package_scene_surface__1mirrored_ray(surface: package_types_Surface, direction: vec3f, t_max: f32, arriving: package_types_Ray, distance: f32) -> package_types_Ray {
-    if (package_bindings__1FIXED_OFFSET > 0.0) {
-        return package_scene_surface__1leaving_ray(surface, direction, t_max);
+fn surface__mirrored_ray(surface: types__Surface, direction: vec3f, t_max: f32, arriving: types__Ray, distance: f32) -> types__Ray {
+    if (bindings__FIXED_OFFSET > 0.0) {
+        return surface__leaving_ray(surface, direction, t_max);
     }
-    let is_flat = surface.leaving != package_types_NONE;
-    let origin = package_lib_offset__1mirrored_origin(surface.p, surface.error, surface.ng, arriving, distance, is_flat);
-    return package_types_Ray(origin, t_max, direction, surface.leaving, surface.instance);
+    let is_flat = surface.leaving != types__NONE;
+    let origin = offset__mirrored_origin(surface.p, surface.error, surface.ng, arriving, distance, is_flat);
+    return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
-fn package_lib_offset__1triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
+fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
     let b0 = abs(1.0 - b1 - b2);
-    return 16.0 * package_lib_numeric_ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
+    return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
 }
 
-fn package_lib_offset__1sphere_error(center: vec3f, radius: f32) -> vec3f {
-    return 16.0 * package_lib_numeric_ROUNDING * (abs(center) + vec3f(radius));
+fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
+    return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
 }
 
-fn package_lib_offset__1plane_error(p: vec3f, point: vec3f) -> vec3f {
-    return 16.0 * package_lib_numeric_ROUNDING * (abs(p) + abs(point));
+fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
+    return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
 }
 
-fn package_lib_offset__1placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
-    return 16.0 * package_lib_numeric_ROUNDING * (abs(p) + abs(position) + reach);
+fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
+    return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
 }
 
-fn package_lib_offset_clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
-    return dot(abs(ng), error + 2.0 * package_lib_numeric_ROUNDING * abs(p));
+fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
+    return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
 }
 
-fn package_lib_offset__1offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
-    return package_lib_offset__1fixed_origin(p, ng, direction, package_lib_offset_clearance(p, error, ng));
+fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
+    return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
 }
 
-fn package_lib_offset__1fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
+fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
     return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
 }
 
-fn package_lib_offset__1mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: package_types_Ray, distance: f32, is_flat: bool) -> vec3f {
-    let height = package_lib_offset_clearance(p, error, ng);
+fn offset__mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: types__Ray, distance: f32, is_flat: bool) -> vec3f {
+    let height = offset__clearance(p, error, ng);
     let slope = dot(ng, arriving.direction);
     let back = height / max(abs(slope), 1e-6);
     let along_normal = p - select(-height, height, slope > 0.0) * ng;
@@ -3137,26 +3137,26 @@ fn package_lib_offset__1mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriv
     return select(p - back * arriving.direction, at_most, back > 0.5 * distance);
 }
 
-fn package_scene_texture__1textured_phong(phong: package_types_Phong, material: u32, p: vec3f, uv: vec2f) -> package_types_Phong {
-    let indices = package_scene_fetch__2load_texture_indices(material);
-    let factors = package_scene_texture__1texture_factors(vec3u(indices.x & 65535u, indices.x >> 16u, indices.z & 65535u), p, uv);
-    return package_types_Phong(factors[0] * phong.diffuse, factors[1] * phong.specular, phong.shininess, factors[2] * phong.ambient, phong.reflect);
+fn texture__textured_phong(phong: types__Phong, material: u32, p: vec3f, uv: vec2f) -> types__Phong {
+    let indices = fetch__load_texture_indices(material);
+    let factors = texture__texture_factors(vec3u(indices.x & 65535u, indices.x >> 16u, indices.z & 65535u), p, uv);
+    return types__Phong(factors[0] * phong.diffuse, factors[1] * phong.specular, phong.shininess, factors[2] * phong.ambient, phong.reflect);
 }
 
-fn package_scene_texture__1texture_optics(surface: package_types_Surface) -> mat3x3f {
-    if (!package_bindings__1HAS_TEXTURES) {
+fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
+    if (!bindings__HAS_TEXTURES) {
         return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
     }
-    let indices = package_scene_fetch__2load_texture_indices(surface.material);
-    return package_scene_texture__1texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface.place, surface.uv);
+    let indices = fetch__load_texture_indices(surface.material);
+    return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface.place, surface.uv);
 }
 
-fn package_scene_texture__1texture_factors(wanted: vec3u, p: vec3f, uv: vec2f) -> mat3x3f {
+fn texture__texture_factors(wanted: vec3u, p: vec3f, uv: vec2f) -> mat3x3f {
     var factors = mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
-    var open = wanted != vec3u(package_types__1NO_TEXTURE);
+    var open = wanted != vec3u(types__NO_TEXTURE);
     loop {
         let index = select(select(select(0u, wanted.z, open.z), wanted.y, open.y), wanted.x, open.x);
-        let color = package_scene_texture__1texture_color(package_scene_fetch__1load_texture(index), p, uv);
+        let color = texture__texture_color(fetch__load_texture(index), p, uv);
         let found = open & (wanted == vec3u(index));
         factors[0] = select(factors[0], color, found.x);
         factors[1] = select(factors[1], color, found.y);
@@ -3167,64 +3167,64 @@ fn package_scene_texture__1texture_factors(wanted: vec3u, p: vec3f, uv: vec2f) -
             break if !any(open);
         }
     }
-    package_scene_loops__1cut_off |= any(open);
+    loops__cut_off |= any(open);
     return factors;
 }
 
-fn package_scene_texture__1texture_color(texture: package_types_PackedTexture, p: vec3f, uv: vec2f) -> vec3f {
-    let at = select(vec4f(p, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & package_types__1TEXTURE_UV) != 0u);
+fn texture__texture_color(texture: types__PackedTexture, p: vec3f, uv: vec2f) -> vec3f {
+    let at = select(vec4f(p, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
     let q = clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
-    if (texture.kind == package_types__1PATTERN_PICTURE) {
-        let nearest = (texture.flags & package_types__1TEXTURE_NEAREST) != 0u;
-        return package_scene_picture__1blend_texels(texture.first_texel, texture.width, texture.height, package_lib_picture_repeated(q.x, texture.width, nearest), package_lib_picture_repeated(q.y, texture.height, nearest));
+    if (texture.kind == types__PATTERN_PICTURE) {
+        let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
+        return picture__blend_texels(texture.first_texel, texture.width, texture.height, picture__repeated(q.x, texture.width, nearest), picture__repeated(q.y, texture.height, nearest));
     }
-    var weight = package_lib_pattern_checker(q);
-    if (texture.kind == package_types__1PATTERN_NOISE) {
-        let octaves = package_lib_noise__1noise_octaves(q, texture.octaves);
-        package_scene_loops__1cut_off |= octaves.count < texture.octaves;
-        weight = package_lib_pattern_clouds(octaves.sum);
+    var weight = pattern__checker(q);
+    if (texture.kind == types__PATTERN_NOISE) {
+        let octaves = noise__noise_octaves(q, texture.octaves);
+        loops__cut_off |= octaves.count < texture.octaves;
+        weight = pattern__clouds(octaves.sum);
     }
-    weight = select(weight, package_lib_pattern_stripes(q), texture.kind == package_types__1PATTERN_STRIPES);
-    weight = select(weight, package_lib_pattern_gradient(q), texture.kind == package_types__1PATTERN_GRADIENT);
+    weight = select(weight, pattern__stripes(q), texture.kind == types__PATTERN_STRIPES);
+    weight = select(weight, pattern__gradient(q), texture.kind == types__PATTERN_GRADIENT);
     return mix(texture.color_a, texture.color_b, weight);
 }
 
-const package_lib_pattern__1CELL_SHIFT: f32 = 0.00073;
+const pattern__CELL_SHIFT: f32 = 0.00073;
 
-fn package_lib_pattern_checker(p: vec3f) -> f32 {
-    let cell = vec3i(floor(p + package_lib_pattern__1CELL_SHIFT));
+fn pattern__checker(p: vec3f) -> f32 {
+    let cell = vec3i(floor(p + pattern__CELL_SHIFT));
     return f32((cell.x + cell.y + cell.z) & 1);
 }
 
-fn package_lib_pattern_stripes(p: vec3f) -> f32 {
-    return f32(i32(floor(2.0 * (p.x + package_lib_pattern__1CELL_SHIFT))) & 1);
+fn pattern__stripes(p: vec3f) -> f32 {
+    return f32(i32(floor(2.0 * (p.x + pattern__CELL_SHIFT))) & 1);
 }
 
-fn package_lib_pattern_gradient(p: vec3f) -> f32 {
+fn pattern__gradient(p: vec3f) -> f32 {
     return clamp(p.x, 0.0, 1.0);
 }
 
-fn package_lib_pattern_clouds(sum: f32) -> f32 {
+fn pattern__clouds(sum: f32) -> f32 {
     return clamp(0.5 + 0.5 * sum, 0.0, 1.0);
 }
 
-const package_lib_noise__1NOISE_PERIOD: u32 = 256u;
+const noise__NOISE_PERIOD: u32 = 256u;
 
-const package_lib_noise__1OCTAVE_SHIFT = vec3f(0.37, 0.59, 0.83);
+const noise__OCTAVE_SHIFT = vec3f(0.37, 0.59, 0.83);
 
-struct package_lib_noise_Octaves {
+struct noise__Octaves {
     sum: f32,
     count: u32
 }
 
-fn package_lib_noise__1noise_octaves(p: vec3f, count: u32) -> package_lib_noise_Octaves {
-    let period = f32(package_lib_noise__1NOISE_PERIOD);
+fn noise__noise_octaves(p: vec3f, count: u32) -> noise__Octaves {
+    let period = f32(noise__NOISE_PERIOD);
     let home = p - period * floor(p / period);
-    var octaves = package_lib_noise_Octaves(0.0, 0u);
+    var octaves = noise__Octaves(0.0, 0u);
     var scale = 1.0;
     loop {
-        let q = scale * home + f32(octaves.count) * package_lib_noise__1OCTAVE_SHIFT;
-        octaves.sum += package_lib_noise__1gradient_noise(q, package_lib_noise__1NOISE_PERIOD << octaves.count) / scale;
+        let q = scale * home + f32(octaves.count) * noise__OCTAVE_SHIFT;
+        octaves.sum += noise__gradient_noise(q, noise__NOISE_PERIOD << octaves.count) / scale;
         scale *= 2.0;
         octaves.count += 1u;
         continuing {
@@ -3235,45 +3235,45 @@ fn package_lib_noise__1noise_octaves(p: vec3f, count: u32) -> package_lib_noise_
     return octaves;
 }
 
-fn package_lib_noise__1gradient_noise(p: vec3f, period: u32) -> f32 {
+fn noise__gradient_noise(p: vec3f, period: u32) -> f32 {
     let cell = floor(p);
     let f = p - cell;
     let low = vec3u(vec3i(cell)) & vec3u(period - 1u);
     let high = (low + 1u) & vec3u(period - 1u);
-    let z0 = package_lib_rng_hash(low.z);
-    let z1 = package_lib_rng_hash(high.z);
-    let y00 = package_lib_rng_hash(low.y + z0);
-    let y10 = package_lib_rng_hash(high.y + z0);
-    let y01 = package_lib_rng_hash(low.y + z1);
-    let y11 = package_lib_rng_hash(high.y + z1);
+    let z0 = rng__hash(low.z);
+    let z1 = rng__hash(high.z);
+    let y00 = rng__hash(low.y + z0);
+    let y10 = rng__hash(high.y + z0);
+    let y01 = rng__hash(low.y + z1);
+    let y11 = rng__hash(high.y + z1);
     let t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-    let x = vec4f(mix(package_lib_noise_corner(low.x + y00, f), package_lib_noise_corner(high.x + y00, f - vec3f(1.0, 0.0, 0.0)), t.x), mix(package_lib_noise_corner(low.x + y10, f - vec3f(0.0, 1.0, 0.0)), package_lib_noise_corner(high.x + y10, f - vec3f(1.0, 1.0, 0.0)), t.x), mix(package_lib_noise_corner(low.x + y01, f - vec3f(0.0, 0.0, 1.0)), package_lib_noise_corner(high.x + y01, f - vec3f(1.0, 0.0, 1.0)), t.x), mix(package_lib_noise_corner(low.x + y11, f - vec3f(0.0, 1.0, 1.0)), package_lib_noise_corner(high.x + y11, f - vec3f(1.0, 1.0, 1.0)), t.x));
+    let x = vec4f(mix(noise__corner(low.x + y00, f), noise__corner(high.x + y00, f - vec3f(1.0, 0.0, 0.0)), t.x), mix(noise__corner(low.x + y10, f - vec3f(0.0, 1.0, 0.0)), noise__corner(high.x + y10, f - vec3f(1.0, 1.0, 0.0)), t.x), mix(noise__corner(low.x + y01, f - vec3f(0.0, 0.0, 1.0)), noise__corner(high.x + y01, f - vec3f(1.0, 0.0, 1.0)), t.x), mix(noise__corner(low.x + y11, f - vec3f(0.0, 1.0, 1.0)), noise__corner(high.x + y11, f - vec3f(1.0, 1.0, 1.0)), t.x));
     let y = mix(x.xz, x.yw, t.y);
     return mix(y.x, y.y, t.z);
 }
 
-fn package_lib_noise_corner(key: u32, d: vec3f) -> f32 {
-    let h = package_lib_rng_hash(key) & 15u;
+fn noise__corner(key: u32, d: vec3f) -> f32 {
+    let h = rng__hash(key) & 15u;
     let u = select(d.y, d.x, h < 8u);
     let v = select(select(d.z, d.x, (h == 12u) | (h == 14u)), d.y, h < 4u);
     return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
 }
 
-fn package_lib_media__1has_room(media: vec4u) -> bool {
-    return media.w == package_types_NONE;
+fn media__has_room(media: vec4u) -> bool {
+    return media.w == types__NONE;
 }
 
-fn package_lib_media_contains(media: vec4u, material: u32) -> bool {
+fn media__contains(media: vec4u, material: u32) -> bool {
     return any(media == vec4u(material));
 }
 
-fn package_lib_media_entered(media: vec4u, material: u32) -> vec4u {
-    let is_free = media == vec4u(package_types_NONE);
+fn media__entered(media: vec4u, material: u32) -> vec4u {
+    let is_free = media == vec4u(types__NONE);
     let is_first_free = is_free & !vec4<bool>(false, is_free.xyz);
     return select(media, vec4u(material), is_first_free);
 }
 
-fn package_lib_media_left(media: vec4u, material: u32) -> vec4u {
+fn media__left(media: vec4u, material: u32) -> vec4u {
     let is_it = media == vec4u(material);
     let later = vec4<bool>(is_it.y | is_it.z | is_it.w, is_it.z | is_it.w, is_it.w, false);
     let is_last = is_it & !later;
@@ -3281,87 +3281,87 @@ fn package_lib_media_left(media: vec4u, material: u32) -> vec4u {
     let y = x | is_last.y;
     let z = y | is_last.z;
     let w = z | is_last.w;
-    return select(media, vec4u(media.yzw, package_types_NONE), vec4<bool>(x, y, z, w));
+    return select(media, vec4u(media.yzw, types__NONE), vec4<bool>(x, y, z, w));
 }
 
-struct package_lib_fresnel_Boundary {
+struct fresnel__Boundary {
     reflectance: f32,
     cos_t: f32,
     total: bool
 }
 
-fn package_lib_fresnel_ratio(a: f32, b: f32) -> f32 {
+fn fresnel__ratio(a: f32, b: f32) -> f32 {
     return a / max(b, 1e-12);
 }
 
-fn package_lib_fresnel_fresnel(cos_i: f32, eta: f32) -> package_lib_fresnel_Boundary {
+fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
     let sin2_t = eta * eta * max(1.0 - cos_i * cos_i, 0.0);
     let total = (sin2_t >= 1.0) & (eta > 1.0);
     let cos_t = sqrt(max(1.0 - sin2_t, 0.0));
-    let r_s = package_lib_fresnel_ratio(eta * cos_i - cos_t, eta * cos_i + cos_t);
-    let r_p = package_lib_fresnel_ratio(cos_i - eta * cos_t, cos_i + eta * cos_t);
-    return package_lib_fresnel_Boundary(select(0.5 * (r_s * r_s + r_p * r_p), 1.0, total), cos_t, total);
+    let r_s = fresnel__ratio(eta * cos_i - cos_t, eta * cos_i + cos_t);
+    let r_p = fresnel__ratio(cos_i - eta * cos_t, cos_i + eta * cos_t);
+    return fresnel__Boundary(select(0.5 * (r_s * r_s + r_p * r_p), 1.0, total), cos_t, total);
 }
 
-fn package_lib_fresnel_schlick(cos_i: f32, eta: f32) -> package_lib_fresnel_Boundary {
-    let exact = package_lib_fresnel_fresnel(cos_i, eta);
-    let r0 = package_lib_fresnel_ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
+fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
+    let exact = fresnel__fresnel(cos_i, eta);
+    let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
     let x = 1.0 - select(cos_i, exact.cos_t, eta > 1.0);
     let x2 = x * x;
-    return package_lib_fresnel_Boundary(select(r0 + (1.0 - r0) * x2 * x2 * x, 1.0, exact.total), exact.cos_t, exact.total);
+    return fresnel__Boundary(select(r0 + (1.0 - r0) * x2 * x2 * x, 1.0, exact.total), exact.cos_t, exact.total);
 }
 
-fn package_lib_fresnel_mirrored(direction: vec3f, n: vec3f) -> vec3f {
+fn fresnel__mirrored(direction: vec3f, n: vec3f) -> vec3f {
     return normalize(direction - 2.0 * dot(direction, n) * n);
 }
 
-fn package_lib_fresnel_refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
+fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
     let cos_i = -dot(direction, n);
     return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
-fn package_lib_light__1spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
+fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
     let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
     return x * x * (3.0 - 2.0 * x);
 }
 
-fn package_lib_light_incident(light: package_types_PackedLight, p: vec3f) -> package_types_Incident {
+fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
     let to_light = light.position - p;
     let distance = length(to_light);
-    let is_directional = light.kind == package_types__1LIGHT_DIRECTIONAL;
-    let direction = select(package_lib_numeric__1normalize_or(to_light, -light.direction), -light.direction, is_directional);
+    let is_directional = light.kind == types__LIGHT_DIRECTIONAL;
+    let direction = select(numeric__normalize_or(to_light, -light.direction), -light.direction, is_directional);
     var strength = select(0.0, 1.0, is_directional || distance > 1e-30);
-    if (light.attenuation == package_types__2ATTENUATION_INVERSE_SQUARE) {
+    if (light.attenuation == types__ATTENUATION_INVERSE_SQUARE) {
         strength /= max(distance * distance, 1e-30);
     }
-    if (light.kind == package_types__1LIGHT_SPOT) {
-        strength *= package_lib_light__1spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
+    if (light.kind == types__LIGHT_SPOT) {
+        strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
     }
-    return package_types_Incident(direction, select(distance, package_lib_camera__1T_FAR, is_directional), strength * light.color);
+    return types__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
 }
 
-fn package_lib__1area_light__1area_incident(light: package_types_PackedLight, p: vec3f, u: vec2f) -> package_types_Incident {
-    if (light.kind == package_types__1LIGHT_SPHERE) {
-        return package_lib__1area_light__1sphere_incident(light, p, u);
+fn area_light__area_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+    if (light.kind == types__LIGHT_SPHERE) {
+        return area_light__sphere_incident(light, p, u);
     }
-    return package_lib__1area_light__1flat_incident(light, p, u);
+    return area_light__flat_incident(light, p, u);
 }
 
-fn package_lib__1area_light__1flat_incident(light: package_types_PackedLight, p: vec3f, u: vec2f) -> package_types_Incident {
-    let within = select(package_lib_warp__2disc_from_square(u), 2.0 * u - 1.0, light.kind == package_types__1LIGHT_RECTANGLE);
+fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
+    let within = select(warp__disc_from_square(u), 2.0 * u - 1.0, light.kind == types__LIGHT_RECTANGLE);
     let center = light.position - p;
     let to_light = center + within.x * light.edge_u + within.y * light.edge_v;
     let distance = length(to_light);
-    let direction = package_lib_numeric__1normalize_or(to_light, -light.direction);
+    let direction = numeric__normalize_or(to_light, -light.direction);
     let cos_light = -dot(direction, light.direction);
     let fading = max(cos_light, 0.0) / max(distance * distance, 1e-30);
-    let strength = select(1.0, fading, light.attenuation == package_types__2ATTENUATION_INVERSE_SQUARE);
-    let reach = package_lib__1area_light__1max_abs(light.position) + package_lib__1area_light__1max_abs(p) + package_lib__1area_light__1max_abs(light.edge_u) + package_lib__1area_light__1max_abs(light.edge_v);
+    let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
+    let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + area_light__max_abs(light.edge_u) + area_light__max_abs(light.edge_v);
     let usable = distance > 1e-30;
-    return package_types_Incident(direction, package_lib__1area_light__1short_of(distance, reach, abs(cos_light)), select(0.0, strength, usable) * light.color);
+    return types__Incident(direction, area_light__short_of(distance, reach, abs(cos_light)), select(0.0, strength, usable) * light.color);
 }
 
-fn package_lib__1area_light__1sphere_incident(light: package_types_PackedLight, p: vec3f, u: vec2f) -> package_types_Incident {
+fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
     let to_center = light.position - p;
     let d2 = dot(to_center, to_center);
     let radius2 = light.radius * light.radius;
@@ -3369,134 +3369,134 @@ fn package_lib__1area_light__1sphere_incident(light: package_types_PackedLight, 
     let d = sqrt(d2);
     let sin2 = radius2 / max(max(d2, radius2), 1e-30);
     let depth = select(sin2 / (1.0 + sqrt(max(1.0 - sin2, 0.0))), 2.0, is_inside);
-    let about = package_lib_warp__2cone_from_square(u, depth);
-    let axis = package_lib_numeric__1normalize_or(to_center, vec3f(0.0, 0.0, 1.0));
-    let direction = package_lib_numeric__1normalize_or(package_lib_warp__1turn_to(axis, about), axis);
+    let about = warp__cone_from_square(u, depth);
+    let axis = numeric__normalize_or(to_center, vec3f(0.0, 0.0, 1.0));
+    let direction = numeric__normalize_or(warp__turn_to(axis, about), axis);
     let chord = sqrt(max(radius2 - d2 * dot(about.xy, about.xy), 0.0));
     let distance = d * about.z + select(-chord, chord, is_inside);
     let outside = 2.0 / ((1.0 + sqrt(max(1.0 - sin2, 0.0))) * max(d2, 1e-30));
     let fading = select(outside, 4.0 / max(radius2, 1e-30), is_inside);
-    let strength = select(1.0, fading, light.attenuation == package_types__2ATTENUATION_INVERSE_SQUARE);
-    let reach = package_lib__1area_light__1max_abs(light.position) + package_lib__1area_light__1max_abs(p) + light.radius;
-    return package_types_Incident(direction, package_lib__1area_light__1short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
+    let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
+    let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + light.radius;
+    return types__Incident(direction, area_light__short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
 }
 
-fn package_lib__1area_light__1short_of(distance: f32, reach: f32, cosine: f32) -> f32 {
-    let slack = 32.0 * package_lib_numeric_ROUNDING * reach / max(cosine, 0.001);
+fn area_light__short_of(distance: f32, reach: f32, cosine: f32) -> f32 {
+    let slack = 32.0 * numeric__ROUNDING * reach / max(cosine, 0.001);
     return max(distance - min(slack, 0.01 * distance), 0.0);
 }
 
-fn package_lib__1area_light__1max_abs(v: vec3f) -> f32 {
+fn area_light__max_abs(v: vec3f) -> f32 {
     return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
-fn package_lib_phong__1shininess_power(x: f32, shininess: f32) -> f32 {
+fn phong__shininess_power(x: f32, shininess: f32) -> f32 {
     let power = exp2(shininess * log2(max(x, 1e-30)));
     return select(select(0.0, 1.0, shininess <= 0.0), power, x > 0.0);
 }
 
-fn package_lib_phong_phong(coefficients: package_types_Phong, n: vec3f, l: vec3f, v: vec3f) -> vec3f {
+fn phong__phong(coefficients: types__Phong, n: vec3f, l: vec3f, v: vec3f) -> vec3f {
     let cos_l = dot(l, n);
     let r = 2.0 * cos_l * n - l;
-    let highlight = package_lib_phong__1shininess_power(max(dot(r, v), 0.0), coefficients.shininess);
+    let highlight = phong__shininess_power(max(dot(r, v), 0.0), coefficients.shininess);
     let lit = coefficients.diffuse * max(cos_l, 0.0) + coefficients.specular * highlight;
     return select(vec3f(0.0), lit, cos_l > 0.0);
 }
 
-const package_scene_shadow__1MAX_CROSSINGS: u32 = 64u;
+const shadow__MAX_CROSSINGS: u32 = 64u;
 
-fn package_scene_shadow__1light_through(rays: package_scene_rays_Rays, media: package_scene__1ray_stack_Media) -> package_scene_wide_Vectors {
-    package_scene_record__1open_shadow(package_scene_rays__1ray_at(rays, 0u).t_max);
-    var through: package_scene_wide_Vectors;
-    if (package_bindings__1HAS_REFRACTION && package_bindings__1FILTERED_SHADOWS) {
-        through = package_scene_shadow_filtered(rays, media);
+fn shadow__light_through(rays: rays__Rays, media: ray_stack__Media) -> wide__Vectors {
+    record__open_shadow(rays__ray_at(rays, 0u).t_max);
+    var through: wide__Vectors;
+    if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+        through = shadow__filtered(rays, media);
     }
     else {
-        package_scene_record__1record_met(package_scene_rays__1hit_at(package_scene_rays__1closest_hits(rays), 0u), 0.0);
-        let hits = package_scene_rays__1any_hits(rays);
-        let passed = select(package_scene_wide_Floats(0.0), package_scene_wide_Floats(1.0), hits.primitive == package_scene_wide_Words(package_types_NONE));
-        through = package_scene_wide_Vectors(passed, passed, passed);
+        record__record_met(rays__hit_at(rays__closest_hits(rays), 0u), 0.0);
+        let hits = rays__any_hits(rays);
+        let passed = select(wide__Floats(0.0), wide__Floats(1.0), hits.primitive == wide__Words(types__NONE));
+        through = wide__Vectors(passed, passed, passed);
     }
-    if (package_bindings__1COUNT_RAYS) {
-        package_scene_shadow__1count_shadows(rays, through);
+    if (bindings__COUNT_RAYS) {
+        shadow__count_shadows(rays, through);
     }
     return through;
 }
 
-fn package_scene_shadow__1count_shadows(rays: package_scene_rays_Rays, through: package_scene_wide_Vectors) {
+fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
     var k = 0u;
     loop {
-        let is_cast = package_scene_wide__1float_at(rays.t_max, k) >= 0.0;
-        let is_blocked = is_cast & all(package_scene_wide__1vector_at(through, k) == vec3f(0.0));
-        package_scene_dispatch_counts.shadow += select(0u, 1u, is_cast);
-        package_scene_dispatch_counts.shadow_blocked += select(0u, 1u, is_blocked);
+        let is_cast = wide__float_at(rays.t_max, k) >= 0.0;
+        let is_blocked = is_cast & all(wide__vector_at(through, k) == vec3f(0.0));
+        dispatch__counts.shadow += select(0u, 1u, is_cast);
+        dispatch__counts.shadow_blocked += select(0u, 1u, is_blocked);
         continuing {
             k += 1u;
-            break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
+            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
         }
     }
-    package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
+    loops__cut_off |= k < wide__RAYS_PER_LANE;
 }
 
-fn package_scene_shadow_filtered(shadow_rays: package_scene_rays_Rays, start: package_scene__1ray_stack_Media) -> package_scene_wide_Vectors {
+fn shadow__filtered(shadow_rays: rays__Rays, start: ray_stack__Media) -> wide__Vectors {
     var rays = shadow_rays;
     var media = start;
-    var transmitted = package_scene_wide_Vectors(package_scene_wide_Floats(1.0), package_scene_wide_Floats(1.0), package_scene_wide_Floats(1.0));
+    var transmitted = wide__Vectors(wide__Floats(1.0), wide__Floats(1.0), wide__Floats(1.0));
     var crossings = 0u;
     var is_unfinished = true;
     loop {
-        let hits = package_scene_rays__1closest_hits(rays);
+        let hits = rays__closest_hits(rays);
         is_unfinished = false;
         var k = 0u;
         loop {
-            let ray = package_scene_rays__1ray_at(rays, k);
+            let ray = rays__ray_at(rays, k);
             if (ray.t_max >= 0.0) {
-                let hit = package_scene_rays__1hit_at(hits, k);
-                var passed = package_scene_wide__1vector_at(transmitted, k);
-                var next = package_scene_rays_DEAD;
-                if (hit.primitive == package_types_NONE) {
-                    passed *= package_scene_medium_transmittance(package_scene_medium__1medium_of(package_scene_medium_dominant(package_scene__1ray_stack__1media_at(media, k))), hit.t);
+                let hit = rays__hit_at(hits, k);
+                var passed = wide__vector_at(transmitted, k);
+                var next = rays__DEAD;
+                if (hit.primitive == types__NONE) {
+                    passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_stack__media_at(media, k))), hit.t);
                 }
                 else {
-                    package_scene__1ray_stack__1current_tree = k;
-                    let contact = package_scene_contact__1contact_at(ray, hit);
-                    package_scene_record__1record_met(package_scene_record_seen, shadow_rays.t_max - ray.t_max);
+                    ray_stack__current_tree = k;
+                    let contact = contact__contact_at(ray, hit);
+                    record__record_met(record__seen, shadow_rays.t_max - ray.t_max);
                     let surface = contact.surface;
-                    let optics = package_scene_fetch__1load_optics(surface.material);
-                    let around = package_scene__1ray_stack__1media_at(media, k);
-                    let here = package_scene_medium__1medium_before(around, surface.material, surface.outside);
-                    let beyond = package_scene_contact__1media_behind(around, contact);
-                    media = package_scene__1ray_stack__1media_set(media, k, beyond);
-                    let behind = package_scene_medium_dominant(beyond);
-                    var through = package_scene_texture__1texture_optics(surface)[1] * optics.transmit * package_scene_medium_transmittance(package_scene_medium__1medium_of(here), hit.t);
-                    if ((optics.flags & package_types__1MATERIAL_FRESNEL) != 0u) {
+                    let optics = fetch__load_optics(surface.material);
+                    let around = ray_stack__media_at(media, k);
+                    let here = medium__medium_before(around, surface.material, surface.outside);
+                    let beyond = contact__media_behind(around, contact);
+                    media = ray_stack__media_set(media, k, beyond);
+                    let behind = medium__dominant(beyond);
+                    var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), hit.t);
+                    if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
                         let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
-                        let eta = package_scene_medium__1medium_of(here).ior / package_scene_medium__1medium_of(behind).ior;
-                        through *= 1.0 - package_lib_fresnel_fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
+                        let eta = medium__medium_of(here).ior / medium__medium_of(behind).ior;
+                        through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
                     }
                     passed *= through;
                     let rest = ray.t_max - hit.t;
                     if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
-                        next = package_scene_surface__1leaving_ray(surface, ray.direction, rest);
+                        next = surface__leaving_ray(surface, ray.direction, rest);
                         is_unfinished = true;
-                        passed = select(passed, vec3f(0.0), crossings + 1u >= package_scene_shadow__1MAX_CROSSINGS);
+                        passed = select(passed, vec3f(0.0), crossings + 1u >= shadow__MAX_CROSSINGS);
                     }
                 }
-                transmitted = package_scene_wide__1vector_set(transmitted, k, passed);
-                rays = package_scene_rays__1ray_set(rays, k, next);
+                transmitted = wide__vector_set(transmitted, k, passed);
+                rays = rays__ray_set(rays, k, next);
             }
             continuing {
                 k += 1u;
-                break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
+                break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
             }
         }
-        package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
+        loops__cut_off |= k < wide__RAYS_PER_LANE;
         crossings += 1u;
         continuing {
         
-            break if !package_scene_rays__1any_lane(is_unfinished) | (crossings >= package_scene_shadow__1MAX_CROSSINGS);
+            break if !rays__any_lane(is_unfinished) | (crossings >= shadow__MAX_CROSSINGS);
         }
     }
-    package_scene_loops__1cut_off |= is_unfinished & (crossings < package_scene_shadow__1MAX_CROSSINGS);
+    loops__cut_off |= is_unfinished & (crossings < shadow__MAX_CROSSINGS);
     return transmitted;
 }

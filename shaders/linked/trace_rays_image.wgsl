@@ -4,206 +4,206 @@ fn trace_rays(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 }
 
 fn answer(group: vec3u, lane: u32) {
-    package_scene_fetch__1load_starts();
-    let first = 64u * package_lib_tile__1permuted_group(group.x, package_bindings_dispatch.group_count, package_bindings_dispatch.group_stride);
-    var rays = package_scene_rays__1dead_rays();
+    fetch__load_starts();
+    let first = 64u * tile__permuted_group(group.x, bindings__dispatch.group_count, bindings__dispatch.group_stride);
+    var rays = rays__dead_rays();
     var k = 0u;
     loop {
-        let query = package_scene_query__2load_query_ray(first + package_scene_dispatch__1place_of(lane, k));
-        rays = package_scene_rays__1ray_set(rays, k, query.ray);
-        package_scene_shutter__1shutter_time = query.time;
+        let query = query__load_query_ray(first + dispatch__place_of(lane, k));
+        rays = rays__ray_set(rays, k, query.ray);
+        shutter__shutter_time = query.time;
         continuing {
             k += 1u;
-            break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
+            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
         }
     }
-    package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
+    loops__cut_off |= k < wide__RAYS_PER_LANE;
     let hits = trace(rays);
     k = 0u;
     loop {
-        package_scene_query__1store_hit(first + package_scene_dispatch__1place_of(lane, k), package_scene_rays__1hit_at(hits, k));
+        query__store_hit(first + dispatch__place_of(lane, k), rays__hit_at(hits, k));
         continuing {
             k += 1u;
-            break if package_scene_wide__1ONE_RAY | (k >= package_scene_wide__2RAYS_PER_LANE);
+            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
         }
     }
-    package_scene_loops__1cut_off |= k < package_scene_wide__2RAYS_PER_LANE;
-    if (package_scene_loops__1cut_off) {
-        atomicAdd(&package_bindings_dispatch.counters.cut_off_paths, 1u);
+    loops__cut_off |= k < wide__RAYS_PER_LANE;
+    if (loops__cut_off) {
+        atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
     }
     if (lane == 0u) {
-        atomicAdd(&package_bindings_dispatch.counters.groups_done, 1u);
+        atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
     }
 }
 
-fn trace(rays: package_scene_rays_Rays) -> package_scene_rays_Hits {
-    if (package_bindings__1ANY_HIT) {
-        return package_scene_rays__1any_hits(rays);
+fn trace(rays: rays__Rays) -> rays__Hits {
+    if (bindings__ANY_HIT) {
+        return rays__any_hits(rays);
     }
-    return package_scene_rays__1closest_hits(rays);
+    return rays__closest_hits(rays);
 }
 
-var<private> package_scene_fetch__1shape_row: u32;
+var<private> fetch__shape_row: u32;
 
-var<private> package_scene_fetch__1light_row: u32;
+var<private> fetch__light_row: u32;
 
-fn package_scene_fetch__1load_starts() {
-    package_scene_fetch__1shape_row = package_bindings_frame.shape_row;
-    package_scene_fetch__1light_row = package_bindings_frame.light_row;
+fn fetch__load_starts() {
+    fetch__shape_row = bindings__frame.shape_row;
+    fetch__light_row = bindings__frame.light_row;
 }
 
-fn package_scene_fetch__1load_node(index: u32) -> package_types_Node {
-    let row = package_types__1NODE_ROWS * index;
-    return package_lib_intersect_node__1decode_node(package_scene_fetch__1node_row(row), package_scene_fetch__1node_row(row + 1u), package_scene_fetch__1node_row(row + 2u), package_scene_fetch__1node_row(row + 3u));
+fn fetch__load_node(index: u32) -> types__Node {
+    let row = types__NODE_ROWS * index;
+    return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
 }
 
-fn package_scene_fetch__2load_moving_node(reference: u32, time: f32) -> package_types_Node {
-    let index = reference & ~package_types_MOVING;
-    let last = index + select(0u, 1u, (reference & package_types_MOVING) != 0u);
-    return package_lib_intersect_node__1node_between(package_scene_fetch__1load_node(index), package_scene_fetch__1load_node(last), time);
+fn fetch__load_moving_node(reference: u32, time: f32) -> types__Node {
+    let index = reference & ~types__MOVING;
+    let last = index + select(0u, 1u, (reference & types__MOVING) != 0u);
+    return node__node_between(fetch__load_node(index), fetch__load_node(last), time);
 }
 
-fn package_scene_fetch__1load_instance(index: u32) -> package_types_PackedInstance {
-    let row = package_bindings_frame.instance_row + package_types__1INSTANCE_ROWS * index;
-    let r0 = package_scene_fetch__1node_row(row);
-    let r1 = package_scene_fetch__1node_row(row + 1u);
-    let r2 = package_scene_fetch__1node_row(row + 2u);
-    let r3 = package_scene_fetch__1node_row(row + 3u);
-    let r4 = package_scene_fetch__1node_row(row + 4u);
-    let r5 = package_scene_fetch__1node_row(row + 5u);
-    let r6 = package_scene_fetch__1node_row(row + 6u);
-    return package_types_PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(package_scene_fetch__1node_row(row + 7u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 8u)), bitcast<vec4f>(package_scene_fetch__1node_row(row + 9u)));
+fn fetch__load_instance(index: u32) -> types__PackedInstance {
+    let row = bindings__frame.instance_row + types__INSTANCE_ROWS * index;
+    let r0 = fetch__node_row(row);
+    let r1 = fetch__node_row(row + 1u);
+    let r2 = fetch__node_row(row + 2u);
+    let r3 = fetch__node_row(row + 3u);
+    let r4 = fetch__node_row(row + 4u);
+    let r5 = fetch__node_row(row + 5u);
+    let r6 = fetch__node_row(row + 6u);
+    return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
 }
 
-fn package_scene_fetch__1load_key(index: u32) -> package_types_PackedKey {
-    let row = package_bindings_frame.key_row + package_types__1KEY_ROWS * index;
-    return package_types_PackedKey(bitcast<vec3f>(package_scene_fetch__1node_row(row).xyz), 0u, bitcast<vec4f>(package_scene_fetch__1node_row(row + 1u)), bitcast<vec3f>(package_scene_fetch__1node_row(row + 2u).xyz), 0u, bitcast<vec3f>(package_scene_fetch__1node_row(row + 3u).xyz), 0u);
+fn fetch__load_key(index: u32) -> types__PackedKey {
+    let row = bindings__frame.key_row + types__KEY_ROWS * index;
+    return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
 }
 
-fn package_scene_fetch__1load_triangle(index: u32) -> package_types_PackedTriangle {
+fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
     let row = 3u * index;
-    let r0 = package_scene_fetch__1triangle_row(row);
-    let r1 = package_scene_fetch__1triangle_row(row + 1u);
-    let r2 = package_scene_fetch__1triangle_row(row + 2u);
-    return package_types_PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
+    let r0 = fetch__triangle_row(row);
+    let r1 = fetch__triangle_row(row + 1u);
+    let r2 = fetch__triangle_row(row + 2u);
+    return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
-fn package_scene_fetch__1load_shape(index: u32) -> package_types_PackedShape {
-    let row = package_scene_fetch__1shape_row + package_types__1SHAPE_ROWS * index;
-    return package_scene_fetch__1shape_of(package_scene_fetch__1triangle_row(row), package_scene_fetch__1triangle_row(row + 1u), package_scene_fetch__1triangle_row(row + 2u), package_scene_fetch__1triangle_row(row + 3u), package_scene_fetch__1triangle_row(row + 4u));
+fn fetch__load_shape(index: u32) -> types__PackedShape {
+    let row = fetch__shape_row + types__SHAPE_ROWS * index;
+    return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
 }
 
-fn package_scene_fetch__1shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> package_types_PackedShape {
-    return package_types_PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
+fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
+    return types__PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
 }
 
-fn package_scene_fetch_texel(row: u32) -> vec2u {
-    return vec2u(row & ((1u << package_types__2IMAGE_WIDTH_LOG2) - 1u), row >> package_types__2IMAGE_WIDTH_LOG2);
+fn fetch__texel(row: u32) -> vec2u {
+    return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
 }
 
-fn package_scene_fetch__1node_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_nodes, package_scene_fetch_texel(row));
+fn fetch__node_row(row: u32) -> vec4u {
+    return textureLoad(bindings__nodes, fetch__texel(row));
 }
 
-fn package_scene_fetch__1triangle_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_triangles, package_scene_fetch_texel(row));
+fn fetch__triangle_row(row: u32) -> vec4u {
+    return textureLoad(bindings__triangles, fetch__texel(row));
 }
 
 @group(0) @binding(0)
-var package_bindings_nodes: texture_storage_2d<rgba32uint, read>;
+var bindings__nodes: texture_storage_2d<rgba32uint, read>;
 
 @group(0) @binding(1)
-var package_bindings_triangles: texture_storage_2d<rgba32uint, read>;
+var bindings__triangles: texture_storage_2d<rgba32uint, read>;
 
 @group(0) @binding(3)
-var package_bindings_rays: texture_storage_2d<rgba32uint, read>;
+var bindings__rays: texture_storage_2d<rgba32uint, read>;
 
 @group(1) @binding(0)
-var<storage, read> package_bindings_frame: package_types_PackedFrame;
+var<storage, read> bindings__frame: types__PackedFrame;
 
 @group(1) @binding(1)
-var<storage, read_write> package_bindings_dispatch: package_types_PackedDispatch;
+var<storage, read_write> bindings__dispatch: types__PackedDispatch;
 
 @group(2) @binding(0)
-var<storage, read_write> package_bindings_hits: array<vec4u>;
+var<storage, read_write> bindings__hits: array<vec4u>;
 
-override package_bindings__1TRIANGLE_TEST: u32 = package_types__2TRIANGLE_TEST_WATERTIGHT;
+override bindings__TRIANGLE_TEST: u32 = types__TRIANGLE_TEST_WATERTIGHT;
 
-override package_bindings__1HAS_TRIANGLES: bool = true;
+override bindings__HAS_TRIANGLES: bool = true;
 
-override package_bindings__1HAS_SHAPES: bool = true;
+override bindings__HAS_SHAPES: bool = true;
 
-override package_bindings__1HAS_PLANES: bool = true;
+override bindings__HAS_PLANES: bool = true;
 
-override package_bindings__1BRUTE_FORCE: bool = false;
+override bindings__BRUTE_FORCE: bool = false;
 
-override package_bindings__1COUNT_STEPS: bool = false;
+override bindings__COUNT_STEPS: bool = false;
 
-override package_bindings__1ANY_HIT: bool = false;
+override bindings__ANY_HIT: bool = false;
 
-override package_bindings__1SHAPE_KINDS: u32 = 4294967295u;
+override bindings__SHAPE_KINDS: u32 = 4294967295u;
 
-override package_bindings__1HAS_CONTACT: bool = true;
+override bindings__HAS_CONTACT: bool = true;
 
-override package_bindings__1HAS_INSTANCES: bool = true;
+override bindings__HAS_INSTANCES: bool = true;
 
-override package_bindings__1HAS_MOTION: bool = true;
+override bindings__HAS_MOTION: bool = true;
 
-const package_types_NONE: u32 = 4294967295u;
+const types__NONE: u32 = 4294967295u;
 
-const package_types_LEAF: u32 = 2147483648u;
+const types__LEAF: u32 = 2147483648u;
 
-const package_types_SHAPE: u32 = 1073741824u;
+const types__SHAPE: u32 = 1073741824u;
 
-const package_types__2LEAF_COUNT_ONE: u32 = 134217728u;
+const types__LEAF_COUNT_ONE: u32 = 134217728u;
 
-const package_types__2LEAF_COUNT_MASK: u32 = 939524096u;
+const types__LEAF_COUNT_MASK: u32 = 939524096u;
 
-const package_types__2LEAF_FIRST_MASK: u32 = 134217727u;
+const types__LEAF_FIRST_MASK: u32 = 134217727u;
 
-const package_types_INSTANCE: u32 = 4160749568u;
+const types__INSTANCE: u32 = 4160749568u;
 
-const package_types_MOVING: u32 = 1073741824u;
+const types__MOVING: u32 = 1073741824u;
 
-const package_types__1STACK_SIZE: u32 = 96u;
+const types__STACK_SIZE: u32 = 96u;
 
-const package_types__1NO_INSTANCE: u32 = 1048575u;
+const types__NO_INSTANCE: u32 = 1048575u;
 
-const package_types__1NODE_ROWS: u32 = 4u;
+const types__NODE_ROWS: u32 = 4u;
 
-const package_types__1INSTANCE_ROWS: u32 = 10u;
+const types__INSTANCE_ROWS: u32 = 10u;
 
-const package_types__1KEY_ROWS: u32 = 4u;
+const types__KEY_ROWS: u32 = 4u;
 
-const package_types__1SHAPE_ROWS: u32 = 5u;
+const types__SHAPE_ROWS: u32 = 5u;
 
-const package_types__2IMAGE_WIDTH_LOG2: u32 = 12u;
+const types__IMAGE_WIDTH_LOG2: u32 = 12u;
 
-const package_types__1SHAPE_SPHERE: u32 = 0u;
+const types__SHAPE_SPHERE: u32 = 0u;
 
-const package_types__1SHAPE_DISC: u32 = 2u;
+const types__SHAPE_DISC: u32 = 2u;
 
-const package_types__1SHAPE_RECTANGLE: u32 = 3u;
+const types__SHAPE_RECTANGLE: u32 = 3u;
 
-const package_types__1SHAPE_BOX: u32 = 4u;
+const types__SHAPE_BOX: u32 = 4u;
 
-const package_types__1SHAPE_CONE: u32 = 5u;
+const types__SHAPE_CONE: u32 = 5u;
 
-const package_types__1SHAPE_TORUS: u32 = 6u;
+const types__SHAPE_TORUS: u32 = 6u;
 
-const package_types__1SHAPE_ELLIPSOID: u32 = 7u;
+const types__SHAPE_ELLIPSOID: u32 = 7u;
 
-const package_types__1SHAPE_GLOBE: u32 = 8u;
+const types__SHAPE_GLOBE: u32 = 8u;
 
-const package_types__1SHAPE_CAPPED: u32 = 1u;
+const types__SHAPE_CAPPED: u32 = 1u;
 
-const package_types__2TRIANGLE_TEST_PLANE: u32 = 0u;
+const types__TRIANGLE_TEST_PLANE: u32 = 0u;
 
-const package_types__3TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
+const types__TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
 
-const package_types__2TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
+const types__TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
 
-struct package_types_PackedTriangle {
+struct types__PackedTriangle {
     v0: vec3f,
     i0: u32,
     v1: vec3f,
@@ -212,7 +212,7 @@ struct package_types_PackedTriangle {
     i2: u32
 }
 
-struct package_types_PackedShape {
+struct types__PackedShape {
     position: vec3f,
     kind: u32,
     row_x: vec3f,
@@ -227,7 +227,7 @@ struct package_types_PackedShape {
     _pad1: u32
 }
 
-struct package_types_PackedInstance {
+struct types__PackedInstance {
     translation: vec3f,
     root: u32,
     inverse_x: vec3f,
@@ -247,7 +247,7 @@ struct package_types_PackedInstance {
     pattern_z: vec4f
 }
 
-struct package_types_PackedKey {
+struct types__PackedKey {
     translation: vec3f,
     _pad0: u32,
     rotation: vec4f,
@@ -257,7 +257,7 @@ struct package_types_PackedKey {
     _pad2: u32
 }
 
-struct package_types_PackedCamera {
+struct types__PackedCamera {
     origin: vec3f,
     lens_radius: f32,
     forward: vec3f,
@@ -268,8 +268,8 @@ struct package_types_PackedCamera {
     blade_count: u32
 }
 
-struct package_types_PackedFrame {
-    camera: package_types_PackedCamera,
+struct types__PackedFrame {
+    camera: types__PackedCamera,
     background: vec3f,
     light_count: u32,
     ambient: vec3f,
@@ -295,7 +295,7 @@ struct package_types_PackedFrame {
     shape_row: u32
 }
 
-struct package_types_PackedDispatch {
+struct types__PackedDispatch {
     picture_width: u32,
     picture_height: u32,
     tile_x: u32,
@@ -314,10 +314,10 @@ struct package_types_PackedDispatch {
     max_depth: u32,
     min_throughput: f32,
     light_samples: f32,
-    counters: package_types_PackedCounters
+    counters: types__PackedCounters
 }
 
-struct package_types_PackedCounters {
+struct types__PackedCounters {
     groups_done: atomic<u32>,
     nonfinite_samples: atomic<u32>,
     cut_off_paths: atomic<u32>,
@@ -332,7 +332,7 @@ struct package_types_PackedCounters {
     refraction_hits: atomic<u32>
 }
 
-struct package_types_Ray {
+struct types__Ray {
     origin: vec3f,
     t_max: f32,
     direction: vec3f,
@@ -340,14 +340,14 @@ struct package_types_Ray {
     leaving_instance: u32
 }
 
-struct package_types_Candidate {
+struct types__Candidate {
     hit: bool,
     t: f32,
     b1: f32,
     b2: f32
 }
 
-struct package_types_Hit {
+struct types__Hit {
     t: f32,
     primitive: u32,
     b1: f32,
@@ -355,7 +355,7 @@ struct package_types_Hit {
     instance: u32
 }
 
-struct package_types_Node {
+struct types__Node {
     lo: vec3f,
     scale: vec3f,
     min_x: vec4f,
@@ -367,274 +367,274 @@ struct package_types_Node {
     children: vec4u
 }
 
-fn package_lib_tile__1permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
+fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
     return (index * stride) % group_count;
 }
 
-struct package_scene_rays_Rays {
-    origin: package_scene_wide_Vectors,
-    direction: package_scene_wide_Vectors,
-    t_max: package_scene_wide_Floats,
-    leaving: package_scene_wide_Words,
-    leaving_instance: package_scene_wide_Words
+struct rays__Rays {
+    origin: wide__Vectors,
+    direction: wide__Vectors,
+    t_max: wide__Floats,
+    leaving: wide__Words,
+    leaving_instance: wide__Words
 }
 
-struct package_scene_rays_Hits {
-    t: package_scene_wide_Floats,
-    primitive: package_scene_wide_Words,
-    b1: package_scene_wide_Floats,
-    b2: package_scene_wide_Floats,
-    instance: package_scene_wide_Words
+struct rays__Hits {
+    t: wide__Floats,
+    primitive: wide__Words,
+    b1: wide__Floats,
+    b2: wide__Floats,
+    instance: wide__Words
 }
 
-fn package_scene_rays__1dead_rays() -> package_scene_rays_Rays {
-    return package_scene_rays_Rays(package_scene_wide_Vectors(package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0)), package_scene_wide_Vectors(package_scene_wide_Floats(0.0), package_scene_wide_Floats(0.0), package_scene_wide_Floats(1.0)), package_scene_wide_Floats(-1.0), package_scene_wide_Words(package_types_NONE), package_scene_wide_Words(package_types__1NO_INSTANCE));
+fn rays__dead_rays() -> rays__Rays {
+    return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
 }
 
-fn package_scene_rays__1ray_at(rays: package_scene_rays_Rays, k: u32) -> package_types_Ray {
-    return package_types_Ray(package_scene_wide__1vector_at(rays.origin, k), package_scene_wide__1float_at(rays.t_max, k), package_scene_wide__1vector_at(rays.direction, k), package_scene_wide__1word_at(rays.leaving, k), package_scene_wide__1word_at(rays.leaving_instance, k));
+fn rays__ray_at(rays: rays__Rays, k: u32) -> types__Ray {
+    return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
 }
 
-fn package_scene_rays__1ray_set(rays: package_scene_rays_Rays, k: u32, ray: package_types_Ray) -> package_scene_rays_Rays {
-    return package_scene_rays_Rays(package_scene_wide__1vector_set(rays.origin, k, ray.origin), package_scene_wide__1vector_set(rays.direction, k, ray.direction), package_scene_wide__1float_set(rays.t_max, k, ray.t_max), package_scene_wide__1word_set(rays.leaving, k, ray.leaving), package_scene_wide__1word_set(rays.leaving_instance, k, ray.leaving_instance));
+fn rays__ray_set(rays: rays__Rays, k: u32, ray: types__Ray) -> rays__Rays {
+    return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
 }
 
-fn package_scene_rays__1hit_at(hits: package_scene_rays_Hits, k: u32) -> package_types_Hit {
-    return package_types_Hit(package_scene_wide__1float_at(hits.t, k), package_scene_wide__1word_at(hits.primitive, k), package_scene_wide__1float_at(hits.b1, k), package_scene_wide__1float_at(hits.b2, k), package_scene_wide__1word_at(hits.instance, k));
+fn rays__hit_at(hits: rays__Hits, k: u32) -> types__Hit {
+    return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
 }
 
-fn package_scene_rays__1hits_of(hit: package_types_Hit) -> package_scene_rays_Hits {
-    return package_scene_rays_Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
+fn rays__hits_of(hit: types__Hit) -> rays__Hits {
+    return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
 }
 
-fn package_scene_rays__1closest_hits(rays: package_scene_rays_Rays) -> package_scene_rays_Hits {
+fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
     {
-        return package_scene_rays__1hits_of(package_scene_traverse__1closest_hit(package_scene_rays__1ray_at(rays, 0u)));
+        return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
     }
 }
 
-fn package_scene_rays__1any_hits(rays: package_scene_rays_Rays) -> package_scene_rays_Hits {
+fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
     {
-        return package_scene_rays__1hits_of(package_scene_traverse__1any_hit(package_scene_rays__1ray_at(rays, 0u)));
+        return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
     }
 }
 
-const package_scene_wide__2RAYS_PER_LANE: u32 = 1u;
+const wide__RAYS_PER_LANE: u32 = 1u;
 
-const package_scene_wide__1ONE_RAY: bool = package_scene_wide__2RAYS_PER_LANE == 1u;
+const wide__ONE_RAY: bool = wide__RAYS_PER_LANE == 1u;
 
-alias package_scene_wide_Floats = f32;
+alias wide__Floats = f32;
 
-alias package_scene_wide_Words = u32;
+alias wide__Words = u32;
 
-struct package_scene_wide_Vectors {
-    x: package_scene_wide_Floats,
-    y: package_scene_wide_Floats,
-    z: package_scene_wide_Floats
+struct wide__Vectors {
+    x: wide__Floats,
+    y: wide__Floats,
+    z: wide__Floats
 }
 
-fn package_scene_wide__1float_at(all: package_scene_wide_Floats, k: u32) -> f32 {
+fn wide__float_at(all: wide__Floats, k: u32) -> f32 {
     return all;
 }
 
-fn package_scene_wide__1word_at(all: package_scene_wide_Words, k: u32) -> u32 {
+fn wide__word_at(all: wide__Words, k: u32) -> u32 {
     return all;
 }
 
-fn package_scene_wide__1vector_at(all: package_scene_wide_Vectors, k: u32) -> vec3f {
-    return vec3f(package_scene_wide__1float_at(all.x, k), package_scene_wide__1float_at(all.y, k), package_scene_wide__1float_at(all.z, k));
+fn wide__vector_at(all: wide__Vectors, k: u32) -> vec3f {
+    return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
 }
 
-fn package_scene_wide__1float_set(all: package_scene_wide_Floats, k: u32, value: f32) -> package_scene_wide_Floats {
+fn wide__float_set(all: wide__Floats, k: u32, value: f32) -> wide__Floats {
     {
         return value;
     }
 }
 
-fn package_scene_wide__1word_set(all: package_scene_wide_Words, k: u32, value: u32) -> package_scene_wide_Words {
+fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
     {
         return value;
     }
 }
 
-fn package_scene_wide__1vector_set(all: package_scene_wide_Vectors, k: u32, value: vec3f) -> package_scene_wide_Vectors {
-    return package_scene_wide_Vectors(package_scene_wide__1float_set(all.x, k, value.x), package_scene_wide__1float_set(all.y, k, value.y), package_scene_wide__1float_set(all.z, k, value.z));
+fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
+    return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
 }
 
-struct package_scene_query_QueryRay {
-    ray: package_types_Ray,
+struct query__QueryRay {
+    ray: types__Ray,
     time: f32
 }
 
-fn package_scene_query__2load_query_ray(index: u32) -> package_scene_query_QueryRay {
-    let r0 = package_scene_query__1ray_row(2u * index);
-    let r1 = package_scene_query__1ray_row(2u * index + 1u);
-    let ray = package_types_Ray(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), package_types_NONE, package_types__1NO_INSTANCE);
-    return package_scene_query_QueryRay(ray, bitcast<f32>(r1.w));
+fn query__load_query_ray(index: u32) -> query__QueryRay {
+    let r0 = query__ray_row(2u * index);
+    let r1 = query__ray_row(2u * index + 1u);
+    let ray = types__Ray(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), types__NONE, types__NO_INSTANCE);
+    return query__QueryRay(ray, bitcast<f32>(r1.w));
 }
 
-fn package_scene_query__1store_hit(index: u32, hit: package_types_Hit) {
+fn query__store_hit(index: u32, hit: types__Hit) {
     var rest = vec2u(hit.instance, pack2x16unorm(vec2f(hit.b1, hit.b2)));
-    if (package_bindings__1COUNT_STEPS) {
-        rest = vec2u(package_scene_loops__1nodes_visited, package_scene_loops__1primitives_tested);
+    if (bindings__COUNT_STEPS) {
+        rest = vec2u(loops__nodes_visited, loops__primitives_tested);
     }
-    package_bindings_hits[index] = vec4u(bitcast<u32>(hit.t), hit.primitive, rest);
+    bindings__hits[index] = vec4u(bitcast<u32>(hit.t), hit.primitive, rest);
 }
 
-fn package_scene_query__1ray_row(row: u32) -> vec4u {
-    return textureLoad(package_bindings_rays, package_scene_fetch_texel(row));
+fn query__ray_row(row: u32) -> vec4u {
+    return textureLoad(bindings__rays, fetch__texel(row));
 }
 
-fn package_scene_dispatch__1place_of(lane: u32, k: u32) -> u32 {
+fn dispatch__place_of(lane: u32, k: u32) -> u32 {
     {
         return lane;
     }
 }
 
-var<private> package_scene_shutter__1shutter_time: f32 = 0.0;
+var<private> shutter__shutter_time: f32 = 0.0;
 
-var<private> package_scene_loops__1nodes_visited: u32 = 0u;
+var<private> loops__nodes_visited: u32 = 0u;
 
-var<private> package_scene_loops__1primitives_tested: u32 = 0u;
+var<private> loops__primitives_tested: u32 = 0u;
 
-var<private> package_scene_loops__1cut_off: bool = false;
+var<private> loops__cut_off: bool = false;
 
-const package_scene_traverse_EMPTY: u32 = 4294967295u;
+const traverse__EMPTY: u32 = 4294967295u;
 
-const package_scene_traverse_RETURN: u32 = 4294967294u;
+const traverse__RETURN: u32 = 4294967294u;
 
-var<private> package_scene_traverse_stack: array<u32, package_types__1STACK_SIZE>;
+var<private> traverse__stack: array<u32, types__STACK_SIZE>;
 
-const package_scene_traverse__1CONTACT_RANGE: f32 = 0.0001;
+const traverse__CONTACT_RANGE: f32 = 0.0001;
 
-fn package_scene_traverse__1closest_hit(ray: package_types_Ray) -> package_types_Hit {
-    if (package_bindings__1HAS_CONTACT) {
-        package_scene_primitive__1runner_up = package_types_Hit(package_lib_camera__1T_FAR, package_types_NONE, 0.0, 0.0, package_types__1NO_INSTANCE);
+fn traverse__closest_hit(ray: types__Ray) -> types__Hit {
+    if (bindings__HAS_CONTACT) {
+        primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
     }
-    return package_scene_traverse_traverse(ray, false);
+    return traverse__traverse(ray, false);
 }
 
-fn package_scene_traverse__1search_limit(ray: package_types_Ray, hit: package_types_Hit) -> f32 {
-    if (package_bindings__1HAS_CONTACT) {
-        return hit.t + package_scene_traverse__1CONTACT_RANGE * (hit.t + package_lib_numeric__1max_component(abs(ray.origin)));
+fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
+    if (bindings__HAS_CONTACT) {
+        return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
     }
     return hit.t;
 }
 
-fn package_scene_traverse__1any_hit(ray: package_types_Ray) -> package_types_Hit {
-    return package_scene_traverse_traverse(ray, true);
+fn traverse__any_hit(ray: types__Ray) -> types__Hit {
+    return traverse__traverse(ray, true);
 }
 
-fn package_scene_traverse_traverse(ray: package_types_Ray, any: bool) -> package_types_Hit {
-    var hit = package_types_Hit(ray.t_max, package_types_NONE, 0.0, 0.0, package_types__1NO_INSTANCE);
-    let shear = package_lib_intersect__1triangle_watertight__1shear_of(ray.direction);
-    if (package_bindings__1HAS_PLANES) {
-        hit = package_scene_exhaustive__1hit_planes(ray, hit);
+fn traverse__traverse(ray: types__Ray, any: bool) -> types__Hit {
+    var hit = types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+    let shear = triangle_watertight__shear_of(ray.direction);
+    if (bindings__HAS_PLANES) {
+        hit = exhaustive__hit_planes(ray, hit);
     }
-    if (package_bindings__1BRUTE_FORCE) {
-        return package_scene_exhaustive__1hit_everything(ray, shear, hit);
+    if (bindings__BRUTE_FORCE) {
+        return exhaustive__hit_everything(ray, shear, hit);
     }
-    if (!(package_bindings__1HAS_TRIANGLES || package_bindings__1HAS_SHAPES) || (any && hit.primitive != package_types_NONE)) {
+    if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) || (any && hit.primitive != types__NONE)) {
         return hit;
     }
-    return package_scene_traverse_walk(ray, shear, any, hit);
+    return traverse__walk(ray, shear, any, hit);
 }
 
-fn package_scene_traverse_walk(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, any: bool, start: package_types_Hit) -> package_types_Hit {
+fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool, start: types__Hit) -> types__Hit {
     var hit = start;
-    var at = package_scene_primitive__1traversal_ray(ray, shear, package_types__1NO_INSTANCE);
-    package_scene_traverse_stack[0] = package_scene_traverse_EMPTY;
+    var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+    traverse__stack[0] = traverse__EMPTY;
     var top = 0u;
     var current = 0u;
-    if (package_bindings__1HAS_INSTANCES) {
-        current = package_bindings_frame.root;
+    if (bindings__HAS_INSTANCES) {
+        current = bindings__frame.root;
     }
     loop {
-        if (package_bindings__1HAS_INSTANCES) {
-            if (current == package_scene_traverse_RETURN) {
-                at = package_scene_primitive__1traversal_ray(ray, shear, package_types__1NO_INSTANCE);
-                current = package_scene_traverse_stack[top];
-                top -= select(1u, 0u, current == package_scene_traverse_EMPTY);
+        if (bindings__HAS_INSTANCES) {
+            if (current == traverse__RETURN) {
+                at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+                current = traverse__stack[top];
+                top -= select(1u, 0u, current == traverse__EMPTY);
             }
-            if ((current >= package_types_INSTANCE) & (current != package_scene_traverse_EMPTY)) {
-                let index = current & package_types__2LEAF_FIRST_MASK;
-                let instance = package_scene_fetch__1load_instance(index);
-                let local = package_scene_instance__1object_ray(ray, package_scene_instance__1space_of(instance));
-                at = package_scene_primitive__1traversal_ray(local, package_lib_intersect__1triangle_watertight__1shear_of(local.direction), index);
+            if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
+                let index = current & types__LEAF_FIRST_MASK;
+                let instance = fetch__load_instance(index);
+                let local = instance__object_ray(ray, instance__space_of(instance));
+                at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index);
                 top += 1u;
-                package_scene_traverse_stack[top] = package_scene_traverse_RETURN;
+                traverse__stack[top] = traverse__RETURN;
                 current = instance.root;
             }
         }
-        let is_node = !package_bindings__1HAS_INSTANCES || (current & package_types_LEAF) == 0u;
+        let is_node = !bindings__HAS_INSTANCES || (current & types__LEAF) == 0u;
         if (is_node) {
             loop {
-                let node = package_scene_traverse__2load_current_node(current);
-                let keys = package_lib_intersect_node_sort4(package_lib_intersect_node__1child_keys(node, at.ray.origin, at.inv, package_scene_traverse__1search_limit(ray, hit)));
-                let is_hit = keys < vec4u(package_lib_intersect_node_MISS);
+                let node = traverse__load_current_node(current);
+                let keys = node__sort4(node__child_keys(node, at.ray.origin, at.inv, traverse__search_limit(ray, hit)));
+                let is_hit = keys < vec4u(node__MISS);
                 let pushed = select(vec4u(0u), vec4u(1u), is_hit);
-                package_scene_traverse_stack[top + 1u] = node.children[keys.w & 3u];
+                traverse__stack[top + 1u] = node.children[keys.w & 3u];
                 top += pushed.w;
-                package_scene_traverse_stack[top + 1u] = node.children[keys.z & 3u];
+                traverse__stack[top + 1u] = node.children[keys.z & 3u];
                 top += pushed.z;
-                package_scene_traverse_stack[top + 1u] = node.children[keys.y & 3u];
+                traverse__stack[top + 1u] = node.children[keys.y & 3u];
                 top += pushed.y;
-                let popped = package_scene_traverse_stack[top];
+                let popped = traverse__stack[top];
                 current = select(popped, node.children[keys.x & 3u], is_hit.x);
-                top -= select(1u, 0u, is_hit.x | (popped == package_scene_traverse_EMPTY));
-                if (package_bindings__1COUNT_STEPS) {
-                    package_scene_loops__1nodes_visited += 1u;
+                top -= select(1u, 0u, is_hit.x | (popped == traverse__EMPTY));
+                if (bindings__COUNT_STEPS) {
+                    loops__nodes_visited += 1u;
                 }
                 continuing {
                 
-                    break if (current & package_types_LEAF) != 0u;
+                    break if (current & types__LEAF) != 0u;
                 }
             }
         }
-        if (current == package_scene_traverse_EMPTY) {
+        if (current == traverse__EMPTY) {
             break;
         }
-        if (package_bindings__1HAS_INSTANCES && current >= package_types_INSTANCE) {
+        if (bindings__HAS_INSTANCES && current >= types__INSTANCE) {
             continue;
         }
         loop {
-            hit = package_scene_primitive_closer(at, hit, current & (package_types_SHAPE | package_types__2LEAF_FIRST_MASK));
-            let popped = package_scene_traverse_stack[top];
-            let is_last = (current & package_types__2LEAF_COUNT_MASK) == 0u;
-            top -= select(0u, 1u, is_last & (popped != package_scene_traverse_EMPTY));
-            current = select(current - package_types__2LEAF_COUNT_ONE + 1u, popped, is_last);
-            current = select(current, package_scene_traverse_EMPTY, any & (hit.primitive != package_types_NONE));
-            if (package_bindings__1COUNT_STEPS) {
-                package_scene_loops__1primitives_tested += 1u;
+            hit = primitive__closer(at, hit, current & (types__SHAPE | types__LEAF_FIRST_MASK));
+            let popped = traverse__stack[top];
+            let is_last = (current & types__LEAF_COUNT_MASK) == 0u;
+            top -= select(0u, 1u, is_last & (popped != traverse__EMPTY));
+            current = select(current - types__LEAF_COUNT_ONE + 1u, popped, is_last);
+            current = select(current, traverse__EMPTY, any & (hit.primitive != types__NONE));
+            if (bindings__COUNT_STEPS) {
+                loops__primitives_tested += 1u;
             }
             continuing {
             
-                break if ((current & package_types_LEAF) == 0u) | (current >= package_types_INSTANCE);
+                break if ((current & types__LEAF) == 0u) | (current >= types__INSTANCE);
             }
         }
         continuing {
         
-            break if current == package_scene_traverse_EMPTY;
+            break if current == traverse__EMPTY;
         }
     }
-    package_scene_loops__1cut_off |= current != package_scene_traverse_EMPTY;
+    loops__cut_off |= current != traverse__EMPTY;
     return hit;
 }
 
-fn package_scene_traverse__2load_current_node(reference: u32) -> package_types_Node {
-    if (package_bindings__1HAS_MOTION) {
-        return package_scene_fetch__2load_moving_node(reference, package_scene_shutter__1shutter_time);
+fn traverse__load_current_node(reference: u32) -> types__Node {
+    if (bindings__HAS_MOTION) {
+        return fetch__load_moving_node(reference, shutter__shutter_time);
     }
-    return package_scene_fetch__1load_node(reference);
+    return fetch__load_node(reference);
 }
 
-struct package_lib_intersect__1triangle_watertight_Shear {
+struct triangle_watertight__Shear {
     x: vec3f,
     y: vec3f,
     z: vec3f
 }
 
-fn package_lib_intersect__1triangle_watertight__1shear_of(direction: vec3f) -> package_lib_intersect__1triangle_watertight_Shear {
+fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
     let size = abs(direction);
     let is_x = (size.x >= size.y) & (size.x >= size.z);
     let is_y = !is_x & (size.y >= size.z);
@@ -642,10 +642,10 @@ fn package_lib_intersect__1triangle_watertight__1shear_of(direction: vec3f) -> p
     let axis_x = axis_z.zxy;
     let axis_y = axis_z.yzx;
     let scale = 1.0 / dot(direction, axis_z);
-    return package_lib_intersect__1triangle_watertight_Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
+    return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
 }
 
-fn package_lib_intersect__1triangle_watertight__2intersect_triangle_watertight(origin: vec3f, shear: package_lib_intersect__1triangle_watertight_Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> package_types_Candidate {
+fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
     let a = v0 - origin;
     let b = v1 - origin;
     let c = v2 - origin;
@@ -664,22 +664,22 @@ fn package_lib_intersect__1triangle_watertight__2intersect_triangle_watertight(o
     let inv_det = 1.0 / select(1.0, det, usable);
     let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
     let t = dot(edges, depths) * inv_det;
-    return package_types_Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+    return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
 
-fn package_scene_exhaustive__1hit_planes(ray: package_types_Ray, start: package_types_Hit) -> package_types_Hit {
+fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
     var hit = start;
-    let end = package_bindings_frame.shape_count + package_bindings_frame.plane_count;
-    var index = package_bindings_frame.shape_count;
+    let end = bindings__frame.shape_count + bindings__frame.plane_count;
+    var index = bindings__frame.shape_count;
     loop {
-        let shape = package_scene_fetch__1load_shape(index);
-        let candidate = package_lib_intersect_plane__1intersect_plane(ray, shape.position, shape.row_y);
-        let primitive = package_types_SHAPE | index;
+        let shape = fetch__load_shape(index);
+        let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
+        let primitive = types__SHAPE | index;
         let counts = candidate.hit & (primitive != ray.leaving);
         let wins = counts & (candidate.t < hit.t);
-        let found = package_types_Hit(candidate.t, primitive, 0.0, 0.0, package_types__1NO_INSTANCE);
-        if (package_bindings__1HAS_CONTACT) {
-            package_scene_primitive__2keep_runner_up(hit, found, counts, wins);
+        let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+        if (bindings__HAS_CONTACT) {
+            primitive__keep_runner_up(hit, found, counts, wins);
         }
         if (wins) {
             hit = found;
@@ -689,145 +689,145 @@ fn package_scene_exhaustive__1hit_planes(ray: package_types_Ray, start: package_
             break if index >= end;
         }
     }
-    package_scene_loops__1cut_off |= index < end;
+    loops__cut_off |= index < end;
     return hit;
 }
 
-fn package_scene_exhaustive__1hit_everything(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, start: package_types_Hit) -> package_types_Hit {
-    let world = package_scene_primitive__1traversal_ray(ray, shear, package_types__1NO_INSTANCE);
+fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
+    let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
     var hit = start;
-    if (package_bindings__1HAS_TRIANGLES) {
-        hit = package_scene_exhaustive__1hit_run(world, hit, package_bindings_frame.first_triangle, package_bindings_frame.triangle_count);
+    if (bindings__HAS_TRIANGLES) {
+        hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
     }
-    if (package_bindings__1HAS_SHAPES) {
-        hit = package_scene_exhaustive__1hit_run(world, hit, package_types_SHAPE, package_bindings_frame.shape_count);
+    if (bindings__HAS_SHAPES) {
+        hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
     }
-    if (package_bindings__1HAS_INSTANCES) {
+    if (bindings__HAS_INSTANCES) {
         var index = 0u;
-        for (; index < package_bindings_frame.instance_count; index += 1u) {
-            let instance = package_scene_fetch__1load_instance(index);
-            let local = package_scene_instance__1object_ray(ray, package_scene_instance__1space_of(instance));
-            hit = package_scene_exhaustive__1hit_run(package_scene_primitive__1traversal_ray(local, package_lib_intersect__1triangle_watertight__1shear_of(local.direction), index), hit, instance.first, instance.count);
+        for (; index < bindings__frame.instance_count; index += 1u) {
+            let instance = fetch__load_instance(index);
+            let local = instance__object_ray(ray, instance__space_of(instance));
+            hit = exhaustive__hit_run(primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index), hit, instance.first, instance.count);
         }
-        package_scene_loops__1cut_off |= index < package_bindings_frame.instance_count;
+        loops__cut_off |= index < bindings__frame.instance_count;
     }
     return hit;
 }
 
-fn package_scene_exhaustive__1hit_run(at: package_scene_primitive_TraversalRay, start: package_types_Hit, first: u32, count: u32) -> package_types_Hit {
+fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
     var hit = start;
     var index = 0u;
     for (; index < count; index += 1u) {
-        hit = package_scene_primitive_closer(at, hit, first + index);
+        hit = primitive__closer(at, hit, first + index);
     }
-    package_scene_loops__1cut_off |= index < count;
+    loops__cut_off |= index < count;
     return hit;
 }
 
-fn package_lib_intersect_plane__1intersect_plane(ray: package_types_Ray, point: vec3f, n: vec3f) -> package_types_Candidate {
+fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
     let slope = dot(n, ray.direction);
     let steep = abs(slope) > 1e-12;
     let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-    return package_types_Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+    return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
-var<private> package_scene_primitive__1runner_up: package_types_Hit;
+var<private> primitive__runner_up: types__Hit;
 
-struct package_scene_primitive_TraversalRay {
-    ray: package_types_Ray,
+struct primitive__TraversalRay {
+    ray: types__Ray,
     inv: vec3f,
-    shear: package_lib_intersect__1triangle_watertight_Shear,
+    shear: triangle_watertight__Shear,
     instance: u32
 }
 
-fn package_scene_primitive__1traversal_ray(ray: package_types_Ray, shear: package_lib_intersect__1triangle_watertight_Shear, instance: u32) -> package_scene_primitive_TraversalRay {
-    return package_scene_primitive_TraversalRay(ray, package_lib_numeric__1safe_reciprocal(ray.direction), shear, instance);
+fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32) -> primitive__TraversalRay {
+    return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance);
 }
 
-fn package_scene_primitive_closer(at: package_scene_primitive_TraversalRay, hit: package_types_Hit, primitive: u32) -> package_types_Hit {
-    return package_scene_primitive__1closer_of(at, hit, package_scene_primitive__1test_primitive(at.ray, primitive, at.shear), primitive);
+fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
+    return primitive__closer_of(at, hit, primitive__test_primitive(at.ray, primitive, at.shear), primitive);
 }
 
-fn package_scene_primitive__1closer_of(at: package_scene_primitive_TraversalRay, hit: package_types_Hit, candidate: package_types_Candidate, primitive: u32) -> package_types_Hit {
+fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
     var is_lower = primitive < hit.primitive;
     var is_left = primitive == at.ray.leaving;
-    if (package_bindings__1HAS_INSTANCES) {
+    if (bindings__HAS_INSTANCES) {
         is_lower = (at.instance < hit.instance) | ((at.instance == hit.instance) & is_lower);
         is_left = is_left & (at.instance == at.ray.leaving_instance);
     }
-    let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != package_types_NONE);
+    let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
     let counts = candidate.hit & !is_left;
     let wins = counts & ((candidate.t < hit.t) | ties);
-    if (package_bindings__1HAS_CONTACT) {
-        let found = package_types_Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
-        package_scene_primitive__2keep_runner_up(hit, found, counts, wins);
+    if (bindings__HAS_CONTACT) {
+        let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+        primitive__keep_runner_up(hit, found, counts, wins);
     }
-    return package_types_Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+    return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
 }
 
-fn package_scene_primitive__2keep_runner_up(hit: package_types_Hit, found: package_types_Hit, counts: bool, wins: bool) {
+fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
     let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
     if (wins) {
-        package_scene_primitive__1runner_up = hit;
+        primitive__runner_up = hit;
     }
-    else if (counts & !is_same & (found.t < package_scene_primitive__1runner_up.t)) {
-        package_scene_primitive__1runner_up = found;
+    else if (counts & !is_same & (found.t < primitive__runner_up.t)) {
+        primitive__runner_up = found;
     }
 }
 
-fn package_scene_primitive__1test_primitive(ray: package_types_Ray, primitive: u32, shear: package_lib_intersect__1triangle_watertight_Shear) -> package_types_Candidate {
-    var candidate = package_types_Candidate(false, 0.0, 0.0, 0.0);
-    if (package_bindings__1HAS_TRIANGLES && (!package_bindings__1HAS_SHAPES || (primitive & package_types_SHAPE) == 0u)) {
-        candidate = package_scene_primitive__1test_triangle(ray, package_scene_fetch__1load_triangle(primitive), shear);
+fn primitive__test_primitive(ray: types__Ray, primitive: u32, shear: triangle_watertight__Shear) -> types__Candidate {
+    var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+    if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
+        candidate = primitive__test_triangle(ray, fetch__load_triangle(primitive), shear);
     }
-    if (package_bindings__1HAS_SHAPES && (!package_bindings__1HAS_TRIANGLES || (primitive & package_types_SHAPE) != 0u)) {
-        candidate = package_scene_shape__1test_shape(ray, package_scene_fetch__1load_shape(primitive & ~package_types_SHAPE));
+    if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
+        candidate = shape__test_shape(ray, fetch__load_shape(primitive & ~types__SHAPE));
     }
     return candidate;
 }
 
-fn package_scene_primitive__1test_triangle(ray: package_types_Ray, corners: package_types_PackedTriangle, shear: package_lib_intersect__1triangle_watertight_Shear) -> package_types_Candidate {
-    if (package_bindings__1TRIANGLE_TEST == package_types__2TRIANGLE_TEST_PLANE) {
-        return package_lib_intersect__1triangle_plane__2intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
+fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
+    if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
+        return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
     }
-    if (package_bindings__1TRIANGLE_TEST == package_types__3TRIANGLE_TEST_MOLLER_TRUMBORE) {
-        return package_lib_intersect__2triangle_moller_trumbore__3intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
+    if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
+        return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
     }
-    return package_lib_intersect__1triangle_watertight__2intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
+    return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
 }
 
-const package_lib_numeric_ROUNDING: f32 = 5.9604645e-8;
+const numeric__ROUNDING: f32 = 5.9604645e-8;
 
-fn package_lib_numeric__1safe_reciprocal(d: vec3f) -> vec3f {
+fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
     let tiny = abs(d) < vec3f(1e-18);
     return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
 }
 
-fn package_lib_numeric__1max_component(v: vec3f) -> f32 {
+fn numeric__max_component(v: vec3f) -> f32 {
     return max(v.x, max(v.y, v.z));
 }
 
-fn package_lib_intersect__1triangle_plane__2intersect_triangle_plane(ray: package_types_Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> package_types_Candidate {
+fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
     let e1 = v1 - v0;
     let e2 = v2 - v0;
     let n = cross(e1, e2);
     let slope = dot(n, ray.direction);
     let area = dot(n, n);
-    let usable = (abs(slope) > 4.0 * package_lib_numeric_ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
+    let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
     let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
     let w = ray.origin + t * ray.direction - v0;
     let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
     let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
     let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-    return package_types_Candidate(usable & inside & (t > 0.0), t, b1, b2);
+    return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
-fn package_lib_intersect__2triangle_moller_trumbore__3intersect_triangle_moller_trumbore(ray: package_types_Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> package_types_Candidate {
+fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
     let e1 = v1 - v0;
     let e2 = v2 - v0;
     let p = cross(ray.direction, e2);
     let det = dot(e1, p);
-    let usable = abs(det) > 4.0 * package_lib_numeric_ROUNDING * length(e1) * length(e2);
+    let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
     let inv_det = 1.0 / select(1.0, det, usable);
     let s = ray.origin - v0;
     let b1 = inv_det * dot(s, p);
@@ -835,66 +835,66 @@ fn package_lib_intersect__2triangle_moller_trumbore__3intersect_triangle_moller_
     let b2 = inv_det * dot(ray.direction, q);
     let t = inv_det * dot(e2, q);
     let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-    return package_types_Candidate(usable & inside & (t > 0.0), t, b1, b2);
+    return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
-const package_scene_shape_SPHERES: u32 = 1u << package_types__1SHAPE_SPHERE;
+const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
 
-const package_scene_shape_DISCS: u32 = 1u << package_types__1SHAPE_DISC;
+const shape__DISCS: u32 = 1u << types__SHAPE_DISC;
 
-const package_scene_shape_RECTANGLES: u32 = 1u << package_types__1SHAPE_RECTANGLE;
+const shape__RECTANGLES: u32 = 1u << types__SHAPE_RECTANGLE;
 
-const package_scene_shape_BOXES: u32 = 1u << package_types__1SHAPE_BOX;
+const shape__BOXES: u32 = 1u << types__SHAPE_BOX;
 
-const package_scene_shape_CONES: u32 = 1u << package_types__1SHAPE_CONE;
+const shape__CONES: u32 = 1u << types__SHAPE_CONE;
 
-const package_scene_shape_TORI: u32 = 1u << package_types__1SHAPE_TORUS;
+const shape__TORI: u32 = 1u << types__SHAPE_TORUS;
 
-const package_scene_shape_ELLIPSOIDS: u32 = 1u << package_types__1SHAPE_ELLIPSOID;
+const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
 
-const package_scene_shape_GLOBES: u32 = 1u << package_types__1SHAPE_GLOBE;
+const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
 
-fn package_scene_shape__1test_shape(ray: package_types_Ray, shape: package_types_PackedShape) -> package_types_Candidate {
-    if (package_bindings__1SHAPE_KINDS == package_scene_shape_SPHERES) {
-        return package_lib_intersect_sphere__1intersect_sphere(ray, shape.position, shape.size0);
+fn shape__test_shape(ray: types__Ray, shape: types__PackedShape) -> types__Candidate {
+    if (bindings__SHAPE_KINDS == shape__SPHERES) {
+        return sphere__intersect_sphere(ray, shape.position, shape.size0);
     }
-    var candidate = package_types_Candidate(false, 0.0, 0.0, 0.0);
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_SPHERES) != 0u && shape.kind == package_types__1SHAPE_SPHERE) {
-        candidate = package_lib_intersect_sphere__1intersect_sphere(ray, shape.position, shape.size0);
+    var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+    if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
+        candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_GLOBES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_GLOBES || shape.kind == package_types__1SHAPE_GLOBE)) {
-        candidate = package_lib_intersect_globe__1intersect_globe(ray, shape.position, shape.row_y, shape.size0);
+    if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
+        candidate = globe__intersect_globe(ray, shape.position, shape.row_y, shape.size0);
     }
-    let local = package_lib_canonical__1canonical_ray(ray, shape);
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_DISCS) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_DISCS || shape.kind == package_types__1SHAPE_DISC)) {
-        candidate = package_lib_intersect_disc__1intersect_disc(local, shape.size0);
+    let local = canonical__canonical_ray(ray, shape);
+    if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+        candidate = disc__intersect_disc(local, shape.size0);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_RECTANGLES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_RECTANGLES || shape.kind == package_types__1SHAPE_RECTANGLE)) {
-        candidate = package_lib_intersect_rectangle__1intersect_rectangle(local);
+    if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+        candidate = rectangle__intersect_rectangle(local);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_BOXES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_BOXES || shape.kind == package_types__1SHAPE_BOX)) {
-        candidate = package_lib_intersect_box__1intersect_box(local);
+    if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+        candidate = box__intersect_box(local);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_CONES) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_CONES || shape.kind == package_types__1SHAPE_CONE)) {
-        candidate = package_lib_intersect_cone__1intersect_cone(local, shape.size0, shape.size1, (shape.flags & package_types__1SHAPE_CAPPED) != 0u);
+    if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+        candidate = cone__intersect_cone(local, shape.size0, shape.size1, (shape.flags & types__SHAPE_CAPPED) != 0u);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_TORI) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_TORI || shape.kind == package_types__1SHAPE_TORUS)) {
-        candidate = package_lib_intersect_torus__1intersect_torus(local, shape.size0);
+    if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+        candidate = torus__intersect_torus(local, shape.size0);
     }
-    if ((package_bindings__1SHAPE_KINDS & package_scene_shape_ELLIPSOIDS) != 0u && (package_bindings__1SHAPE_KINDS == package_scene_shape_ELLIPSOIDS || shape.kind == package_types__1SHAPE_ELLIPSOID)) {
-        candidate = package_lib_intersect_ellipsoid__1intersect_ellipsoid(local);
+    if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+        candidate = ellipsoid__intersect_ellipsoid(local);
     }
     return candidate;
 }
 
-fn package_lib_intersect_sphere__1intersect_sphere(ray: package_types_Ray, center: vec3f, radius: f32) -> package_types_Candidate {
+fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
     let f = ray.origin - center;
     let a = dot(ray.direction, ray.direction);
     let b = -dot(f, ray.direction);
     let nearest = f + (b / a) * ray.direction;
     let discriminant = radius * radius - dot(nearest, nearest);
     if (discriminant < 0.0) {
-        return package_types_Candidate(false, 0.0, 0.0, 0.0);
+        return types__Candidate(false, 0.0, 0.0, 0.0);
     }
     let c = dot(f, f) - radius * radius;
     let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
@@ -902,10 +902,10 @@ fn package_lib_intersect_sphere__1intersect_sphere(ray: package_types_Ray, cente
     let t1 = q / a;
     let near = min(t0, t1);
     let t = select(max(t0, t1), near, near > 0.0);
-    return package_types_Candidate(t > 0.0, t, 0.0, 0.0);
+    return types__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_globe__1intersect_globe(ray: package_types_Ray, anchor: vec3f, n: vec3f, curvature: f32) -> package_types_Candidate {
+fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
     let w = ray.origin - anchor;
     let f = n + curvature * w;
     let c = curvature * dot(w, w) + 2.0 * dot(n, w);
@@ -916,19 +916,19 @@ fn package_lib_intersect_globe__1intersect_globe(ray: package_types_Ray, anchor:
     let is_near = abs(curvature * c) < 1.0;
     let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
     if (discriminant < 0.0) {
-        return package_types_Candidate(false, 0.0, 0.0, 0.0);
+        return types__Candidate(false, 0.0, 0.0, 0.0);
     }
     let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
     let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
     let t1 = q / a;
     let near = min(t0, t1);
     let t = select(max(t0, t1), near, near > 0.0);
-    return package_types_Candidate(t > 0.0, t, 0.0, 0.0);
+    return types__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
-const package_lib_canonical__1TWO_PI: f32 = 6.2831855;
+const canonical__TWO_PI: f32 = 6.2831855;
 
-struct package_lib_canonical_Approach {
+struct canonical__Approach {
     origin: vec3f,
     start: f32,
     direction: vec3f,
@@ -936,15 +936,15 @@ struct package_lib_canonical_Approach {
     near: bool
 }
 
-fn package_lib_canonical__1canonical_vector(shape: package_types_PackedShape, v: vec3f) -> vec3f {
+fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
     return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
 }
 
-fn package_lib_canonical__1canonical_ray(ray: package_types_Ray, shape: package_types_PackedShape) -> package_types_Ray {
-    return package_types_Ray(package_lib_canonical__1canonical_vector(shape, ray.origin - shape.position), ray.t_max, package_lib_canonical__1canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+fn canonical__canonical_ray(ray: types__Ray, shape: types__PackedShape) -> types__Ray {
+    return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
 }
 
-fn package_lib_canonical_approach(ray: package_types_Ray, center: vec3f, reach: f32) -> package_lib_canonical_Approach {
+fn canonical__approach(ray: types__Ray, center: vec3f, reach: f32) -> canonical__Approach {
     let size = abs(ray.direction);
     let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
     let scaled = ray.direction / largest;
@@ -954,34 +954,34 @@ fn package_lib_canonical_approach(ray: package_types_Ray, center: vec3f, reach: 
     let origin = ray.origin + start * direction;
     let off = abs(origin - center);
     let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
-    return package_lib_canonical_Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
+    return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
 }
 
-fn package_lib_canonical__1approached_t(near: package_lib_canonical_Approach, s: f32) -> f32 {
+fn canonical__approached_t(near: canonical__Approach, s: f32) -> f32 {
     return (near.start + s) * near.t_per_length;
 }
 
-fn package_lib_intersect_disc__1intersect_disc(ray: package_types_Ray, hole: f32) -> package_types_Candidate {
+fn disc__intersect_disc(ray: types__Ray, hole: f32) -> types__Candidate {
     let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
     let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
     let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
     let distance = dot(p, p);
-    return package_types_Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+    return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_rectangle__1intersect_rectangle(ray: package_types_Ray) -> package_types_Candidate {
+fn rectangle__intersect_rectangle(ray: types__Ray) -> types__Candidate {
     let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
     let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
     let way = t * ray.direction.xz;
-    let slack = 4.0 * package_lib_numeric_ROUNDING * (abs(ray.origin.xz) + abs(way));
+    let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
     let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
-    return package_types_Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+    return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_box__1intersect_box(ray: package_types_Ray) -> package_types_Candidate {
+fn box__intersect_box(ray: types__Ray) -> types__Candidate {
     let size = abs(ray.direction);
     let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
-    let inv = package_lib_numeric__1safe_reciprocal(ray.direction / largest);
+    let inv = numeric__safe_reciprocal(ray.direction / largest);
     let origin = clamp(ray.origin, vec3f(-1e18), vec3f(1e18));
     let t0 = (-1.0 - origin) * inv;
     let t1 = (1.0 - origin) * inv;
@@ -996,19 +996,19 @@ fn package_lib_intersect_box__1intersect_box(ray: package_types_Ray) -> package_
     let positive = (inv[axis] < 0.0) == from_outside;
     let side = f32(axis) + select(0.0, 3.0, positive);
     let hit = (enter <= leave) & (s > 0.0);
-    return package_types_Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+    return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
 }
 
-const package_lib_intersect_cone_FAR: f32 = 1e30;
+const cone__FAR: f32 = 1e30;
 
-const package_lib_intersect_cone_SIDE: f32 = 0.0;
+const cone__SIDE: f32 = 0.0;
 
-const package_lib_intersect_cone_BOTTOM: f32 = 1.0;
+const cone__BOTTOM: f32 = 1.0;
 
-const package_lib_intersect_cone_TOP: f32 = 2.0;
+const cone__TOP: f32 = 2.0;
 
-fn package_lib_intersect_cone__1intersect_cone(ray: package_types_Ray, bottom: f32, top: f32, capped: bool) -> package_types_Candidate {
-    let near = package_lib_canonical_approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
+fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) -> types__Candidate {
+    let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
     let o = near.origin;
     let d = near.direction;
     let slope = top - bottom;
@@ -1030,8 +1030,8 @@ fn package_lib_intersect_cone__1intersect_cone(ray: package_types_Ray, bottom: f
     let high = max(r1, r2);
     let steep = a < 0.0;
     let widens = slope * d.y > 0.0;
-    let side_in = select(low, select(-package_lib_intersect_cone_FAR, high, widens), steep);
-    let side_out = select(high, select(low, package_lib_intersect_cone_FAR, widens), steep);
+    let side_in = select(low, select(-cone__FAR, high, widens), steep);
+    let side_out = select(high, select(low, cone__FAR, widens), steep);
     let level = abs(d.y) < 1e-18;
     let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
     let y0 = -o.y * inv_y;
@@ -1048,13 +1048,13 @@ fn package_lib_intersect_cone__1intersect_cone(ray: package_types_Ray, bottom: f
     let hit = near.near & met & (takes_enter | takes_leave);
     let rough = select(0.0, select(leave, enter, takes_enter), hit);
     let is_side = select(leaves_side, enters_side, takes_enter);
-    let end = select(package_lib_intersect_cone_BOTTOM, package_lib_intersect_cone_TOP, (d.y > 0.0) != takes_enter);
-    let s = select(rough, package_lib_intersect_cone_polish(o, d, bottom, slope, rough), is_side);
-    let t = package_lib_canonical__1approached_t(near, s);
-    return package_types_Candidate(hit & (t > 0.0), t, select(end, package_lib_intersect_cone_SIDE, is_side), 0.0);
+    let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
+    let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
+    let t = canonical__approached_t(near, s);
+    return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
 }
 
-fn package_lib_intersect_cone_polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
+fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
     let p = o + s * d;
     let off_axis = length(p.xz);
     let rate = dot(p.xz, d.xz) / max(off_axis, 1e-18) - slope * d.y;
@@ -1063,42 +1063,42 @@ fn package_lib_intersect_cone_polish(o: vec3f, d: vec3f, bottom: f32, slope: f32
     return s - clamp(select(0.0, step, usable), -0.001, 0.001);
 }
 
-const package_lib_intersect_torus__1MOST_ROUNDS: u32 = 40u;
+const torus__MOST_ROUNDS: u32 = 40u;
 
-const package_lib_intersect_torus_NARROW: f32 = 1.2e-7;
+const torus__NARROW: f32 = 1.2e-7;
 
-fn package_lib_intersect_torus__1torus_distance(p: vec3f, minor: f32) -> f32 {
+fn torus__torus_distance(p: vec3f, minor: f32) -> f32 {
     return length(vec2f(length(p.xz) - 1.0, p.y)) - minor;
 }
 
-fn package_lib_intersect_torus_polish(s: f32, p: f32, q: f32) -> f32 {
+fn torus__polish(s: f32, p: f32, q: f32) -> f32 {
     let slope = 3.0 * s * s + p;
     let steep = abs(slope) > 0.001;
     return s - clamp(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
 }
 
-fn package_lib_intersect_torus__1cubic_zeros(p: f32, q: f32) -> vec3f {
+fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
     let third = p / 3.0;
     let half = 0.5 * q;
     let discriminant = half * half + third * third * third;
     let cube = abs(half) + sqrt(max(discriminant, 0.0));
     let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max(cube, 1e-30)) / 3.0), cube > 1e-30);
     let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
-    let one = package_lib_intersect_torus_polish(large + small, p, q);
+    let one = torus__polish(large + small, p, q);
     let size = sqrt(max(-third, 0.0));
     let usable = size > 1e-10;
     let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
     let angle = acos(cosine) / 3.0;
-    let a = package_lib_intersect_torus_polish(2.0 * size * cos(angle + package_lib_canonical__1TWO_PI / 3.0), p, q);
-    let b = package_lib_intersect_torus_polish(2.0 * size * cos(angle - package_lib_canonical__1TWO_PI / 3.0), p, q);
-    let c = package_lib_intersect_torus_polish(2.0 * size * cos(angle), p, q);
+    let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
+    let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
+    let c = torus__polish(2.0 * size * cos(angle), p, q);
     let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
     return select(three, vec3f(one), discriminant > 0.0);
 }
 
-fn package_lib_intersect_torus__1intersect_torus(ray: package_types_Ray, minor: f32) -> package_types_Candidate {
+fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
     let outer = 1.0 + minor;
-    let near = package_lib_canonical_approach(ray, vec3f(0.0), 1.5 * outer);
+    let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
     let o = near.origin;
     let d = near.direction;
     let middle = -dot(o, d);
@@ -1108,19 +1108,19 @@ fn package_lib_intersect_torus__1intersect_torus(ray: package_types_Ray, minor: 
     let half_chord = sqrt(max(ball * ball - apart, 0.0));
     let start = max(middle - half_chord, 0.0);
     let end = middle + half_chord;
-    let zeros = middle + package_lib_intersect_torus__1cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
+    let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
     let cuts = vec4f(clamp(zeros, vec3f(start), vec3f(max(end, start))), end);
-    let outside = package_lib_intersect_torus__1torus_distance(o + start * d, minor) >= 0.0;
-    let changes = vec4<bool>((package_lib_intersect_torus__1torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (package_lib_intersect_torus__1torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (package_lib_intersect_torus__1torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (package_lib_intersect_torus__1torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
+    let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
+    let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
     let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
     let last = select(select(select(cuts.w, cuts.z, changes.z), cuts.y, changes.y), cuts.x, changes.x);
     let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
-    let s = package_lib_intersect_torus__1root_between(o, d, minor, select(last, first, found), last, outside);
-    let t = package_lib_canonical__1approached_t(near, s);
-    return package_types_Candidate(found & (t > 0.0), t, 0.0, 0.0);
+    let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
+    let t = canonical__approached_t(near, s);
+    return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
 }
 
-fn package_lib_intersect_torus__1root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
+fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
     var low = first;
     var high = last;
     var s = 0.5 * (first + last);
@@ -1146,54 +1146,54 @@ fn package_lib_intersect_torus__1root_between(o: vec3f, d: vec3f, minor: f32, fi
         rounds += 1u;
         continuing {
         
-            break if (moved <= package_lib_intersect_torus_NARROW * (1.0 + abs(s))) | (rounds >= package_lib_intersect_torus__1MOST_ROUNDS);
+            break if (moved <= torus__NARROW * (1.0 + abs(s))) | (rounds >= torus__MOST_ROUNDS);
         }
     }
     return s;
 }
 
-fn package_lib_intersect_ellipsoid__1intersect_ellipsoid(ray: package_types_Ray) -> package_types_Candidate {
-    let near = package_lib_canonical_approach(ray, vec3f(0.0), 1.5);
-    let found = package_lib_intersect_sphere__1intersect_sphere(package_types_Ray(near.origin, ray.t_max, near.direction, package_types_NONE, ray.leaving_instance), vec3f(0.0), 1.0);
-    return package_types_Candidate(near.near & found.hit, package_lib_canonical__1approached_t(near, found.t), 0.0, 0.0);
+fn ellipsoid__intersect_ellipsoid(ray: types__Ray) -> types__Candidate {
+    let near = canonical__approach(ray, vec3f(0.0), 1.5);
+    let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
+    return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
 }
 
-fn package_scene_instance__1space_of(instance: package_types_PackedInstance) -> package_lib_motion_Space {
-    if (package_bindings__1HAS_MOTION) {
+fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
+    if (bindings__HAS_MOTION) {
         if (instance.key_count > 1u) {
-            let moment = package_lib_motion__1moment_of(package_scene_shutter__1shutter_time, instance.key_count);
+            let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
             let key = instance.first_key + moment.key;
-            return package_lib_motion__1space_between(package_scene_fetch__1load_key(key), package_scene_fetch__1load_key(key + 1u), moment.fraction);
+            return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
         }
     }
-    return package_lib_motion_Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
+    return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
 }
 
-fn package_scene_instance__1object_ray(ray: package_types_Ray, space: package_lib_motion_Space) -> package_types_Ray {
-    return package_types_Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
+    return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
 }
 
-struct package_lib_motion_Moment {
+struct motion__Moment {
     key: u32,
     fraction: f32
 }
 
-fn package_lib_motion__1moment_of(time: f32, key_count: u32) -> package_lib_motion_Moment {
+fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
     let intervals = max(key_count, 2u) - 1u;
     let at = time * f32(intervals);
     let key = min(u32(at), intervals - 1u);
-    return package_lib_motion_Moment(key, at - f32(key));
+    return motion__Moment(key, at - f32(key));
 }
 
-struct package_lib_motion_Space {
+struct motion__Space {
     translation: vec3f,
     linear: mat3x3f,
     inverse: mat3x3f
 }
 
-fn package_lib_motion__1space_between(a: package_types_PackedKey, b: package_types_PackedKey, fraction: f32) -> package_lib_motion_Space {
+fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
     let q = mix(a.rotation, b.rotation, vec4f(fraction));
-    let rotation = package_lib_motion__1rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+    let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
     let d = mix(a.stretch, b.stretch, vec3f(fraction));
     let s = mix(a.shear, b.shear, vec3f(fraction));
     let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
@@ -1204,10 +1204,10 @@ fn package_lib_motion__1space_between(a: package_types_PackedKey, b: package_typ
     let usable = abs(determinant) > 1e-30;
     let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
     let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-    return package_lib_motion_Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+    return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
 }
 
-fn package_lib_motion__1rotation_matrix(q: vec4f) -> mat3x3f {
+fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
     let d = 2.0 * q.xyz * q.xyz;
     let xy = 2.0 * q.x * q.y;
     let xz = 2.0 * q.x * q.z;
@@ -1216,27 +1216,27 @@ fn package_lib_motion__1rotation_matrix(q: vec4f) -> mat3x3f {
     return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
 }
 
-const package_lib_intersect_node_MISS: u32 = 4294967292u;
+const node__MISS: u32 = 4294967292u;
 
-const package_lib_intersect_node_WIDENING: i32 = 8;
+const node__WIDENING: i32 = 8;
 
-fn package_lib_intersect_node_bytes(word: u32) -> vec4f {
+fn node__bytes(word: u32) -> vec4f {
     return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
 }
 
-fn package_lib_intersect_node__1decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> package_types_Node {
-    return package_types_Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), package_lib_intersect_node_bytes(r1.z), package_lib_intersect_node_bytes(r1.w), package_lib_intersect_node_bytes(r2.x), package_lib_intersect_node_bytes(r2.y), package_lib_intersect_node_bytes(r2.z), package_lib_intersect_node_bytes(r2.w), r3);
+fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
+    return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
 }
 
-fn package_lib_intersect_node__1node_between(a: package_types_Node, b: package_types_Node, fraction: f32) -> package_types_Node {
+fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
     let lo = mix(a.lo, b.lo, vec3f(fraction));
     let shift_a = a.lo - lo;
     let shift_b = b.lo - lo;
     let s = vec4f(fraction);
-    return package_types_Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+    return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
 }
 
-fn package_lib_intersect_node__1child_keys(node: package_types_Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
+fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
     let base = (node.lo - origin) * inv;
     let step = node.scale * inv;
     let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
@@ -1247,13 +1247,13 @@ fn package_lib_intersect_node__1child_keys(node: package_types_Node, origin: vec
     let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
     let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
     let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
-    let limit = min(far + package_lib_intersect_node_WIDENING, vec4i(bitcast<i32>(t_max) + package_lib_intersect_node_WIDENING));
+    let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
     let hit = (near <= limit) & (node.children != vec4u(0u));
     let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
-    return select(vec4u(package_lib_intersect_node_MISS), keys, hit);
+    return select(vec4u(node__MISS), keys, hit);
 }
 
-fn package_lib_intersect_node_sort4(keys: vec4u) -> vec4u {
+fn node__sort4(keys: vec4u) -> vec4u {
     let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
     let lowest = min(a.x, a.y);
     let middle_low = max(a.x, a.y);
@@ -1262,4 +1262,4 @@ fn package_lib_intersect_node_sort4(keys: vec4u) -> vec4u {
     return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
-const package_lib_camera__1T_FAR: f32 = 3e38;
+const camera__T_FAR: f32 = 3e38;

@@ -12,8 +12,8 @@ use std::collections::HashMap;
 /// Declares the overrides as `override NAME: TYPE = DEFAULT;`. Linked kernels lack those that they do not use.
 const BINDINGS: &str = include_str!("../../shaders/bindings.wesl");
 
-/// The prefix that the linker adds to the names of `bindings.wesl`.
-const PREFIX: &str = "package_bindings_";
+/// What the linker adds to the names of `bindings.wesl`.
+const PREFIX: &str = "bindings__";
 
 /// The module of a linked kernel with values for its overrides, by name. Other overrides keep their defaults.
 ///
@@ -48,7 +48,7 @@ fn with_constants(source: &str, overrides: &[(&str, f64)]) -> String {
         let Some(Override { name, ty, default }) = Override::parse(line) else {
             return line.to_owned() + "\n";
         };
-        let plain = plain_name(name);
+        let plain = name.strip_prefix(PREFIX).unwrap_or(name);
         let chosen = overrides.iter().find(|(known, _)| *known == plain);
         let value = chosen.map_or_else(|| default.into(), |&(_, value)| literal(ty, value));
         format!("const {name}: {ty} = {value};\n")
@@ -69,16 +69,6 @@ impl<'a> Override<'a> {
         let (name, value) = declaration.split_once(": ")?;
         let (ty, default) = value.split_once(" = ")?;
         Some(Self { name, ty, default })
-    }
-}
-
-/// The name in `bindings.wesl` of a name that the linker has mangled: it adds `_N` before names that contain N
-/// underscores.
-fn plain_name(mangled: &str) -> &str {
-    let name = mangled.strip_prefix(PREFIX).unwrap_or(mangled);
-    match name.strip_prefix('_') {
-        Some(rest) => rest.trim_start_matches(|c: char| c.is_ascii_digit()),
-        None => name,
     }
 }
 

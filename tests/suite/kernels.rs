@@ -183,7 +183,7 @@ fn a_feature_that_is_off_leaves_no_function_behind() {
     let mut verdict = Verdict::on("functions");
     // With the functions that only this feature needs.
     for (feature, name) in [
-        ("HAS_TEXTURES", "package_lib_noise"),
+        ("HAS_TEXTURES", "noise__"),
         ("HAS_INSTANCES", "load_instance"),
         ("HAS_AREA_LIGHTS", "area_incident"),
         ("HAS_LENS", "lens_ray"),

@@ -7,7 +7,6 @@ use glimray::{
 };
 use naga::{AddressSpace, ArraySize, ImageClass, Module, StorageAccess, StorageFormat, TypeInner};
 use std::{collections::BTreeSet, fs};
-use wesl::{EscapeMangler, Mangler};
 
 fn parse(name: &str, source: &str) -> Module {
     naga::front::wgsl::parse_str(source)
@@ -36,14 +35,11 @@ fn linked() -> Vec<(String, Module)> {
         .collect()
 }
 
-/// The name in its own file: the linker adds the path as a prefix and escapes underscores.
+/// The name in its own file: the linker adds the module before it.
 fn plain(name: &Option<String>) -> String {
     let name = name.as_deref().unwrap_or_default();
-    let linked = name
-        .starts_with("package_")
-        .then(|| EscapeMangler.unmangle(name))
-        .flatten();
-    linked.map_or(name.to_string(), |(_, item)| item)
+    let item = name.rsplit_once("__").map_or(name, |(_, item)| item);
+    item.to_owned()
 }
 
 type Members = Vec<(String, usize)>;
