@@ -3,7 +3,7 @@ fn debug_view(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
     let work = dispatch__work_of(group, lane);
     let batch = dispatch__load_batch();
     if (work.inside) {
-        var sum = film__load_sum(work);
+        var sum = film__load_sum(work.film_index);
         var sample = batch.first_sample;
         loop {
             let color = view(dispatch__sample_ray(batch, work.pixel, sample));
@@ -14,7 +14,7 @@ fn debug_view(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
             }
         }
         loops__cut_off |= sample < batch.end_sample;
-        film__store_sum(work, sum);
+        film__store_sum(work.film_index, sum);
     }
     dispatch__add_counts(lane);
 }
@@ -644,8 +644,8 @@ struct film__Sum {
     squares: f32
 }
 
-fn film__load_sum(work: dispatch__Work) -> film__Sum {
-    let row = bindings__FILM_ROWS * work.film_index;
+fn film__load_sum(film_index: u32) -> film__Sum {
+    let row = bindings__FILM_ROWS * film_index;
     var sum = film__Sum(bindings__film[row], 0.0);
     if (bindings__ADAPTIVE) {
         sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
@@ -653,8 +653,8 @@ fn film__load_sum(work: dispatch__Work) -> film__Sum {
     return sum;
 }
 
-fn film__store_sum(work: dispatch__Work, sum: film__Sum) {
-    let row = bindings__FILM_ROWS * work.film_index;
+fn film__store_sum(film_index: u32, sum: film__Sum) {
+    let row = bindings__FILM_ROWS * film_index;
     bindings__film[row] = sum.radiance;
     if (bindings__ADAPTIVE) {
         bindings__film[row + bindings__SQUARES_ROW].x = sum.squares;

@@ -5,43 +5,18 @@ fn whitted(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 
 fn render(group: vec3u, lane: u32) {
     let batch = dispatch__load_batch();
+    var pixels = pixels__load_pixels(batch, group, lane);
     var sample = batch.first_sample;
     loop {
-        var rays = rays__dead_rays();
-        var keys = wide__Words(0u);
-        var k = 0u;
-        loop {
-            let work = dispatch__work_of(group, dispatch__place_of(lane, k));
-            if (work.inside) {
-                rays = rays__ray_set(rays, k, dispatch__sample_ray(batch, work.pixel, sample));
-            }
-            keys = wide__word_set(keys, k, rng__pixel_key(batch.seed, work.pixel));
-            continuing {
-                k += 1u;
-                break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-            }
-        }
-        loops__cut_off |= k < wide__RAYS_PER_LANE;
-        let radiance = trace(batch, rays, keys, sample);
-        k = 0u;
-        loop {
-            let work = dispatch__work_of(group, dispatch__place_of(lane, k));
-            if (work.inside) {
-                let weight = dispatch__sample_weight(batch, work.pixel, sample);
-                film__store_sum(work, film__add_sample(film__load_sum(work), film__Sample(wide__vector_at(radiance, k)), weight));
-            }
-            continuing {
-                k += 1u;
-                break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-            }
-        }
-        loops__cut_off |= k < wide__RAYS_PER_LANE;
+        let radiance = trace(batch, pixels__sample_rays(batch, pixels, sample), pixels.keys, sample);
+        pixels = pixels__add_samples(batch, pixels, sample, radiance);
         continuing {
             sample += 1u;
             break if sample >= batch.end_sample;
         }
     }
     loops__cut_off |= sample < batch.end_sample;
+    pixels__store_pixels(pixels);
     dispatch__add_counts(lane);
 }
 
@@ -877,60 +852,101 @@ override bindings__FILM_ROWS: u32 = 1u;
 
 override bindings__SQUARES_ROW: u32 = 1u;
 
-struct rays__Rays {
-    origin: wide__Vectors,
-    direction: wide__Vectors,
-    t_max: wide__Floats,
-    leaving: wide__Words,
-    leaving_instance: wide__Words
+struct pixels__Pixels {
+    film_index: wide__Words,
+    x: wide__Words,
+    y: wide__Words,
+    keys: wide__Words,
+    sums: wide__Vectors,
+    weights: wide__Floats,
+    squares: wide__Floats
 }
 
-struct rays__Hits {
-    t: wide__Floats,
-    primitive: wide__Words,
-    b1: wide__Floats,
-    b2: wide__Floats,
-    instance: wide__Words
-}
+const pixels__NO_PIXEL: u32 = 4294967295u;
 
-const rays__DEAD: types__Ray = types__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
-
-fn rays__dead_rays() -> rays__Rays {
-    return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
-}
-
-fn rays__ray_at(rays: rays__Rays, k: u32) -> types__Ray {
-    return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
-}
-
-fn rays__ray_set(rays: rays__Rays, k: u32, ray: types__Ray) -> rays__Rays {
-    return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
-}
-
-fn rays__hit_at(hits: rays__Hits, k: u32) -> types__Hit {
-    return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
-}
-
-fn rays__hits_of(hit: types__Hit) -> rays__Hits {
-    return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
-}
-
-fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
-    {
-        return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
+fn pixels__load_pixels(batch: dispatch__Batch, group: vec3u, lane: u32) -> pixels__Pixels {
+    var pixels = pixels__Pixels(wide__Words(pixels__NO_PIXEL), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__no_vectors(), wide__Floats(0.0), wide__Floats(0.0));
+    var k = 0u;
+    loop {
+        let work = dispatch__work_of(group, dispatch__place_of(lane, k));
+        pixels.x = wide__word_set(pixels.x, k, work.pixel.x);
+        pixels.y = wide__word_set(pixels.y, k, work.pixel.y);
+        pixels.keys = wide__word_set(pixels.keys, k, rng__pixel_key(batch.seed, work.pixel));
+        if (work.inside) {
+            pixels.film_index = wide__word_set(pixels.film_index, k, work.film_index);
+            pixels = pixels__with_sum(pixels, k, film__load_sum(work.film_index));
+        }
+        continuing {
+            k += 1u;
+            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+        }
     }
+    loops__cut_off |= k < wide__RAYS_PER_LANE;
+    return pixels;
 }
 
-fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
-    {
-        return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
+fn pixels__store_pixels(pixels: pixels__Pixels) {
+    var k = 0u;
+    loop {
+        let film_index = wide__word_at(pixels.film_index, k);
+        if (film_index != pixels__NO_PIXEL) {
+            film__store_sum(film_index, pixels__sum_at(pixels, k));
+        }
+        continuing {
+            k += 1u;
+            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+        }
     }
+    loops__cut_off |= k < wide__RAYS_PER_LANE;
 }
 
-fn rays__any_lane(condition: bool) -> bool {
-    {
-        return condition;
+fn pixels__sample_rays(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> rays__Rays {
+    var rays = rays__dead_rays();
+    var k = 0u;
+    loop {
+        if (wide__word_at(pixels.film_index, k) != pixels__NO_PIXEL) {
+            rays = rays__ray_set(rays, k, dispatch__sample_ray(batch, pixels__pixel_at(pixels, k), sample));
+        }
+        continuing {
+            k += 1u;
+            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+        }
     }
+    loops__cut_off |= k < wide__RAYS_PER_LANE;
+    return rays;
+}
+
+fn pixels__add_samples(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32, radiance: wide__Vectors) -> pixels__Pixels {
+    var next = pixels;
+    var k = 0u;
+    loop {
+        if (wide__word_at(pixels.film_index, k) != pixels__NO_PIXEL) {
+            let weight = dispatch__sample_weight(batch, pixels__pixel_at(pixels, k), sample);
+            next = pixels__with_sum(next, k, film__add_sample(pixels__sum_at(pixels, k), film__Sample(wide__vector_at(radiance, k)), weight));
+        }
+        continuing {
+            k += 1u;
+            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+        }
+    }
+    loops__cut_off |= k < wide__RAYS_PER_LANE;
+    return next;
+}
+
+fn pixels__pixel_at(pixels: pixels__Pixels, k: u32) -> vec2u {
+    return vec2u(wide__word_at(pixels.x, k), wide__word_at(pixels.y, k));
+}
+
+fn pixels__sum_at(pixels: pixels__Pixels, k: u32) -> film__Sum {
+    return film__Sum(vec4f(wide__vector_at(pixels.sums, k), wide__float_at(pixels.weights, k)), wide__float_at(pixels.squares, k));
+}
+
+fn pixels__with_sum(pixels: pixels__Pixels, k: u32, sum: film__Sum) -> pixels__Pixels {
+    var next = pixels;
+    next.sums = wide__vector_set(pixels.sums, k, sum.radiance.xyz);
+    next.weights = wide__float_set(pixels.weights, k, sum.radiance.w);
+    next.squares = wide__float_set(pixels.squares, k, sum.squares);
+    return next;
 }
 
 const wide__RAYS_PER_LANE: u32 = 1u;
@@ -1017,298 +1033,42 @@ fn rng__unit_float(x: u32) -> f32 {
     return f32(x >> 8u) * 5.9604645e-8;
 }
 
-const filter__PI: f32 = 3.14159265;
+struct film__Sample {
+    radiance: vec3f
+}
 
-const filter__SIGMA: f32 = 0.5;
+struct film__Sum {
+    radiance: vec4f,
+    squares: f32
+}
 
-const filter__ROUNDS: u32 = 22u;
-
-const filter__BLACKMAN_HARRIS_1: f32 = 0.48829 / (filter__PI * 0.35875);
-
-const filter__BLACKMAN_HARRIS_2: f32 = 0.14128 / (filter__PI * 0.35875);
-
-const filter__BLACKMAN_HARRIS_3: f32 = 0.01168 / (3.0 * filter__PI * 0.35875);
-
-const filter__MITCHELL_ZERO: f32 = 1.14285714;
-
-const filter__MITCHELL_POSITIVE: f32 = 0.51749271;
-
-const filter__MITCHELL_TOTAL: f32 = 0.53498542;
-
-fn filter__filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
-    let centred = 2.0 * u - 1.0;
-    if (kind == types__FILTER_BOX) {
-        return 2.0 * radius * (u - 0.5);
+fn film__load_sum(film_index: u32) -> film__Sum {
+    let row = bindings__FILM_ROWS * film_index;
+    var sum = film__Sum(bindings__film[row], 0.0);
+    if (bindings__ADAPTIVE) {
+        sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
     }
-    let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
-    let fraction = abs(centred);
-    if (kind == types__FILTER_TENT) {
-        return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
+    return sum;
+}
+
+fn film__store_sum(film_index: u32, sum: film__Sum) {
+    let row = bindings__FILM_ROWS * film_index;
+    bindings__film[row] = sum.radiance;
+    if (bindings__ADAPTIVE) {
+        bindings__film[row + bindings__SQUARES_ROW].x = sum.squares;
     }
-    if (kind == types__FILTER_GAUSSIAN) {
-        let scale = filter__SIGMA * sqrt(2.0);
-        return scale * side * min(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
+}
+
+fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__Sum {
+    let luminance = dot(sample.radiance, tone__LUMINANCE_REC709);
+    var next = sum;
+    next.radiance += weight * vec4f(sample.radiance, 1.0);
+    next.squares += luminance * luminance;
+    if (!numeric__is_finite(next.radiance.xyz) || (bindings__ADAPTIVE && !numeric__is_finite(vec3f(next.squares)))) {
+        atomicAdd(&bindings__dispatch.counters.nonfinite_samples, 1u);
+        return sum;
     }
-    return radius * side * filter__searched(kind, fraction);
-}
-
-fn filter__filter_sign(kind: u32, u: vec2f) -> f32 {
-    let negative = abs(2.0 * u - 1.0) > vec2f(filter__MITCHELL_POSITIVE / filter__MITCHELL_TOTAL);
-    return select(1.0, -1.0, (kind == types__FILTER_MITCHELL) & (negative.x != negative.y));
-}
-
-fn filter__searched(kind: u32, fraction: vec2f) -> vec2f {
-    var low = vec2f(0.0);
-    var width = 1.0;
-    var done = 0u;
-    loop {
-        width *= 0.5;
-        let middle = low + width;
-        low = select(low, middle, filter__cumulated(kind, middle) <= fraction);
-        continuing {
-            done += 1u;
-            break if done >= filter__ROUNDS;
-        }
-    }
-    return low + 0.5 * width;
-}
-
-fn filter__cumulated(kind: u32, x: vec2f) -> vec2f {
-    if (kind == types__FILTER_BLACKMAN_HARRIS) {
-        let s = sin(filter__PI * x);
-        let c = cos(filter__PI * x);
-        return x + s * (filter__BLACKMAN_HARRIS_1 + filter__BLACKMAN_HARRIS_2 * c + filter__BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
-    }
-    let t = 2.0 * x;
-    let inner = t * (16.0 / 3.0 + t * t * (-4.0 + t * 1.75)) / 6.0;
-    let e = 2.0 - t;
-    let outer = e * e * e * (7.0 / 12.0 * e - 2.0 / 3.0) / 6.0;
-    let signed = select(0.5 - outer, inner, t < vec2f(1.0));
-    let absolute = select(signed, 2.0 * filter__MITCHELL_POSITIVE - signed, t > vec2f(filter__MITCHELL_ZERO));
-    return absolute / filter__MITCHELL_TOTAL;
-}
-
-fn filter__erf(x: f32) -> f32 {
-    let t = 1.0 / (1.0 + 0.3275911 * x);
-    let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
-    return 1.0 - series * exp(-min(x * x, 80.0));
-}
-
-fn filter__inverse_erf(y: vec2f) -> vec2f {
-    let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
-    let a = w - 2.5;
-    let b = sqrt(max(w, vec2f(0.0))) - 3.0;
-    let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
-    let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
-    return y * select(far, near, w < vec2f(5.0));
-}
-
-fn sampling__sobol(index: u32) -> vec2u {
-    var x = index;
-    x ^= (x >> 1u) & 1431655765u;
-    x ^= (x >> 2u) & 858993459u;
-    x ^= (x >> 4u) & 252645135u;
-    x ^= (x >> 8u) & 16711935u;
-    x ^= (x >> 16u) & 65535u;
-    return vec2u(reverseBits(index), reverseBits(x));
-}
-
-fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
-    var x = reverseBits(fraction);
-    x += seed;
-    x ^= x * 1817228412u;
-    x ^= x * 3090095698u;
-    x ^= x * 3350193720u;
-    x ^= x * 2367878886u;
-    return reverseBits(x);
-}
-
-fn sampling__sobol_34(index: u32) -> vec2u {
-    var z = vec2u(2147483648u, 3221225472u);
-    var w = vec3u(2147483648u, 3221225472u, 536870912u);
-    var point = vec2u(0u);
-    var bit = 0u;
-    loop {
-        point ^= select(vec2u(0u), vec2u(z.x, w.x), ((index >> bit) & 1u) != 0u);
-        z = vec2u(z.y, z.y ^ z.x ^ (z.x >> 2u));
-        w = vec3u(w.yz, w.y ^ w.x ^ (w.x >> 3u));
-        continuing {
-            bit += 1u;
-            break if bit >= 32u;
-        }
-    }
-    return point;
-}
-
-fn sampling__stratified_2d(index: u32, key: u32) -> vec2f {
-    return sampling__scrambled(sampling__sobol(sampling__owen_scramble(index, rng__hash(key))), key);
-}
-
-fn sampling__stratified_34(index: u32, key: u32) -> vec2f {
-    return sampling__scrambled(sampling__sobol_34(sampling__owen_scramble(index, rng__hash(key))), key ^ 2654435769u);
-}
-
-fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
-    let own = key ^ 1757159915u;
-    return rng__unit_float(sampling__owen_scramble(reverseBits(sampling__owen_scramble(index, rng__hash(own))), rng__hash(own ^ 48610963u)));
-}
-
-fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
-    return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
-}
-
-var<private> shutter__shutter_time: f32 = 0.0;
-
-fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
-    if (bindings__CAMERA_MOTION) {
-        let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
-        return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
-    }
-    return still;
-}
-
-fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
-    if (bindings__LIGHT_MOTION) {
-        let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
-        let place = moment.key * light_count + index;
-        return motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
-    }
-    return fetch__load_light(index);
-}
-
-struct motion__Moment {
-    key: u32,
-    fraction: f32
-}
-
-fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
-    let intervals = max(key_count, 2u) - 1u;
-    let at = time * f32(intervals);
-    let key = min(u32(at), intervals - 1u);
-    return motion__Moment(key, at - f32(key));
-}
-
-struct motion__Space {
-    translation: vec3f,
-    linear: mat3x3f,
-    inverse: mat3x3f
-}
-
-fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
-    let q = mix(a.rotation, b.rotation, vec4f(fraction));
-    let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
-    let d = mix(a.stretch, b.stretch, vec3f(fraction));
-    let s = mix(a.shear, b.shear, vec3f(fraction));
-    let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
-    let e = d / size;
-    let f = s / size;
-    let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
-    let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
-    let usable = abs(determinant) > 1e-30;
-    let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
-    let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-    return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
-}
-
-fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
-    let d = 2.0 * q.xyz * q.xyz;
-    let xy = 2.0 * q.x * q.y;
-    let xz = 2.0 * q.x * q.z;
-    let yz = 2.0 * q.y * q.z;
-    let w = 2.0 * q.w * q.xyz;
-    return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
-}
-
-fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
-    return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
-}
-
-fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
-    return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, 0u, 0u, 0u);
-}
-
-const camera__T_FAR: f32 = 3e38;
-
-fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
-    return types__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
-    let x = 2.0 * position.x / size.x - 1.0;
-    let y = 1.0 - 2.0 * position.y / size.y;
-    return camera.forward + x * camera.right + y * camera.up;
-}
-
-fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
-    let origin = camera.origin + camera__across(camera, position, size);
-    return types__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
-    let x = 2.0 * position.x / size.x - 1.0;
-    let y = 1.0 - 2.0 * position.y / size.y;
-    return x * camera.right + y * camera.up;
-}
-
-fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
-    let off_axis = camera__aperture_point(camera, u);
-    let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
-    return types__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
-    let off_axis = camera__aperture_point(camera, u);
-    let origin = camera.origin + camera__across(camera, position, size) + off_axis;
-    let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
-    return types__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
-}
-
-fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
-    var aperture = warp__disc_from_square(u);
-    if (camera.blade_count >= 3u) {
-        aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
-    }
-    let p = camera.lens_radius * aperture;
-    return p.x * normalize(camera.right) + p.y * normalize(camera.up);
-}
-
-const warp__PI: f32 = 3.14159265;
-
-fn warp__disc_from_square(u: vec2f) -> vec2f {
-    let p = 2.0 * u - 1.0;
-    let by_x = abs(p.x) > abs(p.y);
-    let radius = select(p.y, p.x, by_x);
-    let ratio = select(p.x, p.y, by_x) / select(1.0, radius, abs(radius) > 0.0);
-    let angle = select(0.5 * warp__PI - 0.25 * warp__PI * ratio, 0.25 * warp__PI * ratio, by_x);
-    return radius * vec2f(cos(angle), sin(angle));
-}
-
-fn warp__triangle_from_square(u: vec2f) -> vec2f {
-    let s = sqrt(u.y);
-    return vec2f(s * (1.0 - u.x), s * u.x);
-}
-
-fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
-    let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
-    let b = warp__triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
-    let step = 2.0 * warp__PI / f32(count);
-    let angles = rotation + step * vec2f(edge, edge + 1.0);
-    return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
-}
-
-fn warp__cone_from_square(u: vec2f, depth: f32) -> vec3f {
-    let p = warp__disc_from_square(u);
-    let below = min(dot(p, p), 1.0) * depth;
-    return vec3f(p * sqrt(max(depth * (2.0 - below), 0.0)), 1.0 - below);
-}
-
-fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
-    let side = select(-1.0, 1.0, n.z >= 0.0);
-    let a = -1.0 / (side + n.z);
-    let b = n.x * n.y * a;
-    let x = vec3f(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
-    let y = vec3f(b, side + n.y * n.y * a, -n.y);
-    return direction.x * x + direction.y * y + direction.z * n;
+    return next;
 }
 
 var<private> loops__nodes_visited: u32 = 0u;
@@ -1316,6 +1076,62 @@ var<private> loops__nodes_visited: u32 = 0u;
 var<private> loops__primitives_tested: u32 = 0u;
 
 var<private> loops__cut_off: bool = false;
+
+struct rays__Rays {
+    origin: wide__Vectors,
+    direction: wide__Vectors,
+    t_max: wide__Floats,
+    leaving: wide__Words,
+    leaving_instance: wide__Words
+}
+
+struct rays__Hits {
+    t: wide__Floats,
+    primitive: wide__Words,
+    b1: wide__Floats,
+    b2: wide__Floats,
+    instance: wide__Words
+}
+
+const rays__DEAD: types__Ray = types__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
+
+fn rays__dead_rays() -> rays__Rays {
+    return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
+}
+
+fn rays__ray_at(rays: rays__Rays, k: u32) -> types__Ray {
+    return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
+}
+
+fn rays__ray_set(rays: rays__Rays, k: u32, ray: types__Ray) -> rays__Rays {
+    return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
+}
+
+fn rays__hit_at(hits: rays__Hits, k: u32) -> types__Hit {
+    return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
+}
+
+fn rays__hits_of(hit: types__Hit) -> rays__Hits {
+    return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
+}
+
+fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
+    {
+        return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
+    }
+}
+
+fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
+    {
+        return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
+    }
+}
+
+fn rays__any_lane(condition: bool) -> bool {
+    {
+        return condition;
+    }
+}
 
 const ray_stack__KIND_PRIMARY: u32 = 0u;
 
@@ -1664,6 +1480,51 @@ fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, she
         return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
     }
     return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
+}
+
+const camera__T_FAR: f32 = 3e38;
+
+fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
+    return types__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+    let x = 2.0 * position.x / size.x - 1.0;
+    let y = 1.0 - 2.0 * position.y / size.y;
+    return camera.forward + x * camera.right + y * camera.up;
+}
+
+fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
+    let origin = camera.origin + camera__across(camera, position, size);
+    return types__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
+    let x = 2.0 * position.x / size.x - 1.0;
+    let y = 1.0 - 2.0 * position.y / size.y;
+    return x * camera.right + y * camera.up;
+}
+
+fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+    let off_axis = camera__aperture_point(camera, u);
+    let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
+    return types__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
+    let off_axis = camera__aperture_point(camera, u);
+    let origin = camera.origin + camera__across(camera, position, size) + off_axis;
+    let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
+    return types__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+}
+
+fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
+    var aperture = warp__disc_from_square(u);
+    if (camera.blade_count >= 3u) {
+        aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
+    }
+    let p = camera.lens_radius * aperture;
+    return p.x * normalize(camera.right) + p.y * normalize(camera.up);
 }
 
 struct triangle_watertight__Shear {
@@ -2319,6 +2180,76 @@ fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
 fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
     let at = vec4f(q, 1.0);
     return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
+}
+
+struct motion__Moment {
+    key: u32,
+    fraction: f32
+}
+
+fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
+    let intervals = max(key_count, 2u) - 1u;
+    let at = time * f32(intervals);
+    let key = min(u32(at), intervals - 1u);
+    return motion__Moment(key, at - f32(key));
+}
+
+struct motion__Space {
+    translation: vec3f,
+    linear: mat3x3f,
+    inverse: mat3x3f
+}
+
+fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
+    let q = mix(a.rotation, b.rotation, vec4f(fraction));
+    let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+    let d = mix(a.stretch, b.stretch, vec3f(fraction));
+    let s = mix(a.shear, b.shear, vec3f(fraction));
+    let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
+    let e = d / size;
+    let f = s / size;
+    let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
+    let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
+    let usable = abs(determinant) > 1e-30;
+    let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
+    let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
+    return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+}
+
+fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
+    let d = 2.0 * q.xyz * q.xyz;
+    let xy = 2.0 * q.x * q.y;
+    let xz = 2.0 * q.x * q.z;
+    let yz = 2.0 * q.y * q.z;
+    let w = 2.0 * q.w * q.xyz;
+    return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
+}
+
+fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
+    return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
+}
+
+fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
+    return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, 0u, 0u, 0u);
+}
+
+var<private> shutter__shutter_time: f32 = 0.0;
+
+fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
+    if (bindings__CAMERA_MOTION) {
+        let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
+        return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
+    }
+    return still;
+}
+
+fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
+    if (bindings__LIGHT_MOTION) {
+        let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
+        let place = moment.key * light_count + index;
+        return motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
+    }
+    return fetch__load_light(index);
 }
 
 const node__MISS: u32 = 4294967292u;
@@ -3206,6 +3137,99 @@ fn area_light__max_abs(v: vec3f) -> f32 {
     return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
+const warp__PI: f32 = 3.14159265;
+
+fn warp__disc_from_square(u: vec2f) -> vec2f {
+    let p = 2.0 * u - 1.0;
+    let by_x = abs(p.x) > abs(p.y);
+    let radius = select(p.y, p.x, by_x);
+    let ratio = select(p.x, p.y, by_x) / select(1.0, radius, abs(radius) > 0.0);
+    let angle = select(0.5 * warp__PI - 0.25 * warp__PI * ratio, 0.25 * warp__PI * ratio, by_x);
+    return radius * vec2f(cos(angle), sin(angle));
+}
+
+fn warp__triangle_from_square(u: vec2f) -> vec2f {
+    let s = sqrt(u.y);
+    return vec2f(s * (1.0 - u.x), s * u.x);
+}
+
+fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
+    let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
+    let b = warp__triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
+    let step = 2.0 * warp__PI / f32(count);
+    let angles = rotation + step * vec2f(edge, edge + 1.0);
+    return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
+}
+
+fn warp__cone_from_square(u: vec2f, depth: f32) -> vec3f {
+    let p = warp__disc_from_square(u);
+    let below = min(dot(p, p), 1.0) * depth;
+    return vec3f(p * sqrt(max(depth * (2.0 - below), 0.0)), 1.0 - below);
+}
+
+fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
+    let side = select(-1.0, 1.0, n.z >= 0.0);
+    let a = -1.0 / (side + n.z);
+    let b = n.x * n.y * a;
+    let x = vec3f(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
+    let y = vec3f(b, side + n.y * n.y * a, -n.y);
+    return direction.x * x + direction.y * y + direction.z * n;
+}
+
+fn sampling__sobol(index: u32) -> vec2u {
+    var x = index;
+    x ^= (x >> 1u) & 1431655765u;
+    x ^= (x >> 2u) & 858993459u;
+    x ^= (x >> 4u) & 252645135u;
+    x ^= (x >> 8u) & 16711935u;
+    x ^= (x >> 16u) & 65535u;
+    return vec2u(reverseBits(index), reverseBits(x));
+}
+
+fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
+    var x = reverseBits(fraction);
+    x += seed;
+    x ^= x * 1817228412u;
+    x ^= x * 3090095698u;
+    x ^= x * 3350193720u;
+    x ^= x * 2367878886u;
+    return reverseBits(x);
+}
+
+fn sampling__sobol_34(index: u32) -> vec2u {
+    var z = vec2u(2147483648u, 3221225472u);
+    var w = vec3u(2147483648u, 3221225472u, 536870912u);
+    var point = vec2u(0u);
+    var bit = 0u;
+    loop {
+        point ^= select(vec2u(0u), vec2u(z.x, w.x), ((index >> bit) & 1u) != 0u);
+        z = vec2u(z.y, z.y ^ z.x ^ (z.x >> 2u));
+        w = vec3u(w.yz, w.y ^ w.x ^ (w.x >> 3u));
+        continuing {
+            bit += 1u;
+            break if bit >= 32u;
+        }
+    }
+    return point;
+}
+
+fn sampling__stratified_2d(index: u32, key: u32) -> vec2f {
+    return sampling__scrambled(sampling__sobol(sampling__owen_scramble(index, rng__hash(key))), key);
+}
+
+fn sampling__stratified_34(index: u32, key: u32) -> vec2f {
+    return sampling__scrambled(sampling__sobol_34(sampling__owen_scramble(index, rng__hash(key))), key ^ 2654435769u);
+}
+
+fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
+    let own = key ^ 1757159915u;
+    return rng__unit_float(sampling__owen_scramble(reverseBits(sampling__owen_scramble(index, rng__hash(own))), rng__hash(own ^ 48610963u)));
+}
+
+fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
+    return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
+}
+
 fn phong__shininess_power(x: f32, shininess: f32) -> f32 {
     let power = exp2(shininess * log2(max(x, 1e-30)));
     return select(select(0.0, 1.0, shininess <= 0.0), power, x > 0.0);
@@ -3314,42 +3338,90 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_stack__Media) -> wide__V
     return transmitted;
 }
 
-struct film__Sample {
-    radiance: vec3f
-}
+const filter__PI: f32 = 3.14159265;
 
-struct film__Sum {
-    radiance: vec4f,
-    squares: f32
-}
+const filter__SIGMA: f32 = 0.5;
 
-fn film__load_sum(work: dispatch__Work) -> film__Sum {
-    let row = bindings__FILM_ROWS * work.film_index;
-    var sum = film__Sum(bindings__film[row], 0.0);
-    if (bindings__ADAPTIVE) {
-        sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
+const filter__ROUNDS: u32 = 22u;
+
+const filter__BLACKMAN_HARRIS_1: f32 = 0.48829 / (filter__PI * 0.35875);
+
+const filter__BLACKMAN_HARRIS_2: f32 = 0.14128 / (filter__PI * 0.35875);
+
+const filter__BLACKMAN_HARRIS_3: f32 = 0.01168 / (3.0 * filter__PI * 0.35875);
+
+const filter__MITCHELL_ZERO: f32 = 1.14285714;
+
+const filter__MITCHELL_POSITIVE: f32 = 0.51749271;
+
+const filter__MITCHELL_TOTAL: f32 = 0.53498542;
+
+fn filter__filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
+    let centred = 2.0 * u - 1.0;
+    if (kind == types__FILTER_BOX) {
+        return 2.0 * radius * (u - 0.5);
     }
-    return sum;
+    let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
+    let fraction = abs(centred);
+    if (kind == types__FILTER_TENT) {
+        return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
+    }
+    if (kind == types__FILTER_GAUSSIAN) {
+        let scale = filter__SIGMA * sqrt(2.0);
+        return scale * side * min(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
+    }
+    return radius * side * filter__searched(kind, fraction);
 }
 
-fn film__store_sum(work: dispatch__Work, sum: film__Sum) {
-    let row = bindings__FILM_ROWS * work.film_index;
-    bindings__film[row] = sum.radiance;
-    if (bindings__ADAPTIVE) {
-        bindings__film[row + bindings__SQUARES_ROW].x = sum.squares;
-    }
+fn filter__filter_sign(kind: u32, u: vec2f) -> f32 {
+    let negative = abs(2.0 * u - 1.0) > vec2f(filter__MITCHELL_POSITIVE / filter__MITCHELL_TOTAL);
+    return select(1.0, -1.0, (kind == types__FILTER_MITCHELL) & (negative.x != negative.y));
 }
 
-fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__Sum {
-    let luminance = dot(sample.radiance, tone__LUMINANCE_REC709);
-    var next = sum;
-    next.radiance += weight * vec4f(sample.radiance, 1.0);
-    next.squares += luminance * luminance;
-    if (!numeric__is_finite(next.radiance.xyz) || (bindings__ADAPTIVE && !numeric__is_finite(vec3f(next.squares)))) {
-        atomicAdd(&bindings__dispatch.counters.nonfinite_samples, 1u);
-        return sum;
+fn filter__searched(kind: u32, fraction: vec2f) -> vec2f {
+    var low = vec2f(0.0);
+    var width = 1.0;
+    var done = 0u;
+    loop {
+        width *= 0.5;
+        let middle = low + width;
+        low = select(low, middle, filter__cumulated(kind, middle) <= fraction);
+        continuing {
+            done += 1u;
+            break if done >= filter__ROUNDS;
+        }
     }
-    return next;
+    return low + 0.5 * width;
+}
+
+fn filter__cumulated(kind: u32, x: vec2f) -> vec2f {
+    if (kind == types__FILTER_BLACKMAN_HARRIS) {
+        let s = sin(filter__PI * x);
+        let c = cos(filter__PI * x);
+        return x + s * (filter__BLACKMAN_HARRIS_1 + filter__BLACKMAN_HARRIS_2 * c + filter__BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
+    }
+    let t = 2.0 * x;
+    let inner = t * (16.0 / 3.0 + t * t * (-4.0 + t * 1.75)) / 6.0;
+    let e = 2.0 - t;
+    let outer = e * e * e * (7.0 / 12.0 * e - 2.0 / 3.0) / 6.0;
+    let signed = select(0.5 - outer, inner, t < vec2f(1.0));
+    let absolute = select(signed, 2.0 * filter__MITCHELL_POSITIVE - signed, t > vec2f(filter__MITCHELL_ZERO));
+    return absolute / filter__MITCHELL_TOTAL;
+}
+
+fn filter__erf(x: f32) -> f32 {
+    let t = 1.0 / (1.0 + 0.3275911 * x);
+    let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
+    return 1.0 - series * exp(-min(x * x, 80.0));
+}
+
+fn filter__inverse_erf(y: vec2f) -> vec2f {
+    let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
+    let a = w - 2.5;
+    let b = sqrt(max(w, vec2f(0.0))) - 3.0;
+    let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
+    let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
+    return y * select(far, near, w < vec2f(5.0));
 }
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
