@@ -1,13 +1,14 @@
 @compute @workgroup_size(64, 1, 1)
 fn debug_view(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let work = dispatch__work_of(group, lane);
     let batch = dispatch__load_batch();
+    let work = dispatch__work_of(dispatch__load_block(group), lane);
+    let key = rng__pixel_key(batch.seed, work.pixel);
     if (work.inside) {
         var sum = film__load_sum(work.film_index);
         var sample = batch.first_sample;
         loop {
-            let color = view(dispatch__sample_ray(batch, work.pixel, sample));
-            sum = film__add_sample(sum, film__Sample(color), dispatch__sample_weight(batch, work.pixel, sample));
+            let color = view(dispatch__sample_ray(batch, work.pixel, key, sample));
+            sum = film__add_sample(sum, film__Sample(color), dispatch__sample_weight(key, sample));
             continuing {
                 sample += 1u;
                 break if sample >= batch.end_sample;
@@ -60,16 +61,28 @@ struct dispatch__RayCounts {
 
 var<private> dispatch__counts: dispatch__RayCounts;
 
-fn dispatch__work_of(group: vec3u, lane: u32) -> dispatch__Work {
+struct dispatch__Block {
+    film_index: u32,
+    corner: vec2u,
+    end: vec2u,
+    is_inside: bool
+}
+
+fn dispatch__load_block(group: vec3u) -> dispatch__Block {
     let index = bindings__dispatch.first_group + group.y * bindings__dispatch.grid_width + group.x;
     let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
-    let pixel = tile__tile_pixel(visited, lane, bindings__dispatch.group_columns);
+    let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
+    return dispatch__Block(64u * index, tile + tile__group_corner(visited, bindings__dispatch.group_columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group);
+}
+
+fn dispatch__work_of(block: dispatch__Block, place: u32) -> dispatch__Work {
+    let film_index = block.film_index + place;
     if (bindings__ADAPTIVE) {
-        let entry = bindings__film[bindings__FILM_ROWS * (index * 64u + lane) + bindings__SQUARES_ROW];
-        return dispatch__Work(index < bindings__dispatch.end_group && entry.w > 0.0, index * 64u + lane, vec2u(entry.yz));
+        let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
+        return dispatch__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
     }
-    let inside = index < bindings__dispatch.end_group && pixel.x < bindings__dispatch.tile_width && pixel.y < bindings__dispatch.tile_height;
-    return dispatch__Work(inside, index * 64u + lane, pixel + vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y));
+    let pixel = block.corner + tile__morton_8x8(place);
+    return dispatch__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
 }
 
 struct dispatch__Batch {
@@ -97,8 +110,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
     return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_first_texel, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
 }
 
-fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, sample: u32) -> types__Ray {
-    let key = rng__pixel_key(batch.seed, pixel);
+fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
     var within = vec2f(0.5);
     if (bindings__STRATIFIED) {
         within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
@@ -127,11 +139,11 @@ fn dispatch__sample_time(sample: u32, key: u32) -> f32 {
     return sampling__stratified_34(sample, key).x;
 }
 
-fn dispatch__sample_weight(batch: dispatch__Batch, pixel: vec2u, sample: u32) -> f32 {
+fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
     if (!bindings__STRATIFIED) {
         return 1.0;
     }
-    return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, rng__pixel_key(batch.seed, pixel)));
+    return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, key));
 }
 
 fn dispatch__add_counts(lane: u32) {
@@ -157,81 +169,6 @@ fn dispatch__add_counts(lane: u32) {
         atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
     }
 }
-
-@group(0) @binding(0)
-var bindings__nodes: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(1)
-var bindings__triangles: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(2)
-var bindings__vertices: texture_storage_2d<rgba32uint, read>;
-
-@group(0) @binding(3)
-var bindings__materials: texture_storage_2d<rgba32uint, read>;
-
-@group(1) @binding(0)
-var<storage, read> bindings__frame: types__PackedFrame;
-
-@group(1) @binding(1)
-var<storage, read_write> bindings__dispatch: types__PackedDispatch;
-
-@group(2) @binding(0)
-var<storage, read_write> bindings__film: array<vec4f>;
-
-override bindings__TRIANGLE_TEST: u32 = types__TRIANGLE_TEST_WATERTIGHT;
-
-override bindings__HAS_TRIANGLES: bool = true;
-
-override bindings__HAS_SHAPES: bool = true;
-
-override bindings__HAS_PLANES: bool = true;
-
-override bindings__MIXED_MATERIALS: bool = true;
-
-override bindings__BRUTE_FORCE: bool = false;
-
-override bindings__STRATIFIED: bool = false;
-
-override bindings__COUNT_RAYS: bool = false;
-
-override bindings__COUNT_STEPS: bool = false;
-
-override bindings__VIEW: u32 = types__VIEW_NORMALS;
-
-override bindings__SHAPE_KINDS: u32 = 4294967295u;
-
-override bindings__HAS_REFLECTION: bool = true;
-
-override bindings__HAS_REFRACTION: bool = true;
-
-override bindings__HAS_CONTACT: bool = true;
-
-override bindings__HAS_LENS: bool = true;
-
-override bindings__FILTER: u32 = types__FILTER_BOX;
-
-override bindings__FILTER_RADIUS: f32 = 0.5;
-
-override bindings__HAS_TEXTURES: bool = true;
-
-override bindings__ADAPTIVE: bool = false;
-
-override bindings__HAS_INSTANCES: bool = true;
-
-override bindings__HAS_MOTION: bool = true;
-
-override bindings__CAMERA_MOTION: bool = true;
-
-override bindings__LIGHT_MOTION: bool = true;
-
-override bindings__ORTHOGRAPHIC: bool = false;
-
-override bindings__HAS_UVS: bool = true;
-
-override bindings__FILM_ROWS: u32 = 1u;
-
-override bindings__SQUARES_ROW: u32 = 1u;
 
 const types__NONE: u32 = 4294967295u;
 
@@ -509,22 +446,6 @@ struct types__Surface {
     instance: u32
 }
 
-const tile__GROUP_SIDE: u32 = 8u;
-
-fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-    return (index * stride) % group_count;
-}
-
-fn tile__morton_8x8(lane: u32) -> vec2u {
-    let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
-    let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
-    return vec2u(x, y);
-}
-
-fn tile__tile_pixel(group: u32, lane: u32, group_columns: u32) -> vec2u {
-    return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns) + tile__morton_8x8(lane);
-}
-
 var<private> fetch__shape_row: u32;
 
 var<private> fetch__light_row: u32;
@@ -633,6 +554,119 @@ fn fetch__vertex_row(row: u32) -> vec4u {
 
 fn fetch__material_row(row: u32) -> vec4u {
     return textureLoad(bindings__materials, fetch__texel(row));
+}
+
+@group(0) @binding(0)
+var bindings__nodes: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(1)
+var bindings__triangles: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(2)
+var bindings__vertices: texture_storage_2d<rgba32uint, read>;
+
+@group(0) @binding(3)
+var bindings__materials: texture_storage_2d<rgba32uint, read>;
+
+@group(1) @binding(0)
+var<storage, read> bindings__frame: types__PackedFrame;
+
+@group(1) @binding(1)
+var<storage, read_write> bindings__dispatch: types__PackedDispatch;
+
+@group(2) @binding(0)
+var<storage, read_write> bindings__film: array<vec4f>;
+
+override bindings__TRIANGLE_TEST: u32 = types__TRIANGLE_TEST_WATERTIGHT;
+
+override bindings__HAS_TRIANGLES: bool = true;
+
+override bindings__HAS_SHAPES: bool = true;
+
+override bindings__HAS_PLANES: bool = true;
+
+override bindings__MIXED_MATERIALS: bool = true;
+
+override bindings__BRUTE_FORCE: bool = false;
+
+override bindings__STRATIFIED: bool = false;
+
+override bindings__COUNT_RAYS: bool = false;
+
+override bindings__COUNT_STEPS: bool = false;
+
+override bindings__VIEW: u32 = types__VIEW_NORMALS;
+
+override bindings__SHAPE_KINDS: u32 = 4294967295u;
+
+override bindings__HAS_REFLECTION: bool = true;
+
+override bindings__HAS_REFRACTION: bool = true;
+
+override bindings__HAS_CONTACT: bool = true;
+
+override bindings__HAS_LENS: bool = true;
+
+override bindings__FILTER: u32 = types__FILTER_BOX;
+
+override bindings__FILTER_RADIUS: f32 = 0.5;
+
+override bindings__HAS_TEXTURES: bool = true;
+
+override bindings__ADAPTIVE: bool = false;
+
+override bindings__HAS_INSTANCES: bool = true;
+
+override bindings__HAS_MOTION: bool = true;
+
+override bindings__CAMERA_MOTION: bool = true;
+
+override bindings__LIGHT_MOTION: bool = true;
+
+override bindings__ORTHOGRAPHIC: bool = false;
+
+override bindings__HAS_UVS: bool = true;
+
+override bindings__FILM_ROWS: u32 = 1u;
+
+override bindings__SQUARES_ROW: u32 = 1u;
+
+const tile__GROUP_SIDE: u32 = 8u;
+
+fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
+    return (index * stride) % group_count;
+}
+
+fn tile__morton_8x8(lane: u32) -> vec2u {
+    let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
+    let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
+    return vec2u(x, y);
+}
+
+fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
+    return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
+}
+
+fn rng__hash(x: u32) -> u32 {
+    var h = x;
+    h ^= h >> 16u;
+    h *= 2146121005u;
+    h ^= h >> 15u;
+    h *= 2221713035u;
+    h ^= h >> 16u;
+    return h;
+}
+
+fn rng__hash_combine(a: u32, b: u32) -> u32 {
+    return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
+}
+
+fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
+    return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
+}
+
+fn rng__unit_float(x: u32) -> f32 {
+    return f32(x >> 8u) * 5.9604645e-8;
 }
 
 struct film__Sample {
@@ -1816,28 +1850,6 @@ fn colormap__uv_color(uv: vec2f) -> vec3f {
     let field = vec2i(floor(fract(uv) * 8.0));
     let shade = select(0.7, 1.0, ((field.x + field.y) & 1) == 0);
     return vec3f(fract(uv) * shade, 0.0);
-}
-
-fn rng__hash(x: u32) -> u32 {
-    var h = x;
-    h ^= h >> 16u;
-    h *= 2146121005u;
-    h ^= h >> 15u;
-    h *= 2221713035u;
-    h ^= h >> 16u;
-    return h;
-}
-
-fn rng__hash_combine(a: u32, b: u32) -> u32 {
-    return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
-}
-
-fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
-    return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
-}
-
-fn rng__unit_float(x: u32) -> f32 {
-    return f32(x >> 8u) * 5.9604645e-8;
 }
 
 const filter__PI: f32 = 3.14159265;

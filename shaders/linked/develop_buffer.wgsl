@@ -1,6 +1,6 @@
 @compute @workgroup_size(64, 1, 1)
 fn develop(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let work = dispatch__work_of(group, lane);
+    let work = dispatch__work_of(dispatch__load_block(group), lane);
     if (work.inside) {
         let mean = filter__weighted_mean(film__load_weighted_sum(work, bindings__tone));
         let position = work.pixel - vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
@@ -17,16 +17,28 @@ struct dispatch__Work {
     pixel: vec2u
 }
 
-fn dispatch__work_of(group: vec3u, lane: u32) -> dispatch__Work {
+struct dispatch__Block {
+    film_index: u32,
+    corner: vec2u,
+    end: vec2u,
+    is_inside: bool
+}
+
+fn dispatch__load_block(group: vec3u) -> dispatch__Block {
     let index = bindings__dispatch.first_group + group.y * bindings__dispatch.grid_width + group.x;
     let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
-    let pixel = tile__tile_pixel(visited, lane, bindings__dispatch.group_columns);
+    let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
+    return dispatch__Block(64u * index, tile + tile__group_corner(visited, bindings__dispatch.group_columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group);
+}
+
+fn dispatch__work_of(block: dispatch__Block, place: u32) -> dispatch__Work {
+    let film_index = block.film_index + place;
     if (bindings__ADAPTIVE) {
-        let entry = bindings__film[bindings__FILM_ROWS * (index * 64u + lane) + bindings__SQUARES_ROW];
-        return dispatch__Work(index < bindings__dispatch.end_group && entry.w > 0.0, index * 64u + lane, vec2u(entry.yz));
+        let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
+        return dispatch__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
     }
-    let inside = index < bindings__dispatch.end_group && pixel.x < bindings__dispatch.tile_width && pixel.y < bindings__dispatch.tile_height;
-    return dispatch__Work(inside, index * 64u + lane, pixel + vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y));
+    let pixel = block.corner + tile__morton_8x8(place);
+    return dispatch__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
 }
 
 @group(1) @binding(1)
@@ -46,6 +58,22 @@ override bindings__ADAPTIVE: bool = false;
 override bindings__FILM_ROWS: u32 = 1u;
 
 override bindings__SQUARES_ROW: u32 = 1u;
+
+const tile__GROUP_SIDE: u32 = 8u;
+
+fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
+    return (index * stride) % group_count;
+}
+
+fn tile__morton_8x8(lane: u32) -> vec2u {
+    let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
+    let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
+    return vec2u(x, y);
+}
+
+fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
+    return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
+}
 
 const types__VIEW_DEPTH: u32 = 1u;
 
@@ -106,22 +134,6 @@ struct types__PackedTone {
     range: vec2f,
     has_range: u32,
     film_rows: u32
-}
-
-const tile__GROUP_SIDE: u32 = 8u;
-
-fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-    return (index * stride) % group_count;
-}
-
-fn tile__morton_8x8(lane: u32) -> vec2u {
-    let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
-    let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
-    return vec2u(x, y);
-}
-
-fn tile__tile_pixel(group: u32, lane: u32, group_columns: u32) -> vec2u {
-    return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns) + tile__morton_8x8(lane);
 }
 
 fn filter__weighted_mean(sum: vec4f) -> vec3f {

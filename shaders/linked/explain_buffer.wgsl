@@ -6,9 +6,10 @@ fn explain(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
     if (probe.pixel_x != types__NONE) {
         let pixel = vec2u(probe.pixel_x, probe.pixel_y);
         record__start_record(probe);
-        let rays = rays__ray_set(rays__dead_rays(), 0u, dispatch__sample_ray(batch, pixel, probe.sample));
-        probe.color = wide__vector_at(trace(batch, rays, rng__pixel_key(batch.seed, pixel), probe.sample), 0u);
-        probe.weight = dispatch__sample_weight(batch, pixel, probe.sample);
+        let key = rng__pixel_key(batch.seed, pixel);
+        let rays = rays__ray_set(rays__dead_rays(), 0u, dispatch__sample_ray(batch, pixel, key, probe.sample));
+        probe.color = wide__vector_at(trace(batch, rays, key, probe.sample), 0u);
+        probe.weight = dispatch__sample_weight(key, probe.sample);
         probe.time = shutter__shutter_time;
         probe.cut_off = ray_stack__cut_off_trees;
         record__store_probe(index, probe);
@@ -832,8 +833,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
     return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_first_texel, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
 }
 
-fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, sample: u32) -> types__Ray {
-    let key = rng__pixel_key(batch.seed, pixel);
+fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
     var within = vec2f(0.5);
     if (bindings__STRATIFIED) {
         within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
@@ -862,11 +862,11 @@ fn dispatch__sample_time(sample: u32, key: u32) -> f32 {
     return sampling__stratified_34(sample, key).x;
 }
 
-fn dispatch__sample_weight(batch: dispatch__Batch, pixel: vec2u, sample: u32) -> f32 {
+fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
     if (!bindings__STRATIFIED) {
         return 1.0;
     }
-    return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, rng__pixel_key(batch.seed, pixel)));
+    return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, key));
 }
 
 fn dispatch__count_hit(kind: u32, hit: types__Hit) {
@@ -1063,6 +1063,28 @@ fn fetch__material_row(row: u32) -> vec4u {
     return bindings__materials[row];
 }
 
+fn rng__hash(x: u32) -> u32 {
+    var h = x;
+    h ^= h >> 16u;
+    h *= 2146121005u;
+    h ^= h >> 15u;
+    h *= 2221713035u;
+    h ^= h >> 16u;
+    return h;
+}
+
+fn rng__hash_combine(a: u32, b: u32) -> u32 {
+    return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
+}
+
+fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
+    return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
+}
+
+fn rng__unit_float(x: u32) -> f32 {
+    return f32(x >> 8u) * 5.9604645e-8;
+}
+
 struct rays__Rays {
     origin: wide__Vectors,
     direction: wide__Vectors,
@@ -1163,28 +1185,6 @@ fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
 
 fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
     return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
-}
-
-fn rng__hash(x: u32) -> u32 {
-    var h = x;
-    h ^= h >> 16u;
-    h *= 2146121005u;
-    h ^= h >> 15u;
-    h *= 2221713035u;
-    h ^= h >> 16u;
-    return h;
-}
-
-fn rng__hash_combine(a: u32, b: u32) -> u32 {
-    return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
-}
-
-fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
-    return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
-}
-
-fn rng__unit_float(x: u32) -> f32 {
-    return f32(x >> 8u) * 5.9604645e-8;
 }
 
 const filter__PI: f32 = 3.14159265;

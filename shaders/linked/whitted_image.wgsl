@@ -5,11 +5,11 @@ fn whitted(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 
 fn render(group: vec3u, lane: u32) {
     let batch = dispatch__load_batch();
-    var pixels = pixels__load_pixels(batch, group, lane);
+    var pixels = pixels__load_pixels(batch, dispatch__load_block(group), lane);
     var sample = batch.first_sample;
     loop {
         let radiance = trace(batch, pixels__sample_rays(batch, pixels, sample), pixels.keys, sample);
-        pixels = pixels__add_samples(batch, pixels, sample, radiance);
+        pixels = pixels__add_samples(pixels, sample, radiance);
         continuing {
             sample += 1u;
             break if sample >= batch.end_sample;
@@ -134,16 +134,28 @@ fn dispatch__place_of(lane: u32, k: u32) -> u32 {
     }
 }
 
-fn dispatch__work_of(group: vec3u, lane: u32) -> dispatch__Work {
+struct dispatch__Block {
+    film_index: u32,
+    corner: vec2u,
+    end: vec2u,
+    is_inside: bool
+}
+
+fn dispatch__load_block(group: vec3u) -> dispatch__Block {
     let index = bindings__dispatch.first_group + group.y * bindings__dispatch.grid_width + group.x;
     let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
-    let pixel = tile__tile_pixel(visited, lane, bindings__dispatch.group_columns);
+    let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
+    return dispatch__Block(64u * index, tile + tile__group_corner(visited, bindings__dispatch.group_columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group);
+}
+
+fn dispatch__work_of(block: dispatch__Block, place: u32) -> dispatch__Work {
+    let film_index = block.film_index + place;
     if (bindings__ADAPTIVE) {
-        let entry = bindings__film[bindings__FILM_ROWS * (index * 64u + lane) + bindings__SQUARES_ROW];
-        return dispatch__Work(index < bindings__dispatch.end_group && entry.w > 0.0, index * 64u + lane, vec2u(entry.yz));
+        let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
+        return dispatch__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
     }
-    let inside = index < bindings__dispatch.end_group && pixel.x < bindings__dispatch.tile_width && pixel.y < bindings__dispatch.tile_height;
-    return dispatch__Work(inside, index * 64u + lane, pixel + vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y));
+    let pixel = block.corner + tile__morton_8x8(place);
+    return dispatch__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
 }
 
 struct dispatch__Batch {
@@ -171,8 +183,7 @@ fn dispatch__load_batch() -> dispatch__Batch {
     return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_first_texel, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
 }
 
-fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, sample: u32) -> types__Ray {
-    let key = rng__pixel_key(batch.seed, pixel);
+fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
     var within = vec2f(0.5);
     if (bindings__STRATIFIED) {
         within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
@@ -201,11 +212,11 @@ fn dispatch__sample_time(sample: u32, key: u32) -> f32 {
     return sampling__stratified_34(sample, key).x;
 }
 
-fn dispatch__sample_weight(batch: dispatch__Batch, pixel: vec2u, sample: u32) -> f32 {
+fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
     if (!bindings__STRATIFIED) {
         return 1.0;
     }
-    return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, rng__pixel_key(batch.seed, pixel)));
+    return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, key));
 }
 
 fn dispatch__count_hit(kind: u32, hit: types__Hit) {
@@ -868,11 +879,11 @@ struct pixels__Pixels {
 
 const pixels__NO_PIXEL: u32 = 4294967295u;
 
-fn pixels__load_pixels(batch: dispatch__Batch, group: vec3u, lane: u32) -> pixels__Pixels {
+fn pixels__load_pixels(batch: dispatch__Batch, block: dispatch__Block, lane: u32) -> pixels__Pixels {
     var pixels = pixels__Pixels(wide__Words(pixels__NO_PIXEL), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__no_vectors(), wide__Floats(0.0), wide__Floats(0.0));
     var k = 0u;
     loop {
-        let work = dispatch__work_of(group, dispatch__place_of(lane, k));
+        let work = dispatch__work_of(block, dispatch__place_of(lane, k));
         pixels.x = wide__word_set(pixels.x, k, work.pixel.x);
         pixels.y = wide__word_set(pixels.y, k, work.pixel.y);
         pixels.keys = wide__word_set(pixels.keys, k, rng__pixel_key(batch.seed, work.pixel));
@@ -909,7 +920,7 @@ fn pixels__sample_rays(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u
     var k = 0u;
     loop {
         if (wide__word_at(pixels.film_index, k) != pixels__NO_PIXEL) {
-            rays = rays__ray_set(rays, k, dispatch__sample_ray(batch, pixels__pixel_at(pixels, k), sample));
+            rays = rays__ray_set(rays, k, dispatch__sample_ray(batch, pixels__pixel_at(pixels, k), wide__word_at(pixels.keys, k), sample));
         }
         continuing {
             k += 1u;
@@ -920,12 +931,12 @@ fn pixels__sample_rays(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u
     return rays;
 }
 
-fn pixels__add_samples(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32, radiance: wide__Vectors) -> pixels__Pixels {
+fn pixels__add_samples(pixels: pixels__Pixels, sample: u32, radiance: wide__Vectors) -> pixels__Pixels {
     var next = pixels;
     var k = 0u;
     loop {
         if (wide__word_at(pixels.film_index, k) != pixels__NO_PIXEL) {
-            let weight = dispatch__sample_weight(batch, pixels__pixel_at(pixels, k), sample);
+            let weight = dispatch__sample_weight(wide__word_at(pixels.keys, k), sample);
             next = pixels__with_sum(next, k, film__add_sample(pixels__sum_at(pixels, k), film__Sample(wide__vector_at(radiance, k)), weight));
         }
         continuing {
@@ -1011,8 +1022,8 @@ fn tile__morton_8x8(lane: u32) -> vec2u {
     return vec2u(x, y);
 }
 
-fn tile__tile_pixel(group: u32, lane: u32, group_columns: u32) -> vec2u {
-    return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns) + tile__morton_8x8(lane);
+fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
+    return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
 }
 
 fn rng__hash(x: u32) -> u32 {
