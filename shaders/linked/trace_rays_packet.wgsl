@@ -70,11 +70,15 @@ fn lanes__start_packets(lane: u32) {
 }
 
 fn lanes__any_lane_of_packet(condition: bool) -> bool {
-    var found = select(0u, 1u, condition);
-    found |= subgroupShuffle(found, lanes__packet_lane ^ 1u);
-    found |= subgroupShuffle(found, lanes__packet_lane ^ 2u);
-    found |= subgroupShuffle(found, lanes__packet_lane ^ 4u);
-    return found != 0u;
+    return lanes__or_of_packet(select(0u, 1u, condition)) != 0u;
+}
+
+fn lanes__or_of_packet(bits: u32) -> u32 {
+    var all = bits;
+    all |= subgroupShuffle(all, lanes__packet_lane ^ 1u);
+    all |= subgroupShuffle(all, lanes__packet_lane ^ 2u);
+    all |= subgroupShuffle(all, lanes__packet_lane ^ 4u);
+    return all;
 }
 
 fn lanes__closer_two(at: primitive__TraversalRay, before: lanes__TwoHits, candidate: types__Candidate, primitive: u32) -> lanes__TwoHits {

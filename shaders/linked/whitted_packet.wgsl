@@ -33,8 +33,9 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
         var arriving = wide__no_vectors();
         var color = wide__no_vectors();
         is_unfinished = false;
-        var k = 0u;
+        var rows = rays__rows_where(states.rays.t_max >= wide__Floats(0.0));
         loop {
+            let k = rays__first_row(rows);
             ray_stack__current_tree = k;
             let state = ray_stack__state_at(states, k);
             let hit = rays__hit_at(hits, k);
@@ -74,11 +75,11 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
                 is_unfinished |= ray_stack__is_alive(following);
             }
             continuing {
-                k += 1u;
-                break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+                rows = rays__later_rows(rows);
+                break if wide__ONE_RAY | (rows == 0u);
             }
         }
-        loops__cut_off |= k < wide__RAYS_PER_LANE;
+        loops__cut_off |= rows != 0u;
         let direct = direct__direct_light(batch, receivers, states.media, sample);
         radiance.x += arriving.x * (color.x + direct.x);
         radiance.y += arriving.y * (color.y + direct.y);
@@ -137,11 +138,15 @@ fn lanes__start_packets(lane: u32) {
 }
 
 fn lanes__any_lane_of_packet(condition: bool) -> bool {
-    var found = select(0u, 1u, condition);
-    found |= subgroupShuffle(found, lanes__packet_lane ^ 1u);
-    found |= subgroupShuffle(found, lanes__packet_lane ^ 2u);
-    found |= subgroupShuffle(found, lanes__packet_lane ^ 4u);
-    return found != 0u;
+    return lanes__or_of_packet(select(0u, 1u, condition)) != 0u;
+}
+
+fn lanes__or_of_packet(bits: u32) -> u32 {
+    var all = bits;
+    all |= subgroupShuffle(all, lanes__packet_lane ^ 1u);
+    all |= subgroupShuffle(all, lanes__packet_lane ^ 2u);
+    all |= subgroupShuffle(all, lanes__packet_lane ^ 4u);
+    return all;
 }
 
 fn lanes__closer_two(at: primitive__TraversalRay, before: lanes__TwoHits, candidate: types__Candidate, primitive: u32) -> lanes__TwoHits {
@@ -1290,6 +1295,21 @@ struct rays__Hits {
     b1: wide__Floats,
     b2: wide__Floats,
     instance: wide__Words
+}
+
+fn rays__rows_where(condition: vec4<bool>) -> u32 {
+    let bits = select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), condition);
+    return lanes__or_of_packet((bits.x | bits.y) | (bits.z | bits.w));
+}
+
+fn rays__first_row(rows: u32) -> u32 {
+    {
+        return firstTrailingBit(rows | 8u);
+    }
+}
+
+fn rays__later_rows(rows: u32) -> u32 {
+    return rows & (rows - 1u);
 }
 
 const rays__DEAD: types__Ray = types__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
@@ -2523,6 +2543,7 @@ fn direct__direct_light(batch: dispatch__Batch, receivers: direct__Receivers, me
 fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: direct__Receivers, media: ray_stack__Media, sample: u32, light: types__PackedLight, index: u32) -> wide__Vectors {
     var sum = wide__no_vectors();
     var counts = wide__Floats(1.0);
+    let lit_rows = rays__rows_where(receivers.is_lit != wide__Words(0u));
     let has_extent = bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE;
     var drawn = 0u;
     var is_unfinished = false;
@@ -2530,8 +2551,9 @@ fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: 
         var rays = rays__dead_rays();
         var unshadowed = wide__no_vectors();
         is_unfinished = false;
-        var k = 0u;
+        var rows = lit_rows;
         loop {
+            let k = rays__first_row(rows);
             if (wide__word_at(receivers.is_lit, k) != 0u) {
                 let receiver = direct__receiver_at(receivers, k);
                 var count = 1u;
@@ -2555,11 +2577,11 @@ fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: 
                 }
             }
             continuing {
-                k += 1u;
-                break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+                rows = rays__later_rows(rows);
+                break if wide__ONE_RAY | (rows == 0u);
             }
         }
-        loops__cut_off |= k < wide__RAYS_PER_LANE;
+        loops__cut_off |= rows != 0u;
         let through = shadow__light_through(rays, media);
         sum.x += through.x * unshadowed.x;
         sum.y += through.y * unshadowed.y;
@@ -3445,8 +3467,9 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_stack__Media) -> wide__V
     loop {
         let hits = rays__closest_hits(rays);
         is_unfinished = false;
-        var k = 0u;
+        var rows = rays__rows_where(rays.t_max >= wide__Floats(0.0));
         loop {
+            let k = rays__first_row(rows);
             let ray = rays__ray_at(rays, k);
             if (ray.t_max >= 0.0) {
                 let hit = rays__hit_at(hits, k);
@@ -3483,11 +3506,11 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_stack__Media) -> wide__V
                 rays = rays__ray_set(rays, k, next);
             }
             continuing {
-                k += 1u;
-                break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+                rows = rays__later_rows(rows);
+                break if wide__ONE_RAY | (rows == 0u);
             }
         }
-        loops__cut_off |= k < wide__RAYS_PER_LANE;
+        loops__cut_off |= rows != 0u;
         crossings += 1u;
         continuing {
         
