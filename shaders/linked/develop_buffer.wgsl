@@ -1,10 +1,13 @@
 @compute @workgroup_size(64, 1, 1)
 fn develop(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let work = dispatch__work_of(dispatch__load_block(group), lane);
+    let chosen = bindings__tone;
+    let corner = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
+    let width = bindings__dispatch.tile_width;
     if (work.inside) {
-        let mean = filter__weighted_mean(film__load_weighted_sum(work, bindings__tone));
-        let position = work.pixel - vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
-        bindings__developed[position.y * bindings__dispatch.tile_width + position.x] = vec4f(quantity__shown(mean, bindings__tone), 1.0);
+        let mean = filter__weighted_mean(film__load_weighted_sum(work, chosen));
+        let position = work.pixel - corner;
+        bindings__developed[position.y * width + position.x] = vec4f(quantity__shown(mean, chosen), 1.0);
     }
     if (lane == 0u) {
         atomicAdd(&bindings__dispatch.counters.groups_done, 1u);

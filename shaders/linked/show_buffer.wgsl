@@ -1,11 +1,13 @@
 @compute @workgroup_size(64, 1, 1)
 fn show(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let work = dispatch__work_of(dispatch__load_block(group), lane);
+    let chosen = bindings__tone;
+    let corner = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
     if (work.inside) {
-        let sum = film__load_weighted_sum(work, bindings__tone);
-        let color = clamp(quantity__shown(filter__weighted_mean(sum), bindings__tone), vec3f(0.0), vec3f(1.0));
+        let sum = film__load_weighted_sum(work, chosen);
+        let color = clamp(quantity__shown(filter__weighted_mean(sum), chosen), vec3f(0.0), vec3f(1.0));
         let shown = vec4f(floor(color * 255.0 + 0.5) / 255.0, 1.0);
-        let position = work.pixel - vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
+        let position = work.pixel - corner;
         textureStore(bindings__screen, position, select(vec4f(0.0), shown, sum.w != 0.0));
     }
 }
