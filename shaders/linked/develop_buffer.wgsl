@@ -1,13 +1,13 @@
 @compute @workgroup_size(64, 1, 1)
 fn develop(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let work = dispatch__work_of(dispatch__load_block(group), lane);
-    let chosen = bindings__tone;
+    let tone = film__load_tone();
     let corner = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
     let width = bindings__dispatch.tile_width;
     if (work.inside) {
-        let mean = filter__weighted_mean(film__load_weighted_sum(work, chosen));
+        let mean = filter__weighted_mean(film__load_weighted_sum(work, tone));
         let position = work.pixel - corner;
-        bindings__developed[position.y * width + position.x] = vec4f(quantity__shown(mean, chosen), 1.0);
+        bindings__developed[position.y * width + position.x] = vec4f(quantity__shown(mean, tone), 1.0);
     }
     if (lane == 0u) {
         atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
@@ -56,6 +56,12 @@ var<storage, read> bindings__tone: types__PackedTone;
 @group(3) @binding(1)
 var<storage, read_write> bindings__developed: array<vec4f>;
 
+override bindings__VIEW: u32 = types__VIEW_NORMALS;
+
+override bindings__TONE_CURVE: u32 = types__TONE_NONE;
+
+override bindings__TONE_TRANSFER: u32 = types__TRANSFER_SRGB;
+
 override bindings__ADAPTIVE: bool = false;
 
 override bindings__FILM_ROWS: u32 = 1u;
@@ -77,6 +83,8 @@ fn tile__morton_8x8(lane: u32) -> vec2u {
 fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
     return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
 }
+
+const types__VIEW_NORMALS: u32 = 0u;
 
 const types__VIEW_DEPTH: u32 = 1u;
 
@@ -139,13 +147,21 @@ struct types__PackedTone {
     film_rows: u32
 }
 
-fn filter__weighted_mean(sum: vec4f) -> vec3f {
-    let usable = abs(sum.w) > 0.5;
-    return select(vec3f(0.0), max(sum.xyz / select(1.0, sum.w, usable), vec3f(0.0)), usable);
+fn film__load_tone() -> types__PackedTone {
+    var chosen = bindings__tone;
+    chosen.curve = bindings__TONE_CURVE;
+    chosen.transfer = bindings__TONE_TRANSFER;
+    chosen.view = bindings__VIEW;
+    return chosen;
 }
 
 fn film__load_weighted_sum(work: dispatch__Work, tone: types__PackedTone) -> vec4f {
     return bindings__film[tone.film_rows * work.film_index];
+}
+
+fn filter__weighted_mean(sum: vec4f) -> vec3f {
+    let usable = abs(sum.w) > 0.5;
+    return select(vec3f(0.0), max(sum.xyz / select(1.0, sum.w, usable), vec3f(0.0)), usable);
 }
 
 const quantity__FAR_LEVEL: f32 = 0.1;

@@ -1,11 +1,11 @@
 @compute @workgroup_size(64, 1, 1)
 fn show(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
     let work = dispatch__work_of(dispatch__load_block(group), lane);
-    let chosen = bindings__tone;
+    let tone = film__load_tone();
     let corner = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
     if (work.inside) {
-        let sum = film__load_weighted_sum(work, chosen);
-        let color = clamp(quantity__shown(filter__weighted_mean(sum), chosen), vec3f(0.0), vec3f(1.0));
+        let sum = film__load_weighted_sum(work, tone);
+        let color = clamp(quantity__shown(filter__weighted_mean(sum), tone), vec3f(0.0), vec3f(1.0));
         let shown = vec4f(floor(color * 255.0 + 0.5) / 255.0, 1.0);
         let position = work.pixel - corner;
         textureStore(bindings__screen, position, select(vec4f(0.0), shown, sum.w != 0.0));
@@ -54,6 +54,12 @@ var<storage, read> bindings__tone: types__PackedTone;
 @group(3) @binding(2)
 var bindings__screen: texture_storage_2d<rgba8unorm, write>;
 
+override bindings__VIEW: u32 = types__VIEW_NORMALS;
+
+override bindings__TONE_CURVE: u32 = types__TONE_NONE;
+
+override bindings__TONE_TRANSFER: u32 = types__TRANSFER_SRGB;
+
 override bindings__ADAPTIVE: bool = false;
 
 override bindings__FILM_ROWS: u32 = 1u;
@@ -75,6 +81,8 @@ fn tile__morton_8x8(lane: u32) -> vec2u {
 fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
     return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
 }
+
+const types__VIEW_NORMALS: u32 = 0u;
 
 const types__VIEW_DEPTH: u32 = 1u;
 
@@ -135,6 +143,14 @@ struct types__PackedTone {
     range: vec2f,
     has_range: u32,
     film_rows: u32
+}
+
+fn film__load_tone() -> types__PackedTone {
+    var chosen = bindings__tone;
+    chosen.curve = bindings__TONE_CURVE;
+    chosen.transfer = bindings__TONE_TRANSFER;
+    chosen.view = bindings__VIEW;
+    return chosen;
 }
 
 fn film__load_weighted_sum(work: dispatch__Work, tone: types__PackedTone) -> vec4f {

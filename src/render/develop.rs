@@ -8,6 +8,7 @@ use super::{
     fingerprint::Encoder,
     layouts::{Layouts, group},
     levels,
+    overrides,
     slice::Slice,
 };
 use crate::clock::Instant;
@@ -20,7 +21,7 @@ use crate::{
     },
     scene::{OutputDefaults, ToneCurve, Transfer},
 };
-use bytemuck::{bytes_of, cast_slice, pod_collect_to_vec};
+use bytemuck::{bytes_of, cast_slice};
 use wgpu::BufferUsages;
 
 /// How linear radiance is developed to a picture.
@@ -174,7 +175,6 @@ impl Tone {
 
 /// GPU resources for developing, created on first use.
 pub struct Developer {
-    pipeline: wgpu::ComputePipeline,
     developed: wgpu::Buffer,
     tone: wgpu::Buffer,
     group: wgpu::BindGroup,
@@ -188,7 +188,6 @@ pub struct Context<'a> {
     pub frame_group: &'a wgpu::BindGroup,
     pub film_group: &'a wgpu::BindGroup,
     pub dispatch: &'a wgpu::Buffer,
-    pub film: &'a wgpu::Buffer,
     pub staging: &'a wgpu::Buffer,
 }
 
@@ -200,7 +199,6 @@ impl<'a> Context<'a> {
             frame_group: &buffers.frame_group,
             film_group: &buffers.film_group,
             dispatch: &buffers.dispatch,
-            film: &buffers.film,
             staging: &buffers.staging,
         }
     }
@@ -211,7 +209,17 @@ impl Renderer {
     /// new rays.
     pub fn develop(&mut self, tone: &Tone) -> Result<Image, RenderError> {
         let start = Instant::now();
-        self.fetch_film()?;
+        let image = self.developed(tone)?;
+        self.stats.develop_seconds += start.elapsed().as_secs_f64();
+        Ok(image)
+    }
+
+    fn developed(&mut self, tone: &Tone) -> Result<Image, RenderError> {
+        let is_direct = self.shows_directly();
+        match is_direct {
+            true => self.wait()?,
+            false => self.fetch_film()?,
+        }
         let range = self.range_of(tone)?;
         let region = self.settings.region();
         if self.settings.integrator.quantity() == Some(Quantity::Samples) {
@@ -222,35 +230,43 @@ impl Renderer {
                 range,
             ));
         }
-        let [x, y, width, height] = region;
+        let [.., width, height] = region;
         let mut image = Image::new(width, height);
+        if is_direct {
+            let tile = self.tiles.list[0].blank();
+            let tone = tone.packed(self.settings.integrator, range, tile.rows_per_pixel());
+            self.surviving_losses(|renderer| {
+                renderer.load_first_tile()?;
+                renderer.develop_tile(&tile, &tone, &mut image)
+            })?;
+            return Ok(image);
+        }
         for (tile, rows) in self.tiles.developable(self.policy.slicing.tile_side) {
             let tone = tone.packed(self.settings.integrator, range, tile.rows_per_pixel());
-            let pixels =
-                self.surviving_losses(|renderer| renderer.develop_tile(&tile, &rows, &tone))?;
-            copy_tile(&mut image, &pixels, &tile, [x, y]);
+            self.surviving_losses(|renderer| {
+                let device = &mut renderer.device;
+                device.loaded_tile = None;
+                device.gpu.write(&device.buffers.film, 0, cast_slice(&rows))?;
+                renderer.develop_tile(&tile, &tone, &mut image)
+            })?;
         }
-        self.stats.develop_seconds += start.elapsed().as_secs_f64();
         Ok(image)
     }
 
-    /// The pixels of one film tile, row by row.
+    /// Develops the film tile that is in the film buffer to its part of a picture.
     fn develop_tile(
         &mut self,
         tile: &FilmTile,
-        rows: &[[f32; 4]],
         tone: &PackedTone,
-    ) -> Result<Vec<[f32; 4]>, GpuError> {
+        image: &mut Image,
+    ) -> Result<(), GpuError> {
         let device = &mut self.device;
         let context = Context::new(&device.gpu, &device.layouts, &device.buffers);
         let developer = match &mut device.developer {
             Some(developer) => developer,
             empty => empty.insert(Developer::new(context, self.tiles.largest())?),
         };
-        let pixels = developer.develop(context, tile, rows, &self.settings, tone)?;
-        // The film buffer now holds this tile.
-        device.loaded_tile = None;
-        Ok(pixels)
+        developer.develop(context, tile, &self.settings, tone, image)
     }
 }
 
@@ -258,37 +274,37 @@ impl Developer {
     /// For film tiles of at most `max_pixels` pixels.
     pub fn new(context: Context, max_pixels: usize) -> Result<Self, GpuError> {
         let Context { gpu, layouts, .. } = context;
-        let groups = [
-            None,
-            Some(&layouts.frame),
-            Some(&layouts.film),
-            Some(&layouts.develop),
-        ];
-        let Compiled { pipeline, .. } =
-            gpu.pipeline(&Kernel::DEVELOP, Variant::Buffer, &groups, Vec::new())?;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
         let developed = gpu.allocate("developed", max_pixels as u64 * 16, usage)?;
         let tone = gpu.upload("tone", bytes_of(&PackedTone::default()))?;
         let resources = [tone.as_entire_binding(), developed.as_entire_binding()];
         let group = group(gpu, &layouts.develop, &resources);
         Ok(Self {
-            pipeline,
             developed,
             tone,
             group,
         })
     }
 
-    /// Develops one film tile from its film rows to pixels, row by row.
+    /// Develops the film tile in the film buffer to its part of a picture.
     pub fn develop(
         &self,
         context: Context,
         tile: &FilmTile,
-        rows: &[[f32; 4]],
         settings: &RenderSettings,
         tone: &PackedTone,
-    ) -> Result<Vec<[f32; 4]>, GpuError> {
-        let gpu = context.gpu;
+        image: &mut Image,
+    ) -> Result<(), GpuError> {
+        let Context { gpu, layouts, .. } = context;
+        let groups = [
+            None,
+            Some(&layouts.frame),
+            Some(&layouts.film),
+            Some(&layouts.develop),
+        ];
+        let overrides = overrides::of_tone(tone);
+        let Compiled { pipeline, .. } =
+            gpu.pipeline(&Kernel::DEVELOP, Variant::Buffer, &groups, overrides)?;
         let slice = Slice {
             first_group: 0,
             end_group: tile.group_count(),
@@ -297,13 +313,12 @@ impl Developer {
         };
         let packed = slice.packed(tile, settings);
         gpu.write(context.dispatch, 0, bytes_of(&packed))?;
-        gpu.write(context.film, 0, cast_slice(rows))?;
         gpu.write(&self.tone, 0, bytes_of(tone))?;
 
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(&self.pipeline);
+            pass.set_pipeline(&pipeline);
             pass.set_bind_group(1, context.frame_group, &[]);
             pass.set_bind_group(2, context.film_group, &[]);
             pass.set_bind_group(3, &self.group, &[]);
@@ -315,7 +330,10 @@ impl Developer {
             offset: 0,
             bytes: u64::from(tile.width) * u64::from(tile.height) * 16,
         };
-        gpu.submit_and_read(encoder, &[source], context.staging, pod_collect_to_vec)
+        let [x, y, ..] = settings.region();
+        gpu.submit_and_read(encoder, &[source], context.staging, |bytes| {
+            copy_tile(image, cast_slice(bytes), tile, [x, y]);
+        })
     }
 }
 
@@ -359,20 +377,20 @@ pub fn develop_sums(
         frame_group: &group(gpu, &layouts.frame, &shared),
         film_group: &group(gpu, &layouts.film, &[film.as_entire_binding()]),
         dispatch: &dispatch,
-        film: &film,
         staging: &staging,
     };
     let developer = Developer::new(context, most)?;
     let settings = RenderSettings {
         size: (x + width, y + height),
+        crop: Some([x, y, x + width, y + height]),
         ..RenderSettings::default()
     };
     let sum = |[px, py]: [u32; 2]| sums[(py - y) as usize * width as usize + (px - x) as usize];
     for tile in tiles {
         let pixels = (0..tile.pixel_count()).map(|index| tile.pixel_at(index));
         let rows: Vec<_> = pixels.map(|pixel| pixel.map_or([0.0; 4], sum)).collect();
-        let pixels = developer.develop(context, &tile, &rows, &settings, tone)?;
-        copy_tile(&mut image, &pixels, &tile, [x, y]);
+        gpu.write(&film, 0, cast_slice(&rows))?;
+        developer.develop(context, &tile, &settings, tone, &mut image)?;
     }
     Ok(image)
 }

@@ -9,7 +9,6 @@ use super::{
     pipelines,
     policy::Fetch,
     settings::RenderSettings,
-    show::Presenter,
     slice::Slice,
     task::Task,
 };
@@ -18,7 +17,7 @@ use crate::{
     gpu::{AdapterChoice, Compiled, Gpu, GpuError, Reading, Source},
     layout::{PackedCounters, PackedDispatch},
 };
-use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_collect_to_vec, pod_read_unaligned};
+use bytemuck::{bytes_of, cast_slice, cast_slice_mut, pod_read_unaligned};
 use std::ops::Range;
 
 const ROW_BYTES: u64 = 16;
@@ -33,7 +32,8 @@ pub struct Device {
     /// The pipeline for the current view: views of one scene differ in motion and lights.
     pipeline: wgpu::ComputePipeline,
     pub developer: Option<Developer>,
-    pub presenter: Option<Presenter>,
+    /// The tone of the picture on a screen.
+    pub shown_tone: Option<wgpu::Buffer>,
     /// Index of the film tile whose sums are in the film buffer.
     pub loaded_tile: Option<usize>,
 }
@@ -55,7 +55,7 @@ impl Device {
             buffers,
             pipeline,
             developer: None,
-            presenter: None,
+            shown_tone: None,
             loaded_tile: None,
         })
     }
@@ -88,8 +88,7 @@ impl Device {
         self.gpu
             .submit_and_read(encoder, &[rows], staging, |bytes| {
                 tile.sums.clear();
-                tile.sums
-                    .extend_from_slice(&pod_collect_to_vec::<u8, [f32; 4]>(bytes));
+                tile.sums.extend_from_slice(cast_slice(bytes));
             })
     }
 
@@ -103,13 +102,19 @@ impl Device {
         back: Readback,
     ) -> Result<Reading, GpuError> {
         let Self { gpu, buffers, .. } = self;
-        if self.loaded_tile != Some(index) {
+        let is_loaded = self.loaded_tile == Some(index);
+        let is_blank = !is_loaded && tile.has_no_sums();
+        if !is_loaded && !is_blank {
             gpu.write(&buffers.film, 0, cast_slice(&tile.sums))?;
-            self.loaded_tile = Some(index);
         }
+        self.loaded_tile = Some(index);
         let packed = slice.packed(tile, settings);
         gpu.write(&buffers.dispatch, 0, bytes_of(&packed))?;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        if is_blank {
+            let bytes = tile.row_count() as u64 * ROW_BYTES;
+            encoder.clear_buffer(&buffers.film, 0, Some(bytes));
+        }
         let (columns, rows) = slice.grid();
         let grid = (gpu.dispatch_columns(columns), rows);
         dispatch(&mut encoder, &self.pipeline, buffers, grid);

@@ -134,6 +134,12 @@ impl FilmTile {
         }
     }
 
+    /// Whether all film rows are zeros, as before the first sample of a rectangle.
+    pub fn has_no_sums(&self) -> bool {
+        let rows: &[[u32; 4]] = bytemuck::cast_slice(&self.sums);
+        rows.iter().all(|row| *row == [0; 4])
+    }
+
     /// The position in the picture of a film index of a rectangle; `None` for padding. The order is that of the
     /// shader (scene/dispatch.wesl).
     pub fn pixel_at(&self, film_index: usize) -> Option<[u32; 2]> {

@@ -10,7 +10,7 @@ use crate::{
     gpu::Overrides,
     layout::{
         FILTER_BLACKMAN_HARRIS, FILTER_BOX, FILTER_GAUSSIAN, FILTER_MITCHELL, FILTER_TENT,
-        TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT,
+        PackedTone, TRIANGLE_TEST_MOLLER_TRUMBORE, TRIANGLE_TEST_PLANE, TRIANGLE_TEST_WATERTIGHT,
     },
     pack::{PackedScene, PackedView},
     scene::{Antialias, Filter},
@@ -113,6 +113,15 @@ pub fn of_query(
     ];
     overrides.extend(geometry(scene, view));
     overrides
+}
+
+/// The overrides of the kernels that develop a film.
+pub fn of_tone(tone: &PackedTone) -> Overrides {
+    vec![
+        ("TONE_CURVE", f64::from(tone.curve)),
+        ("TONE_TRANSFER", f64::from(tone.transfer)),
+        ("VIEW", f64::from(tone.view)),
+    ]
 }
 
 /// The overrides for the contents of the trees.

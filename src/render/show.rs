@@ -3,6 +3,7 @@
 use super::{
     Levels, Quantity, RenderError, Renderer, Tone,
     layouts::{SCREEN_FORMAT, group_at},
+    overrides,
     slice::Slice,
 };
 use crate::{
@@ -119,12 +120,6 @@ impl Screen {
     }
 }
 
-/// GPU resources for display, created on first use.
-pub struct Presenter {
-    pipeline: wgpu::ComputePipeline,
-    tone: wgpu::Buffer,
-}
-
 impl Renderer {
     /// A black screen of the size of the picture or its crop.
     pub fn new_screen(&self) -> Result<Screen, RenderError> {
@@ -189,21 +184,15 @@ impl Renderer {
     }
 
     fn present(&mut self, tone: &PackedTone, screen: &Screen) -> Result<(), GpuError> {
-        if self.device.presenter.is_none() {
-            self.device.presenter = Some(self.new_presenter()?);
-        }
+        self.load_first_tile()?;
+        let pipeline = self.show_pipeline(tone)?;
         let device = &mut self.device;
         let (gpu, buffers) = (&device.gpu, &device.buffers);
-        let Some(presenter) = &device.presenter else {
-            return Err(GpuError::Internal {
-                what: "no show pipeline".into(),
-            });
+        let shown_tone = match &mut device.shown_tone {
+            Some(buffer) => buffer,
+            empty => empty.insert(gpu.upload("tone", bytes_of(tone))?),
         };
         let tile = &self.tiles.list[0];
-        if device.loaded_tile != Some(0) {
-            gpu.write(&buffers.film, 0, cast_slice(&tile.developable()))?;
-            device.loaded_tile = Some(0);
-        }
         let slice = Slice {
             first_group: 0,
             end_group: tile.group_count(),
@@ -212,16 +201,16 @@ impl Renderer {
         };
         let packed = slice.packed(tile, &self.settings);
         gpu.write(&buffers.dispatch, 0, bytes_of(&packed))?;
-        gpu.write(&presenter.tone, 0, bytes_of(tone))?;
+        gpu.write(shown_tone, 0, bytes_of(tone))?;
         let resources = [
-            (0, presenter.tone.as_entire_binding()),
+            (0, shown_tone.as_entire_binding()),
             (2, wgpu::BindingResource::TextureView(&screen.view)),
         ];
         let target = group_at(gpu, &device.layouts.show, &resources);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(&presenter.pipeline);
+            pass.set_pipeline(&pipeline);
             pass.set_bind_group(1, &buffers.frame_group, &[]);
             pass.set_bind_group(2, &buffers.film_group, &[]);
             pass.set_bind_group(3, &target, &[]);
@@ -231,7 +220,18 @@ impl Renderer {
         gpu.enqueue(encoder.finish()).map(drop)
     }
 
-    fn new_presenter(&self) -> Result<Presenter, GpuError> {
+    /// Writes the sums of the only film tile to the film buffer unless they are there.
+    pub(super) fn load_first_tile(&mut self) -> Result<(), GpuError> {
+        let device = &mut self.device;
+        if device.loaded_tile != Some(0) {
+            let rows = self.tiles.list[0].developable();
+            device.gpu.write(&device.buffers.film, 0, cast_slice(&rows))?;
+            device.loaded_tile = Some(0);
+        }
+        Ok(())
+    }
+
+    fn show_pipeline(&self, tone: &PackedTone) -> Result<wgpu::ComputePipeline, GpuError> {
         let (gpu, layouts) = (&self.device.gpu, &self.device.layouts);
         let groups = [
             None,
@@ -239,11 +239,8 @@ impl Renderer {
             Some(&layouts.film),
             Some(&layouts.show),
         ];
-        Ok(Presenter {
-            pipeline: gpu
-                .pipeline(&Kernel::SHOW, Variant::Buffer, &groups, Vec::new())?
-                .pipeline,
-            tone: gpu.upload("tone", bytes_of(&PackedTone::default()))?,
-        })
+        let overrides = overrides::of_tone(tone);
+        let compiled = gpu.pipeline(&Kernel::SHOW, Variant::Buffer, &groups, overrides)?;
+        Ok(compiled.pipeline)
     }
 }

@@ -146,7 +146,7 @@ impl Renderer {
     }
 
     /// Waits for submitted work, if any, and collects its results.
-    fn wait(&mut self) -> Result<(), RenderError> {
+    pub(super) fn wait(&mut self) -> Result<(), RenderError> {
         let Some(running) = self.work.as_mut().and_then(|work| work.running.take()) else {
             return Ok(());
         };
