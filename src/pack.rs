@@ -112,6 +112,8 @@ pub struct Features {
     pub refraction: bool,
     /// A dielectric volume may touch or overlap another object.
     pub contact: bool,
+    /// Transparent materials differ in priority.
+    pub priorities: bool,
     /// Transparent surfaces filter shadow rays.
     pub filtered_shadows: bool,
     /// There are textures.

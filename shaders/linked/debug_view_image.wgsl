@@ -1706,6 +1706,8 @@ fn node__sort4(keys: vec4u) -> vec4u {
     return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
+var<private> surface__met_vertices: vec3u;
+
 fn surface__surface_at(ray: types__Ray, hit: types__Hit) -> types__Surface {
     var instance: types__PackedInstance;
     var space: motion__Space;
@@ -1747,6 +1749,7 @@ fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__
 
 fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Space, is_placed: bool) -> types__Surface {
     let own = fetch__load_triangle(hit.primitive);
+    surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
     let v0 = fetch__load_vertex(own.i0);
     let v1 = fetch__load_vertex(own.i1);
     let v2 = fetch__load_vertex(own.i2);

@@ -834,6 +834,8 @@ override bindings__HAS_REFRACTION: bool = true;
 
 override bindings__HAS_CONTACT: bool = true;
 
+override bindings__HAS_PRIORITIES: bool = true;
+
 override bindings__FILTERED_SHADOWS: bool = false;
 
 override bindings__HAS_AREA_LIGHTS: bool = true;
@@ -2559,6 +2561,10 @@ fn medium__dominant(media: vec4u) -> u32 {
     if (!bindings__HAS_CONTACT) {
         return media.x;
     }
+    if (!bindings__HAS_PRIORITIES) {
+        let last = select(media.xz, media.yw, media.yw != vec2u(types__NONE));
+        return select(last.x, last.y, last.y != types__NONE);
+    }
     var best = media.x;
     best = medium__higher(best, media.y);
     best = medium__higher(best, media.z);
@@ -2658,14 +2664,16 @@ fn contact__contact_at(ray: types__Ray, hit: types__Hit) -> contact__Contact {
     var current = hit;
     var first = true;
     var second_wanted = false;
+    var vertices = vec3u(0u);
     loop {
         let surface = surface__surface_at(ray, current);
         if (first) {
             contact.surface = surface;
+            vertices = surface__met_vertices;
             second_wanted = bindings__HAS_REFRACTION && bindings__HAS_CONTACT && contact__is_near(ray, hit, surface);
         }
         else {
-            contact = contact__merge(contact, surface, contact__is_same_volume(hit, primitive__runner_up));
+            contact = contact__merge(contact, surface, contact__is_same_volume(hit, primitive__runner_up, vertices));
             second_wanted = false;
         }
         first = false;
@@ -2719,12 +2727,12 @@ fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_vol
     return both;
 }
 
-fn contact__is_same_volume(first: types__Hit, second: types__Hit) -> bool {
+fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3u) -> bool {
     let are_triangles = bindings__HAS_TRIANGLES && ((first.primitive | second.primitive) & types__SHAPE) == 0u;
     if (!are_triangles || first.instance != second.instance) {
         return false;
     }
-    return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(first.primitive, second.primitive);
+    return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, surface__met_vertices);
 }
 
 fn contact__is_at_edge(hit: types__Hit) -> bool {
@@ -2732,15 +2740,11 @@ fn contact__is_at_edge(hit: types__Hit) -> bool {
     return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
 }
 
-fn contact__is_twin(first: u32, second: u32) -> bool {
-    let a = fetch__load_triangle(first);
-    let b = fetch__load_triangle(second);
-    return contact__has_vertex(b, a.i0) && contact__has_vertex(b, a.i1) && contact__has_vertex(b, a.i2);
+fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
+    return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
 }
 
-fn contact__has_vertex(triangle: types__PackedTriangle, index: u32) -> bool {
-    return (triangle.i0 == index) | (triangle.i1 == index) | (triangle.i2 == index);
-}
+var<private> surface__met_vertices: vec3u;
 
 fn surface__surface_at(ray: types__Ray, hit: types__Hit) -> types__Surface {
     var instance: types__PackedInstance;
@@ -2783,6 +2787,7 @@ fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__
 
 fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Space, is_placed: bool) -> types__Surface {
     let own = fetch__load_triangle(hit.primitive);
+    surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
     let v0 = fetch__load_vertex(own.i0);
     let v1 = fetch__load_vertex(own.i1);
     let v2 = fetch__load_vertex(own.i2);

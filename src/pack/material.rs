@@ -121,7 +121,11 @@ pub fn features(scene: &Scene) -> Features {
     let refraction = may_transmit(scene).contains(&true);
     let emission =
         may_be_nonblack(scene, |m| m.emission, MaterialProperty::Emission).contains(&true);
+    let transparent = may_transmit(scene).into_iter().zip(&scene.materials);
+    let mut priorities = transparent.filter_map(|(is, material)| is.then_some(material.priority));
+    let first = priorities.next();
     Features {
+        priorities: priorities.any(|other| Some(other) != first),
         // Refraction includes the code for thin materials.
         reflection: mirrors
             || has_total_reflection(scene)

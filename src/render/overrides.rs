@@ -66,6 +66,7 @@ pub fn of(task: Task) -> Overrides {
             "HAS_CONTACT",
             flag(features.contact && settings.max_depth > 0),
         ),
+        ("HAS_PRIORITIES", flag(features.priorities)),
         ("FILTERED_SHADOWS", flag(features.filtered_shadows)),
         (
             "HAS_LENS",
