@@ -118,6 +118,12 @@ pub struct Features {
     pub filtered_shadows: bool,
     /// There are textures.
     pub textures: bool,
+    /// Some texture is noise.
+    pub noise: bool,
+    /// Some texture is a picture.
+    pub pictures: bool,
+    /// Some texture is of reflection, transmission or emission.
+    pub optics_textures: bool,
     /// There is an emissive surface.
     pub emission: bool,
     /// There are instances.

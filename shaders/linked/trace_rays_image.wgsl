@@ -43,13 +43,34 @@ fn trace(rays: rays__Rays) -> rays__Hits {
     return rays__closest_hits(rays);
 }
 
+var<private> fetch__root: u32;
+
 var<private> fetch__shape_row: u32;
 
 var<private> fetch__light_row: u32;
 
+var<private> fetch__instance_row: u32;
+
+var<private> fetch__key_row: u32;
+
+var<private> fetch__texture_row: u32;
+
+var<private> fetch__uv_row: u32;
+
+var<private> fetch__first_plane: u32;
+
+var<private> fetch__end_plane: u32;
+
 fn fetch__load_starts() {
+    fetch__root = bindings__frame.root;
     fetch__shape_row = bindings__frame.shape_row;
     fetch__light_row = bindings__frame.light_row;
+    fetch__instance_row = bindings__frame.instance_row;
+    fetch__key_row = bindings__frame.key_row;
+    fetch__texture_row = types__MATERIAL_ROWS * bindings__frame.material_count;
+    fetch__uv_row = bindings__frame.vertex_count;
+    fetch__first_plane = bindings__frame.shape_count;
+    fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
 fn fetch__load_node(index: u32) -> types__Node {
@@ -64,7 +85,7 @@ fn fetch__load_moving_node(reference: u32, time: f32) -> types__Node {
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
-    let row = bindings__frame.instance_row + types__INSTANCE_ROWS * index;
+    let row = fetch__instance_row + types__INSTANCE_ROWS * index;
     let r0 = fetch__node_row(row);
     let r1 = fetch__node_row(row + 1u);
     let r2 = fetch__node_row(row + 2u);
@@ -76,7 +97,7 @@ fn fetch__load_instance(index: u32) -> types__PackedInstance {
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
-    let row = bindings__frame.key_row + types__KEY_ROWS * index;
+    let row = fetch__key_row + types__KEY_ROWS * index;
     return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
 }
 
@@ -196,6 +217,8 @@ const types__SHAPE_ELLIPSOID: u32 = 7u;
 const types__SHAPE_GLOBE: u32 = 8u;
 
 const types__SHAPE_CAPPED: u32 = 1u;
+
+const types__MATERIAL_ROWS: u32 = 8u;
 
 const types__TRIANGLE_TEST_PLANE: u32 = 0u;
 
@@ -547,7 +570,7 @@ fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool,
     var top = 0u;
     var current = 0u;
     if (bindings__HAS_INSTANCES) {
-        current = bindings__frame.root;
+        current = fetch__root;
     }
     loop {
         if (bindings__HAS_INSTANCES) {
@@ -669,8 +692,7 @@ fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: tria
 
 fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
     var hit = start;
-    let end = bindings__frame.shape_count + bindings__frame.plane_count;
-    var index = bindings__frame.shape_count;
+    var index = fetch__first_plane;
     loop {
         let shape = fetch__load_shape(index);
         let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
@@ -686,10 +708,10 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
         }
         continuing {
             index += 1u;
-            break if index >= end;
+            break if index >= fetch__end_plane;
         }
     }
-    loops__cut_off |= index < end;
+    loops__cut_off |= index < fetch__end_plane;
     return hit;
 }
 

@@ -87,17 +87,38 @@ fn lanes__closer_two(at: primitive__TraversalRay, before: lanes__TwoHits, candid
     return lanes__TwoHits(hit, primitive__runner_up);
 }
 
+var<private> fetch__root: u32;
+
 var<private> fetch__shape_row: u32;
 
 var<private> fetch__light_row: u32;
 
+var<private> fetch__instance_row: u32;
+
+var<private> fetch__key_row: u32;
+
+var<private> fetch__texture_row: u32;
+
+var<private> fetch__uv_row: u32;
+
+var<private> fetch__first_plane: u32;
+
+var<private> fetch__end_plane: u32;
+
 fn fetch__load_starts() {
+    fetch__root = bindings__frame.root;
     fetch__shape_row = bindings__frame.shape_row;
     fetch__light_row = bindings__frame.light_row;
+    fetch__instance_row = bindings__frame.instance_row;
+    fetch__key_row = bindings__frame.key_row;
+    fetch__texture_row = types__MATERIAL_ROWS * bindings__frame.material_count;
+    fetch__uv_row = bindings__frame.vertex_count;
+    fetch__first_plane = bindings__frame.shape_count;
+    fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
-    let row = bindings__frame.instance_row + types__INSTANCE_ROWS * index;
+    let row = fetch__instance_row + types__INSTANCE_ROWS * index;
     let r0 = fetch__node_row(row);
     let r1 = fetch__node_row(row + 1u);
     let r2 = fetch__node_row(row + 2u);
@@ -109,7 +130,7 @@ fn fetch__load_instance(index: u32) -> types__PackedInstance {
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
-    let row = bindings__frame.key_row + types__KEY_ROWS * index;
+    let row = fetch__key_row + types__KEY_ROWS * index;
     return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
 }
 
@@ -215,6 +236,8 @@ const types__SHAPE_ELLIPSOID: u32 = 7u;
 const types__SHAPE_GLOBE: u32 = 8u;
 
 const types__SHAPE_CAPPED: u32 = 1u;
+
+const types__MATERIAL_ROWS: u32 = 8u;
 
 const types__TRIANGLE_TEST_PLANE: u32 = 0u;
 
@@ -532,7 +555,7 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
     var stack = stack__Stack(traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY);
     var current = 0u;
     if (bindings__HAS_INSTANCES) {
-        current = bindings__frame.root;
+        current = fetch__root;
     }
     loop {
         loop {
@@ -679,8 +702,7 @@ const camera__T_FAR: f32 = 3e38;
 
 fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
     var hit = start;
-    let end = bindings__frame.shape_count + bindings__frame.plane_count;
-    var index = bindings__frame.shape_count;
+    var index = fetch__first_plane;
     loop {
         let shape = fetch__load_shape(index);
         let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
@@ -696,10 +718,10 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
         }
         continuing {
             index += 1u;
-            break if index >= end;
+            break if index >= fetch__end_plane;
         }
     }
-    loops__cut_off |= index < end;
+    loops__cut_off |= index < fetch__end_plane;
     return hit;
 }
 

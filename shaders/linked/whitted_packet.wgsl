@@ -823,17 +823,38 @@ struct types__SampleKey {
     weight: f32
 }
 
+var<private> fetch__root: u32;
+
 var<private> fetch__shape_row: u32;
 
 var<private> fetch__light_row: u32;
 
+var<private> fetch__instance_row: u32;
+
+var<private> fetch__key_row: u32;
+
+var<private> fetch__texture_row: u32;
+
+var<private> fetch__uv_row: u32;
+
+var<private> fetch__first_plane: u32;
+
+var<private> fetch__end_plane: u32;
+
 fn fetch__load_starts() {
+    fetch__root = bindings__frame.root;
     fetch__shape_row = bindings__frame.shape_row;
     fetch__light_row = bindings__frame.light_row;
+    fetch__instance_row = bindings__frame.instance_row;
+    fetch__key_row = bindings__frame.key_row;
+    fetch__texture_row = types__MATERIAL_ROWS * bindings__frame.material_count;
+    fetch__uv_row = bindings__frame.vertex_count;
+    fetch__first_plane = bindings__frame.shape_count;
+    fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
-    let row = bindings__frame.instance_row + types__INSTANCE_ROWS * index;
+    let row = fetch__instance_row + types__INSTANCE_ROWS * index;
     let r0 = fetch__node_row(row);
     let r1 = fetch__node_row(row + 1u);
     let r2 = fetch__node_row(row + 2u);
@@ -845,7 +866,7 @@ fn fetch__load_instance(index: u32) -> types__PackedInstance {
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
-    let row = bindings__frame.key_row + types__KEY_ROWS * index;
+    let row = fetch__key_row + types__KEY_ROWS * index;
     return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
 }
 
@@ -932,7 +953,7 @@ fn fetch__load_texture_indices(index: u32) -> vec3u {
 }
 
 fn fetch__load_texture(index: u32) -> types__PackedTexture {
-    let row = types__MATERIAL_ROWS * bindings__frame.material_count + types__TEXTURE_ROWS * index;
+    let row = fetch__texture_row + types__TEXTURE_ROWS * index;
     let r0 = fetch__material_row(row);
     let r1 = fetch__material_row(row + 1u);
     let r5 = fetch__material_row(row + 5u);
@@ -940,7 +961,7 @@ fn fetch__load_texture(index: u32) -> types__PackedTexture {
 }
 
 fn fetch__load_uv(index: u32) -> vec2f {
-    return bitcast<vec2f>(fetch__vertex_row(bindings__frame.vertex_count + index).xy);
+    return bitcast<vec2f>(fetch__vertex_row(fetch__uv_row + index).xy);
 }
 
 fn fetch__load_texel(index: u32) -> vec3f {
@@ -1037,6 +1058,12 @@ override bindings__FILTER_RADIUS: f32 = 0.5;
 override bindings__BACKGROUND: u32 = types__BACKGROUND_COLOR;
 
 override bindings__HAS_TEXTURES: bool = true;
+
+override bindings__HAS_NOISE: bool = true;
+
+override bindings__HAS_PICTURES: bool = true;
+
+override bindings__HAS_OPTICS_TEXTURES: bool = true;
 
 override bindings__HAS_EMISSION: bool = true;
 
@@ -1393,7 +1420,7 @@ fn walk__walk(ray0: types__Ray, ray1: types__Ray, ray2: types__Ray, ray3: types_
     var stack = stack__Stack(traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY, traverse__EMPTY);
     var current = 0u;
     if (bindings__HAS_INSTANCES) {
-        current = bindings__frame.root;
+        current = fetch__root;
     }
     loop {
         loop {
@@ -1583,8 +1610,7 @@ fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
 
 fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
     var hit = start;
-    let end = bindings__frame.shape_count + bindings__frame.plane_count;
-    var index = bindings__frame.shape_count;
+    var index = fetch__first_plane;
     loop {
         let shape = fetch__load_shape(index);
         let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
@@ -1600,10 +1626,10 @@ fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
         }
         continuing {
             index += 1u;
-            break if index >= end;
+            break if index >= fetch__end_plane;
         }
     }
-    loops__cut_off |= index < end;
+    loops__cut_off |= index < fetch__end_plane;
     return hit;
 }
 
@@ -3078,7 +3104,7 @@ fn texture__textured_phong(phong: types__Phong, material: u32, p: vec3f, uv: vec
 }
 
 fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
-    if (!bindings__HAS_TEXTURES) {
+    if (!(bindings__HAS_TEXTURES && bindings__HAS_OPTICS_TEXTURES)) {
         return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
     }
     let indices = fetch__load_texture_indices(surface.material);
@@ -3108,12 +3134,12 @@ fn texture__texture_factors(wanted: vec3u, p: vec3f, uv: vec2f) -> mat3x3f {
 fn texture__texture_color(texture: types__PackedTexture, p: vec3f, uv: vec2f) -> vec3f {
     let at = select(vec4f(p, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
     let q = clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
-    if (texture.kind == types__PATTERN_PICTURE) {
+    if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
         let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
         return picture__blend_texels(texture.first_texel, texture.width, texture.height, picture__repeated(q.x, texture.width, nearest), picture__repeated(q.y, texture.height, nearest));
     }
     var weight = pattern__checker(q);
-    if (texture.kind == types__PATTERN_NOISE) {
+    if (bindings__HAS_NOISE && texture.kind == types__PATTERN_NOISE) {
         let octaves = noise__noise_octaves(q, texture.octaves);
         loops__cut_off |= octaves.count < texture.octaves;
         weight = pattern__clouds(octaves.sum);

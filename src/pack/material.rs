@@ -124,6 +124,7 @@ pub fn features(scene: &Scene) -> Features {
     let transparent = may_transmit(scene).into_iter().zip(&scene.materials);
     let mut priorities = transparent.filter_map(|(is, material)| is.then_some(material.priority));
     let first = priorities.next();
+    let has_pattern = |is: fn(&Pattern) -> bool| scene.textures.iter().any(|it| is(&it.pattern));
     Features {
         priorities: priorities.any(|other| Some(other) != first),
         // Refraction includes the code for thin materials.
@@ -132,6 +133,11 @@ pub fn features(scene: &Scene) -> Features {
             || !refraction && has_thin_material(scene),
         refraction,
         textures: !scene.textures.is_empty(),
+        noise: has_pattern(|it| matches!(it, Pattern::Noise { .. })),
+        pictures: has_pattern(|it| matches!(it, Pattern::Picture { .. })),
+        optics_textures: (scene.materials.iter())
+            .map(|material| &material.textures)
+            .any(|it| it.reflect.or(it.transmit).or(it.emission).is_some()),
         emission: emission || light::visible(scene).next().is_some(),
         ..Features::default()
     }

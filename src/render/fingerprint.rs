@@ -21,6 +21,9 @@ impl Fingerprint {
             priorities,
             filtered_shadows,
             textures,
+            noise,
+            pictures,
+            optics_textures,
             emission,
             instances,
         } = scene.features;
@@ -37,6 +40,9 @@ impl Fingerprint {
             priorities,
             filtered_shadows,
             textures,
+            noise,
+            pictures,
+            optics_textures,
             emission,
             instances,
         ] {

@@ -436,7 +436,11 @@ fn with_everything_compiled_in(scene: &Scene, settings: &RenderSettings) -> Imag
         &mut features.reflection,
         &mut features.refraction,
         &mut features.contact,
+        &mut features.priorities,
         &mut features.textures,
+        &mut features.noise,
+        &mut features.pictures,
+        &mut features.optics_textures,
         &mut features.emission,
     ] {
         *feature = true;
