@@ -1657,7 +1657,7 @@ fn ray_stack__push(k: u32, state: ray_stack__RayState) {
     let count = wide__word_at(ray_stack__stack_counts, k);
     let row = 4u * count;
     ray_stack__ray_stack[row] = vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving);
-    ray_stack__ray_stack[row + 1u] = vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__place_of(state));
+    ray_stack__ray_stack[row + 1u] = vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__step_and_instance(state));
     ray_stack__ray_stack[row + 2u] = vec4u(bitcast<vec3u>(state.throughput), state.node);
     ray_stack__ray_stack[row + 3u] = state.media;
     ray_stack__stack_senders[count] = record__sender;
@@ -1677,7 +1677,7 @@ fn ray_stack__pop(k: u32) -> ray_stack__RayState {
     return ray_stack__stored(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, ray_stack__ray_stack[row + 3u]);
 }
 
-fn ray_stack__place_of(state: ray_stack__RayState) -> u32 {
+fn ray_stack__step_and_instance(state: ray_stack__RayState) -> u32 {
     return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
 }
 

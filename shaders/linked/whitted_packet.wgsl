@@ -284,7 +284,7 @@ fn ray_stack__strength(state: ray_stack__RayState) -> f32 {
     return dot(state.throughput, vec3f(1.0));
 }
 
-fn ray_stack__place_of(state: ray_stack__RayState) -> u32 {
+fn ray_stack__step_and_instance(state: ray_stack__RayState) -> u32 {
     return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
 }
 
@@ -306,7 +306,7 @@ fn ray_stack__push(k: u32, state: ray_stack__RayState) {
     ray_stack__ray_stack[at + 4u] = bitcast<u32>(state.ray.direction.x);
     ray_stack__ray_stack[at + 5u] = bitcast<u32>(state.ray.direction.y);
     ray_stack__ray_stack[at + 6u] = bitcast<u32>(state.ray.direction.z);
-    ray_stack__ray_stack[at + 7u] = ray_stack__place_of(state);
+    ray_stack__ray_stack[at + 7u] = ray_stack__step_and_instance(state);
     ray_stack__ray_stack[at + 8u] = bitcast<u32>(state.throughput.x);
     ray_stack__ray_stack[at + 9u] = bitcast<u32>(state.throughput.y);
     ray_stack__ray_stack[at + 10u] = bitcast<u32>(state.throughput.z);
@@ -1925,11 +1925,11 @@ fn node__entry(node: node__SharedNode, low: vec3f, high: vec3f, at: primitive__T
 }
 
 fn leaf__is_common(reference: u32) -> bool {
-    return (reference & types__LEAF) != 0u && reference < types__INSTANCE && leaf__has_shapes(reference) == bindings__MOSTLY_SHAPES;
+    return ((reference & types__LEAF) != 0u) & (reference < types__INSTANCE) & (leaf__has_shapes(reference) == bindings__MOSTLY_SHAPES);
 }
 
 fn leaf__is_rare(reference: u32) -> bool {
-    return (reference & types__LEAF) != 0u && reference < types__INSTANCE && leaf__has_shapes(reference) != bindings__MOSTLY_SHAPES;
+    return ((reference & types__LEAF) != 0u) & (reference < types__INSTANCE) & (leaf__has_shapes(reference) != bindings__MOSTLY_SHAPES);
 }
 
 fn leaf__has_shapes(reference: u32) -> bool {
@@ -1973,8 +1973,17 @@ fn leaf__meet_triangles(rays: lanes__FourRays, before: lanes__FourHits, referenc
     if (bindings__COUNT_STEPS) {
         loops__primitives_tested += count;
     }
-    let hits = leaf__meet_triangle(rays, before, leaf__triangle_of(row, 0u), first, true);
-    return leaf__meet_triangle(rays, hits, leaf__triangle_of(row, 3u), first + 1u, count > 1u);
+    var hits = before;
+    var index = 0u;
+    loop {
+        hits = leaf__meet_triangle(rays, hits, leaf__triangle_of(row, 3u * index), first + index);
+        continuing {
+            index += 1u;
+            break if index >= count;
+        }
+    }
+    loops__cut_off |= index < count;
+    return hits;
 }
 
 fn leaf__triangle_of(row: vec4u, lane: u32) -> types__PackedTriangle {
@@ -1989,13 +1998,8 @@ fn leaf__corner_of(row: vec4u, lane: u32) -> vec3f {
     return bitcast<vec3f>(vec3u(subgroupShuffle(row.x, lane), subgroupShuffle(row.y, lane), subgroupShuffle(row.z, lane)));
 }
 
-fn leaf__meet_triangle(rays: lanes__FourRays, before: lanes__FourHits, triangle: types__PackedTriangle, primitive: u32, is_there: bool) -> lanes__FourHits {
-    return lanes__FourHits(lanes__closer_two(rays.r0, before.h0, leaf__candidate_of(rays.r0, triangle, is_there), primitive), lanes__closer_two(rays.r1, before.h1, leaf__candidate_of(rays.r1, triangle, is_there), primitive), lanes__closer_two(rays.r2, before.h2, leaf__candidate_of(rays.r2, triangle, is_there), primitive), lanes__closer_two(rays.r3, before.h3, leaf__candidate_of(rays.r3, triangle, is_there), primitive));
-}
-
-fn leaf__candidate_of(at: primitive__TraversalRay, triangle: types__PackedTriangle, is_there: bool) -> types__Candidate {
-    let candidate = primitive__test_triangle(at.ray, triangle, at.shear);
-    return types__Candidate(candidate.hit & is_there, candidate.t, candidate.b1, candidate.b2);
+fn leaf__meet_triangle(rays: lanes__FourRays, before: lanes__FourHits, triangle: types__PackedTriangle, primitive: u32) -> lanes__FourHits {
+    return lanes__FourHits(lanes__closer_two(rays.r0, before.h0, primitive__test_triangle(rays.r0.ray, triangle, rays.r0.shear), primitive), lanes__closer_two(rays.r1, before.h1, primitive__test_triangle(rays.r1.ray, triangle, rays.r1.shear), primitive), lanes__closer_two(rays.r2, before.h2, primitive__test_triangle(rays.r2.ray, triangle, rays.r2.shear), primitive), lanes__closer_two(rays.r3, before.h3, primitive__test_triangle(rays.r3.ray, triangle, rays.r3.shear), primitive));
 }
 
 fn leaf__meet_shape(rays: lanes__FourRays, before: lanes__FourHits, reference: u32) -> lanes__FourHits {

@@ -363,12 +363,20 @@ fn random_scene(random: &mut Random, only: Option<usize>) -> Scene {
         }
     };
     if random.below(3) == 0 {
+        let octaves = 2;
         scene.textures.push(Texture {
-            pattern: Pattern::Checker { a, b },
+            pattern: match random.below(2) {
+                0 => Pattern::Checker { a, b },
+                _ => Pattern::Noise { a, b, octaves },
+            },
             space: Space::World,
             pattern_from_space: DAffine3::from_scale(DVec3::splat(1.37)),
         });
-        scene.materials[0].textures.diffuse = Some(0);
+        let textures = &mut scene.materials[0].textures;
+        match random.below(2) {
+            0 => textures.diffuse = Some(0),
+            _ => (textures.reflect, textures.transmit) = (Some(0), Some(0)),
+        }
     }
     if random.below(4) == 0 {
         scene.shadows = Shadows::Filtered;
