@@ -39,6 +39,15 @@ impl wesl::Mangler for ShortNames {
     }
 }
 
+/// The text with a tab for each level of four spaces, which is shorter.
+fn indented_by_tabs(text: &str) -> String {
+    let line = |line: &str| {
+        let rest = line.trim_start_matches(' ');
+        "\t".repeat((line.len() - rest.len()) / 4) + rest + "\n"
+    };
+    text.lines().map(line).collect()
+}
+
 /// Names of files for `shaders/linked`, and their text. A broken import is an error.
 pub fn kernels() -> Result<Vec<(String, String)>, Box<dyn Error>> {
     let mut files = Vec::new();
@@ -54,7 +63,8 @@ pub fn kernels() -> Result<Vec<(String, String)>, Box<dyn Error>> {
                 compiler.set_feature(feature, is_on);
             }
             let linked = compiler.compile(&format!("package::kernels::{module}").parse()?)?;
-            files.push((format!("{kernel}_{variant}.wgsl"), linked.to_string()));
+            let text = indented_by_tabs(&linked.to_string());
+            files.push((format!("{kernel}_{variant}.wgsl"), text));
         }
     }
     Ok(files)

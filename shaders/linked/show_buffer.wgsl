@@ -1,45 +1,45 @@
 @compute @workgroup_size(64, 1, 1)
 fn show(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let work = dispatch__work_of(dispatch__load_block(group), lane);
-    let tone = film__load_tone();
-    let corner = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
-    if (work.inside) {
-        let sum = film__load_weighted_sum(work, tone);
-        let color = clamp(quantity__shown(filter__weighted_mean(sum), tone), vec3f(0.0), vec3f(1.0));
-        let shown = vec4f(floor(color * 255.0 + 0.5) / 255.0, 1.0);
-        let position = work.pixel - corner;
-        textureStore(bindings__screen, position, select(vec4f(0.0), shown, sum.w != 0.0));
-    }
+	let work = dispatch__work_of(dispatch__load_block(group), lane);
+	let tone = film__load_tone();
+	let corner = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
+	if (work.inside) {
+		let sum = film__load_weighted_sum(work, tone);
+		let color = clamp(quantity__shown(filter__weighted_mean(sum), tone), vec3f(0.0), vec3f(1.0));
+		let shown = vec4f(floor(color * 255.0 + 0.5) / 255.0, 1.0);
+		let position = work.pixel - corner;
+		textureStore(bindings__screen, position, select(vec4f(0.0), shown, sum.w != 0.0));
+	}
 }
 
 struct dispatch__Work {
-    inside: bool,
-    film_index: u32,
-    pixel: vec2u
+	inside: bool,
+	film_index: u32,
+	pixel: vec2u
 }
 
 struct dispatch__Block {
-    film_index: u32,
-    corner: vec2u,
-    end: vec2u,
-    is_inside: bool
+	film_index: u32,
+	corner: vec2u,
+	end: vec2u,
+	is_inside: bool
 }
 
 fn dispatch__load_block(group: vec3u) -> dispatch__Block {
-    let index = bindings__dispatch.first_group + group.y * bindings__dispatch.grid_width + group.x;
-    let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
-    let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
-    return dispatch__Block(64u * index, tile + tile__group_corner(visited, bindings__dispatch.group_columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group);
+	let index = bindings__dispatch.first_group + group.y * bindings__dispatch.grid_width + group.x;
+	let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
+	let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
+	return dispatch__Block(64u * index, tile + tile__group_corner(visited, bindings__dispatch.group_columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group);
 }
 
 fn dispatch__work_of(block: dispatch__Block, place: u32) -> dispatch__Work {
-    let film_index = block.film_index + place;
-    if (bindings__ADAPTIVE) {
-        let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
-        return dispatch__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
-    }
-    let pixel = block.corner + tile__morton_8x8(place);
-    return dispatch__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
+	let film_index = block.film_index + place;
+	if (bindings__ADAPTIVE) {
+		let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
+		return dispatch__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
+	}
+	let pixel = block.corner + tile__morton_8x8(place);
+	return dispatch__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
 }
 
 @group(1) @binding(1)
@@ -69,17 +69,17 @@ override bindings__SQUARES_ROW: u32 = 1u;
 const tile__GROUP_SIDE: u32 = 8u;
 
 fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-    return (index * stride) % group_count;
+	return (index * stride) % group_count;
 }
 
 fn tile__morton_8x8(lane: u32) -> vec2u {
-    let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
-    let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
-    return vec2u(x, y);
+	let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
+	let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
+	return vec2u(x, y);
 }
 
 fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
-    return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
+	return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
 }
 
 const types__VIEW_NORMALS: u32 = 0u;
@@ -99,62 +99,62 @@ const types__TONE_REINHARD: u32 = 3u;
 const types__TRANSFER_SRGB: u32 = 0u;
 
 struct types__PackedDispatch {
-    picture_width: u32,
-    picture_height: u32,
-    tile_x: u32,
-    tile_y: u32,
-    tile_width: u32,
-    tile_height: u32,
-    group_columns: u32,
-    group_count: u32,
-    group_stride: u32,
-    first_group: u32,
-    end_group: u32,
-    grid_width: u32,
-    first_sample: u32,
-    end_sample: u32,
-    seed: u32,
-    max_depth: u32,
-    min_throughput: f32,
-    light_samples: f32,
-    counters: types__PackedCounters
+	picture_width: u32,
+	picture_height: u32,
+	tile_x: u32,
+	tile_y: u32,
+	tile_width: u32,
+	tile_height: u32,
+	group_columns: u32,
+	group_count: u32,
+	group_stride: u32,
+	first_group: u32,
+	end_group: u32,
+	grid_width: u32,
+	first_sample: u32,
+	end_sample: u32,
+	seed: u32,
+	max_depth: u32,
+	min_throughput: f32,
+	light_samples: f32,
+	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
-    groups_done: atomic<u32>,
-    nonfinite_samples: atomic<u32>,
-    cut_off_paths: atomic<u32>,
-    cut_off_trees: atomic<u32>,
-    primary: atomic<u32>,
-    primary_hits: atomic<u32>,
-    shadow: atomic<u32>,
-    shadow_blocked: atomic<u32>,
-    reflection: atomic<u32>,
-    reflection_hits: atomic<u32>,
-    refraction: atomic<u32>,
-    refraction_hits: atomic<u32>
+	groups_done: atomic<u32>,
+	nonfinite_samples: atomic<u32>,
+	cut_off_paths: atomic<u32>,
+	cut_off_trees: atomic<u32>,
+	primary: atomic<u32>,
+	primary_hits: atomic<u32>,
+	shadow: atomic<u32>,
+	shadow_blocked: atomic<u32>,
+	reflection: atomic<u32>,
+	reflection_hits: atomic<u32>,
+	refraction: atomic<u32>,
+	refraction_hits: atomic<u32>
 }
 
 struct types__PackedTone {
-    exposure_scale: f32,
-    curve: u32,
-    transfer: u32,
-    view: u32,
-    range: vec2f,
-    has_range: u32,
-    film_rows: u32
+	exposure_scale: f32,
+	curve: u32,
+	transfer: u32,
+	view: u32,
+	range: vec2f,
+	has_range: u32,
+	film_rows: u32
 }
 
 fn film__load_tone() -> types__PackedTone {
-    var chosen = bindings__tone;
-    chosen.curve = bindings__TONE_CURVE;
-    chosen.transfer = bindings__TONE_TRANSFER;
-    chosen.view = bindings__VIEW;
-    return chosen;
+	var chosen = bindings__tone;
+	chosen.curve = bindings__TONE_CURVE;
+	chosen.transfer = bindings__TONE_TRANSFER;
+	chosen.view = bindings__VIEW;
+	return chosen;
 }
 
 fn film__load_weighted_sum(work: dispatch__Work, tone: types__PackedTone) -> vec4f {
-    return bindings__film[tone.film_rows * work.film_index];
+	return bindings__film[tone.film_rows * work.film_index];
 }
 
 const quantity__FAR_LEVEL: f32 = 0.1;
@@ -162,87 +162,87 @@ const quantity__FAR_LEVEL: f32 = 0.1;
 const quantity__LEAST_COVERAGE: f32 = 0.01;
 
 fn quantity__shown(mean: vec3f, tone: types__PackedTone) -> vec3f {
-    if (tone.view != types__VIEW_DEPTH && tone.view != types__VIEW_HEAT) {
-        return tone__develop(mean, tone);
-    }
-    let value = quantity__quantity(mean, tone.view);
-    if (tone.has_range == 0u) {
-        return tone__develop(vec3f(value), tone);
-    }
-    if (tone.view == types__VIEW_HEAT) {
-        return tone__develop(colormap__heat(quantity__position_in_range(value, tone.range)), tone);
-    }
-    let far = quantity__position_in_range(log2(max(value, 1e-30)), log2(max(tone.range, vec2f(1e-30))));
-    return tone__develop(vec3f(select(0.0, mix(1.0, quantity__FAR_LEVEL, far), value > 0.0)), tone);
+	if (tone.view != types__VIEW_DEPTH && tone.view != types__VIEW_HEAT) {
+		return tone__develop(mean, tone);
+	}
+	let value = quantity__quantity(mean, tone.view);
+	if (tone.has_range == 0u) {
+		return tone__develop(vec3f(value), tone);
+	}
+	if (tone.view == types__VIEW_HEAT) {
+		return tone__develop(colormap__heat(quantity__position_in_range(value, tone.range)), tone);
+	}
+	let far = quantity__position_in_range(log2(max(value, 1e-30)), log2(max(tone.range, vec2f(1e-30))));
+	return tone__develop(vec3f(select(0.0, mix(1.0, quantity__FAR_LEVEL, far), value > 0.0)), tone);
 }
 
 fn quantity__quantity(mean: vec3f, view: u32) -> f32 {
-    if (view == types__VIEW_DEPTH) {
-        return select(0.0, mean.x / max(mean.y, quantity__LEAST_COVERAGE), mean.y >= quantity__LEAST_COVERAGE);
-    }
-    return mean.x;
+	if (view == types__VIEW_DEPTH) {
+		return select(0.0, mean.x / max(mean.y, quantity__LEAST_COVERAGE), mean.y >= quantity__LEAST_COVERAGE);
+	}
+	return mean.x;
 }
 
 fn quantity__position_in_range(value: f32, range: vec2f) -> f32 {
-    let extent = range.y - range.x;
-    return select(0.5, clamp((value - range.x) / max(extent, 1e-30), 0.0, 1.0), extent > 0.0);
+	let extent = range.y - range.x;
+	return select(0.5, clamp((value - range.x) / max(extent, 1e-30), 0.0, 1.0), extent > 0.0);
 }
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);
 
 fn tone__aces(x: vec3f) -> vec3f {
-    return (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14);
+	return (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14);
 }
 
 fn tone__reinhard(x: vec3f) -> vec3f {
-    return x / (1.0 + dot(x, tone__LUMINANCE_REC709));
+	return x / (1.0 + dot(x, tone__LUMINANCE_REC709));
 }
 
 fn tone__agx(x: vec3f) -> vec3f {
-    let inset = mat3x3f(vec3f(0.842479062253094, 0.0423282422610123, 0.0423756549057051), vec3f(0.0784335999999992, 0.878468636469772, 0.0784336), vec3f(0.0792237451477643, 0.0791661274605434, 0.879142973793104));
-    let outset = mat3x3f(vec3f(1.19687900512017, -0.0528968517574562, -0.0529716355144438), vec3f(-0.0980208811401368, 1.15190312990417, -0.0980434501171241), vec3f(-0.0990297440797205, -0.0989611768448433, 1.15107367264116));
-    let stops = clamp(log2(max(inset * x, vec3f(1e-10))), vec3f(-12.47393), vec3f(4.026069));
-    let v = (stops + 12.47393) / 16.5;
-    let v2 = v * v;
-    let v4 = v2 * v2;
-    let curve = 15.5 * v4 * v2 - 40.14 * v4 * v + 31.96 * v4 - 6.868 * v2 * v + 0.4298 * v2 + 0.1191 * v - 0.00232;
-    return pow(max(outset * curve, vec3f(0.0)), vec3f(2.2));
+	let inset = mat3x3f(vec3f(0.842479062253094, 0.0423282422610123, 0.0423756549057051), vec3f(0.0784335999999992, 0.878468636469772, 0.0784336), vec3f(0.0792237451477643, 0.0791661274605434, 0.879142973793104));
+	let outset = mat3x3f(vec3f(1.19687900512017, -0.0528968517574562, -0.0529716355144438), vec3f(-0.0980208811401368, 1.15190312990417, -0.0980434501171241), vec3f(-0.0990297440797205, -0.0989611768448433, 1.15107367264116));
+	let stops = clamp(log2(max(inset * x, vec3f(1e-10))), vec3f(-12.47393), vec3f(4.026069));
+	let v = (stops + 12.47393) / 16.5;
+	let v2 = v * v;
+	let v4 = v2 * v2;
+	let curve = 15.5 * v4 * v2 - 40.14 * v4 * v + 31.96 * v4 - 6.868 * v2 * v + 0.4298 * v2 + 0.1191 * v - 0.00232;
+	return pow(max(outset * curve, vec3f(0.0)), vec3f(2.2));
 }
 
 fn tone__srgb_from_linear(x: vec3f) -> vec3f {
-    let power = 1.055 * pow(max(x, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
-    return select(power, 12.92 * x, x <= vec3f(0.0031308));
+	let power = 1.055 * pow(max(x, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
+	return select(power, 12.92 * x, x <= vec3f(0.0031308));
 }
 
 fn tone__develop(radiance: vec3f, tone: types__PackedTone) -> vec3f {
-    var color = radiance * tone.exposure_scale;
-    if (tone.curve != types__TONE_NONE) {
-        color = min(color, vec3f(1000000000.0));
-    }
-    if (tone.curve == types__TONE_ACES) {
-        color = tone__aces(color);
-    }
-    else if (tone.curve == types__TONE_AGX) {
-        color = tone__agx(color);
-    }
-    else if (tone.curve == types__TONE_REINHARD) {
-        color = tone__reinhard(color);
-    }
-    if (tone.transfer == types__TRANSFER_SRGB) {
-        color = tone__srgb_from_linear(clamp(color, vec3f(0.0), vec3f(1.0)));
-    }
-    return color;
+	var color = radiance * tone.exposure_scale;
+	if (tone.curve != types__TONE_NONE) {
+		color = min(color, vec3f(1000000000.0));
+	}
+	if (tone.curve == types__TONE_ACES) {
+		color = tone__aces(color);
+	}
+	else if (tone.curve == types__TONE_AGX) {
+		color = tone__agx(color);
+	}
+	else if (tone.curve == types__TONE_REINHARD) {
+		color = tone__reinhard(color);
+	}
+	if (tone.transfer == types__TRANSFER_SRGB) {
+		color = tone__srgb_from_linear(clamp(color, vec3f(0.0), vec3f(1.0)));
+	}
+	return color;
 }
 
 fn colormap__heat(x: f32) -> vec3f {
-    let s = clamp(x, 0.0, 1.0) * 5.0;
-    let red = clamp(s - 2.0, 0.0, 1.0);
-    let green = clamp(s - 1.0, 0.0, 1.0) - clamp(s - 3.0, 0.0, 1.0) + clamp(s - 4.0, 0.0, 1.0);
-    let blue = clamp(s, 0.0, 1.0) - clamp(s - 1.0, 0.0, 1.0) + clamp(s - 4.0, 0.0, 1.0);
-    return vec3f(red, green, blue);
+	let s = clamp(x, 0.0, 1.0) * 5.0;
+	let red = clamp(s - 2.0, 0.0, 1.0);
+	let green = clamp(s - 1.0, 0.0, 1.0) - clamp(s - 3.0, 0.0, 1.0) + clamp(s - 4.0, 0.0, 1.0);
+	let blue = clamp(s, 0.0, 1.0) - clamp(s - 1.0, 0.0, 1.0) + clamp(s - 4.0, 0.0, 1.0);
+	return vec3f(red, green, blue);
 }
 
 fn filter__weighted_mean(sum: vec4f) -> vec3f {
-    let usable = abs(sum.w) > 0.5;
-    return select(vec3f(0.0), max(sum.xyz / select(1.0, sum.w, usable), vec3f(0.0)), usable);
+	let usable = abs(sum.w) > 0.5;
+	return select(vec3f(0.0), max(sum.xyz / select(1.0, sum.w, usable), vec3f(0.0)), usable);
 }

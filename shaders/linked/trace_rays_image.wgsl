@@ -1,46 +1,46 @@
 @compute @workgroup_size(64, 1, 1)
 fn trace_rays(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    answer(group, lane);
+	answer(group, lane);
 }
 
 fn answer(group: vec3u, lane: u32) {
-    fetch__load_starts();
-    let first = 64u * tile__permuted_group(group.x, bindings__dispatch.group_count, bindings__dispatch.group_stride);
-    var rays = rays__dead_rays();
-    var k = 0u;
-    loop {
-        let query = query__load_query_ray(first + dispatch__place_of(lane, k));
-        rays = rays__ray_set(rays, k, query.ray);
-        shutter__shutter_time = query.time;
-        continuing {
-            k += 1u;
-            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-        }
-    }
-    loops__cut_off |= k < wide__RAYS_PER_LANE;
-    let hits = trace(rays);
-    k = 0u;
-    loop {
-        query__store_hit(first + dispatch__place_of(lane, k), rays__hit_at(hits, k));
-        continuing {
-            k += 1u;
-            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-        }
-    }
-    loops__cut_off |= k < wide__RAYS_PER_LANE;
-    if (loops__cut_off) {
-        atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
-    }
-    if (lane == 0u) {
-        atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
-    }
+	fetch__load_starts();
+	let first = 64u * tile__permuted_group(group.x, bindings__dispatch.group_count, bindings__dispatch.group_stride);
+	var rays = rays__dead_rays();
+	var k = 0u;
+	loop {
+		let query = query__load_query_ray(first + dispatch__place_of(lane, k));
+		rays = rays__ray_set(rays, k, query.ray);
+		shutter__shutter_time = query.time;
+		continuing {
+			k += 1u;
+			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		}
+	}
+	loops__cut_off |= k < wide__RAYS_PER_LANE;
+	let hits = trace(rays);
+	k = 0u;
+	loop {
+		query__store_hit(first + dispatch__place_of(lane, k), rays__hit_at(hits, k));
+		continuing {
+			k += 1u;
+			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		}
+	}
+	loops__cut_off |= k < wide__RAYS_PER_LANE;
+	if (loops__cut_off) {
+		atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
+	}
+	if (lane == 0u) {
+		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
+	}
 }
 
 fn trace(rays: rays__Rays) -> rays__Hits {
-    if (bindings__ANY_HIT) {
-        return rays__any_hits(rays);
-    }
-    return rays__closest_hits(rays);
+	if (bindings__ANY_HIT) {
+		return rays__any_hits(rays);
+	}
+	return rays__closest_hits(rays);
 }
 
 var<private> fetch__root: u32;
@@ -62,72 +62,72 @@ var<private> fetch__first_plane: u32;
 var<private> fetch__end_plane: u32;
 
 fn fetch__load_starts() {
-    fetch__root = bindings__frame.root;
-    fetch__shape_row = bindings__frame.shape_row;
-    fetch__light_row = bindings__frame.light_row;
-    fetch__instance_row = bindings__frame.instance_row;
-    fetch__key_row = bindings__frame.key_row;
-    fetch__texture_row = types__MATERIAL_ROWS * bindings__frame.material_count;
-    fetch__uv_row = bindings__frame.vertex_count;
-    fetch__first_plane = bindings__frame.shape_count;
-    fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
+	fetch__root = bindings__frame.root;
+	fetch__shape_row = bindings__frame.shape_row;
+	fetch__light_row = bindings__frame.light_row;
+	fetch__instance_row = bindings__frame.instance_row;
+	fetch__key_row = bindings__frame.key_row;
+	fetch__texture_row = types__MATERIAL_ROWS * bindings__frame.material_count;
+	fetch__uv_row = bindings__frame.vertex_count;
+	fetch__first_plane = bindings__frame.shape_count;
+	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
 fn fetch__load_node(index: u32) -> types__Node {
-    let row = types__NODE_ROWS * index;
-    return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
+	let row = types__NODE_ROWS * index;
+	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
 }
 
 fn fetch__load_moving_node(reference: u32, time: f32) -> types__Node {
-    let index = reference & ~types__MOVING;
-    let last = index + select(0u, 1u, (reference & types__MOVING) != 0u);
-    return node__node_between(fetch__load_node(index), fetch__load_node(last), time);
+	let index = reference & ~types__MOVING;
+	let last = index + select(0u, 1u, (reference & types__MOVING) != 0u);
+	return node__node_between(fetch__load_node(index), fetch__load_node(last), time);
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
-    let row = fetch__instance_row + types__INSTANCE_ROWS * index;
-    let r0 = fetch__node_row(row);
-    let r1 = fetch__node_row(row + 1u);
-    let r2 = fetch__node_row(row + 2u);
-    let r3 = fetch__node_row(row + 3u);
-    let r4 = fetch__node_row(row + 4u);
-    let r5 = fetch__node_row(row + 5u);
-    let r6 = fetch__node_row(row + 6u);
-    return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
+	let r0 = fetch__node_row(row);
+	let r1 = fetch__node_row(row + 1u);
+	let r2 = fetch__node_row(row + 2u);
+	let r3 = fetch__node_row(row + 3u);
+	let r4 = fetch__node_row(row + 4u);
+	let r5 = fetch__node_row(row + 5u);
+	let r6 = fetch__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
-    let row = fetch__key_row + types__KEY_ROWS * index;
-    return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+	let row = fetch__key_row + types__KEY_ROWS * index;
+	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
 }
 
 fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
-    let row = 3u * index;
-    let r0 = fetch__triangle_row(row);
-    let r1 = fetch__triangle_row(row + 1u);
-    let r2 = fetch__triangle_row(row + 2u);
-    return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
+	let row = 3u * index;
+	let r0 = fetch__triangle_row(row);
+	let r1 = fetch__triangle_row(row + 1u);
+	let r2 = fetch__triangle_row(row + 2u);
+	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
 fn fetch__load_shape(index: u32) -> types__PackedShape {
-    let row = fetch__shape_row + types__SHAPE_ROWS * index;
-    return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+	let row = fetch__shape_row + types__SHAPE_ROWS * index;
+	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
 }
 
 fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
-    return types__PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
+	return types__PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
 }
 
 fn fetch__texel(row: u32) -> vec2u {
-    return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
+	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
 }
 
 fn fetch__node_row(row: u32) -> vec4u {
-    return textureLoad(bindings__nodes, fetch__texel(row));
+	return textureLoad(bindings__nodes, fetch__texel(row));
 }
 
 fn fetch__triangle_row(row: u32) -> vec4u {
-    return textureLoad(bindings__triangles, fetch__texel(row));
+	return textureLoad(bindings__triangles, fetch__texel(row));
 }
 
 @group(0) @binding(0)
@@ -227,219 +227,219 @@ const types__TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
 const types__TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
 
 struct types__PackedTriangle {
-    v0: vec3f,
-    i0: u32,
-    v1: vec3f,
-    i1: u32,
-    v2: vec3f,
-    i2: u32
+	v0: vec3f,
+	i0: u32,
+	v1: vec3f,
+	i1: u32,
+	v2: vec3f,
+	i2: u32
 }
 
 struct types__PackedShape {
-    position: vec3f,
-    kind: u32,
-    row_x: vec3f,
-    size0: f32,
-    row_y: vec3f,
-    size1: f32,
-    row_z: vec3f,
-    flags: u32,
-    material: u32,
-    id: u32,
-    _pad0: u32,
-    _pad1: u32
+	position: vec3f,
+	kind: u32,
+	row_x: vec3f,
+	size0: f32,
+	row_y: vec3f,
+	size1: f32,
+	row_z: vec3f,
+	flags: u32,
+	material: u32,
+	id: u32,
+	_pad0: u32,
+	_pad1: u32
 }
 
 struct types__PackedInstance {
-    translation: vec3f,
-    root: u32,
-    inverse_x: vec3f,
-    first: u32,
-    inverse_y: vec3f,
-    count: u32,
-    inverse_z: vec3f,
-    key_count: u32,
-    linear_x: vec3f,
-    first_key: u32,
-    linear_y: vec3f,
-    id: u32,
-    linear_z: vec3f,
-    _pad: u32,
-    pattern_x: vec4f,
-    pattern_y: vec4f,
-    pattern_z: vec4f
+	translation: vec3f,
+	root: u32,
+	inverse_x: vec3f,
+	first: u32,
+	inverse_y: vec3f,
+	count: u32,
+	inverse_z: vec3f,
+	key_count: u32,
+	linear_x: vec3f,
+	first_key: u32,
+	linear_y: vec3f,
+	id: u32,
+	linear_z: vec3f,
+	_pad: u32,
+	pattern_x: vec4f,
+	pattern_y: vec4f,
+	pattern_z: vec4f
 }
 
 struct types__PackedKey {
-    translation: vec3f,
-    _pad0: u32,
-    rotation: vec4f,
-    stretch: vec3f,
-    _pad1: u32,
-    shear: vec3f,
-    _pad2: u32
+	translation: vec3f,
+	_pad0: u32,
+	rotation: vec4f,
+	stretch: vec3f,
+	_pad1: u32,
+	shear: vec3f,
+	_pad2: u32
 }
 
 struct types__PackedCamera {
-    origin: vec3f,
-    lens_radius: f32,
-    forward: vec3f,
-    focus_distance: f32,
-    right: vec3f,
-    blade_rotation: f32,
-    up: vec3f,
-    blade_count: u32
+	origin: vec3f,
+	lens_radius: f32,
+	forward: vec3f,
+	focus_distance: f32,
+	right: vec3f,
+	blade_rotation: f32,
+	up: vec3f,
+	blade_count: u32
 }
 
 struct types__PackedFrame {
-    camera: types__PackedCamera,
-    background: vec3f,
-    light_count: u32,
-    ambient: vec3f,
-    triangle_count: u32,
-    shape_count: u32,
-    plane_count: u32,
-    vertex_count: u32,
-    material_count: u32,
-    background_top: vec3f,
-    background_rotation: f32,
-    background_first_texel: u32,
-    background_width: u32,
-    background_height: u32,
-    root: u32,
-    camera_media: vec4u,
-    instance_row: u32,
-    instance_count: u32,
-    key_row: u32,
-    light_row: u32,
-    camera_key_count: u32,
-    light_key_count: u32,
-    first_triangle: u32,
-    shape_row: u32
+	camera: types__PackedCamera,
+	background: vec3f,
+	light_count: u32,
+	ambient: vec3f,
+	triangle_count: u32,
+	shape_count: u32,
+	plane_count: u32,
+	vertex_count: u32,
+	material_count: u32,
+	background_top: vec3f,
+	background_rotation: f32,
+	background_first_texel: u32,
+	background_width: u32,
+	background_height: u32,
+	root: u32,
+	camera_media: vec4u,
+	instance_row: u32,
+	instance_count: u32,
+	key_row: u32,
+	light_row: u32,
+	camera_key_count: u32,
+	light_key_count: u32,
+	first_triangle: u32,
+	shape_row: u32
 }
 
 struct types__PackedDispatch {
-    picture_width: u32,
-    picture_height: u32,
-    tile_x: u32,
-    tile_y: u32,
-    tile_width: u32,
-    tile_height: u32,
-    group_columns: u32,
-    group_count: u32,
-    group_stride: u32,
-    first_group: u32,
-    end_group: u32,
-    grid_width: u32,
-    first_sample: u32,
-    end_sample: u32,
-    seed: u32,
-    max_depth: u32,
-    min_throughput: f32,
-    light_samples: f32,
-    counters: types__PackedCounters
+	picture_width: u32,
+	picture_height: u32,
+	tile_x: u32,
+	tile_y: u32,
+	tile_width: u32,
+	tile_height: u32,
+	group_columns: u32,
+	group_count: u32,
+	group_stride: u32,
+	first_group: u32,
+	end_group: u32,
+	grid_width: u32,
+	first_sample: u32,
+	end_sample: u32,
+	seed: u32,
+	max_depth: u32,
+	min_throughput: f32,
+	light_samples: f32,
+	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
-    groups_done: atomic<u32>,
-    nonfinite_samples: atomic<u32>,
-    cut_off_paths: atomic<u32>,
-    cut_off_trees: atomic<u32>,
-    primary: atomic<u32>,
-    primary_hits: atomic<u32>,
-    shadow: atomic<u32>,
-    shadow_blocked: atomic<u32>,
-    reflection: atomic<u32>,
-    reflection_hits: atomic<u32>,
-    refraction: atomic<u32>,
-    refraction_hits: atomic<u32>
+	groups_done: atomic<u32>,
+	nonfinite_samples: atomic<u32>,
+	cut_off_paths: atomic<u32>,
+	cut_off_trees: atomic<u32>,
+	primary: atomic<u32>,
+	primary_hits: atomic<u32>,
+	shadow: atomic<u32>,
+	shadow_blocked: atomic<u32>,
+	reflection: atomic<u32>,
+	reflection_hits: atomic<u32>,
+	refraction: atomic<u32>,
+	refraction_hits: atomic<u32>
 }
 
 struct types__Ray {
-    origin: vec3f,
-    t_max: f32,
-    direction: vec3f,
-    leaving: u32,
-    leaving_instance: u32
+	origin: vec3f,
+	t_max: f32,
+	direction: vec3f,
+	leaving: u32,
+	leaving_instance: u32
 }
 
 struct types__Candidate {
-    hit: bool,
-    t: f32,
-    b1: f32,
-    b2: f32
+	hit: bool,
+	t: f32,
+	b1: f32,
+	b2: f32
 }
 
 struct types__Hit {
-    t: f32,
-    primitive: u32,
-    b1: f32,
-    b2: f32,
-    instance: u32
+	t: f32,
+	primitive: u32,
+	b1: f32,
+	b2: f32,
+	instance: u32
 }
 
 struct types__Node {
-    lo: vec3f,
-    scale: vec3f,
-    min_x: vec4f,
-    max_x: vec4f,
-    min_y: vec4f,
-    max_y: vec4f,
-    min_z: vec4f,
-    max_z: vec4f,
-    children: vec4u
+	lo: vec3f,
+	scale: vec3f,
+	min_x: vec4f,
+	max_x: vec4f,
+	min_y: vec4f,
+	max_y: vec4f,
+	min_z: vec4f,
+	max_z: vec4f,
+	children: vec4u
 }
 
 fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-    return (index * stride) % group_count;
+	return (index * stride) % group_count;
 }
 
 struct rays__Rays {
-    origin: wide__Vectors,
-    direction: wide__Vectors,
-    t_max: wide__Floats,
-    leaving: wide__Words,
-    leaving_instance: wide__Words
+	origin: wide__Vectors,
+	direction: wide__Vectors,
+	t_max: wide__Floats,
+	leaving: wide__Words,
+	leaving_instance: wide__Words
 }
 
 struct rays__Hits {
-    t: wide__Floats,
-    primitive: wide__Words,
-    b1: wide__Floats,
-    b2: wide__Floats,
-    instance: wide__Words
+	t: wide__Floats,
+	primitive: wide__Words,
+	b1: wide__Floats,
+	b2: wide__Floats,
+	instance: wide__Words
 }
 
 fn rays__dead_rays() -> rays__Rays {
-    return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
+	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
 }
 
 fn rays__ray_at(rays: rays__Rays, k: u32) -> types__Ray {
-    return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
+	return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
 }
 
 fn rays__ray_set(rays: rays__Rays, k: u32, ray: types__Ray) -> rays__Rays {
-    return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
+	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
 }
 
 fn rays__hit_at(hits: rays__Hits, k: u32) -> types__Hit {
-    return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
+	return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
 }
 
 fn rays__hits_of(hit: types__Hit) -> rays__Hits {
-    return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
+	return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
 }
 
 fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
-    {
-        return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
-    }
+	{
+		return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
+	}
 }
 
 fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
-    {
-        return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
-    }
+	{
+		return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
+	}
 }
 
 const wide__RAYS_PER_LANE: u32 = 1u;
@@ -451,67 +451,67 @@ alias wide__Floats = f32;
 alias wide__Words = u32;
 
 struct wide__Vectors {
-    x: wide__Floats,
-    y: wide__Floats,
-    z: wide__Floats
+	x: wide__Floats,
+	y: wide__Floats,
+	z: wide__Floats
 }
 
 fn wide__float_at(all: wide__Floats, k: u32) -> f32 {
-    return all;
+	return all;
 }
 
 fn wide__word_at(all: wide__Words, k: u32) -> u32 {
-    return all;
+	return all;
 }
 
 fn wide__vector_at(all: wide__Vectors, k: u32) -> vec3f {
-    return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
+	return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
 }
 
 fn wide__float_set(all: wide__Floats, k: u32, value: f32) -> wide__Floats {
-    {
-        return value;
-    }
+	{
+		return value;
+	}
 }
 
 fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
-    {
-        return value;
-    }
+	{
+		return value;
+	}
 }
 
 fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
-    return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
+	return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
 }
 
 struct query__QueryRay {
-    ray: types__Ray,
-    time: f32
+	ray: types__Ray,
+	time: f32
 }
 
 fn query__load_query_ray(index: u32) -> query__QueryRay {
-    let r0 = query__ray_row(2u * index);
-    let r1 = query__ray_row(2u * index + 1u);
-    let ray = types__Ray(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), types__NONE, types__NO_INSTANCE);
-    return query__QueryRay(ray, bitcast<f32>(r1.w));
+	let r0 = query__ray_row(2u * index);
+	let r1 = query__ray_row(2u * index + 1u);
+	let ray = types__Ray(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), types__NONE, types__NO_INSTANCE);
+	return query__QueryRay(ray, bitcast<f32>(r1.w));
 }
 
 fn query__store_hit(index: u32, hit: types__Hit) {
-    var rest = vec2u(hit.instance, pack2x16unorm(vec2f(hit.b1, hit.b2)));
-    if (bindings__COUNT_STEPS) {
-        rest = vec2u(loops__nodes_visited, loops__primitives_tested);
-    }
-    bindings__hits[index] = vec4u(bitcast<u32>(hit.t), hit.primitive, rest);
+	var rest = vec2u(hit.instance, pack2x16unorm(vec2f(hit.b1, hit.b2)));
+	if (bindings__COUNT_STEPS) {
+		rest = vec2u(loops__nodes_visited, loops__primitives_tested);
+	}
+	bindings__hits[index] = vec4u(bitcast<u32>(hit.t), hit.primitive, rest);
 }
 
 fn query__ray_row(row: u32) -> vec4u {
-    return textureLoad(bindings__rays, fetch__texel(row));
+	return textureLoad(bindings__rays, fetch__texel(row));
 }
 
 fn dispatch__place_of(lane: u32, k: u32) -> u32 {
-    {
-        return lane;
-    }
+	{
+		return lane;
+	}
 }
 
 var<private> shutter__shutter_time: f32 = 0.0;
@@ -531,333 +531,333 @@ var<private> traverse__stack: array<u32, types__STACK_SIZE>;
 const traverse__CONTACT_RANGE: f32 = 0.0001;
 
 fn traverse__closest_hit(ray: types__Ray) -> types__Hit {
-    if (bindings__HAS_CONTACT) {
-        primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
-    }
-    return traverse__traverse(ray, false);
+	if (bindings__HAS_CONTACT) {
+		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	}
+	return traverse__traverse(ray, false);
 }
 
 fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
-    if (bindings__HAS_CONTACT) {
-        return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
-    }
-    return hit.t;
+	if (bindings__HAS_CONTACT) {
+		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
+	}
+	return hit.t;
 }
 
 fn traverse__any_hit(ray: types__Ray) -> types__Hit {
-    return traverse__traverse(ray, true);
+	return traverse__traverse(ray, true);
 }
 
 fn traverse__traverse(ray: types__Ray, any: bool) -> types__Hit {
-    var hit = types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
-    let shear = triangle_watertight__shear_of(ray.direction);
-    if (bindings__HAS_PLANES) {
-        hit = exhaustive__hit_planes(ray, hit);
-    }
-    if (bindings__BRUTE_FORCE) {
-        return exhaustive__hit_everything(ray, shear, hit);
-    }
-    if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) || (any && hit.primitive != types__NONE)) {
-        return hit;
-    }
-    return traverse__walk(ray, shear, any, hit);
+	var hit = types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	let shear = triangle_watertight__shear_of(ray.direction);
+	if (bindings__HAS_PLANES) {
+		hit = exhaustive__hit_planes(ray, hit);
+	}
+	if (bindings__BRUTE_FORCE) {
+		return exhaustive__hit_everything(ray, shear, hit);
+	}
+	if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) || (any && hit.primitive != types__NONE)) {
+		return hit;
+	}
+	return traverse__walk(ray, shear, any, hit);
 }
 
 fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool, start: types__Hit) -> types__Hit {
-    var hit = start;
-    var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
-    traverse__stack[0] = traverse__EMPTY;
-    var top = 0u;
-    var current = 0u;
-    if (bindings__HAS_INSTANCES) {
-        current = fetch__root;
-    }
-    loop {
-        if (bindings__HAS_INSTANCES) {
-            if (current == traverse__RETURN) {
-                at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
-                current = traverse__stack[top];
-                top -= select(1u, 0u, current == traverse__EMPTY);
-            }
-            if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
-                let index = current & types__LEAF_FIRST_MASK;
-                let instance = fetch__load_instance(index);
-                let local = instance__object_ray(ray, instance__space_of(instance));
-                at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index);
-                top += 1u;
-                traverse__stack[top] = traverse__RETURN;
-                current = instance.root;
-            }
-        }
-        let is_node = !bindings__HAS_INSTANCES || (current & types__LEAF) == 0u;
-        if (is_node) {
-            loop {
-                let node = traverse__load_current_node(current);
-                let keys = node__sort4(node__child_keys(node, at.ray.origin, at.inv, traverse__search_limit(ray, hit)));
-                let is_hit = keys < vec4u(node__MISS);
-                let pushed = select(vec4u(0u), vec4u(1u), is_hit);
-                traverse__stack[top + 1u] = node.children[keys.w & 3u];
-                top += pushed.w;
-                traverse__stack[top + 1u] = node.children[keys.z & 3u];
-                top += pushed.z;
-                traverse__stack[top + 1u] = node.children[keys.y & 3u];
-                top += pushed.y;
-                let popped = traverse__stack[top];
-                current = select(popped, node.children[keys.x & 3u], is_hit.x);
-                top -= select(1u, 0u, is_hit.x | (popped == traverse__EMPTY));
-                if (bindings__COUNT_STEPS) {
-                    loops__nodes_visited += 1u;
-                }
-                continuing {
-                
-                    break if (current & types__LEAF) != 0u;
-                }
-            }
-        }
-        if (current == traverse__EMPTY) {
-            break;
-        }
-        if (bindings__HAS_INSTANCES && current >= types__INSTANCE) {
-            continue;
-        }
-        loop {
-            hit = primitive__closer(at, hit, current & (types__SHAPE | types__LEAF_FIRST_MASK));
-            let popped = traverse__stack[top];
-            let is_last = (current & types__LEAF_COUNT_MASK) == 0u;
-            top -= select(0u, 1u, is_last & (popped != traverse__EMPTY));
-            current = select(current - types__LEAF_COUNT_ONE + 1u, popped, is_last);
-            current = select(current, traverse__EMPTY, any & (hit.primitive != types__NONE));
-            if (bindings__COUNT_STEPS) {
-                loops__primitives_tested += 1u;
-            }
-            continuing {
-            
-                break if ((current & types__LEAF) == 0u) | (current >= types__INSTANCE);
-            }
-        }
-        continuing {
-        
-            break if current == traverse__EMPTY;
-        }
-    }
-    loops__cut_off |= current != traverse__EMPTY;
-    return hit;
+	var hit = start;
+	var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+	traverse__stack[0] = traverse__EMPTY;
+	var top = 0u;
+	var current = 0u;
+	if (bindings__HAS_INSTANCES) {
+		current = fetch__root;
+	}
+	loop {
+		if (bindings__HAS_INSTANCES) {
+			if (current == traverse__RETURN) {
+				at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+				current = traverse__stack[top];
+				top -= select(1u, 0u, current == traverse__EMPTY);
+			}
+			if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
+				let index = current & types__LEAF_FIRST_MASK;
+				let instance = fetch__load_instance(index);
+				let local = instance__object_ray(ray, instance__space_of(instance));
+				at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index);
+				top += 1u;
+				traverse__stack[top] = traverse__RETURN;
+				current = instance.root;
+			}
+		}
+		let is_node = !bindings__HAS_INSTANCES || (current & types__LEAF) == 0u;
+		if (is_node) {
+			loop {
+				let node = traverse__load_current_node(current);
+				let keys = node__sort4(node__child_keys(node, at.ray.origin, at.inv, traverse__search_limit(ray, hit)));
+				let is_hit = keys < vec4u(node__MISS);
+				let pushed = select(vec4u(0u), vec4u(1u), is_hit);
+				traverse__stack[top + 1u] = node.children[keys.w & 3u];
+				top += pushed.w;
+				traverse__stack[top + 1u] = node.children[keys.z & 3u];
+				top += pushed.z;
+				traverse__stack[top + 1u] = node.children[keys.y & 3u];
+				top += pushed.y;
+				let popped = traverse__stack[top];
+				current = select(popped, node.children[keys.x & 3u], is_hit.x);
+				top -= select(1u, 0u, is_hit.x | (popped == traverse__EMPTY));
+				if (bindings__COUNT_STEPS) {
+					loops__nodes_visited += 1u;
+				}
+				continuing {
+				
+					break if (current & types__LEAF) != 0u;
+				}
+			}
+		}
+		if (current == traverse__EMPTY) {
+			break;
+		}
+		if (bindings__HAS_INSTANCES && current >= types__INSTANCE) {
+			continue;
+		}
+		loop {
+			hit = primitive__closer(at, hit, current & (types__SHAPE | types__LEAF_FIRST_MASK));
+			let popped = traverse__stack[top];
+			let is_last = (current & types__LEAF_COUNT_MASK) == 0u;
+			top -= select(0u, 1u, is_last & (popped != traverse__EMPTY));
+			current = select(current - types__LEAF_COUNT_ONE + 1u, popped, is_last);
+			current = select(current, traverse__EMPTY, any & (hit.primitive != types__NONE));
+			if (bindings__COUNT_STEPS) {
+				loops__primitives_tested += 1u;
+			}
+			continuing {
+			
+				break if ((current & types__LEAF) == 0u) | (current >= types__INSTANCE);
+			}
+		}
+		continuing {
+		
+			break if current == traverse__EMPTY;
+		}
+	}
+	loops__cut_off |= current != traverse__EMPTY;
+	return hit;
 }
 
 fn traverse__load_current_node(reference: u32) -> types__Node {
-    if (bindings__HAS_MOTION) {
-        return fetch__load_moving_node(reference, shutter__shutter_time);
-    }
-    return fetch__load_node(reference);
+	if (bindings__HAS_MOTION) {
+		return fetch__load_moving_node(reference, shutter__shutter_time);
+	}
+	return fetch__load_node(reference);
 }
 
 struct triangle_watertight__Shear {
-    x: vec3f,
-    y: vec3f,
-    z: vec3f
+	x: vec3f,
+	y: vec3f,
+	z: vec3f
 }
 
 fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
-    let size = abs(direction);
-    let is_x = (size.x >= size.y) & (size.x >= size.z);
-    let is_y = !is_x & (size.y >= size.z);
-    let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
-    let axis_x = axis_z.zxy;
-    let axis_y = axis_z.yzx;
-    let scale = 1.0 / dot(direction, axis_z);
-    return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
+	let size = abs(direction);
+	let is_x = (size.x >= size.y) & (size.x >= size.z);
+	let is_y = !is_x & (size.y >= size.z);
+	let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
+	let axis_x = axis_z.zxy;
+	let axis_y = axis_z.yzx;
+	let scale = 1.0 / dot(direction, axis_z);
+	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
 }
 
 fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
-    let a = v0 - origin;
-    let b = v1 - origin;
-    let c = v2 - origin;
-    let ax = dot(shear.x, a);
-    let ay = dot(shear.y, a);
-    let bx = dot(shear.x, b);
-    let by = dot(shear.y, b);
-    let cx = dot(shear.x, c);
-    let cy = dot(shear.y, c);
-    let left = vec3f(cx * by, ax * cy, bx * ay);
-    let right = vec3f(cy * bx, ay * cx, by * ax);
-    let inside = all(left >= right) | all(left <= right);
-    let edges = left - right;
-    let det = edges.x + edges.y + edges.z;
-    let usable = inside & (abs(det) > 1e-36);
-    let inv_det = 1.0 / select(1.0, det, usable);
-    let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
-    let t = dot(edges, depths) * inv_det;
-    return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+	let a = v0 - origin;
+	let b = v1 - origin;
+	let c = v2 - origin;
+	let ax = dot(shear.x, a);
+	let ay = dot(shear.y, a);
+	let bx = dot(shear.x, b);
+	let by = dot(shear.y, b);
+	let cx = dot(shear.x, c);
+	let cy = dot(shear.y, c);
+	let left = vec3f(cx * by, ax * cy, bx * ay);
+	let right = vec3f(cy * bx, ay * cx, by * ax);
+	let inside = all(left >= right) | all(left <= right);
+	let edges = left - right;
+	let det = edges.x + edges.y + edges.z;
+	let usable = inside & (abs(det) > 1e-36);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
+	let t = dot(edges, depths) * inv_det;
+	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
 
 fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
-    var hit = start;
-    var index = fetch__first_plane;
-    loop {
-        let shape = fetch__load_shape(index);
-        let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
-        let primitive = types__SHAPE | index;
-        let counts = candidate.hit & (primitive != ray.leaving);
-        let wins = counts & (candidate.t < hit.t);
-        let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
-        if (bindings__HAS_CONTACT) {
-            primitive__keep_runner_up(hit, found, counts, wins);
-        }
-        if (wins) {
-            hit = found;
-        }
-        continuing {
-            index += 1u;
-            break if index >= fetch__end_plane;
-        }
-    }
-    loops__cut_off |= index < fetch__end_plane;
-    return hit;
+	var hit = start;
+	var index = fetch__first_plane;
+	loop {
+		let shape = fetch__load_shape(index);
+		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
+		let primitive = types__SHAPE | index;
+		let counts = candidate.hit & (primitive != ray.leaving);
+		let wins = counts & (candidate.t < hit.t);
+		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		if (bindings__HAS_CONTACT) {
+			primitive__keep_runner_up(hit, found, counts, wins);
+		}
+		if (wins) {
+			hit = found;
+		}
+		continuing {
+			index += 1u;
+			break if index >= fetch__end_plane;
+		}
+	}
+	loops__cut_off |= index < fetch__end_plane;
+	return hit;
 }
 
 fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
-    let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
-    var hit = start;
-    if (bindings__HAS_TRIANGLES) {
-        hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
-    }
-    if (bindings__HAS_SHAPES) {
-        hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
-    }
-    if (bindings__HAS_INSTANCES) {
-        var index = 0u;
-        for (; index < bindings__frame.instance_count; index += 1u) {
-            let instance = fetch__load_instance(index);
-            let local = instance__object_ray(ray, instance__space_of(instance));
-            hit = exhaustive__hit_run(primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index), hit, instance.first, instance.count);
-        }
-        loops__cut_off |= index < bindings__frame.instance_count;
-    }
-    return hit;
+	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+	var hit = start;
+	if (bindings__HAS_TRIANGLES) {
+		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
+	}
+	if (bindings__HAS_SHAPES) {
+		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
+	}
+	if (bindings__HAS_INSTANCES) {
+		var index = 0u;
+		for (; index < bindings__frame.instance_count; index += 1u) {
+			let instance = fetch__load_instance(index);
+			let local = instance__object_ray(ray, instance__space_of(instance));
+			hit = exhaustive__hit_run(primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index), hit, instance.first, instance.count);
+		}
+		loops__cut_off |= index < bindings__frame.instance_count;
+	}
+	return hit;
 }
 
 fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
-    var hit = start;
-    var index = 0u;
-    for (; index < count; index += 1u) {
-        hit = primitive__closer(at, hit, first + index);
-    }
-    loops__cut_off |= index < count;
-    return hit;
+	var hit = start;
+	var index = 0u;
+	for (; index < count; index += 1u) {
+		hit = primitive__closer(at, hit, first + index);
+	}
+	loops__cut_off |= index < count;
+	return hit;
 }
 
 fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
-    let slope = dot(n, ray.direction);
-    let steep = abs(slope) > 1e-12;
-    let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-    return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+	let slope = dot(n, ray.direction);
+	let steep = abs(slope) > 1e-12;
+	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
+	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
 var<private> primitive__runner_up: types__Hit;
 
 struct primitive__TraversalRay {
-    ray: types__Ray,
-    inv: vec3f,
-    shear: triangle_watertight__Shear,
-    instance: u32
+	ray: types__Ray,
+	inv: vec3f,
+	shear: triangle_watertight__Shear,
+	instance: u32
 }
 
 fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32) -> primitive__TraversalRay {
-    return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance);
+	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance);
 }
 
 fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
-    return primitive__closer_of(at, hit, primitive__test_primitive(at.ray, primitive, at.shear), primitive);
+	return primitive__closer_of(at, hit, primitive__test_primitive(at.ray, primitive, at.shear), primitive);
 }
 
 fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
-    var is_lower = primitive < hit.primitive;
-    var is_left = primitive == at.ray.leaving;
-    if (bindings__HAS_INSTANCES) {
-        is_lower = (at.instance < hit.instance) | ((at.instance == hit.instance) & is_lower);
-        is_left = is_left & (at.instance == at.ray.leaving_instance);
-    }
-    let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
-    let counts = candidate.hit & !is_left;
-    let wins = counts & ((candidate.t < hit.t) | ties);
-    if (bindings__HAS_CONTACT) {
-        let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
-        primitive__keep_runner_up(hit, found, counts, wins);
-    }
-    return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+	var is_lower = primitive < hit.primitive;
+	var is_left = primitive == at.ray.leaving;
+	if (bindings__HAS_INSTANCES) {
+		is_lower = (at.instance < hit.instance) | ((at.instance == hit.instance) & is_lower);
+		is_left = is_left & (at.instance == at.ray.leaving_instance);
+	}
+	let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
+	let counts = candidate.hit & !is_left;
+	let wins = counts & ((candidate.t < hit.t) | ties);
+	if (bindings__HAS_CONTACT) {
+		let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+		primitive__keep_runner_up(hit, found, counts, wins);
+	}
+	return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
 }
 
 fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
-    let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
-    if (wins) {
-        primitive__runner_up = hit;
-    }
-    else if (counts & !is_same & (found.t < primitive__runner_up.t)) {
-        primitive__runner_up = found;
-    }
+	let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
+	if (wins) {
+		primitive__runner_up = hit;
+	}
+	else if (counts & !is_same & (found.t < primitive__runner_up.t)) {
+		primitive__runner_up = found;
+	}
 }
 
 fn primitive__test_primitive(ray: types__Ray, primitive: u32, shear: triangle_watertight__Shear) -> types__Candidate {
-    var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
-    if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
-        candidate = primitive__test_triangle(ray, fetch__load_triangle(primitive), shear);
-    }
-    if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
-        candidate = shape__test_shape(ray, fetch__load_shape(primitive & ~types__SHAPE));
-    }
-    return candidate;
+	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
+		candidate = primitive__test_triangle(ray, fetch__load_triangle(primitive), shear);
+	}
+	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
+		candidate = shape__test_shape(ray, fetch__load_shape(primitive & ~types__SHAPE));
+	}
+	return candidate;
 }
 
 fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
-    if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
-        return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
-    }
-    if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
-        return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
-    }
-    return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
+	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
+		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
+	}
+	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
+		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
+	}
+	return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
 }
 
 const numeric__ROUNDING: f32 = 5.9604645e-8;
 
 fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
-    let tiny = abs(d) < vec3f(1e-18);
-    return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
+	let tiny = abs(d) < vec3f(1e-18);
+	return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
 }
 
 fn numeric__max_component(v: vec3f) -> f32 {
-    return max(v.x, max(v.y, v.z));
+	return max(v.x, max(v.y, v.z));
 }
 
 fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
-    let e1 = v1 - v0;
-    let e2 = v2 - v0;
-    let n = cross(e1, e2);
-    let slope = dot(n, ray.direction);
-    let area = dot(n, n);
-    let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
-    let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
-    let w = ray.origin + t * ray.direction - v0;
-    let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
-    let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
-    let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-    return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let n = cross(e1, e2);
+	let slope = dot(n, ray.direction);
+	let area = dot(n, n);
+	let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
+	let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
+	let w = ray.origin + t * ray.direction - v0;
+	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
+	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
 fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
-    let e1 = v1 - v0;
-    let e2 = v2 - v0;
-    let p = cross(ray.direction, e2);
-    let det = dot(e1, p);
-    let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
-    let inv_det = 1.0 / select(1.0, det, usable);
-    let s = ray.origin - v0;
-    let b1 = inv_det * dot(s, p);
-    let q = cross(s, e1);
-    let b2 = inv_det * dot(ray.direction, q);
-    let t = inv_det * dot(e2, q);
-    let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-    return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let p = cross(ray.direction, e2);
+	let det = dot(e1, p);
+	let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let s = ray.origin - v0;
+	let b1 = inv_det * dot(s, p);
+	let q = cross(s, e1);
+	let b2 = inv_det * dot(ray.direction, q);
+	let t = inv_det * dot(e2, q);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
 const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
@@ -877,148 +877,148 @@ const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
 const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
 
 fn shape__test_shape(ray: types__Ray, shape: types__PackedShape) -> types__Candidate {
-    if (bindings__SHAPE_KINDS == shape__SPHERES) {
-        return sphere__intersect_sphere(ray, shape.position, shape.size0);
-    }
-    var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
-    if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
-        candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
-    }
-    if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
-        candidate = globe__intersect_globe(ray, shape.position, shape.row_y, shape.size0);
-    }
-    let local = canonical__canonical_ray(ray, shape);
-    if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
-        candidate = disc__intersect_disc(local, shape.size0);
-    }
-    if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
-        candidate = rectangle__intersect_rectangle(local);
-    }
-    if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
-        candidate = box__intersect_box(local);
-    }
-    if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
-        candidate = cone__intersect_cone(local, shape.size0, shape.size1, (shape.flags & types__SHAPE_CAPPED) != 0u);
-    }
-    if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
-        candidate = torus__intersect_torus(local, shape.size0);
-    }
-    if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
-        candidate = ellipsoid__intersect_ellipsoid(local);
-    }
-    return candidate;
+	if (bindings__SHAPE_KINDS == shape__SPHERES) {
+		return sphere__intersect_sphere(ray, shape.position, shape.size0);
+	}
+	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+	if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
+		candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
+		candidate = globe__intersect_globe(ray, shape.position, shape.row_y, shape.size0);
+	}
+	let local = canonical__canonical_ray(ray, shape);
+	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+		candidate = disc__intersect_disc(local, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+		candidate = rectangle__intersect_rectangle(local);
+	}
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+		candidate = box__intersect_box(local);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+		candidate = cone__intersect_cone(local, shape.size0, shape.size1, (shape.flags & types__SHAPE_CAPPED) != 0u);
+	}
+	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+		candidate = torus__intersect_torus(local, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+		candidate = ellipsoid__intersect_ellipsoid(local);
+	}
+	return candidate;
 }
 
 fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
-    let f = ray.origin - center;
-    let a = dot(ray.direction, ray.direction);
-    let b = -dot(f, ray.direction);
-    let nearest = f + (b / a) * ray.direction;
-    let discriminant = radius * radius - dot(nearest, nearest);
-    if (discriminant < 0.0) {
-        return types__Candidate(false, 0.0, 0.0, 0.0);
-    }
-    let c = dot(f, f) - radius * radius;
-    let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
-    let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
-    let t1 = q / a;
-    let near = min(t0, t1);
-    let t = select(max(t0, t1), near, near > 0.0);
-    return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	let f = ray.origin - center;
+	let a = dot(ray.direction, ray.direction);
+	let b = -dot(f, ray.direction);
+	let nearest = f + (b / a) * ray.direction;
+	let discriminant = radius * radius - dot(nearest, nearest);
+	if (discriminant < 0.0) {
+		return types__Candidate(false, 0.0, 0.0, 0.0);
+	}
+	let c = dot(f, f) - radius * radius;
+	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
+	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
+	let t1 = q / a;
+	let near = min(t0, t1);
+	let t = select(max(t0, t1), near, near > 0.0);
+	return types__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
 fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
-    let w = ray.origin - anchor;
-    let f = n + curvature * w;
-    let c = curvature * dot(w, w) + 2.0 * dot(n, w);
-    let length2 = dot(ray.direction, ray.direction);
-    let a = curvature * length2;
-    let b = -dot(f, ray.direction);
-    let nearest = f + (b / length2) * ray.direction;
-    let is_near = abs(curvature * c) < 1.0;
-    let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
-    if (discriminant < 0.0) {
-        return types__Candidate(false, 0.0, 0.0, 0.0);
-    }
-    let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
-    let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
-    let t1 = q / a;
-    let near = min(t0, t1);
-    let t = select(max(t0, t1), near, near > 0.0);
-    return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	let w = ray.origin - anchor;
+	let f = n + curvature * w;
+	let c = curvature * dot(w, w) + 2.0 * dot(n, w);
+	let length2 = dot(ray.direction, ray.direction);
+	let a = curvature * length2;
+	let b = -dot(f, ray.direction);
+	let nearest = f + (b / length2) * ray.direction;
+	let is_near = abs(curvature * c) < 1.0;
+	let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
+	if (discriminant < 0.0) {
+		return types__Candidate(false, 0.0, 0.0, 0.0);
+	}
+	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
+	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
+	let t1 = q / a;
+	let near = min(t0, t1);
+	let t = select(max(t0, t1), near, near > 0.0);
+	return types__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
 const canonical__TWO_PI: f32 = 6.2831855;
 
 struct canonical__Approach {
-    origin: vec3f,
-    start: f32,
-    direction: vec3f,
-    t_per_length: f32,
-    near: bool
+	origin: vec3f,
+	start: f32,
+	direction: vec3f,
+	t_per_length: f32,
+	near: bool
 }
 
 fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
-    return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
+	return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
 }
 
 fn canonical__canonical_ray(ray: types__Ray, shape: types__PackedShape) -> types__Ray {
-    return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+	return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
 }
 
 fn canonical__approach(ray: types__Ray, center: vec3f, reach: f32) -> canonical__Approach {
-    let size = abs(ray.direction);
-    let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
-    let scaled = ray.direction / largest;
-    let inv_length = inverseSqrt(max(dot(scaled, scaled), 1e-30));
-    let direction = scaled * inv_length;
-    let start = max(dot(center - ray.origin, direction) - reach, 0.0);
-    let origin = ray.origin + start * direction;
-    let off = abs(origin - center);
-    let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
-    return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
+	let size = abs(ray.direction);
+	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let scaled = ray.direction / largest;
+	let inv_length = inverseSqrt(max(dot(scaled, scaled), 1e-30));
+	let direction = scaled * inv_length;
+	let start = max(dot(center - ray.origin, direction) - reach, 0.0);
+	let origin = ray.origin + start * direction;
+	let off = abs(origin - center);
+	let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
+	return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
 }
 
 fn canonical__approached_t(near: canonical__Approach, s: f32) -> f32 {
-    return (near.start + s) * near.t_per_length;
+	return (near.start + s) * near.t_per_length;
 }
 
 fn disc__intersect_disc(ray: types__Ray, hole: f32) -> types__Candidate {
-    let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
-    let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
-    let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
-    let distance = dot(p, p);
-    return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
+	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
+	let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
+	let distance = dot(p, p);
+	return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
 fn rectangle__intersect_rectangle(ray: types__Ray) -> types__Candidate {
-    let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
-    let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
-    let way = t * ray.direction.xz;
-    let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
-    let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
-    return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
+	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
+	let way = t * ray.direction.xz;
+	let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
+	let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
+	return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
 }
 
 fn box__intersect_box(ray: types__Ray) -> types__Candidate {
-    let size = abs(ray.direction);
-    let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
-    let inv = numeric__safe_reciprocal(ray.direction / largest);
-    let origin = clamp(ray.origin, vec3f(-1e18), vec3f(1e18));
-    let t0 = (-1.0 - origin) * inv;
-    let t1 = (1.0 - origin) * inv;
-    let enters = min(t0, t1);
-    let leaves = max(t0, t1);
-    let enter = max(enters.x, max(enters.y, enters.z));
-    let leave = min(leaves.x, min(leaves.y, leaves.z));
-    let from_outside = enter > 0.0;
-    let s = select(leave, enter, from_outside);
-    let planes = select(leaves, enters, from_outside);
-    let axis = select(select(2u, 1u, planes.y == s), 0u, planes.x == s);
-    let positive = (inv[axis] < 0.0) == from_outside;
-    let side = f32(axis) + select(0.0, 3.0, positive);
-    let hit = (enter <= leave) & (s > 0.0);
-    return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+	let size = abs(ray.direction);
+	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let inv = numeric__safe_reciprocal(ray.direction / largest);
+	let origin = clamp(ray.origin, vec3f(-1e18), vec3f(1e18));
+	let t0 = (-1.0 - origin) * inv;
+	let t1 = (1.0 - origin) * inv;
+	let enters = min(t0, t1);
+	let leaves = max(t0, t1);
+	let enter = max(enters.x, max(enters.y, enters.z));
+	let leave = min(leaves.x, min(leaves.y, leaves.z));
+	let from_outside = enter > 0.0;
+	let s = select(leave, enter, from_outside);
+	let planes = select(leaves, enters, from_outside);
+	let axis = select(select(2u, 1u, planes.y == s), 0u, planes.x == s);
+	let positive = (inv[axis] < 0.0) == from_outside;
+	let side = f32(axis) + select(0.0, 3.0, positive);
+	let hit = (enter <= leave) & (s > 0.0);
+	return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
 }
 
 const cone__FAR: f32 = 1e30;
@@ -1030,59 +1030,59 @@ const cone__BOTTOM: f32 = 1.0;
 const cone__TOP: f32 = 2.0;
 
 fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) -> types__Candidate {
-    let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
-    let o = near.origin;
-    let d = near.direction;
-    let slope = top - bottom;
-    let radius = bottom + slope * o.y;
-    let exact_a = dot(d.xz, d.xz) - slope * slope * d.y * d.y;
-    let a = select(1e-12, exact_a, abs(exact_a) > 1e-12);
-    let b = dot(o.xz, d.xz) - slope * radius * d.y;
-    let c = dot(o.xz, o.xz) - radius * radius;
-    let turn = o.x * d.z - o.z * d.x;
-    let lean = radius * d.xz - slope * d.y * o.xz;
-    let by_determinants = dot(lean, lean) - turn * turn - (a - exact_a) * c;
-    let discriminant = select(by_determinants, b * b - a * c, a * c <= 0.0);
-    let root = sqrt(max(discriminant, 0.0));
-    let q = -(b + select(-root, root, b >= 0.0));
-    let usable = abs(q) > 1e-20;
-    let r1 = q / a;
-    let r2 = select(0.0, c / select(1.0, q, usable), usable);
-    let low = min(r1, r2);
-    let high = max(r1, r2);
-    let steep = a < 0.0;
-    let widens = slope * d.y > 0.0;
-    let side_in = select(low, select(-cone__FAR, high, widens), steep);
-    let side_out = select(high, select(low, cone__FAR, widens), steep);
-    let level = abs(d.y) < 1e-18;
-    let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
-    let y0 = -o.y * inv_y;
-    let y1 = (1.0 - o.y) * inv_y;
-    let slab_in = min(y0, y1);
-    let slab_out = max(y0, y1);
-    let enter = max(slab_in, side_in);
-    let leave = min(slab_out, side_out);
-    let enters_side = side_in >= slab_in;
-    let leaves_side = side_out <= slab_out;
-    let takes_enter = (near.start + enter > 0.0) & (enters_side | capped);
-    let takes_leave = (near.start + leave > 0.0) & (leaves_side | capped);
-    let met = (steep | (discriminant >= 0.0)) & (enter <= leave);
-    let hit = near.near & met & (takes_enter | takes_leave);
-    let rough = select(0.0, select(leave, enter, takes_enter), hit);
-    let is_side = select(leaves_side, enters_side, takes_enter);
-    let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
-    let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
-    let t = canonical__approached_t(near, s);
-    return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
+	let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
+	let o = near.origin;
+	let d = near.direction;
+	let slope = top - bottom;
+	let radius = bottom + slope * o.y;
+	let exact_a = dot(d.xz, d.xz) - slope * slope * d.y * d.y;
+	let a = select(1e-12, exact_a, abs(exact_a) > 1e-12);
+	let b = dot(o.xz, d.xz) - slope * radius * d.y;
+	let c = dot(o.xz, o.xz) - radius * radius;
+	let turn = o.x * d.z - o.z * d.x;
+	let lean = radius * d.xz - slope * d.y * o.xz;
+	let by_determinants = dot(lean, lean) - turn * turn - (a - exact_a) * c;
+	let discriminant = select(by_determinants, b * b - a * c, a * c <= 0.0);
+	let root = sqrt(max(discriminant, 0.0));
+	let q = -(b + select(-root, root, b >= 0.0));
+	let usable = abs(q) > 1e-20;
+	let r1 = q / a;
+	let r2 = select(0.0, c / select(1.0, q, usable), usable);
+	let low = min(r1, r2);
+	let high = max(r1, r2);
+	let steep = a < 0.0;
+	let widens = slope * d.y > 0.0;
+	let side_in = select(low, select(-cone__FAR, high, widens), steep);
+	let side_out = select(high, select(low, cone__FAR, widens), steep);
+	let level = abs(d.y) < 1e-18;
+	let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
+	let y0 = -o.y * inv_y;
+	let y1 = (1.0 - o.y) * inv_y;
+	let slab_in = min(y0, y1);
+	let slab_out = max(y0, y1);
+	let enter = max(slab_in, side_in);
+	let leave = min(slab_out, side_out);
+	let enters_side = side_in >= slab_in;
+	let leaves_side = side_out <= slab_out;
+	let takes_enter = (near.start + enter > 0.0) & (enters_side | capped);
+	let takes_leave = (near.start + leave > 0.0) & (leaves_side | capped);
+	let met = (steep | (discriminant >= 0.0)) & (enter <= leave);
+	let hit = near.near & met & (takes_enter | takes_leave);
+	let rough = select(0.0, select(leave, enter, takes_enter), hit);
+	let is_side = select(leaves_side, enters_side, takes_enter);
+	let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
+	let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
+	let t = canonical__approached_t(near, s);
+	return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
 }
 
 fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
-    let p = o + s * d;
-    let off_axis = length(p.xz);
-    let rate = dot(p.xz, d.xz) / max(off_axis, 1e-18) - slope * d.y;
-    let usable = abs(rate) > 0.001;
-    let step = (off_axis - (bottom + slope * p.y)) / select(1.0, rate, usable);
-    return s - clamp(select(0.0, step, usable), -0.001, 0.001);
+	let p = o + s * d;
+	let off_axis = length(p.xz);
+	let rate = dot(p.xz, d.xz) / max(off_axis, 1e-18) - slope * d.y;
+	let usable = abs(rate) > 0.001;
+	let step = (off_axis - (bottom + slope * p.y)) / select(1.0, rate, usable);
+	return s - clamp(select(0.0, step, usable), -0.001, 0.001);
 }
 
 const torus__MOST_ROUNDS: u32 = 40u;
@@ -1090,152 +1090,152 @@ const torus__MOST_ROUNDS: u32 = 40u;
 const torus__NARROW: f32 = 1.2e-7;
 
 fn torus__torus_distance(p: vec3f, minor: f32) -> f32 {
-    return length(vec2f(length(p.xz) - 1.0, p.y)) - minor;
+	return length(vec2f(length(p.xz) - 1.0, p.y)) - minor;
 }
 
 fn torus__polish(s: f32, p: f32, q: f32) -> f32 {
-    let slope = 3.0 * s * s + p;
-    let steep = abs(slope) > 0.001;
-    return s - clamp(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
+	let slope = 3.0 * s * s + p;
+	let steep = abs(slope) > 0.001;
+	return s - clamp(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
 }
 
 fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
-    let third = p / 3.0;
-    let half = 0.5 * q;
-    let discriminant = half * half + third * third * third;
-    let cube = abs(half) + sqrt(max(discriminant, 0.0));
-    let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max(cube, 1e-30)) / 3.0), cube > 1e-30);
-    let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
-    let one = torus__polish(large + small, p, q);
-    let size = sqrt(max(-third, 0.0));
-    let usable = size > 1e-10;
-    let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
-    let angle = acos(cosine) / 3.0;
-    let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
-    let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
-    let c = torus__polish(2.0 * size * cos(angle), p, q);
-    let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
-    return select(three, vec3f(one), discriminant > 0.0);
+	let third = p / 3.0;
+	let half = 0.5 * q;
+	let discriminant = half * half + third * third * third;
+	let cube = abs(half) + sqrt(max(discriminant, 0.0));
+	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max(cube, 1e-30)) / 3.0), cube > 1e-30);
+	let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
+	let one = torus__polish(large + small, p, q);
+	let size = sqrt(max(-third, 0.0));
+	let usable = size > 1e-10;
+	let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
+	let angle = acos(cosine) / 3.0;
+	let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
+	let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
+	let c = torus__polish(2.0 * size * cos(angle), p, q);
+	let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
+	return select(three, vec3f(one), discriminant > 0.0);
 }
 
 fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
-    let outer = 1.0 + minor;
-    let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
-    let o = near.origin;
-    let d = near.direction;
-    let middle = -dot(o, d);
-    let nearest = o + middle * d;
-    let apart = dot(nearest, nearest);
-    let ball = 1.0001 * outer;
-    let half_chord = sqrt(max(ball * ball - apart, 0.0));
-    let start = max(middle - half_chord, 0.0);
-    let end = middle + half_chord;
-    let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
-    let cuts = vec4f(clamp(zeros, vec3f(start), vec3f(max(end, start))), end);
-    let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
-    let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
-    let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
-    let last = select(select(select(cuts.w, cuts.z, changes.z), cuts.y, changes.y), cuts.x, changes.x);
-    let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
-    let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
-    let t = canonical__approached_t(near, s);
-    return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
+	let outer = 1.0 + minor;
+	let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
+	let o = near.origin;
+	let d = near.direction;
+	let middle = -dot(o, d);
+	let nearest = o + middle * d;
+	let apart = dot(nearest, nearest);
+	let ball = 1.0001 * outer;
+	let half_chord = sqrt(max(ball * ball - apart, 0.0));
+	let start = max(middle - half_chord, 0.0);
+	let end = middle + half_chord;
+	let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
+	let cuts = vec4f(clamp(zeros, vec3f(start), vec3f(max(end, start))), end);
+	let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
+	let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
+	let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
+	let last = select(select(select(cuts.w, cuts.z, changes.z), cuts.y, changes.y), cuts.x, changes.x);
+	let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
+	let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
+	let t = canonical__approached_t(near, s);
+	return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
 }
 
 fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
-    var low = first;
-    var high = last;
-    var s = 0.5 * (first + last);
-    var moved = high - low;
-    var rounds = 0u;
-    loop {
-        let p = o + s * d;
-        let ring = length(p.xz);
-        let from_ring = vec2f(ring - 1.0, p.y);
-        let to_middle = length(from_ring);
-        let distance = to_middle - minor;
-        let before = (distance >= 0.0) == outside;
-        low = select(low, s, before);
-        high = select(s, high, before);
-        let ring_slope = dot(p.xz, d.xz) / max(ring, 1e-20);
-        let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max(to_middle, 1e-20);
-        let usable = abs(slope) > 1e-6;
-        let newton = s - distance / select(1.0, slope, usable);
-        let takes_newton = usable & (newton > low) & (newton < high) & (abs(newton - s) < 0.5 * moved);
-        let next = select(0.5 * (low + high), newton, takes_newton);
-        moved = abs(next - s);
-        s = next;
-        rounds += 1u;
-        continuing {
-        
-            break if (moved <= torus__NARROW * (1.0 + abs(s))) | (rounds >= torus__MOST_ROUNDS);
-        }
-    }
-    return s;
+	var low = first;
+	var high = last;
+	var s = 0.5 * (first + last);
+	var moved = high - low;
+	var rounds = 0u;
+	loop {
+		let p = o + s * d;
+		let ring = length(p.xz);
+		let from_ring = vec2f(ring - 1.0, p.y);
+		let to_middle = length(from_ring);
+		let distance = to_middle - minor;
+		let before = (distance >= 0.0) == outside;
+		low = select(low, s, before);
+		high = select(s, high, before);
+		let ring_slope = dot(p.xz, d.xz) / max(ring, 1e-20);
+		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max(to_middle, 1e-20);
+		let usable = abs(slope) > 1e-6;
+		let newton = s - distance / select(1.0, slope, usable);
+		let takes_newton = usable & (newton > low) & (newton < high) & (abs(newton - s) < 0.5 * moved);
+		let next = select(0.5 * (low + high), newton, takes_newton);
+		moved = abs(next - s);
+		s = next;
+		rounds += 1u;
+		continuing {
+		
+			break if (moved <= torus__NARROW * (1.0 + abs(s))) | (rounds >= torus__MOST_ROUNDS);
+		}
+	}
+	return s;
 }
 
 fn ellipsoid__intersect_ellipsoid(ray: types__Ray) -> types__Candidate {
-    let near = canonical__approach(ray, vec3f(0.0), 1.5);
-    let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
-    return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
+	let near = canonical__approach(ray, vec3f(0.0), 1.5);
+	let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
+	return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
 }
 
 fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
-    if (bindings__HAS_MOTION) {
-        if (instance.key_count > 1u) {
-            let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
-            let key = instance.first_key + moment.key;
-            return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
-        }
-    }
-    return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
+	if (bindings__HAS_MOTION) {
+		if (instance.key_count > 1u) {
+			let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
+			let key = instance.first_key + moment.key;
+			return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
+		}
+	}
+	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
 }
 
 fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
-    return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
 }
 
 struct motion__Moment {
-    key: u32,
-    fraction: f32
+	key: u32,
+	fraction: f32
 }
 
 fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
-    let intervals = max(key_count, 2u) - 1u;
-    let at = time * f32(intervals);
-    let key = min(u32(at), intervals - 1u);
-    return motion__Moment(key, at - f32(key));
+	let intervals = max(key_count, 2u) - 1u;
+	let at = time * f32(intervals);
+	let key = min(u32(at), intervals - 1u);
+	return motion__Moment(key, at - f32(key));
 }
 
 struct motion__Space {
-    translation: vec3f,
-    linear: mat3x3f,
-    inverse: mat3x3f
+	translation: vec3f,
+	linear: mat3x3f,
+	inverse: mat3x3f
 }
 
 fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
-    let q = mix(a.rotation, b.rotation, vec4f(fraction));
-    let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
-    let d = mix(a.stretch, b.stretch, vec3f(fraction));
-    let s = mix(a.shear, b.shear, vec3f(fraction));
-    let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
-    let e = d / size;
-    let f = s / size;
-    let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
-    let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
-    let usable = abs(determinant) > 1e-30;
-    let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
-    let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-    return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+	let q = mix(a.rotation, b.rotation, vec4f(fraction));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+	let d = mix(a.stretch, b.stretch, vec3f(fraction));
+	let s = mix(a.shear, b.shear, vec3f(fraction));
+	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
+	let e = d / size;
+	let f = s / size;
+	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
+	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
+	let usable = abs(determinant) > 1e-30;
+	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
+	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
+	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
 }
 
 fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
-    let d = 2.0 * q.xyz * q.xyz;
-    let xy = 2.0 * q.x * q.y;
-    let xz = 2.0 * q.x * q.z;
-    let yz = 2.0 * q.y * q.z;
-    let w = 2.0 * q.w * q.xyz;
-    return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
+	let d = 2.0 * q.xyz * q.xyz;
+	let xy = 2.0 * q.x * q.y;
+	let xz = 2.0 * q.x * q.z;
+	let yz = 2.0 * q.y * q.z;
+	let w = 2.0 * q.w * q.xyz;
+	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
 }
 
 const node__MISS: u32 = 4294967292u;
@@ -1243,45 +1243,45 @@ const node__MISS: u32 = 4294967292u;
 const node__WIDENING: i32 = 8;
 
 fn node__bytes(word: u32) -> vec4f {
-    return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
+	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
 }
 
 fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
-    return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
+	return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
 }
 
 fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
-    let lo = mix(a.lo, b.lo, vec3f(fraction));
-    let shift_a = a.lo - lo;
-    let shift_b = b.lo - lo;
-    let s = vec4f(fraction);
-    return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+	let lo = mix(a.lo, b.lo, vec3f(fraction));
+	let shift_a = a.lo - lo;
+	let shift_b = b.lo - lo;
+	let s = vec4f(fraction);
+	return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
 }
 
 fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
-    let base = (node.lo - origin) * inv;
-    let step = node.scale * inv;
-    let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
-    let x1 = bitcast<vec4i>(node.max_x * step.x + base.x);
-    let y0 = bitcast<vec4i>(node.min_y * step.y + base.y);
-    let y1 = bitcast<vec4i>(node.max_y * step.y + base.y);
-    let z0 = bitcast<vec4i>(node.min_z * step.z + base.z);
-    let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
-    let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
-    let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
-    let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
-    let hit = (near <= limit) & (node.children != vec4u(0u));
-    let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
-    return select(vec4u(node__MISS), keys, hit);
+	let base = (node.lo - origin) * inv;
+	let step = node.scale * inv;
+	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
+	let x1 = bitcast<vec4i>(node.max_x * step.x + base.x);
+	let y0 = bitcast<vec4i>(node.min_y * step.y + base.y);
+	let y1 = bitcast<vec4i>(node.max_y * step.y + base.y);
+	let z0 = bitcast<vec4i>(node.min_z * step.z + base.z);
+	let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
+	let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
+	let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
+	let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
+	let hit = (near <= limit) & (node.children != vec4u(0u));
+	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
+	return select(vec4u(node__MISS), keys, hit);
 }
 
 fn node__sort4(keys: vec4u) -> vec4u {
-    let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
-    let lowest = min(a.x, a.y);
-    let middle_low = max(a.x, a.y);
-    let middle_high = min(a.z, a.w);
-    let highest = max(a.z, a.w);
-    return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
+	let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
+	let lowest = min(a.x, a.y);
+	let middle_low = max(a.x, a.y);
+	let middle_high = min(a.z, a.w);
+	let highest = max(a.z, a.w);
+	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
 const camera__T_FAR: f32 = 3e38;

@@ -1,265 +1,265 @@
 @compute @workgroup_size(64, 1, 1)
 fn whitted(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
-    render(group, lane);
+	render(group, lane);
 }
 
 fn render(group: vec3u, lane: u32) {
-    let batch = dispatch__load_batch();
-    var pixels = pixels__load_pixels(batch, dispatch__load_block(group), lane);
-    var sample = batch.first_sample;
-    loop {
-        let radiance = trace(batch, pixels__sample_rays(batch, pixels, sample), pixels.keys, sample);
-        pixels = pixels__add_samples(pixels, sample, radiance);
-        continuing {
-            sample += 1u;
-            break if sample >= batch.end_sample;
-        }
-    }
-    loops__cut_off |= sample < batch.end_sample;
-    pixels__store_pixels(pixels);
-    dispatch__add_counts(lane);
+	let batch = dispatch__load_batch();
+	var pixels = pixels__load_pixels(batch, dispatch__load_block(group), lane);
+	var sample = batch.first_sample;
+	loop {
+		let radiance = trace(batch, pixels__sample_rays(batch, pixels, sample), pixels.keys, sample);
+		pixels = pixels__add_samples(pixels, sample, radiance);
+		continuing {
+			sample += 1u;
+			break if sample >= batch.end_sample;
+		}
+	}
+	loops__cut_off |= sample < batch.end_sample;
+	pixels__store_pixels(pixels);
+	dispatch__add_counts(lane);
 }
 
 fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u32) -> wide__Vectors {
-    var radiance = wide__no_vectors();
-    var states = ray_stack__camera_states(rays, batch.camera_media);
-    var is_unfinished = false;
-    loop {
-        let hits = rays__closest_hits(states.rays);
-        var next = states;
-        var receivers = direct__no_receivers();
-        var arriving = wide__no_vectors();
-        var color = wide__no_vectors();
-        is_unfinished = false;
-        var rows = rays__rows_where(states.rays.t_max >= wide__Floats(0.0));
-        loop {
-            let k = rays__first_row(rows);
-            ray_stack__current_tree = k;
-            let state = ray_stack__state_at(states, k);
-            let hit = rays__hit_at(hits, k);
-            var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_stack__no_ray(), ray_stack__no_ray());
-            if (state.ray.t_max >= 0.0) {
-                dispatch__count_hit(state.kind, hit);
-                if (hit.primitive == types__NONE) {
-                    let seen = escaping_throughput(state) * background__background(batch, state.ray.direction);
-                    radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + seen);
-                }
-                else {
-                    let contact = contact__contact_at(state.ray, hit);
-                    var surface = contact.surface;
-                    if (bindings__HAS_TEXTURES) {
-                        surface.phong = texture__textured_phong(surface.phong, surface.material, surface.place, surface.uv);
-                    }
-                    let factors = texture__texture_optics(surface);
-                    if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
-                        event = optics__scatter(batch, state, hit.t, contact, factors);
-                        surface.phong.diffuse *= event.diffuse;
-                        surface.phong.ambient *= event.diffuse;
-                        surface.phong.specular *= event.highlight;
-                    }
-                    var key = types__SampleKey(wide__word_at(keys, k), sample, 1.0);
-                    if (state.node > 1u) {
-                        key.hash = rng__hash_combine(key.hash, state.node);
-                        key.weight = numeric__max_component(event.arriving);
-                    }
-                    receivers = direct__receiver_set(receivers, k, surface, -state.ray.direction, key);
-                    arriving = wide__vector_set(arriving, k, event.arriving);
-                    color = wide__vector_set(color, k, own_light(batch, surface, factors[2]));
-                }
-            }
-            if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
-                let following = ray_stack__next_ray(event.reflected, event.refracted);
-                next = ray_stack__state_set(next, k, following);
-                is_unfinished |= ray_stack__is_alive(following);
-            }
-            continuing {
-                rows = rays__later_rows(rows);
-                break if wide__ONE_RAY | (rows == 0u);
-            }
-        }
-        loops__cut_off |= rows != 0u;
-        let direct = direct__direct_light(batch, receivers, states.media, sample);
-        radiance.x += arriving.x * (color.x + direct.x);
-        radiance.y += arriving.y * (color.y + direct.y);
-        radiance.z += arriving.z * (color.z + direct.z);
-        states = next;
-        continuing {
-        
-            break if !rays__any_lane(is_unfinished);
-        }
-    }
-    loops__cut_off |= is_unfinished;
-    return radiance;
+	var radiance = wide__no_vectors();
+	var states = ray_stack__camera_states(rays, batch.camera_media);
+	var is_unfinished = false;
+	loop {
+		let hits = rays__closest_hits(states.rays);
+		var next = states;
+		var receivers = direct__no_receivers();
+		var arriving = wide__no_vectors();
+		var color = wide__no_vectors();
+		is_unfinished = false;
+		var rows = rays__rows_where(states.rays.t_max >= wide__Floats(0.0));
+		loop {
+			let k = rays__first_row(rows);
+			ray_stack__current_tree = k;
+			let state = ray_stack__state_at(states, k);
+			let hit = rays__hit_at(hits, k);
+			var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_stack__no_ray(), ray_stack__no_ray());
+			if (state.ray.t_max >= 0.0) {
+				dispatch__count_hit(state.kind, hit);
+				if (hit.primitive == types__NONE) {
+					let seen = escaping_throughput(state) * background__background(batch, state.ray.direction);
+					radiance = wide__vector_set(radiance, k, wide__vector_at(radiance, k) + seen);
+				}
+				else {
+					let contact = contact__contact_at(state.ray, hit);
+					var surface = contact.surface;
+					if (bindings__HAS_TEXTURES) {
+						surface.phong = texture__textured_phong(surface.phong, surface.material, surface.place, surface.uv);
+					}
+					let factors = texture__texture_optics(surface);
+					if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+						event = optics__scatter(batch, state, hit.t, contact, factors);
+						surface.phong.diffuse *= event.diffuse;
+						surface.phong.ambient *= event.diffuse;
+						surface.phong.specular *= event.highlight;
+					}
+					var key = types__SampleKey(wide__word_at(keys, k), sample, 1.0);
+					if (state.node > 1u) {
+						key.hash = rng__hash_combine(key.hash, state.node);
+						key.weight = numeric__max_component(event.arriving);
+					}
+					receivers = direct__receiver_set(receivers, k, surface, -state.ray.direction, key);
+					arriving = wide__vector_set(arriving, k, event.arriving);
+					color = wide__vector_set(color, k, own_light(batch, surface, factors[2]));
+				}
+			}
+			if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+				let following = ray_stack__next_ray(event.reflected, event.refracted);
+				next = ray_stack__state_set(next, k, following);
+				is_unfinished |= ray_stack__is_alive(following);
+			}
+			continuing {
+				rows = rays__later_rows(rows);
+				break if wide__ONE_RAY | (rows == 0u);
+			}
+		}
+		loops__cut_off |= rows != 0u;
+		let direct = direct__direct_light(batch, receivers, states.media, sample);
+		radiance.x += arriving.x * (color.x + direct.x);
+		radiance.y += arriving.y * (color.y + direct.y);
+		radiance.z += arriving.z * (color.z + direct.z);
+		states = next;
+		continuing {
+		
+			break if !rays__any_lane(is_unfinished);
+		}
+	}
+	loops__cut_off |= is_unfinished;
+	return radiance;
 }
 
 fn escaping_throughput(state: ray_stack__RayState) -> vec3f {
-    var throughput = state.throughput;
-    if (bindings__HAS_REFRACTION) {
-        throughput *= medium__transmittance(medium__medium_of(medium__dominant(state.media)), state.ray.t_max);
-    }
-    return throughput;
+	var throughput = state.throughput;
+	if (bindings__HAS_REFRACTION) {
+		throughput *= medium__transmittance(medium__medium_of(medium__dominant(state.media)), state.ray.t_max);
+	}
+	return throughput;
 }
 
 fn own_light(batch: dispatch__Batch, surface: types__Surface, glow: vec3f) -> vec3f {
-    var color = batch.ambient * surface.phong.ambient;
-    if (bindings__HAS_EMISSION) {
-        let shines = surface.outside || (fetch__load_optics(surface.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
-        let emission = select(vec3f(0.0), glow * fetch__load_emission(surface.material), shines);
-        color += emission;
-    }
-    return color;
+	var color = batch.ambient * surface.phong.ambient;
+	if (bindings__HAS_EMISSION) {
+		let shines = surface.outside || (fetch__load_optics(surface.material).flags & types__MATERIAL_TWO_SIDED) != 0u;
+		let emission = select(vec3f(0.0), glow * fetch__load_emission(surface.material), shines);
+		color += emission;
+	}
+	return color;
 }
 
 struct dispatch__Work {
-    inside: bool,
-    film_index: u32,
-    pixel: vec2u
+	inside: bool,
+	film_index: u32,
+	pixel: vec2u
 }
 
 struct dispatch__RayCounts {
-    primary: u32,
-    primary_hits: u32,
-    shadow: u32,
-    shadow_blocked: u32,
-    reflection: u32,
-    reflection_hits: u32,
-    refraction: u32,
-    refraction_hits: u32
+	primary: u32,
+	primary_hits: u32,
+	shadow: u32,
+	shadow_blocked: u32,
+	reflection: u32,
+	reflection_hits: u32,
+	refraction: u32,
+	refraction_hits: u32
 }
 
 var<private> dispatch__counts: dispatch__RayCounts;
 
 fn dispatch__place_of(lane: u32, k: u32) -> u32 {
-    {
-        return lane;
-    }
+	{
+		return lane;
+	}
 }
 
 struct dispatch__Block {
-    film_index: u32,
-    corner: vec2u,
-    end: vec2u,
-    is_inside: bool
+	film_index: u32,
+	corner: vec2u,
+	end: vec2u,
+	is_inside: bool
 }
 
 fn dispatch__load_block(group: vec3u) -> dispatch__Block {
-    let index = bindings__dispatch.first_group + group.y * bindings__dispatch.grid_width + group.x;
-    let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
-    let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
-    return dispatch__Block(64u * index, tile + tile__group_corner(visited, bindings__dispatch.group_columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group);
+	let index = bindings__dispatch.first_group + group.y * bindings__dispatch.grid_width + group.x;
+	let visited = tile__permuted_group(min(index, bindings__dispatch.group_count - 1u), bindings__dispatch.group_count, bindings__dispatch.group_stride);
+	let tile = vec2u(bindings__dispatch.tile_x, bindings__dispatch.tile_y);
+	return dispatch__Block(64u * index, tile + tile__group_corner(visited, bindings__dispatch.group_columns), tile + vec2u(bindings__dispatch.tile_width, bindings__dispatch.tile_height), index < bindings__dispatch.end_group);
 }
 
 fn dispatch__work_of(block: dispatch__Block, place: u32) -> dispatch__Work {
-    let film_index = block.film_index + place;
-    if (bindings__ADAPTIVE) {
-        let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
-        return dispatch__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
-    }
-    let pixel = block.corner + tile__morton_8x8(place);
-    return dispatch__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
+	let film_index = block.film_index + place;
+	if (bindings__ADAPTIVE) {
+		let entry = bindings__film[bindings__FILM_ROWS * film_index + bindings__SQUARES_ROW];
+		return dispatch__Work(block.is_inside & (entry.w > 0.0), film_index, vec2u(entry.yz));
+	}
+	let pixel = block.corner + tile__morton_8x8(place);
+	return dispatch__Work(block.is_inside & all(pixel < block.end), film_index, pixel);
 }
 
 struct dispatch__Batch {
-    camera: types__PackedCamera,
-    background: vec3f,
-    background_top: vec3f,
-    background_rotation: f32,
-    background_first_texel: u32,
-    background_size: vec2u,
-    ambient: vec3f,
-    light_count: u32,
-    picture_size: vec2f,
-    seed: u32,
-    first_sample: u32,
-    end_sample: u32,
-    max_depth: u32,
-    min_throughput: f32,
-    light_samples: f32,
-    camera_media: vec4u
+	camera: types__PackedCamera,
+	background: vec3f,
+	background_top: vec3f,
+	background_rotation: f32,
+	background_first_texel: u32,
+	background_size: vec2u,
+	ambient: vec3f,
+	light_count: u32,
+	picture_size: vec2f,
+	seed: u32,
+	first_sample: u32,
+	end_sample: u32,
+	max_depth: u32,
+	min_throughput: f32,
+	light_samples: f32,
+	camera_media: vec4u
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
-    fetch__load_starts();
-    let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-    return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_first_texel, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
+	fetch__load_starts();
+	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_first_texel, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
-    var within = vec2f(0.5);
-    if (bindings__STRATIFIED) {
-        within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
-    }
-    let position = vec2f(pixel) + within;
-    if (bindings__HAS_MOTION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
-        shutter__shutter_time = dispatch__sample_time(sample, key);
-    }
-    let camera = shutter__shutter_camera(batch.camera);
-    if (bindings__HAS_LENS && bindings__ORTHOGRAPHIC) {
-        return camera__parallel_lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
-    }
-    if (bindings__HAS_LENS) {
-        return camera__lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
-    }
-    if (bindings__ORTHOGRAPHIC) {
-        return camera__parallel_ray(camera, position, batch.picture_size);
-    }
-    return camera__camera_ray(camera, position, batch.picture_size);
+	var within = vec2f(0.5);
+	if (bindings__STRATIFIED) {
+		within += filter__filter_offset(bindings__FILTER, bindings__FILTER_RADIUS, sampling__stratified_2d(sample, key));
+	}
+	let position = vec2f(pixel) + within;
+	if (bindings__HAS_MOTION || bindings__CAMERA_MOTION || bindings__LIGHT_MOTION) {
+		shutter__shutter_time = dispatch__sample_time(sample, key);
+	}
+	let camera = shutter__shutter_camera(batch.camera);
+	if (bindings__HAS_LENS && bindings__ORTHOGRAPHIC) {
+		return camera__parallel_lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
+	}
+	if (bindings__HAS_LENS) {
+		return camera__lens_ray(camera, position, batch.picture_size, sampling__stratified_34(sample, key));
+	}
+	if (bindings__ORTHOGRAPHIC) {
+		return camera__parallel_ray(camera, position, batch.picture_size);
+	}
+	return camera__camera_ray(camera, position, batch.picture_size);
 }
 
 fn dispatch__sample_time(sample: u32, key: u32) -> f32 {
-    if (bindings__HAS_LENS) {
-        return sampling__stratified_1d(sample, key);
-    }
-    return sampling__stratified_34(sample, key).x;
+	if (bindings__HAS_LENS) {
+		return sampling__stratified_1d(sample, key);
+	}
+	return sampling__stratified_34(sample, key).x;
 }
 
 fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
-    if (!bindings__STRATIFIED) {
-        return 1.0;
-    }
-    return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, key));
+	if (!bindings__STRATIFIED) {
+		return 1.0;
+	}
+	return filter__filter_sign(bindings__FILTER, sampling__stratified_2d(sample, key));
 }
 
 fn dispatch__count_hit(kind: u32, hit: types__Hit) {
-    if (bindings__COUNT_RAYS) {
-        let hits = select(0u, 1u, hit.primitive != types__NONE);
-        if (kind == ray_stack__KIND_PRIMARY) {
-            dispatch__counts.primary += 1u;
-            dispatch__counts.primary_hits += hits;
-        }
-        else if (kind == ray_stack__KIND_REFLECTED) {
-            dispatch__counts.reflection += 1u;
-            dispatch__counts.reflection_hits += hits;
-        }
-        else {
-            dispatch__counts.refraction += 1u;
-            dispatch__counts.refraction_hits += hits;
-        }
-    }
+	if (bindings__COUNT_RAYS) {
+		let hits = select(0u, 1u, hit.primitive != types__NONE);
+		if (kind == ray_stack__KIND_PRIMARY) {
+			dispatch__counts.primary += 1u;
+			dispatch__counts.primary_hits += hits;
+		}
+		else if (kind == ray_stack__KIND_REFLECTED) {
+			dispatch__counts.reflection += 1u;
+			dispatch__counts.reflection_hits += hits;
+		}
+		else {
+			dispatch__counts.refraction += 1u;
+			dispatch__counts.refraction_hits += hits;
+		}
+	}
 }
 
 fn dispatch__add_counts(lane: u32) {
-    if (bindings__COUNT_RAYS) {
-        atomicAdd(&bindings__dispatch.counters.primary, dispatch__counts.primary);
-        atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
-        atomicAdd(&bindings__dispatch.counters.shadow, dispatch__counts.shadow);
-        atomicAdd(&bindings__dispatch.counters.shadow_blocked, dispatch__counts.shadow_blocked);
-        if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
-            atomicAdd(&bindings__dispatch.counters.reflection, dispatch__counts.reflection);
-            atomicAdd(&bindings__dispatch.counters.reflection_hits, dispatch__counts.reflection_hits);
-            atomicAdd(&bindings__dispatch.counters.refraction, dispatch__counts.refraction);
-            atomicAdd(&bindings__dispatch.counters.refraction_hits, dispatch__counts.refraction_hits);
-        }
-    }
-    if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && ray_stack__cut_off_trees > 0u) {
-        atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
-    }
-    if (loops__cut_off) {
-        atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
-    }
-    if (lane == 0u) {
-        atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
-    }
+	if (bindings__COUNT_RAYS) {
+		atomicAdd(&bindings__dispatch.counters.primary, dispatch__counts.primary);
+		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
+		atomicAdd(&bindings__dispatch.counters.shadow, dispatch__counts.shadow);
+		atomicAdd(&bindings__dispatch.counters.shadow_blocked, dispatch__counts.shadow_blocked);
+		if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+			atomicAdd(&bindings__dispatch.counters.reflection, dispatch__counts.reflection);
+			atomicAdd(&bindings__dispatch.counters.reflection_hits, dispatch__counts.reflection_hits);
+			atomicAdd(&bindings__dispatch.counters.refraction, dispatch__counts.refraction);
+			atomicAdd(&bindings__dispatch.counters.refraction_hits, dispatch__counts.refraction_hits);
+		}
+	}
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && ray_stack__cut_off_trees > 0u) {
+		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
+	}
+	if (loops__cut_off) {
+		atomicAdd(&bindings__dispatch.counters.cut_off_paths, 1u);
+	}
+	if (lane == 0u) {
+		atomicAdd(&bindings__dispatch.counters.groups_done, 1u);
+	}
 }
 
 const types__NONE: u32 = 4294967295u;
@@ -377,251 +377,251 @@ const types__TRIANGLE_TEST_MOLLER_TRUMBORE: u32 = 1u;
 const types__TRIANGLE_TEST_WATERTIGHT: u32 = 2u;
 
 struct types__PackedTriangle {
-    v0: vec3f,
-    i0: u32,
-    v1: vec3f,
-    i1: u32,
-    v2: vec3f,
-    i2: u32
+	v0: vec3f,
+	i0: u32,
+	v1: vec3f,
+	i1: u32,
+	v2: vec3f,
+	i2: u32
 }
 
 struct types__PackedVertex {
-    normal: vec3f,
-    material: u32
+	normal: vec3f,
+	material: u32
 }
 
 struct types__PackedShape {
-    position: vec3f,
-    kind: u32,
-    row_x: vec3f,
-    size0: f32,
-    row_y: vec3f,
-    size1: f32,
-    row_z: vec3f,
-    flags: u32,
-    material: u32,
-    id: u32,
-    _pad0: u32,
-    _pad1: u32
+	position: vec3f,
+	kind: u32,
+	row_x: vec3f,
+	size0: f32,
+	row_y: vec3f,
+	size1: f32,
+	row_z: vec3f,
+	flags: u32,
+	material: u32,
+	id: u32,
+	_pad0: u32,
+	_pad1: u32
 }
 
 struct types__PackedInstance {
-    translation: vec3f,
-    root: u32,
-    inverse_x: vec3f,
-    first: u32,
-    inverse_y: vec3f,
-    count: u32,
-    inverse_z: vec3f,
-    key_count: u32,
-    linear_x: vec3f,
-    first_key: u32,
-    linear_y: vec3f,
-    id: u32,
-    linear_z: vec3f,
-    _pad: u32,
-    pattern_x: vec4f,
-    pattern_y: vec4f,
-    pattern_z: vec4f
+	translation: vec3f,
+	root: u32,
+	inverse_x: vec3f,
+	first: u32,
+	inverse_y: vec3f,
+	count: u32,
+	inverse_z: vec3f,
+	key_count: u32,
+	linear_x: vec3f,
+	first_key: u32,
+	linear_y: vec3f,
+	id: u32,
+	linear_z: vec3f,
+	_pad: u32,
+	pattern_x: vec4f,
+	pattern_y: vec4f,
+	pattern_z: vec4f
 }
 
 struct types__PackedKey {
-    translation: vec3f,
-    _pad0: u32,
-    rotation: vec4f,
-    stretch: vec3f,
-    _pad1: u32,
-    shear: vec3f,
-    _pad2: u32
+	translation: vec3f,
+	_pad0: u32,
+	rotation: vec4f,
+	stretch: vec3f,
+	_pad1: u32,
+	shear: vec3f,
+	_pad2: u32
 }
 
 struct types__PackedTexture {
-    color_a: vec3f,
-    kind: u32,
-    color_b: vec3f,
-    flags: u32,
-    row_x: vec4f,
-    row_y: vec4f,
-    row_z: vec4f,
-    first_texel: u32,
-    width: u32,
-    height: u32,
-    octaves: u32
+	color_a: vec3f,
+	kind: u32,
+	color_b: vec3f,
+	flags: u32,
+	row_x: vec4f,
+	row_y: vec4f,
+	row_z: vec4f,
+	first_texel: u32,
+	width: u32,
+	height: u32,
+	octaves: u32
 }
 
 struct types__PackedLight {
-    position: vec3f,
-    kind: u32,
-    direction: vec3f,
-    attenuation: u32,
-    color: vec3f,
-    cos_inner: f32,
-    edge_u: vec3f,
-    cos_outer: f32,
-    edge_v: vec3f,
-    radius: f32,
-    sample_count: u32,
-    _pad0: u32,
-    _pad1: u32,
-    _pad2: u32
+	position: vec3f,
+	kind: u32,
+	direction: vec3f,
+	attenuation: u32,
+	color: vec3f,
+	cos_inner: f32,
+	edge_u: vec3f,
+	cos_outer: f32,
+	edge_v: vec3f,
+	radius: f32,
+	sample_count: u32,
+	_pad0: u32,
+	_pad1: u32,
+	_pad2: u32
 }
 
 struct types__PackedCamera {
-    origin: vec3f,
-    lens_radius: f32,
-    forward: vec3f,
-    focus_distance: f32,
-    right: vec3f,
-    blade_rotation: f32,
-    up: vec3f,
-    blade_count: u32
+	origin: vec3f,
+	lens_radius: f32,
+	forward: vec3f,
+	focus_distance: f32,
+	right: vec3f,
+	blade_rotation: f32,
+	up: vec3f,
+	blade_count: u32
 }
 
 struct types__PackedFrame {
-    camera: types__PackedCamera,
-    background: vec3f,
-    light_count: u32,
-    ambient: vec3f,
-    triangle_count: u32,
-    shape_count: u32,
-    plane_count: u32,
-    vertex_count: u32,
-    material_count: u32,
-    background_top: vec3f,
-    background_rotation: f32,
-    background_first_texel: u32,
-    background_width: u32,
-    background_height: u32,
-    root: u32,
-    camera_media: vec4u,
-    instance_row: u32,
-    instance_count: u32,
-    key_row: u32,
-    light_row: u32,
-    camera_key_count: u32,
-    light_key_count: u32,
-    first_triangle: u32,
-    shape_row: u32
+	camera: types__PackedCamera,
+	background: vec3f,
+	light_count: u32,
+	ambient: vec3f,
+	triangle_count: u32,
+	shape_count: u32,
+	plane_count: u32,
+	vertex_count: u32,
+	material_count: u32,
+	background_top: vec3f,
+	background_rotation: f32,
+	background_first_texel: u32,
+	background_width: u32,
+	background_height: u32,
+	root: u32,
+	camera_media: vec4u,
+	instance_row: u32,
+	instance_count: u32,
+	key_row: u32,
+	light_row: u32,
+	camera_key_count: u32,
+	light_key_count: u32,
+	first_triangle: u32,
+	shape_row: u32
 }
 
 struct types__PackedDispatch {
-    picture_width: u32,
-    picture_height: u32,
-    tile_x: u32,
-    tile_y: u32,
-    tile_width: u32,
-    tile_height: u32,
-    group_columns: u32,
-    group_count: u32,
-    group_stride: u32,
-    first_group: u32,
-    end_group: u32,
-    grid_width: u32,
-    first_sample: u32,
-    end_sample: u32,
-    seed: u32,
-    max_depth: u32,
-    min_throughput: f32,
-    light_samples: f32,
-    counters: types__PackedCounters
+	picture_width: u32,
+	picture_height: u32,
+	tile_x: u32,
+	tile_y: u32,
+	tile_width: u32,
+	tile_height: u32,
+	group_columns: u32,
+	group_count: u32,
+	group_stride: u32,
+	first_group: u32,
+	end_group: u32,
+	grid_width: u32,
+	first_sample: u32,
+	end_sample: u32,
+	seed: u32,
+	max_depth: u32,
+	min_throughput: f32,
+	light_samples: f32,
+	counters: types__PackedCounters
 }
 
 struct types__PackedCounters {
-    groups_done: atomic<u32>,
-    nonfinite_samples: atomic<u32>,
-    cut_off_paths: atomic<u32>,
-    cut_off_trees: atomic<u32>,
-    primary: atomic<u32>,
-    primary_hits: atomic<u32>,
-    shadow: atomic<u32>,
-    shadow_blocked: atomic<u32>,
-    reflection: atomic<u32>,
-    reflection_hits: atomic<u32>,
-    refraction: atomic<u32>,
-    refraction_hits: atomic<u32>
+	groups_done: atomic<u32>,
+	nonfinite_samples: atomic<u32>,
+	cut_off_paths: atomic<u32>,
+	cut_off_trees: atomic<u32>,
+	primary: atomic<u32>,
+	primary_hits: atomic<u32>,
+	shadow: atomic<u32>,
+	shadow_blocked: atomic<u32>,
+	reflection: atomic<u32>,
+	reflection_hits: atomic<u32>,
+	refraction: atomic<u32>,
+	refraction_hits: atomic<u32>
 }
 
 struct types__Ray {
-    origin: vec3f,
-    t_max: f32,
-    direction: vec3f,
-    leaving: u32,
-    leaving_instance: u32
+	origin: vec3f,
+	t_max: f32,
+	direction: vec3f,
+	leaving: u32,
+	leaving_instance: u32
 }
 
 struct types__Candidate {
-    hit: bool,
-    t: f32,
-    b1: f32,
-    b2: f32
+	hit: bool,
+	t: f32,
+	b1: f32,
+	b2: f32
 }
 
 struct types__Hit {
-    t: f32,
-    primitive: u32,
-    b1: f32,
-    b2: f32,
-    instance: u32
+	t: f32,
+	primitive: u32,
+	b1: f32,
+	b2: f32,
+	instance: u32
 }
 
 struct types__Node {
-    lo: vec3f,
-    scale: vec3f,
-    min_x: vec4f,
-    max_x: vec4f,
-    min_y: vec4f,
-    max_y: vec4f,
-    min_z: vec4f,
-    max_z: vec4f,
-    children: vec4u
+	lo: vec3f,
+	scale: vec3f,
+	min_x: vec4f,
+	max_x: vec4f,
+	min_y: vec4f,
+	max_y: vec4f,
+	min_z: vec4f,
+	max_z: vec4f,
+	children: vec4u
 }
 
 struct types__Phong {
-    diffuse: vec3f,
-    specular: vec3f,
-    shininess: f32,
-    ambient: vec3f,
-    reflect: vec3f
+	diffuse: vec3f,
+	specular: vec3f,
+	shininess: f32,
+	ambient: vec3f,
+	reflect: vec3f
 }
 
 struct types__Medium {
-    absorption: vec3f,
-    ior: f32,
-    priority: i32
+	absorption: vec3f,
+	ior: f32,
+	priority: i32
 }
 
 struct types__Surface {
-    p: vec3f,
-    n: vec3f,
-    ng: vec3f,
-    error: vec3f,
-    leaving: u32,
-    outside: bool,
-    uv: vec2f,
-    material: u32,
-    phong: types__Phong,
-    id: u32,
-    place: vec3f,
-    instance: u32
+	p: vec3f,
+	n: vec3f,
+	ng: vec3f,
+	error: vec3f,
+	leaving: u32,
+	outside: bool,
+	uv: vec2f,
+	material: u32,
+	phong: types__Phong,
+	id: u32,
+	place: vec3f,
+	instance: u32
 }
 
 struct types__Optics {
-    transmit: vec3f,
-    opacity: f32,
-    ior: f32,
-    flags: u32
+	transmit: vec3f,
+	opacity: f32,
+	ior: f32,
+	flags: u32
 }
 
 struct types__Incident {
-    direction: vec3f,
-    distance: f32,
-    radiance: vec3f
+	direction: vec3f,
+	distance: f32,
+	radiance: vec3f
 }
 
 struct types__SampleKey {
-    hash: u32,
-    index: u32,
-    weight: f32
+	hash: u32,
+	index: u32,
+	weight: f32
 }
 
 var<private> fetch__root: u32;
@@ -643,162 +643,162 @@ var<private> fetch__first_plane: u32;
 var<private> fetch__end_plane: u32;
 
 fn fetch__load_starts() {
-    fetch__root = bindings__frame.root;
-    fetch__shape_row = bindings__frame.shape_row;
-    fetch__light_row = bindings__frame.light_row;
-    fetch__instance_row = bindings__frame.instance_row;
-    fetch__key_row = bindings__frame.key_row;
-    fetch__texture_row = types__MATERIAL_ROWS * bindings__frame.material_count;
-    fetch__uv_row = bindings__frame.vertex_count;
-    fetch__first_plane = bindings__frame.shape_count;
-    fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
+	fetch__root = bindings__frame.root;
+	fetch__shape_row = bindings__frame.shape_row;
+	fetch__light_row = bindings__frame.light_row;
+	fetch__instance_row = bindings__frame.instance_row;
+	fetch__key_row = bindings__frame.key_row;
+	fetch__texture_row = types__MATERIAL_ROWS * bindings__frame.material_count;
+	fetch__uv_row = bindings__frame.vertex_count;
+	fetch__first_plane = bindings__frame.shape_count;
+	fetch__end_plane = bindings__frame.shape_count + bindings__frame.plane_count;
 }
 
 fn fetch__load_node(index: u32) -> types__Node {
-    let row = types__NODE_ROWS * index;
-    return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
+	let row = types__NODE_ROWS * index;
+	return node__decode_node(fetch__node_row(row), fetch__node_row(row + 1u), fetch__node_row(row + 2u), fetch__node_row(row + 3u));
 }
 
 fn fetch__load_moving_node(reference: u32, time: f32) -> types__Node {
-    let index = reference & ~types__MOVING;
-    let last = index + select(0u, 1u, (reference & types__MOVING) != 0u);
-    return node__node_between(fetch__load_node(index), fetch__load_node(last), time);
+	let index = reference & ~types__MOVING;
+	let last = index + select(0u, 1u, (reference & types__MOVING) != 0u);
+	return node__node_between(fetch__load_node(index), fetch__load_node(last), time);
 }
 
 fn fetch__load_instance(index: u32) -> types__PackedInstance {
-    let row = fetch__instance_row + types__INSTANCE_ROWS * index;
-    let r0 = fetch__node_row(row);
-    let r1 = fetch__node_row(row + 1u);
-    let r2 = fetch__node_row(row + 2u);
-    let r3 = fetch__node_row(row + 3u);
-    let r4 = fetch__node_row(row + 4u);
-    let r5 = fetch__node_row(row + 5u);
-    let r6 = fetch__node_row(row + 6u);
-    return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
+	let row = fetch__instance_row + types__INSTANCE_ROWS * index;
+	let r0 = fetch__node_row(row);
+	let r1 = fetch__node_row(row + 1u);
+	let r2 = fetch__node_row(row + 2u);
+	let r3 = fetch__node_row(row + 3u);
+	let r4 = fetch__node_row(row + 4u);
+	let r5 = fetch__node_row(row + 5u);
+	let r6 = fetch__node_row(row + 6u);
+	return types__PackedInstance(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, bitcast<vec3f>(r3.xyz), r3.w, bitcast<vec3f>(r4.xyz), r4.w, bitcast<vec3f>(r5.xyz), r5.w, bitcast<vec3f>(r6.xyz), r6.w, bitcast<vec4f>(fetch__node_row(row + 7u)), bitcast<vec4f>(fetch__node_row(row + 8u)), bitcast<vec4f>(fetch__node_row(row + 9u)));
 }
 
 fn fetch__load_key(index: u32) -> types__PackedKey {
-    let row = fetch__key_row + types__KEY_ROWS * index;
-    return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
+	let row = fetch__key_row + types__KEY_ROWS * index;
+	return types__PackedKey(bitcast<vec3f>(fetch__node_row(row).xyz), 0u, bitcast<vec4f>(fetch__node_row(row + 1u)), bitcast<vec3f>(fetch__node_row(row + 2u).xyz), 0u, bitcast<vec3f>(fetch__node_row(row + 3u).xyz), 0u);
 }
 
 fn fetch__load_light(index: u32) -> types__PackedLight {
-    let row = fetch__light_row + types__LIGHT_ROWS * index;
-    let r0 = fetch__node_row(row);
-    let r1 = fetch__node_row(row + 1u);
-    let r2 = fetch__node_row(row + 2u);
-    let r3 = fetch__node_row(row + 3u);
-    let r4 = fetch__node_row(row + 4u);
-    return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), fetch__node_row(row + 5u).x, 0u, 0u, 0u);
+	let row = fetch__light_row + types__LIGHT_ROWS * index;
+	let r0 = fetch__node_row(row);
+	let r1 = fetch__node_row(row + 1u);
+	let r2 = fetch__node_row(row + 2u);
+	let r3 = fetch__node_row(row + 3u);
+	let r4 = fetch__node_row(row + 4u);
+	return types__PackedLight(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), bitcast<f32>(r3.w), bitcast<vec3f>(r4.xyz), bitcast<f32>(r4.w), fetch__node_row(row + 5u).x, 0u, 0u, 0u);
 }
 
 fn fetch__load_camera(key: u32) -> types__PackedCamera {
-    let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
-    let r0 = fetch__node_row(row);
-    let r1 = fetch__node_row(row + 1u);
-    let r2 = fetch__node_row(row + 2u);
-    let r3 = fetch__node_row(row + 3u);
-    return types__PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
+	let row = fetch__light_row + types__LIGHT_ROWS * bindings__frame.light_count * bindings__frame.light_key_count + types__CAMERA_ROWS * key;
+	let r0 = fetch__node_row(row);
+	let r1 = fetch__node_row(row + 1u);
+	let r2 = fetch__node_row(row + 2u);
+	let r3 = fetch__node_row(row + 3u);
+	return types__PackedCamera(bitcast<vec3f>(r0.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w);
 }
 
 fn fetch__load_triangle(index: u32) -> types__PackedTriangle {
-    let row = 3u * index;
-    let r0 = fetch__triangle_row(row);
-    let r1 = fetch__triangle_row(row + 1u);
-    let r2 = fetch__triangle_row(row + 2u);
-    return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
+	let row = 3u * index;
+	let r0 = fetch__triangle_row(row);
+	let r1 = fetch__triangle_row(row + 1u);
+	let r2 = fetch__triangle_row(row + 2u);
+	return types__PackedTriangle(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w);
 }
 
 fn fetch__load_shape(index: u32) -> types__PackedShape {
-    let row = fetch__shape_row + types__SHAPE_ROWS * index;
-    return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
+	let row = fetch__shape_row + types__SHAPE_ROWS * index;
+	return fetch__shape_of(fetch__triangle_row(row), fetch__triangle_row(row + 1u), fetch__triangle_row(row + 2u), fetch__triangle_row(row + 3u), fetch__triangle_row(row + 4u));
 }
 
 fn fetch__shape_of(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u, r4: vec4u) -> types__PackedShape {
-    return types__PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
+	return types__PackedShape(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), bitcast<f32>(r1.w), bitcast<vec3f>(r2.xyz), bitcast<f32>(r2.w), bitcast<vec3f>(r3.xyz), r3.w, r4.x, r4.y, 0u, 0u);
 }
 
 fn fetch__load_vertex(index: u32) -> types__PackedVertex {
-    let r0 = fetch__vertex_row(index);
-    return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
+	let r0 = fetch__vertex_row(index);
+	return types__PackedVertex(bitcast<vec3f>(r0.xyz), r0.w);
 }
 
 struct fetch__PhongMaterial {
-    phong: types__Phong,
-    flags: u32
+	phong: types__Phong,
+	flags: u32
 }
 
 fn fetch__load_material(index: u32) -> fetch__PhongMaterial {
-    let row = types__MATERIAL_ROWS * index;
-    let r0 = fetch__material_row(row);
-    let r1 = fetch__material_row(row + 1u);
-    let r2 = fetch__material_row(row + 2u);
-    var reflect = vec3f(0.0);
-    if (bindings__HAS_REFLECTION) {
-        reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
-    }
-    let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
-    return fetch__PhongMaterial(phong, r1.w);
+	let row = types__MATERIAL_ROWS * index;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	var reflect = vec3f(0.0);
+	if (bindings__HAS_REFLECTION) {
+		reflect = bitcast<vec3f>(fetch__material_row(row + 3u).xyz);
+	}
+	let phong = types__Phong(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(r1.xyz), bitcast<f32>(r0.w), bitcast<vec3f>(r2.xyz), reflect);
+	return fetch__PhongMaterial(phong, r1.w);
 }
 
 fn fetch__load_optics(index: u32) -> types__Optics {
-    let row = types__MATERIAL_ROWS * index;
-    let r1 = fetch__material_row(row + 1u);
-    let r2 = fetch__material_row(row + 2u);
-    let r3 = fetch__material_row(row + 3u);
-    let r4 = fetch__material_row(row + 4u);
-    return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
+	let row = types__MATERIAL_ROWS * index;
+	let r1 = fetch__material_row(row + 1u);
+	let r2 = fetch__material_row(row + 2u);
+	let r3 = fetch__material_row(row + 3u);
+	let r4 = fetch__material_row(row + 4u);
+	return types__Optics(bitcast<vec3f>(r4.xyz), bitcast<f32>(r2.w), bitcast<f32>(r3.w), r1.w);
 }
 
 fn fetch__load_medium(index: u32) -> types__Medium {
-    let row = types__MATERIAL_ROWS * index;
-    let r5 = fetch__material_row(row + 5u);
-    return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
+	let row = types__MATERIAL_ROWS * index;
+	let r5 = fetch__material_row(row + 5u);
+	return types__Medium(bitcast<vec3f>(r5.xyz), bitcast<f32>(fetch__material_row(row + 3u).w), bitcast<i32>(fetch__material_row(row + 4u).w));
 }
 
 fn fetch__load_emission(index: u32) -> vec3f {
-    return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
+	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
 }
 
 fn fetch__load_texture_indices(index: u32) -> vec3u {
-    return fetch__material_row(types__MATERIAL_ROWS * index + 7u).xyz;
+	return fetch__material_row(types__MATERIAL_ROWS * index + 7u).xyz;
 }
 
 fn fetch__load_texture(index: u32) -> types__PackedTexture {
-    let row = fetch__texture_row + types__TEXTURE_ROWS * index;
-    let r0 = fetch__material_row(row);
-    let r1 = fetch__material_row(row + 1u);
-    let r5 = fetch__material_row(row + 5u);
-    return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r5 = fetch__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
 }
 
 fn fetch__load_uv(index: u32) -> vec2f {
-    return bitcast<vec2f>(fetch__vertex_row(fetch__uv_row + index).xy);
+	return bitcast<vec2f>(fetch__vertex_row(fetch__uv_row + index).xy);
 }
 
 fn fetch__load_texel(index: u32) -> vec3f {
-    let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), index >> types__IMAGE_WIDTH_LOG2);
-    return textureLoad(bindings__texels, place, 0).xyz;
+	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), index >> types__IMAGE_WIDTH_LOG2);
+	return textureLoad(bindings__texels, place, 0).xyz;
 }
 
 fn fetch__texel(row: u32) -> vec2u {
-    return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
+	return vec2u(row & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row >> types__IMAGE_WIDTH_LOG2);
 }
 
 fn fetch__node_row(row: u32) -> vec4u {
-    return textureLoad(bindings__nodes, fetch__texel(row));
+	return textureLoad(bindings__nodes, fetch__texel(row));
 }
 
 fn fetch__triangle_row(row: u32) -> vec4u {
-    return textureLoad(bindings__triangles, fetch__texel(row));
+	return textureLoad(bindings__triangles, fetch__texel(row));
 }
 
 fn fetch__vertex_row(row: u32) -> vec4u {
-    return textureLoad(bindings__vertices, fetch__texel(row));
+	return textureLoad(bindings__vertices, fetch__texel(row));
 }
 
 fn fetch__material_row(row: u32) -> vec4u {
-    return textureLoad(bindings__materials, fetch__texel(row));
+	return textureLoad(bindings__materials, fetch__texel(row));
 }
 
 @group(0) @binding(0)
@@ -898,100 +898,100 @@ override bindings__FILM_ROWS: u32 = 1u;
 override bindings__SQUARES_ROW: u32 = 1u;
 
 struct pixels__Pixels {
-    film_index: wide__Words,
-    x: wide__Words,
-    y: wide__Words,
-    keys: wide__Words,
-    sums: wide__Vectors,
-    weights: wide__Floats,
-    squares: wide__Floats
+	film_index: wide__Words,
+	x: wide__Words,
+	y: wide__Words,
+	keys: wide__Words,
+	sums: wide__Vectors,
+	weights: wide__Floats,
+	squares: wide__Floats
 }
 
 const pixels__NO_PIXEL: u32 = 4294967295u;
 
 fn pixels__load_pixels(batch: dispatch__Batch, block: dispatch__Block, lane: u32) -> pixels__Pixels {
-    var pixels = pixels__Pixels(wide__Words(pixels__NO_PIXEL), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__no_vectors(), wide__Floats(0.0), wide__Floats(0.0));
-    var k = 0u;
-    loop {
-        let work = dispatch__work_of(block, dispatch__place_of(lane, k));
-        pixels.x = wide__word_set(pixels.x, k, work.pixel.x);
-        pixels.y = wide__word_set(pixels.y, k, work.pixel.y);
-        pixels.keys = wide__word_set(pixels.keys, k, rng__pixel_key(batch.seed, work.pixel));
-        if (work.inside) {
-            pixels.film_index = wide__word_set(pixels.film_index, k, work.film_index);
-            pixels = pixels__with_sum(pixels, k, film__load_sum(work.film_index));
-        }
-        continuing {
-            k += 1u;
-            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-        }
-    }
-    loops__cut_off |= k < wide__RAYS_PER_LANE;
-    return pixels;
+	var pixels = pixels__Pixels(wide__Words(pixels__NO_PIXEL), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__no_vectors(), wide__Floats(0.0), wide__Floats(0.0));
+	var k = 0u;
+	loop {
+		let work = dispatch__work_of(block, dispatch__place_of(lane, k));
+		pixels.x = wide__word_set(pixels.x, k, work.pixel.x);
+		pixels.y = wide__word_set(pixels.y, k, work.pixel.y);
+		pixels.keys = wide__word_set(pixels.keys, k, rng__pixel_key(batch.seed, work.pixel));
+		if (work.inside) {
+			pixels.film_index = wide__word_set(pixels.film_index, k, work.film_index);
+			pixels = pixels__with_sum(pixels, k, film__load_sum(work.film_index));
+		}
+		continuing {
+			k += 1u;
+			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		}
+	}
+	loops__cut_off |= k < wide__RAYS_PER_LANE;
+	return pixels;
 }
 
 fn pixels__store_pixels(pixels: pixels__Pixels) {
-    var k = 0u;
-    loop {
-        let film_index = wide__word_at(pixels.film_index, k);
-        if (film_index != pixels__NO_PIXEL) {
-            film__store_sum(film_index, pixels__sum_at(pixels, k));
-        }
-        continuing {
-            k += 1u;
-            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-        }
-    }
-    loops__cut_off |= k < wide__RAYS_PER_LANE;
+	var k = 0u;
+	loop {
+		let film_index = wide__word_at(pixels.film_index, k);
+		if (film_index != pixels__NO_PIXEL) {
+			film__store_sum(film_index, pixels__sum_at(pixels, k));
+		}
+		continuing {
+			k += 1u;
+			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		}
+	}
+	loops__cut_off |= k < wide__RAYS_PER_LANE;
 }
 
 fn pixels__sample_rays(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u32) -> rays__Rays {
-    var rays = rays__dead_rays();
-    var k = 0u;
-    loop {
-        if (wide__word_at(pixels.film_index, k) != pixels__NO_PIXEL) {
-            rays = rays__ray_set(rays, k, dispatch__sample_ray(batch, pixels__pixel_at(pixels, k), wide__word_at(pixels.keys, k), sample));
-        }
-        continuing {
-            k += 1u;
-            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-        }
-    }
-    loops__cut_off |= k < wide__RAYS_PER_LANE;
-    return rays;
+	var rays = rays__dead_rays();
+	var k = 0u;
+	loop {
+		if (wide__word_at(pixels.film_index, k) != pixels__NO_PIXEL) {
+			rays = rays__ray_set(rays, k, dispatch__sample_ray(batch, pixels__pixel_at(pixels, k), wide__word_at(pixels.keys, k), sample));
+		}
+		continuing {
+			k += 1u;
+			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		}
+	}
+	loops__cut_off |= k < wide__RAYS_PER_LANE;
+	return rays;
 }
 
 fn pixels__add_samples(pixels: pixels__Pixels, sample: u32, radiance: wide__Vectors) -> pixels__Pixels {
-    var next = pixels;
-    var k = 0u;
-    loop {
-        if (wide__word_at(pixels.film_index, k) != pixels__NO_PIXEL) {
-            let weight = dispatch__sample_weight(wide__word_at(pixels.keys, k), sample);
-            next = pixels__with_sum(next, k, film__add_sample(pixels__sum_at(pixels, k), film__Sample(wide__vector_at(radiance, k)), weight));
-        }
-        continuing {
-            k += 1u;
-            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-        }
-    }
-    loops__cut_off |= k < wide__RAYS_PER_LANE;
-    return next;
+	var next = pixels;
+	var k = 0u;
+	loop {
+		if (wide__word_at(pixels.film_index, k) != pixels__NO_PIXEL) {
+			let weight = dispatch__sample_weight(wide__word_at(pixels.keys, k), sample);
+			next = pixels__with_sum(next, k, film__add_sample(pixels__sum_at(pixels, k), film__Sample(wide__vector_at(radiance, k)), weight));
+		}
+		continuing {
+			k += 1u;
+			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		}
+	}
+	loops__cut_off |= k < wide__RAYS_PER_LANE;
+	return next;
 }
 
 fn pixels__pixel_at(pixels: pixels__Pixels, k: u32) -> vec2u {
-    return vec2u(wide__word_at(pixels.x, k), wide__word_at(pixels.y, k));
+	return vec2u(wide__word_at(pixels.x, k), wide__word_at(pixels.y, k));
 }
 
 fn pixels__sum_at(pixels: pixels__Pixels, k: u32) -> film__Sum {
-    return film__Sum(vec4f(wide__vector_at(pixels.sums, k), wide__float_at(pixels.weights, k)), wide__float_at(pixels.squares, k));
+	return film__Sum(vec4f(wide__vector_at(pixels.sums, k), wide__float_at(pixels.weights, k)), wide__float_at(pixels.squares, k));
 }
 
 fn pixels__with_sum(pixels: pixels__Pixels, k: u32, sum: film__Sum) -> pixels__Pixels {
-    var next = pixels;
-    next.sums = wide__vector_set(pixels.sums, k, sum.radiance.xyz);
-    next.weights = wide__float_set(pixels.weights, k, sum.radiance.w);
-    next.squares = wide__float_set(pixels.squares, k, sum.squares);
-    return next;
+	var next = pixels;
+	next.sums = wide__vector_set(pixels.sums, k, sum.radiance.xyz);
+	next.weights = wide__float_set(pixels.weights, k, sum.radiance.w);
+	next.squares = wide__float_set(pixels.squares, k, sum.squares);
+	return next;
 }
 
 const wide__RAYS_PER_LANE: u32 = 1u;
@@ -1003,117 +1003,117 @@ alias wide__Floats = f32;
 alias wide__Words = u32;
 
 struct wide__Vectors {
-    x: wide__Floats,
-    y: wide__Floats,
-    z: wide__Floats
+	x: wide__Floats,
+	y: wide__Floats,
+	z: wide__Floats
 }
 
 fn wide__no_vectors() -> wide__Vectors {
-    return wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0));
+	return wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0));
 }
 
 fn wide__float_at(all: wide__Floats, k: u32) -> f32 {
-    return all;
+	return all;
 }
 
 fn wide__word_at(all: wide__Words, k: u32) -> u32 {
-    return all;
+	return all;
 }
 
 fn wide__vector_at(all: wide__Vectors, k: u32) -> vec3f {
-    return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
+	return vec3f(wide__float_at(all.x, k), wide__float_at(all.y, k), wide__float_at(all.z, k));
 }
 
 fn wide__float_set(all: wide__Floats, k: u32, value: f32) -> wide__Floats {
-    {
-        return value;
-    }
+	{
+		return value;
+	}
 }
 
 fn wide__word_set(all: wide__Words, k: u32, value: u32) -> wide__Words {
-    {
-        return value;
-    }
+	{
+		return value;
+	}
 }
 
 fn wide__vector_set(all: wide__Vectors, k: u32, value: vec3f) -> wide__Vectors {
-    return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
+	return wide__Vectors(wide__float_set(all.x, k, value.x), wide__float_set(all.y, k, value.y), wide__float_set(all.z, k, value.z));
 }
 
 const tile__GROUP_SIDE: u32 = 8u;
 
 fn tile__permuted_group(index: u32, group_count: u32, stride: u32) -> u32 {
-    return (index * stride) % group_count;
+	return (index * stride) % group_count;
 }
 
 fn tile__morton_8x8(lane: u32) -> vec2u {
-    let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
-    let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
-    return vec2u(x, y);
+	let x = (lane & 1u) | ((lane >> 1u) & 2u) | ((lane >> 2u) & 4u);
+	let y = ((lane >> 1u) & 1u) | ((lane >> 2u) & 2u) | ((lane >> 3u) & 4u);
+	return vec2u(x, y);
 }
 
 fn tile__group_corner(group: u32, group_columns: u32) -> vec2u {
-    return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
+	return tile__GROUP_SIDE * vec2u(group % group_columns, group / group_columns);
 }
 
 fn rng__hash(x: u32) -> u32 {
-    var h = x;
-    h ^= h >> 16u;
-    h *= 2146121005u;
-    h ^= h >> 15u;
-    h *= 2221713035u;
-    h ^= h >> 16u;
-    return h;
+	var h = x;
+	h ^= h >> 16u;
+	h *= 2146121005u;
+	h ^= h >> 15u;
+	h *= 2221713035u;
+	h ^= h >> 16u;
+	return h;
 }
 
 fn rng__hash_combine(a: u32, b: u32) -> u32 {
-    return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
+	return rng__hash(a ^ (rng__hash(b) + 2654435769u + (a << 6u) + (a >> 2u)));
 }
 
 fn rng__pixel_key(seed: u32, pixel: vec2u) -> u32 {
-    return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
+	return rng__hash_combine(rng__hash_combine(rng__hash(seed), pixel.x), pixel.y);
 }
 
 fn rng__unit_float(x: u32) -> f32 {
-    return f32(x >> 8u) * 5.9604645e-8;
+	return f32(x >> 8u) * 5.9604645e-8;
 }
 
 struct film__Sample {
-    radiance: vec3f
+	radiance: vec3f
 }
 
 struct film__Sum {
-    radiance: vec4f,
-    squares: f32
+	radiance: vec4f,
+	squares: f32
 }
 
 fn film__load_sum(film_index: u32) -> film__Sum {
-    let row = bindings__FILM_ROWS * film_index;
-    var sum = film__Sum(bindings__film[row], 0.0);
-    if (bindings__ADAPTIVE) {
-        sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
-    }
-    return sum;
+	let row = bindings__FILM_ROWS * film_index;
+	var sum = film__Sum(bindings__film[row], 0.0);
+	if (bindings__ADAPTIVE) {
+		sum.squares = bindings__film[row + bindings__SQUARES_ROW].x;
+	}
+	return sum;
 }
 
 fn film__store_sum(film_index: u32, sum: film__Sum) {
-    let row = bindings__FILM_ROWS * film_index;
-    bindings__film[row] = sum.radiance;
-    if (bindings__ADAPTIVE) {
-        bindings__film[row + bindings__SQUARES_ROW].x = sum.squares;
-    }
+	let row = bindings__FILM_ROWS * film_index;
+	bindings__film[row] = sum.radiance;
+	if (bindings__ADAPTIVE) {
+		bindings__film[row + bindings__SQUARES_ROW].x = sum.squares;
+	}
 }
 
 fn film__add_sample(sum: film__Sum, sample: film__Sample, weight: f32) -> film__Sum {
-    let luminance = dot(sample.radiance, tone__LUMINANCE_REC709);
-    var next = sum;
-    next.radiance += weight * vec4f(sample.radiance, 1.0);
-    next.squares += luminance * luminance;
-    if (!numeric__is_finite(next.radiance.xyz) || (bindings__ADAPTIVE && !numeric__is_finite(vec3f(next.squares)))) {
-        atomicAdd(&bindings__dispatch.counters.nonfinite_samples, 1u);
-        return sum;
-    }
-    return next;
+	let luminance = dot(sample.radiance, tone__LUMINANCE_REC709);
+	var next = sum;
+	next.radiance += weight * vec4f(sample.radiance, 1.0);
+	next.squares += luminance * luminance;
+	if (!numeric__is_finite(next.radiance.xyz) || (bindings__ADAPTIVE && !numeric__is_finite(vec3f(next.squares)))) {
+		atomicAdd(&bindings__dispatch.counters.nonfinite_samples, 1u);
+		return sum;
+	}
+	return next;
 }
 
 var<private> loops__nodes_visited: u32 = 0u;
@@ -1123,73 +1123,73 @@ var<private> loops__primitives_tested: u32 = 0u;
 var<private> loops__cut_off: bool = false;
 
 struct rays__Rays {
-    origin: wide__Vectors,
-    direction: wide__Vectors,
-    t_max: wide__Floats,
-    leaving: wide__Words,
-    leaving_instance: wide__Words
+	origin: wide__Vectors,
+	direction: wide__Vectors,
+	t_max: wide__Floats,
+	leaving: wide__Words,
+	leaving_instance: wide__Words
 }
 
 struct rays__Hits {
-    t: wide__Floats,
-    primitive: wide__Words,
-    b1: wide__Floats,
-    b2: wide__Floats,
-    instance: wide__Words
+	t: wide__Floats,
+	primitive: wide__Words,
+	b1: wide__Floats,
+	b2: wide__Floats,
+	instance: wide__Words
 }
 
 fn rays__rows_where(condition: bool) -> u32 {
-    return 1u;
+	return 1u;
 }
 
 fn rays__first_row(rows: u32) -> u32 {
-    {
-        return 0u;
-    }
+	{
+		return 0u;
+	}
 }
 
 fn rays__later_rows(rows: u32) -> u32 {
-    return rows & (rows - 1u);
+	return rows & (rows - 1u);
 }
 
 const rays__DEAD: types__Ray = types__Ray(vec3f(0.0), -1.0, vec3f(0.0, 0.0, 1.0), types__NONE, types__NO_INSTANCE);
 
 fn rays__dead_rays() -> rays__Rays {
-    return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
+	return rays__Rays(wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(0.0)), wide__Vectors(wide__Floats(0.0), wide__Floats(0.0), wide__Floats(1.0)), wide__Floats(-1.0), wide__Words(types__NONE), wide__Words(types__NO_INSTANCE));
 }
 
 fn rays__ray_at(rays: rays__Rays, k: u32) -> types__Ray {
-    return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
+	return types__Ray(wide__vector_at(rays.origin, k), wide__float_at(rays.t_max, k), wide__vector_at(rays.direction, k), wide__word_at(rays.leaving, k), wide__word_at(rays.leaving_instance, k));
 }
 
 fn rays__ray_set(rays: rays__Rays, k: u32, ray: types__Ray) -> rays__Rays {
-    return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
+	return rays__Rays(wide__vector_set(rays.origin, k, ray.origin), wide__vector_set(rays.direction, k, ray.direction), wide__float_set(rays.t_max, k, ray.t_max), wide__word_set(rays.leaving, k, ray.leaving), wide__word_set(rays.leaving_instance, k, ray.leaving_instance));
 }
 
 fn rays__hit_at(hits: rays__Hits, k: u32) -> types__Hit {
-    return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
+	return types__Hit(wide__float_at(hits.t, k), wide__word_at(hits.primitive, k), wide__float_at(hits.b1, k), wide__float_at(hits.b2, k), wide__word_at(hits.instance, k));
 }
 
 fn rays__hits_of(hit: types__Hit) -> rays__Hits {
-    return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
+	return rays__Hits(hit.t, hit.primitive, hit.b1, hit.b2, hit.instance);
 }
 
 fn rays__closest_hits(rays: rays__Rays) -> rays__Hits {
-    {
-        return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
-    }
+	{
+		return rays__hits_of(traverse__closest_hit(rays__ray_at(rays, 0u)));
+	}
 }
 
 fn rays__any_hits(rays: rays__Rays) -> rays__Hits {
-    {
-        return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
-    }
+	{
+		return rays__hits_of(traverse__any_hit(rays__ray_at(rays, 0u)));
+	}
 }
 
 fn rays__any_lane(condition: bool) -> bool {
-    {
-        return condition;
-    }
+	{
+		return condition;
+	}
 }
 
 const ray_stack__KIND_PRIMARY: u32 = 0u;
@@ -1199,27 +1199,27 @@ const ray_stack__KIND_REFLECTED: u32 = 1u;
 const ray_stack__KIND_REFRACTED: u32 = 2u;
 
 struct ray_stack__RayState {
-    ray: types__Ray,
-    throughput: vec3f,
-    media: vec4u,
-    depth: u32,
-    kind: u32,
-    node: u32
+	ray: types__Ray,
+	throughput: vec3f,
+	media: vec4u,
+	depth: u32,
+	kind: u32,
+	node: u32
 }
 
 struct ray_stack__Media {
-    x: wide__Words,
-    y: wide__Words,
-    z: wide__Words,
-    w: wide__Words
+	x: wide__Words,
+	y: wide__Words,
+	z: wide__Words,
+	w: wide__Words
 }
 
 struct ray_stack__RayStates {
-    rays: rays__Rays,
-    throughput: wide__Vectors,
-    media: ray_stack__Media,
-    step: wide__Words,
-    node: wide__Words
+	rays: rays__Rays,
+	throughput: wide__Vectors,
+	media: ray_stack__Media,
+	step: wide__Words,
+	node: wide__Words
 }
 
 const ray_stack__RAY_STACK_SIZE: u32 = 9u;
@@ -1239,112 +1239,112 @@ var<private> ray_stack__trees_cut_off: wide__Words;
 var<private> ray_stack__cut_off_trees: u32 = 0u;
 
 fn ray_stack__is_alive(state: ray_stack__RayState) -> bool {
-    return any(state.throughput > vec3f(0.0));
+	return any(state.throughput > vec3f(0.0));
 }
 
 fn ray_stack__camera_states(rays: rays__Rays, media: vec4u) -> ray_stack__RayStates {
-    ray_stack__stack_counts = wide__Words(0u);
-    ray_stack__tree_rays = wide__Words(0u);
-    ray_stack__trees_cut_off = wide__Words(0u);
-    let all = wide__Floats(1.0);
-    return ray_stack__RayStates(rays, wide__Vectors(all, all, all), ray_stack__Media(wide__Words(media.x), wide__Words(media.y), wide__Words(media.z), wide__Words(media.w)), wide__Words(ray_stack__KIND_PRIMARY), wide__Words(1u));
+	ray_stack__stack_counts = wide__Words(0u);
+	ray_stack__tree_rays = wide__Words(0u);
+	ray_stack__trees_cut_off = wide__Words(0u);
+	let all = wide__Floats(1.0);
+	return ray_stack__RayStates(rays, wide__Vectors(all, all, all), ray_stack__Media(wide__Words(media.x), wide__Words(media.y), wide__Words(media.z), wide__Words(media.w)), wide__Words(ray_stack__KIND_PRIMARY), wide__Words(1u));
 }
 
 fn ray_stack__state_at(states: ray_stack__RayStates, k: u32) -> ray_stack__RayState {
-    let step = wide__word_at(states.step, k);
-    return ray_stack__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_stack__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k));
+	let step = wide__word_at(states.step, k);
+	return ray_stack__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_stack__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k));
 }
 
 fn ray_stack__state_set(states: ray_stack__RayStates, k: u32, state: ray_stack__RayState) -> ray_stack__RayStates {
-    return ray_stack__RayStates(rays__ray_set(states.rays, k, state.ray), wide__vector_set(states.throughput, k, state.throughput), ray_stack__media_set(states.media, k, state.media), wide__word_set(states.step, k, (state.depth << 2u) | state.kind), wide__word_set(states.node, k, state.node));
+	return ray_stack__RayStates(rays__ray_set(states.rays, k, state.ray), wide__vector_set(states.throughput, k, state.throughput), ray_stack__media_set(states.media, k, state.media), wide__word_set(states.step, k, (state.depth << 2u) | state.kind), wide__word_set(states.node, k, state.node));
 }
 
 fn ray_stack__media_at(all: ray_stack__Media, k: u32) -> vec4u {
-    return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
+	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
 }
 
 fn ray_stack__media_set(all: ray_stack__Media, k: u32, media: vec4u) -> ray_stack__Media {
-    return ray_stack__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
+	return ray_stack__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
 }
 
 fn ray_stack__no_ray() -> ray_stack__RayState {
-    return ray_stack__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u);
+	return ray_stack__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u);
 }
 
 fn ray_stack__next_ray(reflected: ray_stack__RayState, refracted: ray_stack__RayState) -> ray_stack__RayState {
-    let k = ray_stack__current_tree;
-    let count = wide__word_at(ray_stack__stack_counts, k);
-    let rays = wide__word_at(ray_stack__tree_rays, k) + 1u;
-    ray_stack__tree_rays = wide__word_set(ray_stack__tree_rays, k, rays);
-    let sends_both = ray_stack__is_alive(reflected) && ray_stack__is_alive(refracted);
-    let goes_on = ray_stack__is_alive(reflected) || ray_stack__is_alive(refracted) || count > 0u;
-    if (goes_on && rays >= ray_stack__MAX_TREE_RAYS) {
-        ray_stack__cut_tree();
-        ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, 0u);
-        return ray_stack__no_ray();
-    }
-    if (sends_both) {
-        let reflected_is_weaker = ray_stack__strength(reflected) < ray_stack__strength(refracted);
-        if (count == ray_stack__RAY_STACK_SIZE) {
-            ray_stack__cut_tree();
-            return ray_stack__choose(reflected, refracted, !reflected_is_weaker);
-        }
-        ray_stack__push(k, ray_stack__choose(reflected, refracted, !reflected_is_weaker));
-        return ray_stack__choose(reflected, refracted, reflected_is_weaker);
-    }
-    if (ray_stack__is_alive(refracted)) {
-        return refracted;
-    }
-    if (ray_stack__is_alive(reflected)) {
-        return reflected;
-    }
-    return ray_stack__pop(k);
+	let k = ray_stack__current_tree;
+	let count = wide__word_at(ray_stack__stack_counts, k);
+	let rays = wide__word_at(ray_stack__tree_rays, k) + 1u;
+	ray_stack__tree_rays = wide__word_set(ray_stack__tree_rays, k, rays);
+	let sends_both = ray_stack__is_alive(reflected) && ray_stack__is_alive(refracted);
+	let goes_on = ray_stack__is_alive(reflected) || ray_stack__is_alive(refracted) || count > 0u;
+	if (goes_on && rays >= ray_stack__MAX_TREE_RAYS) {
+		ray_stack__cut_tree();
+		ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, 0u);
+		return ray_stack__no_ray();
+	}
+	if (sends_both) {
+		let reflected_is_weaker = ray_stack__strength(reflected) < ray_stack__strength(refracted);
+		if (count == ray_stack__RAY_STACK_SIZE) {
+			ray_stack__cut_tree();
+			return ray_stack__choose(reflected, refracted, !reflected_is_weaker);
+		}
+		ray_stack__push(k, ray_stack__choose(reflected, refracted, !reflected_is_weaker));
+		return ray_stack__choose(reflected, refracted, reflected_is_weaker);
+	}
+	if (ray_stack__is_alive(refracted)) {
+		return refracted;
+	}
+	if (ray_stack__is_alive(reflected)) {
+		return reflected;
+	}
+	return ray_stack__pop(k);
 }
 
 fn ray_stack__cut_tree() {
-    ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
-    ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
+	ray_stack__cut_off_trees += 1u - wide__word_at(ray_stack__trees_cut_off, ray_stack__current_tree);
+	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
 }
 
 fn ray_stack__choose(reflected: ray_stack__RayState, refracted: ray_stack__RayState, first: bool) -> ray_stack__RayState {
-    if (first) {
-        return reflected;
-    }
-    return refracted;
+	if (first) {
+		return reflected;
+	}
+	return refracted;
 }
 
 fn ray_stack__strength(state: ray_stack__RayState) -> f32 {
-    return dot(state.throughput, vec3f(1.0));
+	return dot(state.throughput, vec3f(1.0));
 }
 
 fn ray_stack__push(k: u32, state: ray_stack__RayState) {
-    let count = wide__word_at(ray_stack__stack_counts, k);
-    let row = 4u * count;
-    ray_stack__ray_stack[row] = vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving);
-    ray_stack__ray_stack[row + 1u] = vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__step_and_instance(state));
-    ray_stack__ray_stack[row + 2u] = vec4u(bitcast<vec3u>(state.throughput), state.node);
-    ray_stack__ray_stack[row + 3u] = state.media;
-    ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, count + 1u);
+	let count = wide__word_at(ray_stack__stack_counts, k);
+	let row = 4u * count;
+	ray_stack__ray_stack[row] = vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving);
+	ray_stack__ray_stack[row + 1u] = vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__step_and_instance(state));
+	ray_stack__ray_stack[row + 2u] = vec4u(bitcast<vec3u>(state.throughput), state.node);
+	ray_stack__ray_stack[row + 3u] = state.media;
+	ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, count + 1u);
 }
 
 fn ray_stack__pop(k: u32) -> ray_stack__RayState {
-    if (ray_stack__stack_counts == 0u) {
-        return ray_stack__no_ray();
-    }
-    ray_stack__stack_counts -= 1u;
-    let row = 4u * ray_stack__stack_counts;
-    let r0 = ray_stack__ray_stack[row];
-    let r1 = ray_stack__ray_stack[row + 1u];
-    let r2 = ray_stack__ray_stack[row + 2u];
-    return ray_stack__stored(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, ray_stack__ray_stack[row + 3u]);
+	if (ray_stack__stack_counts == 0u) {
+		return ray_stack__no_ray();
+	}
+	ray_stack__stack_counts -= 1u;
+	let row = 4u * ray_stack__stack_counts;
+	let r0 = ray_stack__ray_stack[row];
+	let r1 = ray_stack__ray_stack[row + 1u];
+	let r2 = ray_stack__ray_stack[row + 2u];
+	return ray_stack__stored(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, ray_stack__ray_stack[row + 3u]);
 }
 
 fn ray_stack__step_and_instance(state: ray_stack__RayState) -> u32 {
-    return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
+	return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
 }
 
 fn ray_stack__stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u) -> ray_stack__RayState {
-    return ray_stack__RayState(types__Ray(origin, camera__T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node);
+	return ray_stack__RayState(types__Ray(origin, camera__T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node);
 }
 
 const traverse__EMPTY: u32 = 4294967295u;
@@ -1356,390 +1356,390 @@ var<private> traverse__stack: array<u32, types__STACK_SIZE>;
 const traverse__CONTACT_RANGE: f32 = 0.0001;
 
 fn traverse__closest_hit(ray: types__Ray) -> types__Hit {
-    if (bindings__HAS_CONTACT) {
-        primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
-    }
-    return traverse__traverse(ray, false);
+	if (bindings__HAS_CONTACT) {
+		primitive__runner_up = types__Hit(camera__T_FAR, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	}
+	return traverse__traverse(ray, false);
 }
 
 fn traverse__search_limit(ray: types__Ray, hit: types__Hit) -> f32 {
-    if (bindings__HAS_CONTACT) {
-        return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
-    }
-    return hit.t;
+	if (bindings__HAS_CONTACT) {
+		return hit.t + traverse__CONTACT_RANGE * (hit.t + numeric__max_component(abs(ray.origin)));
+	}
+	return hit.t;
 }
 
 fn traverse__any_hit(ray: types__Ray) -> types__Hit {
-    return traverse__traverse(ray, true);
+	return traverse__traverse(ray, true);
 }
 
 fn traverse__traverse(ray: types__Ray, any: bool) -> types__Hit {
-    var hit = types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
-    let shear = triangle_watertight__shear_of(ray.direction);
-    if (bindings__HAS_PLANES) {
-        hit = exhaustive__hit_planes(ray, hit);
-    }
-    if (bindings__BRUTE_FORCE) {
-        return exhaustive__hit_everything(ray, shear, hit);
-    }
-    if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) || (any && hit.primitive != types__NONE)) {
-        return hit;
-    }
-    return traverse__walk(ray, shear, any, hit);
+	var hit = types__Hit(ray.t_max, types__NONE, 0.0, 0.0, types__NO_INSTANCE);
+	let shear = triangle_watertight__shear_of(ray.direction);
+	if (bindings__HAS_PLANES) {
+		hit = exhaustive__hit_planes(ray, hit);
+	}
+	if (bindings__BRUTE_FORCE) {
+		return exhaustive__hit_everything(ray, shear, hit);
+	}
+	if (!(bindings__HAS_TRIANGLES || bindings__HAS_SHAPES) || (any && hit.primitive != types__NONE)) {
+		return hit;
+	}
+	return traverse__walk(ray, shear, any, hit);
 }
 
 fn traverse__walk(ray: types__Ray, shear: triangle_watertight__Shear, any: bool, start: types__Hit) -> types__Hit {
-    var hit = start;
-    var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
-    traverse__stack[0] = traverse__EMPTY;
-    var top = 0u;
-    var current = 0u;
-    if (bindings__HAS_INSTANCES) {
-        current = fetch__root;
-    }
-    loop {
-        if (bindings__HAS_INSTANCES) {
-            if (current == traverse__RETURN) {
-                at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
-                current = traverse__stack[top];
-                top -= select(1u, 0u, current == traverse__EMPTY);
-            }
-            if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
-                let index = current & types__LEAF_FIRST_MASK;
-                let instance = fetch__load_instance(index);
-                let local = instance__object_ray(ray, instance__space_of(instance));
-                at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index);
-                top += 1u;
-                traverse__stack[top] = traverse__RETURN;
-                current = instance.root;
-            }
-        }
-        let is_node = !bindings__HAS_INSTANCES || (current & types__LEAF) == 0u;
-        if (is_node) {
-            loop {
-                let node = traverse__load_current_node(current);
-                let keys = node__sort4(node__child_keys(node, at.ray.origin, at.inv, traverse__search_limit(ray, hit)));
-                let is_hit = keys < vec4u(node__MISS);
-                let pushed = select(vec4u(0u), vec4u(1u), is_hit);
-                traverse__stack[top + 1u] = node.children[keys.w & 3u];
-                top += pushed.w;
-                traverse__stack[top + 1u] = node.children[keys.z & 3u];
-                top += pushed.z;
-                traverse__stack[top + 1u] = node.children[keys.y & 3u];
-                top += pushed.y;
-                let popped = traverse__stack[top];
-                current = select(popped, node.children[keys.x & 3u], is_hit.x);
-                top -= select(1u, 0u, is_hit.x | (popped == traverse__EMPTY));
-                if (bindings__COUNT_STEPS) {
-                    loops__nodes_visited += 1u;
-                }
-                continuing {
-                
-                    break if (current & types__LEAF) != 0u;
-                }
-            }
-        }
-        if (current == traverse__EMPTY) {
-            break;
-        }
-        if (bindings__HAS_INSTANCES && current >= types__INSTANCE) {
-            continue;
-        }
-        loop {
-            hit = primitive__closer(at, hit, current & (types__SHAPE | types__LEAF_FIRST_MASK));
-            let popped = traverse__stack[top];
-            let is_last = (current & types__LEAF_COUNT_MASK) == 0u;
-            top -= select(0u, 1u, is_last & (popped != traverse__EMPTY));
-            current = select(current - types__LEAF_COUNT_ONE + 1u, popped, is_last);
-            current = select(current, traverse__EMPTY, any & (hit.primitive != types__NONE));
-            if (bindings__COUNT_STEPS) {
-                loops__primitives_tested += 1u;
-            }
-            continuing {
-            
-                break if ((current & types__LEAF) == 0u) | (current >= types__INSTANCE);
-            }
-        }
-        continuing {
-        
-            break if current == traverse__EMPTY;
-        }
-    }
-    loops__cut_off |= current != traverse__EMPTY;
-    return hit;
+	var hit = start;
+	var at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+	traverse__stack[0] = traverse__EMPTY;
+	var top = 0u;
+	var current = 0u;
+	if (bindings__HAS_INSTANCES) {
+		current = fetch__root;
+	}
+	loop {
+		if (bindings__HAS_INSTANCES) {
+			if (current == traverse__RETURN) {
+				at = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+				current = traverse__stack[top];
+				top -= select(1u, 0u, current == traverse__EMPTY);
+			}
+			if ((current >= types__INSTANCE) & (current != traverse__EMPTY)) {
+				let index = current & types__LEAF_FIRST_MASK;
+				let instance = fetch__load_instance(index);
+				let local = instance__object_ray(ray, instance__space_of(instance));
+				at = primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index);
+				top += 1u;
+				traverse__stack[top] = traverse__RETURN;
+				current = instance.root;
+			}
+		}
+		let is_node = !bindings__HAS_INSTANCES || (current & types__LEAF) == 0u;
+		if (is_node) {
+			loop {
+				let node = traverse__load_current_node(current);
+				let keys = node__sort4(node__child_keys(node, at.ray.origin, at.inv, traverse__search_limit(ray, hit)));
+				let is_hit = keys < vec4u(node__MISS);
+				let pushed = select(vec4u(0u), vec4u(1u), is_hit);
+				traverse__stack[top + 1u] = node.children[keys.w & 3u];
+				top += pushed.w;
+				traverse__stack[top + 1u] = node.children[keys.z & 3u];
+				top += pushed.z;
+				traverse__stack[top + 1u] = node.children[keys.y & 3u];
+				top += pushed.y;
+				let popped = traverse__stack[top];
+				current = select(popped, node.children[keys.x & 3u], is_hit.x);
+				top -= select(1u, 0u, is_hit.x | (popped == traverse__EMPTY));
+				if (bindings__COUNT_STEPS) {
+					loops__nodes_visited += 1u;
+				}
+				continuing {
+				
+					break if (current & types__LEAF) != 0u;
+				}
+			}
+		}
+		if (current == traverse__EMPTY) {
+			break;
+		}
+		if (bindings__HAS_INSTANCES && current >= types__INSTANCE) {
+			continue;
+		}
+		loop {
+			hit = primitive__closer(at, hit, current & (types__SHAPE | types__LEAF_FIRST_MASK));
+			let popped = traverse__stack[top];
+			let is_last = (current & types__LEAF_COUNT_MASK) == 0u;
+			top -= select(0u, 1u, is_last & (popped != traverse__EMPTY));
+			current = select(current - types__LEAF_COUNT_ONE + 1u, popped, is_last);
+			current = select(current, traverse__EMPTY, any & (hit.primitive != types__NONE));
+			if (bindings__COUNT_STEPS) {
+				loops__primitives_tested += 1u;
+			}
+			continuing {
+			
+				break if ((current & types__LEAF) == 0u) | (current >= types__INSTANCE);
+			}
+		}
+		continuing {
+		
+			break if current == traverse__EMPTY;
+		}
+	}
+	loops__cut_off |= current != traverse__EMPTY;
+	return hit;
 }
 
 fn traverse__load_current_node(reference: u32) -> types__Node {
-    if (bindings__HAS_MOTION) {
-        return fetch__load_moving_node(reference, shutter__shutter_time);
-    }
-    return fetch__load_node(reference);
+	if (bindings__HAS_MOTION) {
+		return fetch__load_moving_node(reference, shutter__shutter_time);
+	}
+	return fetch__load_node(reference);
 }
 
 var<private> primitive__runner_up: types__Hit;
 
 struct primitive__TraversalRay {
-    ray: types__Ray,
-    inv: vec3f,
-    shear: triangle_watertight__Shear,
-    instance: u32
+	ray: types__Ray,
+	inv: vec3f,
+	shear: triangle_watertight__Shear,
+	instance: u32
 }
 
 fn primitive__traversal_ray(ray: types__Ray, shear: triangle_watertight__Shear, instance: u32) -> primitive__TraversalRay {
-    return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance);
+	return primitive__TraversalRay(ray, numeric__safe_reciprocal(ray.direction), shear, instance);
 }
 
 fn primitive__closer(at: primitive__TraversalRay, hit: types__Hit, primitive: u32) -> types__Hit {
-    return primitive__closer_of(at, hit, primitive__test_primitive(at.ray, primitive, at.shear), primitive);
+	return primitive__closer_of(at, hit, primitive__test_primitive(at.ray, primitive, at.shear), primitive);
 }
 
 fn primitive__closer_of(at: primitive__TraversalRay, hit: types__Hit, candidate: types__Candidate, primitive: u32) -> types__Hit {
-    var is_lower = primitive < hit.primitive;
-    var is_left = primitive == at.ray.leaving;
-    if (bindings__HAS_INSTANCES) {
-        is_lower = (at.instance < hit.instance) | ((at.instance == hit.instance) & is_lower);
-        is_left = is_left & (at.instance == at.ray.leaving_instance);
-    }
-    let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
-    let counts = candidate.hit & !is_left;
-    let wins = counts & ((candidate.t < hit.t) | ties);
-    if (bindings__HAS_CONTACT) {
-        let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
-        primitive__keep_runner_up(hit, found, counts, wins);
-    }
-    return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
+	var is_lower = primitive < hit.primitive;
+	var is_left = primitive == at.ray.leaving;
+	if (bindings__HAS_INSTANCES) {
+		is_lower = (at.instance < hit.instance) | ((at.instance == hit.instance) & is_lower);
+		is_left = is_left & (at.instance == at.ray.leaving_instance);
+	}
+	let ties = (candidate.t == hit.t) & is_lower & (hit.primitive != types__NONE);
+	let counts = candidate.hit & !is_left;
+	let wins = counts & ((candidate.t < hit.t) | ties);
+	if (bindings__HAS_CONTACT) {
+		let found = types__Hit(candidate.t, primitive, candidate.b1, candidate.b2, at.instance);
+		primitive__keep_runner_up(hit, found, counts, wins);
+	}
+	return types__Hit(select(hit.t, candidate.t, wins), select(hit.primitive, primitive, wins), select(hit.b1, candidate.b1, wins), select(hit.b2, candidate.b2, wins), select(hit.instance, at.instance, wins));
 }
 
 fn primitive__keep_runner_up(hit: types__Hit, found: types__Hit, counts: bool, wins: bool) {
-    let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
-    if (wins) {
-        primitive__runner_up = hit;
-    }
-    else if (counts & !is_same & (found.t < primitive__runner_up.t)) {
-        primitive__runner_up = found;
-    }
+	let is_same = (found.primitive == hit.primitive) & (found.instance == hit.instance);
+	if (wins) {
+		primitive__runner_up = hit;
+	}
+	else if (counts & !is_same & (found.t < primitive__runner_up.t)) {
+		primitive__runner_up = found;
+	}
 }
 
 fn primitive__test_primitive(ray: types__Ray, primitive: u32, shear: triangle_watertight__Shear) -> types__Candidate {
-    var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
-    if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
-        candidate = primitive__test_triangle(ray, fetch__load_triangle(primitive), shear);
-    }
-    if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
-        candidate = shape__test_shape(ray, fetch__load_shape(primitive & ~types__SHAPE));
-    }
-    return candidate;
+	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+	if (bindings__HAS_TRIANGLES && (!bindings__HAS_SHAPES || (primitive & types__SHAPE) == 0u)) {
+		candidate = primitive__test_triangle(ray, fetch__load_triangle(primitive), shear);
+	}
+	if (bindings__HAS_SHAPES && (!bindings__HAS_TRIANGLES || (primitive & types__SHAPE) != 0u)) {
+		candidate = shape__test_shape(ray, fetch__load_shape(primitive & ~types__SHAPE));
+	}
+	return candidate;
 }
 
 fn primitive__test_triangle(ray: types__Ray, corners: types__PackedTriangle, shear: triangle_watertight__Shear) -> types__Candidate {
-    if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
-        return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
-    }
-    if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
-        return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
-    }
-    return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
+	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_PLANE) {
+		return triangle_plane__intersect_triangle_plane(ray, corners.v0, corners.v1, corners.v2);
+	}
+	if (bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_MOLLER_TRUMBORE) {
+		return triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray, corners.v0, corners.v1, corners.v2);
+	}
+	return triangle_watertight__intersect_triangle_watertight(ray.origin, shear, corners.v0, corners.v1, corners.v2);
 }
 
 const camera__T_FAR: f32 = 3e38;
 
 fn camera__camera_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
-    return types__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
+	return types__Ray(camera.origin, camera__T_FAR, normalize(camera__through(camera, position, size)), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__through(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
-    let x = 2.0 * position.x / size.x - 1.0;
-    let y = 1.0 - 2.0 * position.y / size.y;
-    return camera.forward + x * camera.right + y * camera.up;
+	let x = 2.0 * position.x / size.x - 1.0;
+	let y = 1.0 - 2.0 * position.y / size.y;
+	return camera.forward + x * camera.right + y * camera.up;
 }
 
 fn camera__parallel_ray(camera: types__PackedCamera, position: vec2f, size: vec2f) -> types__Ray {
-    let origin = camera.origin + camera__across(camera, position, size);
-    return types__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
+	let origin = camera.origin + camera__across(camera, position, size);
+	return types__Ray(origin, camera__T_FAR, normalize(camera.forward), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__across(camera: types__PackedCamera, position: vec2f, size: vec2f) -> vec3f {
-    let x = 2.0 * position.x / size.x - 1.0;
-    let y = 1.0 - 2.0 * position.y / size.y;
-    return x * camera.right + y * camera.up;
+	let x = 2.0 * position.x / size.x - 1.0;
+	let y = 1.0 - 2.0 * position.y / size.y;
+	return x * camera.right + y * camera.up;
 }
 
 fn camera__lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
-    let off_axis = camera__aperture_point(camera, u);
-    let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
-    return types__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+	let off_axis = camera__aperture_point(camera, u);
+	let direction = camera__through(camera, position, size) - off_axis / camera.focus_distance;
+	return types__Ray(camera.origin + off_axis, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__parallel_lens_ray(camera: types__PackedCamera, position: vec2f, size: vec2f, u: vec2f) -> types__Ray {
-    let off_axis = camera__aperture_point(camera, u);
-    let origin = camera.origin + camera__across(camera, position, size) + off_axis;
-    let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
-    return types__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
+	let off_axis = camera__aperture_point(camera, u);
+	let origin = camera.origin + camera__across(camera, position, size) + off_axis;
+	let direction = normalize(camera.forward) - off_axis / camera.focus_distance;
+	return types__Ray(origin, camera__T_FAR, normalize(direction), types__NONE, types__NO_INSTANCE);
 }
 
 fn camera__aperture_point(camera: types__PackedCamera, u: vec2f) -> vec3f {
-    var aperture = warp__disc_from_square(u);
-    if (camera.blade_count >= 3u) {
-        aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
-    }
-    let p = camera.lens_radius * aperture;
-    return p.x * normalize(camera.right) + p.y * normalize(camera.up);
+	var aperture = warp__disc_from_square(u);
+	if (camera.blade_count >= 3u) {
+		aperture = warp__polygon_from_square(u, camera.blade_count, camera.blade_rotation);
+	}
+	let p = camera.lens_radius * aperture;
+	return p.x * normalize(camera.right) + p.y * normalize(camera.up);
 }
 
 struct triangle_watertight__Shear {
-    x: vec3f,
-    y: vec3f,
-    z: vec3f
+	x: vec3f,
+	y: vec3f,
+	z: vec3f
 }
 
 fn triangle_watertight__shear_of(direction: vec3f) -> triangle_watertight__Shear {
-    let size = abs(direction);
-    let is_x = (size.x >= size.y) & (size.x >= size.z);
-    let is_y = !is_x & (size.y >= size.z);
-    let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
-    let axis_x = axis_z.zxy;
-    let axis_y = axis_z.yzx;
-    let scale = 1.0 / dot(direction, axis_z);
-    return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
+	let size = abs(direction);
+	let is_x = (size.x >= size.y) & (size.x >= size.z);
+	let is_y = !is_x & (size.y >= size.z);
+	let axis_z = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), is_y), vec3f(1.0, 0.0, 0.0), is_x);
+	let axis_x = axis_z.zxy;
+	let axis_y = axis_z.yzx;
+	let scale = 1.0 / dot(direction, axis_z);
+	return triangle_watertight__Shear(axis_x - dot(direction, axis_x) * scale * axis_z, axis_y - dot(direction, axis_y) * scale * axis_z, scale * axis_z);
 }
 
 fn triangle_watertight__intersect_triangle_watertight(origin: vec3f, shear: triangle_watertight__Shear, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
-    let a = v0 - origin;
-    let b = v1 - origin;
-    let c = v2 - origin;
-    let ax = dot(shear.x, a);
-    let ay = dot(shear.y, a);
-    let bx = dot(shear.x, b);
-    let by = dot(shear.y, b);
-    let cx = dot(shear.x, c);
-    let cy = dot(shear.y, c);
-    let left = vec3f(cx * by, ax * cy, bx * ay);
-    let right = vec3f(cy * bx, ay * cx, by * ax);
-    let inside = all(left >= right) | all(left <= right);
-    let edges = left - right;
-    let det = edges.x + edges.y + edges.z;
-    let usable = inside & (abs(det) > 1e-36);
-    let inv_det = 1.0 / select(1.0, det, usable);
-    let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
-    let t = dot(edges, depths) * inv_det;
-    return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
+	let a = v0 - origin;
+	let b = v1 - origin;
+	let c = v2 - origin;
+	let ax = dot(shear.x, a);
+	let ay = dot(shear.y, a);
+	let bx = dot(shear.x, b);
+	let by = dot(shear.y, b);
+	let cx = dot(shear.x, c);
+	let cy = dot(shear.y, c);
+	let left = vec3f(cx * by, ax * cy, bx * ay);
+	let right = vec3f(cy * bx, ay * cx, by * ax);
+	let inside = all(left >= right) | all(left <= right);
+	let edges = left - right;
+	let det = edges.x + edges.y + edges.z;
+	let usable = inside & (abs(det) > 1e-36);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let depths = vec3f(dot(shear.z, a), dot(shear.z, b), dot(shear.z, c));
+	let t = dot(edges, depths) * inv_det;
+	return types__Candidate(usable & (t > 0.0), t, edges.y * inv_det, edges.z * inv_det);
 }
 
 fn exhaustive__hit_planes(ray: types__Ray, start: types__Hit) -> types__Hit {
-    var hit = start;
-    var index = fetch__first_plane;
-    loop {
-        let shape = fetch__load_shape(index);
-        let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
-        let primitive = types__SHAPE | index;
-        let counts = candidate.hit & (primitive != ray.leaving);
-        let wins = counts & (candidate.t < hit.t);
-        let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
-        if (bindings__HAS_CONTACT) {
-            primitive__keep_runner_up(hit, found, counts, wins);
-        }
-        if (wins) {
-            hit = found;
-        }
-        continuing {
-            index += 1u;
-            break if index >= fetch__end_plane;
-        }
-    }
-    loops__cut_off |= index < fetch__end_plane;
-    return hit;
+	var hit = start;
+	var index = fetch__first_plane;
+	loop {
+		let shape = fetch__load_shape(index);
+		let candidate = plane__intersect_plane(ray, shape.position, shape.row_y);
+		let primitive = types__SHAPE | index;
+		let counts = candidate.hit & (primitive != ray.leaving);
+		let wins = counts & (candidate.t < hit.t);
+		let found = types__Hit(candidate.t, primitive, 0.0, 0.0, types__NO_INSTANCE);
+		if (bindings__HAS_CONTACT) {
+			primitive__keep_runner_up(hit, found, counts, wins);
+		}
+		if (wins) {
+			hit = found;
+		}
+		continuing {
+			index += 1u;
+			break if index >= fetch__end_plane;
+		}
+	}
+	loops__cut_off |= index < fetch__end_plane;
+	return hit;
 }
 
 fn exhaustive__hit_everything(ray: types__Ray, shear: triangle_watertight__Shear, start: types__Hit) -> types__Hit {
-    let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
-    var hit = start;
-    if (bindings__HAS_TRIANGLES) {
-        hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
-    }
-    if (bindings__HAS_SHAPES) {
-        hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
-    }
-    if (bindings__HAS_INSTANCES) {
-        var index = 0u;
-        for (; index < bindings__frame.instance_count; index += 1u) {
-            let instance = fetch__load_instance(index);
-            let local = instance__object_ray(ray, instance__space_of(instance));
-            hit = exhaustive__hit_run(primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index), hit, instance.first, instance.count);
-        }
-        loops__cut_off |= index < bindings__frame.instance_count;
-    }
-    return hit;
+	let world = primitive__traversal_ray(ray, shear, types__NO_INSTANCE);
+	var hit = start;
+	if (bindings__HAS_TRIANGLES) {
+		hit = exhaustive__hit_run(world, hit, bindings__frame.first_triangle, bindings__frame.triangle_count);
+	}
+	if (bindings__HAS_SHAPES) {
+		hit = exhaustive__hit_run(world, hit, types__SHAPE, bindings__frame.shape_count);
+	}
+	if (bindings__HAS_INSTANCES) {
+		var index = 0u;
+		for (; index < bindings__frame.instance_count; index += 1u) {
+			let instance = fetch__load_instance(index);
+			let local = instance__object_ray(ray, instance__space_of(instance));
+			hit = exhaustive__hit_run(primitive__traversal_ray(local, triangle_watertight__shear_of(local.direction), index), hit, instance.first, instance.count);
+		}
+		loops__cut_off |= index < bindings__frame.instance_count;
+	}
+	return hit;
 }
 
 fn exhaustive__hit_run(at: primitive__TraversalRay, start: types__Hit, first: u32, count: u32) -> types__Hit {
-    var hit = start;
-    var index = 0u;
-    for (; index < count; index += 1u) {
-        hit = primitive__closer(at, hit, first + index);
-    }
-    loops__cut_off |= index < count;
-    return hit;
+	var hit = start;
+	var index = 0u;
+	for (; index < count; index += 1u) {
+		hit = primitive__closer(at, hit, first + index);
+	}
+	loops__cut_off |= index < count;
+	return hit;
 }
 
 fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Candidate {
-    let slope = dot(n, ray.direction);
-    let steep = abs(slope) > 1e-12;
-    let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
-    return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
+	let slope = dot(n, ray.direction);
+	let steep = abs(slope) > 1e-12;
+	let t = dot(n, point - ray.origin) / select(1.0, slope, steep);
+	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
 const numeric__ROUNDING: f32 = 5.9604645e-8;
 
 fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
-    let largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
-    let usable = largest > 1e-30;
-    let scaled = select(vec3f(1.0, 0.0, 0.0), v / select(1.0, largest, usable), usable);
-    return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
+	let largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+	let usable = largest > 1e-30;
+	let scaled = select(vec3f(1.0, 0.0, 0.0), v / select(1.0, largest, usable), usable);
+	return select(fallback, scaled * inverseSqrt(dot(scaled, scaled)), usable);
 }
 
 fn numeric__safe_reciprocal(d: vec3f) -> vec3f {
-    let tiny = abs(d) < vec3f(1e-18);
-    return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
+	let tiny = abs(d) < vec3f(1e-18);
+	return 1.0 / select(d, select(vec3f(1e-18), vec3f(-1e-18), d < vec3f(0.0)), tiny);
 }
 
 fn numeric__is_finite(v: vec3f) -> bool {
-    let exponents = bitcast<vec3u>(v) & vec3u(2139095040u);
-    return all(exponents != vec3u(2139095040u));
+	let exponents = bitcast<vec3u>(v) & vec3u(2139095040u);
+	return all(exponents != vec3u(2139095040u));
 }
 
 fn numeric__max_component(v: vec3f) -> f32 {
-    return max(v.x, max(v.y, v.z));
+	return max(v.x, max(v.y, v.z));
 }
 
 fn triangle_plane__intersect_triangle_plane(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
-    let e1 = v1 - v0;
-    let e2 = v2 - v0;
-    let n = cross(e1, e2);
-    let slope = dot(n, ray.direction);
-    let area = dot(n, n);
-    let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
-    let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
-    let w = ray.origin + t * ray.direction - v0;
-    let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
-    let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
-    let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-    return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let n = cross(e1, e2);
+	let slope = dot(n, ray.direction);
+	let area = dot(n, n);
+	let usable = (abs(slope) > 4.0 * numeric__ROUNDING * length(e1) * length(e2)) & (area > 1e-36);
+	let t = dot(n, v0 - ray.origin) / select(1.0, slope, usable);
+	let w = ray.origin + t * ray.direction - v0;
+	let b1 = dot(cross(w, e2), n) / select(1.0, area, usable);
+	let b2 = dot(cross(e1, w), n) / select(1.0, area, usable);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
 fn triangle_moller_trumbore__intersect_triangle_moller_trumbore(ray: types__Ray, v0: vec3f, v1: vec3f, v2: vec3f) -> types__Candidate {
-    let e1 = v1 - v0;
-    let e2 = v2 - v0;
-    let p = cross(ray.direction, e2);
-    let det = dot(e1, p);
-    let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
-    let inv_det = 1.0 / select(1.0, det, usable);
-    let s = ray.origin - v0;
-    let b1 = inv_det * dot(s, p);
-    let q = cross(s, e1);
-    let b2 = inv_det * dot(ray.direction, q);
-    let t = inv_det * dot(e2, q);
-    let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
-    return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
+	let e1 = v1 - v0;
+	let e2 = v2 - v0;
+	let p = cross(ray.direction, e2);
+	let det = dot(e1, p);
+	let usable = abs(det) > 4.0 * numeric__ROUNDING * length(e1) * length(e2);
+	let inv_det = 1.0 / select(1.0, det, usable);
+	let s = ray.origin - v0;
+	let b1 = inv_det * dot(s, p);
+	let q = cross(s, e1);
+	let b2 = inv_det * dot(ray.direction, q);
+	let t = inv_det * dot(e2, q);
+	let inside = (b1 >= 0.0) & (b2 >= 0.0) & (b1 + b2 <= 1.0);
+	return types__Candidate(usable & inside & (t > 0.0), t, b1, b2);
 }
 
 const shape__SPHERES: u32 = 1u << types__SHAPE_SPHERE;
@@ -1759,262 +1759,262 @@ const shape__ELLIPSOIDS: u32 = 1u << types__SHAPE_ELLIPSOID;
 const shape__GLOBES: u32 = 1u << types__SHAPE_GLOBE;
 
 fn shape__test_shape(ray: types__Ray, shape: types__PackedShape) -> types__Candidate {
-    if (bindings__SHAPE_KINDS == shape__SPHERES) {
-        return sphere__intersect_sphere(ray, shape.position, shape.size0);
-    }
-    var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
-    if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
-        candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
-    }
-    if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
-        candidate = globe__intersect_globe(ray, shape.position, shape.row_y, shape.size0);
-    }
-    let local = canonical__canonical_ray(ray, shape);
-    if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
-        candidate = disc__intersect_disc(local, shape.size0);
-    }
-    if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
-        candidate = rectangle__intersect_rectangle(local);
-    }
-    if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
-        candidate = box__intersect_box(local);
-    }
-    if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
-        candidate = cone__intersect_cone(local, shape.size0, shape.size1, (shape.flags & types__SHAPE_CAPPED) != 0u);
-    }
-    if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
-        candidate = torus__intersect_torus(local, shape.size0);
-    }
-    if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
-        candidate = ellipsoid__intersect_ellipsoid(local);
-    }
-    return candidate;
+	if (bindings__SHAPE_KINDS == shape__SPHERES) {
+		return sphere__intersect_sphere(ray, shape.position, shape.size0);
+	}
+	var candidate = types__Candidate(false, 0.0, 0.0, 0.0);
+	if ((bindings__SHAPE_KINDS & shape__SPHERES) != 0u && shape.kind == types__SHAPE_SPHERE) {
+		candidate = sphere__intersect_sphere(ray, shape.position, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
+		candidate = globe__intersect_globe(ray, shape.position, shape.row_y, shape.size0);
+	}
+	let local = canonical__canonical_ray(ray, shape);
+	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+		candidate = disc__intersect_disc(local, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+		candidate = rectangle__intersect_rectangle(local);
+	}
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+		candidate = box__intersect_box(local);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+		candidate = cone__intersect_cone(local, shape.size0, shape.size1, (shape.flags & types__SHAPE_CAPPED) != 0u);
+	}
+	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+		candidate = torus__intersect_torus(local, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+		candidate = ellipsoid__intersect_ellipsoid(local);
+	}
+	return candidate;
 }
 
 fn shape__canonical_point(shape: types__PackedShape, reached: vec3f, part: f32) -> canonical__CanonicalPoint {
-    let p = canonical__canonical_vector(shape, reached - shape.position);
-    var point: canonical__CanonicalPoint;
-    if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
-        point = disc__disc_point(p);
-    }
-    if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
-        point = rectangle__rectangle_point(p);
-    }
-    if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
-        point = box__box_point(p, part);
-    }
-    if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
-        point = cone__cone_point(p, shape.size0, shape.size1, part);
-    }
-    if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
-        point = torus__torus_point(p, shape.size0);
-    }
-    if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
-        point = ellipsoid__ellipsoid_point(p);
-    }
-    return point;
+	let p = canonical__canonical_vector(shape, reached - shape.position);
+	var point: canonical__CanonicalPoint;
+	if ((bindings__SHAPE_KINDS & shape__DISCS) != 0u && (bindings__SHAPE_KINDS == shape__DISCS || shape.kind == types__SHAPE_DISC)) {
+		point = disc__disc_point(p);
+	}
+	if ((bindings__SHAPE_KINDS & shape__RECTANGLES) != 0u && (bindings__SHAPE_KINDS == shape__RECTANGLES || shape.kind == types__SHAPE_RECTANGLE)) {
+		point = rectangle__rectangle_point(p);
+	}
+	if ((bindings__SHAPE_KINDS & shape__BOXES) != 0u && (bindings__SHAPE_KINDS == shape__BOXES || shape.kind == types__SHAPE_BOX)) {
+		point = box__box_point(p, part);
+	}
+	if ((bindings__SHAPE_KINDS & shape__CONES) != 0u && (bindings__SHAPE_KINDS == shape__CONES || shape.kind == types__SHAPE_CONE)) {
+		point = cone__cone_point(p, shape.size0, shape.size1, part);
+	}
+	if ((bindings__SHAPE_KINDS & shape__TORI) != 0u && (bindings__SHAPE_KINDS == shape__TORI || shape.kind == types__SHAPE_TORUS)) {
+		point = torus__torus_point(p, shape.size0);
+	}
+	if ((bindings__SHAPE_KINDS & shape__ELLIPSOIDS) != 0u && (bindings__SHAPE_KINDS == shape__ELLIPSOIDS || shape.kind == types__SHAPE_ELLIPSOID)) {
+		point = ellipsoid__ellipsoid_point(p);
+	}
+	return point;
 }
 
 fn shape__is_round(kind: u32) -> bool {
-    if ((bindings__SHAPE_KINDS & (shape__SPHERES | shape__GLOBES)) == 0u) {
-        return false;
-    }
-    return (bindings__SHAPE_KINDS & ~(shape__SPHERES | shape__GLOBES)) == 0u || kind == types__SHAPE_SPHERE || kind == types__SHAPE_GLOBE;
+	if ((bindings__SHAPE_KINDS & (shape__SPHERES | shape__GLOBES)) == 0u) {
+		return false;
+	}
+	return (bindings__SHAPE_KINDS & ~(shape__SPHERES | shape__GLOBES)) == 0u || kind == types__SHAPE_SPHERE || kind == types__SHAPE_GLOBE;
 }
 
 fn shape__is_flat(kind: u32) -> bool {
-    return (bindings__SHAPE_KINDS & (shape__DISCS | shape__RECTANGLES)) != 0u && (kind == types__SHAPE_DISC || kind == types__SHAPE_RECTANGLE);
+	return (bindings__SHAPE_KINDS & (shape__DISCS | shape__RECTANGLES)) != 0u && (kind == types__SHAPE_DISC || kind == types__SHAPE_RECTANGLE);
 }
 
 fn sphere__intersect_sphere(ray: types__Ray, center: vec3f, radius: f32) -> types__Candidate {
-    let f = ray.origin - center;
-    let a = dot(ray.direction, ray.direction);
-    let b = -dot(f, ray.direction);
-    let nearest = f + (b / a) * ray.direction;
-    let discriminant = radius * radius - dot(nearest, nearest);
-    if (discriminant < 0.0) {
-        return types__Candidate(false, 0.0, 0.0, 0.0);
-    }
-    let c = dot(f, f) - radius * radius;
-    let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
-    let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
-    let t1 = q / a;
-    let near = min(t0, t1);
-    let t = select(max(t0, t1), near, near > 0.0);
-    return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	let f = ray.origin - center;
+	let a = dot(ray.direction, ray.direction);
+	let b = -dot(f, ray.direction);
+	let nearest = f + (b / a) * ray.direction;
+	let discriminant = radius * radius - dot(nearest, nearest);
+	if (discriminant < 0.0) {
+		return types__Candidate(false, 0.0, 0.0, 0.0);
+	}
+	let c = dot(f, f) - radius * radius;
+	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(a * discriminant);
+	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
+	let t1 = q / a;
+	let near = min(t0, t1);
+	let t = select(max(t0, t1), near, near > 0.0);
+	return types__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
 fn globe__intersect_globe(ray: types__Ray, anchor: vec3f, n: vec3f, curvature: f32) -> types__Candidate {
-    let w = ray.origin - anchor;
-    let f = n + curvature * w;
-    let c = curvature * dot(w, w) + 2.0 * dot(n, w);
-    let length2 = dot(ray.direction, ray.direction);
-    let a = curvature * length2;
-    let b = -dot(f, ray.direction);
-    let nearest = f + (b / length2) * ray.direction;
-    let is_near = abs(curvature * c) < 1.0;
-    let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
-    if (discriminant < 0.0) {
-        return types__Candidate(false, 0.0, 0.0, 0.0);
-    }
-    let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
-    let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
-    let t1 = q / a;
-    let near = min(t0, t1);
-    let t = select(max(t0, t1), near, near > 0.0);
-    return types__Candidate(t > 0.0, t, 0.0, 0.0);
+	let w = ray.origin - anchor;
+	let f = n + curvature * w;
+	let c = curvature * dot(w, w) + 2.0 * dot(n, w);
+	let length2 = dot(ray.direction, ray.direction);
+	let a = curvature * length2;
+	let b = -dot(f, ray.direction);
+	let nearest = f + (b / length2) * ray.direction;
+	let is_near = abs(curvature * c) < 1.0;
+	let discriminant = select(length2 * (1.0 - dot(nearest, nearest)), b * b - a * c, is_near);
+	if (discriminant < 0.0) {
+		return types__Candidate(false, 0.0, 0.0, 0.0);
+	}
+	let q = b + select(-1.0, 1.0, b >= 0.0) * sqrt(discriminant);
+	let t0 = select(0.0, c / select(1.0, q, abs(q) > 1e-30), abs(q) > 1e-30);
+	let t1 = q / a;
+	let near = min(t0, t1);
+	let t = select(max(t0, t1), near, near > 0.0);
+	return types__Candidate(t > 0.0, t, 0.0, 0.0);
 }
 
 fn globe__globe_point(shape: types__PackedShape, reached: vec3f) -> canonical__PlacedPoint {
-    let w = reached - shape.position;
-    let f = shape.row_y + shape.size0 * w;
-    let height = (shape.size0 * dot(w, w) + 2.0 * dot(shape.row_y, w)) / (1.0 + length(f));
-    let ng = numeric__normalize_or(f, shape.row_y);
-    let p = reached - height * ng;
-    return canonical__PlacedPoint(p, ng, 16.0 * numeric__ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
+	let w = reached - shape.position;
+	let f = shape.row_y + shape.size0 * w;
+	let height = (shape.size0 * dot(w, w) + 2.0 * dot(shape.row_y, w)) / (1.0 + length(f));
+	let ng = numeric__normalize_or(f, shape.row_y);
+	let p = reached - height * ng;
+	return canonical__PlacedPoint(p, ng, 16.0 * numeric__ROUNDING * (abs(p) + abs(shape.position) + 2.0 * length(w)));
 }
 
 const canonical__TWO_PI: f32 = 6.2831855;
 
 struct canonical__CanonicalPoint {
-    p: vec3f,
-    n: vec3f,
-    uv: vec2f
+	p: vec3f,
+	n: vec3f,
+	uv: vec2f
 }
 
 struct canonical__PlacedPoint {
-    p: vec3f,
-    ng: vec3f,
-    error: vec3f
+	p: vec3f,
+	ng: vec3f,
+	error: vec3f
 }
 
 struct canonical__Approach {
-    origin: vec3f,
-    start: f32,
-    direction: vec3f,
-    t_per_length: f32,
-    near: bool
+	origin: vec3f,
+	start: f32,
+	direction: vec3f,
+	t_per_length: f32,
+	near: bool
 }
 
 fn canonical__canonical_vector(shape: types__PackedShape, v: vec3f) -> vec3f {
-    return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
+	return vec3f(dot(shape.row_x, v), dot(shape.row_y, v), dot(shape.row_z, v));
 }
 
 fn canonical__canonical_ray(ray: types__Ray, shape: types__PackedShape) -> types__Ray {
-    return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
+	return types__Ray(canonical__canonical_vector(shape, ray.origin - shape.position), ray.t_max, canonical__canonical_vector(shape, ray.direction), ray.leaving, ray.leaving_instance);
 }
 
 fn canonical__approach(ray: types__Ray, center: vec3f, reach: f32) -> canonical__Approach {
-    let size = abs(ray.direction);
-    let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
-    let scaled = ray.direction / largest;
-    let inv_length = inverseSqrt(max(dot(scaled, scaled), 1e-30));
-    let direction = scaled * inv_length;
-    let start = max(dot(center - ray.origin, direction) - reach, 0.0);
-    let origin = ray.origin + start * direction;
-    let off = abs(origin - center);
-    let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
-    return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
+	let size = abs(ray.direction);
+	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let scaled = ray.direction / largest;
+	let inv_length = inverseSqrt(max(dot(scaled, scaled), 1e-30));
+	let direction = scaled * inv_length;
+	let start = max(dot(center - ray.origin, direction) - reach, 0.0);
+	let origin = ray.origin + start * direction;
+	let off = abs(origin - center);
+	let near = max(off.x, max(off.y, off.z)) <= 2.0 * reach;
+	return canonical__Approach(select(center + reach, origin, near), start, direction, inv_length / largest, near);
 }
 
 fn canonical__approached_t(near: canonical__Approach, s: f32) -> f32 {
-    return (near.start + s) * near.t_per_length;
+	return (near.start + s) * near.t_per_length;
 }
 
 fn canonical__placed_point(shape: types__PackedShape, reached: vec3f, point: canonical__CanonicalPoint) -> canonical__PlacedPoint {
-    let inv_lengths = 1.0 / vec3f(length(shape.row_x), length(shape.row_y), length(shape.row_z));
-    let x = shape.row_x * inv_lengths.x;
-    let y = shape.row_y * inv_lengths.y;
-    let z = shape.row_z * inv_lengths.z;
-    let normal_x = cross(y, z);
-    let det = dot(x, normal_x);
-    let scale = inv_lengths / select(1.0, det, abs(det) > 1e-20);
-    let column_x = scale.x * normal_x;
-    let column_y = scale.y * cross(z, x);
-    let column_z = scale.z * cross(x, y);
-    let q = reached - shape.position;
-    let way = point.p - canonical__canonical_vector(shape, q);
-    let p = reached + (way.x * column_x + way.y * column_y + way.z * column_z);
-    let size = vec3f(dot(abs(shape.row_x), abs(q)), dot(abs(shape.row_y), abs(q)), dot(abs(shape.row_z), abs(q))) + 1.0;
-    let reach = size.x * abs(column_x) + size.y * abs(column_y) + size.z * abs(column_z);
-    let normal = point.n.x * shape.row_x + point.n.y * shape.row_y + point.n.z * shape.row_z;
-    return canonical__PlacedPoint(p, numeric__normalize_or(normal, y), offset__placed_error(p, shape.position, reach));
+	let inv_lengths = 1.0 / vec3f(length(shape.row_x), length(shape.row_y), length(shape.row_z));
+	let x = shape.row_x * inv_lengths.x;
+	let y = shape.row_y * inv_lengths.y;
+	let z = shape.row_z * inv_lengths.z;
+	let normal_x = cross(y, z);
+	let det = dot(x, normal_x);
+	let scale = inv_lengths / select(1.0, det, abs(det) > 1e-20);
+	let column_x = scale.x * normal_x;
+	let column_y = scale.y * cross(z, x);
+	let column_z = scale.z * cross(x, y);
+	let q = reached - shape.position;
+	let way = point.p - canonical__canonical_vector(shape, q);
+	let p = reached + (way.x * column_x + way.y * column_y + way.z * column_z);
+	let size = vec3f(dot(abs(shape.row_x), abs(q)), dot(abs(shape.row_y), abs(q)), dot(abs(shape.row_z), abs(q))) + 1.0;
+	let reach = size.x * abs(column_x) + size.y * abs(column_y) + size.z * abs(column_z);
+	let normal = point.n.x * shape.row_x + point.n.y * shape.row_y + point.n.z * shape.row_z;
+	return canonical__PlacedPoint(p, numeric__normalize_or(normal, y), offset__placed_error(p, shape.position, reach));
 }
 
 fn canonical__longitude(x: f32, z: f32) -> f32 {
-    let on_axis = (x == 0.0) & (z == 0.0);
-    return saturate(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
+	let on_axis = (x == 0.0) & (z == 0.0);
+	return saturate(0.5 + atan2(x, select(z, 1.0, on_axis)) / canonical__TWO_PI);
 }
 
 fn canonical__sphere_uv(n: vec3f) -> vec2f {
-    let off_axis = length(n.xz);
-    let at_center = (off_axis == 0.0) & (n.y == 0.0);
-    let latitude = atan2(n.y, select(off_axis, 1.0, at_center));
-    return vec2f(canonical__longitude(n.x, n.z), saturate(0.5 + 2.0 * latitude / canonical__TWO_PI));
+	let off_axis = length(n.xz);
+	let at_center = (off_axis == 0.0) & (n.y == 0.0);
+	let latitude = atan2(n.y, select(off_axis, 1.0, at_center));
+	return vec2f(canonical__longitude(n.x, n.z), saturate(0.5 + 2.0 * latitude / canonical__TWO_PI));
 }
 
 fn canonical__outwards(v: vec2f) -> vec2f {
-    let size = length(v);
-    let usable = size > 1e-18;
-    return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
+	let size = length(v);
+	let usable = size > 1e-18;
+	return select(vec2f(1.0, 0.0), v / select(1.0, size, usable), usable);
 }
 
 fn disc__intersect_disc(ray: types__Ray, hole: f32) -> types__Candidate {
-    let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
-    let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
-    let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
-    let distance = dot(p, p);
-    return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
+	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
+	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
+	let p = clamp(ray.origin.xz + t * ray.direction.xz, vec2f(-2.0), vec2f(2.0));
+	let distance = dot(p, p);
+	return types__Candidate(steep & (t > 0.0) & (distance <= 1.0) & (distance >= hole * hole), t, 0.0, 0.0);
 }
 
 fn disc__disc_point(p: vec3f) -> canonical__CanonicalPoint {
-    return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
 fn rectangle__intersect_rectangle(ray: types__Ray) -> types__Candidate {
-    let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
-    let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
-    let way = t * ray.direction.xz;
-    let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
-    let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
-    return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
+	let steep = abs(ray.direction.y) > 1e-25 * abs(ray.origin.y);
+	let t = -ray.origin.y / select(1.0, ray.direction.y, steep);
+	let way = t * ray.direction.xz;
+	let slack = 4.0 * numeric__ROUNDING * (abs(ray.origin.xz) + abs(way));
+	let inside = all(abs(ray.origin.xz + way) <= 1.0 + slack);
+	return types__Candidate(steep & (t > 0.0) & inside, t, 0.0, 0.0);
 }
 
 fn rectangle__rectangle_point(p: vec3f) -> canonical__CanonicalPoint {
-    return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
+	return canonical__CanonicalPoint(vec3f(p.x, 0.0, p.z), vec3f(0.0, 1.0, 0.0), saturate(0.5 + 0.5 * vec2f(p.x, -p.z)));
 }
 
 fn box__intersect_box(ray: types__Ray) -> types__Candidate {
-    let size = abs(ray.direction);
-    let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
-    let inv = numeric__safe_reciprocal(ray.direction / largest);
-    let origin = clamp(ray.origin, vec3f(-1e18), vec3f(1e18));
-    let t0 = (-1.0 - origin) * inv;
-    let t1 = (1.0 - origin) * inv;
-    let enters = min(t0, t1);
-    let leaves = max(t0, t1);
-    let enter = max(enters.x, max(enters.y, enters.z));
-    let leave = min(leaves.x, min(leaves.y, leaves.z));
-    let from_outside = enter > 0.0;
-    let s = select(leave, enter, from_outside);
-    let planes = select(leaves, enters, from_outside);
-    let axis = select(select(2u, 1u, planes.y == s), 0u, planes.x == s);
-    let positive = (inv[axis] < 0.0) == from_outside;
-    let side = f32(axis) + select(0.0, 3.0, positive);
-    let hit = (enter <= leave) & (s > 0.0);
-    return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
+	let size = abs(ray.direction);
+	let largest = max(max(size.x, max(size.y, size.z)), 1e-30);
+	let inv = numeric__safe_reciprocal(ray.direction / largest);
+	let origin = clamp(ray.origin, vec3f(-1e18), vec3f(1e18));
+	let t0 = (-1.0 - origin) * inv;
+	let t1 = (1.0 - origin) * inv;
+	let enters = min(t0, t1);
+	let leaves = max(t0, t1);
+	let enter = max(enters.x, max(enters.y, enters.z));
+	let leave = min(leaves.x, min(leaves.y, leaves.z));
+	let from_outside = enter > 0.0;
+	let s = select(leave, enter, from_outside);
+	let planes = select(leaves, enters, from_outside);
+	let axis = select(select(2u, 1u, planes.y == s), 0u, planes.x == s);
+	let positive = (inv[axis] < 0.0) == from_outside;
+	let side = f32(axis) + select(0.0, 3.0, positive);
+	let hit = (enter <= leave) & (s > 0.0);
+	return types__Candidate(hit, select(0.0, s, hit) / largest, side, 0.0);
 }
 
 fn box__box_point(p: vec3f, side: f32) -> canonical__CanonicalPoint {
-    let code = u32(side + 0.5);
-    let positive = code >= 3u;
-    let axis = code - select(0u, 3u, positive);
-    let sign = select(-1.0, 1.0, positive);
-    let n = select(vec3f(0.0), vec3f(sign), vec3<bool>(axis == 0u, axis == 1u, axis == 2u));
-    let place = select(p, n, n != vec3f(0.0));
-    let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
-    let up = select(p.y, -sign * p.z, axis == 1u);
-    return canonical__CanonicalPoint(place, n, saturate(0.5 + 0.5 * vec2f(right, up)));
+	let code = u32(side + 0.5);
+	let positive = code >= 3u;
+	let axis = code - select(0u, 3u, positive);
+	let sign = select(-1.0, 1.0, positive);
+	let n = select(vec3f(0.0), vec3f(sign), vec3<bool>(axis == 0u, axis == 1u, axis == 2u));
+	let place = select(p, n, n != vec3f(0.0));
+	let right = select(select(sign * p.x, p.x, axis == 1u), -sign * p.z, axis == 0u);
+	let up = select(p.y, -sign * p.z, axis == 1u);
+	return canonical__CanonicalPoint(place, n, saturate(0.5 + 0.5 * vec2f(right, up)));
 }
 
 const cone__FAR: f32 = 1e30;
@@ -2026,76 +2026,76 @@ const cone__BOTTOM: f32 = 1.0;
 const cone__TOP: f32 = 2.0;
 
 fn cone__intersect_cone(ray: types__Ray, bottom: f32, top: f32, capped: bool) -> types__Candidate {
-    let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
-    let o = near.origin;
-    let d = near.direction;
-    let slope = top - bottom;
-    let radius = bottom + slope * o.y;
-    let exact_a = dot(d.xz, d.xz) - slope * slope * d.y * d.y;
-    let a = select(1e-12, exact_a, abs(exact_a) > 1e-12);
-    let b = dot(o.xz, d.xz) - slope * radius * d.y;
-    let c = dot(o.xz, o.xz) - radius * radius;
-    let turn = o.x * d.z - o.z * d.x;
-    let lean = radius * d.xz - slope * d.y * o.xz;
-    let by_determinants = dot(lean, lean) - turn * turn - (a - exact_a) * c;
-    let discriminant = select(by_determinants, b * b - a * c, a * c <= 0.0);
-    let root = sqrt(max(discriminant, 0.0));
-    let q = -(b + select(-root, root, b >= 0.0));
-    let usable = abs(q) > 1e-20;
-    let r1 = q / a;
-    let r2 = select(0.0, c / select(1.0, q, usable), usable);
-    let low = min(r1, r2);
-    let high = max(r1, r2);
-    let steep = a < 0.0;
-    let widens = slope * d.y > 0.0;
-    let side_in = select(low, select(-cone__FAR, high, widens), steep);
-    let side_out = select(high, select(low, cone__FAR, widens), steep);
-    let level = abs(d.y) < 1e-18;
-    let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
-    let y0 = -o.y * inv_y;
-    let y1 = (1.0 - o.y) * inv_y;
-    let slab_in = min(y0, y1);
-    let slab_out = max(y0, y1);
-    let enter = max(slab_in, side_in);
-    let leave = min(slab_out, side_out);
-    let enters_side = side_in >= slab_in;
-    let leaves_side = side_out <= slab_out;
-    let takes_enter = (near.start + enter > 0.0) & (enters_side | capped);
-    let takes_leave = (near.start + leave > 0.0) & (leaves_side | capped);
-    let met = (steep | (discriminant >= 0.0)) & (enter <= leave);
-    let hit = near.near & met & (takes_enter | takes_leave);
-    let rough = select(0.0, select(leave, enter, takes_enter), hit);
-    let is_side = select(leaves_side, enters_side, takes_enter);
-    let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
-    let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
-    let t = canonical__approached_t(near, s);
-    return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
+	let near = canonical__approach(ray, vec3f(0.0, 0.5, 0.0), 1.5);
+	let o = near.origin;
+	let d = near.direction;
+	let slope = top - bottom;
+	let radius = bottom + slope * o.y;
+	let exact_a = dot(d.xz, d.xz) - slope * slope * d.y * d.y;
+	let a = select(1e-12, exact_a, abs(exact_a) > 1e-12);
+	let b = dot(o.xz, d.xz) - slope * radius * d.y;
+	let c = dot(o.xz, o.xz) - radius * radius;
+	let turn = o.x * d.z - o.z * d.x;
+	let lean = radius * d.xz - slope * d.y * o.xz;
+	let by_determinants = dot(lean, lean) - turn * turn - (a - exact_a) * c;
+	let discriminant = select(by_determinants, b * b - a * c, a * c <= 0.0);
+	let root = sqrt(max(discriminant, 0.0));
+	let q = -(b + select(-root, root, b >= 0.0));
+	let usable = abs(q) > 1e-20;
+	let r1 = q / a;
+	let r2 = select(0.0, c / select(1.0, q, usable), usable);
+	let low = min(r1, r2);
+	let high = max(r1, r2);
+	let steep = a < 0.0;
+	let widens = slope * d.y > 0.0;
+	let side_in = select(low, select(-cone__FAR, high, widens), steep);
+	let side_out = select(high, select(low, cone__FAR, widens), steep);
+	let level = abs(d.y) < 1e-18;
+	let inv_y = 1.0 / select(d.y, select(1e-18, -1e-18, d.y < 0.0), level);
+	let y0 = -o.y * inv_y;
+	let y1 = (1.0 - o.y) * inv_y;
+	let slab_in = min(y0, y1);
+	let slab_out = max(y0, y1);
+	let enter = max(slab_in, side_in);
+	let leave = min(slab_out, side_out);
+	let enters_side = side_in >= slab_in;
+	let leaves_side = side_out <= slab_out;
+	let takes_enter = (near.start + enter > 0.0) & (enters_side | capped);
+	let takes_leave = (near.start + leave > 0.0) & (leaves_side | capped);
+	let met = (steep | (discriminant >= 0.0)) & (enter <= leave);
+	let hit = near.near & met & (takes_enter | takes_leave);
+	let rough = select(0.0, select(leave, enter, takes_enter), hit);
+	let is_side = select(leaves_side, enters_side, takes_enter);
+	let end = select(cone__BOTTOM, cone__TOP, (d.y > 0.0) != takes_enter);
+	let s = select(rough, cone__polish(o, d, bottom, slope, rough), is_side);
+	let t = canonical__approached_t(near, s);
+	return types__Candidate(hit & (t > 0.0), t, select(end, cone__SIDE, is_side), 0.0);
 }
 
 fn cone__polish(o: vec3f, d: vec3f, bottom: f32, slope: f32, s: f32) -> f32 {
-    let p = o + s * d;
-    let off_axis = length(p.xz);
-    let rate = dot(p.xz, d.xz) / max(off_axis, 1e-18) - slope * d.y;
-    let usable = abs(rate) > 0.001;
-    let step = (off_axis - (bottom + slope * p.y)) / select(1.0, rate, usable);
-    return s - clamp(select(0.0, step, usable), -0.001, 0.001);
+	let p = o + s * d;
+	let off_axis = length(p.xz);
+	let rate = dot(p.xz, d.xz) / max(off_axis, 1e-18) - slope * d.y;
+	let usable = abs(rate) > 0.001;
+	let step = (off_axis - (bottom + slope * p.y)) / select(1.0, rate, usable);
+	return s - clamp(select(0.0, step, usable), -0.001, 0.001);
 }
 
 fn cone__cone_point(p: vec3f, bottom: f32, top: f32, part: f32) -> canonical__CanonicalPoint {
-    let slope = top - bottom;
-    let out = canonical__outwards(p.xz);
-    if (part < 0.5) {
-        let y = saturate(p.y);
-        let radius = bottom + slope * y;
-        let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
-        return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(canonical__longitude(p.x, p.z), y));
-    }
-    let is_top = part > 1.5;
-    let radius = select(bottom, top, is_top);
-    let flat = out * min(length(p.xz), radius);
-    let sign = select(-1.0, 1.0, is_top);
-    let uv = vec2f(flat.x, -sign * flat.y) / max(radius, 1e-18);
-    return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate(0.5 + 0.5 * uv));
+	let slope = top - bottom;
+	let out = canonical__outwards(p.xz);
+	if (part < 0.5) {
+		let y = saturate(p.y);
+		let radius = bottom + slope * y;
+		let n = vec3f(out.x, -slope, out.y) * inverseSqrt(1.0 + slope * slope);
+		return canonical__CanonicalPoint(vec3f(radius * out.x, y, radius * out.y), n, vec2f(canonical__longitude(p.x, p.z), y));
+	}
+	let is_top = part > 1.5;
+	let radius = select(bottom, top, is_top);
+	let flat = out * min(length(p.xz), radius);
+	let sign = select(-1.0, 1.0, is_top);
+	let uv = vec2f(flat.x, -sign * flat.y) / max(radius, 1e-18);
+	return canonical__CanonicalPoint(vec3f(flat.x, select(0.0, 1.0, is_top), flat.y), vec3f(0.0, sign, 0.0), saturate(0.5 + 0.5 * uv));
 }
 
 const torus__MOST_ROUNDS: u32 = 40u;
@@ -2103,211 +2103,211 @@ const torus__MOST_ROUNDS: u32 = 40u;
 const torus__NARROW: f32 = 1.2e-7;
 
 fn torus__torus_distance(p: vec3f, minor: f32) -> f32 {
-    return length(vec2f(length(p.xz) - 1.0, p.y)) - minor;
+	return length(vec2f(length(p.xz) - 1.0, p.y)) - minor;
 }
 
 fn torus__polish(s: f32, p: f32, q: f32) -> f32 {
-    let slope = 3.0 * s * s + p;
-    let steep = abs(slope) > 0.001;
-    return s - clamp(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
+	let slope = 3.0 * s * s + p;
+	let steep = abs(slope) > 0.001;
+	return s - clamp(select(0.0, ((s * s + p) * s + q) / select(1.0, slope, steep), steep), -0.02, 0.02);
 }
 
 fn torus__cubic_zeros(p: f32, q: f32) -> vec3f {
-    let third = p / 3.0;
-    let half = 0.5 * q;
-    let discriminant = half * half + third * third * third;
-    let cube = abs(half) + sqrt(max(discriminant, 0.0));
-    let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max(cube, 1e-30)) / 3.0), cube > 1e-30);
-    let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
-    let one = torus__polish(large + small, p, q);
-    let size = sqrt(max(-third, 0.0));
-    let usable = size > 1e-10;
-    let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
-    let angle = acos(cosine) / 3.0;
-    let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
-    let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
-    let c = torus__polish(2.0 * size * cos(angle), p, q);
-    let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
-    return select(three, vec3f(one), discriminant > 0.0);
+	let third = p / 3.0;
+	let half = 0.5 * q;
+	let discriminant = half * half + third * third * third;
+	let cube = abs(half) + sqrt(max(discriminant, 0.0));
+	let large = -select(-1.0, 1.0, half >= 0.0) * select(0.0, exp2(log2(max(cube, 1e-30)) / 3.0), cube > 1e-30);
+	let small = select(0.0, -third / select(1.0, large, large != 0.0), large != 0.0);
+	let one = torus__polish(large + small, p, q);
+	let size = sqrt(max(-third, 0.0));
+	let usable = size > 1e-10;
+	let cosine = clamp(select(0.0, -half / select(1.0, size * size * size, usable), usable), -1.0, 1.0);
+	let angle = acos(cosine) / 3.0;
+	let a = torus__polish(2.0 * size * cos(angle + canonical__TWO_PI / 3.0), p, q);
+	let b = torus__polish(2.0 * size * cos(angle - canonical__TWO_PI / 3.0), p, q);
+	let c = torus__polish(2.0 * size * cos(angle), p, q);
+	let three = vec3f(min(a, min(b, c)), max(min(a, b), min(max(a, b), c)), max(a, max(b, c)));
+	return select(three, vec3f(one), discriminant > 0.0);
 }
 
 fn torus__intersect_torus(ray: types__Ray, minor: f32) -> types__Candidate {
-    let outer = 1.0 + minor;
-    let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
-    let o = near.origin;
-    let d = near.direction;
-    let middle = -dot(o, d);
-    let nearest = o + middle * d;
-    let apart = dot(nearest, nearest);
-    let ball = 1.0001 * outer;
-    let half_chord = sqrt(max(ball * ball - apart, 0.0));
-    let start = max(middle - half_chord, 0.0);
-    let end = middle + half_chord;
-    let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
-    let cuts = vec4f(clamp(zeros, vec3f(start), vec3f(max(end, start))), end);
-    let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
-    let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
-    let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
-    let last = select(select(select(cuts.w, cuts.z, changes.z), cuts.y, changes.y), cuts.x, changes.x);
-    let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
-    let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
-    let t = canonical__approached_t(near, s);
-    return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
+	let outer = 1.0 + minor;
+	let near = canonical__approach(ray, vec3f(0.0), 1.5 * outer);
+	let o = near.origin;
+	let d = near.direction;
+	let middle = -dot(o, d);
+	let nearest = o + middle * d;
+	let apart = dot(nearest, nearest);
+	let ball = 1.0001 * outer;
+	let half_chord = sqrt(max(ball * ball - apart, 0.0));
+	let start = max(middle - half_chord, 0.0);
+	let end = middle + half_chord;
+	let zeros = middle + torus__cubic_zeros(apart - 1.0 - minor * minor + 2.0 * d.y * d.y, 2.0 * nearest.y * d.y);
+	let cuts = vec4f(clamp(zeros, vec3f(start), vec3f(max(end, start))), end);
+	let outside = torus__torus_distance(o + start * d, minor) >= 0.0;
+	let changes = vec4<bool>((torus__torus_distance(o + cuts.x * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.y * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.z * d, minor) >= 0.0) != outside, (torus__torus_distance(o + cuts.w * d, minor) >= 0.0) != outside);
+	let found = near.near & (apart <= ball * ball) & (end > start) & any(changes);
+	let last = select(select(select(cuts.w, cuts.z, changes.z), cuts.y, changes.y), cuts.x, changes.x);
+	let first = select(select(select(cuts.z, cuts.y, changes.z), cuts.x, changes.y), start, changes.x);
+	let s = torus__root_between(o, d, minor, select(last, first, found), last, outside);
+	let t = canonical__approached_t(near, s);
+	return types__Candidate(found & (t > 0.0), t, 0.0, 0.0);
 }
 
 fn torus__root_between(o: vec3f, d: vec3f, minor: f32, first: f32, last: f32, outside: bool) -> f32 {
-    var low = first;
-    var high = last;
-    var s = 0.5 * (first + last);
-    var moved = high - low;
-    var rounds = 0u;
-    loop {
-        let p = o + s * d;
-        let ring = length(p.xz);
-        let from_ring = vec2f(ring - 1.0, p.y);
-        let to_middle = length(from_ring);
-        let distance = to_middle - minor;
-        let before = (distance >= 0.0) == outside;
-        low = select(low, s, before);
-        high = select(s, high, before);
-        let ring_slope = dot(p.xz, d.xz) / max(ring, 1e-20);
-        let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max(to_middle, 1e-20);
-        let usable = abs(slope) > 1e-6;
-        let newton = s - distance / select(1.0, slope, usable);
-        let takes_newton = usable & (newton > low) & (newton < high) & (abs(newton - s) < 0.5 * moved);
-        let next = select(0.5 * (low + high), newton, takes_newton);
-        moved = abs(next - s);
-        s = next;
-        rounds += 1u;
-        continuing {
-        
-            break if (moved <= torus__NARROW * (1.0 + abs(s))) | (rounds >= torus__MOST_ROUNDS);
-        }
-    }
-    return s;
+	var low = first;
+	var high = last;
+	var s = 0.5 * (first + last);
+	var moved = high - low;
+	var rounds = 0u;
+	loop {
+		let p = o + s * d;
+		let ring = length(p.xz);
+		let from_ring = vec2f(ring - 1.0, p.y);
+		let to_middle = length(from_ring);
+		let distance = to_middle - minor;
+		let before = (distance >= 0.0) == outside;
+		low = select(low, s, before);
+		high = select(s, high, before);
+		let ring_slope = dot(p.xz, d.xz) / max(ring, 1e-20);
+		let slope = dot(from_ring, vec2f(ring_slope, d.y)) / max(to_middle, 1e-20);
+		let usable = abs(slope) > 1e-6;
+		let newton = s - distance / select(1.0, slope, usable);
+		let takes_newton = usable & (newton > low) & (newton < high) & (abs(newton - s) < 0.5 * moved);
+		let next = select(0.5 * (low + high), newton, takes_newton);
+		moved = abs(next - s);
+		s = next;
+		rounds += 1u;
+		continuing {
+		
+			break if (moved <= torus__NARROW * (1.0 + abs(s))) | (rounds >= torus__MOST_ROUNDS);
+		}
+	}
+	return s;
 }
 
 fn torus__torus_point(p: vec3f, minor: f32) -> canonical__CanonicalPoint {
-    let out = canonical__outwards(p.xz);
-    let tube = canonical__outwards(vec2f(length(p.xz) - 1.0, p.y));
-    let n = vec3f(tube.x * out.x, tube.y, tube.x * out.y);
-    let ring = 1.0 + minor * tube.x;
-    let place = vec3f(ring * out.x, minor * tube.y, ring * out.y);
-    return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
+	let out = canonical__outwards(p.xz);
+	let tube = canonical__outwards(vec2f(length(p.xz) - 1.0, p.y));
+	let n = vec3f(tube.x * out.x, tube.y, tube.x * out.y);
+	let ring = 1.0 + minor * tube.x;
+	let place = vec3f(ring * out.x, minor * tube.y, ring * out.y);
+	return canonical__CanonicalPoint(place, n, vec2f(canonical__longitude(p.x, p.z), saturate(0.5 + atan2(tube.y, tube.x) / canonical__TWO_PI)));
 }
 
 fn ellipsoid__intersect_ellipsoid(ray: types__Ray) -> types__Candidate {
-    let near = canonical__approach(ray, vec3f(0.0), 1.5);
-    let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
-    return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
+	let near = canonical__approach(ray, vec3f(0.0), 1.5);
+	let found = sphere__intersect_sphere(types__Ray(near.origin, ray.t_max, near.direction, types__NONE, ray.leaving_instance), vec3f(0.0), 1.0);
+	return types__Candidate(near.near & found.hit, canonical__approached_t(near, found.t), 0.0, 0.0);
 }
 
 fn ellipsoid__ellipsoid_point(p: vec3f) -> canonical__CanonicalPoint {
-    let n = numeric__normalize_or(p, vec3f(0.0, 1.0, 0.0));
-    return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
+	let n = numeric__normalize_or(p, vec3f(0.0, 1.0, 0.0));
+	return canonical__CanonicalPoint(n, n, canonical__sphere_uv(n));
 }
 
 fn instance__space_of(instance: types__PackedInstance) -> motion__Space {
-    if (bindings__HAS_MOTION) {
-        if (instance.key_count > 1u) {
-            let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
-            let key = instance.first_key + moment.key;
-            return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
-        }
-    }
-    return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
+	if (bindings__HAS_MOTION) {
+		if (instance.key_count > 1u) {
+			let moment = motion__moment_of(shutter__shutter_time, instance.key_count);
+			let key = instance.first_key + moment.key;
+			return motion__space_between(fetch__load_key(key), fetch__load_key(key + 1u), moment.fraction);
+		}
+	}
+	return motion__Space(instance.translation, transpose(mat3x3f(instance.linear_x, instance.linear_y, instance.linear_z)), transpose(mat3x3f(instance.inverse_x, instance.inverse_y, instance.inverse_z)));
 }
 
 fn instance__object_ray(ray: types__Ray, space: motion__Space) -> types__Ray {
-    return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
+	return types__Ray(space.inverse * (ray.origin - space.translation), ray.t_max, space.inverse * ray.direction, ray.leaving, ray.leaving_instance);
 }
 
 fn instance__placed_normal(space: motion__Space, n: vec3f) -> vec3f {
-    return n * space.inverse;
+	return n * space.inverse;
 }
 
 fn instance__placement_error(space: motion__Space, p: vec3f, q: vec3f) -> vec3f {
-    let from_p = instance__abs_times(space.inverse, abs(p) + abs(space.translation));
-    return 16.0 * numeric__ROUNDING * (abs(p) + abs(space.translation) + instance__abs_times(space.linear, abs(q) + from_p));
+	let from_p = instance__abs_times(space.inverse, abs(p) + abs(space.translation));
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(space.translation) + instance__abs_times(space.linear, abs(q) + from_p));
 }
 
 fn instance__abs_times(m: mat3x3f, v: vec3f) -> vec3f {
-    return abs(m[0]) * v.x + abs(m[1]) * v.y + abs(m[2]) * v.z;
+	return abs(m[0]) * v.x + abs(m[1]) * v.y + abs(m[2]) * v.z;
 }
 
 fn instance__pattern_place(instance: types__PackedInstance, q: vec3f) -> vec3f {
-    let at = vec4f(q, 1.0);
-    return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
+	let at = vec4f(q, 1.0);
+	return vec3f(dot(instance.pattern_x, at), dot(instance.pattern_y, at), dot(instance.pattern_z, at));
 }
 
 struct motion__Moment {
-    key: u32,
-    fraction: f32
+	key: u32,
+	fraction: f32
 }
 
 fn motion__moment_of(time: f32, key_count: u32) -> motion__Moment {
-    let intervals = max(key_count, 2u) - 1u;
-    let at = time * f32(intervals);
-    let key = min(u32(at), intervals - 1u);
-    return motion__Moment(key, at - f32(key));
+	let intervals = max(key_count, 2u) - 1u;
+	let at = time * f32(intervals);
+	let key = min(u32(at), intervals - 1u);
+	return motion__Moment(key, at - f32(key));
 }
 
 struct motion__Space {
-    translation: vec3f,
-    linear: mat3x3f,
-    inverse: mat3x3f
+	translation: vec3f,
+	linear: mat3x3f,
+	inverse: mat3x3f
 }
 
 fn motion__space_between(a: types__PackedKey, b: types__PackedKey, fraction: f32) -> motion__Space {
-    let q = mix(a.rotation, b.rotation, vec4f(fraction));
-    let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
-    let d = mix(a.stretch, b.stretch, vec3f(fraction));
-    let s = mix(a.shear, b.shear, vec3f(fraction));
-    let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
-    let e = d / size;
-    let f = s / size;
-    let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
-    let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
-    let usable = abs(determinant) > 1e-30;
-    let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
-    let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
-    return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
+	let q = mix(a.rotation, b.rotation, vec4f(fraction));
+	let rotation = motion__rotation_matrix(q * inverseSqrt(max(dot(q, q), 1e-30)));
+	let d = mix(a.stretch, b.stretch, vec3f(fraction));
+	let s = mix(a.shear, b.shear, vec3f(fraction));
+	let size = max(max(abs(d.x), abs(d.y)), max(abs(d.z), 1e-30));
+	let e = d / size;
+	let f = s / size;
+	let adjugate = mat3x3f(vec3f(e.y * e.z - f.x * f.x, f.y * f.x - f.z * e.z, f.z * f.x - e.y * f.y), vec3f(f.y * f.x - f.z * e.z, e.x * e.z - f.y * f.y, f.z * f.y - e.x * f.x), vec3f(f.z * f.x - e.y * f.y, f.z * f.y - e.x * f.x, e.x * e.y - f.z * f.z));
+	let determinant = dot(vec3f(e.x, f.z, f.y), adjugate[0]);
+	let usable = abs(determinant) > 1e-30;
+	let inverse_stretch = adjugate * (1.0 / (select(1.0, determinant, usable) * size));
+	let stretch = mat3x3f(vec3f(d.x, s.z, s.y), vec3f(s.z, d.y, s.x), vec3f(s.y, s.x, d.z));
+	return motion__Space(mix(a.translation, b.translation, vec3f(fraction)), rotation * stretch, inverse_stretch * transpose(rotation));
 }
 
 fn motion__rotation_matrix(q: vec4f) -> mat3x3f {
-    let d = 2.0 * q.xyz * q.xyz;
-    let xy = 2.0 * q.x * q.y;
-    let xz = 2.0 * q.x * q.z;
-    let yz = 2.0 * q.y * q.z;
-    let w = 2.0 * q.w * q.xyz;
-    return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
+	let d = 2.0 * q.xyz * q.xyz;
+	let xy = 2.0 * q.x * q.y;
+	let xz = 2.0 * q.x * q.z;
+	let yz = 2.0 * q.y * q.z;
+	let w = 2.0 * q.w * q.xyz;
+	return mat3x3f(vec3f(1.0 - d.y - d.z, xy + w.z, xz - w.y), vec3f(xy - w.z, 1.0 - d.x - d.z, yz + w.x), vec3f(xz + w.y, yz - w.x, 1.0 - d.x - d.y));
 }
 
 fn motion__camera_between(a: types__PackedCamera, b: types__PackedCamera, fraction: f32) -> types__PackedCamera {
-    return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
+	return types__PackedCamera(mix(a.origin, b.origin, vec3f(fraction)), mix(a.lens_radius, b.lens_radius, fraction), mix(a.forward, b.forward, vec3f(fraction)), mix(a.focus_distance, b.focus_distance, fraction), mix(a.right, b.right, vec3f(fraction)), mix(a.blade_rotation, b.blade_rotation, fraction), mix(a.up, b.up, vec3f(fraction)), a.blade_count);
 }
 
 fn motion__light_between(a: types__PackedLight, b: types__PackedLight, fraction: f32) -> types__PackedLight {
-    return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, 0u, 0u, 0u);
+	return types__PackedLight(mix(a.position, b.position, vec3f(fraction)), a.kind, numeric__normalize_or(mix(a.direction, b.direction, vec3f(fraction)), a.direction), a.attenuation, mix(a.color, b.color, vec3f(fraction)), mix(a.cos_inner, b.cos_inner, fraction), mix(a.edge_u, b.edge_u, vec3f(fraction)), mix(a.cos_outer, b.cos_outer, fraction), mix(a.edge_v, b.edge_v, vec3f(fraction)), mix(a.radius, b.radius, fraction), a.sample_count, 0u, 0u, 0u);
 }
 
 var<private> shutter__shutter_time: f32 = 0.0;
 
 fn shutter__shutter_camera(still: types__PackedCamera) -> types__PackedCamera {
-    if (bindings__CAMERA_MOTION) {
-        let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
-        return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
-    }
-    return still;
+	if (bindings__CAMERA_MOTION) {
+		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.camera_key_count);
+		return motion__camera_between(fetch__load_camera(moment.key), fetch__load_camera(moment.key + 1u), moment.fraction);
+	}
+	return still;
 }
 
 fn shutter__shutter_light(index: u32, light_count: u32) -> types__PackedLight {
-    if (bindings__LIGHT_MOTION) {
-        let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
-        let place = moment.key * light_count + index;
-        return motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
-    }
-    return fetch__load_light(index);
+	if (bindings__LIGHT_MOTION) {
+		let moment = motion__moment_of(shutter__shutter_time, bindings__frame.light_key_count);
+		let place = moment.key * light_count + index;
+		return motion__light_between(fetch__load_light(place), fetch__load_light(place + light_count), moment.fraction);
+	}
+	return fetch__load_light(index);
 }
 
 const node__MISS: u32 = 4294967292u;
@@ -2315,361 +2315,361 @@ const node__MISS: u32 = 4294967292u;
 const node__WIDENING: i32 = 8;
 
 fn node__bytes(word: u32) -> vec4f {
-    return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
+	return vec4f((vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u));
 }
 
 fn node__decode_node(r0: vec4u, r1: vec4u, r2: vec4u, r3: vec4u) -> types__Node {
-    return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
+	return types__Node(bitcast<vec3f>(r0.xyz), bitcast<vec3f>(vec3u(r0.w, r1.xy)), node__bytes(r1.z), node__bytes(r1.w), node__bytes(r2.x), node__bytes(r2.y), node__bytes(r2.z), node__bytes(r2.w), r3);
 }
 
 fn node__node_between(a: types__Node, b: types__Node, fraction: f32) -> types__Node {
-    let lo = mix(a.lo, b.lo, vec3f(fraction));
-    let shift_a = a.lo - lo;
-    let shift_b = b.lo - lo;
-    let s = vec4f(fraction);
-    return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
+	let lo = mix(a.lo, b.lo, vec3f(fraction));
+	let shift_a = a.lo - lo;
+	let shift_b = b.lo - lo;
+	let s = vec4f(fraction);
+	return types__Node(lo, vec3f(1.0), mix(a.scale.x * a.min_x + shift_a.x, b.scale.x * b.min_x + shift_b.x, s), mix(a.scale.x * a.max_x + shift_a.x, b.scale.x * b.max_x + shift_b.x, s), mix(a.scale.y * a.min_y + shift_a.y, b.scale.y * b.min_y + shift_b.y, s), mix(a.scale.y * a.max_y + shift_a.y, b.scale.y * b.max_y + shift_b.y, s), mix(a.scale.z * a.min_z + shift_a.z, b.scale.z * b.min_z + shift_b.z, s), mix(a.scale.z * a.max_z + shift_a.z, b.scale.z * b.max_z + shift_b.z, s), a.children);
 }
 
 fn node__child_keys(node: types__Node, origin: vec3f, inv: vec3f, t_max: f32) -> vec4u {
-    let base = (node.lo - origin) * inv;
-    let step = node.scale * inv;
-    let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
-    let x1 = bitcast<vec4i>(node.max_x * step.x + base.x);
-    let y0 = bitcast<vec4i>(node.min_y * step.y + base.y);
-    let y1 = bitcast<vec4i>(node.max_y * step.y + base.y);
-    let z0 = bitcast<vec4i>(node.min_z * step.z + base.z);
-    let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
-    let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
-    let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
-    let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
-    let hit = (near <= limit) & (node.children != vec4u(0u));
-    let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
-    return select(vec4u(node__MISS), keys, hit);
+	let base = (node.lo - origin) * inv;
+	let step = node.scale * inv;
+	let x0 = bitcast<vec4i>(node.min_x * step.x + base.x);
+	let x1 = bitcast<vec4i>(node.max_x * step.x + base.x);
+	let y0 = bitcast<vec4i>(node.min_y * step.y + base.y);
+	let y1 = bitcast<vec4i>(node.max_y * step.y + base.y);
+	let z0 = bitcast<vec4i>(node.min_z * step.z + base.z);
+	let z1 = bitcast<vec4i>(node.max_z * step.z + base.z);
+	let near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4i(0)));
+	let far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1));
+	let limit = min(far + node__WIDENING, vec4i(bitcast<i32>(t_max) + node__WIDENING));
+	let hit = (near <= limit) & (node.children != vec4u(0u));
+	let keys = (bitcast<vec4u>(near) & vec4u(4294967292u)) | vec4u(0u, 1u, 2u, 3u);
+	return select(vec4u(node__MISS), keys, hit);
 }
 
 fn node__sort4(keys: vec4u) -> vec4u {
-    let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
-    let lowest = min(a.x, a.y);
-    let middle_low = max(a.x, a.y);
-    let middle_high = min(a.z, a.w);
-    let highest = max(a.z, a.w);
-    return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
+	let a = vec4u(min(keys.xz, keys.yw), max(keys.xz, keys.yw));
+	let lowest = min(a.x, a.y);
+	let middle_low = max(a.x, a.y);
+	let middle_high = min(a.z, a.w);
+	let highest = max(a.z, a.w);
+	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
 struct direct__Receiver {
-    surface: types__Surface,
-    v: vec3f,
-    key: types__SampleKey
+	surface: types__Surface,
+	v: vec3f,
+	key: types__SampleKey
 }
 
 struct direct__Receivers {
-    p: wide__Vectors,
-    error: wide__Vectors,
-    ng: wide__Vectors,
-    n: wide__Vectors,
-    v: wide__Vectors,
-    diffuse: wide__Vectors,
-    specular: wide__Vectors,
-    shininess: wide__Floats,
-    leaving: wide__Words,
-    instance: wide__Words,
-    hash: wide__Words,
-    weight: wide__Floats,
-    is_lit: wide__Words
+	p: wide__Vectors,
+	error: wide__Vectors,
+	ng: wide__Vectors,
+	n: wide__Vectors,
+	v: wide__Vectors,
+	diffuse: wide__Vectors,
+	specular: wide__Vectors,
+	shininess: wide__Floats,
+	leaving: wide__Words,
+	instance: wide__Words,
+	hash: wide__Words,
+	weight: wide__Floats,
+	is_lit: wide__Words
 }
 
 fn direct__no_receivers() -> direct__Receivers {
-    let none = wide__no_vectors();
-    return direct__Receivers(none, none, none, none, none, none, none, wide__Floats(0.0), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__Floats(0.0), wide__Words(0u));
+	let none = wide__no_vectors();
+	return direct__Receivers(none, none, none, none, none, none, none, wide__Floats(0.0), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__Floats(0.0), wide__Words(0u));
 }
 
 fn direct__receiver_set(all: direct__Receivers, k: u32, surface: types__Surface, v: vec3f, key: types__SampleKey) -> direct__Receivers {
-    return direct__Receivers(wide__vector_set(all.p, k, surface.p), wide__vector_set(all.error, k, surface.error), wide__vector_set(all.ng, k, surface.ng), wide__vector_set(all.n, k, surface.n), wide__vector_set(all.v, k, v), wide__vector_set(all.diffuse, k, surface.phong.diffuse), wide__vector_set(all.specular, k, surface.phong.specular), wide__float_set(all.shininess, k, surface.phong.shininess), wide__word_set(all.leaving, k, surface.leaving), wide__word_set(all.instance, k, surface.instance), wide__word_set(all.hash, k, key.hash), wide__float_set(all.weight, k, key.weight), wide__word_set(all.is_lit, k, 1u));
+	return direct__Receivers(wide__vector_set(all.p, k, surface.p), wide__vector_set(all.error, k, surface.error), wide__vector_set(all.ng, k, surface.ng), wide__vector_set(all.n, k, surface.n), wide__vector_set(all.v, k, v), wide__vector_set(all.diffuse, k, surface.phong.diffuse), wide__vector_set(all.specular, k, surface.phong.specular), wide__float_set(all.shininess, k, surface.phong.shininess), wide__word_set(all.leaving, k, surface.leaving), wide__word_set(all.instance, k, surface.instance), wide__word_set(all.hash, k, key.hash), wide__float_set(all.weight, k, key.weight), wide__word_set(all.is_lit, k, 1u));
 }
 
 fn direct__receiver_at(all: direct__Receivers, k: u32) -> direct__Receiver {
-    var surface: types__Surface;
-    surface.p = wide__vector_at(all.p, k);
-    surface.error = wide__vector_at(all.error, k);
-    surface.ng = wide__vector_at(all.ng, k);
-    surface.n = wide__vector_at(all.n, k);
-    surface.leaving = wide__word_at(all.leaving, k);
-    surface.instance = wide__word_at(all.instance, k);
-    surface.phong.diffuse = wide__vector_at(all.diffuse, k);
-    surface.phong.specular = wide__vector_at(all.specular, k);
-    surface.phong.shininess = wide__float_at(all.shininess, k);
-    return direct__Receiver(surface, wide__vector_at(all.v, k), types__SampleKey(wide__word_at(all.hash, k), 0u, wide__float_at(all.weight, k)));
+	var surface: types__Surface;
+	surface.p = wide__vector_at(all.p, k);
+	surface.error = wide__vector_at(all.error, k);
+	surface.ng = wide__vector_at(all.ng, k);
+	surface.n = wide__vector_at(all.n, k);
+	surface.leaving = wide__word_at(all.leaving, k);
+	surface.instance = wide__word_at(all.instance, k);
+	surface.phong.diffuse = wide__vector_at(all.diffuse, k);
+	surface.phong.specular = wide__vector_at(all.specular, k);
+	surface.phong.shininess = wide__float_at(all.shininess, k);
+	return direct__Receiver(surface, wide__vector_at(all.v, k), types__SampleKey(wide__word_at(all.hash, k), 0u, wide__float_at(all.weight, k)));
 }
 
 fn direct__direct_light(batch: dispatch__Batch, receivers: direct__Receivers, media: ray_stack__Media, sample: u32) -> wide__Vectors {
-    var color = wide__no_vectors();
-    if (!bindings__HAS_LIGHTS) {
-        return color;
-    }
-    var index = 0u;
-    loop {
-        let light = shutter__shutter_light(index, batch.light_count);
-        color = direct__with_light(batch, color, receivers, media, sample, light, index);
-        continuing {
-            index += 1u;
-            break if index >= batch.light_count;
-        }
-    }
-    loops__cut_off |= index < batch.light_count;
-    return color;
+	var color = wide__no_vectors();
+	if (!bindings__HAS_LIGHTS) {
+		return color;
+	}
+	var index = 0u;
+	loop {
+		let light = shutter__shutter_light(index, batch.light_count);
+		color = direct__with_light(batch, color, receivers, media, sample, light, index);
+		continuing {
+			index += 1u;
+			break if index >= batch.light_count;
+		}
+	}
+	loops__cut_off |= index < batch.light_count;
+	return color;
 }
 
 fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: direct__Receivers, media: ray_stack__Media, sample: u32, light: types__PackedLight, index: u32) -> wide__Vectors {
-    var sum = wide__no_vectors();
-    var counts = wide__Floats(1.0);
-    let lit_rows = rays__rows_where(receivers.is_lit != wide__Words(0u));
-    let has_extent = bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE;
-    var drawn = 0u;
-    var is_unfinished = false;
-    loop {
-        var rays = rays__dead_rays();
-        var unshadowed = wide__no_vectors();
-        is_unfinished = false;
-        var rows = lit_rows;
-        loop {
-            let k = rays__first_row(rows);
-            if (wide__word_at(receivers.is_lit, k) != 0u) {
-                let receiver = direct__receiver_at(receivers, k);
-                var count = 1u;
-                if (has_extent) {
-                    let wanted = max(round(f32(light.sample_count) * batch.light_samples * receiver.key.weight), 1.0);
-                    count = u32(wanted);
-                    counts = wide__float_set(counts, k, f32(count));
-                }
-                if (drawn < count) {
-                    var arriving = light__incident(light, receiver.surface.p);
-                    if (has_extent) {
-                        let hash = rng__hash_combine(receiver.key.hash, index);
-                        arriving = area_light__area_incident(light, receiver.surface.p, sampling__stratified_2d(sample * count + drawn, hash));
-                    }
-                    let reflected = arriving.radiance * phong__phong(receiver.surface.phong, receiver.surface.n, arriving.direction, receiver.v);
-                    if (any(reflected > vec3f(0.0))) {
-                        rays = rays__ray_set(rays, k, direct__shadow_ray(receiver.surface, arriving));
-                        unshadowed = wide__vector_set(unshadowed, k, reflected);
-                    }
-                    is_unfinished |= drawn + 1u < count;
-                }
-            }
-            continuing {
-                rows = rays__later_rows(rows);
-                break if wide__ONE_RAY | (rows == 0u);
-            }
-        }
-        loops__cut_off |= rows != 0u;
-        let through = shadow__light_through(rays, media);
-        sum.x += through.x * unshadowed.x;
-        sum.y += through.y * unshadowed.y;
-        sum.z += through.z * unshadowed.z;
-        drawn += 1u;
-        continuing {
-        
-            break if !rays__any_lane(is_unfinished);
-        }
-    }
-    loops__cut_off |= is_unfinished;
-    return wide__Vectors(before.x + sum.x / counts, before.y + sum.y / counts, before.z + sum.z / counts);
+	var sum = wide__no_vectors();
+	var counts = wide__Floats(1.0);
+	let lit_rows = rays__rows_where(receivers.is_lit != wide__Words(0u));
+	let has_extent = bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE;
+	var drawn = 0u;
+	var is_unfinished = false;
+	loop {
+		var rays = rays__dead_rays();
+		var unshadowed = wide__no_vectors();
+		is_unfinished = false;
+		var rows = lit_rows;
+		loop {
+			let k = rays__first_row(rows);
+			if (wide__word_at(receivers.is_lit, k) != 0u) {
+				let receiver = direct__receiver_at(receivers, k);
+				var count = 1u;
+				if (has_extent) {
+					let wanted = max(round(f32(light.sample_count) * batch.light_samples * receiver.key.weight), 1.0);
+					count = u32(wanted);
+					counts = wide__float_set(counts, k, f32(count));
+				}
+				if (drawn < count) {
+					var arriving = light__incident(light, receiver.surface.p);
+					if (has_extent) {
+						let hash = rng__hash_combine(receiver.key.hash, index);
+						arriving = area_light__area_incident(light, receiver.surface.p, sampling__stratified_2d(sample * count + drawn, hash));
+					}
+					let reflected = arriving.radiance * phong__phong(receiver.surface.phong, receiver.surface.n, arriving.direction, receiver.v);
+					if (any(reflected > vec3f(0.0))) {
+						rays = rays__ray_set(rays, k, direct__shadow_ray(receiver.surface, arriving));
+						unshadowed = wide__vector_set(unshadowed, k, reflected);
+					}
+					is_unfinished |= drawn + 1u < count;
+				}
+			}
+			continuing {
+				rows = rays__later_rows(rows);
+				break if wide__ONE_RAY | (rows == 0u);
+			}
+		}
+		loops__cut_off |= rows != 0u;
+		let through = shadow__light_through(rays, media);
+		sum.x += through.x * unshadowed.x;
+		sum.y += through.y * unshadowed.y;
+		sum.z += through.z * unshadowed.z;
+		drawn += 1u;
+		continuing {
+		
+			break if !rays__any_lane(is_unfinished);
+		}
+	}
+	loops__cut_off |= is_unfinished;
+	return wide__Vectors(before.x + sum.x / counts, before.y + sum.y / counts, before.z + sum.z / counts);
 }
 
 fn direct__shadow_ray(surface: types__Surface, arriving: types__Incident) -> types__Ray {
-    var ray = surface__leaving_ray(surface, arriving.direction, arriving.distance);
-    ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
-    return ray;
+	var ray = surface__leaving_ray(surface, arriving.direction, arriving.distance);
+	ray.t_max = max(arriving.distance - dot(ray.origin - surface.p, arriving.direction), 0.0);
+	return ray;
 }
 
 struct optics__ScatterEvent {
-    arriving: vec3f,
-    diffuse: vec3f,
-    highlight: vec3f,
-    reflected: ray_stack__RayState,
-    refracted: ray_stack__RayState
+	arriving: vec3f,
+	diffuse: vec3f,
+	highlight: vec3f,
+	reflected: ray_stack__RayState,
+	refracted: ray_stack__RayState
 }
 
 struct optics__Weights {
-    diffuse: vec3f,
-    highlight: vec3f
+	diffuse: vec3f,
+	highlight: vec3f
 }
 
 fn optics__scatter(batch: dispatch__Batch, state: ray_stack__RayState, distance: f32, contact: contact__Contact, factors: mat3x3f) -> optics__ScatterEvent {
-    let surface = contact.surface;
-    let direction = state.ray.direction;
-    let optics = fetch__load_optics(surface.material);
-    let transparent = bindings__HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
-    var media = state.media;
-    var ior = 1.0;
-    var ior_behind = optics.ior;
-    var arriving = state.throughput;
-    var is_boundary = true;
-    if (bindings__HAS_REFRACTION) {
-        var here = medium__dominant(state.media);
-        if (transparent) {
-            here = medium__medium_before(state.media, surface.material, surface.outside);
-            media = contact__media_behind(state.media, contact);
-            let behind = medium__dominant(media);
-            ior_behind = medium__medium_of(behind).ior;
-            is_boundary = !bindings__HAS_CONTACT || here != behind;
-        }
-        let medium = medium__medium_of(here);
-        ior = medium.ior;
-        arriving *= medium__transmittance(medium, distance);
-    }
-    let ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
-    var n = select(surface.n, -surface.n, dot(surface.n, direction) > 0.0);
-    n = select(ng, n, dot(fresnel__mirrored(direction, n), ng) > 0.0);
-    let boundary = optics__boundary_at(optics.flags, clamp(-dot(direction, n), 0.0, 1.0), ior / ior_behind);
-    var reflect = factors[0] * surface.phong.reflect;
-    var transmit = factors[1] * optics.transmit;
-    if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
-        reflect *= boundary.reflectance;
-        transmit *= 1.0 - boundary.reflectance;
-    }
-    else if (boundary.total && transparent) {
-        reflect += select(transmit, vec3f(0.0), (optics.flags & types__MATERIAL_SUM) != 0u);
-        transmit = vec3f(0.0);
-    }
-    var straight = direction;
-    if (is_boundary) {
-        straight = fresnel__refracted(direction, n, ior / ior_behind, boundary.cos_t);
-    }
-    else {
-        reflect = vec3f(0.0);
-        transmit = vec3f(1.0);
-    }
-    var reflected_ray = ray_stack__no_ray();
-    var refracted_ray = ray_stack__no_ray();
-    let deeper = state.depth < batch.max_depth;
-    if (bindings__HAS_REFLECTION && deeper && optics__is_worth_tracing(batch, arriving * reflect)) {
-        let way = fresnel__mirrored(direction, n);
-        let ray = surface__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
-        reflected_ray = ray_stack__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_stack__KIND_REFLECTED, 2u * state.node);
-    }
-    if (bindings__HAS_REFRACTION && transparent && (deeper || !is_boundary) && optics__is_worth_tracing(batch, arriving * transmit)) {
-        let ray = surface__leaving_ray(surface, straight, camera__T_FAR);
-        refracted_ray = ray_stack__RayState(ray, arriving * transmit, media, select(state.depth, state.depth + 1u, is_boundary), ray_stack__KIND_REFRACTED, 2u * state.node + 1u);
-    }
-    let sends = any(reflected_ray.throughput > vec3f(0.0));
-    let kept = optics__local_weights(optics, reflect, sends);
-    let visible = select(0.0, 1.0, is_boundary);
-    return optics__ScatterEvent(arriving, visible * kept.diffuse, visible * kept.highlight, reflected_ray, refracted_ray);
+	let surface = contact.surface;
+	let direction = state.ray.direction;
+	let optics = fetch__load_optics(surface.material);
+	let transparent = bindings__HAS_REFRACTION && any(optics.transmit > vec3f(0.0));
+	var media = state.media;
+	var ior = 1.0;
+	var ior_behind = optics.ior;
+	var arriving = state.throughput;
+	var is_boundary = true;
+	if (bindings__HAS_REFRACTION) {
+		var here = medium__dominant(state.media);
+		if (transparent) {
+			here = medium__medium_before(state.media, surface.material, surface.outside);
+			media = contact__media_behind(state.media, contact);
+			let behind = medium__dominant(media);
+			ior_behind = medium__medium_of(behind).ior;
+			is_boundary = !bindings__HAS_CONTACT || here != behind;
+		}
+		let medium = medium__medium_of(here);
+		ior = medium.ior;
+		arriving *= medium__transmittance(medium, distance);
+	}
+	let ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
+	var n = select(surface.n, -surface.n, dot(surface.n, direction) > 0.0);
+	n = select(ng, n, dot(fresnel__mirrored(direction, n), ng) > 0.0);
+	let boundary = optics__boundary_at(optics.flags, clamp(-dot(direction, n), 0.0, 1.0), ior / ior_behind);
+	var reflect = factors[0] * surface.phong.reflect;
+	var transmit = factors[1] * optics.transmit;
+	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
+		reflect *= boundary.reflectance;
+		transmit *= 1.0 - boundary.reflectance;
+	}
+	else if (boundary.total && transparent) {
+		reflect += select(transmit, vec3f(0.0), (optics.flags & types__MATERIAL_SUM) != 0u);
+		transmit = vec3f(0.0);
+	}
+	var straight = direction;
+	if (is_boundary) {
+		straight = fresnel__refracted(direction, n, ior / ior_behind, boundary.cos_t);
+	}
+	else {
+		reflect = vec3f(0.0);
+		transmit = vec3f(1.0);
+	}
+	var reflected_ray = ray_stack__no_ray();
+	var refracted_ray = ray_stack__no_ray();
+	let deeper = state.depth < batch.max_depth;
+	if (bindings__HAS_REFLECTION && deeper && optics__is_worth_tracing(batch, arriving * reflect)) {
+		let way = fresnel__mirrored(direction, n);
+		let ray = surface__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
+		reflected_ray = ray_stack__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_stack__KIND_REFLECTED, 2u * state.node);
+	}
+	if (bindings__HAS_REFRACTION && transparent && (deeper || !is_boundary) && optics__is_worth_tracing(batch, arriving * transmit)) {
+		let ray = surface__leaving_ray(surface, straight, camera__T_FAR);
+		refracted_ray = ray_stack__RayState(ray, arriving * transmit, media, select(state.depth, state.depth + 1u, is_boundary), ray_stack__KIND_REFRACTED, 2u * state.node + 1u);
+	}
+	let sends = any(reflected_ray.throughput > vec3f(0.0));
+	let kept = optics__local_weights(optics, reflect, sends);
+	let visible = select(0.0, 1.0, is_boundary);
+	return optics__ScatterEvent(arriving, visible * kept.diffuse, visible * kept.highlight, reflected_ray, refracted_ray);
 }
 
 fn optics__boundary_at(flags: u32, cos_i: f32, eta: f32) -> fresnel__Boundary {
-    if ((flags & types__MATERIAL_SCHLICK) != 0u) {
-        return fresnel__schlick(cos_i, eta);
-    }
-    return fresnel__fresnel(cos_i, eta);
+	if ((flags & types__MATERIAL_SCHLICK) != 0u) {
+		return fresnel__schlick(cos_i, eta);
+	}
+	return fresnel__fresnel(cos_i, eta);
 }
 
 fn optics__is_worth_tracing(batch: dispatch__Batch, throughput: vec3f) -> bool {
-    let mean = dot(throughput, vec3f(1.0 / 3.0));
-    return (mean > 0.0) & (mean >= batch.min_throughput);
+	let mean = dot(throughput, vec3f(1.0 / 3.0));
+	return (mean > 0.0) & (mean >= batch.min_throughput);
 }
 
 fn optics__local_weights(optics: types__Optics, reflect: vec3f, sends: bool) -> optics__Weights {
-    let left = max(1.0 - reflect, vec3f(0.0));
-    if ((optics.flags & types__MATERIAL_SUM) != 0u) {
-        return optics__Weights(vec3f(1.0), vec3f(1.0));
-    }
-    if ((optics.flags & types__MATERIAL_BLEND) != 0u) {
-        let weight = select(vec3f(1.0), left, sends);
-        return optics__Weights(weight, weight);
-    }
-    return optics__Weights(optics.opacity * left, vec3f(1.0));
+	let left = max(1.0 - reflect, vec3f(0.0));
+	if ((optics.flags & types__MATERIAL_SUM) != 0u) {
+		return optics__Weights(vec3f(1.0), vec3f(1.0));
+	}
+	if ((optics.flags & types__MATERIAL_BLEND) != 0u) {
+		let weight = select(vec3f(1.0), left, sends);
+		return optics__Weights(weight, weight);
+	}
+	return optics__Weights(optics.opacity * left, vec3f(1.0));
 }
 
 const medium__VACUUM: types__Medium = types__Medium(vec3f(0.0), 1.0, 0);
 
 fn medium__dominant(media: vec4u) -> u32 {
-    if (!bindings__HAS_CONTACT) {
-        return media.x;
-    }
-    if (!bindings__HAS_PRIORITIES) {
-        let last = select(media.xz, media.yw, media.yw != vec2u(types__NONE));
-        return select(last.x, last.y, last.y != types__NONE);
-    }
-    var best = media.x;
-    best = medium__higher(best, media.y);
-    best = medium__higher(best, media.z);
-    return medium__higher(best, media.w);
+	if (!bindings__HAS_CONTACT) {
+		return media.x;
+	}
+	if (!bindings__HAS_PRIORITIES) {
+		let last = select(media.xz, media.yw, media.yw != vec2u(types__NONE));
+		return select(last.x, last.y, last.y != types__NONE);
+	}
+	var best = media.x;
+	best = medium__higher(best, media.y);
+	best = medium__higher(best, media.z);
+	return medium__higher(best, media.w);
 }
 
 fn medium__higher(best: u32, next: u32) -> u32 {
-    if (next == types__NONE) {
-        return best;
-    }
-    return select(best, next, fetch__load_medium(next).priority >= fetch__load_medium(best).priority);
+	if (next == types__NONE) {
+		return best;
+	}
+	return select(best, next, fetch__load_medium(next).priority >= fetch__load_medium(best).priority);
 }
 
 fn medium__medium_of(material: u32) -> types__Medium {
-    if (material == types__NONE) {
-        return medium__VACUUM;
-    }
-    return fetch__load_medium(material);
+	if (material == types__NONE) {
+		return medium__VACUUM;
+	}
+	return fetch__load_medium(material);
 }
 
 fn medium__transmittance(medium: types__Medium, distance: f32) -> vec3f {
-    return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
+	return exp(-min(medium.absorption * min(distance, 1000000000000.0), vec3f(80.0)));
 }
 
 fn medium__cross_surface(media: vec4u, material: u32, entering: bool) -> vec4u {
-    return select(media__left(media, material), media__entered(media, material), vec4<bool>(entering));
+	return select(media__left(media, material), media__entered(media, material), vec4<bool>(entering));
 }
 
 fn medium__medium_before(media: vec4u, material: u32, entering: bool) -> u32 {
-    let started_inside = !entering & !media__contains(media, material);
-    return select(medium__dominant(media), material, started_inside);
+	let started_inside = !entering & !media__contains(media, material);
+	return select(medium__dominant(media), material, started_inside);
 }
 
 fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
-    if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
-        return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
-    }
-    if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
-        let size = batch.background_size;
-        let uv = picture__equirectangular(direction, batch.background_rotation);
-        let color = picture__blend_texels(batch.background_first_texel, size.x, size.y, picture__repeated(uv.x, size.x, false), picture__ended(uv.y, size.y));
-        return batch.background * color;
-    }
-    return batch.background;
+	if (bindings__BACKGROUND == types__BACKGROUND_GRADIENT) {
+		return mix(batch.background, batch.background_top, 0.5 + 0.5 * direction.y);
+	}
+	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
+		let size = batch.background_size;
+		let uv = picture__equirectangular(direction, batch.background_rotation);
+		let color = picture__blend_texels(batch.background_first_texel, size.x, size.y, picture__repeated(uv.x, size.x, false), picture__ended(uv.y, size.y));
+		return batch.background * color;
+	}
+	return batch.background;
 }
 
 const picture__PI: f32 = 3.14159265;
 
 struct picture__Neighbours {
-    first: u32,
-    second: u32,
-    weight: f32
+	first: u32,
+	second: u32,
+	weight: f32
 }
 
 fn picture__repeated(at: f32, count: u32, nearest: bool) -> picture__Neighbours {
-    let place = f32(count) * fract(at) + select(-0.5, 0.0, nearest);
-    let below = floor(place);
-    let index = i32(below);
-    let last = i32(count) - 1;
-    let first = select(select(index, last, index < 0), 0, index > last);
-    return picture__Neighbours(u32(first), u32(select(first + 1, 0, first >= last)), select(place - below, 0.0, nearest));
+	let place = f32(count) * fract(at) + select(-0.5, 0.0, nearest);
+	let below = floor(place);
+	let index = i32(below);
+	let last = i32(count) - 1;
+	let first = select(select(index, last, index < 0), 0, index > last);
+	return picture__Neighbours(u32(first), u32(select(first + 1, 0, first >= last)), select(place - below, 0.0, nearest));
 }
 
 fn picture__ended(at: f32, count: u32) -> picture__Neighbours {
-    let place = clamp(f32(count) * at - 0.5, 0.0, f32(count - 1u));
-    let below = floor(place);
-    return picture__Neighbours(u32(below), min(u32(below) + 1u, count - 1u), place - below);
+	let place = clamp(f32(count) * at - 0.5, 0.0, f32(count - 1u));
+	let below = floor(place);
+	return picture__Neighbours(u32(below), min(u32(below) + 1u, count - 1u), place - below);
 }
 
 fn picture__equirectangular(direction: vec3f, rotation: f32) -> vec2f {
-    let level = length(direction.xz);
-    let around = atan2(direction.x, select(-direction.z, 1.0, level < 1e-12));
-    return vec2f(0.5 + (around + rotation) / (2.0 * picture__PI), 0.5 + atan2(direction.y, level) / picture__PI);
+	let level = length(direction.xz);
+	let around = atan2(direction.x, select(-direction.z, 1.0, level < 1e-12));
+	return vec2f(0.5 + (around + rotation) / (2.0 * picture__PI), 0.5 + atan2(direction.y, level) / picture__PI);
 }
 
 fn picture__blend_texels(first_texel: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec3f {
-    let lower = first_texel + (height - 1u - rows.first) * width;
-    let upper = first_texel + (height - 1u - rows.second) * width;
-    return mix(mix(fetch__load_texel(lower + columns.first), fetch__load_texel(lower + columns.second), columns.weight), mix(fetch__load_texel(upper + columns.first), fetch__load_texel(upper + columns.second), columns.weight), rows.weight);
+	let lower = first_texel + (height - 1u - rows.first) * width;
+	let upper = first_texel + (height - 1u - rows.second) * width;
+	return mix(mix(fetch__load_texel(lower + columns.first), fetch__load_texel(lower + columns.second), columns.weight), mix(fetch__load_texel(upper + columns.first), fetch__load_texel(upper + columns.second), columns.weight), rows.weight);
 }
 
 const contact__NEAR: f32 = 1e-5;
@@ -2679,343 +2679,343 @@ const contact__EDGE: f32 = 1e-6;
 const contact__VAGUE_EDGE: f32 = 0.0001;
 
 struct contact__Contact {
-    surface: types__Surface,
-    touching: u32,
-    enters_touching: bool
+	surface: types__Surface,
+	touching: u32,
+	enters_touching: bool
 }
 
 fn contact__contact_at(ray: types__Ray, hit: types__Hit) -> contact__Contact {
-    var contact: contact__Contact;
-    contact.touching = types__NONE;
-    var current = hit;
-    var first = true;
-    var second_wanted = false;
-    var vertices = vec3u(0u);
-    loop {
-        let surface = surface__surface_at(ray, current);
-        if (first) {
-            contact.surface = surface;
-            vertices = surface__met_vertices;
-            second_wanted = bindings__HAS_REFRACTION && bindings__HAS_CONTACT && contact__is_near(ray, hit, surface);
-        }
-        else {
-            contact = contact__merge(contact, surface, contact__is_same_volume(hit, primitive__runner_up, vertices));
-            second_wanted = false;
-        }
-        first = false;
-        current = primitive__runner_up;
-        continuing {
-        
-            break if !second_wanted;
-        }
-    }
-    loops__cut_off |= second_wanted;
-    return contact;
+	var contact: contact__Contact;
+	contact.touching = types__NONE;
+	var current = hit;
+	var first = true;
+	var second_wanted = false;
+	var vertices = vec3u(0u);
+	loop {
+		let surface = surface__surface_at(ray, current);
+		if (first) {
+			contact.surface = surface;
+			vertices = surface__met_vertices;
+			second_wanted = bindings__HAS_REFRACTION && bindings__HAS_CONTACT && contact__is_near(ray, hit, surface);
+		}
+		else {
+			contact = contact__merge(contact, surface, contact__is_same_volume(hit, primitive__runner_up, vertices));
+			second_wanted = false;
+		}
+		first = false;
+		current = primitive__runner_up;
+		continuing {
+		
+			break if !second_wanted;
+		}
+	}
+	loops__cut_off |= second_wanted;
+	return contact;
 }
 
 fn contact__media_behind(media: vec4u, contact: contact__Contact) -> vec4u {
-    var behind = media;
-    if (contact.surface.outside && !media__has_room(behind)) {
-        ray_stack__cut_tree();
-    }
-    behind = medium__cross_surface(behind, contact.surface.material, contact.surface.outside);
-    if (bindings__HAS_CONTACT && contact.touching != types__NONE) {
-        if (contact.enters_touching && !media__has_room(behind)) {
-            ray_stack__cut_tree();
-        }
-        behind = medium__cross_surface(behind, contact.touching, contact.enters_touching);
-    }
-    return behind;
+	var behind = media;
+	if (contact.surface.outside && !media__has_room(behind)) {
+		ray_stack__cut_tree();
+	}
+	behind = medium__cross_surface(behind, contact.surface.material, contact.surface.outside);
+	if (bindings__HAS_CONTACT && contact.touching != types__NONE) {
+		if (contact.enters_touching && !media__has_room(behind)) {
+			ray_stack__cut_tree();
+		}
+		behind = medium__cross_surface(behind, contact.touching, contact.enters_touching);
+	}
+	return behind;
 }
 
 fn contact__is_near(ray: types__Ray, hit: types__Hit, surface: types__Surface) -> bool {
-    let gap = (primitive__runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
-    let reach = numeric__max_component(abs(surface.p)) + hit.t;
-    return primitive__runner_up.primitive != types__NONE && gap <= contact__NEAR * reach && contact__is_transparent(surface);
+	let gap = (primitive__runner_up.t - hit.t) * abs(dot(surface.ng, ray.direction));
+	let reach = numeric__max_component(abs(surface.p)) + hit.t;
+	return primitive__runner_up.primitive != types__NONE && gap <= contact__NEAR * reach && contact__is_transparent(surface);
 }
 
 fn contact__is_transparent(surface: types__Surface) -> bool {
-    return any(fetch__load_optics(surface.material).transmit > vec3f(0.0));
+	return any(fetch__load_optics(surface.material).transmit > vec3f(0.0));
 }
 
 fn contact__merge(contact: contact__Contact, second: types__Surface, is_same_volume: bool) -> contact__Contact {
-    let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
-    let is_other = !(is_alike & is_same_volume);
-    let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
-    var both = contact;
-    if (together && contact__is_transparent(second)) {
-        both.touching = second.material;
-        both.enters_touching = second.outside;
-    }
-    else if (together) {
-        both.surface = second;
-    }
-    return both;
+	let is_alike = (second.material == contact.surface.material) & (second.outside == contact.surface.outside);
+	let is_other = !(is_alike & is_same_volume);
+	let together = is_other & (abs(dot(contact.surface.ng, second.ng)) > 0.99);
+	var both = contact;
+	if (together && contact__is_transparent(second)) {
+		both.touching = second.material;
+		both.enters_touching = second.outside;
+	}
+	else if (together) {
+		both.surface = second;
+	}
+	return both;
 }
 
 fn contact__is_same_volume(first: types__Hit, second: types__Hit, vertices: vec3u) -> bool {
-    let are_triangles = bindings__HAS_TRIANGLES && ((first.primitive | second.primitive) & types__SHAPE) == 0u;
-    if (!are_triangles || first.instance != second.instance) {
-        return false;
-    }
-    return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, surface__met_vertices);
+	let are_triangles = bindings__HAS_TRIANGLES && ((first.primitive | second.primitive) & types__SHAPE) == 0u;
+	if (!are_triangles || first.instance != second.instance) {
+		return false;
+	}
+	return (contact__is_at_edge(first) && contact__is_at_edge(second)) || contact__is_twin(vertices, surface__met_vertices);
 }
 
 fn contact__is_at_edge(hit: types__Hit) -> bool {
-    let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
-    return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
+	let nearest = min(min(hit.b1, hit.b2), 1.0 - hit.b1 - hit.b2);
+	return nearest <= select(contact__VAGUE_EDGE, contact__EDGE, bindings__TRIANGLE_TEST == types__TRIANGLE_TEST_WATERTIGHT);
 }
 
 fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
-    return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
+	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
 }
 
 var<private> surface__met_vertices: vec3u;
 
 fn surface__surface_at(ray: types__Ray, hit: types__Hit) -> types__Surface {
-    var instance: types__PackedInstance;
-    var space: motion__Space;
-    var local = ray;
-    let is_placed = bindings__HAS_INSTANCES && hit.instance != types__NO_INSTANCE;
-    if (is_placed) {
-        instance = fetch__load_instance(hit.instance);
-        space = instance__space_of(instance);
-        local = instance__object_ray(ray, space);
-    }
-    var surface: types__Surface;
-    if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
-        surface = surface__triangle_surface(ray, hit, space, is_placed);
-    }
-    if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
-        surface = surface__shape_surface(local, hit);
-        if (is_placed) {
-            surface = surface__placed_surface(ray, surface, space);
-        }
-    }
-    if (is_placed) {
-        let q = surface.place;
-        surface.error += instance__placement_error(space, surface.p, q);
-        surface.id += 2654435761u * instance.id;
-        surface.place = instance__pattern_place(instance, q);
-        surface.instance = hit.instance;
-    }
-    return surface;
+	var instance: types__PackedInstance;
+	var space: motion__Space;
+	var local = ray;
+	let is_placed = bindings__HAS_INSTANCES && hit.instance != types__NO_INSTANCE;
+	if (is_placed) {
+		instance = fetch__load_instance(hit.instance);
+		space = instance__space_of(instance);
+		local = instance__object_ray(ray, space);
+	}
+	var surface: types__Surface;
+	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
+		surface = surface__triangle_surface(ray, hit, space, is_placed);
+	}
+	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
+		surface = surface__shape_surface(local, hit);
+		if (is_placed) {
+			surface = surface__placed_surface(ray, surface, space);
+		}
+	}
+	if (is_placed) {
+		let q = surface.place;
+		surface.error += instance__placement_error(space, surface.p, q);
+		surface.id += 2654435761u * instance.id;
+		surface.place = instance__pattern_place(instance, q);
+		surface.instance = hit.instance;
+	}
+	return surface;
 }
 
 fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__Space) -> types__Surface {
-    var surface = own;
-    surface.p = space.linear * own.p + space.translation;
-    surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
-    surface.n = numeric__normalize_or(instance__placed_normal(space, own.n), surface.ng);
-    surface.error = instance__abs_times(space.linear, own.error);
-    return surface;
+	var surface = own;
+	surface.p = space.linear * own.p + space.translation;
+	surface.ng = numeric__normalize_or(instance__placed_normal(space, own.ng), -ray.direction);
+	surface.n = numeric__normalize_or(instance__placed_normal(space, own.n), surface.ng);
+	surface.error = instance__abs_times(space.linear, own.error);
+	return surface;
 }
 
 fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Space, is_placed: bool) -> types__Surface {
-    let own = fetch__load_triangle(hit.primitive);
-    surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
-    let v0 = fetch__load_vertex(own.i0);
-    let v1 = fetch__load_vertex(own.i1);
-    let v2 = fetch__load_vertex(own.i2);
-    let b1 = hit.b1;
-    let b2 = hit.b2;
-    let b0 = 1.0 - b1 - b2;
-    var corners = mat3x3f(own.v0, own.v1, own.v2);
-    var normals = mat3x3f(v0.normal, v1.normal, v2.normal);
-    let place = corners * vec3f(b0, b1, b2);
-    if (bindings__HAS_INSTANCES && is_placed) {
-        corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
-        normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, v0.normal), -ray.direction), numeric__normalize_or(instance__placed_normal(space, v1.normal), -ray.direction), numeric__normalize_or(instance__placed_normal(space, v2.normal), -ray.direction));
-    }
-    let material = fetch__load_material(v0.material);
-    var phong = material.phong;
-    if (bindings__MIXED_MATERIALS) {
-        phong = surface__mix_phong(phong, fetch__load_material(v1.material).phong, fetch__load_material(v2.material).phong, b0, b1, b2);
-    }
-    var uv = vec2f(b1, b2);
-    if (bindings__HAS_TEXTURES) {
-        uv = vec2f(0.0);
-    }
-    if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
-        uv = b0 * fetch__load_uv(own.i0) + b1 * fetch__load_uv(own.i1) + b2 * fetch__load_uv(own.i2);
-    }
-    let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
-    let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
-    return types__Surface(corners * vec3f(b0, b1, b2), select(n, -n, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE);
+	let own = fetch__load_triangle(hit.primitive);
+	surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
+	let v0 = fetch__load_vertex(own.i0);
+	let v1 = fetch__load_vertex(own.i1);
+	let v2 = fetch__load_vertex(own.i2);
+	let b1 = hit.b1;
+	let b2 = hit.b2;
+	let b0 = 1.0 - b1 - b2;
+	var corners = mat3x3f(own.v0, own.v1, own.v2);
+	var normals = mat3x3f(v0.normal, v1.normal, v2.normal);
+	let place = corners * vec3f(b0, b1, b2);
+	if (bindings__HAS_INSTANCES && is_placed) {
+		corners = space.linear * corners + mat3x3f(space.translation, space.translation, space.translation);
+		normals = mat3x3f(numeric__normalize_or(instance__placed_normal(space, v0.normal), -ray.direction), numeric__normalize_or(instance__placed_normal(space, v1.normal), -ray.direction), numeric__normalize_or(instance__placed_normal(space, v2.normal), -ray.direction));
+	}
+	let material = fetch__load_material(v0.material);
+	var phong = material.phong;
+	if (bindings__MIXED_MATERIALS) {
+		phong = surface__mix_phong(phong, fetch__load_material(v1.material).phong, fetch__load_material(v2.material).phong, b0, b1, b2);
+	}
+	var uv = vec2f(b1, b2);
+	if (bindings__HAS_TEXTURES) {
+		uv = vec2f(0.0);
+	}
+	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
+		uv = b0 * fetch__load_uv(own.i0) + b1 * fetch__load_uv(own.i1) + b2 * fetch__load_uv(own.i2);
+	}
+	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
+	let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
+	return types__Surface(corners * vec3f(b0, b1, b2), select(n, -n, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE);
 }
 
 fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
-    let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
-    let reached = ray.origin + hit.t * ray.direction;
-    let material = fetch__load_material(shape.material);
-    if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
-        let ng = shape.row_y;
-        let p = reached - dot(reached - shape.position, ng) * ng;
-        let outside = dot(ng, ray.direction) <= 0.0;
-        var plane_uv = vec2f(0.0);
-        if (bindings__HAS_TEXTURES) {
-            plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
-        }
-        return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE);
-    }
-    if (!shape__is_round(shape.kind)) {
-        let point = shape__canonical_point(shape, reached, hit.b1);
-        let placed = canonical__placed_point(shape, reached, point);
-        let ng = placed.ng;
-        return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE);
-    }
-    let placed = surface__sphere_point(shape, reached, ray.direction);
-    let ng = placed.ng;
-    let outside = dot(ng, ray.direction) <= 0.0;
-    var uv = vec2f(0.0);
-    if (bindings__HAS_TEXTURES) {
-        uv = canonical__sphere_uv(ng);
-    }
-    return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE);
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	let reached = ray.origin + hit.t * ray.direction;
+	let material = fetch__load_material(shape.material);
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		let ng = shape.row_y;
+		let p = reached - dot(reached - shape.position, ng) * ng;
+		let outside = dot(ng, ray.direction) <= 0.0;
+		var plane_uv = vec2f(0.0);
+		if (bindings__HAS_TEXTURES) {
+			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
+		}
+		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE);
+	}
+	if (!shape__is_round(shape.kind)) {
+		let point = shape__canonical_point(shape, reached, hit.b1);
+		let placed = canonical__placed_point(shape, reached, point);
+		let ng = placed.ng;
+		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE);
+	}
+	let placed = surface__sphere_point(shape, reached, ray.direction);
+	let ng = placed.ng;
+	let outside = dot(ng, ray.direction) <= 0.0;
+	var uv = vec2f(0.0);
+	if (bindings__HAS_TEXTURES) {
+		uv = canonical__sphere_uv(ng);
+	}
+	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE);
 }
 
 fn surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
-    if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
-        return globe__globe_point(shape, reached);
-    }
-    let ng = numeric__normalize_or(reached - shape.position, -direction);
-    return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
+	if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
+		return globe__globe_point(shape, reached);
+	}
+	let ng = numeric__normalize_or(reached - shape.position, -direction);
+	return canonical__PlacedPoint(shape.position + shape.size0 * ng, ng, offset__sphere_error(shape.position, shape.size0));
 }
 
 fn surface__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool {
-    let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
-    return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
+	let faces_away = (n_dot_ng > 0.0) == (ng_dot_direction > 0.0);
+	return (flags & types__MATERIAL_TWO_SIDED) != 0u && faces_away;
 }
 
 fn surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
-    return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
 }
 
 fn surface__leaving_ray(surface: types__Surface, direction: vec3f, t_max: f32) -> types__Ray {
-    if (bindings__FIXED_OFFSET > 0.0) {
-        let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
-        return types__Ray(origin, t_max, direction, types__NONE, surface.instance);
-    }
-    let origin = offset__offset_origin(surface.p, surface.error, surface.ng, direction);
-    return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
+	if (bindings__FIXED_OFFSET > 0.0) {
+		let origin = offset__fixed_origin(surface.p, surface.ng, direction, bindings__FIXED_OFFSET);
+		return types__Ray(origin, t_max, direction, types__NONE, surface.instance);
+	}
+	let origin = offset__offset_origin(surface.p, surface.error, surface.ng, direction);
+	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
 fn surface__mirrored_ray(surface: types__Surface, direction: vec3f, t_max: f32, arriving: types__Ray, distance: f32) -> types__Ray {
-    if (bindings__FIXED_OFFSET > 0.0) {
-        return surface__leaving_ray(surface, direction, t_max);
-    }
-    let is_flat = surface.leaving != types__NONE;
-    let origin = offset__mirrored_origin(surface.p, surface.error, surface.ng, arriving, distance, is_flat);
-    return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
+	if (bindings__FIXED_OFFSET > 0.0) {
+		return surface__leaving_ray(surface, direction, t_max);
+	}
+	let is_flat = surface.leaving != types__NONE;
+	let origin = offset__mirrored_origin(surface.p, surface.error, surface.ng, arriving, distance, is_flat);
+	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
 fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
-    let b0 = abs(1.0 - b1 - b2);
-    return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
+	let b0 = abs(1.0 - b1 - b2);
+	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
 }
 
 fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
-    return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
+	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
 }
 
 fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
-    return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
 }
 
 fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
-    return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
 }
 
 fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
-    return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
+	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
 }
 
 fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
-    return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
+	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
 }
 
 fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
-    return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
+	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
 }
 
 fn offset__mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: types__Ray, distance: f32, is_flat: bool) -> vec3f {
-    let height = offset__clearance(p, error, ng);
-    let slope = dot(ng, arriving.direction);
-    let back = height / max(abs(slope), 1e-6);
-    let along_normal = p - select(-height, height, slope > 0.0) * ng;
-    let at_most = select(along_normal, arriving.origin, is_flat);
-    return select(p - back * arriving.direction, at_most, back > 0.5 * distance);
+	let height = offset__clearance(p, error, ng);
+	let slope = dot(ng, arriving.direction);
+	let back = height / max(abs(slope), 1e-6);
+	let along_normal = p - select(-height, height, slope > 0.0) * ng;
+	let at_most = select(along_normal, arriving.origin, is_flat);
+	return select(p - back * arriving.direction, at_most, back > 0.5 * distance);
 }
 
 fn texture__textured_phong(phong: types__Phong, material: u32, p: vec3f, uv: vec2f) -> types__Phong {
-    let indices = fetch__load_texture_indices(material);
-    let factors = texture__texture_factors(vec3u(indices.x & 65535u, indices.x >> 16u, indices.z & 65535u), p, uv);
-    return types__Phong(factors[0] * phong.diffuse, factors[1] * phong.specular, phong.shininess, factors[2] * phong.ambient, phong.reflect);
+	let indices = fetch__load_texture_indices(material);
+	let factors = texture__texture_factors(vec3u(indices.x & 65535u, indices.x >> 16u, indices.z & 65535u), p, uv);
+	return types__Phong(factors[0] * phong.diffuse, factors[1] * phong.specular, phong.shininess, factors[2] * phong.ambient, phong.reflect);
 }
 
 fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
-    if (!(bindings__HAS_TEXTURES && bindings__HAS_OPTICS_TEXTURES)) {
-        return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
-    }
-    let indices = fetch__load_texture_indices(surface.material);
-    return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface.place, surface.uv);
+	if (!(bindings__HAS_TEXTURES && bindings__HAS_OPTICS_TEXTURES)) {
+		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
+	}
+	let indices = fetch__load_texture_indices(surface.material);
+	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface.place, surface.uv);
 }
 
 fn texture__texture_factors(wanted: vec3u, p: vec3f, uv: vec2f) -> mat3x3f {
-    var factors = mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
-    var open = wanted != vec3u(types__NO_TEXTURE);
-    loop {
-        let index = select(select(select(0u, wanted.z, open.z), wanted.y, open.y), wanted.x, open.x);
-        let color = texture__texture_color(fetch__load_texture(index), p, uv);
-        let found = open & (wanted == vec3u(index));
-        factors[0] = select(factors[0], color, found.x);
-        factors[1] = select(factors[1], color, found.y);
-        factors[2] = select(factors[2], color, found.z);
-        open = open & !found;
-        continuing {
-        
-            break if !any(open);
-        }
-    }
-    loops__cut_off |= any(open);
-    return factors;
+	var factors = mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
+	var open = wanted != vec3u(types__NO_TEXTURE);
+	loop {
+		let index = select(select(select(0u, wanted.z, open.z), wanted.y, open.y), wanted.x, open.x);
+		let color = texture__texture_color(fetch__load_texture(index), p, uv);
+		let found = open & (wanted == vec3u(index));
+		factors[0] = select(factors[0], color, found.x);
+		factors[1] = select(factors[1], color, found.y);
+		factors[2] = select(factors[2], color, found.z);
+		open = open & !found;
+		continuing {
+		
+			break if !any(open);
+		}
+	}
+	loops__cut_off |= any(open);
+	return factors;
 }
 
 fn texture__texture_color(texture: types__PackedTexture, p: vec3f, uv: vec2f) -> vec3f {
-    let at = select(vec4f(p, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
-    let q = clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
-    if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
-        let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
-        return picture__blend_texels(texture.first_texel, texture.width, texture.height, picture__repeated(q.x, texture.width, nearest), picture__repeated(q.y, texture.height, nearest));
-    }
-    var weight = pattern__checker(q);
-    if (bindings__HAS_NOISE && texture.kind == types__PATTERN_NOISE) {
-        let octaves = noise__noise_octaves(q, texture.octaves);
-        loops__cut_off |= octaves.count < texture.octaves;
-        weight = pattern__clouds(octaves.sum);
-    }
-    weight = select(weight, pattern__stripes(q), texture.kind == types__PATTERN_STRIPES);
-    weight = select(weight, pattern__gradient(q), texture.kind == types__PATTERN_GRADIENT);
-    return mix(texture.color_a, texture.color_b, weight);
+	let at = select(vec4f(p, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
+	let q = clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
+	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
+		let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
+		return picture__blend_texels(texture.first_texel, texture.width, texture.height, picture__repeated(q.x, texture.width, nearest), picture__repeated(q.y, texture.height, nearest));
+	}
+	var weight = pattern__checker(q);
+	if (bindings__HAS_NOISE && texture.kind == types__PATTERN_NOISE) {
+		let octaves = noise__noise_octaves(q, texture.octaves);
+		loops__cut_off |= octaves.count < texture.octaves;
+		weight = pattern__clouds(octaves.sum);
+	}
+	weight = select(weight, pattern__stripes(q), texture.kind == types__PATTERN_STRIPES);
+	weight = select(weight, pattern__gradient(q), texture.kind == types__PATTERN_GRADIENT);
+	return mix(texture.color_a, texture.color_b, weight);
 }
 
 const pattern__CELL_SHIFT: f32 = 0.00073;
 
 fn pattern__checker(p: vec3f) -> f32 {
-    let cell = vec3i(floor(p + pattern__CELL_SHIFT));
-    return f32((cell.x + cell.y + cell.z) & 1);
+	let cell = vec3i(floor(p + pattern__CELL_SHIFT));
+	return f32((cell.x + cell.y + cell.z) & 1);
 }
 
 fn pattern__stripes(p: vec3f) -> f32 {
-    return f32(i32(floor(2.0 * (p.x + pattern__CELL_SHIFT))) & 1);
+	return f32(i32(floor(2.0 * (p.x + pattern__CELL_SHIFT))) & 1);
 }
 
 fn pattern__gradient(p: vec3f) -> f32 {
-    return clamp(p.x, 0.0, 1.0);
+	return clamp(p.x, 0.0, 1.0);
 }
 
 fn pattern__clouds(sum: f32) -> f32 {
-    return clamp(0.5 + 0.5 * sum, 0.0, 1.0);
+	return clamp(0.5 + 0.5 * sum, 0.0, 1.0);
 }
 
 const noise__NOISE_PERIOD: u32 = 256u;
@@ -3023,383 +3023,383 @@ const noise__NOISE_PERIOD: u32 = 256u;
 const noise__OCTAVE_SHIFT = vec3f(0.37, 0.59, 0.83);
 
 struct noise__Octaves {
-    sum: f32,
-    count: u32
+	sum: f32,
+	count: u32
 }
 
 fn noise__noise_octaves(p: vec3f, count: u32) -> noise__Octaves {
-    let period = f32(noise__NOISE_PERIOD);
-    let home = p - period * floor(p / period);
-    var octaves = noise__Octaves(0.0, 0u);
-    var scale = 1.0;
-    loop {
-        let q = scale * home + f32(octaves.count) * noise__OCTAVE_SHIFT;
-        octaves.sum += noise__gradient_noise(q, noise__NOISE_PERIOD << octaves.count) / scale;
-        scale *= 2.0;
-        octaves.count += 1u;
-        continuing {
-        
-            break if octaves.count >= count;
-        }
-    }
-    return octaves;
+	let period = f32(noise__NOISE_PERIOD);
+	let home = p - period * floor(p / period);
+	var octaves = noise__Octaves(0.0, 0u);
+	var scale = 1.0;
+	loop {
+		let q = scale * home + f32(octaves.count) * noise__OCTAVE_SHIFT;
+		octaves.sum += noise__gradient_noise(q, noise__NOISE_PERIOD << octaves.count) / scale;
+		scale *= 2.0;
+		octaves.count += 1u;
+		continuing {
+		
+			break if octaves.count >= count;
+		}
+	}
+	return octaves;
 }
 
 fn noise__gradient_noise(p: vec3f, period: u32) -> f32 {
-    let cell = floor(p);
-    let f = p - cell;
-    let low = vec3u(vec3i(cell)) & vec3u(period - 1u);
-    let high = (low + 1u) & vec3u(period - 1u);
-    let z0 = rng__hash(low.z);
-    let z1 = rng__hash(high.z);
-    let y00 = rng__hash(low.y + z0);
-    let y10 = rng__hash(high.y + z0);
-    let y01 = rng__hash(low.y + z1);
-    let y11 = rng__hash(high.y + z1);
-    let t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-    let x = vec4f(mix(noise__corner(low.x + y00, f), noise__corner(high.x + y00, f - vec3f(1.0, 0.0, 0.0)), t.x), mix(noise__corner(low.x + y10, f - vec3f(0.0, 1.0, 0.0)), noise__corner(high.x + y10, f - vec3f(1.0, 1.0, 0.0)), t.x), mix(noise__corner(low.x + y01, f - vec3f(0.0, 0.0, 1.0)), noise__corner(high.x + y01, f - vec3f(1.0, 0.0, 1.0)), t.x), mix(noise__corner(low.x + y11, f - vec3f(0.0, 1.0, 1.0)), noise__corner(high.x + y11, f - vec3f(1.0, 1.0, 1.0)), t.x));
-    let y = mix(x.xz, x.yw, t.y);
-    return mix(y.x, y.y, t.z);
+	let cell = floor(p);
+	let f = p - cell;
+	let low = vec3u(vec3i(cell)) & vec3u(period - 1u);
+	let high = (low + 1u) & vec3u(period - 1u);
+	let z0 = rng__hash(low.z);
+	let z1 = rng__hash(high.z);
+	let y00 = rng__hash(low.y + z0);
+	let y10 = rng__hash(high.y + z0);
+	let y01 = rng__hash(low.y + z1);
+	let y11 = rng__hash(high.y + z1);
+	let t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+	let x = vec4f(mix(noise__corner(low.x + y00, f), noise__corner(high.x + y00, f - vec3f(1.0, 0.0, 0.0)), t.x), mix(noise__corner(low.x + y10, f - vec3f(0.0, 1.0, 0.0)), noise__corner(high.x + y10, f - vec3f(1.0, 1.0, 0.0)), t.x), mix(noise__corner(low.x + y01, f - vec3f(0.0, 0.0, 1.0)), noise__corner(high.x + y01, f - vec3f(1.0, 0.0, 1.0)), t.x), mix(noise__corner(low.x + y11, f - vec3f(0.0, 1.0, 1.0)), noise__corner(high.x + y11, f - vec3f(1.0, 1.0, 1.0)), t.x));
+	let y = mix(x.xz, x.yw, t.y);
+	return mix(y.x, y.y, t.z);
 }
 
 fn noise__corner(key: u32, d: vec3f) -> f32 {
-    let h = rng__hash(key) & 15u;
-    let u = select(d.y, d.x, h < 8u);
-    let v = select(select(d.z, d.x, (h == 12u) | (h == 14u)), d.y, h < 4u);
-    return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
+	let h = rng__hash(key) & 15u;
+	let u = select(d.y, d.x, h < 8u);
+	let v = select(select(d.z, d.x, (h == 12u) | (h == 14u)), d.y, h < 4u);
+	return select(u, -u, (h & 1u) != 0u) + select(v, -v, (h & 2u) != 0u);
 }
 
 fn media__has_room(media: vec4u) -> bool {
-    return media.w == types__NONE;
+	return media.w == types__NONE;
 }
 
 fn media__contains(media: vec4u, material: u32) -> bool {
-    return any(media == vec4u(material));
+	return any(media == vec4u(material));
 }
 
 fn media__entered(media: vec4u, material: u32) -> vec4u {
-    let is_free = media == vec4u(types__NONE);
-    let is_first_free = is_free & !vec4<bool>(false, is_free.xyz);
-    return select(media, vec4u(material), is_first_free);
+	let is_free = media == vec4u(types__NONE);
+	let is_first_free = is_free & !vec4<bool>(false, is_free.xyz);
+	return select(media, vec4u(material), is_first_free);
 }
 
 fn media__left(media: vec4u, material: u32) -> vec4u {
-    let is_it = media == vec4u(material);
-    let later = vec4<bool>(is_it.y | is_it.z | is_it.w, is_it.z | is_it.w, is_it.w, false);
-    let is_last = is_it & !later;
-    let x = is_last.x;
-    let y = x | is_last.y;
-    let z = y | is_last.z;
-    let w = z | is_last.w;
-    return select(media, vec4u(media.yzw, types__NONE), vec4<bool>(x, y, z, w));
+	let is_it = media == vec4u(material);
+	let later = vec4<bool>(is_it.y | is_it.z | is_it.w, is_it.z | is_it.w, is_it.w, false);
+	let is_last = is_it & !later;
+	let x = is_last.x;
+	let y = x | is_last.y;
+	let z = y | is_last.z;
+	let w = z | is_last.w;
+	return select(media, vec4u(media.yzw, types__NONE), vec4<bool>(x, y, z, w));
 }
 
 struct fresnel__Boundary {
-    reflectance: f32,
-    cos_t: f32,
-    total: bool
+	reflectance: f32,
+	cos_t: f32,
+	total: bool
 }
 
 fn fresnel__ratio(a: f32, b: f32) -> f32 {
-    return a / max(b, 1e-12);
+	return a / max(b, 1e-12);
 }
 
 fn fresnel__fresnel(cos_i: f32, eta: f32) -> fresnel__Boundary {
-    let sin2_t = eta * eta * max(1.0 - cos_i * cos_i, 0.0);
-    let total = (sin2_t >= 1.0) & (eta > 1.0);
-    let cos_t = sqrt(max(1.0 - sin2_t, 0.0));
-    let r_s = fresnel__ratio(eta * cos_i - cos_t, eta * cos_i + cos_t);
-    let r_p = fresnel__ratio(cos_i - eta * cos_t, cos_i + eta * cos_t);
-    return fresnel__Boundary(select(0.5 * (r_s * r_s + r_p * r_p), 1.0, total), cos_t, total);
+	let sin2_t = eta * eta * max(1.0 - cos_i * cos_i, 0.0);
+	let total = (sin2_t >= 1.0) & (eta > 1.0);
+	let cos_t = sqrt(max(1.0 - sin2_t, 0.0));
+	let r_s = fresnel__ratio(eta * cos_i - cos_t, eta * cos_i + cos_t);
+	let r_p = fresnel__ratio(cos_i - eta * cos_t, cos_i + eta * cos_t);
+	return fresnel__Boundary(select(0.5 * (r_s * r_s + r_p * r_p), 1.0, total), cos_t, total);
 }
 
 fn fresnel__schlick(cos_i: f32, eta: f32) -> fresnel__Boundary {
-    let exact = fresnel__fresnel(cos_i, eta);
-    let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
-    let x = 1.0 - select(cos_i, exact.cos_t, eta > 1.0);
-    let x2 = x * x;
-    return fresnel__Boundary(select(r0 + (1.0 - r0) * x2 * x2 * x, 1.0, exact.total), exact.cos_t, exact.total);
+	let exact = fresnel__fresnel(cos_i, eta);
+	let r0 = fresnel__ratio((eta - 1.0) * (eta - 1.0), (eta + 1.0) * (eta + 1.0));
+	let x = 1.0 - select(cos_i, exact.cos_t, eta > 1.0);
+	let x2 = x * x;
+	return fresnel__Boundary(select(r0 + (1.0 - r0) * x2 * x2 * x, 1.0, exact.total), exact.cos_t, exact.total);
 }
 
 fn fresnel__mirrored(direction: vec3f, n: vec3f) -> vec3f {
-    return normalize(direction - 2.0 * dot(direction, n) * n);
+	return normalize(direction - 2.0 * dot(direction, n) * n);
 }
 
 fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f {
-    let cos_i = -dot(direction, n);
-    return normalize(eta * direction + (eta * cos_i - cos_t) * n);
+	let cos_i = -dot(direction, n);
+	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
-    let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
-    return x * x * (3.0 - 2.0 * x);
+	let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
+	return x * x * (3.0 - 2.0 * x);
 }
 
 fn light__incident(light: types__PackedLight, p: vec3f) -> types__Incident {
-    let to_light = light.position - p;
-    let distance = length(to_light);
-    let is_directional = light.kind == types__LIGHT_DIRECTIONAL;
-    let direction = select(numeric__normalize_or(to_light, -light.direction), -light.direction, is_directional);
-    var strength = select(0.0, 1.0, is_directional || distance > 1e-30);
-    if (light.attenuation == types__ATTENUATION_INVERSE_SQUARE) {
-        strength /= max(distance * distance, 1e-30);
-    }
-    if (light.kind == types__LIGHT_SPOT) {
-        strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
-    }
-    return types__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
+	let to_light = light.position - p;
+	let distance = length(to_light);
+	let is_directional = light.kind == types__LIGHT_DIRECTIONAL;
+	let direction = select(numeric__normalize_or(to_light, -light.direction), -light.direction, is_directional);
+	var strength = select(0.0, 1.0, is_directional || distance > 1e-30);
+	if (light.attenuation == types__ATTENUATION_INVERSE_SQUARE) {
+		strength /= max(distance * distance, 1e-30);
+	}
+	if (light.kind == types__LIGHT_SPOT) {
+		strength *= light__spot_falloff(-dot(direction, light.direction), light.cos_inner, light.cos_outer);
+	}
+	return types__Incident(direction, select(distance, camera__T_FAR, is_directional), strength * light.color);
 }
 
 fn area_light__area_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
-    if (light.kind == types__LIGHT_SPHERE) {
-        return area_light__sphere_incident(light, p, u);
-    }
-    return area_light__flat_incident(light, p, u);
+	if (light.kind == types__LIGHT_SPHERE) {
+		return area_light__sphere_incident(light, p, u);
+	}
+	return area_light__flat_incident(light, p, u);
 }
 
 fn area_light__flat_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
-    let within = select(warp__disc_from_square(u), 2.0 * u - 1.0, light.kind == types__LIGHT_RECTANGLE);
-    let center = light.position - p;
-    let to_light = center + within.x * light.edge_u + within.y * light.edge_v;
-    let distance = length(to_light);
-    let direction = numeric__normalize_or(to_light, -light.direction);
-    let cos_light = -dot(direction, light.direction);
-    let fading = max(cos_light, 0.0) / max(distance * distance, 1e-30);
-    let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
-    let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + area_light__max_abs(light.edge_u) + area_light__max_abs(light.edge_v);
-    let usable = distance > 1e-30;
-    return types__Incident(direction, area_light__short_of(distance, reach, abs(cos_light)), select(0.0, strength, usable) * light.color);
+	let within = select(warp__disc_from_square(u), 2.0 * u - 1.0, light.kind == types__LIGHT_RECTANGLE);
+	let center = light.position - p;
+	let to_light = center + within.x * light.edge_u + within.y * light.edge_v;
+	let distance = length(to_light);
+	let direction = numeric__normalize_or(to_light, -light.direction);
+	let cos_light = -dot(direction, light.direction);
+	let fading = max(cos_light, 0.0) / max(distance * distance, 1e-30);
+	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
+	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + area_light__max_abs(light.edge_u) + area_light__max_abs(light.edge_v);
+	let usable = distance > 1e-30;
+	return types__Incident(direction, area_light__short_of(distance, reach, abs(cos_light)), select(0.0, strength, usable) * light.color);
 }
 
 fn area_light__sphere_incident(light: types__PackedLight, p: vec3f, u: vec2f) -> types__Incident {
-    let to_center = light.position - p;
-    let d2 = dot(to_center, to_center);
-    let radius2 = light.radius * light.radius;
-    let is_inside = d2 <= radius2;
-    let d = sqrt(d2);
-    let sin2 = radius2 / max(max(d2, radius2), 1e-30);
-    let depth = select(sin2 / (1.0 + sqrt(max(1.0 - sin2, 0.0))), 2.0, is_inside);
-    let about = warp__cone_from_square(u, depth);
-    let axis = numeric__normalize_or(to_center, vec3f(0.0, 0.0, 1.0));
-    let direction = numeric__normalize_or(warp__turn_to(axis, about), axis);
-    let chord = sqrt(max(radius2 - d2 * dot(about.xy, about.xy), 0.0));
-    let distance = d * about.z + select(-chord, chord, is_inside);
-    let outside = 2.0 / ((1.0 + sqrt(max(1.0 - sin2, 0.0))) * max(d2, 1e-30));
-    let fading = select(outside, 4.0 / max(radius2, 1e-30), is_inside);
-    let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
-    let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + light.radius;
-    return types__Incident(direction, area_light__short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
+	let to_center = light.position - p;
+	let d2 = dot(to_center, to_center);
+	let radius2 = light.radius * light.radius;
+	let is_inside = d2 <= radius2;
+	let d = sqrt(d2);
+	let sin2 = radius2 / max(max(d2, radius2), 1e-30);
+	let depth = select(sin2 / (1.0 + sqrt(max(1.0 - sin2, 0.0))), 2.0, is_inside);
+	let about = warp__cone_from_square(u, depth);
+	let axis = numeric__normalize_or(to_center, vec3f(0.0, 0.0, 1.0));
+	let direction = numeric__normalize_or(warp__turn_to(axis, about), axis);
+	let chord = sqrt(max(radius2 - d2 * dot(about.xy, about.xy), 0.0));
+	let distance = d * about.z + select(-chord, chord, is_inside);
+	let outside = 2.0 / ((1.0 + sqrt(max(1.0 - sin2, 0.0))) * max(d2, 1e-30));
+	let fading = select(outside, 4.0 / max(radius2, 1e-30), is_inside);
+	let strength = select(1.0, fading, light.attenuation == types__ATTENUATION_INVERSE_SQUARE);
+	let reach = area_light__max_abs(light.position) + area_light__max_abs(p) + light.radius;
+	return types__Incident(direction, area_light__short_of(distance, reach, chord / max(light.radius, 1e-30)), strength * light.color);
 }
 
 fn area_light__short_of(distance: f32, reach: f32, cosine: f32) -> f32 {
-    let slack = 32.0 * numeric__ROUNDING * reach / max(cosine, 0.001);
-    return max(distance - min(slack, 0.01 * distance), 0.0);
+	let slack = 32.0 * numeric__ROUNDING * reach / max(cosine, 0.001);
+	return max(distance - min(slack, 0.01 * distance), 0.0);
 }
 
 fn area_light__max_abs(v: vec3f) -> f32 {
-    return max(abs(v.x), max(abs(v.y), abs(v.z)));
+	return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
 const warp__PI: f32 = 3.14159265;
 
 fn warp__disc_from_square(u: vec2f) -> vec2f {
-    let p = 2.0 * u - 1.0;
-    let by_x = abs(p.x) > abs(p.y);
-    let radius = select(p.y, p.x, by_x);
-    let ratio = select(p.x, p.y, by_x) / select(1.0, radius, abs(radius) > 0.0);
-    let angle = select(0.5 * warp__PI - 0.25 * warp__PI * ratio, 0.25 * warp__PI * ratio, by_x);
-    return radius * vec2f(cos(angle), sin(angle));
+	let p = 2.0 * u - 1.0;
+	let by_x = abs(p.x) > abs(p.y);
+	let radius = select(p.y, p.x, by_x);
+	let ratio = select(p.x, p.y, by_x) / select(1.0, radius, abs(radius) > 0.0);
+	let angle = select(0.5 * warp__PI - 0.25 * warp__PI * ratio, 0.25 * warp__PI * ratio, by_x);
+	return radius * vec2f(cos(angle), sin(angle));
 }
 
 fn warp__triangle_from_square(u: vec2f) -> vec2f {
-    let s = sqrt(u.y);
-    return vec2f(s * (1.0 - u.x), s * u.x);
+	let s = sqrt(u.y);
+	return vec2f(s * (1.0 - u.x), s * u.x);
 }
 
 fn warp__polygon_from_square(u: vec2f, count: u32, rotation: f32) -> vec2f {
-    let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
-    let b = warp__triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
-    let step = 2.0 * warp__PI / f32(count);
-    let angles = rotation + step * vec2f(edge, edge + 1.0);
-    return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
+	let edge = min(floor(u.x * f32(count)), f32(count) - 1.0);
+	let b = warp__triangle_from_square(vec2f(clamp(u.x * f32(count) - edge, 0.0, 1.0), u.y));
+	let step = 2.0 * warp__PI / f32(count);
+	let angles = rotation + step * vec2f(edge, edge + 1.0);
+	return b.x * vec2f(cos(angles.x), sin(angles.x)) + b.y * vec2f(cos(angles.y), sin(angles.y));
 }
 
 fn warp__cone_from_square(u: vec2f, depth: f32) -> vec3f {
-    let p = warp__disc_from_square(u);
-    let below = min(dot(p, p), 1.0) * depth;
-    return vec3f(p * sqrt(max(depth * (2.0 - below), 0.0)), 1.0 - below);
+	let p = warp__disc_from_square(u);
+	let below = min(dot(p, p), 1.0) * depth;
+	return vec3f(p * sqrt(max(depth * (2.0 - below), 0.0)), 1.0 - below);
 }
 
 fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
-    let side = select(-1.0, 1.0, n.z >= 0.0);
-    let a = -1.0 / (side + n.z);
-    let b = n.x * n.y * a;
-    let x = vec3f(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
-    let y = vec3f(b, side + n.y * n.y * a, -n.y);
-    return direction.x * x + direction.y * y + direction.z * n;
+	let side = select(-1.0, 1.0, n.z >= 0.0);
+	let a = -1.0 / (side + n.z);
+	let b = n.x * n.y * a;
+	let x = vec3f(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
+	let y = vec3f(b, side + n.y * n.y * a, -n.y);
+	return direction.x * x + direction.y * y + direction.z * n;
 }
 
 fn sampling__sobol(index: u32) -> vec2u {
-    var x = index;
-    x ^= (x >> 1u) & 1431655765u;
-    x ^= (x >> 2u) & 858993459u;
-    x ^= (x >> 4u) & 252645135u;
-    x ^= (x >> 8u) & 16711935u;
-    x ^= (x >> 16u) & 65535u;
-    return vec2u(reverseBits(index), reverseBits(x));
+	var x = index;
+	x ^= (x >> 1u) & 1431655765u;
+	x ^= (x >> 2u) & 858993459u;
+	x ^= (x >> 4u) & 252645135u;
+	x ^= (x >> 8u) & 16711935u;
+	x ^= (x >> 16u) & 65535u;
+	return vec2u(reverseBits(index), reverseBits(x));
 }
 
 fn sampling__owen_scramble(fraction: u32, seed: u32) -> u32 {
-    var x = reverseBits(fraction);
-    x += seed;
-    x ^= x * 1817228412u;
-    x ^= x * 3090095698u;
-    x ^= x * 3350193720u;
-    x ^= x * 2367878886u;
-    return reverseBits(x);
+	var x = reverseBits(fraction);
+	x += seed;
+	x ^= x * 1817228412u;
+	x ^= x * 3090095698u;
+	x ^= x * 3350193720u;
+	x ^= x * 2367878886u;
+	return reverseBits(x);
 }
 
 fn sampling__sobol_34(index: u32) -> vec2u {
-    var z = vec2u(2147483648u, 3221225472u);
-    var w = vec3u(2147483648u, 3221225472u, 536870912u);
-    var point = vec2u(0u);
-    var bit = 0u;
-    loop {
-        point ^= select(vec2u(0u), vec2u(z.x, w.x), ((index >> bit) & 1u) != 0u);
-        z = vec2u(z.y, z.y ^ z.x ^ (z.x >> 2u));
-        w = vec3u(w.yz, w.y ^ w.x ^ (w.x >> 3u));
-        continuing {
-            bit += 1u;
-            break if bit >= 32u;
-        }
-    }
-    return point;
+	var z = vec2u(2147483648u, 3221225472u);
+	var w = vec3u(2147483648u, 3221225472u, 536870912u);
+	var point = vec2u(0u);
+	var bit = 0u;
+	loop {
+		point ^= select(vec2u(0u), vec2u(z.x, w.x), ((index >> bit) & 1u) != 0u);
+		z = vec2u(z.y, z.y ^ z.x ^ (z.x >> 2u));
+		w = vec3u(w.yz, w.y ^ w.x ^ (w.x >> 3u));
+		continuing {
+			bit += 1u;
+			break if bit >= 32u;
+		}
+	}
+	return point;
 }
 
 fn sampling__stratified_2d(index: u32, key: u32) -> vec2f {
-    return sampling__scrambled(sampling__sobol(sampling__owen_scramble(index, rng__hash(key))), key);
+	return sampling__scrambled(sampling__sobol(sampling__owen_scramble(index, rng__hash(key))), key);
 }
 
 fn sampling__stratified_34(index: u32, key: u32) -> vec2f {
-    return sampling__scrambled(sampling__sobol_34(sampling__owen_scramble(index, rng__hash(key))), key ^ 2654435769u);
+	return sampling__scrambled(sampling__sobol_34(sampling__owen_scramble(index, rng__hash(key))), key ^ 2654435769u);
 }
 
 fn sampling__stratified_1d(index: u32, key: u32) -> f32 {
-    let own = key ^ 1757159915u;
-    return rng__unit_float(sampling__owen_scramble(reverseBits(sampling__owen_scramble(index, rng__hash(own))), rng__hash(own ^ 48610963u)));
+	let own = key ^ 1757159915u;
+	return rng__unit_float(sampling__owen_scramble(reverseBits(sampling__owen_scramble(index, rng__hash(own))), rng__hash(own ^ 48610963u)));
 }
 
 fn sampling__scrambled(point: vec2u, key: u32) -> vec2f {
-    return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
+	return vec2f(rng__unit_float(sampling__owen_scramble(point.x, rng__hash(key ^ 2769414579u))), rng__unit_float(sampling__owen_scramble(point.y, rng__hash(key ^ 1675113877u))));
 }
 
 fn phong__shininess_power(x: f32, shininess: f32) -> f32 {
-    let power = exp2(shininess * log2(max(x, 1e-30)));
-    return select(select(0.0, 1.0, shininess <= 0.0), power, x > 0.0);
+	let power = exp2(shininess * log2(max(x, 1e-30)));
+	return select(select(0.0, 1.0, shininess <= 0.0), power, x > 0.0);
 }
 
 fn phong__phong(coefficients: types__Phong, n: vec3f, l: vec3f, v: vec3f) -> vec3f {
-    let cos_l = dot(l, n);
-    let r = 2.0 * cos_l * n - l;
-    let highlight = phong__shininess_power(max(dot(r, v), 0.0), coefficients.shininess);
-    let lit = coefficients.diffuse * max(cos_l, 0.0) + coefficients.specular * highlight;
-    return select(vec3f(0.0), lit, cos_l > 0.0);
+	let cos_l = dot(l, n);
+	let r = 2.0 * cos_l * n - l;
+	let highlight = phong__shininess_power(max(dot(r, v), 0.0), coefficients.shininess);
+	let lit = coefficients.diffuse * max(cos_l, 0.0) + coefficients.specular * highlight;
+	return select(vec3f(0.0), lit, cos_l > 0.0);
 }
 
 const shadow__MAX_CROSSINGS: u32 = 64u;
 
 fn shadow__light_through(rays: rays__Rays, media: ray_stack__Media) -> wide__Vectors {
-    var through: wide__Vectors;
-    if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-        through = shadow__filtered(rays, media);
-    }
-    else {
-        let hits = rays__any_hits(rays);
-        let passed = select(wide__Floats(0.0), wide__Floats(1.0), hits.primitive == wide__Words(types__NONE));
-        through = wide__Vectors(passed, passed, passed);
-    }
-    if (bindings__COUNT_RAYS) {
-        shadow__count_shadows(rays, through);
-    }
-    return through;
+	var through: wide__Vectors;
+	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+		through = shadow__filtered(rays, media);
+	}
+	else {
+		let hits = rays__any_hits(rays);
+		let passed = select(wide__Floats(0.0), wide__Floats(1.0), hits.primitive == wide__Words(types__NONE));
+		through = wide__Vectors(passed, passed, passed);
+	}
+	if (bindings__COUNT_RAYS) {
+		shadow__count_shadows(rays, through);
+	}
+	return through;
 }
 
 fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
-    var k = 0u;
-    loop {
-        let is_cast = wide__float_at(rays.t_max, k) >= 0.0;
-        let is_blocked = is_cast & all(wide__vector_at(through, k) == vec3f(0.0));
-        dispatch__counts.shadow += select(0u, 1u, is_cast);
-        dispatch__counts.shadow_blocked += select(0u, 1u, is_blocked);
-        continuing {
-            k += 1u;
-            break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
-        }
-    }
-    loops__cut_off |= k < wide__RAYS_PER_LANE;
+	var k = 0u;
+	loop {
+		let is_cast = wide__float_at(rays.t_max, k) >= 0.0;
+		let is_blocked = is_cast & all(wide__vector_at(through, k) == vec3f(0.0));
+		dispatch__counts.shadow += select(0u, 1u, is_cast);
+		dispatch__counts.shadow_blocked += select(0u, 1u, is_blocked);
+		continuing {
+			k += 1u;
+			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		}
+	}
+	loops__cut_off |= k < wide__RAYS_PER_LANE;
 }
 
 fn shadow__filtered(shadow_rays: rays__Rays, start: ray_stack__Media) -> wide__Vectors {
-    var rays = shadow_rays;
-    var media = start;
-    var transmitted = wide__Vectors(wide__Floats(1.0), wide__Floats(1.0), wide__Floats(1.0));
-    var crossings = 0u;
-    var is_unfinished = true;
-    loop {
-        let hits = rays__closest_hits(rays);
-        is_unfinished = false;
-        var rows = rays__rows_where(rays.t_max >= wide__Floats(0.0));
-        loop {
-            let k = rays__first_row(rows);
-            let ray = rays__ray_at(rays, k);
-            if (ray.t_max >= 0.0) {
-                let hit = rays__hit_at(hits, k);
-                var passed = wide__vector_at(transmitted, k);
-                var next = rays__DEAD;
-                if (hit.primitive == types__NONE) {
-                    passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_stack__media_at(media, k))), hit.t);
-                }
-                else {
-                    ray_stack__current_tree = k;
-                    let contact = contact__contact_at(ray, hit);
-                    let surface = contact.surface;
-                    let optics = fetch__load_optics(surface.material);
-                    let around = ray_stack__media_at(media, k);
-                    let here = medium__medium_before(around, surface.material, surface.outside);
-                    let beyond = contact__media_behind(around, contact);
-                    media = ray_stack__media_set(media, k, beyond);
-                    let behind = medium__dominant(beyond);
-                    var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), hit.t);
-                    if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
-                        let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
-                        let eta = medium__medium_of(here).ior / medium__medium_of(behind).ior;
-                        through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
-                    }
-                    passed *= through;
-                    let rest = ray.t_max - hit.t;
-                    if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
-                        next = surface__leaving_ray(surface, ray.direction, rest);
-                        is_unfinished = true;
-                        passed = select(passed, vec3f(0.0), crossings + 1u >= shadow__MAX_CROSSINGS);
-                    }
-                }
-                transmitted = wide__vector_set(transmitted, k, passed);
-                rays = rays__ray_set(rays, k, next);
-            }
-            continuing {
-                rows = rays__later_rows(rows);
-                break if wide__ONE_RAY | (rows == 0u);
-            }
-        }
-        loops__cut_off |= rows != 0u;
-        crossings += 1u;
-        continuing {
-        
-            break if !rays__any_lane(is_unfinished) | (crossings >= shadow__MAX_CROSSINGS);
-        }
-    }
-    loops__cut_off |= is_unfinished & (crossings < shadow__MAX_CROSSINGS);
-    return transmitted;
+	var rays = shadow_rays;
+	var media = start;
+	var transmitted = wide__Vectors(wide__Floats(1.0), wide__Floats(1.0), wide__Floats(1.0));
+	var crossings = 0u;
+	var is_unfinished = true;
+	loop {
+		let hits = rays__closest_hits(rays);
+		is_unfinished = false;
+		var rows = rays__rows_where(rays.t_max >= wide__Floats(0.0));
+		loop {
+			let k = rays__first_row(rows);
+			let ray = rays__ray_at(rays, k);
+			if (ray.t_max >= 0.0) {
+				let hit = rays__hit_at(hits, k);
+				var passed = wide__vector_at(transmitted, k);
+				var next = rays__DEAD;
+				if (hit.primitive == types__NONE) {
+					passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_stack__media_at(media, k))), hit.t);
+				}
+				else {
+					ray_stack__current_tree = k;
+					let contact = contact__contact_at(ray, hit);
+					let surface = contact.surface;
+					let optics = fetch__load_optics(surface.material);
+					let around = ray_stack__media_at(media, k);
+					let here = medium__medium_before(around, surface.material, surface.outside);
+					let beyond = contact__media_behind(around, contact);
+					media = ray_stack__media_set(media, k, beyond);
+					let behind = medium__dominant(beyond);
+					var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), hit.t);
+					if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
+						let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
+						let eta = medium__medium_of(here).ior / medium__medium_of(behind).ior;
+						through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
+					}
+					passed *= through;
+					let rest = ray.t_max - hit.t;
+					if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
+						next = surface__leaving_ray(surface, ray.direction, rest);
+						is_unfinished = true;
+						passed = select(passed, vec3f(0.0), crossings + 1u >= shadow__MAX_CROSSINGS);
+					}
+				}
+				transmitted = wide__vector_set(transmitted, k, passed);
+				rays = rays__ray_set(rays, k, next);
+			}
+			continuing {
+				rows = rays__later_rows(rows);
+				break if wide__ONE_RAY | (rows == 0u);
+			}
+		}
+		loops__cut_off |= rows != 0u;
+		crossings += 1u;
+		continuing {
+		
+			break if !rays__any_lane(is_unfinished) | (crossings >= shadow__MAX_CROSSINGS);
+		}
+	}
+	loops__cut_off |= is_unfinished & (crossings < shadow__MAX_CROSSINGS);
+	return transmitted;
 }
 
 const filter__PI: f32 = 3.14159265;
@@ -3421,71 +3421,71 @@ const filter__MITCHELL_POSITIVE: f32 = 0.51749271;
 const filter__MITCHELL_TOTAL: f32 = 0.53498542;
 
 fn filter__filter_offset(kind: u32, radius: f32, u: vec2f) -> vec2f {
-    let centred = 2.0 * u - 1.0;
-    if (kind == types__FILTER_BOX) {
-        return 2.0 * radius * (u - 0.5);
-    }
-    let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
-    let fraction = abs(centred);
-    if (kind == types__FILTER_TENT) {
-        return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
-    }
-    if (kind == types__FILTER_GAUSSIAN) {
-        let scale = filter__SIGMA * sqrt(2.0);
-        return scale * side * min(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
-    }
-    return radius * side * filter__searched(kind, fraction);
+	let centred = 2.0 * u - 1.0;
+	if (kind == types__FILTER_BOX) {
+		return 2.0 * radius * (u - 0.5);
+	}
+	let side = select(vec2f(-1.0), vec2f(1.0), centred >= vec2f(0.0));
+	let fraction = abs(centred);
+	if (kind == types__FILTER_TENT) {
+		return radius * side * (1.0 - sqrt(max(1.0 - fraction, vec2f(0.0))));
+	}
+	if (kind == types__FILTER_GAUSSIAN) {
+		let scale = filter__SIGMA * sqrt(2.0);
+		return scale * side * min(filter__inverse_erf(fraction * filter__erf(radius / scale)), vec2f(radius / scale));
+	}
+	return radius * side * filter__searched(kind, fraction);
 }
 
 fn filter__filter_sign(kind: u32, u: vec2f) -> f32 {
-    let negative = abs(2.0 * u - 1.0) > vec2f(filter__MITCHELL_POSITIVE / filter__MITCHELL_TOTAL);
-    return select(1.0, -1.0, (kind == types__FILTER_MITCHELL) & (negative.x != negative.y));
+	let negative = abs(2.0 * u - 1.0) > vec2f(filter__MITCHELL_POSITIVE / filter__MITCHELL_TOTAL);
+	return select(1.0, -1.0, (kind == types__FILTER_MITCHELL) & (negative.x != negative.y));
 }
 
 fn filter__searched(kind: u32, fraction: vec2f) -> vec2f {
-    var low = vec2f(0.0);
-    var width = 1.0;
-    var done = 0u;
-    loop {
-        width *= 0.5;
-        let middle = low + width;
-        low = select(low, middle, filter__cumulated(kind, middle) <= fraction);
-        continuing {
-            done += 1u;
-            break if done >= filter__ROUNDS;
-        }
-    }
-    return low + 0.5 * width;
+	var low = vec2f(0.0);
+	var width = 1.0;
+	var done = 0u;
+	loop {
+		width *= 0.5;
+		let middle = low + width;
+		low = select(low, middle, filter__cumulated(kind, middle) <= fraction);
+		continuing {
+			done += 1u;
+			break if done >= filter__ROUNDS;
+		}
+	}
+	return low + 0.5 * width;
 }
 
 fn filter__cumulated(kind: u32, x: vec2f) -> vec2f {
-    if (kind == types__FILTER_BLACKMAN_HARRIS) {
-        let s = sin(filter__PI * x);
-        let c = cos(filter__PI * x);
-        return x + s * (filter__BLACKMAN_HARRIS_1 + filter__BLACKMAN_HARRIS_2 * c + filter__BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
-    }
-    let t = 2.0 * x;
-    let inner = t * (16.0 / 3.0 + t * t * (-4.0 + t * 1.75)) / 6.0;
-    let e = 2.0 - t;
-    let outer = e * e * e * (7.0 / 12.0 * e - 2.0 / 3.0) / 6.0;
-    let signed = select(0.5 - outer, inner, t < vec2f(1.0));
-    let absolute = select(signed, 2.0 * filter__MITCHELL_POSITIVE - signed, t > vec2f(filter__MITCHELL_ZERO));
-    return absolute / filter__MITCHELL_TOTAL;
+	if (kind == types__FILTER_BLACKMAN_HARRIS) {
+		let s = sin(filter__PI * x);
+		let c = cos(filter__PI * x);
+		return x + s * (filter__BLACKMAN_HARRIS_1 + filter__BLACKMAN_HARRIS_2 * c + filter__BLACKMAN_HARRIS_3 * (4.0 * c * c - 1.0));
+	}
+	let t = 2.0 * x;
+	let inner = t * (16.0 / 3.0 + t * t * (-4.0 + t * 1.75)) / 6.0;
+	let e = 2.0 - t;
+	let outer = e * e * e * (7.0 / 12.0 * e - 2.0 / 3.0) / 6.0;
+	let signed = select(0.5 - outer, inner, t < vec2f(1.0));
+	let absolute = select(signed, 2.0 * filter__MITCHELL_POSITIVE - signed, t > vec2f(filter__MITCHELL_ZERO));
+	return absolute / filter__MITCHELL_TOTAL;
 }
 
 fn filter__erf(x: f32) -> f32 {
-    let t = 1.0 / (1.0 + 0.3275911 * x);
-    let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
-    return 1.0 - series * exp(-min(x * x, 80.0));
+	let t = 1.0 / (1.0 + 0.3275911 * x);
+	let series = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
+	return 1.0 - series * exp(-min(x * x, 80.0));
 }
 
 fn filter__inverse_erf(y: vec2f) -> vec2f {
-    let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
-    let a = w - 2.5;
-    let b = sqrt(max(w, vec2f(0.0))) - 3.0;
-    let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
-    let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
-    return y * select(far, near, w < vec2f(5.0));
+	let w = -log(max((1.0 - y) * (1.0 + y), vec2f(1e-7)));
+	let a = w - 2.5;
+	let b = sqrt(max(w, vec2f(0.0))) - 3.0;
+	let near = 1.50140941 + a * (0.246640727 + a * (-0.00417768164 + a * (-0.00125372503 + a * (0.00021858087 + a * (-4.39150654e-6 + a * (-3.5233877e-6 + a * (3.43273939e-7 + a * 2.81022636e-8)))))));
+	let far = 2.83297682 + b * (1.00167406 + b * (0.00943887047 + b * (-0.0076224613 + b * (0.00573950773 + b * (-0.00367342844 + b * (0.00134934322 + b * (0.000100950558 - b * 0.000200214257)))))));
+	return y * select(far, near, w < vec2f(5.0));
 }
 
 const tone__LUMINANCE_REC709: vec3f = vec3f(0.2126, 0.7152, 0.0722);

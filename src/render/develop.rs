@@ -7,8 +7,7 @@ use super::{
     film_tile::{FilmTile, rectangles},
     fingerprint::Encoder,
     layouts::{Layouts, group},
-    levels,
-    overrides,
+    levels, overrides,
     slice::Slice,
 };
 use crate::clock::Instant;
@@ -246,7 +245,9 @@ impl Renderer {
             self.surviving_losses(|renderer| {
                 let device = &mut renderer.device;
                 device.loaded_tile = None;
-                device.gpu.write(&device.buffers.film, 0, cast_slice(&rows))?;
+                device
+                    .gpu
+                    .write(&device.buffers.film, 0, cast_slice(&rows))?;
                 renderer.develop_tile(&tile, &tone, &mut image)
             })?;
         }

@@ -225,7 +225,9 @@ impl Renderer {
         let device = &mut self.device;
         if device.loaded_tile != Some(0) {
             let rows = self.tiles.list[0].developable();
-            device.gpu.write(&device.buffers.film, 0, cast_slice(&rows))?;
+            device
+                .gpu
+                .write(&device.buffers.film, 0, cast_slice(&rows))?;
             device.loaded_tile = Some(0);
         }
         Ok(())
