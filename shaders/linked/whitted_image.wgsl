@@ -1139,7 +1139,7 @@ struct rays__Hits {
 }
 
 fn rays__rows_where(condition: bool) -> u32 {
-	return 1u;
+	return select(0u, 1u, condition);
 }
 
 fn rays__first_row(rows: u32) -> u32 {
@@ -2406,23 +2406,24 @@ fn direct__direct_light(batch: dispatch__Batch, receivers: direct__Receivers, me
 	if (!bindings__HAS_LIGHTS) {
 		return color;
 	}
+	let lit_rows = rays__rows_where(receivers.is_lit != wide__Words(0u));
+	let end = select(1u, batch.light_count, lit_rows != 0u);
 	var index = 0u;
 	loop {
 		let light = shutter__shutter_light(index, batch.light_count);
-		color = direct__with_light(batch, color, receivers, media, sample, light, index);
+		color = direct__with_light(batch, color, receivers, lit_rows, media, sample, light, index);
 		continuing {
 			index += 1u;
-			break if index >= batch.light_count;
+			break if index >= end;
 		}
 	}
-	loops__cut_off |= index < batch.light_count;
+	loops__cut_off |= index < end;
 	return color;
 }
 
-fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: direct__Receivers, media: ray_stack__Media, sample: u32, light: types__PackedLight, index: u32) -> wide__Vectors {
+fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: direct__Receivers, lit_rows: u32, media: ray_stack__Media, sample: u32, light: types__PackedLight, index: u32) -> wide__Vectors {
 	var sum = wide__no_vectors();
 	var counts = wide__Floats(1.0);
-	let lit_rows = rays__rows_where(receivers.is_lit != wide__Words(0u));
 	let has_extent = bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE;
 	var drawn = 0u;
 	var is_unfinished = false;
