@@ -10,7 +10,7 @@ use crate::{
 const MAX_PACKET_MATERIALS: usize = 0xffff;
 
 /// The number of rays from which on packets save more time than their kernel takes longer to compile.
-const MIN_PACKET_RAYS: u64 = 1_500_000;
+const MIN_PACKET_RAYS: u64 = 1_000_000;
 
 /// A pipeline for bind groups 0 to 2 of the kernel of the task's integrator.
 pub fn rendering(
