@@ -903,10 +903,8 @@ struct pixels__Pixels {
 	squares: wide__Floats
 }
 
-const pixels__NO_PIXEL: u32 = 4294967295u;
-
 fn pixels__load_pixels(batch: dispatch__Batch, block: dispatch__Block, lane: u32) -> pixels__Pixels {
-	var pixels = pixels__Pixels(wide__Words(pixels__NO_PIXEL), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__no_vectors(), wide__Floats(0.0), wide__Floats(0.0));
+	var pixels = pixels__Pixels(wide__Words(types__NONE), wide__Words(0u), wide__Words(0u), wide__Words(0u), wide__no_vectors(), wide__Floats(0.0), wide__Floats(0.0));
 	var k = 0u;
 	loop {
 		let work = dispatch__work_of(block, dispatch__place_of(lane, k));
@@ -930,7 +928,7 @@ fn pixels__store_pixels(pixels: pixels__Pixels) {
 	var k = 0u;
 	loop {
 		let film_index = wide__word_at(pixels.film_index, k);
-		if (film_index != pixels__NO_PIXEL) {
+		if (film_index != types__NONE) {
 			film__store_sum(film_index, pixels__sum_at(pixels, k));
 		}
 		continuing {
@@ -945,7 +943,7 @@ fn pixels__sample_rays(batch: dispatch__Batch, pixels: pixels__Pixels, sample: u
 	var rays = rays__dead_rays();
 	var k = 0u;
 	loop {
-		if (wide__word_at(pixels.film_index, k) != pixels__NO_PIXEL) {
+		if (wide__word_at(pixels.film_index, k) != types__NONE) {
 			rays = rays__ray_set(rays, k, dispatch__sample_ray(batch, pixels__pixel_at(pixels, k), wide__word_at(pixels.keys, k), sample));
 		}
 		continuing {
@@ -961,7 +959,7 @@ fn pixels__add_samples(pixels: pixels__Pixels, sample: u32, radiance: wide__Vect
 	var next = pixels;
 	var k = 0u;
 	loop {
-		if (wide__word_at(pixels.film_index, k) != pixels__NO_PIXEL) {
+		if (wide__word_at(pixels.film_index, k) != types__NONE) {
 			let weight = dispatch__sample_weight(wide__word_at(pixels.keys, k), sample);
 			next = pixels__with_sum(next, k, film__add_sample(pixels__sum_at(pixels, k), film__Sample(wide__vector_at(radiance, k)), weight));
 		}
