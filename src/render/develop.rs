@@ -7,12 +7,12 @@ use super::{
     film_tile::{FilmTile, rectangles},
     fingerprint::Encoder,
     layouts::{Layouts, group},
-    levels, overrides,
+    levels, pipelines,
     slice::Slice,
 };
 use crate::clock::Instant;
 use crate::{
-    gpu::{Compiled, Gpu, GpuError, Kernel, Ledger, MEMORY_LIMIT_BYTES, Source, Variant},
+    gpu::{Gpu, GpuError, Kernel, Ledger, MEMORY_LIMIT_BYTES, Source},
     image::Image,
     layout::{
         PackedDispatch, PackedFrame, PackedLight, PackedTone, TONE_ACES, TONE_AGX, TONE_NONE,
@@ -243,11 +243,7 @@ impl Renderer {
         for (tile, rows) in self.tiles.developable(self.policy.slicing.tile_side) {
             let tone = tone.packed(self.settings.integrator, range, tile.rows_per_pixel());
             self.surviving_losses(|renderer| {
-                let device = &mut renderer.device;
-                device.loaded_tile = None;
-                device
-                    .gpu
-                    .write(&device.buffers.film, 0, cast_slice(&rows))?;
+                renderer.device.load_film(None, &rows)?;
                 renderer.develop_tile(&tile, &tone, &mut image)
             })?;
         }
@@ -297,15 +293,8 @@ impl Developer {
         image: &mut Image,
     ) -> Result<(), GpuError> {
         let Context { gpu, layouts, .. } = context;
-        let groups = [
-            None,
-            Some(&layouts.frame),
-            Some(&layouts.film),
-            Some(&layouts.develop),
-        ];
-        let overrides = overrides::of_tone(tone);
-        let Compiled { pipeline, .. } =
-            gpu.pipeline(&Kernel::DEVELOP, Variant::Buffer, &groups, overrides)?;
+        let target = &layouts.develop;
+        let pipeline = pipelines::developing(gpu, layouts, Kernel::DEVELOP, target, tone)?;
         let slice = Slice {
             first_group: 0,
             end_group: tile.group_count(),

@@ -76,6 +76,14 @@ impl Device {
         Ok(())
     }
 
+    /// Writes film rows to the film buffer: those of the film tile with this index, if they are its sums.
+    pub fn load_film(&mut self, tile: Option<usize>, rows: &[[f32; 4]]) -> Result<(), GpuError> {
+        self.loaded_tile = None;
+        self.gpu.write(&self.buffers.film, 0, cast_slice(rows))?;
+        self.loaded_tile = tile;
+        Ok(())
+    }
+
     /// Reads back the sums of the film tile on the device.
     pub fn fetch_film(&self, tile: &mut FilmTile) -> Result<(), GpuError> {
         let encoder = self.gpu.device.create_command_encoder(&Default::default());

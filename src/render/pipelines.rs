@@ -3,13 +3,14 @@
 use super::{effort, layouts::Layouts, overrides, policy::Fetch, task::Task};
 use crate::{
     gpu::{Compiled, Gpu, GpuError, Kernel, Overrides, Variant},
+    layout::PackedTone,
     pack::PackedView,
 };
 
 /// The number of materials from which on packet kernels cannot store their indices in 16 bits.
 const MAX_PACKET_MATERIALS: usize = 0xffff;
 
-/// The number of rays from which on packets save more time than their kernel takes longer to compile.
+/// The number of rays from which on packets usually save more time than their kernel takes longer to compile.
 const MIN_PACKET_RAYS: u64 = 1_000_000;
 
 /// A pipeline for bind groups 0 to 2 of the kernel of the task's integrator.
@@ -44,6 +45,25 @@ pub fn tracing(
 ) -> Result<Compiled, GpuError> {
     let groups = [&layouts.scene, &layouts.frame, &layouts.film].map(Some);
     gpu.pipeline(&kernel, variant, &groups, overrides)
+}
+
+/// A pipeline of a kernel that develops the film, with the layout of its target as bind group 3.
+pub fn developing(
+    gpu: &Gpu,
+    layouts: &Layouts,
+    kernel: Kernel,
+    target: &wgpu::BindGroupLayout,
+    tone: &PackedTone,
+) -> Result<wgpu::ComputePipeline, GpuError> {
+    let groups = [
+        None,
+        Some(&layouts.frame),
+        Some(&layouts.film),
+        Some(target),
+    ];
+    let overrides = overrides::of_tone(tone);
+    let compiled = gpu.pipeline(&kernel, Variant::Buffer, &groups, overrides)?;
+    Ok(compiled.pipeline)
 }
 
 /// The variant that does not depend on the adapter.

@@ -3,11 +3,11 @@
 use super::{
     Levels, Quantity, RenderError, Renderer, Tone,
     layouts::{SCREEN_FORMAT, group_at},
-    overrides,
+    pipelines,
     slice::Slice,
 };
 use crate::{
-    gpu::{Gpu, GpuError, Kernel, Source, Variant},
+    gpu::{Gpu, GpuError, Kernel, Source},
     image::ScreenImage,
     layout::PackedTone,
 };
@@ -185,9 +185,9 @@ impl Renderer {
 
     fn present(&mut self, tone: &PackedTone, screen: &Screen) -> Result<(), GpuError> {
         self.load_first_tile()?;
-        let pipeline = self.show_pipeline(tone)?;
         let device = &mut self.device;
-        let (gpu, buffers) = (&device.gpu, &device.buffers);
+        let (gpu, layouts, buffers) = (&device.gpu, &device.layouts, &device.buffers);
+        let pipeline = pipelines::developing(gpu, layouts, Kernel::SHOW, &layouts.show, tone)?;
         let shown_tone = match &mut device.shown_tone {
             Some(buffer) => buffer,
             empty => empty.insert(gpu.upload("tone", bytes_of(tone))?),
@@ -206,7 +206,7 @@ impl Renderer {
             (0, shown_tone.as_entire_binding()),
             (2, wgpu::BindingResource::TextureView(&screen.view)),
         ];
-        let target = group_at(gpu, &device.layouts.show, &resources);
+        let target = group_at(gpu, &layouts.show, &resources);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
@@ -225,24 +225,8 @@ impl Renderer {
         let device = &mut self.device;
         if device.loaded_tile != Some(0) {
             let rows = self.tiles.list[0].developable();
-            device
-                .gpu
-                .write(&device.buffers.film, 0, cast_slice(&rows))?;
-            device.loaded_tile = Some(0);
+            device.load_film(Some(0), &rows)?;
         }
         Ok(())
-    }
-
-    fn show_pipeline(&self, tone: &PackedTone) -> Result<wgpu::ComputePipeline, GpuError> {
-        let (gpu, layouts) = (&self.device.gpu, &self.device.layouts);
-        let groups = [
-            None,
-            Some(&layouts.frame),
-            Some(&layouts.film),
-            Some(&layouts.show),
-        ];
-        let overrides = overrides::of_tone(tone);
-        let compiled = gpu.pipeline(&Kernel::SHOW, Variant::Buffer, &groups, overrides)?;
-        Ok(compiled.pipeline)
     }
 }
