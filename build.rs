@@ -1,15 +1,18 @@
-//! Embeds the kernels as plain WGSL from `shaders/linked`, once for each way of fetching geometry; `explain`
-//! is the kernel `whitted` with the feature `record`. The build fails if a source has changed since they
-//! were linked; with the feature `link` it links them first.
+//! Compresses the kernels in `shaders/linked` for the program to embed: plain WGSL, once for each variant;
+//! `explain` is the kernel `whitted` with the feature `record`. The build fails if a source has changed since
+//! they were linked; with the feature `link` it links them first.
 
 #[cfg(feature = "link")]
 #[path = "shaders/link.rs"]
 mod link;
 
-use std::{error::Error, fs, path::Path, process::ExitCode};
+use std::{env, error::Error, fs, path::Path, process::ExitCode};
 
 /// The sources that were linked: checksum, length and name, as `cksum` prints them in `shaders`.
 const SOURCES: &str = "shaders/linked/sources.txt";
+
+/// How hard DEFLATE tries: higher levels take longer and save a few kilobytes.
+const LEVEL: u8 = 6;
 
 fn main() -> ExitCode {
     println!("cargo::rerun-if-changed=shaders");
@@ -49,8 +52,22 @@ fn run() -> Result<(), Box<dyn Error>> {
              `cargo check --no-default-features --features link`."
         )
         .into()),
-        None => Ok(()),
+        None => compress(),
     }
+}
+
+/// Compresses each linked kernel to a file of its name in cargo's output folder.
+fn compress() -> Result<(), Box<dyn Error>> {
+    let folder = env::var("OUT_DIR")?;
+    for entry in fs::read_dir("shaders/linked")? {
+        let path = entry?.path();
+        if let (Some(name), true) = (path.file_stem(), path.extension() == Some("wgsl".as_ref())) {
+            let compressed = miniz_oxide::deflate::compress_to_vec(&fs::read(&path)?, LEVEL);
+            let target = Path::new(&folder).join(name).with_extension("deflate");
+            fs::write(target, compressed)?;
+        }
+    }
+    Ok(())
 }
 
 /// Names of the sources below `folder`, and their checksums.

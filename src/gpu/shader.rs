@@ -34,8 +34,8 @@ pub struct Kernel {
     /// The name of the kernel, its entry point and its file in `shaders/kernels/`; `explain` is `whitted` with
     /// recording.
     pub name: &'static str,
-    /// The sources of its variants.
-    pub sources: &'static [(Variant, &'static str)],
+    /// Its variants, and their sources as `build.rs` compressed them.
+    compressed: &'static [(Variant, &'static [u8])],
 }
 
 /// A variant of a kernel.
@@ -53,9 +53,9 @@ macro_rules! kernels {
     ($($(#[$doc:meta])* $constant:ident $name:literal $($variant:ident $file:literal),*;)*) => {
         $($(#[$doc])* pub const $constant: Kernel = Kernel {
             name: $name,
-            sources: &[$((
+            compressed: &[$((
                 Variant::$variant,
-                include_str!(concat!("../../shaders/linked/", $name, "_", $file, ".wgsl")),
+                include_bytes!(concat!(env!("OUT_DIR"), "/", $name, "_", $file, ".deflate")),
             )),*],
         };)*
         /// All kernels.
@@ -87,19 +87,26 @@ impl Kernel {
         overrides: &[(&str, f64)],
     ) -> Result<naga::Module, String> {
         match self.source(variant) {
-            Some(source) => specialize(source, overrides),
+            Some(source) => specialize(&source, overrides),
             None => Err(format!("{} has no variant {variant:?}", self.name)),
         }
     }
 
     /// Whether it has this variant.
     pub fn has(&self, variant: Variant) -> bool {
-        self.source(variant).is_some()
+        self.variants().any(|known| known == variant)
     }
 
-    fn source(&self, variant: Variant) -> Option<&'static str> {
-        let found = self.sources.iter().find(|(known, _)| *known == variant);
-        found.map(|(_, source)| *source)
+    /// Its variants.
+    pub fn variants(&self) -> impl Iterator<Item = Variant> {
+        self.compressed.iter().map(|(variant, _)| *variant)
+    }
+
+    /// The linked WGSL of a variant, if it has this variant.
+    pub fn source(&self, variant: Variant) -> Option<String> {
+        let (_, compressed) = (self.compressed.iter()).find(|(known, _)| *known == variant)?;
+        let bytes = miniz_oxide::inflate::decompress_to_vec(compressed).ok()?;
+        String::from_utf8(bytes).ok()
     }
 }
 
@@ -148,7 +155,7 @@ impl Gpu {
     ) -> Result<wgpu::ComputePipeline, GpuError> {
         let name = kernel.name;
         let refused = |what: String| GpuError::Internal {
-            what: with_dump(name, kernel.source(variant).unwrap_or_default(), &what),
+            what: with_dump(name, &kernel.source(variant).unwrap_or_default(), &what),
         };
         let module = kernel.specialized(variant, overrides).map_err(refused)?;
         let made = self.scoped(name, || {

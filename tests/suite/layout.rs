@@ -26,12 +26,12 @@ fn linked() -> Vec<(String, Module)> {
     Kernel::ALL
         .iter()
         .flat_map(|kernel| {
-            kernel
-                .sources
-                .iter()
-                .map(|&(variant, source)| (kernel.name, variant, source))
+            (kernel.variants()).map(|variant| (kernel.name, variant, kernel.source(variant)))
         })
-        .map(|(name, variant, source)| (format!("{name} ({variant:?})"), parse(name, source)))
+        .map(|(name, variant, source)| {
+            let source = source.expect("a variant has a source");
+            (format!("{name} ({variant:?})"), parse(name, &source))
+        })
         .collect()
 }
 
