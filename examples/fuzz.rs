@@ -279,7 +279,8 @@ fn broken(scene: &Scene) -> Option<String> {
     if !scene.lights.iter().all(|light| is_color(&light.color)) {
         return Some("the colour of a light".into());
     }
-    if !scene.pictures.iter().flat_map(|p| &p.texels).all(is_color) {
+    let mut texels = scene.pictures.iter().flat_map(|picture| picture.linear());
+    if !texels.all(|texel| is_color(&texel.truncate()) && (0.0..=1.0).contains(&texel.w)) {
         return Some("a texel".into());
     }
     if matches!(&scene.background, Background::Color(color) if !is_color(color)) {

@@ -189,7 +189,7 @@ packed! {
         kind: u32,
         /// Second colour.
         color_b: [f32; 3],
-        /// [`TEXTURE_UV`] and [`TEXTURE_NEAREST`], or 0.
+        /// [`TEXTURE_UV`], [`TEXTURE_NEAREST`] and the `WRAP_` modes.
         flags: u32,
         /// Affine row: from (x, y, z, 1) in render space or (u, v, 0, 1) to x in the pattern's space.
         row_x: [f32; 4],
@@ -197,8 +197,8 @@ packed! {
         row_y: [f32; 4],
         /// The same for z.
         row_z: [f32; 4],
-        /// Picture: index of its first texel.
-        first_texel: u32,
+        /// Picture: index of the first word of its texels, with [`PICTURE_HALF`] or [`PICTURE_SRGB`].
+        picture: u32,
         /// Picture: width in texels.
         width: u32,
         /// Picture: height in texels.
@@ -281,8 +281,8 @@ packed! {
         background_top: [f32; 3],
         /// Picture: rotation about +y in radians.
         background_rotation: f32,
-        /// Picture: index of its first texel.
-        background_first_texel: u32,
+        /// Picture: index of the first word of its texels, with [`PICTURE_HALF`] or [`PICTURE_SRGB`].
+        background_picture: u32,
         /// Picture: width in texels.
         background_width: u32,
         /// Picture: height in texels.

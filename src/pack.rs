@@ -11,6 +11,7 @@ mod media;
 mod mesh;
 mod nodes;
 mod object;
+mod picture;
 mod pieces;
 mod placement;
 mod segments;
@@ -36,9 +37,9 @@ use bytemuck::cast_slice;
 use geometry::Flat;
 use glam::DVec3;
 use instance::{Instance, InstancedBlas, Plan, TransformSource};
-use material::PackedPicture;
 use mesh::CachedMesh;
 use object::Origins;
+use picture::PackedPicture;
 use std::sync::Arc;
 use surfaces::AnimatedMaterials;
 use tlas::TlasSource;
@@ -74,9 +75,10 @@ pub struct PackedScene {
     pub materials: Arc<[PackedMaterial]>,
     /// In scene order.
     pub textures: Arc<[PackedTexture]>,
-    /// Linear texels of all pictures, concatenated, as half floats; the fourth channel is 1.
-    pub texels: Segments<[u16; 4]>,
-    /// The first texel, width and height of each picture.
+    /// The words of the texels of all pictures, concatenated: red, green, blue and alpha in 8 bits each, lowest
+    /// first, or two words of half floats.
+    pub texels: Segments<u32>,
+    /// The first word with its `PICTURE_` bits, width and height of each picture.
     pub pictures: Vec<[u32; 3]>,
     /// The features that the scene uses; all others are compiled out.
     pub features: Features,
@@ -122,6 +124,10 @@ pub struct Features {
     pub noise: bool,
     /// Some texture is a picture.
     pub pictures: bool,
+    /// Some picture has 8 bits per channel.
+    pub byte_texels: bool,
+    /// Some picture has floats.
+    pub half_texels: bool,
     /// Some texture is of reflection, transmission or emission.
     pub optics_textures: bool,
     /// There is an emissive surface.
@@ -255,7 +261,7 @@ fn pack(
     };
 
     let before = previous.map_or(&[][..], |previous| &previous.packed_pictures);
-    let (packed_pictures, pictures) = material::texels(scene, before)?;
+    let (packed_pictures, pictures) = picture::pictures(scene, before)?;
     let bounded = joint.shapes.iter().chain(&*instanced_shapes);
     let features = Features {
         shape_kinds: bounded.fold(0, |kinds, shape| kinds | 1 << shape.kind),

@@ -21,6 +21,7 @@ mod motion;
 mod node;
 mod object;
 mod output;
+mod picture;
 mod shape;
 mod texture;
 mod transform;
@@ -38,8 +39,9 @@ pub use mesh::{Mesh, Repairs};
 pub use node::Node;
 pub use object::ObjectRef;
 pub use output::{Antialias, Filter, OutputDefaults, Shutter, ToneCurve, Transfer};
+pub use picture::{Picture, Texels, linear_from_srgb};
 pub use shape::{CanonicalShape, Geometry, Shape};
-pub use texture::{Pattern, Picture, Space, Texture, linear_from_srgb};
+pub use texture::{Pattern, Space, Texture, Wrap};
 pub use transform::{Transform, angles, rotation};
 pub use turntable::{MAX_ELEVATION, Turntable, turntable};
 

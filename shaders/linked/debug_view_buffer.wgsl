@@ -90,7 +90,7 @@ struct dispatch__Batch {
 	background: vec3f,
 	background_top: vec3f,
 	background_rotation: f32,
-	background_first_texel: u32,
+	background_picture: u32,
 	background_size: vec2u,
 	ambient: vec3f,
 	light_count: u32,
@@ -107,7 +107,7 @@ struct dispatch__Batch {
 fn dispatch__load_batch() -> dispatch__Batch {
 	fetch__load_starts();
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_first_texel, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -334,7 +334,7 @@ struct types__PackedFrame {
 	material_count: u32,
 	background_top: vec3f,
 	background_rotation: f32,
-	background_first_texel: u32,
+	background_picture: u32,
 	background_width: u32,
 	background_height: u32,
 	root: u32,

@@ -127,7 +127,7 @@ var bindings__vertices: texture_storage_2d<rgba32uint, read>;
 var bindings__materials: texture_storage_2d<rgba32uint, read>;
 
 @group(0) @binding(4)
-var bindings__texels: texture_2d<f32>;
+var bindings__texels: texture_2d_array<u32>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -188,6 +188,10 @@ override bindings__HAS_NOISE: bool = true;
 
 override bindings__HAS_PICTURES: bool = true;
 
+override bindings__HAS_BYTE_TEXELS: bool = true;
+
+override bindings__HAS_HALF_TEXELS: bool = true;
+
 override bindings__HAS_OPTICS_TEXTURES: bool = true;
 
 override bindings__HAS_EMISSION: bool = true;
@@ -237,6 +241,8 @@ const types__CAMERA_ROWS: u32 = 4u;
 const types__SHAPE_ROWS: u32 = 5u;
 
 const types__IMAGE_WIDTH_LOG2: u32 = 12u;
+
+const types__LAYER_ROWS_LOG2: u32 = 10u;
 
 const types__SHAPE_SPHERE: u32 = 0u;
 
@@ -295,6 +301,22 @@ const types__PATTERN_PICTURE: u32 = 4u;
 const types__TEXTURE_UV: u32 = 1u;
 
 const types__TEXTURE_NEAREST: u32 = 2u;
+
+const types__TEXTURE_WRAP_U_SHIFT: u32 = 2u;
+
+const types__TEXTURE_WRAP_V_SHIFT: u32 = 4u;
+
+const types__WRAP_REPEAT: u32 = 0u;
+
+const types__WRAP_CLAMP: u32 = 1u;
+
+const types__WRAP_MIRROR: u32 = 2u;
+
+const types__PICTURE_HALF: u32 = 2147483648u;
+
+const types__PICTURE_SRGB: u32 = 1073741824u;
+
+const types__PICTURE_FIRST_MASK: u32 = 1073741823u;
 
 const types__BACKGROUND_COLOR: u32 = 0u;
 
@@ -399,7 +421,7 @@ struct types__PackedTexture {
 	row_x: vec4f,
 	row_y: vec4f,
 	row_z: vec4f,
-	first_texel: u32,
+	picture: u32,
 	width: u32,
 	height: u32,
 	octaves: u32
@@ -445,7 +467,7 @@ struct types__PackedFrame {
 	material_count: u32,
 	background_top: vec3f,
 	background_rotation: f32,
-	background_first_texel: u32,
+	background_picture: u32,
 	background_width: u32,
 	background_height: u32,
 	root: u32,
@@ -822,7 +844,7 @@ struct dispatch__Batch {
 	background: vec3f,
 	background_top: vec3f,
 	background_rotation: f32,
-	background_first_texel: u32,
+	background_picture: u32,
 	background_size: vec2u,
 	ambient: vec3f,
 	light_count: u32,
@@ -839,7 +861,7 @@ struct dispatch__Batch {
 fn dispatch__load_batch() -> dispatch__Batch {
 	fetch__load_starts();
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_first_texel, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -1072,9 +1094,10 @@ fn fetch__load_uv(index: u32) -> vec2f {
 	return bitcast<vec2f>(fetch__vertex_row(fetch__uv_row + index).xy);
 }
 
-fn fetch__load_texel(index: u32) -> vec3f {
-	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), index >> types__IMAGE_WIDTH_LOG2);
-	return textureLoad(bindings__texels, place, 0).xyz;
+fn fetch__load_texel_word(index: u32) -> u32 {
+	let row = index >> types__IMAGE_WIDTH_LOG2;
+	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
+	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
 }
 
 fn fetch__texel(row: u32) -> vec2u {
@@ -2872,8 +2895,8 @@ fn background__background(batch: dispatch__Batch, direction: vec3f) -> vec3f {
 	if (bindings__BACKGROUND == types__BACKGROUND_PICTURE) {
 		let size = batch.background_size;
 		let uv = picture__equirectangular(direction, batch.background_rotation);
-		let color = picture__blend_texels(batch.background_first_texel, size.x, size.y, picture__repeated(uv.x, size.x, false), picture__ended(uv.y, size.y));
-		return batch.background * color;
+		let color = picture__blend_texels(batch.background_picture, size.x, size.y, picture__neighbours(uv.x, size.x, false, types__WRAP_REPEAT), picture__neighbours(uv.y, size.y, false, types__WRAP_CLAMP));
+		return batch.background * color.xyz;
 	}
 	return batch.background;
 }
@@ -2886,19 +2909,41 @@ struct picture__Neighbours {
 	weight: f32
 }
 
-fn picture__repeated(at: f32, count: u32, nearest: bool) -> picture__Neighbours {
-	let place = f32(count) * fract(at) + select(-0.5, 0.0, nearest);
+fn picture__neighbours(at: f32, count: u32, nearest: bool, wrap: u32) -> picture__Neighbours {
+	let mirrored = 1.0 - abs(1.0 - 2.0 * fract(0.5 * at));
+	let inside = select(select(clamp(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
+	let place = f32(count) * inside + select(-0.5, 0.0, nearest);
 	let below = floor(place);
-	let index = i32(below);
 	let last = i32(count) - 1;
-	let first = select(select(index, last, index < 0), 0, index > last);
-	return picture__Neighbours(u32(first), u32(select(first + 1, 0, first >= last)), select(place - below, 0.0, nearest));
+	let index = min(i32(below), last);
+	let first = picture__within(index, last, wrap == types__WRAP_REPEAT);
+	let second = picture__within(index + 1, last, wrap == types__WRAP_REPEAT);
+	return picture__Neighbours(u32(first), u32(second), select(place - below, 0.0, nearest));
 }
 
-fn picture__ended(at: f32, count: u32) -> picture__Neighbours {
-	let place = clamp(f32(count) * at - 0.5, 0.0, f32(count - 1u));
-	let below = floor(place);
-	return picture__Neighbours(u32(below), min(u32(below) + 1u, count - 1u), place - below);
+fn picture__within(index: i32, last: i32, repeats: bool) -> i32 {
+	let before = select(0, last, repeats);
+	let after = select(last, 0, repeats);
+	return select(select(index, before, index < 0), after, index > last);
+}
+
+fn picture__halves(bits: u32) -> vec2f {
+	let codes = vec2u(bits & 65535u, bits >> 16u);
+	let normal = bitcast<vec2f>(codes << vec2u(13u)) * 5.192296858534828e33;
+	return select(normal, vec2f(codes) * 5.960464477539063e-8, codes < vec2u(1024u));
+}
+
+fn picture__linear_from_srgb(encoded: vec3f) -> vec3f {
+	var power = vec3f(-0.1110666543);
+	power = power * encoded + vec3f(0.5140681863);
+	power = power * encoded + vec3f(-1.0304795504);
+	power = power * encoded + vec3f(1.2059204578);
+	power = power * encoded + vec3f(-0.9925410748);
+	power = power * encoded + vec3f(0.8972986937);
+	power = power * encoded + vec3f(0.4803068042);
+	power = power * encoded + vec3f(0.0356449671);
+	power = power * encoded + vec3f(0.0008464342);
+	return select(power, encoded / 12.92, encoded <= vec3f(0.04045));
 }
 
 fn picture__equirectangular(direction: vec3f, rotation: f32) -> vec2f {
@@ -2907,10 +2952,21 @@ fn picture__equirectangular(direction: vec3f, rotation: f32) -> vec2f {
 	return vec2f(0.5 + (around + rotation) / (2.0 * picture__PI), 0.5 + atan2(direction.y, level) / picture__PI);
 }
 
-fn picture__blend_texels(first_texel: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec3f {
-	let lower = first_texel + (height - 1u - rows.first) * width;
-	let upper = first_texel + (height - 1u - rows.second) * width;
-	return mix(mix(fetch__load_texel(lower + columns.first), fetch__load_texel(lower + columns.second), columns.weight), mix(fetch__load_texel(upper + columns.first), fetch__load_texel(upper + columns.second), columns.weight), rows.weight);
+fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec4f {
+	let lower = (height - 1u - rows.first) * width;
+	let upper = (height - 1u - rows.second) * width;
+	return mix(mix(picture__texel_at(picture, lower + columns.first), picture__texel_at(picture, lower + columns.second), columns.weight), mix(picture__texel_at(picture, upper + columns.first), picture__texel_at(picture, upper + columns.second), columns.weight), rows.weight);
+}
+
+fn picture__texel_at(picture: u32, index: u32) -> vec4f {
+	let first = picture & types__PICTURE_FIRST_MASK;
+	if (bindings__HAS_HALF_TEXELS && (!bindings__HAS_BYTE_TEXELS || (picture & types__PICTURE_HALF) != 0u)) {
+		let low = fetch__load_texel_word(first + 2u * index);
+		let high = fetch__load_texel_word(first + 2u * index + 1u);
+		return vec4f(picture__halves(low), picture__halves(high));
+	}
+	let values = unpack4x8unorm(fetch__load_texel_word(first + index));
+	return vec4f(select(values.xyz, picture__linear_from_srgb(values.xyz), (picture & types__PICTURE_SRGB) != 0u), values.w);
 }
 
 const contact__NEAR: f32 = 1e-5;
@@ -3229,7 +3285,9 @@ fn texture__texture_color(texture: types__PackedTexture, p: vec3f, uv: vec2f) ->
 	let q = clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
 		let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
-		return picture__blend_texels(texture.first_texel, texture.width, texture.height, picture__repeated(q.x, texture.width, nearest), picture__repeated(q.y, texture.height, nearest));
+		let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
+		let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
+		return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v)).xyz;
 	}
 	var weight = pattern__checker(q);
 	if (bindings__HAS_NOISE && texture.kind == types__PATTERN_NOISE) {

@@ -322,7 +322,7 @@ struct types__PackedFrame {
 	material_count: u32,
 	background_top: vec3f,
 	background_rotation: f32,
-	background_first_texel: u32,
+	background_picture: u32,
 	background_width: u32,
 	background_height: u32,
 	root: u32,

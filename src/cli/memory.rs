@@ -16,7 +16,7 @@ const BYTES_PER_FILE_BYTE: u64 = 5;
 
 /// Memory for packing, BVHs and the driver per mesh triangle, texel and pixel.
 const BYTES_PER_TRIANGLE: u64 = 300;
-const BYTES_PER_TEXEL: u64 = 24;
+const BYTES_PER_TEXEL: u64 = 16;
 const BYTES_PER_PIXEL: u64 = 100;
 
 /// Memory that a driver reserves: a base amount, and an amount per thread. It starts one thread per core, up

@@ -2,7 +2,8 @@
 
 use super::text::string;
 use super::{ExportError, Writer};
-use crate::scene::{Picture, linear_from_srgb};
+use crate::scene::{Picture, Texels, linear_from_srgb};
+use glam::Vec4;
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 use std::io::Cursor;
 
@@ -29,34 +30,55 @@ impl Writer<'_> {
 fn encode(picture: &Picture) -> Result<(&'static str, Vec<u8>), ImageError> {
     let (width, height) = (picture.width, picture.height);
     let mut bytes = Vec::new();
-    if let Some(codes) = codes(picture) {
+    let mut png = |codes: &[u8], kind| {
         let encoder = image::codecs::png::PngEncoder::new(&mut bytes);
-        if codes.iter().all(|code| code % 257 == 0) {
-            let codes: Vec<u8> = codes.iter().map(|code| (code / 257) as u8).collect();
-            encoder.write_image(&codes, width, height, ExtendedColorType::Rgb8)?;
-        } else {
-            let codes: Vec<u8> = codes.iter().flat_map(|code| code.to_ne_bytes()).collect();
-            encoder.write_image(&codes, width, height, ExtendedColorType::Rgb16)?;
+        encoder.write_image(codes, width, height, kind)
+    };
+    match &picture.texels {
+        Texels::Srgb8(texels) if texels.iter().all(|texel| texel[3] == u8::MAX) => {
+            let codes: Vec<u8> = texels
+                .iter()
+                .flat_map(|[r, g, b, _]| [*r, *g, *b])
+                .collect();
+            png(&codes, ExtendedColorType::Rgb8)?;
+            return Ok(("png", bytes));
         }
-        return Ok(("png", bytes));
+        Texels::Srgb8(texels) => {
+            png(texels.as_flattened(), ExtendedColorType::Rgba8)?;
+            return Ok(("png", bytes));
+        }
+        Texels::Float(texels) => {
+            if let Some(codes) = codes(texels) {
+                let codes: Vec<u8> = codes.iter().flat_map(|code| code.to_ne_bytes()).collect();
+                png(&codes, ExtendedColorType::Rgba16)?;
+                return Ok(("png", bytes));
+            }
+        }
+        // Read from a PNG they would be sRGB.
+        Texels::Linear8(_) => {}
     }
-    let values = picture.texels.iter().flat_map(|texel| texel.to_array());
+    let values = picture.linear().flat_map(|texel| texel.to_array());
     let values: Vec<u8> = values.flat_map(f32::to_ne_bytes).collect();
     let encoder = image::codecs::openexr::OpenExrEncoder::new(Cursor::new(&mut bytes));
-    encoder.write_image(&values, width, height, ExtendedColorType::Rgb32F)?;
+    encoder.write_image(&values, width, height, ExtendedColorType::Rgba32F)?;
     Ok(("exr", bytes))
 }
 
-/// The 16-bit sRGB codes that decode to exactly these texels, if there are such codes.
-fn codes(picture: &Picture) -> Option<Vec<u16>> {
-    let curve: Vec<f32> = (0..=u16::MAX)
-        .map(|code| linear_from_srgb(f64::from(code) / f64::from(u16::MAX)) as f32)
+/// The 16-bit codes of sRGB and alpha that decode to exactly these texels, if there are such codes.
+fn codes(texels: &[Vec4]) -> Option<Vec<u16>> {
+    let value = |code: u16| f64::from(code) / f64::from(u16::MAX);
+    let colors: Vec<f32> = (0..=u16::MAX)
+        .map(|code| linear_from_srgb(value(code)) as f32)
         .collect();
-    let code = |value: f32| {
+    let alphas: Vec<f32> = (0..=u16::MAX).map(|code| value(code) as f32).collect();
+    let code = |curve: &[f32], value: f32| {
         let code = curve.partition_point(|known| *known < value);
         let is_it = curve.get(code)?.to_bits() == value.to_bits();
         is_it.then_some(code as u16)
     };
-    let values = picture.texels.iter().flat_map(|texel| texel.to_array());
-    values.map(code).collect()
+    let channels = texels.iter().flat_map(|texel| {
+        let [r, g, b, a] = texel.to_array();
+        [(&colors, r), (&colors, g), (&colors, b), (&alphas, a)]
+    });
+    channels.map(|(curve, value)| code(curve, value)).collect()
 }

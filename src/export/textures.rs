@@ -2,7 +2,7 @@
 
 use super::text::{self, Table, color, key, string};
 use super::{ExportError, Writer, exact};
-use crate::scene::{Pattern, Space, Texture, Transform};
+use crate::scene::{Pattern, Space, Texture, Transform, Wrap};
 use glam::{DAffine3, DVec3, Vec3};
 
 impl Writer<'_> {
@@ -29,10 +29,23 @@ impl Writer<'_> {
                 Pattern::Noise { a, b, octaves } => {
                     table.put("noise", pair(a, b, Some(octaves)));
                 }
-                Pattern::Picture { picture, nearest } => {
+                Pattern::Picture {
+                    picture,
+                    nearest,
+                    wrap,
+                } => {
                     let file = self.picture(picture)?;
-                    let named = format!("{{ file = {file}, nearest = true }}");
-                    table.put("picture", if nearest { named } else { file });
+                    let is_plain = !nearest && wrap == [Wrap::Repeat; 2];
+                    let value = if is_plain {
+                        file
+                    } else {
+                        let mut named = Table::default();
+                        named.put("file", file);
+                        named.put_if(nearest, "nearest", "true".to_owned());
+                        named.put_if(wrap != [Wrap::Repeat; 2], "wrap", wrap_modes(wrap));
+                        named.inline()
+                    };
+                    table.put("picture", value);
                 }
             }
             let is_picture = matches!(texture.pattern, Pattern::Picture { .. });
@@ -48,6 +61,21 @@ impl Writer<'_> {
             self.text.lines(&table);
         }
         Ok(())
+    }
+}
+
+/// The name of a mode for both axes, or the names of two.
+fn wrap_modes([u, v]: [Wrap; 2]) -> String {
+    let name = |wrap| {
+        string(match wrap {
+            Wrap::Repeat => "repeat",
+            Wrap::Clamp => "clamp",
+            Wrap::Mirror => "mirror",
+        })
+    };
+    match u == v {
+        true => name(u),
+        false => format!("[{}, {}]", name(u), name(v)),
     }
 }
 

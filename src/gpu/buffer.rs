@@ -90,27 +90,42 @@ impl Gpu {
         })
     }
 
-    /// A read-only image with rows of `width` texels and room for `bytes`, zero-initialised: a storage image
-    /// for unsigned integers, a texture for floats.
+    /// A read-only image with rows of `width` texels and room for `bytes`, zero-initialised: a storage image,
+    /// or with `layer_rows` a texture of layers of so many rows, or fewer if there is only one.
     pub(crate) fn allocate_image(
         &self,
         what: &'static str,
         bytes: u64,
-        width: u32,
+        (width, layer_rows): (u32, Option<u32>),
         format: wgpu::TextureFormat,
     ) -> Result<wgpu::TextureView, GpuError> {
         if fault::should_fail(fault::Site::Allocation) {
             return Err(GpuError::OutOfMemory { what: what.into() });
         }
-        let binding = match format {
-            wgpu::TextureFormat::Rgba32Uint => wgpu::TextureUsages::STORAGE_BINDING,
-            _ => wgpu::TextureUsages::TEXTURE_BINDING,
+        let (binding, dimension) = match layer_rows {
+            None => (
+                wgpu::TextureUsages::STORAGE_BINDING,
+                wgpu::TextureViewDimension::D2,
+            ),
+            Some(_) => (
+                wgpu::TextureUsages::TEXTURE_BINDING,
+                wgpu::TextureViewDimension::D2Array,
+            ),
         };
-        let height = bytes.div_ceil(row_bytes(width, format)).max(1) as u32;
+        let rows = bytes.div_ceil(row_bytes(width, format)).max(1) as u32;
+        let height = layer_rows.map_or(rows, |most| rows.min(most));
+        // wgpu's GL backend takes a texture with one layer for one that is no array.
+        let is_gl = self.adapter().backend == "gl";
+        let least = if layer_rows.is_some() && is_gl { 2 } else { 1 };
+        let size = wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: rows.div_ceil(height).max(least),
+        };
         let texture = self.scoped(what, || {
             self.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(what),
-                size: extent(width, height),
+                size,
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
@@ -119,7 +134,10 @@ impl Gpu {
                 view_formats: &[],
             })
         })?;
-        Ok(texture.create_view(&Default::default()))
+        Ok(texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(dimension),
+            ..Default::default()
+        }))
     }
 
     /// A texture that shaders write and sample, zero-initialised.
@@ -161,7 +179,7 @@ impl Gpu {
     ) -> Result<(), GpuError> {
         const ROWS: u32 = 512;
         let texture = image.texture();
-        let width = texture.width();
+        let (width, height) = (texture.width(), texture.height());
         let texel = row_bytes(1, texture.format()) as usize;
         let (mut x, mut y) = (
             (first % u64::from(width)) as u32,
@@ -170,17 +188,24 @@ impl Gpu {
         let mut rest = contents;
         self.scoped("write", || {
             while !rest.is_empty() {
-                // The rest of a row, then whole rows, then the start of a row.
-                let texels = (rest.len() / texel) as u32;
-                let (columns, rows) = match (x, texels / width) {
-                    (0, 0) => (texels, 1),
-                    (0, rows) => (width, rows.min(ROWS)),
-                    _ => (texels.min(width - x), 1),
+                // The rest of a row, then whole rows of a layer, then the start of a row.
+                let texels = rest.len() / texel;
+                let (columns, rows) = match (x, texels / width as usize) {
+                    (0, 0) => (texels as u32, 1),
+                    (0, rows) => (
+                        width,
+                        rows.min((height - y % height).min(ROWS) as usize) as u32,
+                    ),
+                    _ => (texels.min((width - x) as usize) as u32, 1),
                 };
                 let target = wgpu::TexelCopyTextureInfo {
                     texture,
                     mip_level: 0,
-                    origin: wgpu::Origin3d { x, y, z: 0 },
+                    origin: wgpu::Origin3d {
+                        x,
+                        y: y % height,
+                        z: y / height,
+                    },
                     aspect: wgpu::TextureAspect::All,
                 };
                 let layout = wgpu::TexelCopyBufferLayout {

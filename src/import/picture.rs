@@ -1,16 +1,16 @@
 //! Images that scenes refer to: PNG, JPEG, Radiance HDR and OpenEXR, recognised by their first bytes.
 //!
-//! PNG and JPEG are decoded as sRGB, HDR and EXR as linear Rec. 709. Transparency is ignored. A truncated
-//! file is refused even if its decoder would accept it.
+//! PNG and JPEG are sRGB and keep their 8 bits, or become floats if they have 16; HDR and EXR are linear Rec.
+//! 709. A truncated file is refused even if its decoder would accept it.
 
 mod complete;
 
 use super::error::{Fault, ImportError};
 use super::paths::{Files, Refusal};
 use super::source::quote;
-use crate::scene::Picture;
 pub(super) use crate::scene::linear_from_srgb;
-use glam::Vec3;
+use crate::scene::{Picture, Texels};
+use glam::Vec4;
 use image::{DynamicImage, ImageError, ImageReader, Limits};
 use std::collections::HashMap;
 use std::io::Cursor;
@@ -20,11 +20,14 @@ use std::sync::Arc;
 /// Size limit of an image file in bytes.
 const MAX_BYTES: u64 = 512 << 20;
 
-/// Limit of the number of texels of all images of a scene together, from the GPU's texel buffer.
-const MAX_TEXELS: u64 = (8192 << 12) - 1;
+/// Limit of the number of texels of an image: 8192×8192.
+const MAX_TEXELS: u64 = 1 << 26;
+
+/// Limit of the bytes of all images of a scene together, as they are kept.
+const MAX_KEPT_BYTES: u64 = 4 << 30;
 
 /// Memory limit for decoding: four floats per texel.
-const MAX_DECODED_BYTES: u64 = (MAX_TEXELS + 1) * 16;
+const MAX_DECODED_BYTES: u64 = MAX_TEXELS * 16;
 
 /// The images of a scene; each file is read once.
 #[derive(Default)]
@@ -78,7 +81,9 @@ impl Pictures {
         if let Some(&index) = self.indices.get(&path) {
             return Ok(index);
         }
-        let taken = self.pictures.iter().map(|p| p.texels.len() as u64).sum();
+        let taken = (self.pictures.iter())
+            .map(|picture| picture.texels.byte_len() as u64)
+            .sum();
         let picture = decode(files, &path, name, taken)?;
         self.pictures.push(Arc::new(picture));
         self.indices.insert(path, self.pictures.len() - 1);
@@ -86,7 +91,7 @@ impl Pictures {
     }
 }
 
-/// Reads the image at `path`; `taken` texels are already in use.
+/// Reads the image at `path`; `taken` bytes of texels are already kept.
 fn decode(files: &Files, path: &Path, name: &str, taken: u64) -> Result<Picture, Refused> {
     let quoted = quote(name.as_bytes());
     let too_big = |why: String| Refused::Unfit {
@@ -136,12 +141,8 @@ fn decode(files: &Files, path: &Path, name: &str, taken: u64) -> Result<Picture,
     if count == 0 {
         return Err(unfit("has no texels".to_owned(), "Save it again"));
     }
-    if taken + count > MAX_TEXELS {
-        let others = match taken {
-            0 => String::new(),
-            _ => format!(", the others {taken} texels"),
-        };
-        let why = format!("has {width} × {height}{others}, but the limit is {MAX_TEXELS} texels");
+    if count > MAX_TEXELS {
+        let why = format!("has {width} × {height} texels, but the limit is {MAX_TEXELS} of them");
         return Err(too_big(why));
     }
     if let Some(format) = body.format() {
@@ -151,8 +152,14 @@ fn decode(files: &Files, path: &Path, name: &str, taken: u64) -> Result<Picture,
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_DECODED_BYTES);
     body.limits(limits);
-    let image = body.decode().map_err(explain)?;
-    let texels = linear(image);
+    let texels = texels(body.decode().map_err(explain)?);
+    let bytes = texels.byte_len() as u64;
+    if taken + bytes > MAX_KEPT_BYTES {
+        let why = format!(
+            "takes {bytes} bytes, the others {taken}, but the limit for all is {MAX_KEPT_BYTES}"
+        );
+        return Err(too_big(why));
+    }
     Ok(Picture {
         width,
         height,
@@ -160,35 +167,40 @@ fn decode(files: &Files, path: &Path, name: &str, taken: u64) -> Result<Picture,
     })
 }
 
-/// The texels of `image`, row by row from the top left, as finite linear colours, 0 or more.
-fn linear(image: DynamicImage) -> Vec<Vec3> {
-    let as_they_are = |c: f32| if c > 0.0 { c.min(f32::MAX) } else { 0.0 };
+/// The texels of `image`, row by row from the top left. Floats are finite and 0 or more.
+fn texels(image: DynamicImage) -> Texels {
+    let channels = usize::from(image.color().channel_count());
+    let is_narrow = usize::from(image.color().bytes_per_pixel()) == channels;
     match image {
         DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
-            let image = image.into_rgb32f();
-            image
-                .pixels()
-                .map(|p| Vec3::from(p.0.map(as_they_are)))
-                .collect()
+            let value = |c: f32| if c > 0.0 { c.min(f32::MAX) } else { 0.0 };
+            let texel = |p: &image::Rgba<f32>| {
+                let [r, g, b, a] = p.0.map(value);
+                Vec4::new(r, g, b, a.min(1.0))
+            };
+            Texels::Float(image.into_rgba32f().pixels().map(texel).collect())
+        }
+        image if is_narrow => {
+            let texel = |p: &[u8]| match *p {
+                [r, g, b, a] => [r, g, b, a],
+                [r, g, b] => [r, g, b, u8::MAX],
+                [grey, alpha] => [grey, grey, grey, alpha],
+                _ => [p[0], p[0], p[0], u8::MAX],
+            };
+            let texels = image.as_bytes().chunks_exact(channels);
+            Texels::Srgb8(texels.map(texel).collect())
         }
         image => {
+            let value = |code: u16| f64::from(code) / f64::from(u16::MAX);
             let curve: Vec<f32> = (0..=u16::MAX)
-                .map(|code| linear_from_srgb(f64::from(code) / f64::from(u16::MAX)) as f32)
+                .map(|code| linear_from_srgb(value(code)) as f32)
                 .collect();
-            let texel = |p: &[u16; 3]| Vec3::from(p.map(|code| curve[usize::from(code)]));
-            let channels = usize::from(image.color().channel_count());
-            if usize::from(image.color().bytes_per_pixel()) == channels {
-                // 8 bits convert to 16 without loss: 65535 is 255 times 257.
-                let wide = |byte: u8| 257 * u16::from(byte);
-                let texels = image.as_bytes().chunks_exact(channels);
-                return texels
-                    .map(|p| match *p {
-                        [r, g, b] | [r, g, b, _] => texel(&[r, g, b].map(wide)),
-                        _ => texel(&[wide(p[0]); 3]),
-                    })
-                    .collect();
-            }
-            image.into_rgb16().pixels().map(|p| texel(&p.0)).collect()
+            let texel = |p: &image::Rgba<u16>| {
+                let [r, g, b, a] = p.0;
+                let [r, g, b] = [r, g, b].map(|code| curve[usize::from(code)]);
+                Vec4::new(r, g, b, value(a) as f32)
+            };
+            Texels::Float(image.into_rgba16().pixels().map(texel).collect())
         }
     }
 }

@@ -4,9 +4,9 @@
 use super::notes::Notes;
 use crate::scene::{
     Attenuation, Background, Light, LightProperty, Material, MaterialProperty, Pattern, Scene,
-    Target, Texture, Values,
+    Target, Texels, Texture, Values,
 };
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec4};
 use std::sync::Arc;
 
 /// Limit of coefficients, such as diffuse colours, and of pattern colours, which are multiplied with
@@ -34,10 +34,14 @@ pub(super) fn limit(scene: &mut Scene) {
         counts.texture(texture);
     }
     for picture in &mut scene.pictures {
-        if picture.texels.iter().any(|c| c.max_element() > RADIANCE) {
+        let is_out = |texel: &Vec4| texel.max_element() > RADIANCE;
+        if let Texels::Float(texels) = &picture.texels
+            && texels.iter().any(is_out)
+            && let Texels::Float(texels) = &mut Arc::make_mut(picture).texels
+        {
             counts.radiances += 1;
-            for texel in &mut Arc::make_mut(picture).texels {
-                *texel = texel.min(Vec3::splat(RADIANCE));
+            for texel in texels {
+                *texel = texel.min(Vec4::splat(RADIANCE));
             }
         }
     }

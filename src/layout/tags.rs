@@ -38,6 +38,8 @@ pub const SHAPE_ROWS: u32 = 5;
 pub const STACK_SIZE: u32 = 96;
 /// Texels in a row of the geometry images, as a power of two.
 pub const IMAGE_WIDTH_LOG2: u32 = 12;
+/// Rows in a layer of the words of texels, as a power of two.
+pub const LAYER_ROWS_LOG2: u32 = 10;
 
 /// [`super::PackedShape::kind`]: a sphere.
 pub const SHAPE_SPHERE: u32 = 0;
@@ -110,6 +112,23 @@ pub const PATTERN_PICTURE: u32 = 4;
 pub const TEXTURE_UV: u32 = 1;
 /// Bit of [`super::PackedTexture::flags`]: texels are looked up without interpolation.
 pub const TEXTURE_NEAREST: u32 = 2;
+/// Shift of the mode in [`super::PackedTexture::flags`] by which a picture continues along u.
+pub const TEXTURE_WRAP_U_SHIFT: u32 = 2;
+/// The same along v.
+pub const TEXTURE_WRAP_V_SHIFT: u32 = 4;
+/// A picture is repeated.
+pub const WRAP_REPEAT: u32 = 0;
+/// The edge of a picture goes on.
+pub const WRAP_CLAMP: u32 = 1;
+/// A picture is repeated, and every second copy is mirrored.
+pub const WRAP_MIRROR: u32 = 2;
+
+/// Bit of [`super::PackedTexture::picture`]: texels are half floats in two words.
+pub const PICTURE_HALF: u32 = 0x8000_0000;
+/// Bit of [`super::PackedTexture::picture`]: the colours of texels have the transfer function of sRGB.
+pub const PICTURE_SRGB: u32 = 0x4000_0000;
+/// The other bits of [`super::PackedTexture::picture`].
+pub const PICTURE_FIRST_MASK: u32 = 0x3fff_ffff;
 
 /// Override `BACKGROUND`: [`crate::scene::Background::Color`].
 pub const BACKGROUND_COLOR: u32 = 0;

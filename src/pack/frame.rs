@@ -180,7 +180,7 @@ impl PackedScene {
                 frame.background = [strength; 3];
                 frame.background_rotation = rotation as f32;
                 [
-                    frame.background_first_texel,
+                    frame.background_picture,
                     frame.background_width,
                     frame.background_height,
                 ] = self.pictures[picture];

@@ -1,24 +1,20 @@
-//! Packs materials, textures and pictures.
+//! Packs materials and textures.
 
 use super::{Features, PackError, light};
 use crate::{
     layout::{
-        IMAGE_WIDTH_LOG2, MATERIAL_BLEND, MATERIAL_FRESNEL, MATERIAL_SCHLICK, MATERIAL_SUM,
-        MATERIAL_TWO_SIDED, NO_TEXTURE, PATTERN_CHECKER, PATTERN_GRADIENT, PATTERN_NOISE,
-        PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial, PackedTexture, TEXTURE_NEAREST,
-        TEXTURE_UV,
+        MATERIAL_BLEND, MATERIAL_FRESNEL, MATERIAL_SCHLICK, MATERIAL_SUM, MATERIAL_TWO_SIDED,
+        NO_TEXTURE, PATTERN_CHECKER, PATTERN_GRADIENT, PATTERN_NOISE, PATTERN_PICTURE,
+        PATTERN_STRIPES, PackedMaterial, PackedTexture, TEXTURE_NEAREST, TEXTURE_UV,
+        TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT,
     },
     scene::{
-        Fresnel, Material, MaterialProperty, Mixing, Pattern, Picture, Scene, Space, Target,
-        Texture, Values,
+        Fresnel, Material, MaterialProperty, Mixing, Pattern, Scene, Space, Target, Texels,
+        Texture, Values, Wrap,
     },
 };
 use glam::{DAffine3, DVec3, Vec3};
-use half::f16;
 use std::sync::Arc;
-
-/// Maximum number of texels of all pictures: the rows of the largest texture that WebGPU guarantees.
-const MAX_TEXELS: usize = (8192 << IMAGE_WIDTH_LOG2) - 1;
 
 /// Equals `NOISE_PERIOD` of `lib/noise.wesl`.
 const NOISE_PERIOD: f64 = 256.0;
@@ -125,6 +121,7 @@ pub fn features(scene: &Scene) -> Features {
     let mut priorities = transparent.filter_map(|(is, material)| is.then_some(material.priority));
     let first = priorities.next();
     let has_pattern = |is: fn(&Pattern) -> bool| scene.textures.iter().any(|it| is(&it.pattern));
+    let has_texels = |is: fn(&Texels) -> bool| scene.pictures.iter().any(|it| is(&it.texels));
     Features {
         priorities: priorities.any(|other| Some(other) != first),
         // Refraction includes the code for thin materials.
@@ -135,6 +132,8 @@ pub fn features(scene: &Scene) -> Features {
         textures: !scene.textures.is_empty(),
         noise: has_pattern(|it| matches!(it, Pattern::Noise { .. })),
         pictures: has_pattern(|it| matches!(it, Pattern::Picture { .. })),
+        byte_texels: has_texels(|it| !matches!(it, Texels::Float(_))),
+        half_texels: has_texels(|it| matches!(it, Texels::Float(_))),
         optics_textures: (scene.materials.iter())
             .map(|material| &material.textures)
             .any(|it| it.reflect.or(it.transmit).or(it.emission).is_some()),
@@ -164,10 +163,10 @@ fn texture(texture: &Texture, origin: DVec3, pictures: &[[u32; 3]]) -> PackedTex
         Space::Uv => texture.pattern_from_space,
     };
     // Whole periods are subtracted, so that f32 is as precise far from the origin of the pattern as near it.
-    if let Some(period) = period(&texture.pattern) {
-        let repetitions = (space.translation / period).round();
-        space.translation -= period * repetitions;
-    }
+    let periods = periods(&texture.pattern);
+    let repetitions = (space.translation / periods).round();
+    space.translation -=
+        DVec3::select(periods.is_finite_mask(), periods * repetitions, DVec3::ZERO);
     // Clamped so that no point of a scene overflows.
     let row = |i| {
         let row = space.matrix3.row(i);
@@ -195,63 +194,42 @@ fn texture(texture: &Texture, origin: DVec3, pictures: &[[u32; 3]]) -> PackedTex
             colors(PATTERN_NOISE, a, b);
             packed.octaves = octaves;
         }
-        Pattern::Picture { picture, nearest } => {
+        Pattern::Picture {
+            picture,
+            nearest,
+            wrap: [u, v],
+        } => {
             packed.kind = PATTERN_PICTURE;
             packed.flags |= if nearest { TEXTURE_NEAREST } else { 0 };
-            [packed.first_texel, packed.width, packed.height] = pictures[picture];
+            packed.flags |= wrap(u) << TEXTURE_WRAP_U_SHIFT | wrap(v) << TEXTURE_WRAP_V_SHIFT;
+            [packed.picture, packed.width, packed.height] = pictures[picture];
         }
     }
     packed
 }
 
-/// The period of a pattern along each axis, in pattern units.
-fn period(pattern: &Pattern) -> Option<f64> {
+/// The period of a pattern along each axis, in pattern units; infinite if there is none.
+fn periods(pattern: &Pattern) -> DVec3 {
     match pattern {
-        Pattern::Checker { .. } => Some(2.0),
-        Pattern::Stripes { .. } | Pattern::Picture { .. } => Some(1.0),
-        Pattern::Noise { .. } => Some(NOISE_PERIOD),
-        Pattern::Gradient { .. } => None,
+        Pattern::Checker { .. } => DVec3::splat(2.0),
+        Pattern::Stripes { .. } => DVec3::ONE,
+        Pattern::Picture { wrap: [u, v], .. } => {
+            let period = |wrap: &Wrap| match wrap {
+                Wrap::Repeat => 1.0,
+                Wrap::Clamp => f64::INFINITY,
+                Wrap::Mirror => 2.0,
+            };
+            DVec3::new(period(u), period(v), f64::INFINITY)
+        }
+        Pattern::Noise { .. } => DVec3::splat(NOISE_PERIOD),
+        Pattern::Gradient { .. } => DVec3::INFINITY,
     }
 }
 
-/// A picture and its texels as half floats.
-pub type PackedPicture = (Arc<Picture>, Arc<[[u16; 4]]>);
-
-/// The texels of all pictures, and the first texel, width and height of each. Pictures that were packed
-/// `before` are reused.
-pub fn texels(
-    scene: &Scene,
-    before: &[PackedPicture],
-) -> Result<(Vec<PackedPicture>, Vec<[u32; 3]>), PackError> {
-    let count = scene.pictures.iter().map(|p| p.texels.len()).sum();
-    if count > MAX_TEXELS {
-        return Err(PackError::TooMany {
-            what: "texels",
-            count,
-            limit: MAX_TEXELS,
-        });
+fn wrap(wrap: Wrap) -> u32 {
+    match wrap {
+        Wrap::Repeat => WRAP_REPEAT,
+        Wrap::Clamp => WRAP_CLAMP,
+        Wrap::Mirror => WRAP_MIRROR,
     }
-    let half = |c: f32| f16::from_f32(c.min(f16::MAX.to_f32())).to_bits();
-    let pack = |texel: &Vec3| {
-        [
-            half(texel.x),
-            half(texel.y),
-            half(texel.z),
-            f16::ONE.to_bits(),
-        ]
-    };
-    let mut first = 0;
-    let mut pictures = Vec::with_capacity(scene.pictures.len());
-    let mut places = Vec::with_capacity(scene.pictures.len());
-    for picture in &scene.pictures {
-        let known = before.iter().find(|(known, _)| Arc::ptr_eq(known, picture));
-        let texels = match known {
-            Some((_, texels)) => texels.clone(),
-            None => picture.texels.iter().map(pack).collect(),
-        };
-        places.push([first, picture.width, picture.height]);
-        first += texels.len() as u32;
-        pictures.push((picture.clone(), texels));
-    }
-    Ok((pictures, places))
 }

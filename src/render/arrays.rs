@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     gpu::{Gpu, GpuError},
-    layout::{IMAGE_WIDTH_LOG2, PackedNode},
+    layout::{IMAGE_WIDTH_LOG2, LAYER_ROWS_LOG2, PackedNode},
     pack::{PackedScene, PackedView, Segments},
 };
 use bytemuck::{Pod, cast_slice};
@@ -42,7 +42,7 @@ pub struct Piece<'a> {
 enum Kind {
     /// Rows of 16 bytes, in an image or a buffer.
     Rows,
-    /// Always an image of half floats.
+    /// Words of 4 bytes, always in an image of layers.
     Texels,
 }
 
@@ -191,13 +191,13 @@ pub enum Rows {
 impl Rows {
     pub fn allocate(gpu: &Gpu, fetch: Fetch, array: &Array, bytes: u64) -> Result<Self, GpuError> {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
-        let image = |format| {
-            let image = gpu.allocate_image(array.what, bytes, IMAGE_WIDTH, format)?;
+        let image = |layer_rows, format| {
+            let image = gpu.allocate_image(array.what, bytes, (IMAGE_WIDTH, layer_rows), format)?;
             Ok(Self::Image(image))
         };
         match array.kind {
-            Kind::Rows if fetch == Fetch::Image => image(ROW_FORMAT),
-            Kind::Texels => image(TEXEL_FORMAT),
+            Kind::Rows if fetch == Fetch::Image => image(None, ROW_FORMAT),
+            Kind::Texels => image(Some(1 << LAYER_ROWS_LOG2), TEXEL_FORMAT),
             // WebGPU requires a binding to hold at least one element; 256 bytes hold any of our structs.
             Kind::Rows => {
                 let buffer = gpu.allocate(array.what, bytes.max(256), usage)?;
@@ -211,7 +211,8 @@ impl Rows {
         match self {
             Self::Image(view) => {
                 let texture = view.texture();
-                u64::from(texture.height()) * u64::from(IMAGE_WIDTH) * texel_bytes(texture.format())
+                let rows = u64::from(texture.height()) * u64::from(texture.depth_or_array_layers());
+                rows * row_bytes(texture)
             }
             Self::Buffer(buffer) => buffer.size(),
         }
@@ -224,8 +225,11 @@ impl Rows {
         let wanted = bytes + (bytes / 4).min(spare);
         let most = match self {
             Self::Image(view) => {
-                let row = u64::from(IMAGE_WIDTH) * texel_bytes(view.texture().format());
-                u64::from(limits.max_texture_dimension_2d) * row
+                let rows = match view.texture().format() {
+                    TEXEL_FORMAT => limits.max_texture_array_layers << LAYER_ROWS_LOG2,
+                    _ => limits.max_texture_dimension_2d,
+                };
+                u64::from(rows) * row_bytes(view.texture())
             }
             Self::Buffer(_) => (limits.max_storage_buffer_binding_size).min(limits.max_buffer_size),
         };
@@ -257,6 +261,10 @@ impl Rows {
             Self::Buffer(buffer) => buffer.as_entire_binding(),
         }
     }
+}
+
+fn row_bytes(texture: &wgpu::Texture) -> u64 {
+    u64::from(IMAGE_WIDTH) * texel_bytes(texture.format())
 }
 
 fn texel_bytes(format: TextureFormat) -> u64 {

@@ -6,8 +6,8 @@ use wgpu::{BindGroupLayout, BindingType, BufferBindingType, TextureFormat};
 
 /// Format of the images that hold rows of the scene.
 pub const ROW_FORMAT: TextureFormat = TextureFormat::Rgba32Uint;
-/// Format of the texels of pictures.
-pub const TEXEL_FORMAT: TextureFormat = TextureFormat::Rgba16Float;
+/// Format of the words of texels.
+pub const TEXEL_FORMAT: TextureFormat = TextureFormat::R32Uint;
 /// Format of screen textures: values already encoded for display.
 pub const SCREEN_FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 
@@ -38,8 +38,8 @@ impl Layouts {
             view_dimension: wgpu::TextureViewDimension::D2,
         };
         let texels = BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: false },
-            view_dimension: wgpu::TextureViewDimension::D2,
+            sample_type: wgpu::TextureSampleType::Uint,
+            view_dimension: wgpu::TextureViewDimension::D2Array,
             multisampled: false,
         };
         let screen = BindingType::StorageTexture {

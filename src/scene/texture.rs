@@ -58,31 +58,25 @@ pub enum Pattern {
         /// Number of octaves, 1 to 16.
         octaves: u32,
     },
-    /// An image over [0, 1]², repeated, v upwards.
+    /// An image over [0, 1]², v upwards.
     Picture {
         /// Index into [`super::Scene::pictures`].
         picture: usize,
         /// Whether texels are looked up without interpolation.
         nearest: bool,
+        /// How the image continues beyond [0, 1] along u and v.
+        wrap: [Wrap; 2],
     },
 }
 
-/// The inverse of the sRGB transfer function, IEC 61966-2-1.
-pub fn linear_from_srgb(value: f64) -> f64 {
-    if value <= 0.04045 {
-        value / 12.92
-    } else {
-        ((value + 0.055) / 1.055).powf(2.4)
-    }
-}
-
-/// An image in memory: linear Rec. 709, row by row from the top left.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
-    /// In texels, at least 1.
-    pub width: u32,
-    /// In texels, at least 1.
-    pub height: u32,
-    /// `width` × `height` of them, 0 or more.
-    pub texels: Vec<Vec3>,
+/// How an image continues beyond [0, 1] along one axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Wrap {
+    /// It is repeated.
+    #[default]
+    Repeat,
+    /// Its edge goes on.
+    Clamp,
+    /// It is repeated, and every second copy is mirrored.
+    Mirror,
 }

@@ -350,11 +350,8 @@ fn random_scene(random: &mut Random, only: Option<usize>) -> Scene {
         0 => Background::Color(a),
         1 => Background::Gradient { bottom: b, top: a },
         _ => {
-            scene.pictures.push(Arc::new(Picture {
-                width: 2,
-                height: 2,
-                texels: vec![a, b, b, a],
-            }));
+            let picture = Picture::opaque(2, 2, [a, b, b, a]);
+            scene.pictures.push(Arc::new(picture));
             Background::Picture {
                 picture: 0,
                 strength: 0.8,

@@ -7,11 +7,11 @@ use crate::reference::scenes::{self, Build};
 use crate::reference::{textures, trace};
 use crate::support::random::Random;
 use crate::support::verdict::Verdict;
-use glam::{DAffine3, DQuat, DVec2, DVec3, Vec2, Vec3, dvec3, vec3};
+use glam::{DAffine3, DQuat, DVec2, DVec3, Vec2, Vec3, Vec4, dvec3, vec3};
 use glimray::image::Image;
 use glimray::render::{Fetch, Tone};
 use glimray::scene::{
-    Background, Camera, Material, Pattern, Picture, Scene, Space, Texture, Textures,
+    Background, Camera, Material, Pattern, Picture, Scene, Space, Texels, Texture, Textures, Wrap,
 };
 use glimray::{import, pack};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -22,13 +22,8 @@ use std::sync::Arc;
 fn picture(seed: u64) -> Picture {
     let mut random = Random::new(seed);
     let mut channel = || random.below(64) as f32 / 64.0;
-    Picture {
-        width: 5,
-        height: 3,
-        texels: (0..15)
-            .map(|_| vec3(channel(), channel(), channel()))
-            .collect(),
-    }
+    let colors = (0..15).map(|_| vec3(channel(), channel(), channel()));
+    Picture::opaque(5, 3, colors)
 }
 
 fn pattern_texture(pattern: Pattern, space: Space, space_from_pattern: DAffine3) -> Texture {
@@ -47,6 +42,7 @@ fn patterns() -> [Pattern; 6] {
     let picture = |nearest| Pattern::Picture {
         picture: 0,
         nearest,
+        wrap: [Wrap::Repeat; 2],
     };
     [
         Pattern::Checker { a, b },
@@ -176,6 +172,50 @@ fn flat(texture: Texture, pictures: Vec<Picture>, at: DVec3) -> Scene {
     scene
 }
 
+#[test]
+fn texels_of_every_kind_are_found_in_pictures_of_several_layers() {
+    // More words than the 4,194,304 of a layer, behind a picture that shifts them.
+    let (width, height) = (2051, 2053);
+    let code = |index: u32| (index.wrapping_mul(2_654_435_761) >> 8).to_le_bytes();
+    let codes: Vec<_> = (0..width * height).map(code).collect();
+    let value =
+        |[r, g, b, a]: [u8; 4]| Vec4::from([r, g, b, a].map(|code| f32::from(code) / 256.0));
+    let kinds = [
+        Texels::Float(codes.iter().map(|code| value(*code)).collect()),
+        Texels::Linear8(codes.clone()),
+        Texels::Srgb8(codes),
+    ];
+    let mut verdict = Verdict::on("large pictures");
+    for (name, texels) in ["float", "linear8", "srgb8"].into_iter().zip(kinds) {
+        let pattern = Pattern::Picture {
+            picture: 1,
+            nearest: true,
+            wrap: [Wrap::Repeat; 2],
+        };
+        let place = DAffine3::from_scale(DVec3::splat(3.9));
+        let large = Picture {
+            width,
+            height,
+            texels,
+        };
+        let texture = pattern_texture(pattern, Space::World, place);
+        let scene = flat(texture, vec![picture(2), large], DVec3::ZERO);
+        let (image, _) = render(&scene, &sized(64, 64));
+        let large: Vec<_> = scene.pictures[1].linear().collect();
+        for (i, pixel) in image.pixels.iter().enumerate() {
+            let place = seen(i, 64) / 3.9;
+            let cell = |at: f64, count: u32| (at.rem_euclid(1.0) * f64::from(count)).floor() as u32;
+            let row = height - 1 - cell(place.y, height);
+            let expected = large[(row * width + cell(place.x, width)) as usize].truncate();
+            let off = (Vec3::from_slice(pixel) - expected).abs().max_element();
+            verdict.that(format!("{name} at {place}"), off < 1e-3, || {
+                format!("{pixel:?}, not {expected}")
+            });
+        }
+    }
+    verdict.close();
+}
+
 /// The point of the plane of [`flat`] seen at a pixel centre, from `at`.
 fn seen(index: usize, size: u32) -> DVec2 {
     let middle = |i: usize| (i as f64 + 0.5) / f64::from(size) * 4.0 - 2.0;
@@ -188,11 +228,22 @@ fn seen(index: usize, size: u32) -> DVec2 {
 #[test]
 fn texels_blend_as_in_f64_across_the_seam_and_far_from_it() {
     let mut problems = Vec::new();
-    for nearest in [false, true] {
+    let (repeat, clamp, mirror) = (Wrap::Repeat, Wrap::Clamp, Wrap::Mirror);
+    let wraps = [
+        [repeat; 2],
+        [clamp, mirror],
+        [mirror, repeat],
+        [repeat, clamp],
+    ];
+    for (nearest, wrap) in [false, true]
+        .into_iter()
+        .flat_map(|it| wraps.map(|wrap| (it, wrap)))
+    {
         for offset in [0.0, 1000.0] {
             let pattern = Pattern::Picture {
                 picture: 0,
                 nearest,
+                wrap,
             };
             let move_by = DAffine3::from_translation(dvec3(offset, -offset, 0.0));
             let texture = pattern_texture(pattern, Space::World, move_by);
@@ -285,15 +336,10 @@ fn glimpse(scene: &mut Scene, direction: DVec3) -> DVec3 {
 #[test]
 fn the_background_is_where_it_should_be_along_the_axes_however_it_is_turned() {
     // Eight by four texels that encode their position.
-    let texels = (0..32)
-        .map(|i| vec3((i % 8) as f32, (i / 8) as f32, 1.0))
-        .collect();
+    let texels = (0..32).map(|i| vec3((i % 8) as f32, (i / 8) as f32, 1.0));
     let mut scene = scenes::empty();
-    scene.pictures.push(Arc::new(Picture {
-        width: 8,
-        height: 4,
-        texels,
-    }));
+    let picture = Picture::opaque(8, 4, texels);
+    scene.pictures.push(Arc::new(picture));
     // Column boundaries: ahead is between 3 and 4, right between 5 and 6, left between 1 and 2.
     let axes = [(DVec3::NEG_Z, 3.5), (DVec3::X, 5.5), (DVec3::NEG_X, 1.5)];
     let mut verdict = Verdict::on("the background");
@@ -341,11 +387,8 @@ fn one_bright_texel_is_seen_in_its_direction_alone() {
         let mut texels = vec![Vec3::ZERO; (WIDTH * HEIGHT) as usize];
         texels[(row * WIDTH + column) as usize] = vec3(100.0, 50.0, 25.0);
         let mut scene = scenes::empty();
-        scene.pictures.push(Arc::new(Picture {
-            width: WIDTH,
-            height: HEIGHT,
-            texels,
-        }));
+        let picture = Picture::opaque(WIDTH, HEIGHT, texels);
+        scene.pictures.push(Arc::new(picture));
         scene.background = Background::Picture {
             picture: 0,
             strength: 1.0,

@@ -1,7 +1,7 @@
 //! Textures and pictures in the output of `inspect`.
 
 use crate::cli::inspect::{color, color_json};
-use crate::scene::{Pattern, Picture, Space, Texture};
+use crate::scene::{Pattern, Picture, Space, Texels, Texture, Wrap};
 use serde_json::{Value, json};
 use std::fmt::{self, Write};
 
@@ -16,7 +16,11 @@ pub fn texture_json(texture: &Texture) -> Value {
             noise["octaves"] = json!(octaves);
             noise
         }
-        Pattern::Picture { picture, nearest } => json!({ "picture": picture, "nearest": nearest }),
+        Pattern::Picture {
+            picture,
+            nearest,
+            wrap,
+        } => json!({ "picture": picture, "nearest": nearest, "wrap": wrap.map(wrap_name) }),
     };
     value["pattern"] = json!(pattern(texture));
     value["space"] = json!(space(texture));
@@ -24,7 +28,7 @@ pub fn texture_json(texture: &Texture) -> Value {
 }
 
 pub fn picture_json(picture: &Picture) -> Value {
-    json!({ "size": [picture.width, picture.height] })
+    json!({ "size": [picture.width, picture.height], "texels": kind(&picture.texels) })
 }
 
 pub fn texture_text(out: &mut String, texture: &Texture) -> fmt::Result {
@@ -39,7 +43,25 @@ pub fn texture_text(out: &mut String, texture: &Texture) -> fmt::Result {
 }
 
 pub fn picture_text(out: &mut String, picture: &Picture) -> fmt::Result {
-    write!(out, "{}×{} texels", picture.width, picture.height)
+    let (width, height) = (picture.width, picture.height);
+    write!(out, "{width}×{height} texels, {}", kind(&picture.texels))
+}
+
+/// How texels are kept.
+fn kind(texels: &Texels) -> &'static str {
+    match texels {
+        Texels::Srgb8(_) => "srgb8",
+        Texels::Linear8(_) => "linear8",
+        Texels::Float(_) => "float",
+    }
+}
+
+fn wrap_name(wrap: Wrap) -> &'static str {
+    match wrap {
+        Wrap::Repeat => "repeat",
+        Wrap::Clamp => "clamp",
+        Wrap::Mirror => "mirror",
+    }
 }
 
 fn pattern(texture: &Texture) -> &'static str {

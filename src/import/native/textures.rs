@@ -9,7 +9,7 @@ use crate::import::error::ImportError;
 use crate::import::paths::Files;
 use crate::import::picture::Pictures;
 use crate::import::suggest;
-use crate::scene::{Background, Pattern, Space, Texture, Transform};
+use crate::scene::{Background, Pattern, Space, Texture, Transform, Wrap};
 use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -159,14 +159,18 @@ impl<'a> Textures<'a> {
                 octaves: noise.octaves.0,
             })
         } else if let Some(picture) = tables.picture {
-            let (name, span, nearest) = match picture.get_ref() {
-                PictureOrFile::File(name) => (name, picture.span(), false),
+            let (name, span, nearest, wrap) = match picture.get_ref() {
+                PictureOrFile::File(name) => (name, picture.span(), false, [Wrap::Repeat; 2]),
                 PictureOrFile::Table(table) => {
-                    (table.file.get_ref(), table.file.span(), table.nearest)
+                    let wrap = table.wrap.unwrap_or_default().modes();
+                    (table.file.get_ref(), table.file.span(), table.nearest, wrap)
                 }
             };
-            let picture = self.picture(name, span)?;
-            Some(Pattern::Picture { picture, nearest })
+            Some(Pattern::Picture {
+                picture: self.picture(name, span)?,
+                nearest,
+                wrap,
+            })
         } else {
             None
         };

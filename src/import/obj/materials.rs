@@ -6,7 +6,7 @@ use crate::import::error::ImportError;
 use crate::import::notes::Notes;
 use crate::import::paths::Refusal;
 use crate::import::source::{Source, Token, quote};
-use crate::scene::{Material, Pattern, Space, Texture};
+use crate::scene::{Material, Pattern, Space, Texture, Wrap};
 use glam::DAffine3;
 use std::path::Path;
 
@@ -144,6 +144,7 @@ impl<'s> Reader<'s> {
             pattern: Pattern::Picture {
                 picture,
                 nearest: false,
+                wrap: [Wrap::Repeat; 2],
             },
             space: Space::Uv,
             pattern_from_space: DAffine3::IDENTITY,

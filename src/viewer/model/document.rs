@@ -2,9 +2,7 @@
 //!
 //! A step stores the previous scene. This is cheap because meshes and images are shared.
 
-use crate::scene::{
-    Camera, Instance, Light, Material, Mesh, Node, Picture, Scene, Shape, Texture, Track,
-};
+use crate::scene::{Camera, Instance, Light, Material, Mesh, Node, Scene, Shape, Texture, Track};
 use std::mem::size_of;
 use std::sync::Arc;
 
@@ -260,8 +258,7 @@ fn own_bytes(scene: &Scene, next: &Scene) -> usize {
     for (index, picture) in scene.pictures.iter().enumerate() {
         let is_shared = (next.pictures.get(index)).is_some_and(|other| Arc::ptr_eq(picture, other));
         if !is_shared {
-            let Picture { texels, .. } = picture.as_ref();
-            bytes += of(texels);
+            bytes += picture.texels.byte_len();
         }
     }
     bytes

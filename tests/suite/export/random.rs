@@ -155,6 +155,7 @@ fn texture(random: &mut Random, pictures: usize) -> Texture {
         _ => Pattern::Picture {
             picture: random.below(pictures),
             nearest: random.below(2) == 0,
+            wrap: [wrap(random), wrap(random)],
         },
     };
     Texture {
@@ -166,12 +167,23 @@ fn texture(random: &mut Random, pictures: usize) -> Texture {
 
 fn picture(random: &mut Random) -> Picture {
     let (width, height) = (1 + random.below(5) as u32, 1 + random.below(5) as u32);
-    let texels = (0..width * height).map(|_| color(random)).collect();
+    let count = width * height;
+    let texels = if random.below(2) == 0 {
+        let texel = |_| [0; 4].map(|_| random.below(256) as u8);
+        Texels::Srgb8((0..count).map(texel).collect())
+    } else {
+        let texel = |_| color(random).extend(random.below(65) as f32 / 64.0);
+        Texels::Float((0..count).map(texel).collect())
+    };
     Picture {
         width,
         height,
         texels,
     }
+}
+
+fn wrap(random: &mut Random) -> Wrap {
+    pick(random, &[Wrap::Repeat, Wrap::Clamp, Wrap::Mirror])
 }
 
 fn mesh(random: &mut Random, materials: usize) -> Mesh {

@@ -1,11 +1,11 @@
 //! The text of an export and the files beside it.
 
 use super::write;
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3, Vec4};
 use glimray::export::{self, ExportError};
 use glimray::import;
 use glimray::scene::{
-    Camera, CanonicalShape, Geometry, Instance, Material, Mesh, Picture, Scene, Shape,
+    Camera, CanonicalShape, Geometry, Instance, Material, Mesh, Picture, Scene, Shape, Texels,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -148,7 +148,7 @@ fn a_scene_beyond_the_size_limit_is_refused() {
 
 #[test]
 fn a_picture_is_a_png_if_8_bits_suffice_and_otherwise_an_exr() {
-    let picture = |texels: Vec<Vec3>| {
+    let picture = |texels: Texels| {
         let mut scene = scene();
         scene.pictures.push(Arc::new(Picture {
             width: 2,
@@ -167,9 +167,15 @@ fn a_picture_is_a_png_if_8_bits_suffice_and_otherwise_an_exr() {
         assert_eq!(read.background, scene.background);
         export.files[0].name.clone()
     };
-    assert_eq!(picture(vec![Vec3::ZERO, Vec3::ONE]), "s-picture-1.png");
-    let odd = Vec3::new(0.1, 1e-8, 12345.678);
-    assert_eq!(picture(vec![Vec3::ONE, odd]), "s-picture-1.exr");
+    let codes = Texels::Srgb8(vec![[0, 77, 255, 255], [1, 2, 3, 4]]);
+    assert_eq!(picture(codes), "s-picture-1.png");
+    let levels = Texels::Float(vec![Vec4::ZERO, Vec4::ONE]);
+    assert_eq!(picture(levels), "s-picture-1.png");
+    let odd = Vec4::new(0.1, 1e-8, 12345.678, 0.5);
+    assert_eq!(
+        picture(Texels::Float(vec![Vec4::ONE, odd])),
+        "s-picture-1.exr"
+    );
 }
 
 #[test]

@@ -1,10 +1,10 @@
 //! Images of scenes: their texels, and errors.
 
 use super::{folder, message_in};
-use glam::Vec3;
+use glam::{Vec3, Vec4Swizzles};
 use glimray::import::{self, Options};
-use glimray::scene::{Background, Pattern, Picture, Scene, Space};
-use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb, Rgba};
+use glimray::scene::{Background, Pattern, Picture, Scene, Space, Texels, Wrap};
+use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, LumaA, Rgb, Rgba};
 use insta::assert_snapshot;
 use std::io::Cursor;
 
@@ -49,8 +49,8 @@ fn linear(code: f64) -> f64 {
 
 fn assert_near(picture: &Picture, expected: &[[f64; 3]], tolerance: f64) {
     assert_eq!(picture.texels.len(), expected.len());
-    for (texel, expected) in picture.texels.iter().zip(expected) {
-        let off = (texel.as_dvec3() - glam::DVec3::from(*expected)).abs();
+    for (texel, expected) in picture.linear().zip(expected) {
+        let off = (texel.truncate().as_dvec3() - glam::DVec3::from(*expected)).abs();
         assert!(off.max_element() <= tolerance, "{texel}, not {expected:?}");
     }
 }
@@ -63,6 +63,7 @@ fn png_is_srgb_in_eight_and_sixteen_bits_from_the_top_left() {
     assert_eq!((read.width, read.height), (2, 2));
     let expected = codes.map(|texel| texel.map(|code| linear(f64::from(code) / 255.0)));
     assert_near(&read, &expected, 2e-5);
+    assert!(matches!(read.texels, Texels::Srgb8(_)), "{read:?}");
 
     let codes = [[0u16, 300, 65535], [4000, 33_333, 65_000]];
     let image = ImageBuffer::from_fn(2, 1, |x, _| Rgb(codes[x as usize]));
@@ -72,14 +73,21 @@ fn png_is_srgb_in_eight_and_sixteen_bits_from_the_top_left() {
 }
 
 #[test]
-fn grey_becomes_three_channels_and_transparency_is_ignored() {
+fn grey_becomes_three_channels_and_alpha_is_linear() {
     let grey = ImageBuffer::from_pixel(1, 1, Luma([77u8]));
     let value = linear(77.0 / 255.0);
     let read = picture("a.png", &encode(grey, ImageFormat::Png));
     assert_near(&read, &[[value; 3]], 2e-5);
-    let clear = ImageBuffer::from_pixel(1, 1, Rgba([77u8, 77, 77, 0]));
-    let read = picture("a.png", &encode(clear, ImageFormat::Png));
+    let alpha = |picture: &Picture| f64::from(picture.linear().next().expect("a texel").w);
+    assert_eq!(alpha(&read), 1.0);
+    let thin = ImageBuffer::from_pixel(1, 1, Rgba([77u8, 77, 77, 51]));
+    let read = picture("a.png", &encode(thin, ImageFormat::Png));
     assert_near(&read, &[[value; 3]], 2e-5);
+    assert!((alpha(&read) - 0.2).abs() < 1e-7);
+    let thin = ImageBuffer::from_pixel(1, 1, LumaA([257 * 77u16, 13_107]));
+    let read = picture("a.png", &encode(thin, ImageFormat::Png));
+    assert_near(&read, &[[value; 3]], 2e-5);
+    assert!((alpha(&read) - 0.2).abs() < 1e-7);
 }
 
 #[test]
@@ -105,22 +113,17 @@ fn hdr_and_exr_are_linear() {
     let read = picture("a.hdr", &encode(image.clone(), ImageFormat::Hdr));
     let expected = values.map(|texel| texel.map(f64::from));
     assert_near(&read, &expected, 16.0);
-    assert_near(
-        &Picture {
-            texels: read.texels[..3].to_vec(),
-            ..read
-        },
-        &expected[..3],
-        0.04,
-    );
+    let first = read.linear().take(3).map(|texel| texel.truncate());
+    assert_near(&Picture::opaque(3, 1, first), &expected[..3], 0.04);
 
     let values = [[0.1f32, 1.7, 60_000.0], [-3.0, f32::NAN, f32::INFINITY]];
     let image = ImageBuffer::from_fn(2, 1, |x, _| Rgb(values[x as usize]));
     let read = picture("a.exr", &encode(image, ImageFormat::OpenExr));
-    assert_eq!(read.texels[0], Vec3::from(values[0]));
+    let texels: Vec<_> = read.linear().collect();
+    assert_eq!(texels[0].truncate(), Vec3::from(values[0]));
     // Negative values and NaN become 0.
-    assert_eq!(read.texels[1].truncate(), glam::Vec2::ZERO);
-    assert!(read.texels[1].z.is_finite());
+    assert_eq!(texels[1].xy(), glam::Vec2::ZERO);
+    assert!(texels[1].z.is_finite());
 }
 
 #[test]
@@ -145,9 +148,15 @@ fn an_image_used_twice_is_read_once() {
     };
     assert_eq!(scene.background, background);
     let shows = |i: usize, is_nearest| {
-        let Pattern::Picture { picture, nearest } = scene.textures[i].pattern else {
+        let Pattern::Picture {
+            picture,
+            nearest,
+            wrap,
+        } = scene.textures[i].pattern
+        else {
             panic!("not a picture");
         };
+        assert_eq!(wrap, [Wrap::Repeat; 2]);
         assert_eq!((picture, nearest), (0, is_nearest));
         scene.textures[i].space
     };
@@ -215,10 +224,10 @@ fn every_invalid_image_has_a_message() {
 picture refused (a.toml:2:26): `empty.png` is not a supported image. Name a PNG, JPEG, HDR or EXR file.
 picture refused (a.toml:2:26): `text.png` is not a supported image. Name a PNG, JPEG, HDR or EXR file.
 picture refused (a.toml:2:26): `cut.png` is truncated: its end is missing. Check that it was written completely.
-picture refused (a.toml:2:26): `wide.png` has 100000 × 100000, but the limit is 33554431 texels. Use a smaller picture.
+picture refused (a.toml:2:26): `wide.png` has 100000 × 100000 texels, but the limit is 67108864 of them. Use a smaller picture.
 picture refused (a.toml:2:26): `huge.png` takes too much memory to decode. Use a smaller picture.
 picture refused (a.toml:2:26): `flat.png` is damaged: Format error decoding Png: Invalid image dimensions. Check that it was written completely.
-picture refused (a.toml:2:26): `huge.hdr` has 60000 × 60000, but the limit is 33554431 texels. Use a smaller picture.
+picture refused (a.toml:2:26): `huge.hdr` has 60000 × 60000 texels, but the limit is 67108864 of them. Use a smaller picture.
 picture refused (a.toml:2:26): `cut.exr` is damaged: Format error decoding OpenExr: invalid: reference to missing bytes. Check that it was written completely.
 picture refused (a.toml:2:26): `a.gif` is an image of an unsupported kind. Save it as PNG, JPEG, HDR or EXR.
 picture refused (a.toml:2:26): `gone.png` does not exist. Check the name and the folder.
@@ -365,8 +374,7 @@ fn no_corruption_of_an_image_makes_the_importer_panic() {
                 Err(error) => assert_eq!(error.to_string().lines().count(), 1),
                 Ok(scene) => assert!(
                     scene.pictures[0]
-                        .texels
-                        .iter()
+                        .linear()
                         .all(|texel| { texel.is_finite() && texel.min_element() >= 0.0 })
                 ),
             }

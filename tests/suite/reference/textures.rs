@@ -1,7 +1,7 @@
 //! Textures and backgrounds in f64, from their definitions in `glimray::scene`.
 
 use glam::{DVec2, DVec3, Vec3};
-use glimray::scene::{Background, Material, Pattern, Picture, Scene, Space, Texture};
+use glimray::scene::{Background, Material, Pattern, Picture, Scene, Space, Texture, Wrap};
 use std::f64::consts::{PI, TAU};
 
 /// The coordinate at which a cell of a pattern begins, as in `lib/pattern.wesl`.
@@ -42,9 +42,11 @@ pub fn color_at(scene: &Scene, texture: &Texture, p: DVec3, uv: DVec2) -> DVec3 
             b,
             (0.5 + 0.5 * noise_octaves(q, octaves)).clamp(0.0, 1.0),
         ),
-        Pattern::Picture { picture, nearest } => {
-            picture_at(&scene.pictures[picture], q.truncate(), nearest, true)
-        }
+        Pattern::Picture {
+            picture,
+            nearest,
+            wrap,
+        } => picture_at(&scene.pictures[picture], q.truncate(), nearest, wrap),
     }
 }
 
@@ -64,23 +66,29 @@ pub fn background(scene: &Scene, direction: DVec3) -> DVec3 {
             let turned = glam::DQuat::from_rotation_y(-rotation) * direction;
             let u = 0.5 + turned.x.atan2(-turned.z) / TAU;
             let v = 0.5 + turned.y.clamp(-1.0, 1.0).asin() / PI;
-            let color = picture_at(&scene.pictures[picture], DVec2::new(u, v), false, false);
+            let wrap = [Wrap::Repeat, Wrap::Clamp];
+            let color = picture_at(&scene.pictures[picture], DVec2::new(u, v), false, wrap);
             f64::from(strength) * color
         }
     }
 }
 
-/// A picture over [0, 1]², repeated along u and optionally along v; otherwise its rows are clamped.
-pub fn picture_at(picture: &Picture, uv: DVec2, nearest: bool, repeats_rows: bool) -> DVec3 {
+/// A picture over [0, 1]², continued as `wrap` says along u and v.
+pub fn picture_at(picture: &Picture, uv: DVec2, nearest: bool, wrap: [Wrap; 2]) -> DVec3 {
     let (width, height) = (i64::from(picture.width), i64::from(picture.height));
+    let texels: Vec<_> = picture.linear().collect();
+    let continued = |index: i64, count: i64, wrap: Wrap| match wrap {
+        Wrap::Repeat => index.rem_euclid(count),
+        Wrap::Clamp => index.clamp(0, count - 1),
+        Wrap::Mirror => {
+            let index = index.rem_euclid(2 * count);
+            index.min(2 * count - 1 - index)
+        }
+    };
     let texel = |column: i64, row_from_below: i64| {
-        let row = if repeats_rows {
-            row_from_below.rem_euclid(height)
-        } else {
-            row_from_below.clamp(0, height - 1)
-        };
-        let index = (height - 1 - row) * width + column.rem_euclid(width);
-        picture.texels[index as usize].as_dvec3()
+        let row = continued(row_from_below, height, wrap[1]);
+        let index = (height - 1 - row) * width + continued(column, width, wrap[0]);
+        texels[index as usize].truncate().as_dvec3()
     };
     let place = uv * DVec2::new(width as f64, height as f64);
     if nearest {

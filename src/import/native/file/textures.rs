@@ -3,6 +3,7 @@
 use crate::import::native::values::{
     Angle, Color, Matrix, NonNegative, Number, Octaves, Scale, Vector,
 };
+use crate::scene::Wrap;
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -158,6 +159,53 @@ pub(in crate::import::native) struct PictureTable {
     /// Whether texels are looked up without interpolation; default false.
     #[serde(default)]
     pub nearest: bool,
+    /// How the picture continues beyond its edges: for both axes, or for u and v; default `"repeat"`.
+    pub wrap: Option<WrapModes>,
+}
+
+/// How a picture continues beyond its edges along one axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(in crate::import::native) enum WrapName {
+    /// It is repeated.
+    #[default]
+    Repeat,
+    /// Its edge goes on.
+    Clamp,
+    /// It is repeated, and every second copy is mirrored.
+    Mirror,
+}
+
+/// A mode for both axes, or one for u and one for v.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "expected `repeat`, `clamp`, `mirror`, or two of them for u and v"
+)]
+pub(in crate::import::native) enum WrapModes {
+    Both(WrapName),
+    Each([WrapName; 2]),
+}
+
+impl Default for WrapModes {
+    fn default() -> Self {
+        Self::Both(WrapName::Repeat)
+    }
+}
+
+impl WrapModes {
+    /// Along u and v.
+    pub fn modes(self) -> [Wrap; 2] {
+        let names = match self {
+            Self::Both(name) => [name; 2],
+            Self::Each(names) => names,
+        };
+        names.map(|name| match name {
+            WrapName::Repeat => Wrap::Repeat,
+            WrapName::Clamp => Wrap::Clamp,
+            WrapName::Mirror => Wrap::Mirror,
+        })
+    }
 }
 
 impl Default for PairTable {
