@@ -101,7 +101,7 @@ pub fn native(
     writer.cameras();
     writer.lights();
     writer.textures()?;
-    writer.materials();
+    writer.materials()?;
     writer.meshes();
     writer.nodes();
     writer.instances();
@@ -124,6 +124,6 @@ struct Writer<'a> {
     names: Names,
     beside: Beside<'a>,
     /// The names of image files, by image index.
-    pictures: HashMap<usize, String>,
+    pictures: HashMap<(usize, pictures::Role), String>,
     text: Text,
 }

@@ -283,7 +283,7 @@ fn named_picture(
     path: &Path,
 ) -> Result<Arc<Picture>, ImportError> {
     let mut pictures = picture::Pictures::default();
-    match pictures.read(&Files::of(resolver), name) {
+    match pictures.read(&Files::of(resolver), name, picture::Role::Color) {
         Ok(index) => Ok(pictures.pictures.swap_remove(index)),
         Err(refused) => Err(refused.into_error(|why, todo| {
             ImportError::Malformed(fault("picture refused", path, &why, todo))

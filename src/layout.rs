@@ -173,13 +173,11 @@ packed! {
         _pad0: f32,
         /// Emitted radiance.
         emission: [f32; 3],
-        #[doc(hidden)]
-        _pad1: f32,
+        /// Factor on the tilt of the normals in the normal map.
+        normal_scale: f32,
         /// 16-bit indices of [`PackedTexture`]s or [`NO_TEXTURE`]: diffuse and specular, reflect and
-        /// transmit, ambient and emission, the first of each pair in the lower half.
-        textures: [u32; 3],
-        #[doc(hidden)]
-        _pad2: u32,
+        /// transmit, ambient and emission, the first of each pair in the lower half; and the normal map.
+        textures: [u32; 4],
     }
     /// A spatially varying colour that multiplies a colour of a material.
     PackedTexture {

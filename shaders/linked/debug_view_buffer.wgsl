@@ -202,6 +202,10 @@ const types__CAMERA_ROWS: u32 = 4u;
 
 const types__SHAPE_ROWS: u32 = 5u;
 
+const types__IMAGE_WIDTH_LOG2: u32 = 12u;
+
+const types__LAYER_ROWS_LOG2: u32 = 10u;
+
 const types__SHAPE_SPHERE: u32 = 0u;
 
 const types__SHAPE_PLANE: u32 = 1u;
@@ -225,6 +229,26 @@ const types__SHAPE_CAPPED: u32 = 1u;
 const types__MATERIAL_TWO_SIDED: u32 = 1u;
 
 const types__MATERIAL_ROWS: u32 = 8u;
+
+const types__TEXTURE_ROWS: u32 = 6u;
+
+const types__NO_TEXTURE: u32 = 65535u;
+
+const types__TEXTURE_NEAREST: u32 = 2u;
+
+const types__TEXTURE_WRAP_U_SHIFT: u32 = 2u;
+
+const types__TEXTURE_WRAP_V_SHIFT: u32 = 4u;
+
+const types__WRAP_REPEAT: u32 = 0u;
+
+const types__WRAP_MIRROR: u32 = 2u;
+
+const types__PICTURE_HALF: u32 = 2147483648u;
+
+const types__PICTURE_SRGB: u32 = 1073741824u;
+
+const types__PICTURE_FIRST_MASK: u32 = 1073741823u;
 
 const types__FILTER_BOX: u32 = 0u;
 
@@ -309,6 +333,20 @@ struct types__PackedKey {
 	_pad1: u32,
 	shear: vec3f,
 	_pad2: u32
+}
+
+struct types__PackedTexture {
+	color_a: vec3f,
+	kind: u32,
+	color_b: vec3f,
+	flags: u32,
+	row_x: vec4f,
+	row_y: vec4f,
+	row_z: vec4f,
+	picture: u32,
+	width: u32,
+	height: u32,
+	octaves: u32
 }
 
 struct types__PackedCamera {
@@ -551,8 +589,30 @@ fn fetch__load_material(index: u32) -> fetch__PhongMaterial {
 	return fetch__PhongMaterial(phong, r1.w);
 }
 
+fn fetch__load_texture_indices(index: u32) -> vec4u {
+	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+}
+
+fn fetch__load_normal_scale(index: u32) -> f32 {
+	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
+}
+
+fn fetch__load_texture(index: u32) -> types__PackedTexture {
+	let row = fetch__texture_row + types__TEXTURE_ROWS * index;
+	let r0 = fetch__material_row(row);
+	let r1 = fetch__material_row(row + 1u);
+	let r5 = fetch__material_row(row + 5u);
+	return types__PackedTexture(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec4f>(fetch__material_row(row + 2u)), bitcast<vec4f>(fetch__material_row(row + 3u)), bitcast<vec4f>(fetch__material_row(row + 4u)), r5.x, r5.y, r5.z, r5.w);
+}
+
 fn fetch__load_uv(index: u32) -> vec2f {
 	return bitcast<vec2f>(fetch__vertex_row(fetch__uv_row + index).xy);
+}
+
+fn fetch__load_texel_word(index: u32) -> u32 {
+	let row = index >> types__IMAGE_WIDTH_LOG2;
+	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
+	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
 }
 
 fn fetch__node_row(row: u32) -> vec4u {
@@ -582,6 +642,9 @@ var<storage, read> bindings__vertices: array<vec4u>;
 
 @group(0) @binding(3)
 var<storage, read> bindings__materials: array<vec4u>;
+
+@group(0) @binding(4)
+var bindings__texels: texture_2d_array<u32>;
 
 @group(1) @binding(0)
 var<storage, read> bindings__frame: types__PackedFrame;
@@ -627,6 +690,12 @@ override bindings__FILTER: u32 = types__FILTER_BOX;
 override bindings__FILTER_RADIUS: f32 = 0.5;
 
 override bindings__HAS_TEXTURES: bool = true;
+
+override bindings__HAS_NORMAL_MAPS: bool = true;
+
+override bindings__HAS_BYTE_TEXELS: bool = true;
+
+override bindings__HAS_HALF_TEXELS: bool = true;
 
 override bindings__ADAPTIVE: bool = false;
 
@@ -1782,16 +1851,21 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Sp
 	if (bindings__MIXED_MATERIALS) {
 		phong = surface__mix_phong(phong, fetch__load_material(v1.material).phong, fetch__load_material(v2.material).phong, b0, b1, b2);
 	}
+	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
+	let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
+	var shading_normal = n;
 	var uv = vec2f(b1, b2);
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
 	}
 	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
-		uv = b0 * fetch__load_uv(own.i0) + b1 * fetch__load_uv(own.i1) + b2 * fetch__load_uv(own.i2);
+		let uvs = mat3x2f(fetch__load_uv(own.i0), fetch__load_uv(own.i1), fetch__load_uv(own.i2));
+		uv = uvs * vec3f(b0, b1, b2);
+		if (bindings__HAS_NORMAL_MAPS) {
+			shading_normal = normal_map__mapped_normal(v0.material, n, corners, uvs, vec3f(b0, b1, b2));
+		}
 	}
-	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
-	let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
-	return types__Surface(corners * vec3f(b0, b1, b2), select(n, -n, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE);
+	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE);
 }
 
 fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
@@ -1839,6 +1913,104 @@ fn surface__must_flip(flags: u32, n_dot_ng: f32, ng_dot_direction: f32) -> bool 
 
 fn surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: f32, b1: f32, b2: f32) -> types__Phong {
 	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
+}
+
+fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x2f, weights: vec3f) -> vec3f {
+	let index = fetch__load_texture_indices(material).w & 65535u;
+	if (index == types__NO_TEXTURE) {
+		return n;
+	}
+	let texture = fetch__load_texture(index);
+	let q0 = normal_map__in_picture(texture, uvs[0]);
+	let q1 = normal_map__in_picture(texture, uvs[1]);
+	let q2 = normal_map__in_picture(texture, uvs[2]);
+	let code = texture__picture_color(texture, weights.x * q0 + weights.y * q1 + weights.z * q2).xyz;
+	let tilt = fetch__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
+	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
+	let bitangent = tangent.w * cross(n, tangent.xyz);
+	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + max(2.0 * code.z - 1.0, 0.0) * n, n);
+}
+
+fn normal_map__in_picture(texture: types__PackedTexture, uv: vec2f) -> vec2f {
+	let at = vec4f(uv, 0.0, 1.0);
+	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
+}
+
+fn texture__picture_color(texture: types__PackedTexture, q: vec2f) -> vec4f {
+	let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
+	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
+	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
+	return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v));
+}
+
+fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec4f {
+	let lower = (height - 1u - rows.first) * width;
+	let upper = (height - 1u - rows.second) * width;
+	return mix(mix(picture__texel_at(picture, lower + columns.first), picture__texel_at(picture, lower + columns.second), columns.weight), mix(picture__texel_at(picture, upper + columns.first), picture__texel_at(picture, upper + columns.second), columns.weight), rows.weight);
+}
+
+fn picture__texel_at(picture: u32, index: u32) -> vec4f {
+	let first = picture & types__PICTURE_FIRST_MASK;
+	if (bindings__HAS_HALF_TEXELS && (!bindings__HAS_BYTE_TEXELS || (picture & types__PICTURE_HALF) != 0u)) {
+		let low = fetch__load_texel_word(first + 2u * index);
+		let high = fetch__load_texel_word(first + 2u * index + 1u);
+		return vec4f(picture__halves(low), picture__halves(high));
+	}
+	let values = unpack4x8unorm(fetch__load_texel_word(first + index));
+	return vec4f(select(values.xyz, picture__linear_from_srgb(values.xyz), (picture & types__PICTURE_SRGB) != 0u), values.w);
+}
+
+struct picture__Neighbours {
+	first: u32,
+	second: u32,
+	weight: f32
+}
+
+fn picture__neighbours(at: f32, count: u32, nearest: bool, wrap: u32) -> picture__Neighbours {
+	let mirrored = 1.0 - abs(1.0 - 2.0 * fract(0.5 * at));
+	let inside = select(select(clamp(at, 0.0, 1.0), mirrored, wrap == types__WRAP_MIRROR), fract(at), wrap == types__WRAP_REPEAT);
+	let place = f32(count) * inside + select(-0.5, 0.0, nearest);
+	let below = floor(place);
+	let last = i32(count) - 1;
+	let index = min(i32(below), last);
+	let first = picture__within(index, last, wrap == types__WRAP_REPEAT);
+	let second = picture__within(index + 1, last, wrap == types__WRAP_REPEAT);
+	return picture__Neighbours(u32(first), u32(second), select(place - below, 0.0, nearest));
+}
+
+fn picture__within(index: i32, last: i32, repeats: bool) -> i32 {
+	let before = select(0, last, repeats);
+	let after = select(last, 0, repeats);
+	return select(select(index, before, index < 0), after, index > last);
+}
+
+fn picture__halves(bits: u32) -> vec2f {
+	let codes = vec2u(bits & 65535u, bits >> 16u);
+	let normal = bitcast<vec2f>(codes << vec2u(13u)) * 5.192296858534828e33;
+	return select(normal, vec2f(codes) * 5.960464477539063e-8, codes < vec2u(1024u));
+}
+
+fn picture__linear_from_srgb(encoded: vec3f) -> vec3f {
+	var power = vec3f(-0.1110666543);
+	power = power * encoded + vec3f(0.5140681863);
+	power = power * encoded + vec3f(-1.0304795504);
+	power = power * encoded + vec3f(1.2059204578);
+	power = power * encoded + vec3f(-0.9925410748);
+	power = power * encoded + vec3f(0.8972986937);
+	power = power * encoded + vec3f(0.4803068042);
+	power = power * encoded + vec3f(0.0356449671);
+	power = power * encoded + vec3f(0.0008464342);
+	return select(power, encoded / 12.92, encoded <= vec3f(0.04045));
+}
+
+fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) -> vec4f {
+	let area = d1.x * d2.y - d1.y * d2.x;
+	let hand = select(1.0, -1.0, area < 0.0);
+	let along = hand * (d2.y * e1 - d1.y * e2);
+	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+	let other = numeric__normalize_or(cross(n, axis), vec3f(1.0, 0.0, 0.0));
+	let within = numeric__normalize_or(along, other);
+	return vec4f(numeric__normalize_or(within - dot(within, n) * n, other), hand);
 }
 
 fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {

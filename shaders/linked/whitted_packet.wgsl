@@ -966,8 +966,12 @@ fn fetch__load_emission(index: u32) -> vec3f {
 	return bitcast<vec3f>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).xyz);
 }
 
-fn fetch__load_texture_indices(index: u32) -> vec3u {
-	return fetch__material_row(types__MATERIAL_ROWS * index + 7u).xyz;
+fn fetch__load_texture_indices(index: u32) -> vec4u {
+	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
+}
+
+fn fetch__load_normal_scale(index: u32) -> f32 {
+	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
 }
 
 fn fetch__load_texture(index: u32) -> types__PackedTexture {
@@ -1081,6 +1085,8 @@ override bindings__HAS_TEXTURES: bool = true;
 override bindings__HAS_NOISE: bool = true;
 
 override bindings__HAS_PICTURES: bool = true;
+
+override bindings__HAS_NORMAL_MAPS: bool = true;
 
 override bindings__HAS_BYTE_TEXELS: bool = true;
 
@@ -3041,16 +3047,21 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Sp
 	if (bindings__MIXED_MATERIALS) {
 		phong = surface__mix_phong(phong, fetch__load_material(v1.material).phong, fetch__load_material(v2.material).phong, b0, b1, b2);
 	}
+	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
+	let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
+	var shading_normal = n;
 	var uv = vec2f(b1, b2);
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
 	}
 	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
-		uv = b0 * fetch__load_uv(own.i0) + b1 * fetch__load_uv(own.i1) + b2 * fetch__load_uv(own.i2);
+		let uvs = mat3x2f(fetch__load_uv(own.i0), fetch__load_uv(own.i1), fetch__load_uv(own.i2));
+		uv = uvs * vec3f(b0, b1, b2);
+		if (bindings__HAS_NORMAL_MAPS) {
+			shading_normal = normal_map__mapped_normal(v0.material, n, corners, uvs, vec3f(b0, b1, b2));
+		}
 	}
-	let ng = numeric__normalize_or(cross(corners[1] - corners[0], corners[2] - corners[0]), -ray.direction);
-	let n = numeric__normalize_or(normals * vec3f(b0, b1, b2), ng);
-	return types__Surface(corners * vec3f(b0, b1, b2), select(n, -n, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE);
+	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE);
 }
 
 fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
@@ -3118,42 +3129,25 @@ fn surface__mirrored_ray(surface: types__Surface, direction: vec3f, t_max: f32, 
 	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
-fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
-	let b0 = abs(1.0 - b1 - b2);
-	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
+fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x2f, weights: vec3f) -> vec3f {
+	let index = fetch__load_texture_indices(material).w & 65535u;
+	if (index == types__NO_TEXTURE) {
+		return n;
+	}
+	let texture = fetch__load_texture(index);
+	let q0 = normal_map__in_picture(texture, uvs[0]);
+	let q1 = normal_map__in_picture(texture, uvs[1]);
+	let q2 = normal_map__in_picture(texture, uvs[2]);
+	let code = texture__picture_color(texture, weights.x * q0 + weights.y * q1 + weights.z * q2).xyz;
+	let tilt = fetch__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
+	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
+	let bitangent = tangent.w * cross(n, tangent.xyz);
+	return numeric__normalize_or(tilt.x * tangent.xyz + tilt.y * bitangent + max(2.0 * code.z - 1.0, 0.0) * n, n);
 }
 
-fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
-}
-
-fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
-}
-
-fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
-	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
-}
-
-fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
-	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
-}
-
-fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
-	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
-}
-
-fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
-	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
-}
-
-fn offset__mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: types__Ray, distance: f32, is_flat: bool) -> vec3f {
-	let height = offset__clearance(p, error, ng);
-	let slope = dot(ng, arriving.direction);
-	let back = height / max(abs(slope), 1e-6);
-	let along_normal = p - select(-height, height, slope > 0.0) * ng;
-	let at_most = select(along_normal, arriving.origin, is_flat);
-	return select(p - back * arriving.direction, at_most, back > 0.5 * distance);
+fn normal_map__in_picture(texture: types__PackedTexture, uv: vec2f) -> vec2f {
+	let at = vec4f(uv, 0.0, 1.0);
+	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
 }
 
 fn texture__textured_phong(phong: types__Phong, material: u32, p: vec3f, uv: vec2f) -> types__Phong {
@@ -3190,14 +3184,18 @@ fn texture__texture_factors(wanted: vec3u, p: vec3f, uv: vec2f) -> mat3x3f {
 	return factors;
 }
 
+fn texture__picture_color(texture: types__PackedTexture, q: vec2f) -> vec4f {
+	let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
+	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
+	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
+	return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v));
+}
+
 fn texture__texture_color(texture: types__PackedTexture, p: vec3f, uv: vec2f) -> vec3f {
 	let at = select(vec4f(p, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
 	let q = clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
-		let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
-		let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
-		let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
-		return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v)).xyz;
+		return texture__picture_color(texture, q.xy).xyz;
 	}
 	var weight = pattern__checker(q);
 	if (bindings__HAS_NOISE && texture.kind == types__PATTERN_NOISE) {
@@ -3208,6 +3206,54 @@ fn texture__texture_color(texture: types__PackedTexture, p: vec3f, uv: vec2f) ->
 	weight = select(weight, pattern__stripes(q), texture.kind == types__PATTERN_STRIPES);
 	weight = select(weight, pattern__gradient(q), texture.kind == types__PATTERN_GRADIENT);
 	return mix(texture.color_a, texture.color_b, weight);
+}
+
+fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) -> vec4f {
+	let area = d1.x * d2.y - d1.y * d2.x;
+	let hand = select(1.0, -1.0, area < 0.0);
+	let along = hand * (d2.y * e1 - d1.y * e2);
+	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+	let other = numeric__normalize_or(cross(n, axis), vec3f(1.0, 0.0, 0.0));
+	let within = numeric__normalize_or(along, other);
+	return vec4f(numeric__normalize_or(within - dot(within, n) * n, other), hand);
+}
+
+fn offset__triangle_error(v0: vec3f, v1: vec3f, v2: vec3f, b1: f32, b2: f32) -> vec3f {
+	let b0 = abs(1.0 - b1 - b2);
+	return 16.0 * numeric__ROUNDING * (b0 * abs(v0) + abs(b1 * v1) + abs(b2 * v2));
+}
+
+fn offset__sphere_error(center: vec3f, radius: f32) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(center) + vec3f(radius));
+}
+
+fn offset__plane_error(p: vec3f, point: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(point));
+}
+
+fn offset__placed_error(p: vec3f, position: vec3f, reach: vec3f) -> vec3f {
+	return 16.0 * numeric__ROUNDING * (abs(p) + abs(position) + reach);
+}
+
+fn offset__clearance(p: vec3f, error: vec3f, ng: vec3f) -> f32 {
+	return dot(abs(ng), error + 2.0 * numeric__ROUNDING * abs(p));
+}
+
+fn offset__offset_origin(p: vec3f, error: vec3f, ng: vec3f, direction: vec3f) -> vec3f {
+	return offset__fixed_origin(p, ng, direction, offset__clearance(p, error, ng));
+}
+
+fn offset__fixed_origin(p: vec3f, ng: vec3f, direction: vec3f, distance: f32) -> vec3f {
+	return p + select(-distance, distance, dot(ng, direction) > 0.0) * ng;
+}
+
+fn offset__mirrored_origin(p: vec3f, error: vec3f, ng: vec3f, arriving: types__Ray, distance: f32, is_flat: bool) -> vec3f {
+	let height = offset__clearance(p, error, ng);
+	let slope = dot(ng, arriving.direction);
+	let back = height / max(abs(slope), 1e-6);
+	let along_normal = p - select(-height, height, slope > 0.0) * ng;
+	let at_most = select(along_normal, arriving.origin, is_flat);
+	return select(p - back * arriving.direction, at_most, back > 0.5 * distance);
 }
 
 const pattern__CELL_SHIFT: f32 = 0.00073;

@@ -1,8 +1,8 @@
 //! The materials of a scene.
 
-use super::Writer;
 use super::exact::shortest;
 use super::text::{Table, color, key, number32, string};
+use super::{ExportError, Writer};
 use crate::scene::{Fresnel, Material, MaterialProperty, Mixing, Target, Textures};
 use glam::Vec3;
 
@@ -11,7 +11,9 @@ const SHININESS: f32 = 32.0;
 const IOR: f32 = 1.5;
 
 impl Writer<'_> {
-    pub fn materials(&mut self) {
+    /// # Errors
+    /// The image of a normal map cannot be written.
+    pub fn materials(&mut self) -> Result<(), ExportError> {
         let scene = self.scene;
         if !scene.materials.is_empty() {
             self.text.section("Materials");
@@ -26,11 +28,15 @@ impl Writer<'_> {
             let is_dark = is_dark && material.textures.emission.is_none();
             table.put_if(!is_dark, "emission", emission);
             table.put_if(!material.two_sided, "two_sided", "false");
+            if let Some(map) = self.normal_map(material)? {
+                table.put("normal_map", map);
+            }
             self.text.gap();
             let name = key(&self.names.materials[index]);
             self.text.head(&format!("[materials.{name}]"));
             self.text.lines(&table);
         }
+        Ok(())
     }
 
     fn phong(&self, index: usize, material: &Material) -> Table {

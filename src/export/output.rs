@@ -1,5 +1,6 @@
 //! Scene-wide settings: output, background, ambient light and shadows.
 
+use super::pictures::Role;
 use super::text::{Table, color, list, number, number32};
 use super::{ExportError, Writer, exact};
 use crate::scene::{Antialias, Background, Filter, OutputDefaults, Shadows, ToneCurve, Transfer};
@@ -45,12 +46,14 @@ impl Writer<'_> {
         };
         let mut table = Table::default();
         // Textures write their images first: this image may be among them, under the same name.
-        for texture in &self.scene.textures {
-            if let crate::scene::Pattern::Picture { picture, .. } = texture.pattern {
-                self.picture(picture)?;
+        for (index, texture) in self.scene.textures.iter().enumerate() {
+            if let crate::scene::Pattern::Picture { picture, .. } = texture.pattern
+                && !self.is_normal_map(index)
+            {
+                self.picture(picture, Role::Color)?;
             }
         }
-        table.put("picture", self.picture(picture)?);
+        table.put("picture", self.picture(picture, Role::Color)?);
         table.put_if(strength != 1.0, "strength", number32(strength));
         if rotation.to_bits() != 0 {
             let degrees = exact::degrees(rotation).filter(|degrees| degrees.abs() < 360.0);

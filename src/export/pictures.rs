@@ -8,13 +8,13 @@ use image::{ExtendedColorType, ImageEncoder, ImageError};
 use std::io::Cursor;
 
 impl Writer<'_> {
-    /// The name of the file with an image, in quotes.
-    pub fn picture(&mut self, index: usize) -> Result<String, ExportError> {
-        if let Some(name) = self.pictures.get(&index) {
+    /// The name of the file with an image that is read in this role, in quotes.
+    pub fn picture(&mut self, index: usize, role: Role) -> Result<String, ExportError> {
+        if let Some(name) = self.pictures.get(&(index, role)) {
             return Ok(string(name));
         }
         let picture = &self.scene.pictures[index];
-        let (ending, bytes) = encode(picture).map_err(|error| ExportError::Picture {
+        let (ending, bytes) = encode(picture, role).map_err(|error| ExportError::Picture {
             width: picture.width,
             height: picture.height,
             why: error.to_string(),
@@ -22,40 +22,47 @@ impl Writer<'_> {
         let number = self.pictures.len() + 1;
         let name = self.beside.add(&format!("picture-{number}"), ending, bytes);
         let quoted = string(&name);
-        self.pictures.insert(index, name);
+        self.pictures.insert((index, role), name);
         Ok(quoted)
     }
 }
 
-fn encode(picture: &Picture) -> Result<(&'static str, Vec<u8>), ImageError> {
+/// Whether importers decode the values of a PNG as sRGB or take them as they are.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Role {
+    Color,
+    Data,
+}
+
+fn encode(picture: &Picture, role: Role) -> Result<(&'static str, Vec<u8>), ImageError> {
     let (width, height) = (picture.width, picture.height);
     let mut bytes = Vec::new();
     let mut png = |codes: &[u8], kind| {
         let encoder = image::codecs::png::PngEncoder::new(&mut bytes);
         encoder.write_image(codes, width, height, kind)
     };
-    match &picture.texels {
-        Texels::Srgb8(texels) if texels.iter().all(|texel| texel[3] == u8::MAX) => {
-            let codes: Vec<u8> = texels
-                .iter()
-                .flat_map(|[r, g, b, _]| [*r, *g, *b])
-                .collect();
-            png(&codes, ExtendedColorType::Rgb8)?;
+    match (&picture.texels, role) {
+        (Texels::Srgb8(texels), Role::Color) | (Texels::Linear8(texels), Role::Data) => {
+            if texels.iter().all(|texel| texel[3] == u8::MAX) {
+                let codes: Vec<u8> = texels
+                    .iter()
+                    .flat_map(|[r, g, b, _]| [*r, *g, *b])
+                    .collect();
+                png(&codes, ExtendedColorType::Rgb8)?;
+            } else {
+                png(texels.as_flattened(), ExtendedColorType::Rgba8)?;
+            }
             return Ok(("png", bytes));
         }
-        Texels::Srgb8(texels) => {
-            png(texels.as_flattened(), ExtendedColorType::Rgba8)?;
-            return Ok(("png", bytes));
-        }
-        Texels::Float(texels) => {
+        (Texels::Float(texels), Role::Color) => {
             if let Some(codes) = codes(texels) {
                 let codes: Vec<u8> = codes.iter().flat_map(|code| code.to_ne_bytes()).collect();
                 png(&codes, ExtendedColorType::Rgba16)?;
                 return Ok(("png", bytes));
             }
         }
-        // Read from a PNG they would be sRGB.
-        Texels::Linear8(_) => {}
+        // A PNG would be decoded otherwise, and an OpenEXR file is linear in every role.
+        _ => {}
     }
     let values = picture.linear().flat_map(|texel| texel.to_array());
     let values: Vec<u8> = values.flat_map(f32::to_ne_bytes).collect();

@@ -1,8 +1,9 @@
 //! The textures of a scene.
 
+use super::pictures::Role;
 use super::text::{self, Table, color, key, string};
 use super::{ExportError, Writer, exact};
-use crate::scene::{Pattern, Space, Texture, Transform, Wrap};
+use crate::scene::{Material, Pattern, Space, Texture, Transform, Wrap};
 use glam::{DAffine3, DVec3, Vec3};
 
 impl Writer<'_> {
@@ -11,6 +12,9 @@ impl Writer<'_> {
             self.text.section("Textures");
         }
         for (index, texture) in self.scene.textures.iter().enumerate() {
+            if self.is_normal_map(index) {
+                continue;
+            }
             let mut table = Table::default();
             let pair = |a: Vec3, b: Vec3, octaves: Option<u32>| {
                 let mut table = Table::default();
@@ -34,18 +38,8 @@ impl Writer<'_> {
                     nearest,
                     wrap,
                 } => {
-                    let file = self.picture(picture)?;
-                    let is_plain = !nearest && wrap == [Wrap::Repeat; 2];
-                    let value = if is_plain {
-                        file
-                    } else {
-                        let mut named = Table::default();
-                        named.put("file", file);
-                        named.put_if(nearest, "nearest", "true".to_owned());
-                        named.put_if(wrap != [Wrap::Repeat; 2], "wrap", wrap_modes(wrap));
-                        named.inline()
-                    };
-                    table.put("picture", value);
+                    let file = self.picture(picture, Role::Color)?;
+                    table.put("picture", sampled(file, nearest, wrap));
                 }
             }
             let is_picture = matches!(texture.pattern, Pattern::Picture { .. });
@@ -62,6 +56,55 @@ impl Writer<'_> {
         }
         Ok(())
     }
+
+    /// The normal map of a material, if it has one.
+    pub fn normal_map(&mut self, material: &Material) -> Result<Option<String>, ExportError> {
+        let texture = material
+            .textures
+            .normal
+            .map(|index| &self.scene.textures[index]);
+        let Some((
+            texture,
+            Pattern::Picture {
+                picture,
+                nearest,
+                wrap,
+            },
+        )) = texture.map(|texture| (texture, &texture.pattern))
+        else {
+            return Ok(None);
+        };
+        let mut table = Table::default();
+        let file = self.picture(*picture, Role::Data)?;
+        table.put("picture", sampled(file, *nearest, *wrap));
+        let strength = material.normal_scale;
+        table.put_if(strength != 1.0, "strength", text::number32(strength));
+        place(&mut table, texture);
+        Ok(Some(table.inline()))
+    }
+
+    /// Whether a texture is a normal map and nothing else: materials hold those.
+    pub fn is_normal_map(&self, index: usize) -> bool {
+        let mut all = self
+            .scene
+            .materials
+            .iter()
+            .map(|material| &material.textures);
+        let is_color = all.clone().any(|it| it.of_colors().contains(&Some(index)));
+        !is_color && all.any(|it| it.normal == Some(index))
+    }
+}
+
+/// An image file, and how it is sampled.
+fn sampled(file: String, nearest: bool, wrap: [Wrap; 2]) -> String {
+    if !nearest && wrap == [Wrap::Repeat; 2] {
+        return file;
+    }
+    let mut table = Table::default();
+    table.put("file", file);
+    table.put_if(nearest, "nearest", "true".to_owned());
+    table.put_if(wrap != [Wrap::Repeat; 2], "wrap", wrap_modes(wrap));
+    table.inline()
 }
 
 /// The name of a mode for both axes, or the names of two.

@@ -29,11 +29,20 @@ const MAX_KEPT_BYTES: u64 = 4 << 30;
 /// Memory limit for decoding: four floats per texel.
 const MAX_DECODED_BYTES: u64 = MAX_TEXELS * 16;
 
-/// The images of a scene; each file is read once.
+/// The images of a scene; each file is read once for each role.
 #[derive(Default)]
 pub(super) struct Pictures {
     pub pictures: Vec<Arc<Picture>>,
-    indices: HashMap<PathBuf, usize>,
+    indices: HashMap<(PathBuf, Role), usize>,
+}
+
+/// What the values of an image stand for, which decides how those of PNG and JPEG are decoded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Role {
+    /// Colours in sRGB.
+    Color,
+    /// Numbers, such as the coordinates of normals.
+    Data,
 }
 
 /// Why an image could not be read.
@@ -76,23 +85,29 @@ impl Pictures {
     ///
     /// # Errors
     /// The file is missing or inaccessible, is not an image, or is too large.
-    pub fn read(&mut self, files: &Files, name: &str) -> Result<usize, Refused> {
-        let path = files.resolve(name).map_err(Refused::File)?;
-        if let Some(&index) = self.indices.get(&path) {
+    pub fn read(&mut self, files: &Files, name: &str, role: Role) -> Result<usize, Refused> {
+        let key = (files.resolve(name).map_err(Refused::File)?, role);
+        if let Some(&index) = self.indices.get(&key) {
             return Ok(index);
         }
         let taken = (self.pictures.iter())
             .map(|picture| picture.texels.byte_len() as u64)
             .sum();
-        let picture = decode(files, &path, name, taken)?;
+        let picture = decode(files, &key.0, name, role, taken)?;
         self.pictures.push(Arc::new(picture));
-        self.indices.insert(path, self.pictures.len() - 1);
+        self.indices.insert(key, self.pictures.len() - 1);
         Ok(self.pictures.len() - 1)
     }
 }
 
 /// Reads the image at `path`; `taken` bytes of texels are already kept.
-fn decode(files: &Files, path: &Path, name: &str, taken: u64) -> Result<Picture, Refused> {
+fn decode(
+    files: &Files,
+    path: &Path,
+    name: &str,
+    role: Role,
+    taken: u64,
+) -> Result<Picture, Refused> {
     let quoted = quote(name.as_bytes());
     let too_big = |why: String| Refused::Unfit {
         kind: ImportError::TooBig,
@@ -152,7 +167,7 @@ fn decode(files: &Files, path: &Path, name: &str, taken: u64) -> Result<Picture,
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_DECODED_BYTES);
     body.limits(limits);
-    let texels = texels(body.decode().map_err(explain)?);
+    let texels = texels(body.decode().map_err(explain)?, role);
     let bytes = texels.byte_len() as u64;
     if taken + bytes > MAX_KEPT_BYTES {
         let why = format!(
@@ -168,7 +183,7 @@ fn decode(files: &Files, path: &Path, name: &str, taken: u64) -> Result<Picture,
 }
 
 /// The texels of `image`, row by row from the top left. Floats are finite and 0 or more.
-fn texels(image: DynamicImage) -> Texels {
+fn texels(image: DynamicImage, role: Role) -> Texels {
     let channels = usize::from(image.color().channel_count());
     let is_narrow = usize::from(image.color().bytes_per_pixel()) == channels;
     match image {
@@ -187,13 +202,19 @@ fn texels(image: DynamicImage) -> Texels {
                 [grey, alpha] => [grey, grey, grey, alpha],
                 _ => [p[0], p[0], p[0], u8::MAX],
             };
-            let texels = image.as_bytes().chunks_exact(channels);
-            Texels::Srgb8(texels.map(texel).collect())
+            let texels = image.as_bytes().chunks_exact(channels).map(texel);
+            match role {
+                Role::Color => Texels::Srgb8(texels.collect()),
+                Role::Data => Texels::Linear8(texels.collect()),
+            }
         }
         image => {
             let value = |code: u16| f64::from(code) / f64::from(u16::MAX);
             let curve: Vec<f32> = (0..=u16::MAX)
-                .map(|code| linear_from_srgb(value(code)) as f32)
+                .map(|code| match role {
+                    Role::Color => linear_from_srgb(value(code)) as f32,
+                    Role::Data => value(code) as f32,
+                })
                 .collect();
             let texel = |p: &image::Rgba<u16>| {
                 let [r, g, b, a] = p.0;

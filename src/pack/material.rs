@@ -57,7 +57,9 @@ pub fn material(material: &Material) -> PackedMaterial {
             pair(textures.diffuse, textures.specular),
             pair(textures.reflect, textures.transmit),
             pair(textures.ambient, textures.emission),
+            pair(textures.normal, None),
         ],
+        normal_scale: material.normal_scale,
         ..Default::default()
     }
 }
@@ -137,6 +139,7 @@ pub fn features(scene: &Scene) -> Features {
         optics_textures: (scene.materials.iter())
             .map(|material| &material.textures)
             .any(|it| it.reflect.or(it.transmit).or(it.emission).is_some()),
+        normal_maps: (scene.materials.iter()).any(|material| material.textures.normal.is_some()),
         emission: emission || light::visible(scene).next().is_some(),
         ..Features::default()
     }

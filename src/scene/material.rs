@@ -41,8 +41,10 @@ pub struct Material {
     pub fresnel: Fresnel,
     /// How local, reflected and transmitted light are combined.
     pub mixing: Mixing,
-    /// Textures that multiply the colours.
+    /// Textures that multiply the colours, and the normal map.
     pub textures: Textures,
+    /// Factor on the tilt of normals in the normal map: on their x and y, 0 or more.
+    pub normal_scale: f32,
 }
 
 /// How reflection depends on the angle.
@@ -87,11 +89,24 @@ pub struct Textures {
     pub reflect: Option<usize>,
     /// Of [`Material::transmit`].
     pub transmit: Option<usize>,
+    /// The normal map: a picture of shading normals on triangles with u and v. Values from 0 to 1 stand for −1
+    /// to 1; x points along u of the picture, y along v, z along the interpolated normal. Other surfaces
+    /// have none.
+    pub normal: Option<usize>,
 }
 
 impl Textures {
+    /// The textures of all colours, and the normal map.
+    pub fn all(&self) -> [Option<usize>; 7] {
+        let Self { normal, .. } = *self;
+        let [diffuse, specular, ambient, emission, reflect, transmit] = self.of_colors();
+        [
+            diffuse, specular, ambient, emission, reflect, transmit, normal,
+        ]
+    }
+
     /// The textures of all colours.
-    pub fn all(&self) -> [Option<usize>; 6] {
+    pub fn of_colors(&self) -> [Option<usize>; 6] {
         let Self {
             diffuse,
             specular,
@@ -99,6 +114,7 @@ impl Textures {
             emission,
             reflect,
             transmit,
+            normal: _,
         } = *self;
         [diffuse, specular, ambient, emission, reflect, transmit]
     }
@@ -112,8 +128,11 @@ impl Textures {
             emission,
             reflect,
             transmit,
+            normal,
         } = self;
-        for index in [diffuse, specular, ambient, emission, reflect, transmit] {
+        for index in [
+            diffuse, specular, ambient, emission, reflect, transmit, normal,
+        ] {
             *index = index.map(|index| index + first);
         }
     }
@@ -139,6 +158,7 @@ impl Default for Material {
             fresnel: Fresnel::None,
             mixing: Mixing::Layer,
             textures: Textures::default(),
+            normal_scale: 1.0,
         }
     }
 }

@@ -35,6 +35,7 @@ mod messages;
 mod motion_blur;
 mod moving;
 mod moving_pictures;
+mod normal_maps;
 mod optics;
 mod orthographic;
 mod output;

@@ -26,8 +26,8 @@ pub(super) use objects::{
 };
 
 pub(super) use textures::{
-    BackgroundTable, ColorOrBackground, ColorOrTexture, PairTable, PatternTables, PictureOrFile,
-    SpaceName, TextureTable,
+    BackgroundTable, ColorOrBackground, ColorOrTexture, NormalMapTable, PairTable, PatternTables,
+    PictureOrFile, SpaceName, TextureTable,
 };
 
 use super::values::{

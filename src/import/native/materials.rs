@@ -42,6 +42,10 @@ pub(super) fn material(
         },
         ..Material::default()
     };
+    if let Some(map) = &table.normal_map {
+        material.textures.normal = Some(textures.normal_map(map)?);
+        material.normal_scale = map.get_ref().strength.0;
+    }
     if let Some(optics) = &table.optics {
         if table.reflect.is_some() || table.refract.is_some() {
             let why = "`optics` replaces `reflect` and `refract`";

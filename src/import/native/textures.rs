@@ -2,12 +2,12 @@
 
 use super::Texts;
 use super::file::{
-    BackgroundTable, ColorOrBackground, ColorOrTexture, PairTable, PatternTables, PictureOrFile,
-    SceneFile, SpaceName, in_order,
+    BackgroundTable, ColorOrBackground, ColorOrTexture, NormalMapTable, PairTable, PatternTables,
+    PictureOrFile, SceneFile, SpaceName, in_order,
 };
 use crate::import::error::ImportError;
 use crate::import::paths::Files;
-use crate::import::picture::Pictures;
+use crate::import::picture::{Pictures, Role};
 use crate::import::suggest;
 use crate::scene::{Background, Pattern, Space, Texture, Transform, Wrap};
 use glam::{DVec3, Vec3};
@@ -81,6 +81,11 @@ impl<'a> Textures<'a> {
         Ok((factor, Some(index)))
     }
 
+    /// The texture of a normal map.
+    pub fn normal_map(&mut self, map: &Spanned<NormalMapTable>) -> Result<usize, ImportError> {
+        self.texture(&map.get_ref().pattern(), map.span())
+    }
+
     /// The background.
     pub fn background(
         &mut self,
@@ -117,7 +122,7 @@ impl<'a> Textures<'a> {
                 let degrees = table.rotation_deg.map_or(0.0, |angle| angle.0);
                 let degrees = (degrees % 360.0).to_radians();
                 Ok(Background::Picture {
-                    picture: self.picture(name.get_ref(), name.span())?,
+                    picture: self.picture(name.get_ref(), name.span(), Role::Color)?,
                     strength,
                     rotation: table.rotation.map_or(degrees, |radians| radians.0),
                 })
@@ -167,7 +172,7 @@ impl<'a> Textures<'a> {
                 }
             };
             Some(Pattern::Picture {
-                picture: self.picture(name, span)?,
+                picture: self.picture(name, span, tables.role)?,
                 nearest,
                 wrap,
             })
@@ -205,8 +210,13 @@ impl<'a> Textures<'a> {
         Ok(self.textures.len() - 1)
     }
 
-    fn picture(&mut self, name: &str, span: Range<usize>) -> Result<usize, ImportError> {
-        let read = self.pictures.read(self.files, name);
+    fn picture(
+        &mut self,
+        name: &str,
+        span: Range<usize>,
+        role: Role,
+    ) -> Result<usize, ImportError> {
+        let read = self.pictures.read(self.files, name, role);
         read.map_err(|refused| {
             refused.into_error(|why, todo| self.texts.malformed(span, why, todo))
         })

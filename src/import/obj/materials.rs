@@ -5,6 +5,7 @@ use super::{Reader, mtl};
 use crate::import::error::ImportError;
 use crate::import::notes::Notes;
 use crate::import::paths::Refusal;
+use crate::import::picture::Role;
 use crate::import::source::{Source, Token, quote};
 use crate::scene::{Material, Pattern, Space, Texture, Wrap};
 use glam::DAffine3;
@@ -131,7 +132,7 @@ impl<'s> Reader<'s> {
 
     /// The texture with the image `name` in `file`; unreadable images are skipped.
     fn picture(&mut self, name: Option<String>, file: &Path) -> Option<usize> {
-        let picture = match self.pictures.read(&self.files.named_in(file), &name?) {
+        let picture = match (self.pictures).read(&self.files.named_in(file), &name?, Role::Color) {
             Ok(picture) => picture,
             Err(refused) => {
                 self.notes.add("skipped textures", || {

@@ -136,6 +136,7 @@ fn material(random: &mut Random, textures: usize) -> Material {
             emission: slot(),
             reflect: slot(),
             transmit: slot(),
+            normal: None,
         };
     }
     material

@@ -1,6 +1,6 @@
 //! Materials in a native scene.
 
-use super::textures::{ColorOrTexture, plain};
+use super::textures::{ColorOrTexture, NormalMapTable, plain};
 use crate::import::native::values::{
     Absorption, Fraction, FresnelName, MixingName, NonNegative, Positive, Priority, RefractiveIndex,
 };
@@ -26,6 +26,9 @@ pub(in crate::import::native) struct MaterialTable {
     /// combinations that those cannot express.
     #[schemars(with = "Option<OpticsTable>")]
     pub optics: Option<Spanned<OpticsTable>>,
+    /// Bumps of the surface that only light shows; default none.
+    #[schemars(with = "Option<NormalMapTable>")]
+    pub normal_map: Option<Spanned<NormalMapTable>>,
     /// The light that it emits; default none.
     #[schemars(with = "ColorOrTexture")]
     pub emission: Spanned<ColorOrTexture>,
@@ -40,6 +43,7 @@ impl Default for MaterialTable {
             reflect: None,
             refract: None,
             optics: None,
+            normal_map: None,
             emission: plain(Vec3::ZERO),
             two_sided: true,
         }

@@ -3,6 +3,7 @@
 use crate::import::native::values::{
     Angle, Color, Matrix, NonNegative, Number, Octaves, Scale, Vector,
 };
+use crate::import::picture::Role;
 use crate::scene::Wrap;
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -59,6 +60,7 @@ macro_rules! with_pattern {
                     rotate_deg: self.rotate_deg,
                     translate: self.translate,
                     pattern_from_space: self.pattern_from_space,
+                    role: Role::Color,
                 }
             }
         }
@@ -95,6 +97,51 @@ pub(in crate::import::native) struct PatternTables<'a> {
     pub rotate_deg: Option<Vector>,
     pub translate: Option<Vector>,
     pub pattern_from_space: Option<Matrix>,
+    pub role: Role,
+}
+
+/// A normal map, for models with u and v. Red, green and blue from 0 to 1 stand for -1 to 1: red along u, green
+/// along v, blue along the surface's own normal.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::import::native) struct NormalMapTable {
+    /// The image, which is not read as sRGB.
+    #[schemars(with = "PictureOrFile")]
+    pub picture: Spanned<PictureOrFile>,
+    /// Factor on the tilt of the normals; default 1.
+    #[serde(default = "one")]
+    pub strength: NonNegative,
+    /// The scale of the image: a factor for both axes, or one for each; not 0.
+    pub scale: Option<Scale>,
+    /// Rotation of the image in degrees about the x, then the y, then the z axis.
+    pub rotate_deg: Option<Vector>,
+    /// Translation of the image.
+    pub translate: Option<Vector>,
+    /// Instead of these three, the inverse, as in a texture.
+    pub pattern_from_space: Option<Matrix>,
+}
+
+fn one() -> NonNegative {
+    NonNegative(1.0)
+}
+
+impl NormalMapTable {
+    /// The image and its transform.
+    pub fn pattern(&self) -> PatternTables<'_> {
+        PatternTables {
+            checker: None,
+            stripes: None,
+            gradient: None,
+            noise: None,
+            picture: Some(&self.picture),
+            space: None,
+            scale: self.scale,
+            rotate_deg: self.rotate_deg,
+            translate: self.translate,
+            pattern_from_space: self.pattern_from_space,
+            role: Role::Data,
+        }
+    }
 }
 
 /// Two colours.

@@ -181,16 +181,20 @@ fn textures(fields: &mut Fields, index: usize, textures: &Textures) {
         };
         options.push((Some(number), format!("{kind} (texture {})", number + 1)));
     }
-    let slots: [(&str, Option<usize>, Slot); 6] = [
+    let slots: [(&str, Option<usize>, Slot); 7] = [
         ("× Diffuse", textures.diffuse, |t| &mut t.diffuse),
         ("× Specular", textures.specular, |t| &mut t.specular),
         ("× Ambient", textures.ambient, |t| &mut t.ambient),
         ("× Emission", textures.emission, |t| &mut t.emission),
         ("× Reflect", textures.reflect, |t| &mut t.reflect),
         ("× Transmit", textures.transmit, |t| &mut t.transmit),
+        ("Normal map", textures.normal, |t| &mut t.normal),
     ];
     for (label, value, slot) in slots {
-        let tip = "Texture that multiplies this colour.";
+        let tip = match label {
+            "Normal map" => "Normals of small bumps, as a picture.",
+            _ => "Texture that multiplies this colour.",
+        };
         fields.choice((label, tip), value, &options, move |scene, to| {
             *slot(&mut scene.materials[index].textures) = to;
         });
