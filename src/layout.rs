@@ -169,14 +169,15 @@ packed! {
         priority: i32,
         /// Absorption coefficient of the inside, per unit length.
         absorption: [f32; 3],
-        #[doc(hidden)]
-        _pad0: f32,
+        /// With [`MATERIAL_COVERAGE`]: alpha. With [`MATERIAL_MASK`] divided by the alpha from which on the
+        /// surface is there.
+        alpha: f32,
         /// Emitted radiance.
         emission: [f32; 3],
         /// Factor on the tilt of the normals in the normal map.
         normal_scale: f32,
         /// 16-bit indices of [`PackedTexture`]s or [`NO_TEXTURE`]: diffuse and specular, reflect and
-        /// transmit, ambient and emission, the first of each pair in the lower half; and the normal map.
+        /// transmit, ambient and emission, normal map and alpha, the first of each pair in the lower half.
         textures: [u32; 4],
     }
     /// A spatially varying colour that multiplies a colour of a material.

@@ -124,6 +124,8 @@ pub struct Features {
     pub noise: bool,
     /// Some texture is a picture.
     pub pictures: bool,
+    /// Some surface has holes.
+    pub coverage: bool,
     /// Some material has a normal map.
     pub normal_maps: bool,
     /// Some picture has 8 bits per channel.

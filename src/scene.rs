@@ -34,7 +34,7 @@ pub use animation::{
 pub use curve::Value;
 pub use frame::{Frame, NodeState};
 pub use light::{Attenuation, Light, LightKind};
-pub use material::{Fresnel, Material, Mixing, Textures};
+pub use material::{Coverage, Fresnel, Material, Mixing, Textures};
 pub use mesh::{Mesh, Repairs};
 pub use node::Node;
 pub use object::ObjectRef;

@@ -152,14 +152,14 @@ fn dispatch__add_counts(lane: u32) {
 		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
 		atomicAdd(&bindings__dispatch.counters.shadow, dispatch__counts.shadow);
 		atomicAdd(&bindings__dispatch.counters.shadow_blocked, dispatch__counts.shadow_blocked);
-		if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+		if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
 			atomicAdd(&bindings__dispatch.counters.reflection, dispatch__counts.reflection);
 			atomicAdd(&bindings__dispatch.counters.reflection_hits, dispatch__counts.reflection_hits);
 			atomicAdd(&bindings__dispatch.counters.refraction, dispatch__counts.refraction);
 			atomicAdd(&bindings__dispatch.counters.refraction_hits, dispatch__counts.refraction_hits);
 		}
 	}
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && ray_stack__cut_off_trees > 0u) {
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) && ray_stack__cut_off_trees > 0u) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
 	}
 	if (loops__cut_off) {
@@ -609,12 +609,6 @@ fn fetch__load_uv(index: u32) -> vec2f {
 	return bitcast<vec2f>(fetch__vertex_row(fetch__uv_row + index).xy);
 }
 
-fn fetch__load_texel_word(index: u32) -> u32 {
-	let row = index >> types__IMAGE_WIDTH_LOG2;
-	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
-}
-
 fn fetch__node_row(row: u32) -> vec4u {
 	return bindings__nodes[row];
 }
@@ -690,6 +684,8 @@ override bindings__FILTER: u32 = types__FILTER_BOX;
 override bindings__FILTER_RADIUS: f32 = 0.5;
 
 override bindings__HAS_TEXTURES: bool = true;
+
+override bindings__HAS_COVERAGE: bool = true;
 
 override bindings__HAS_NORMAL_MAPS: bool = true;
 
@@ -1952,12 +1948,18 @@ fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture
 fn picture__texel_at(picture: u32, index: u32) -> vec4f {
 	let first = picture & types__PICTURE_FIRST_MASK;
 	if (bindings__HAS_HALF_TEXELS && (!bindings__HAS_BYTE_TEXELS || (picture & types__PICTURE_HALF) != 0u)) {
-		let low = fetch__load_texel_word(first + 2u * index);
-		let high = fetch__load_texel_word(first + 2u * index + 1u);
+		let low = picture__load_texel_word(first + 2u * index);
+		let high = picture__load_texel_word(first + 2u * index + 1u);
 		return vec4f(picture__halves(low), picture__halves(high));
 	}
-	let values = unpack4x8unorm(fetch__load_texel_word(first + index));
+	let values = unpack4x8unorm(picture__load_texel_word(first + index));
 	return vec4f(select(values.xyz, picture__linear_from_srgb(values.xyz), (picture & types__PICTURE_SRGB) != 0u), values.w);
+}
+
+fn picture__load_texel_word(index: u32) -> u32 {
+	let row = index >> types__IMAGE_WIDTH_LOG2;
+	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
+	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
 }
 
 struct picture__Neighbours {

@@ -53,8 +53,8 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 						surface.phong = texture__textured_phong(surface.phong, surface.material, surface.place, surface.uv);
 					}
 					let factors = texture__texture_optics(surface);
-					if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
-						event = optics__scatter(batch, state, hit.t, contact, factors);
+					if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
+						event = optics__scatter(batch, state, hit.t, contact, factors, coverage__coverage_at(surface));
 						surface.phong.diffuse *= event.diffuse;
 						surface.phong.ambient *= event.diffuse;
 						surface.phong.specular *= event.highlight;
@@ -69,7 +69,7 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 					color = wide__vector_set(color, k, own_light(batch, surface, factors[2]));
 				}
 			}
-			if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+			if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
 				let following = ray_stack__next_ray(event.reflected, event.refracted);
 				next = ray_stack__state_set(next, k, following);
 				is_unfinished |= ray_stack__is_alive(following);
@@ -461,14 +461,14 @@ fn dispatch__add_counts(lane: u32) {
 		atomicAdd(&bindings__dispatch.counters.primary_hits, dispatch__counts.primary_hits);
 		atomicAdd(&bindings__dispatch.counters.shadow, dispatch__counts.shadow);
 		atomicAdd(&bindings__dispatch.counters.shadow_blocked, dispatch__counts.shadow_blocked);
-		if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) {
+		if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
 			atomicAdd(&bindings__dispatch.counters.reflection, dispatch__counts.reflection);
 			atomicAdd(&bindings__dispatch.counters.reflection_hits, dispatch__counts.reflection_hits);
 			atomicAdd(&bindings__dispatch.counters.refraction, dispatch__counts.refraction);
 			atomicAdd(&bindings__dispatch.counters.refraction_hits, dispatch__counts.refraction_hits);
 		}
 	}
-	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION) && ray_stack__cut_off_trees > 0u) {
+	if ((bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) && ray_stack__cut_off_trees > 0u) {
 		atomicAdd(&bindings__dispatch.counters.cut_off_trees, ray_stack__cut_off_trees);
 	}
 	if (loops__cut_off) {
@@ -548,6 +548,10 @@ const types__MATERIAL_SCHLICK: u32 = 4u;
 const types__MATERIAL_SUM: u32 = 8u;
 
 const types__MATERIAL_BLEND: u32 = 16u;
+
+const types__MATERIAL_COVERAGE: u32 = 32u;
+
+const types__MATERIAL_MASK: u32 = 64u;
 
 const types__MATERIAL_ROWS: u32 = 8u;
 
@@ -970,6 +974,16 @@ fn fetch__load_texture_indices(index: u32) -> vec4u {
 	return fetch__material_row(types__MATERIAL_ROWS * index + 7u);
 }
 
+struct fetch__CoverageMaterial {
+	alpha: f32,
+	flags: u32
+}
+
+fn fetch__load_coverage(index: u32) -> fetch__CoverageMaterial {
+	let row = types__MATERIAL_ROWS * index;
+	return fetch__CoverageMaterial(bitcast<f32>(fetch__material_row(row + 5u).w), fetch__material_row(row + 1u).w);
+}
+
 fn fetch__load_normal_scale(index: u32) -> f32 {
 	return bitcast<f32>(fetch__material_row(types__MATERIAL_ROWS * index + 6u).w);
 }
@@ -984,12 +998,6 @@ fn fetch__load_texture(index: u32) -> types__PackedTexture {
 
 fn fetch__load_uv(index: u32) -> vec2f {
 	return bitcast<vec2f>(fetch__vertex_row(fetch__uv_row + index).xy);
-}
-
-fn fetch__load_texel_word(index: u32) -> u32 {
-	let row = index >> types__IMAGE_WIDTH_LOG2;
-	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
-	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
 }
 
 fn fetch__texel(row: u32) -> vec2u {
@@ -1085,6 +1093,8 @@ override bindings__HAS_TEXTURES: bool = true;
 override bindings__HAS_NOISE: bool = true;
 
 override bindings__HAS_PICTURES: bool = true;
+
+override bindings__HAS_COVERAGE: bool = true;
 
 override bindings__HAS_NORMAL_MAPS: bool = true;
 
@@ -2675,7 +2685,7 @@ struct optics__Weights {
 	highlight: vec3f
 }
 
-fn optics__scatter(batch: dispatch__Batch, state: ray_stack__RayState, distance: f32, contact: contact__Contact, factors: mat3x3f) -> optics__ScatterEvent {
+fn optics__scatter(batch: dispatch__Batch, state: ray_stack__RayState, distance: f32, contact: contact__Contact, factors: mat3x3f, coverage: f32) -> optics__ScatterEvent {
 	let surface = contact.surface;
 	let direction = state.ray.direction;
 	let optics = fetch__load_optics(surface.material);
@@ -2697,6 +2707,10 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_stack__RayState, distance:
 		let medium = medium__medium_of(here);
 		ior = medium.ior;
 		arriving *= medium__transmittance(medium, distance);
+	}
+	let passing = arriving * (1.0 - coverage);
+	if (bindings__HAS_COVERAGE) {
+		arriving *= coverage;
 	}
 	let ng = select(surface.ng, -surface.ng, dot(surface.ng, direction) > 0.0);
 	var n = select(surface.n, -surface.n, dot(surface.n, direction) > 0.0);
@@ -2728,9 +2742,15 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_stack__RayState, distance:
 		let ray = surface__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
 		reflected_ray = ray_stack__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_stack__KIND_REFLECTED, 2u * state.node);
 	}
-	if (bindings__HAS_REFRACTION && transparent && (deeper || !is_boundary) && optics__is_worth_tracing(batch, arriving * transmit)) {
+	let refracts = bindings__HAS_REFRACTION && transparent && (deeper || !is_boundary);
+	let beyond = select(vec3f(0.0), arriving * transmit, refracts);
+	if (bindings__HAS_REFRACTION && refracts && optics__is_worth_tracing(batch, beyond + passing)) {
 		let ray = surface__leaving_ray(surface, straight, camera__T_FAR);
-		refracted_ray = ray_stack__RayState(ray, arriving * transmit, media, select(state.depth, state.depth + 1u, is_boundary), ray_stack__KIND_REFRACTED, 2u * state.node + 1u);
+		refracted_ray = ray_stack__RayState(ray, beyond + passing, media, select(state.depth, state.depth + 1u, is_boundary), ray_stack__KIND_REFRACTED, 2u * state.node + 1u);
+	}
+	else if (bindings__HAS_COVERAGE && optics__is_worth_tracing(batch, passing)) {
+		let ray = surface__leaving_ray(surface, direction, camera__T_FAR);
+		refracted_ray = ray_stack__RayState(ray, passing, state.media, state.depth, ray_stack__KIND_REFRACTED, 2u * state.node + 1u);
 	}
 	let sends = any(reflected_ray.throughput > vec3f(0.0));
 	let kept = optics__local_weights(optics, reflect, sends);
@@ -2878,12 +2898,18 @@ fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture
 fn picture__texel_at(picture: u32, index: u32) -> vec4f {
 	let first = picture & types__PICTURE_FIRST_MASK;
 	if (bindings__HAS_HALF_TEXELS && (!bindings__HAS_BYTE_TEXELS || (picture & types__PICTURE_HALF) != 0u)) {
-		let low = fetch__load_texel_word(first + 2u * index);
-		let high = fetch__load_texel_word(first + 2u * index + 1u);
+		let low = picture__load_texel_word(first + 2u * index);
+		let high = picture__load_texel_word(first + 2u * index + 1u);
 		return vec4f(picture__halves(low), picture__halves(high));
 	}
-	let values = unpack4x8unorm(fetch__load_texel_word(first + index));
+	let values = unpack4x8unorm(picture__load_texel_word(first + index));
 	return vec4f(select(values.xyz, picture__linear_from_srgb(values.xyz), (picture & types__PICTURE_SRGB) != 0u), values.w);
+}
+
+fn picture__load_texel_word(index: u32) -> u32 {
+	let row = index >> types__IMAGE_WIDTH_LOG2;
+	let place = vec2u(index & ((1u << types__IMAGE_WIDTH_LOG2) - 1u), row & ((1u << types__LAYER_ROWS_LOG2) - 1u));
+	return textureLoad(bindings__texels, place, row >> types__LAYER_ROWS_LOG2, 0).x;
 }
 
 const contact__NEAR: f32 = 1e-5;
@@ -3191,9 +3217,20 @@ fn texture__picture_color(texture: types__PackedTexture, q: vec2f) -> vec4f {
 	return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v));
 }
 
-fn texture__texture_color(texture: types__PackedTexture, p: vec3f, uv: vec2f) -> vec3f {
+fn texture__place_in_pattern(texture: types__PackedTexture, p: vec3f, uv: vec2f) -> vec3f {
 	let at = select(vec4f(p, 1.0), vec4f(uv, 0.0, 1.0), (texture.flags & types__TEXTURE_UV) != 0u);
-	let q = clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
+	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
+}
+
+fn texture__texture_alpha(texture: types__PackedTexture, p: vec3f, uv: vec2f) -> f32 {
+	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
+		return texture__picture_color(texture, texture__place_in_pattern(texture, p, uv).xy).w;
+	}
+	return 1.0;
+}
+
+fn texture__texture_color(texture: types__PackedTexture, p: vec3f, uv: vec2f) -> vec3f {
+	let q = texture__place_in_pattern(texture, p, uv);
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
 		return texture__picture_color(texture, q.xy).xyz;
 	}
@@ -3387,6 +3424,25 @@ fn fresnel__refracted(direction: vec3f, n: vec3f, eta: f32, cos_t: f32) -> vec3f
 	return normalize(eta * direction + (eta * cos_i - cos_t) * n);
 }
 
+fn coverage__coverage_at(surface: types__Surface) -> f32 {
+	if (!bindings__HAS_COVERAGE) {
+		return 1.0;
+	}
+	let material = fetch__load_coverage(surface.material);
+	if ((material.flags & types__MATERIAL_COVERAGE) == 0u) {
+		return 1.0;
+	}
+	var alpha = material.alpha;
+	if (bindings__HAS_TEXTURES) {
+		let index = fetch__load_texture_indices(surface.material).w >> 16u;
+		if (index != types__NO_TEXTURE) {
+			alpha *= texture__texture_alpha(fetch__load_texture(index), surface.place, surface.uv);
+		}
+	}
+	let masked = select(0.0, 1.0, alpha >= 0.999999);
+	return select(clamp(alpha, 0.0, 1.0), masked, (material.flags & types__MATERIAL_MASK) != 0u);
+}
+
 fn light__spot_falloff(cos_angle: f32, cos_inner: f32, cos_outer: f32) -> f32 {
 	let x = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 1e-6), 0.0, 1.0);
 	return x * x * (3.0 - 2.0 * x);
@@ -3567,7 +3623,7 @@ const shadow__MAX_CROSSINGS: u32 = 64u;
 
 fn shadow__light_through(rays: rays__Rays, media: ray_stack__Media) -> wide__Vectors {
 	var through: wide__Vectors;
-	if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
 		through = shadow__filtered(rays, media);
 	}
 	else {
@@ -3614,25 +3670,22 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_stack__Media) -> wide__V
 				var passed = wide__vector_at(transmitted, k);
 				var next = rays__DEAD;
 				if (hit.primitive == types__NONE) {
-					passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_stack__media_at(media, k))), hit.t);
+					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+						passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_stack__media_at(media, k))), hit.t);
+					}
 				}
 				else {
 					ray_stack__current_tree = k;
 					let contact = contact__contact_at(ray, hit);
 					let surface = contact.surface;
-					let optics = fetch__load_optics(surface.material);
-					let around = ray_stack__media_at(media, k);
-					let here = medium__medium_before(around, surface.material, surface.outside);
-					let beyond = contact__media_behind(around, contact);
-					media = ray_stack__media_set(media, k, beyond);
-					let behind = medium__dominant(beyond);
-					var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), hit.t);
-					if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
-						let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
-						let eta = medium__medium_of(here).ior / medium__medium_of(behind).ior;
-						through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
+					var through = vec3f(0.0);
+					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
+						let around = ray_stack__media_at(media, k);
+						let beyond = contact__media_behind(around, contact);
+						media = ray_stack__media_set(media, k, beyond);
+						through = shadow__passing(ray, hit.t, surface, around, medium__dominant(beyond));
 					}
-					passed *= through;
+					passed *= mix(vec3f(1.0), through, coverage__coverage_at(surface));
 					let rest = ray.t_max - hit.t;
 					if (any(passed > vec3f(0.0)) & (rest > 0.0)) {
 						next = surface__leaving_ray(surface, ray.direction, rest);
@@ -3657,6 +3710,18 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_stack__Media) -> wide__V
 	}
 	loops__cut_off |= is_unfinished & (crossings < shadow__MAX_CROSSINGS);
 	return transmitted;
+}
+
+fn shadow__passing(ray: types__Ray, distance: f32, surface: types__Surface, around: vec4u, behind: u32) -> vec3f {
+	let optics = fetch__load_optics(surface.material);
+	let here = medium__medium_before(around, surface.material, surface.outside);
+	var through = texture__texture_optics(surface)[1] * optics.transmit * medium__transmittance(medium__medium_of(here), distance);
+	if ((optics.flags & types__MATERIAL_FRESNEL) != 0u) {
+		let cos_i = min(abs(dot(surface.n, ray.direction)), 1.0);
+		let eta = medium__medium_of(here).ior / medium__medium_of(behind).ior;
+		through *= 1.0 - fresnel__fresnel(cos_i, min(eta, 1.0 / eta)).reflectance;
+	}
+	return through;
 }
 
 const filter__PI: f32 = 3.14159265;

@@ -3,7 +3,7 @@
 use super::exact::shortest;
 use super::text::{Table, color, key, number32, string};
 use super::{ExportError, Writer};
-use crate::scene::{Fresnel, Material, MaterialProperty, Mixing, Target, Textures};
+use crate::scene::{Coverage, Fresnel, Material, MaterialProperty, Mixing, Target, Textures};
 use glam::Vec3;
 
 /// The defaults of a native material.
@@ -28,6 +28,8 @@ impl Writer<'_> {
             let is_dark = is_dark && material.textures.emission.is_none();
             table.put_if(!is_dark, "emission", emission);
             table.put_if(!material.two_sided, "two_sided", "false");
+            let coverage = self.coverage(material);
+            table.put_if(!coverage.is_empty(), "coverage", coverage.inline());
             if let Some(map) = self.normal_map(material)? {
                 table.put("normal_map", map);
             }
@@ -37,6 +39,24 @@ impl Writer<'_> {
             self.text.lines(&table);
         }
         Ok(())
+    }
+
+    /// How much of the surface is there; empty if all of it is.
+    fn coverage(&self, material: &Material) -> Table {
+        let mut table = Table::default();
+        let least = match material.coverage {
+            Coverage::Opaque => return table,
+            Coverage::Mask(least) => Some(least),
+            Coverage::Blend => None,
+        };
+        table.put("alpha", number32(material.alpha));
+        if let Some(map) = material.textures.alpha {
+            table.put("map", self.shade(Vec3::ONE, Some(map)));
+        }
+        if let Some(least) = least {
+            table.put("mask", number32(least));
+        }
+        table
     }
 
     fn phong(&self, index: usize, material: &Material) -> Table {

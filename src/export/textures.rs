@@ -90,8 +90,8 @@ impl Writer<'_> {
             .materials
             .iter()
             .map(|material| &material.textures);
-        let is_color = all.clone().any(|it| it.of_colors().contains(&Some(index)));
-        !is_color && all.any(|it| it.normal == Some(index))
+        let is_looked_up = all.clone().any(|it| it.looked_up().contains(&Some(index)));
+        !is_looked_up && all.any(|it| it.normal == Some(index))
     }
 }
 

@@ -91,6 +91,10 @@ pub const MATERIAL_SCHLICK: u32 = 4;
 pub const MATERIAL_SUM: u32 = 8;
 /// Bit of [`super::PackedMaterial::flags`]: [`crate::scene::Mixing::Blend`].
 pub const MATERIAL_BLEND: u32 = 16;
+/// Bit of [`super::PackedMaterial::flags`]: alpha says how much of the surface is there.
+pub const MATERIAL_COVERAGE: u32 = 32;
+/// Bit of [`super::PackedMaterial::flags`]: the surface is there where alpha is at least 1.
+pub const MATERIAL_MASK: u32 = 64;
 /// Rows of 16 bytes of a [`super::PackedMaterial`].
 pub const MATERIAL_ROWS: u32 = 8;
 /// Rows of 16 bytes of a [`super::PackedTexture`].

@@ -3,14 +3,15 @@
 use super::{Features, PackError, light};
 use crate::{
     layout::{
-        MATERIAL_BLEND, MATERIAL_FRESNEL, MATERIAL_SCHLICK, MATERIAL_SUM, MATERIAL_TWO_SIDED,
-        NO_TEXTURE, PATTERN_CHECKER, PATTERN_GRADIENT, PATTERN_NOISE, PATTERN_PICTURE,
-        PATTERN_STRIPES, PackedMaterial, PackedTexture, TEXTURE_NEAREST, TEXTURE_UV,
-        TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP, WRAP_MIRROR, WRAP_REPEAT,
+        MATERIAL_BLEND, MATERIAL_COVERAGE, MATERIAL_FRESNEL, MATERIAL_MASK, MATERIAL_SCHLICK,
+        MATERIAL_SUM, MATERIAL_TWO_SIDED, NO_TEXTURE, PATTERN_CHECKER, PATTERN_GRADIENT,
+        PATTERN_NOISE, PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial, PackedTexture,
+        TEXTURE_NEAREST, TEXTURE_UV, TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP,
+        WRAP_MIRROR, WRAP_REPEAT,
     },
     scene::{
-        Fresnel, Material, MaterialProperty, Mixing, Pattern, Scene, Space, Target, Texels,
-        Texture, Values, Wrap,
+        Coverage, Fresnel, Material, MaterialProperty, Mixing, Pattern, Scene, Space, Target,
+        Texels, Texture, Values, Wrap,
     },
 };
 use glam::{DAffine3, DVec3, Vec3};
@@ -30,6 +31,13 @@ pub fn material(material: &Material) -> PackedMaterial {
         Mixing::Sum => MATERIAL_SUM,
         Mixing::Blend => MATERIAL_BLEND,
     };
+    let (covers, alpha) = match material.coverage {
+        Coverage::Mask(least) if least > 0.0 => {
+            (MATERIAL_COVERAGE | MATERIAL_MASK, material.alpha / least)
+        }
+        Coverage::Opaque | Coverage::Mask(_) => (0, 1.0),
+        Coverage::Blend => (MATERIAL_COVERAGE, material.alpha),
+    };
     let sides = if material.two_sided {
         MATERIAL_TWO_SIDED
     } else {
@@ -44,7 +52,7 @@ pub fn material(material: &Material) -> PackedMaterial {
         diffuse: material.diffuse.into(),
         shininess: material.shininess,
         specular: material.specular.into(),
-        flags: sides | fresnel | mixing,
+        flags: sides | fresnel | mixing | covers,
         ambient: material.ambient.into(),
         opacity: material.opacity,
         reflect: material.reflect.into(),
@@ -52,12 +60,13 @@ pub fn material(material: &Material) -> PackedMaterial {
         transmit: material.transmit.into(),
         priority: material.priority,
         absorption: material.absorption.into(),
+        alpha,
         emission: material.emission.into(),
         textures: [
             pair(textures.diffuse, textures.specular),
             pair(textures.reflect, textures.transmit),
             pair(textures.ambient, textures.emission),
-            pair(textures.normal, None),
+            pair(textures.normal, textures.alpha),
         ],
         normal_scale: material.normal_scale,
         ..Default::default()
@@ -139,6 +148,7 @@ pub fn features(scene: &Scene) -> Features {
         optics_textures: (scene.materials.iter())
             .map(|material| &material.textures)
             .any(|it| it.reflect.or(it.transmit).or(it.emission).is_some()),
+        coverage: (scene.materials.iter()).any(|it| it.coverage != Coverage::Opaque),
         normal_maps: (scene.materials.iter()).any(|material| material.textures.normal.is_some()),
         emission: emission || light::visible(scene).next().is_some(),
         ..Features::default()

@@ -45,6 +45,23 @@ pub struct Material {
     pub textures: Textures,
     /// Factor on the tilt of normals in the normal map: on their x and y, 0 or more.
     pub normal_scale: f32,
+    /// How much of the surface is there.
+    pub coverage: Coverage,
+    /// The number that `coverage` is about, in 0..=1, multiplied by the alpha of [`Textures::alpha`].
+    pub alpha: f32,
+}
+
+/// How much of a surface is there. The rest is a hole: rays pass it in a straight line, shadow rays too. They
+/// do not count as bounces.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Coverage {
+    /// All of it, whatever alpha is.
+    #[default]
+    Opaque,
+    /// All of it where alpha is at least this number, in 0..=1, and nothing elsewhere.
+    Mask(f32),
+    /// The fraction alpha.
+    Blend,
 }
 
 /// How reflection depends on the angle.
@@ -93,20 +110,36 @@ pub struct Textures {
     /// to 1; x points along u of the picture, y along v, z along the interpolated normal. Other surfaces
     /// have none.
     pub normal: Option<usize>,
+    /// Its alpha multiplies [`Material::alpha`]. Only pictures have an alpha other than 1.
+    pub alpha: Option<usize>,
 }
 
 impl Textures {
-    /// The textures of all colours, and the normal map.
-    pub fn all(&self) -> [Option<usize>; 7] {
-        let Self { normal, .. } = *self;
-        let [diffuse, specular, ambient, emission, reflect, transmit] = self.of_colors();
+    /// The textures of all colours and of alpha, and the normal map.
+    pub fn all(&self) -> [Option<usize>; 8] {
+        let [
+            diffuse,
+            specular,
+            ambient,
+            emission,
+            reflect,
+            transmit,
+            alpha,
+        ] = self.looked_up();
         [
-            diffuse, specular, ambient, emission, reflect, transmit, normal,
+            diffuse,
+            specular,
+            ambient,
+            emission,
+            reflect,
+            transmit,
+            alpha,
+            self.normal,
         ]
     }
 
-    /// The textures of all colours.
-    pub fn of_colors(&self) -> [Option<usize>; 6] {
+    /// The textures of all colours and of alpha.
+    pub fn looked_up(&self) -> [Option<usize>; 7] {
         let Self {
             diffuse,
             specular,
@@ -114,9 +147,12 @@ impl Textures {
             emission,
             reflect,
             transmit,
+            alpha,
             normal: _,
         } = *self;
-        [diffuse, specular, ambient, emission, reflect, transmit]
+        [
+            diffuse, specular, ambient, emission, reflect, transmit, alpha,
+        ]
     }
 
     /// Adds `first` to every index, for textures that are appended to others.
@@ -129,9 +165,10 @@ impl Textures {
             reflect,
             transmit,
             normal,
+            alpha,
         } = self;
         for index in [
-            diffuse, specular, ambient, emission, reflect, transmit, normal,
+            diffuse, specular, ambient, emission, reflect, transmit, normal, alpha,
         ] {
             *index = index.map(|index| index + first);
         }
@@ -159,6 +196,8 @@ impl Default for Material {
             mixing: Mixing::Layer,
             textures: Textures::default(),
             normal_scale: 1.0,
+            coverage: Coverage::Opaque,
+            alpha: 1.0,
         }
     }
 }

@@ -8,6 +8,7 @@ mod bvh;
 mod cli;
 mod closed_mirrors;
 mod contact;
+mod coverage;
 mod difference;
 mod distribution;
 mod drivers;

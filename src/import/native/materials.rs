@@ -5,7 +5,7 @@ use super::file::{MaterialTable, OpticsTable, RefractTable};
 use super::textures::Textures;
 use crate::import::error::ImportError;
 use crate::import::suggest;
-use crate::scene::{self, Fresnel, Material};
+use crate::scene::{self, Coverage, Fresnel, Material};
 use glam::Vec3;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -45,6 +45,16 @@ pub(super) fn material(
     if let Some(map) = &table.normal_map {
         material.textures.normal = Some(textures.normal_map(map)?);
         material.normal_scale = map.get_ref().strength.0;
+    }
+    if let Some(coverage) = &table.coverage {
+        material.coverage = match coverage.mask {
+            Some(least) => Coverage::Mask(least.0),
+            None => Coverage::Blend,
+        };
+        material.alpha = coverage.alpha.0;
+        if let Some(map) = &coverage.map {
+            material.textures.alpha = textures.color(map)?.1;
+        }
     }
     if let Some(optics) = &table.optics {
         if table.reflect.is_some() || table.refract.is_some() {

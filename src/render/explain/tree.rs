@@ -120,7 +120,7 @@ pub struct RayHit {
     pub ambient: [f32; 3],
     /// Linear radiance of emission, before the throughput of the ray.
     pub emission: [f32; 3],
-    /// How it scatters light; `None` if the scene has no reflection and no refraction, or the depth is 0.
+    /// How it scatters light; `None` if the scene has no holes, and no reflection and no refraction or the depth is 0.
     pub split: Option<RaySplit>,
 }
 
@@ -257,7 +257,7 @@ impl<'a> Reader<'a> {
         let material = self.scene.material_at(record.material);
         let name = object.and_then(|object| self.scene.object_name(object));
         let material_name = material.and_then(|material| self.scene.material_name(material));
-        // Set only if the kernel has code for reflection or refraction.
+        // Set only if the kernel has code for reflection, refraction or holes.
         let is_split = !is_shadow && record.ior > 0.0;
         RayHit {
             distance: record.t.into(),

@@ -137,7 +137,18 @@ fn material(random: &mut Random, textures: usize) -> Material {
             reflect: slot(),
             transmit: slot(),
             normal: None,
+            alpha: slot(),
         };
+        material.coverage = match random.below(3) {
+            0 => Coverage::Opaque,
+            1 => Coverage::Mask(random.between(0.0, 1.0) as f32),
+            _ => Coverage::Blend,
+        };
+        if material.coverage == Coverage::Opaque {
+            material.textures.alpha = None;
+        } else {
+            material.alpha = random.between(0.0, 1.0) as f32;
+        }
     }
     material
 }

@@ -29,6 +29,8 @@ pub(in crate::import::native) struct MaterialTable {
     /// Bumps of the surface that only light shows; default none.
     #[schemars(with = "Option<NormalMapTable>")]
     pub normal_map: Option<Spanned<NormalMapTable>>,
+    /// Holes in the surface, such as those between the leaves of a picture of foliage; default none.
+    pub coverage: Option<CoverageTable>,
     /// The light that it emits; default none.
     #[schemars(with = "ColorOrTexture")]
     pub emission: Spanned<ColorOrTexture>,
@@ -44,8 +46,32 @@ impl Default for MaterialTable {
             refract: None,
             optics: None,
             normal_map: None,
+            coverage: None,
             emission: plain(Vec3::ZERO),
             two_sided: true,
+        }
+    }
+}
+
+/// How much of a surface is there. Rays, also shadow rays, pass the rest in a straight line.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(in crate::import::native) struct CoverageTable {
+    /// The fraction that is there, 0 to 1; default 1.
+    pub alpha: Fraction,
+    /// A texture whose alpha multiplies `alpha`; only pictures have one.
+    #[schemars(with = "Option<ColorOrTexture>")]
+    pub map: Option<Spanned<ColorOrTexture>>,
+    /// If given, the surface is there where alpha is at least this, 0 to 1, and nowhere else.
+    pub mask: Option<Fraction>,
+}
+
+impl Default for CoverageTable {
+    fn default() -> Self {
+        Self {
+            alpha: Fraction(1.0),
+            map: None,
+            mask: None,
         }
     }
 }

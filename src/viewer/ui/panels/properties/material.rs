@@ -181,7 +181,7 @@ fn textures(fields: &mut Fields, index: usize, textures: &Textures) {
         };
         options.push((Some(number), format!("{kind} (texture {})", number + 1)));
     }
-    let slots: [(&str, Option<usize>, Slot); 7] = [
+    let slots: [(&str, Option<usize>, Slot); 8] = [
         ("× Diffuse", textures.diffuse, |t| &mut t.diffuse),
         ("× Specular", textures.specular, |t| &mut t.specular),
         ("× Ambient", textures.ambient, |t| &mut t.ambient),
@@ -189,10 +189,12 @@ fn textures(fields: &mut Fields, index: usize, textures: &Textures) {
         ("× Reflect", textures.reflect, |t| &mut t.reflect),
         ("× Transmit", textures.transmit, |t| &mut t.transmit),
         ("Normal map", textures.normal, |t| &mut t.normal),
+        ("× Alpha", textures.alpha, |t| &mut t.alpha),
     ];
     for (label, value, slot) in slots {
         let tip = match label {
             "Normal map" => "Normals of small bumps, as a picture.",
+            "× Alpha" => "Texture whose alpha says how much of the surface is there.",
             _ => "Texture that multiplies this colour.",
         };
         fields.choice((label, tip), value, &options, move |scene, to| {
