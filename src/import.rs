@@ -7,6 +7,7 @@
 //! | `.scene` | the course's | `course.rs` |
 //! | `.nff` | Haines' Neutral File Format | `nff.rs` |
 //! | `.obj` | Wavefront OBJ with MTL | `obj.rs` |
+//! | `.gltf`, `.glb` | glTF 2.0 | `gltf.rs` |
 //!
 //! `ply.rs` reads Stanford PLY files: meshes and point sets of native scenes. `picture.rs` reads the
 //! images that scenes and models refer to.
@@ -26,6 +27,7 @@ mod course;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
 mod folder;
+mod gltf;
 mod native;
 mod nff;
 mod notes;
@@ -68,15 +70,21 @@ pub struct Options {
     /// `camera.fov_y_deg=30`, `objects.0.sphere.radius=2` or `output.tone=aces`. Values are TOML; a bare
     /// word is a string.
     pub overrides: Vec<String>,
+    /// The scene of a glTF model to import, by its name or number; `None` is the model's default.
+    pub scene: Option<String>,
+    /// The clip of a glTF model to play, by its name or number; `None` is all that fit together.
+    pub clip: Option<String>,
+    /// The variant of a glTF model's materials, by its name or number; `None` is the model's default.
+    pub variant: Option<String>,
 }
 
 /// The extensions of the files that [`load`] reads, in lower case.
-pub const SCENE_ENDINGS: &[&str] = &["toml", "scene", "nff", "obj"];
+pub const SCENE_ENDINGS: &[&str] = &["toml", "scene", "nff", "obj", "gltf", "glb"];
 
 /// The usual extensions of the files that [`picture()`] reads.
 pub const PICTURE_ENDINGS: &[&str] = &["hdr", "exr", "png", "jpg", "jpeg"];
 
-/// Size limit of a geometry file (`.scene`, `.nff`, `.obj`) in bytes.
+/// Size limit of a geometry file (`.scene`, `.nff`, `.obj`, `.gltf`, `.glb`) in bytes.
 const MAX_GEOMETRY_BYTES: u64 = 2 << 30;
 
 /// The scene formats.
@@ -86,6 +94,7 @@ enum Format {
     Course,
     Nff,
     Obj,
+    Gltf,
 }
 
 impl Format {
@@ -97,6 +106,7 @@ impl Format {
             Some("scene") => Ok(Self::Course),
             Some("nff") => Ok(Self::Nff),
             Some("obj") => Ok(Self::Obj),
+            Some("gltf" | "glb") => Ok(Self::Gltf),
             _ => Err(unknown_format(path)),
         }
     }
@@ -131,13 +141,20 @@ impl Format {
             let fault = fault("override refused", path, why, "Leave out the overrides");
             return Err(ImportError::Malformed(fault));
         }
+        options.check_model_flags(self, path)?;
+        if self == Self::Gltf {
+            let mut scene = gltf::read(path, bytes, options, files)?;
+            range::limit(&mut scene);
+            scene.pin_render_origin();
+            return Ok(scene);
+        }
         let what = match self {
             Self::Obj => "bad model",
             _ => "bad scene",
         };
         let source = Source::new(what, path, bytes)?;
         let mut scene = match self {
-            Self::Native => native::read(&source, options, files),
+            Self::Gltf | Self::Native => native::read(&source, options, files),
             Self::Course => course::read(&source),
             Self::Nff => nff::read(&source),
             Self::Obj => obj::read_scene(&source, files),
@@ -145,6 +162,25 @@ impl Format {
         range::limit(&mut scene);
         scene.pin_render_origin();
         Ok(scene)
+    }
+}
+
+impl Options {
+    /// Refuses the options for glTF models where there is no such model.
+    fn check_model_flags(&self, format: Format, path: &Path) -> Result<(), ImportError> {
+        let given = [
+            ("scene", &self.scene),
+            ("clip", &self.clip),
+            ("variant", &self.variant),
+        ];
+        match given.iter().find(|(_, value)| value.is_some()) {
+            Some((what, _)) if format != Format::Gltf => {
+                let why = format!("only glTF models have a {what} to choose");
+                let fault = fault("choice refused", path, &why, "Leave out the choice");
+                Err(ImportError::Malformed(fault))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -311,6 +347,6 @@ fn unknown_format(path: &Path) -> ImportError {
         "unknown scene format",
         path,
         &ending,
-        "Use a .toml (native), .scene (course), .nff or .obj (Wavefront) file; convert other models to .obj first",
+        "Use a .toml (native), .scene (course), .nff, .obj (Wavefront), .gltf or .glb file; convert other models to .glb first",
     ))
 }

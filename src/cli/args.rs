@@ -171,7 +171,7 @@ pub struct DemoArgs {
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// Scene file: .scene (course format), .toml (native), .nff or .obj
+    /// Scene file: .scene (course format), .toml (native), .nff, .obj, .gltf or .glb
     pub scene: PathBuf,
     #[command(flatten)]
     pub output: OutputFlags,
@@ -195,7 +195,7 @@ pub struct RenderArgs {
 
 #[derive(Debug, Args)]
 pub struct AnimateArgs {
-    /// Scene file: .scene (course format), .toml (native), .nff or .obj
+    /// Scene file: .scene (course format), .toml (native), .nff, .obj, .gltf or .glb
     pub scene: PathBuf,
     #[command(flatten)]
     pub output: SequenceFlags,
@@ -256,7 +256,7 @@ pub struct ViewArgs {
 
 #[derive(Debug, Args)]
 pub struct ConvertArgs {
-    /// Scene file: .scene (course format), .toml (native), .nff or .obj
+    /// Scene file: .scene (course format), .toml (native), .nff, .obj, .gltf or .glb
     pub scene: PathBuf,
     /// Output file [default: the scene's name with .toml in the current folder]
     #[arg(short, long, value_name = "OUT.toml")]
@@ -283,7 +283,7 @@ pub struct MergeArgs {
 
 #[derive(Debug, Args)]
 pub struct InspectArgs {
-    /// Scene file: .scene (course format), .toml (native), .nff or .obj
+    /// Scene file: .scene (course format), .toml (native), .nff, .obj, .gltf or .glb
     pub scene: PathBuf,
     /// Print JSON instead of text
     #[arg(long)]
@@ -294,7 +294,7 @@ pub struct InspectArgs {
 
 #[derive(Debug, Args)]
 pub struct ExplainArgs {
-    /// Scene file: .scene (course format), .toml (native), .nff or .obj
+    /// Scene file: .scene (course format), .toml (native), .nff, .obj, .gltf or .glb
     pub scene: PathBuf,
     /// Column and row of the pixel in the whole picture; 0,0 is the top left
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = values::pixel)]

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Size limit of an image file in bytes.
-const MAX_BYTES: u64 = 512 << 20;
+pub(super) const MAX_BYTES: u64 = 512 << 20;
 
 /// Limit of the number of texels of an image: 8192×8192.
 const MAX_TEXELS: u64 = 1 << 26;
@@ -126,13 +126,37 @@ fn decode(
             },
         }
     })?;
+    let image = open(&bytes, &quoted)?;
+    let (width, height) = (image.width(), image.height());
+    let texels = texels(image, role);
+    let bytes = texels.byte_len() as u64;
+    if taken + bytes > MAX_KEPT_BYTES {
+        let why = format!(
+            "takes {bytes} bytes, the others {taken}, but the limit for all is {MAX_KEPT_BYTES}"
+        );
+        return Err(too_big(why));
+    }
+    Ok(Picture {
+        width,
+        height,
+        texels,
+    })
+}
+
+/// The image in `bytes`, which messages call `quoted`.
+pub(super) fn open(bytes: &[u8], quoted: &str) -> Result<DynamicImage, Refused> {
+    let too_big = |why: String| Refused::Unfit {
+        kind: ImportError::TooBig,
+        why: format!("{quoted} {why}"),
+        todo: "Use a smaller picture".to_owned(),
+    };
     let unfit = |why: String, todo: &str| Refused::Unfit {
         kind: ImportError::Malformed,
         why: format!("{quoted} {why}"),
         todo: todo.to_owned(),
     };
     let reader = || {
-        let reader = ImageReader::new(Cursor::new(&bytes)).with_guessed_format();
+        let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
         reader.ok().filter(|reader| reader.format().is_some())
     };
     let explain = |error: ImageError| match error {
@@ -161,25 +185,13 @@ fn decode(
         return Err(too_big(why));
     }
     if let Some(format) = body.format() {
-        complete::check(format, &bytes, count)
+        complete::check(format, bytes, count)
             .map_err(|why| unfit(why, "Check that it was written completely"))?;
     }
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_DECODED_BYTES);
     body.limits(limits);
-    let texels = texels(body.decode().map_err(explain)?, role);
-    let bytes = texels.byte_len() as u64;
-    if taken + bytes > MAX_KEPT_BYTES {
-        let why = format!(
-            "takes {bytes} bytes, the others {taken}, but the limit for all is {MAX_KEPT_BYTES}"
-        );
-        return Err(too_big(why));
-    }
-    Ok(Picture {
-        width,
-        height,
-        texels,
-    })
+    body.decode().map_err(explain)
 }
 
 /// The texels of `image`, row by row from the top left. Floats are finite and 0 or more.

@@ -1,6 +1,8 @@
 //! Materials.
 
+use super::MetallicRoughness;
 use glam::Vec3;
+use std::sync::Arc;
 
 /// How a surface scatters light: Phong coefficients per colour channel (Phong 1975), mirror reflection
 /// and transmission (Whitted 1980).
@@ -49,6 +51,9 @@ pub struct Material {
     pub coverage: Coverage,
     /// The number that `coverage` is about, in 0..=1, multiplied by the alpha of [`Textures::alpha`].
     pub alpha: f32,
+    /// The physically based material that the members above show, if the file has one. Shared by
+    /// materials that differ in vertex colours.
+    pub metallic_roughness: Option<Arc<MetallicRoughness>>,
 }
 
 /// How much of a surface is there. The rest is a hole: rays pass it in a straight line, shadow rays too. They
@@ -198,6 +203,7 @@ impl Default for Material {
             normal_scale: 1.0,
             coverage: Coverage::Opaque,
             alpha: 1.0,
+            metallic_roughness: None,
         }
     }
 }

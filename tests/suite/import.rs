@@ -5,6 +5,7 @@ mod corpus;
 mod course;
 mod defaults;
 mod files;
+mod gltf;
 mod hostile;
 mod memory;
 mod native;

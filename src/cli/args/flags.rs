@@ -175,6 +175,15 @@ pub struct SceneFlags {
     /// Allow the scene to read files from this folder as well as its own (repeatable)
     #[arg(long = "allow-dir", value_name = "DIR")]
     pub allow_dirs: Vec<PathBuf>,
+    /// Scene of a glTF model, by its name or number [default: the model's]
+    #[arg(long = "scene", value_name = "NAME")]
+    pub model_scene: Option<String>,
+    /// Clip of a glTF model to play, by its name or number [default: all that fit together]
+    #[arg(long, value_name = "NAME")]
+    pub clip: Option<String>,
+    /// Variant of a glTF model's materials, by its name or number [default: the model's]
+    #[arg(long, value_name = "NAME")]
+    pub variant: Option<String>,
 }
 
 impl SceneFlags {
@@ -182,6 +191,9 @@ impl SceneFlags {
         import::Options {
             allow_dirs: self.allow_dirs.clone(),
             overrides: self.overrides.clone(),
+            scene: self.model_scene.clone(),
+            clip: self.clip.clone(),
+            variant: self.variant.clone(),
         }
     }
 }

@@ -84,6 +84,15 @@ pub fn copy(shown: &Shown) -> CommandLine {
     for set in &shown.options.overrides {
         arguments.extend(["--set".to_owned(), set.clone()]);
     }
+    for (flag, value) in [
+        ("--scene", &shown.options.scene),
+        ("--clip", &shown.options.clip),
+        ("--variant", &shown.options.variant),
+    ] {
+        if let Some(value) = value {
+            arguments.extend([flag.to_owned(), value.clone()]);
+        }
+    }
     for folder in &shown.options.allow_dirs {
         arguments.extend(["--allow-dir".to_owned(), file(folder)]);
     }

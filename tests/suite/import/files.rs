@@ -142,13 +142,13 @@ fn links_out_and_pipes_are_refused() {
 #[test]
 fn files_that_are_no_scenes_have_their_messages() {
     let folder = folder(&[
-        ("a.gltf", b"{}"),
+        ("a.fbx", b"{}"),
         ("plain", b"0"),
         ("odd.\u{7}\n", b"0"),
         ("d.toml/x", b""),
     ]);
     let names = [
-        "a.gltf",
+        "a.fbx",
         "plain",
         "odd.\u{7}\n",
         "d.toml",
@@ -161,9 +161,9 @@ fn files_that_are_no_scenes_have_their_messages() {
         .map(|name| message_in(&folder, name, &Options::default()))
         .collect();
     assert_snapshot!(lines.join("\n"), @r"
-unknown scene format (a.gltf): the extension `.gltf` is not supported. Use a .toml (native), .scene (course), .nff or .obj (Wavefront) file; convert other models to .obj first.
-unknown scene format (plain): the name has no extension. Use a .toml (native), .scene (course), .nff or .obj (Wavefront) file; convert other models to .obj first.
-unknown scene format (odd.��): the extension `.\u{7}\n` is not supported. Use a .toml (native), .scene (course), .nff or .obj (Wavefront) file; convert other models to .obj first.
+unknown scene format (a.fbx): the extension `.fbx` is not supported. Use a .toml (native), .scene (course), .nff, .obj (Wavefront), .gltf or .glb file; convert other models to .glb first.
+unknown scene format (plain): the name has no extension. Use a .toml (native), .scene (course), .nff, .obj (Wavefront), .gltf or .glb file; convert other models to .glb first.
+unknown scene format (odd.��): the extension `.\u{7}\n` is not supported. Use a .toml (native), .scene (course), .nff, .obj (Wavefront), .gltf or .glb file; convert other models to .glb first.
 cannot read the file (d.toml): it is a folder. Name a scene file.
 cannot read the file (gone.toml): no such file or folder. Check the path and its permissions.
 cannot read the file (gone.scene): no such file or folder. Check the path and its permissions.

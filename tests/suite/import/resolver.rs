@@ -153,12 +153,12 @@ fn a_scene_missing_from_memory_has_a_message() {
             .expect_err("a refusal")
             .to_string()
     };
-    let names = ["gone.toml", "../a.toml", "a.gltf", "a.toml", "sub/b.obj"];
+    let names = ["gone.toml", "../a.toml", "a.fbx", "a.toml", "sub/b.obj"];
     let lines: Vec<_> = names.iter().map(|name| message(name)).collect();
     assert_snapshot!(lines.join("\n"), @r##"
 scene refused (gone.toml): `gone.toml` does not exist. Check the name and the folder.
 scene refused (../a.toml): `../a.toml` points outside the scene folder. Name a file in it, or permit the other folder.
-unknown scene format (a.gltf): the extension `.gltf` is not supported. Use a .toml (native), .scene (course), .nff or .obj (Wavefront) file; convert other models to .obj first.
+unknown scene format (a.fbx): the extension `.fbx` is not supported. Use a .toml (native), .scene (course), .nff, .obj (Wavefront), .gltf or .glb file; convert other models to .glb first.
 bad scene (a.toml:1:11): invalid type: integer `3`, expected a colour: [r, g, b] or "#rrggbb". See `glimray schema` for what is allowed.
 bad model (sub/b.obj): the file is empty. Check that it was written completely.
 "##);

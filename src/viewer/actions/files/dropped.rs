@@ -47,8 +47,8 @@ pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
         _ => format!("{} files: none is a supported scene or image", paths.len()),
     };
     session.messages.warn(format!(
-        "Cannot open {what}. Convert to .toml, .scene, .nff or .obj for scenes and models, or to .hdr, \
-         .exr, .png or .jpg for images."
+        "Cannot open {what}. Convert to .toml, .scene, .nff, .obj, .gltf or .glb for scenes and \
+         models, or to .hdr, .exr, .png or .jpg for images."
     ));
 }
 

@@ -1,0 +1,260 @@
+//! glTF 2.0: `.gltf` with its files or `data:` URIs, and `.glb`.
+//!
+//! Nothing in a file is trusted: `container.rs` and `accessor.rs` check every range, `hierarchy.rs` that
+//! nodes form trees, and a [`blame::Ledger`] bounds the memory to 16 times the size of the file and its
+//! buffers plus 64 MiB: a file may pack vertices into a few bytes each. What cannot be shown is noted.
+
+mod accessor;
+mod animation;
+mod bake;
+mod blame;
+mod buffers;
+mod container;
+mod document;
+mod document_materials;
+mod extensions;
+mod hierarchy;
+mod lights;
+mod materials;
+mod mesh;
+mod skins;
+mod store;
+mod textures;
+
+use super::budget::Budget;
+use super::error::ImportError;
+use super::notes::Notes;
+use super::paths::Files;
+use super::source::{Source, quote};
+use super::{Options, stage, suggest};
+use crate::scene::{OutputDefaults, Scene, Shadows};
+use accessor::Accessors;
+use blame::{Blame, Ledger};
+use buffers::Buffers;
+use document::Document;
+use glam::DAffine3;
+use materials::{MaterialKey, Surface};
+use std::cell::Cell;
+use std::collections::HashMap;
+use std::path::Path;
+use store::Store;
+
+/// Bytes that an object of the JSON may take in memory.
+const PER_OBJECT: u64 = 400;
+
+/// Largest number of bounces: a glass wall takes two, and thin walls one each.
+const MAX_DEPTH: u32 = 8;
+
+/// The state of an import.
+struct Reader<'a> {
+    document: &'a Document,
+    buffers: &'a Buffers,
+    files: &'a Files<'a>,
+    blame: Blame<'a>,
+    ledger: &'a Ledger<'a>,
+    notes: Notes,
+    scene: Scene,
+    /// The number of the chosen variant.
+    variant: Option<usize>,
+    /// For each node of the file whether a clip that is played moves it.
+    animated: Vec<bool>,
+    /// For each node of the file its index in the scene.
+    node_of: Vec<Option<usize>>,
+    /// For each node of the file its transform at rest; the identity outside the chosen scene.
+    worlds: Vec<DAffine3>,
+    /// Meshes by number in the file and skin; `None` for those without triangles.
+    meshes: HashMap<(usize, Option<usize>), Option<usize>>,
+    surfaces: HashMap<MaterialKey, Surface>,
+    /// Materials of the scene by their vertex colour.
+    materials: HashMap<(MaterialKey, Option<(u32, u32)>), u32>,
+    store: Store,
+}
+
+impl<'a> Reader<'a> {
+    fn accessors(&self) -> Accessors<'a> {
+        Accessors {
+            document: self.document,
+            buffers: self.buffers,
+            ledger: self.ledger,
+        }
+    }
+}
+
+/// The model in `bytes`, the contents of the file at `path`, as a scene.
+///
+/// # Errors
+/// It is malformed, requires an unknown extension, names files that may not be read, is too large, or has
+/// not the scene, clip or variant that `options` names.
+pub(super) fn read(
+    path: &Path,
+    bytes: Vec<u8>,
+    options: &Options,
+    files: &Files,
+) -> Result<Scene, ImportError> {
+    let blame = Blame { path };
+    let parts = container::parts(&bytes, blame)?;
+    let document = parse(&bytes[parts.json.clone()], blame)?;
+    let mut notes = Notes::default();
+    extensions::check(&document, &mut notes, blame)?;
+    let buffers = Buffers::read(&document, bytes, parts.bin, files, blame)?;
+    let ledger = Ledger {
+        blame,
+        budget: Budget::of(buffers.total().saturating_mul(2)),
+        held: Cell::new(buffers.total() as u64),
+    };
+    let mut reader = Reader {
+        document: &document,
+        buffers: &buffers,
+        files,
+        blame,
+        ledger: &ledger,
+        notes,
+        scene: Scene {
+            shadows: Shadows::Filtered,
+            output: OutputDefaults {
+                size: (800, 600),
+                samples: 4,
+                max_depth: MAX_DEPTH,
+                ..OutputDefaults::default()
+            },
+            ..Scene::default()
+        },
+        variant: None,
+        animated: Vec::new(),
+        node_of: vec![None; document.nodes.len()],
+        worlds: vec![DAffine3::IDENTITY; document.nodes.len()],
+        meshes: HashMap::new(),
+        surfaces: HashMap::new(),
+        materials: HashMap::new(),
+        store: Store::default(),
+    };
+    reader.variant = reader.chosen_variant(options.variant.as_deref())?;
+    let clips = reader.clips(options.clip.as_deref())?;
+    reader.animated = reader.moved_by(&clips);
+    let (roots, place) = reader.chosen_scene(options.scene.as_deref())?;
+    reader.nodes(&roots, &place)?;
+    for clip in clips {
+        reader.tracks(clip)?;
+    }
+    Ok(reader.finish())
+}
+
+/// The JSON in `bytes`.
+fn parse(bytes: &[u8], blame: Blame) -> Result<Document, ImportError> {
+    let source = Source::new("bad model", blame.path, bytes.to_vec())?;
+    let objects = bytes.iter().filter(|&&byte| byte == b'{').count() as u64;
+    let size = objects.saturating_mul(PER_OBJECT);
+    Budget::of(bytes.len()).check(size, |why, todo| blame.file(&why, todo))?;
+    let document: Document = serde_json::from_slice(&source.bytes).map_err(|error| {
+        let lines = source.bytes.split_inclusive(|&byte| byte == b'\n');
+        let line = lines.take(error.line().saturating_sub(1)).map(<[u8]>::len);
+        let at = line.sum::<usize>() + error.column().saturating_sub(1);
+        let why = error.to_string();
+        let why = why.split(" at line ").next().unwrap_or_default().to_owned();
+        let todo = "Check that it is a complete glTF 2.0 file";
+        source.malformed(at..at + 1, why, todo)
+    })?;
+    let asset = document.asset.as_ref();
+    let needed = asset.map(|asset| asset.min_version.as_ref().unwrap_or(&asset.version));
+    match needed.map(String::as_str) {
+        Some(version) if version.starts_with("2.") => Ok(document),
+        Some(version) => {
+            let version = quote(version.as_bytes());
+            let why = format!("it is glTF {version}, but only version 2.0 is read");
+            Err(blame.file(&why, "Convert it to glTF 2.0"))
+        }
+        None => Err(blame.file("it has no `asset`", "Check that it is a glTF 2.0 file")),
+    }
+}
+
+/// The number of the entry that `wanted` names, by its name or number.
+fn named<'n>(
+    what: &str,
+    wanted: &str,
+    names: impl Iterator<Item = Option<&'n str>>,
+    blame: Blame,
+) -> Result<usize, ImportError> {
+    let names: Vec<&str> = names.map(Option::unwrap_or_default).collect();
+    if let Some(index) = names.iter().position(|name| *name == wanted) {
+        return Ok(index);
+    }
+    match wanted.parse::<usize>() {
+        Ok(index) if index < names.len() => return Ok(index),
+        _ => {}
+    }
+    let why = suggest::unknown(what, wanted, names.iter().copied());
+    let known: Vec<String> = (names.iter().take(8).enumerate())
+        .map(|(i, name)| match name.is_empty() {
+            true => i.to_string(),
+            false => quote(name.as_bytes()),
+        })
+        .collect();
+    let todo = match known.len() {
+        0 => format!("The model has no {what}"),
+        _ => format!("It has {}", known.join(", ")),
+    };
+    Err(blame.file(&why, &todo))
+}
+
+impl Reader<'_> {
+    fn chosen_variant(&self, wanted: Option<&str>) -> Result<Option<usize>, ImportError> {
+        let variants = self.document.extensions.variants.as_ref();
+        let names = variants.map_or(&[][..], |it| &it.variants);
+        let names = names.iter().map(|variant| Some(variant.name.as_str()));
+        wanted
+            .map(|wanted| named("variant", wanted, names, self.blame))
+            .transpose()
+    }
+
+    /// The root nodes of the chosen scene, and their place in the file.
+    fn chosen_scene(&self, wanted: Option<&str>) -> Result<(Vec<usize>, String), ImportError> {
+        let scenes = &self.document.scenes;
+        let index = match wanted {
+            Some(wanted) => {
+                let names = scenes.iter().map(|scene| scene.name.as_deref());
+                named("scene", wanted, names, self.blame)?
+            }
+            None if scenes.is_empty() => {
+                // A library of parts: show all of them.
+                let mut is_root = vec![true; self.document.nodes.len()];
+                let nodes = self.document.nodes.iter();
+                for &child in nodes.flat_map(|node| &node.children) {
+                    if let Some(is_root) = is_root.get_mut(child) {
+                        *is_root = false;
+                    }
+                }
+                let roots = (0..is_root.len()).filter(|&i| is_root[i]).collect();
+                return Ok((roots, "nodes".to_owned()));
+            }
+            None => self.document.scene.unwrap_or(0),
+        };
+        let place = format!("scenes[{index}].nodes");
+        let scene = self.blame.get(scenes, index, "scenes", "scene")?;
+        Ok((scene.nodes.clone(), place))
+    }
+
+    fn finish(mut self) -> Scene {
+        let halved = self.store.halved_count;
+        if halved > 0 {
+            self.notes.add("smaller pictures", || {
+                format!("pictures were made smaller {halved} times to fit into memory")
+            });
+        }
+        let mut scene = self.scene;
+        scene.pictures = self.store.pictures;
+        if scene.materials.is_empty() {
+            scene.materials.push(crate::scene::Material::default());
+        }
+        scene.skipped = self.notes.into_lines();
+        if scene.instances.is_empty() {
+            scene.skipped.push("the model has no triangles".to_owned());
+        }
+        if scene.lights.is_empty() {
+            stage::light(&mut scene);
+        }
+        if scene.cameras.is_empty() {
+            scene.cameras = vec![stage::camera(&scene)];
+        }
+        scene
+    }
+}

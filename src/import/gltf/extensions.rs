@@ -1,0 +1,102 @@
+//! The extensions of glTF 2.0 that are read, and what happens with the others.
+
+use super::blame::Blame;
+use super::document::Document;
+use crate::import::error::ImportError;
+use crate::import::notes::Notes;
+use crate::import::source::quote;
+
+/// How much of an extension is read.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Support {
+    /// All of it, as far as the renderer can show it.
+    Full,
+    /// Its parameters are kept, but the classical integrator does not show them.
+    Kept,
+    /// It is for programs that edit or describe models.
+    Irrelevant,
+}
+
+const EXTENSIONS: &[(&str, Support)] = &[
+    ("EXT_mesh_gpu_instancing", Support::Full),
+    ("KHR_lights_punctual", Support::Full),
+    ("KHR_materials_emissive_strength", Support::Full),
+    ("KHR_materials_ior", Support::Full),
+    ("KHR_materials_pbrSpecularGlossiness", Support::Full),
+    ("KHR_materials_specular", Support::Full),
+    ("KHR_materials_transmission", Support::Full),
+    ("KHR_materials_unlit", Support::Full),
+    ("KHR_materials_variants", Support::Full),
+    ("KHR_materials_volume", Support::Full),
+    ("KHR_mesh_quantization", Support::Full),
+    ("KHR_texture_transform", Support::Full),
+    ("KHR_materials_anisotropy", Support::Kept),
+    ("KHR_materials_clearcoat", Support::Kept),
+    ("KHR_materials_diffuse_transmission", Support::Kept),
+    ("KHR_materials_dispersion", Support::Kept),
+    ("KHR_materials_iridescence", Support::Kept),
+    ("KHR_materials_sheen", Support::Kept),
+    ("EXT_mesh_manifold", Support::Irrelevant),
+    ("KHR_xmp", Support::Irrelevant),
+    ("KHR_xmp_json_ld", Support::Irrelevant),
+];
+
+/// Checks the extensions that `document` requires, and notes those that have no effect.
+///
+/// # Errors
+/// It requires extensions that are not read; all are named.
+pub(super) fn check(
+    document: &Document,
+    notes: &mut Notes,
+    blame: Blame,
+) -> Result<(), ImportError> {
+    let support = |name: &str| {
+        let mut known = EXTENSIONS.iter();
+        known.find(|(known, _)| *known == name).map(|(_, it)| *it)
+    };
+    let mut lacking: Vec<String> = Vec::new();
+    for name in &document.extensions_required {
+        let name = quote(name.as_bytes());
+        if support(name.trim_matches('`')).is_none() && !lacking.contains(&name) {
+            lacking.push(name);
+        }
+        if lacking.len() > 8 {
+            break;
+        }
+    }
+    if !lacking.is_empty() {
+        let why = format!(
+            "it requires extensions that are not supported: {}",
+            lacking.join(", ")
+        );
+        return Err(blame.file(&why, remedy(&lacking)));
+    }
+    for name in &document.extensions_used {
+        let quoted = || quote(name.as_bytes());
+        match support(name) {
+            Some(Support::Full | Support::Irrelevant) => {}
+            Some(Support::Kept) => notes.add("extensions without effect", || {
+                format!("the extension {} is kept, but not shown", quoted())
+            }),
+            None => notes.add("extensions without effect", || {
+                format!(
+                    "the extension {} is not supported and was ignored",
+                    quoted()
+                )
+            }),
+        }
+    }
+    Ok(())
+}
+
+/// What to do about missing extensions.
+fn remedy(lacking: &[String]) -> &'static str {
+    let has = |part: &str| lacking.iter().any(|name| name.contains(part));
+    if has("draco") || has("meshopt") {
+        "Export the model without compression"
+    } else if has("basisu") || has("webp") {
+        "Export the model with PNG or JPEG pictures"
+    } else {
+        "Export the model without them"
+    }
+}

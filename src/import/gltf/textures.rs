@@ -1,0 +1,429 @@
+//! From the maps of a material to the textures that multiply its classical colours.
+
+use super::Reader;
+use super::bake::{self, Baked, Shade, Sheets};
+use super::document::{Material as Source, TextureInfo};
+use crate::import::error::ImportError;
+use crate::scene::{
+    Coverage, Material, MetallicRoughness, Pattern, Picture, Space, Texels, Texture, Wrap,
+};
+use glam::{DAffine2, DAffine3, DMat2, DMat3, DVec2, DVec3, Vec3};
+
+const NEAREST: u32 = 9728;
+const CLAMP: u32 = 33071;
+const MIRROR: u32 = 33648;
+
+/// Largest width and height of pictures that are computed from several maps.
+const MAX_BAKED: u32 = 2048;
+
+/// A use of an image.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct FoundMap {
+    pub image: usize,
+    pub uv_set: u32,
+    /// Both with v downwards.
+    pub picture_from_uv: DAffine3,
+    /// Whether texels are not interpolated.
+    nearest: bool,
+    /// Along u and v.
+    wrap: [Wrap; 2],
+}
+
+impl FoundMap {
+    /// Whether a texel of one map belongs to the same point as that of the other.
+    fn is_aligned(&self, other: &Self) -> bool {
+        (self.uv_set, self.wrap) == (other.uv_set, other.wrap)
+            && self.picture_from_uv == other.picture_from_uv
+    }
+}
+
+/// The classical colours of a textured material: factors and indices of pictures.
+#[derive(Clone, Debug)]
+pub(super) struct Appearance {
+    diffuse: (Vec3, Option<usize>),
+    specular: (Vec3, Option<usize>),
+    reflect: (Vec3, Option<usize>),
+    transmit: (Vec3, Option<usize>),
+    roughness: f32,
+}
+
+/// The transform that `KHR_texture_transform` describes.
+fn transform(info: &TextureInfo) -> DAffine3 {
+    let Some(it) = &info.extensions.transform else {
+        return DAffine3::IDENTITY;
+    };
+    let number = |x: f64| x.clamp(-1e9, 1e9);
+    let (sin, cos) = it.rotation.sin_cos();
+    // Counter-clockwise on the picture, whose v points down.
+    let rotation = DMat2::from_cols(DVec2::new(cos, -sin), DVec2::new(sin, cos));
+    let scale = DVec2::from(it.scale.unwrap_or([1.0; 2]).map(number));
+    let flat = DAffine2 {
+        matrix2: rotation * DMat2::from_diagonal(scale),
+        translation: DVec2::from(it.offset.map(number)),
+    };
+    DAffine3 {
+        matrix3: DMat3::from_cols(
+            flat.matrix2.x_axis.extend(0.0),
+            flat.matrix2.y_axis.extend(0.0),
+            DVec3::Z,
+        ),
+        translation: flat.translation.extend(0.0),
+    }
+}
+
+impl Reader<'_> {
+    /// The image that `info`, which is at `place`, uses; `None` with a note if there is none.
+    pub(super) fn map(
+        &mut self,
+        info: &TextureInfo,
+        place: &str,
+    ) -> Result<Option<FoundMap>, ImportError> {
+        let document = self.document;
+        let texture = self
+            .blame
+            .get(&document.textures, info.index, "textures", place)?;
+        let here = format!("textures[{}]", info.index);
+        let own = texture.source;
+        let webp = || texture.extensions.webp.as_ref().and_then(|it| it.source);
+        let Some(image) = own.or_else(webp) else {
+            let what = match texture.extensions.basisu {
+                Some(_) => "has only a KTX2 picture, which is not supported",
+                None => "has no picture",
+            };
+            let note = || format!("texture skipped: {here} {what}");
+            self.notes.add("skipped textures", note);
+            return Ok(None);
+        };
+        self.blame.get(&document.images, image, "images", &here)?;
+        let mut found = FoundMap {
+            image,
+            uv_set: info.tex_coord,
+            picture_from_uv: transform(info),
+            nearest: false,
+            wrap: [Wrap::Repeat; 2],
+        };
+        let moved = info.extensions.transform.as_ref();
+        if let Some(set) = moved.and_then(|it| it.tex_coord) {
+            found.uv_set = set;
+        }
+        if let Some(index) = texture.sampler {
+            let sampler = self
+                .blame
+                .get(&document.samplers, index, "samplers", &here)?;
+            found.nearest = sampler.mag_filter == Some(NEAREST);
+            found.wrap = [sampler.wrap_s, sampler.wrap_t].map(|wrap| match wrap {
+                Some(CLAMP) => Wrap::Clamp,
+                Some(MIRROR) => Wrap::Mirror,
+                _ => Wrap::Repeat,
+            });
+        }
+        Ok(Some(found))
+    }
+
+    /// Gives `material`, which is `model`'s, the pictures of `source`. Returns the set of texture
+    /// coordinates that they use.
+    pub(super) fn textured(
+        &mut self,
+        source: &Source,
+        model: &MetallicRoughness,
+        material: &mut Material,
+        here: &str,
+    ) -> Result<Option<u32>, ImportError> {
+        let pbr = source.pbr_metallic_roughness.as_deref();
+        let extensions = source.extensions.as_deref();
+        let older = extensions.and_then(|e| e.specular_glossiness.as_deref());
+        let infos = [
+            match older {
+                Some(older) => older.diffuse_texture.as_deref(),
+                None => pbr.and_then(|pbr| pbr.base_color_texture.as_deref()),
+            },
+            match older {
+                Some(_) => None,
+                None => pbr.and_then(|pbr| pbr.metallic_roughness_texture.as_deref()),
+            },
+            extensions
+                .and_then(|e| e.transmission.as_ref())
+                .and_then(|it| it.transmission_texture.as_deref()),
+        ];
+        let mut maps = [None, None, None];
+        for (map, info) in maps.iter_mut().zip(infos) {
+            if let Some(info) = info {
+                *map = self.map(info, here)?;
+            }
+        }
+        let mut lead = maps.iter().flatten().next().cloned();
+        for map in &mut maps {
+            if let (Some(other), Some(lead)) = (&*map, &lead)
+                && !other.is_aligned(lead)
+            {
+                self.notes.add("maps that are not shown", || {
+                    format!(
+                        "{here}: a map with other texture coordinates than the first is not shown"
+                    )
+                });
+                *map = None;
+            }
+        }
+        if let Some(lead) = &lead
+            && let Some(look) = self.appearance(model, &maps)?
+        {
+            self.dress(material, model, &look, lead);
+        } else {
+            lead = None;
+        }
+        let mut uv_set = lead.map(|lead| lead.uv_set);
+        if model.coverage != Coverage::Opaque
+            && let Some(map) = &maps[0]
+            && let Some(image) = self.image(map.image)?
+        {
+            let picture = self.plain(map.image, &image, false);
+            material.textures.alpha = Some(self.texture(picture, map));
+        }
+        if let Some(info) = source.emissive_texture.as_deref()
+            && model.emission != Vec3::ZERO
+            && !model.unlit
+        {
+            material.textures.emission = self.other(info, false, &mut uv_set, here)?;
+        }
+        if let Some(info) = source.normal_texture.as_deref()
+            && !model.unlit
+        {
+            material.textures.normal = self.other(info, true, &mut uv_set, here)?;
+            material.normal_scale = info.scale.unwrap_or(1.0).clamp(0.0, 1e3) as f32;
+        }
+        Ok(uv_set)
+    }
+
+    /// The texture of a map that is shown as it is, with values or colours; `None` with a note if it uses
+    /// another set of texture coordinates than `uv_set`, which it sets if it is the first.
+    fn other(
+        &mut self,
+        info: &TextureInfo,
+        has_values: bool,
+        uv_set: &mut Option<u32>,
+        here: &str,
+    ) -> Result<Option<usize>, ImportError> {
+        let Some(map) = self.map(info, here)? else {
+            return Ok(None);
+        };
+        if uv_set.is_some_and(|set| set != map.uv_set) {
+            self.notes.add("maps that are not shown", || {
+                let what = if has_values { "normal" } else { "emissive" };
+                format!(
+                    "{here}.{what}Texture uses another set of texture coordinates and is not shown"
+                )
+            });
+            return Ok(None);
+        }
+        let Some(image) = self.image(map.image)? else {
+            return Ok(None);
+        };
+        *uv_set = Some(map.uv_set);
+        let picture = self.plain(map.image, &image, has_values);
+        Ok(Some(self.texture(picture, &map)))
+    }
+
+    /// The classical colours of `model` with its base colour, metallic-roughness and transmission map;
+    /// `None` if no map can be read.
+    fn appearance(
+        &mut self,
+        model: &MetallicRoughness,
+        maps: &[Option<FoundMap>; 3],
+    ) -> Result<Option<Appearance>, ImportError> {
+        let mut sheets = [None, None, None];
+        for (sheet, map) in sheets.iter_mut().zip(maps) {
+            if let Some(map) = map {
+                *sheet = self.image(map.image)?;
+            }
+        }
+        if sheets.iter().all(Option::is_none) {
+            return Ok(None);
+        }
+        let key = key(model, maps);
+        if let Some(known) = self.store.known.get(&key) {
+            return Ok(Some(known.clone()));
+        }
+        let is_simple = sheets[1].is_none()
+            && sheets[2].is_none()
+            && (model.metallic == 0.0 || model.metallic == 1.0)
+            && model.transmission == 0.0
+            && !model.unlit;
+        let look = match (&sheets[0], maps[0].as_ref()) {
+            (Some(image), Some(map)) if is_simple => {
+                let picture = Some(self.plain(map.image, image, false));
+                let lobes = model.lobes(&model.point(), model.roughness);
+                // With metals, all colours are multiples of the base colour.
+                let is_metal = model.metallic == 1.0;
+                let tinted = |color| (color, picture.filter(|_| is_metal && color != Vec3::ZERO));
+                Appearance {
+                    diffuse: (lobes.diffuse, picture),
+                    specular: tinted(lobes.specular),
+                    reflect: tinted(lobes.reflect),
+                    transmit: (lobes.transmit, None),
+                    roughness: model.roughness,
+                }
+            }
+            _ => {
+                // What is unlit shines with the colour that would be diffuse.
+                let mut model = model.clone();
+                if std::mem::take(&mut model.unlit) {
+                    (model.metallic, model.transmission) = (0.0, 0.0);
+                    (model.specular, model.roughness) = (0.0, 1.0);
+                    sheets[1] = None;
+                    sheets[2] = None;
+                }
+                for sheet in sheets.iter_mut().flatten() {
+                    let (width, height) = sheet.dimensions();
+                    if width.max(height) > MAX_BAKED {
+                        let least = |n: u32| n.clamp(1, MAX_BAKED);
+                        let small =
+                            image::imageops::thumbnail(&**sheet, least(width), least(height));
+                        *sheet = small.into();
+                        self.store.halved_count += 1;
+                    }
+                }
+                let baked = bake::bake(
+                    &model,
+                    &Sheets {
+                        base_color: sheets[0].as_deref(),
+                        metallic_roughness: sheets[1].as_deref(),
+                        transmission: sheets[2].as_deref(),
+                    },
+                );
+                self.stored(baked)
+            }
+        };
+        self.store.known.insert(key, look.clone());
+        Ok(Some(look))
+    }
+
+    /// Adds baked pictures to the store.
+    fn stored(&mut self, baked: Baked) -> Appearance {
+        let mut add = |shade| match shade {
+            Shade::Constant(color) => (color, None),
+            Shade::Picture(picture) => (Vec3::ONE, Some(self.store.add(picture))),
+        };
+        Appearance {
+            diffuse: add(baked.diffuse),
+            specular: add(baked.specular),
+            reflect: add(baked.reflect),
+            transmit: add(baked.transmit),
+            roughness: baked.roughness,
+        }
+    }
+
+    /// The index of an image as it is: of values, or of colours.
+    fn plain(&mut self, index: usize, image: &image::RgbaImage, has_values: bool) -> usize {
+        let key = vec![index as u32, u32::from(has_values)];
+        if let Some(known) = self.store.known.get(&key)
+            && let Some(picture) = known.diffuse.1
+        {
+            return picture;
+        }
+        let texels = image.as_chunks().0.to_vec();
+        let added = self.store.add(Picture {
+            width: image.width(),
+            height: image.height(),
+            texels: match has_values {
+                true => Texels::Linear8(texels),
+                false => Texels::Srgb8(texels),
+            },
+        });
+        let none = (Vec3::ZERO, None);
+        let look = Appearance {
+            diffuse: (Vec3::ONE, Some(added)),
+            specular: none,
+            reflect: none,
+            transmit: none,
+            roughness: 1.0,
+        };
+        self.store.known.insert(key, look);
+        added
+    }
+
+    /// Gives `material` the colours of `look`.
+    fn dress(
+        &mut self,
+        material: &mut Material,
+        model: &MetallicRoughness,
+        look: &Appearance,
+        map: &FoundMap,
+    ) {
+        let mut texture = |picture: Option<usize>| picture.map(|it| self.texture(it, map));
+        let diffuse = texture(look.diffuse.1);
+        let textures = &mut material.textures;
+        if model.unlit {
+            material.emission = look.diffuse.0;
+            textures.emission = diffuse;
+        } else {
+            material.diffuse = look.diffuse.0;
+            material.ambient = look.diffuse.0;
+            (textures.diffuse, textures.ambient) = (diffuse, diffuse);
+        }
+        let smoother = MetallicRoughness {
+            roughness: look.roughness,
+            ..model.clone()
+        };
+        material.shininess = smoother.classical(String::new()).shininess;
+        material.specular = look.specular.0;
+        material.reflect = look.reflect.0;
+        material.transmit = look.transmit.0;
+        textures.specular = texture(look.specular.1);
+        textures.reflect = texture(look.reflect.1);
+        textures.transmit = texture(look.transmit.1);
+    }
+
+    /// Adds a texture with `picture`, placed as `map` says.
+    fn texture(&mut self, picture: usize, map: &FoundMap) -> usize {
+        let flip = DAffine3 {
+            matrix3: DMat3::from_diagonal(DVec3::new(1.0, -1.0, 1.0)),
+            translation: DVec3::Y,
+        };
+        let texture = Texture {
+            pattern: Pattern::Picture {
+                picture,
+                nearest: map.nearest,
+                wrap: map.wrap,
+            },
+            space: Space::Uv,
+            pattern_from_space: flip * map.picture_from_uv * flip,
+        };
+        let textures = &mut self.scene.textures;
+        // Materials of one file often share a texture; only the last few are compared.
+        let recent = textures.len().saturating_sub(64);
+        if let Some(known) = textures[recent..]
+            .iter()
+            .position(|known| *known == texture)
+        {
+            return recent + known;
+        }
+        textures.push(texture);
+        textures.len() - 1
+    }
+}
+
+/// All that baked pictures depend on.
+fn key(model: &MetallicRoughness, maps: &[Option<FoundMap>; 3]) -> Vec<u32> {
+    let mut key = vec![u32::MAX];
+    key.extend(
+        maps.iter()
+            .map(|map| map.as_ref().map_or(u32::MAX, |map| map.image as u32)),
+    );
+    key.extend([model.unlit, model.thickness > 0.0].map(u32::from));
+    let colors = [model.base_color, model.specular_color].map(|color| color.to_array());
+    let numbers = [
+        model.metallic,
+        model.roughness,
+        model.ior,
+        model.specular,
+        model.transmission,
+    ];
+    key.extend(
+        colors
+            .as_flattened()
+            .iter()
+            .chain(&numbers)
+            .map(|x| x.to_bits()),
+    );
+    key
+}

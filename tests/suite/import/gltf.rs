@@ -1,0 +1,10 @@
+//! glTF 2.0. The models are built here, byte by byte.
+
+mod geometry;
+mod hostile;
+mod materials;
+mod model;
+mod motion;
+mod nodes;
+
+use super::{folder, load, message_in, scene};

@@ -1,0 +1,392 @@
+//! Materials and their pictures.
+
+use super::model::{Model, UNSIGNED_BYTE, base64, png};
+use super::{folder, message_in};
+use glam::{DVec3, Vec3};
+use glimray::import::{self, Options};
+use glimray::scene::{
+    Coverage, Fresnel, Material, MetallicRoughness, Pattern, Scene, Space, Texture, Wrap,
+};
+use serde_json::{Value, json};
+
+/// A triangle with texture coordinates and this material.
+fn model(material: Value) -> Model {
+    let mut model = Model::triangle(json!({ "material": 0 }));
+    let uv = model.pairs(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    model.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uv);
+    model.push("materials", material);
+    model
+}
+
+/// Adds a picture as a texture and returns its index.
+fn picture(model: &mut Model, width: u32, texels: &[[u8; 4]]) -> usize {
+    let uri = format!("data:image/png;base64,{}", base64(&png(width, texels)));
+    let source = model.push("images", json!({ "uri": uri }));
+    model.push("textures", json!({ "source": source }))
+}
+
+fn material(material: Value) -> Material {
+    let scene = model(material).scene();
+    assert_eq!(scene.materials.len(), 1);
+    scene.materials[0].clone()
+}
+
+fn metallic_roughness(material: &Material) -> &MetallicRoughness {
+    material.metallic_roughness.as_deref().expect("the model")
+}
+
+/// The texels of a texture.
+fn texels(scene: &Scene, texture: Option<usize>) -> Vec<Vec3> {
+    let texture = &scene.textures[texture.expect("a texture")];
+    match texture.pattern {
+        Pattern::Picture { picture, .. } => {
+            let texels = scene.pictures[picture].linear();
+            texels.map(|texel| texel.truncate()).collect()
+        }
+        _ => panic!("not a picture"),
+    }
+}
+
+#[track_caller]
+fn assert_near(found: Vec3, expected: [f64; 3]) {
+    let expected = DVec3::from(expected);
+    assert!(
+        found.as_dvec3().abs_diff_eq(expected, 2e-5),
+        "{found} is not {expected}"
+    );
+}
+
+/// Texels have 8 bits: a step of sRGB is at most 0.009.
+#[track_caller]
+fn assert_texel(found: Vec3, expected: [f64; 3]) {
+    let expected = DVec3::from(expected);
+    assert!(
+        found.as_dvec3().abs_diff_eq(expected, 4.5e-3),
+        "{found} is not {expected}"
+    );
+}
+
+#[test]
+fn a_rough_dielectric_is_diffuse_with_a_wide_weak_highlight() {
+    let found = material(json!({ "pbrMetallicRoughness": {
+        "baseColorFactor": [0.5, 0.25, 1, 1], "metallicFactor": 0, "roughnessFactor": 0.5 } }));
+    assert_near(found.diffuse, [0.5, 0.25, 1.0]);
+    // α = 1/4: the exponent of Blinn and Phong is 2/α² − 2 = 30, Phong's a quarter of it. F₀ is 0.04.
+    assert_eq!(found.shininess, 7.5);
+    assert_near(found.specular, [0.04 * 38.0 / 8.0; 3]);
+    assert_eq!((found.transmit, found.opacity), (Vec3::ZERO, 1.0));
+    assert_eq!((found.fresnel, found.ior), (Fresnel::Schlick, 1.5));
+    // (1 − 1/2)⁴ of a mirror.
+    assert_near(found.reflect, [0.0625; 3]);
+}
+
+#[test]
+fn a_smooth_metal_reflects_its_base_color() {
+    let found = material(json!({ "pbrMetallicRoughness": {
+        "baseColorFactor": [1, 0.75, 0.25, 1], "metallicFactor": 1, "roughnessFactor": 0 } }));
+    assert_eq!(found.diffuse, Vec3::ZERO);
+    assert_near(found.reflect, [1.0, 0.75, 0.25]);
+    assert_eq!(found.fresnel, Fresnel::None);
+}
+
+#[test]
+fn the_default_material_is_gltfs() {
+    let scene = Model::triangle(json!({})).scene();
+    let model = metallic_roughness(&scene.materials[0]);
+    assert_eq!((model.metallic, model.roughness), (1.0, 1.0));
+    assert_eq!(model.base_color, Vec3::ONE);
+}
+
+#[test]
+fn a_volume_refracts_and_absorbs() {
+    let found = material(json!({
+        "pbrMetallicRoughness": { "metallicFactor": 0, "roughnessFactor": 0 },
+        "extensions": {
+            "KHR_materials_transmission": { "transmissionFactor": 1 },
+            "KHR_materials_ior": { "ior": 1.3 },
+            "KHR_materials_volume": { "thicknessFactor": 1, "attenuationDistance": 2,
+                                      "attenuationColor": [1, 0.5, 0.25] },
+        },
+    }));
+    assert_eq!((found.transmit, found.ior), (Vec3::ONE, 1.3));
+    assert_eq!((found.fresnel, found.diffuse), (Fresnel::Exact, Vec3::ZERO));
+    // Half remains after two units: exp(−2 a) = 1/2.
+    let half = std::f64::consts::LN_2 / 2.0;
+    assert_near(found.absorption, [0.0, half, 2.0 * half]);
+}
+
+#[test]
+fn a_thin_wall_does_not_refract() {
+    let found = material(json!({
+        "pbrMetallicRoughness": { "metallicFactor": 0, "roughnessFactor": 1,
+                                  "baseColorFactor": [0, 1, 0, 1] },
+        "extensions": { "KHR_materials_transmission": { "transmissionFactor": 0.75 } },
+    }));
+    assert_eq!(found.ior, 1.0);
+    assert_near(found.transmit, [0.0, 0.75, 0.0]);
+    assert_near(found.diffuse, [0.0, 0.25, 0.0]);
+}
+
+#[test]
+fn emission_has_its_strength_and_what_is_unlit_shines() {
+    let found = material(json!({
+        "emissiveFactor": [1, 0.5, 0],
+        "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 8 } },
+    }));
+    assert_near(found.emission, [8.0, 4.0, 0.0]);
+    let found = material(json!({
+        "pbrMetallicRoughness": { "baseColorFactor": [0.5, 0, 1, 1] },
+        "extensions": { "KHR_materials_unlit": {} },
+    }));
+    assert_near(found.emission, [0.5, 0.0, 1.0]);
+    assert_eq!((found.diffuse, found.specular), (Vec3::ZERO, Vec3::ZERO));
+}
+
+#[test]
+fn every_parameter_is_kept() {
+    let found = material(json!({
+        "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.3,
+        "extensions": {
+            "KHR_materials_clearcoat": { "clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25 },
+            "KHR_materials_sheen": { "sheenColorFactor": [0, 0, 1], "sheenRoughnessFactor": 0.75 },
+            "KHR_materials_anisotropy": { "anisotropyStrength": 0.5, "anisotropyRotation": 1 },
+            "KHR_materials_iridescence": { "iridescenceFactor": 1, "iridescenceIor": 1.5,
+                                           "iridescenceThicknessMaximum": 300 },
+            "KHR_materials_dispersion": { "dispersion": 0.125 },
+            "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 0.5,
+                "diffuseTransmissionColorFactor": [1, 0, 0] },
+            "KHR_materials_specular": { "specularFactor": 0.5, "specularColorFactor": [2, 1, 0] },
+        },
+    }));
+    let expected = MetallicRoughness {
+        double_sided: true,
+        coverage: Coverage::Mask(0.3),
+        clearcoat: 0.5,
+        clearcoat_roughness: 0.25,
+        sheen_color: Vec3::Z,
+        sheen_roughness: 0.75,
+        anisotropy: 0.5,
+        anisotropy_rotation: 1.0,
+        iridescence: 1.0,
+        iridescence_ior: 1.5,
+        iridescence_thickness: [100.0, 300.0],
+        dispersion: 0.125,
+        diffuse_transmission: 0.5,
+        diffuse_transmission_color: Vec3::X,
+        specular: 0.5,
+        specular_color: Vec3::new(2.0, 1.0, 0.0),
+        ..MetallicRoughness::default()
+    };
+    assert_eq!(*metallic_roughness(&found), expected);
+}
+
+#[test]
+fn a_base_color_picture_is_srgb_times_a_linear_factor() {
+    let mut model = model(json!({ "pbrMetallicRoughness": {
+        "baseColorTexture": { "index": 0 }, "baseColorFactor": [0.5, 1, 1, 1], "metallicFactor": 0 } }));
+    picture(&mut model, 2, &[[255, 0, 0, 255], [188, 188, 188, 255]]);
+    let scene = model.scene();
+    let textures = scene.materials[0].textures;
+    let found = texels(&scene, textures.diffuse);
+    assert_eq!(found[0], Vec3::X);
+    // ((188/255 + 0.055) / 1.055)^2.4
+    assert_near(found[1], [0.502_886_5; 3]);
+    assert_near(scene.materials[0].diffuse, [0.5, 1.0, 1.0]);
+    assert_eq!(textures.ambient, textures.diffuse);
+    assert_eq!(scene.pictures.len(), 1);
+}
+
+#[test]
+fn a_metallic_roughness_picture_divides_a_surface_into_metal_and_dielectric() {
+    let mut model = model(json!({ "pbrMetallicRoughness": {
+        "baseColorFactor": [1, 0.5, 0.25, 1], "metallicRoughnessTexture": { "index": 0 } } }));
+    // Roughness 1 in green; blue is 0, then 1. Red means nothing.
+    picture(&mut model, 2, &[[77, 255, 0, 255], [77, 255, 255, 255]]);
+    let scene = model.scene();
+    let textures = scene.materials[0].textures;
+    let diffuse = texels(&scene, textures.diffuse);
+    assert_texel(diffuse[0], [1.0, 0.5, 0.25]);
+    assert_texel(diffuse[1], [0.6, 0.3, 0.15]);
+    let specular = texels(&scene, textures.specular);
+    // α = 1: the height is F₀ · 8/8.
+    assert_texel(specular[0], [0.04; 3]);
+    assert_texel(specular[1], [1.0, 0.5, 0.25]);
+    assert_eq!((textures.reflect, textures.transmit), (None, None));
+}
+
+#[test]
+fn alpha_is_kept_and_means_what_its_mode_says() {
+    for (mode, coverage) in [
+        ("OPAQUE", Coverage::Opaque),
+        ("MASK", Coverage::Mask(0.25)),
+        ("BLEND", Coverage::Blend),
+    ] {
+        let mut model = model(json!({ "alphaMode": mode, "alphaCutoff": 0.25,
+            "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 },
+                "baseColorFactor": [1, 1, 1, 0.5], "metallicFactor": 0 } }));
+        picture(&mut model, 2, &[[255, 255, 255, 51], [255, 255, 255, 204]]);
+        let scene = model.scene();
+        let material = &scene.materials[0];
+        assert_eq!((material.coverage, material.alpha), (coverage, 0.5));
+        assert_eq!(material.transmit, Vec3::ZERO, "alpha is not transmission");
+        let Some(texture) = material.textures.alpha else {
+            assert_eq!(mode, "OPAQUE");
+            continue;
+        };
+        let Pattern::Picture { picture, .. } = scene.textures[texture].pattern else {
+            panic!("not a picture");
+        };
+        let alphas: Vec<f32> = scene.pictures[picture]
+            .linear()
+            .map(|texel| texel.w)
+            .collect();
+        assert_eq!(alphas, [0.2, 0.8]);
+    }
+}
+
+/// The texture of a picture with a transform.
+fn placed(extension: Value, sampler: Value) -> (Texture, Scene) {
+    let mut model = model(json!({ "pbrMetallicRoughness": { "metallicFactor": 0,
+        "baseColorTexture": { "index": 0,
+            "extensions": { "KHR_texture_transform": extension } } } }));
+    picture(&mut model, 2, &[[255, 0, 0, 255], [0, 255, 0, 255]]);
+    model.push("samplers", sampler);
+    model.json["textures"][0]["sampler"] = json!(0);
+    let scene = model.scene();
+    let index = scene.materials[0].textures.diffuse.expect("a texture");
+    (scene.textures[index].clone(), scene)
+}
+
+#[test]
+fn normal_maps_are_numbers_and_not_colors() {
+    let mut model = model(json!({ "normalTexture": { "index": 0, "scale": 0.5 } }));
+    picture(&mut model, 1, &[[51, 102, 255, 255]]);
+    let scene = model.scene();
+    let material = &scene.materials[0];
+    assert_near(texels(&scene, material.textures.normal)[0], [0.2, 0.4, 1.0]);
+    assert_eq!(material.normal_scale, 0.5);
+    assert!(!scene.meshes[0].uvs.is_empty() && scene.skipped.is_empty());
+}
+
+#[test]
+fn texture_transforms_scale_then_turn_then_move() {
+    let transform = json!({ "offset": [0.25, 0.5], "rotation": 0.3, "scale": [2, 3] });
+    let (texture, _) = placed(transform, json!({}));
+    assert_eq!(texture.space, Space::Uv);
+    for (u, v) in [(0.0, 0.0), (1.0, 0.0), (0.3, 0.9)] {
+        // The matrix in the text of KHR_texture_transform, with v downwards.
+        let (x, y) = (2.0 * u, 3.0 * v);
+        let (sin, cos) = 0.3_f64.sin_cos();
+        let (s, t) = (cos * x + sin * y + 0.25, -sin * x + cos * y + 0.5);
+        let up = DVec3::new(u, 1.0 - v, 0.0);
+        let found = texture.pattern_from_space.transform_point3(up);
+        assert!(
+            found.abs_diff_eq(DVec3::new(s, 1.0 - t, 0.0), 1e-12),
+            "{found}"
+        );
+    }
+}
+
+#[test]
+fn samplers_say_how_pictures_continue() {
+    use Wrap::{Clamp, Mirror, Repeat};
+    for (sampler, expected) in [
+        (json!({}), (false, [Repeat; 2])),
+        (
+            json!({ "wrapS": 33648, "magFilter": 9728 }),
+            (true, [Mirror, Repeat]),
+        ),
+        (
+            json!({ "wrapS": 10497, "wrapT": 33071, "magFilter": 9729 }),
+            (false, [Repeat, Clamp]),
+        ),
+    ] {
+        let (texture, _) = placed(json!({}), sampler);
+        let Pattern::Picture { nearest, wrap, .. } = texture.pattern else {
+            panic!("not a picture");
+        };
+        assert_eq!((nearest, wrap), expected);
+    }
+}
+
+#[test]
+fn vertex_colors_multiply_the_base_color() {
+    let mut model = Model::triangle(json!({ "material": 0 }));
+    let colors = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255_u8]].concat();
+    let color = model.accessor(&colors, UNSIGNED_BYTE, "VEC4", 3);
+    model.json["accessors"][color]["normalized"] = json!(true);
+    model.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(color);
+    let factor = json!({ "baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0 });
+    model.push("materials", json!({ "pbrMetallicRoughness": factor }));
+    let scene = model.scene();
+    let corner = |i: usize| scene.materials[scene.meshes[0].materials[i] as usize].diffuse;
+    assert_near(corner(0), [0.5, 0.0, 0.0]);
+    assert_near(corner(1), [0.0, 0.5, 0.0]);
+    assert_near(corner(2), [0.0, 0.0, 0.5]);
+}
+
+#[test]
+fn variants_replace_materials() {
+    let mut model = Model::triangle(json!({ "material": 0, "extensions": {
+        "KHR_materials_variants": { "mappings": [{ "material": 1, "variants": [1] }] } } }));
+    model.push("materials", json!({ "name": "day" }));
+    model.push("materials", json!({ "name": "night" }));
+    let model = model.with(json!({ "extensions": { "KHR_materials_variants": {
+        "variants": [{ "name": "sun" }, { "name": "moon" }] } } }));
+    let files = folder(&[("a.glb", &model.glb())]);
+    let options = |name: Option<&str>| Options {
+        variant: name.map(str::to_owned),
+        ..Options::default()
+    };
+    for (variant, name) in [(None, "day"), (Some("sun"), "day"), (Some("moon"), "night")] {
+        let scene = import::load_with(&files.path().join("a.glb"), &options(variant));
+        assert_eq!(scene.expect("a scene").materials[0].name, name);
+    }
+    assert_eq!(
+        message_in(&files, "a.glb", &options(Some("mon"))),
+        "bad model (a.glb): unknown variant `mon`, did you mean `moon`? It has `sun`, `moon`."
+    );
+}
+
+#[test]
+fn pictures_that_cannot_be_read_are_skipped_by_name_and_those_outside_refused() {
+    let with = |uri: &str| {
+        let mut model = model(json!({ "pbrMetallicRoughness": {
+            "baseColorTexture": { "index": 0 }, "baseColorFactor": [0, 1, 0, 1], "metallicFactor": 0 } }));
+        model.push("images", json!({ "uri": uri }));
+        model.push("textures", json!({ "source": 0 }));
+        model
+    };
+    let scene = with("gone.png").scene();
+    assert_near(scene.materials[0].diffuse, [0.0, 1.0, 0.0]);
+    assert_eq!(
+        scene.skipped,
+        ["texture skipped: images[0] `gone.png` does not exist"]
+    );
+    assert_eq!(with("data:image/png;base64,AAAA").scene().skipped.len(), 1);
+    assert_eq!(
+        with("%2e%2e/secret.png").message(),
+        "picture refused (a.glb): images[0]: `../secret.png` points outside the scene folder. \
+         Name a file in it, or permit the other folder."
+    );
+}
+
+#[test]
+fn what_is_not_shown_is_named() {
+    let mut model = model(json!({ "occlusionTexture": { "index": 0 } }));
+    picture(&mut model, 1, &[[128, 128, 255, 255]]);
+    let model = model.with(json!({
+        "extensionsUsed": ["KHR_materials_sheen", "EXT_unheard_of", "KHR_xmp_json_ld"],
+    }));
+    let scene = model.scene();
+    assert_eq!(
+        scene.skipped,
+        [
+            "the extension `KHR_materials_sheen` is kept, but not shown",
+            "the extension `EXT_unheard_of` is not supported and was ignored",
+            "materials[0].occlusionTexture is not shown",
+        ]
+    );
+    let maps = &metallic_roughness(&scene.materials[0]).maps;
+    assert_eq!((maps.len(), maps[0].parameter), (1, "occlusionTexture"));
+}
