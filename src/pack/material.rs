@@ -69,7 +69,6 @@ pub fn material(material: &Material) -> PackedMaterial {
             pair(textures.normal, textures.alpha),
         ],
         normal_scale: material.normal_scale,
-        ..Default::default()
     }
 }
 
