@@ -7,9 +7,10 @@
 //! | `.scene` | the course's | `course.rs` |
 //! | `.nff` | Haines' Neutral File Format | `nff.rs` |
 //! | `.obj` | Wavefront OBJ with MTL | `obj.rs` |
+//! | `.ply` | Stanford PLY, text or binary; also meshes and point sets of native scenes | `ply.rs` |
+//! | `.stl` | STL, text or binary | `stl.rs` |
 //!
-//! `ply.rs` reads Stanford PLY files: meshes and point sets of native scenes. `picture.rs` reads the
-//! images that scenes and models refer to.
+//! `picture.rs` reads the images that scenes and models refer to. `model.rs` and `stage.rs` make a scene of a model.
 //!
 //! Importers get files from a [`Resolver`]: a [`Folder`] on disk, [`Memory`], an `Archive`, or an
 //! implementation of the caller.
@@ -23,14 +24,17 @@
 mod archive;
 mod budget;
 mod course;
+mod crease;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
 mod folder;
+mod model;
 mod native;
 mod nff;
 mod notes;
 mod number;
 mod obj;
+mod options;
 mod paths;
 mod picture;
 mod ply;
@@ -41,13 +45,17 @@ mod source;
 mod stage;
 #[cfg(not(target_arch = "wasm32"))]
 mod step;
+mod stl;
 mod suggest;
+mod tint;
+mod weld;
 
 #[cfg(feature = "archive")]
 pub use archive::Archive;
 pub use error::{Excerpt, Fault, ImportError, Position};
 #[cfg(not(target_arch = "wasm32"))]
 pub use folder::Folder;
+pub use options::{Axis, Options, Staging};
 pub use resolver::{FileError, Memory, Resolver};
 #[cfg(not(target_arch = "wasm32"))]
 pub use step::Step;
@@ -59,24 +67,13 @@ use source::Source;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Options for importing a scene file.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Options {
-    /// Folders besides the scene's own whose files the scene may refer to, for [`load_with`].
-    pub allow_dirs: Vec<PathBuf>,
-    /// `KEY=VALUE` pairs. Each replaces or adds one value of a native scene, such as
-    /// `camera.fov_y_deg=30`, `objects.0.sphere.radius=2` or `output.tone=aces`. Values are TOML; a bare
-    /// word is a string.
-    pub overrides: Vec<String>,
-}
-
 /// The extensions of the files that [`load`] reads, in lower case.
-pub const SCENE_ENDINGS: &[&str] = &["toml", "scene", "nff", "obj"];
+pub const SCENE_ENDINGS: &[&str] = &["toml", "scene", "nff", "obj", "ply", "stl"];
 
 /// The usual extensions of the files that [`picture()`] reads.
 pub const PICTURE_ENDINGS: &[&str] = &["hdr", "exr", "png", "jpg", "jpeg"];
 
-/// Size limit of a geometry file (`.scene`, `.nff`, `.obj`) in bytes.
+/// Size limit of a geometry file (`.scene`, `.nff`, `.obj`, `.ply`, `.stl`) in bytes.
 const MAX_GEOMETRY_BYTES: u64 = 2 << 30;
 
 /// The scene formats.
@@ -86,6 +83,8 @@ enum Format {
     Course,
     Nff,
     Obj,
+    Ply,
+    Stl,
 }
 
 impl Format {
@@ -97,6 +96,8 @@ impl Format {
             Some("scene") => Ok(Self::Course),
             Some("nff") => Ok(Self::Nff),
             Some("obj") => Ok(Self::Obj),
+            Some("ply") => Ok(Self::Ply),
+            Some("stl") => Ok(Self::Stl),
             _ => Err(unknown_format(path)),
         }
     }
@@ -135,12 +136,14 @@ impl Format {
             Self::Obj => "bad model",
             _ => "bad scene",
         };
-        let source = Source::new(what, path, bytes)?;
+        let source = |bytes| Source::new(what, path, bytes);
         let mut scene = match self {
-            Self::Native => native::read(&source, options, files),
-            Self::Course => course::read(&source),
-            Self::Nff => nff::read(&source),
-            Self::Obj => obj::read_scene(&source, files),
+            Self::Native => native::read(&source(bytes)?, options, files),
+            Self::Course => course::read(&source(bytes)?),
+            Self::Nff => nff::read(&source(bytes)?),
+            Self::Obj => obj::read_scene(&source(bytes)?, files, options),
+            Self::Ply => ply::read_scene(path, &bytes, options),
+            Self::Stl => stl::read_scene(path, bytes, options),
         }?;
         range::limit(&mut scene);
         scene.pin_render_origin();
@@ -307,10 +310,8 @@ fn unknown_format(path: &Path) -> ImportError {
             )
         },
     );
-    ImportError::UnknownFormat(fault(
-        "unknown scene format",
-        path,
-        &ending,
-        "Use a .toml (native), .scene (course), .nff or .obj (Wavefront) file; convert other models to .obj first",
-    ))
+    let (last, others) = SCENE_ENDINGS.split_last().unwrap_or((&"", &[]));
+    let others = others.join(", .");
+    let todo = format!("Use a .{others} or .{last} file; convert other models to one of these");
+    ImportError::UnknownFormat(fault("unknown scene format", path, &ending, &todo))
 }

@@ -35,7 +35,7 @@ pub use curve::Value;
 pub use frame::{Frame, NodeState};
 pub use light::{Attenuation, Light, LightKind};
 pub use material::{Coverage, Fresnel, Material, Mixing, Textures};
-pub use mesh::{Mesh, Repairs};
+pub use mesh::{Mesh, Repairs, area_normal};
 pub use node::Node;
 pub use object::ObjectRef;
 pub use output::{Antialias, Filter, OutputDefaults, Shutter, ToneCurve, Transfer};

@@ -15,15 +15,16 @@ mod weld;
 
 use super::budget::{self, Budget};
 use super::error::ImportError;
+use super::model::Model;
 use super::notes::{self, Notes};
 use super::paths::Files;
 use super::picture::Pictures;
 use super::polygon::{self, Cutter, Defect};
 use super::source::{Source, Token, quote};
-use super::{number, stage};
-use crate::scene::{Instance, Material, Mesh, OutputDefaults, Scene, Texture};
+use super::{Axis, Options, number};
+use crate::scene::{Material, Mesh, Scene, Texture};
 use face::Corner;
-use glam::{DAffine3, DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use lines::{Line, Lines};
 use smooth::SmoothFace;
 use std::collections::{BTreeMap, HashMap};
@@ -51,48 +52,15 @@ const IGNORED: [&[u8]; 17] = [
     b"end",
 ];
 
-/// The mesh of a file.
-pub(super) struct Model {
-    /// Its materials are indices into `materials`.
-    pub mesh: Mesh,
-    /// World from mesh: the translation to the position in the file.
-    pub offset: DVec3,
-    /// Their textures are indices into `textures`.
-    pub materials: Vec<Material>,
-    pub textures: Vec<Texture>,
-    pub notes: Notes,
-}
-
-/// The model in `source` as a scene, with a camera and lights to show it.
-pub(super) fn read_scene(source: &Source, files: &Files) -> Result<Scene, ImportError> {
+/// The model in `source` as a scene.
+pub(super) fn read_scene(
+    source: &Source,
+    files: &Files,
+    options: &Options,
+) -> Result<Scene, ImportError> {
     let mut pictures = Pictures::default();
     let model = read(source, files, &mut pictures, None)?;
-    let mut scene = Scene {
-        materials: model.materials,
-        textures: model.textures,
-        pictures: pictures.pictures,
-        output: OutputDefaults {
-            size: (800, 600),
-            samples: 4,
-            ..OutputDefaults::default()
-        },
-        skipped: model.notes.into_lines(),
-        ..Scene::default()
-    };
-    if model.mesh.triangles.is_empty() {
-        scene.skipped.push("the model has no triangles".to_owned());
-    } else {
-        let world_from_object = DAffine3::from_translation(model.offset);
-        scene.meshes.push(model.mesh.into());
-        scene.instances.push(Instance {
-            mesh: 0,
-            placement: world_from_object,
-            node: None,
-        });
-    }
-    stage::light(&mut scene);
-    scene.cameras = vec![stage::camera(&scene)];
-    Ok(scene)
+    Ok(model.into_scene(pictures.pictures, Axis::Y, options))
 }
 
 /// The model in the file at `path`, which must have been resolved. Its images are added to `pictures`. If
@@ -371,6 +339,7 @@ impl<'s> Reader<'s> {
             materials,
             textures: self.textures,
             notes: self.notes,
+            ..Model::default()
         })
     }
 }

@@ -1,7 +1,21 @@
 //! A camera and lights for models that have none.
 
+use super::Options;
 use crate::scene::{Background, Camera, Light, LightKind, Scene};
 use glam::{DVec3, Vec3};
+
+/// Adds what a model lacks: a camera; and if it has no lights, lights, a background and a ground.
+pub(super) fn complete(scene: &mut Scene, options: &Options) {
+    if scene.lights.is_empty() && options.staging.lights {
+        light(scene);
+    }
+    if scene.cameras.is_empty() {
+        scene.cameras = vec![match options.staging.camera {
+            true => camera(scene),
+            false => Camera::default(),
+        }];
+    }
+}
 
 /// A camera that sees all of `scene` from the front, slightly right and above, in an image of aspect
 /// ratio 4:3 or wider; the course's camera if nothing in the scene is bounded.
@@ -36,7 +50,7 @@ pub(super) fn camera(scene: &Scene) -> Camera {
 
 /// Lights, background and ambient light for a bare model: a warm key light from the right above, a cool
 /// fill light from the left, and enough ambient light that nothing is black.
-pub(super) fn light(scene: &mut Scene) {
+fn light(scene: &mut Scene) {
     let sun = |towards: DVec3, color: Vec3| Light {
         kind: LightKind::Directional {
             direction: towards.normalize(),

@@ -16,9 +16,11 @@ mod nodes_and_ply;
 mod obj;
 mod optics;
 mod pictures;
+mod ply;
 mod range;
 mod resolver;
 mod shapes;
+mod stl;
 mod textures;
 
 use glimray::import::{self, ImportError, Options};

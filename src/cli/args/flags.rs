@@ -182,6 +182,7 @@ impl SceneFlags {
         import::Options {
             allow_dirs: self.allow_dirs.clone(),
             overrides: self.overrides.clone(),
+            ..import::Options::default()
         }
     }
 }
