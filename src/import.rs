@@ -9,6 +9,7 @@
 //! | `.obj` | Wavefront OBJ with MTL | `obj.rs` |
 //! | `.ply` | Stanford PLY, text or binary; also meshes and point sets of native scenes | `ply.rs` |
 //! | `.stl` | STL, text or binary | `stl.rs` |
+//! | `.zip` | an archive of any of these with its files (feature `archive`) | `zipped.rs` |
 //!
 //! `picture.rs` reads the images that scenes and models refer to. `model.rs` and `stage.rs` make a scene of a model.
 //!
@@ -49,6 +50,8 @@ mod stl;
 mod suggest;
 mod tint;
 mod weld;
+#[cfg(feature = "archive")]
+mod zipped;
 
 #[cfg(feature = "archive")]
 pub use archive::Archive;
@@ -68,6 +71,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The extensions of the files that [`load`] reads, in lower case.
+#[cfg(feature = "archive")]
+pub const SCENE_ENDINGS: &[&str] = &["toml", "scene", "nff", "obj", "ply", "stl", "zip"];
+
+/// The extensions of the files that [`load`] reads, in lower case.
+#[cfg(not(feature = "archive"))]
 pub const SCENE_ENDINGS: &[&str] = &["toml", "scene", "nff", "obj", "ply", "stl"];
 
 /// The usual extensions of the files that [`picture()`] reads.
@@ -85,6 +93,8 @@ enum Format {
     Obj,
     Ply,
     Stl,
+    #[cfg(feature = "archive")]
+    Zip,
 }
 
 impl Format {
@@ -98,8 +108,24 @@ impl Format {
             Some("obj") => Ok(Self::Obj),
             Some("ply") => Ok(Self::Ply),
             Some("stl") => Ok(Self::Stl),
+            #[cfg(feature = "archive")]
+            Some("zip") => Ok(Self::Zip),
             _ => Err(unknown_format(path)),
         }
+    }
+
+    /// Whether files have a model rather than a whole scene.
+    fn is_model(self) -> bool {
+        !matches!(self, Self::Native | Self::Course | Self::Nff)
+    }
+
+    /// Whether files have, or may have, a native scene.
+    fn may_be_native(self) -> bool {
+        #[cfg(feature = "archive")]
+        if self == Self::Zip {
+            return true;
+        }
+        self == Self::Native
     }
 
     /// The format's size limit for files, in bytes.
@@ -127,10 +153,20 @@ impl Format {
         options: &Options,
         files: &Files,
     ) -> Result<Scene, ImportError> {
-        if self != Self::Native && !options.overrides.is_empty() {
+        if !self.may_be_native() && !options.overrides.is_empty() {
             let why = "only native scenes (.toml) have keys to set";
             let fault = fault("override refused", path, why, "Leave out the overrides");
             return Err(ImportError::Malformed(fault));
+        }
+        if !self.is_model() && options.up.is_some() {
+            let why = "only models have an axis that points up";
+            let todo = "Leave it out, or give the camera an up direction";
+            return Err(ImportError::Malformed(fault(
+                "up axis refused",
+                path,
+                why,
+                todo,
+            )));
         }
         let what = match self {
             Self::Obj => "bad model",
@@ -144,6 +180,8 @@ impl Format {
             Self::Obj => obj::read_scene(&source(bytes)?, files, options),
             Self::Ply => ply::read_scene(path, &bytes, options),
             Self::Stl => stl::read_scene(path, bytes, options),
+            #[cfg(feature = "archive")]
+            Self::Zip => zipped::read_scene(path, bytes, options),
         }?;
         range::limit(&mut scene);
         scene.pin_render_origin();

@@ -3,7 +3,7 @@
 use super::notes::Notes;
 use super::{Axis, Options, stage};
 use crate::scene::{
-    Geometry, Instance, Material, Mesh, OutputDefaults, Picture, Scene, Shape, Texture,
+    Geometry, Instance, Material, Mesh, OutputDefaults, Picture, Scene, Shadows, Shape, Texture,
 };
 use glam::{DAffine3, DVec3};
 use std::sync::Arc;
@@ -31,7 +31,12 @@ impl Model {
         if self.materials.is_empty() {
             self.materials.push(Material::default());
         }
+        let is_clear = |material: &Material| material.transmit.max_element() > 0.0;
         let mut scene = Scene {
+            shadows: match self.materials.iter().any(is_clear) {
+                true => Shadows::Filtered,
+                false => Shadows::Opaque,
+            },
             shapes: self.points,
             materials: self.materials,
             textures: self.textures,

@@ -10,6 +10,7 @@ mod lines;
 mod materials;
 mod mtl;
 mod smooth;
+mod surface;
 mod uv;
 mod weld;
 
@@ -21,6 +22,7 @@ use super::paths::Files;
 use super::picture::Pictures;
 use super::polygon::{self, Cutter, Defect};
 use super::source::{Source, Token, quote};
+use super::tint::Rgb;
 use super::{Axis, Options, number};
 use crate::scene::{Material, Mesh, Scene, Texture};
 use face::Corner;
@@ -88,6 +90,7 @@ fn read(
         pictures,
         replaced,
         positions: Vec::new(),
+        colors: Vec::new(),
         normals: Vec::new(),
         uvs: Vec::new(),
         made_normals: Vec::new(),
@@ -131,6 +134,8 @@ struct Reader<'s> {
     pictures: &'s mut Pictures,
     replaced: Option<bool>,
     positions: Vec<DVec3>,
+    /// Colours of vertices; empty if there are none, and may be shorter than `positions`.
+    colors: Vec<Option<Rgb>>,
     normals: Vec<Vec3>,
     uvs: Vec<Vec2>,
     /// Normals that are computed, not from the file.
@@ -201,17 +206,22 @@ impl<'s> Reader<'s> {
         let position = self.numbers(keyword, line)?;
         self.positions.push(position);
         // A weight (which only curves use), a colour, or both.
-        let mut more = 0;
+        let mut more = [0.0; 4];
+        let mut count = 0;
         while let Some(word) = line.word() {
-            number::parse(self.source, word)?;
-            more += 1;
-            if more > 4 {
+            let number = number::parse(self.source, word)?;
+            let Some(place) = more.get_mut(count) else {
                 let why = "a vertex has too many numbers".to_owned();
                 return Err(self.source.malformed(word.span(), why, "Write `v X Y Z`"));
-            }
+            };
+            *place = number;
+            count += 1;
         }
-        if more >= 3 {
-            self.skip("vertex colours");
+        if count >= 3 {
+            let channel = |c: f64| (c * 255.0).round().clamp(0.0, 255.0) as u8;
+            let color = [more[count - 3], more[count - 2], more[count - 1]].map(channel);
+            self.colors.resize(self.positions.len() - 1, None);
+            self.colors.push(Some(color));
         }
         Ok(())
     }
@@ -254,6 +264,11 @@ impl<'s> Reader<'s> {
             return Err(ImportError::TooBig(error.into_fault()));
         }
         let shift = |triangle: [u32; 3]| triangle.map(|i| first as u32 + i);
+        if face.len() == 3 {
+            self.triangles.push(shift([0, 1, 2]));
+            self.corners.append(&mut face);
+            return Ok(());
+        }
         let triangles = self.cutter.triangles(&points).unwrap_or_else(|defect| {
             // Triangles without area are counted when the mesh is repaired.
             self.fan_count += usize::from(defect != Defect::NoArea);
@@ -276,6 +291,7 @@ impl<'s> Reader<'s> {
         self.source.bytes.len() as u64
             + libraries.sum::<u64>()
             + budget::size::<DVec3>(self.positions.len())
+            + self.tint_memory()
             + budget::size::<Vec3>(self.normals.len() + self.made_normals.len())
             + budget::size::<Vec2>(self.uvs.len())
             + budget::size::<(Corner, [u8; WELDED])>(self.corners.len())
@@ -286,7 +302,8 @@ impl<'s> Reader<'s> {
     }
 
     fn finish(mut self) -> Result<Model, ImportError> {
-        let materials = self.materials()?;
+        let mut materials = self.materials()?;
+        self.tint(&mut materials);
         self.drop_unwanted_uvs(&materials);
         self.smooth();
         let (vertices, vertex_of_corner) = weld::weld(&self.corners);

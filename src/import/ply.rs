@@ -9,6 +9,7 @@ mod faces;
 mod header;
 mod points;
 mod reader;
+mod types;
 
 use super::budget;
 use super::crease;
@@ -20,9 +21,9 @@ use super::tint::{self, Rgb};
 use super::{Axis, Options};
 use crate::scene::{Material, Mesh, Scene, Shape};
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
-use header::{Element, Kind};
 use reader::Reader;
 use std::path::Path;
+use types::{Element, Kind};
 
 /// The vertex properties that hold the axes of a copy's transform.
 const AXES: [&str; 9] = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];

@@ -7,6 +7,7 @@ mod defaults;
 mod files;
 mod hostile;
 mod memory;
+mod mtl;
 mod native;
 mod native_animation;
 mod native_groups;
@@ -20,8 +21,10 @@ mod ply;
 mod range;
 mod resolver;
 mod shapes;
+mod stage;
 mod stl;
 mod textures;
+mod zipped;
 
 use glimray::import::{self, ImportError, Options};
 use glimray::scene::Scene;

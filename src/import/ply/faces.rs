@@ -1,7 +1,7 @@
 //! The faces of a PLY file: polygons, and the triangle strips of older scanners.
 
-use super::header::{Element, Property};
 use super::reader::Reader;
+use super::types::{Element, Property};
 use super::{AGAIN, Content};
 use crate::import::budget;
 use crate::import::error::ImportError;

@@ -1,7 +1,7 @@
 //! The numbers of a PLY file, one after the other.
 
 use super::AGAIN;
-use super::header::{Element, Encoding, Kind, Property};
+use super::types::{Element, Encoding, Kind, Property};
 use crate::import::budget::Budget;
 use crate::import::error::{ImportError, fault};
 use crate::import::source::quote;

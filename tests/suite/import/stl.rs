@@ -204,12 +204,13 @@ fn both_dialects_have_colours() {
     );
     assert_eq!((of(&magics, 0), of(&magics, 5)), (orange, orange));
     assert_eq!(of(&magics, 6), Vec3::new(linear(64.0), linear(112.0), 1.0));
-    assert_eq!(magics.materials.len(), 2);
+    // Two colours, and the ground.
+    assert_eq!(magics.materials.len(), 2 + 1);
     assert_eq!(magics.skipped, [""; 0]);
     let header =
         b"COLOR=\x40\x70\xff\xff,MATERIAL=\x40\x70\xff\xff\x40\x70\xff\xff\x40\x70\xff\xff";
     let scene = scene("a.stl", binary(header, &facets, |_| 0x8000));
-    assert_eq!(scene.materials.len(), 1);
+    assert_eq!(scene.materials.len(), 1 + 1);
     assert_eq!(
         scene.skipped,
         ["the material in the header skipped: only its colour is read"]
