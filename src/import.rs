@@ -8,9 +8,11 @@
 //! | `.nff` | Haines' Neutral File Format | `nff.rs` |
 //! | `.obj` | Wavefront OBJ with MTL | `obj.rs` |
 //! | `.gltf`, `.glb` | glTF 2.0 | `gltf.rs` |
+//! | `.ply` | Stanford PLY, text or binary; also meshes and point sets of native scenes | `ply.rs` |
+//! | `.stl` | STL, text or binary | `stl.rs` |
+//! | `.zip` | an archive of any of these with its files (feature `archive`) | `zipped.rs` |
 //!
-//! `ply.rs` reads Stanford PLY files: meshes and point sets of native scenes. `picture.rs` reads the
-//! images that scenes and models refer to.
+//! `picture.rs` reads the images that scenes and models refer to. `model.rs` and `stage.rs` make a scene of a model.
 //!
 //! Importers get files from a [`Resolver`]: a [`Folder`] on disk, [`Memory`], an `Archive`, or an
 //! implementation of the caller.
@@ -24,15 +26,18 @@
 mod archive;
 mod budget;
 mod course;
+mod crease;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
 mod folder;
 mod gltf;
+mod model;
 mod native;
 mod nff;
 mod notes;
 mod number;
 mod obj;
+mod options;
 mod paths;
 mod picture;
 mod ply;
@@ -43,13 +48,19 @@ mod source;
 mod stage;
 #[cfg(not(target_arch = "wasm32"))]
 mod step;
+mod stl;
 mod suggest;
+mod tint;
+mod weld;
+#[cfg(feature = "archive")]
+mod zipped;
 
 #[cfg(feature = "archive")]
 pub use archive::Archive;
 pub use error::{Excerpt, Fault, ImportError, Position};
 #[cfg(not(target_arch = "wasm32"))]
 pub use folder::Folder;
+pub use options::{Axis, Options, Staging};
 pub use resolver::{FileError, Memory, Resolver};
 #[cfg(not(target_arch = "wasm32"))]
 pub use step::Step;
@@ -61,30 +72,20 @@ use source::Source;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Options for importing a scene file.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Options {
-    /// Folders besides the scene's own whose files the scene may refer to, for [`load_with`].
-    pub allow_dirs: Vec<PathBuf>,
-    /// `KEY=VALUE` pairs. Each replaces or adds one value of a native scene, such as
-    /// `camera.fov_y_deg=30`, `objects.0.sphere.radius=2` or `output.tone=aces`. Values are TOML; a bare
-    /// word is a string.
-    pub overrides: Vec<String>,
-    /// The scene of a glTF model to import, by its name or number; `None` is the model's default.
-    pub scene: Option<String>,
-    /// The clip of a glTF model to play, by its name or number; `None` is all that fit together.
-    pub clip: Option<String>,
-    /// The variant of a glTF model's materials, by its name or number; `None` is the model's default.
-    pub variant: Option<String>,
-}
+/// The extensions of the files that [`load`] reads, in lower case.
+#[cfg(feature = "archive")]
+pub const SCENE_ENDINGS: &[&str] = &[
+    "toml", "scene", "nff", "obj", "gltf", "glb", "ply", "stl", "zip",
+];
 
 /// The extensions of the files that [`load`] reads, in lower case.
-pub const SCENE_ENDINGS: &[&str] = &["toml", "scene", "nff", "obj", "gltf", "glb"];
+#[cfg(not(feature = "archive"))]
+pub const SCENE_ENDINGS: &[&str] = &["toml", "scene", "nff", "obj", "gltf", "glb", "ply", "stl"];
 
 /// The usual extensions of the files that [`picture()`] reads.
 pub const PICTURE_ENDINGS: &[&str] = &["hdr", "exr", "png", "jpg", "jpeg"];
 
-/// Size limit of a geometry file (`.scene`, `.nff`, `.obj`, `.gltf`, `.glb`) in bytes.
+/// Size limit of a geometry file (`.scene`, `.nff`, `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`) in bytes.
 const MAX_GEOMETRY_BYTES: u64 = 2 << 30;
 
 /// The scene formats.
@@ -95,6 +96,10 @@ enum Format {
     Nff,
     Obj,
     Gltf,
+    Ply,
+    Stl,
+    #[cfg(feature = "archive")]
+    Zip,
 }
 
 impl Format {
@@ -107,8 +112,35 @@ impl Format {
             Some("nff") => Ok(Self::Nff),
             Some("obj") => Ok(Self::Obj),
             Some("gltf" | "glb") => Ok(Self::Gltf),
+            Some("ply") => Ok(Self::Ply),
+            Some("stl") => Ok(Self::Stl),
+            #[cfg(feature = "archive")]
+            Some("zip") => Ok(Self::Zip),
             _ => Err(unknown_format(path)),
         }
+    }
+
+    /// Whether files have a model rather than a whole scene.
+    fn is_model(self) -> bool {
+        !matches!(self, Self::Native | Self::Course | Self::Nff)
+    }
+
+    /// Whether files have, or may have, a glTF model.
+    fn may_be_gltf(self) -> bool {
+        #[cfg(feature = "archive")]
+        if self == Self::Zip {
+            return true;
+        }
+        self == Self::Gltf
+    }
+
+    /// Whether files have, or may have, a native scene.
+    fn may_be_native(self) -> bool {
+        #[cfg(feature = "archive")]
+        if self == Self::Zip {
+            return true;
+        }
+        self == Self::Native
     }
 
     /// The format's size limit for files, in bytes.
@@ -136,28 +168,37 @@ impl Format {
         options: &Options,
         files: &Files,
     ) -> Result<Scene, ImportError> {
-        if self != Self::Native && !options.overrides.is_empty() {
+        if !self.may_be_native() && !options.overrides.is_empty() {
             let why = "only native scenes (.toml) have keys to set";
             let fault = fault("override refused", path, why, "Leave out the overrides");
             return Err(ImportError::Malformed(fault));
         }
         options.check_model_flags(self, path)?;
-        if self == Self::Gltf {
-            let mut scene = gltf::read(path, bytes, options, files)?;
-            range::limit(&mut scene);
-            scene.pin_render_origin();
-            return Ok(scene);
+        if !self.is_model() && options.up.is_some() {
+            let why = "only models have an axis that points up";
+            let todo = "Leave it out, or give the camera an up direction";
+            return Err(ImportError::Malformed(fault(
+                "up axis refused",
+                path,
+                why,
+                todo,
+            )));
         }
         let what = match self {
             Self::Obj => "bad model",
             _ => "bad scene",
         };
-        let source = Source::new(what, path, bytes)?;
+        let source = |bytes| Source::new(what, path, bytes);
         let mut scene = match self {
-            Self::Gltf | Self::Native => native::read(&source, options, files),
-            Self::Course => course::read(&source),
-            Self::Nff => nff::read(&source),
-            Self::Obj => obj::read_scene(&source, files),
+            Self::Native => native::read(&source(bytes)?, options, files),
+            Self::Course => course::read(&source(bytes)?),
+            Self::Nff => nff::read(&source(bytes)?),
+            Self::Obj => obj::read_scene(&source(bytes)?, files, options),
+            Self::Gltf => gltf::read(path, bytes, options, files),
+            Self::Ply => ply::read_scene(path, &bytes, options),
+            Self::Stl => stl::read_scene(path, bytes, options),
+            #[cfg(feature = "archive")]
+            Self::Zip => zipped::read_scene(path, bytes, options),
         }?;
         range::limit(&mut scene);
         scene.pin_render_origin();
@@ -174,7 +215,7 @@ impl Options {
             ("variant", &self.variant),
         ];
         match given.iter().find(|(_, value)| value.is_some()) {
-            Some((what, _)) if format != Format::Gltf => {
+            Some((what, _)) if !format.may_be_gltf() => {
                 let why = format!("only glTF models have a {what} to choose");
                 let fault = fault("choice refused", path, &why, "Leave out the choice");
                 Err(ImportError::Malformed(fault))
@@ -343,10 +384,8 @@ fn unknown_format(path: &Path) -> ImportError {
             )
         },
     );
-    ImportError::UnknownFormat(fault(
-        "unknown scene format",
-        path,
-        &ending,
-        "Use a .toml (native), .scene (course), .nff, .obj (Wavefront), .gltf or .glb file; convert other models to .glb first",
-    ))
+    let (last, others) = SCENE_ENDINGS.split_last().unwrap_or((&"", &[]));
+    let others = others.join(", .");
+    let todo = format!("Use a .{others} or .{last} file; convert other models to one of these");
+    ImportError::UnknownFormat(fault("unknown scene format", path, &ending, &todo))
 }

@@ -13,6 +13,7 @@ mod animation;
 mod bounds;
 mod curve;
 mod frame;
+mod framing;
 mod light;
 mod lit;
 mod material;
@@ -34,9 +35,10 @@ pub use animation::{
 };
 pub use curve::Value;
 pub use frame::{Frame, NodeState};
+pub use framing::Framing;
 pub use light::{Attenuation, Light, LightKind};
 pub use material::{Coverage, Fresnel, Material, Mixing, Textures};
-pub use mesh::{Mesh, Repairs};
+pub use mesh::{Mesh, Repairs, area_normal};
 pub use metallic_roughness::{Lobes, Map, MetallicRoughness, SurfacePoint};
 pub use node::Node;
 pub use object::ObjectRef;
@@ -81,8 +83,8 @@ pub struct Scene {
     pub background: Background,
     /// Linear radiance of the ambient term, multiplied by [`Material::ambient`].
     pub ambient: Vec3,
-    /// Whether lights, background and ambient light were added to show a bare model, because its file
-    /// format has none.
+    /// Whether lights, background, ambient light and ground were added to show a model that has no lights. All
+    /// its planes are that ground.
     pub staged: bool,
     /// How transparent surfaces affect shadow rays.
     pub shadows: Shadows,

@@ -72,7 +72,11 @@ pub fn with_report(
 }
 
 fn render(arguments: &AnimateArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
-    let mut scene = draft.load(&arguments.scene, &arguments.reading)?;
+    let size = arguments.picture.size.size;
+    let options = arguments
+        .reading
+        .import_options(arguments.camera.model_axis(), size);
+    let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
     arguments.camera.overrides().apply(&mut scene)?;
     let clock = Clock::new(&scene.output, &arguments.motion.overrides());
     let timeline = Timeline::new(&scene, &arguments.range, clock)?;

@@ -7,8 +7,8 @@ mod values;
 #[cfg(feature = "viewer")]
 pub use flags::RecordingFlags;
 pub use flags::{
-    CameraFlags, DevelopFlags, DeviceFlags, LogFlags, OutputFlags, PartFlags, PictureFlags,
-    ProgressMode, SceneFlags, SizeFlags,
+    AxisFlags, CameraFlags, DevelopFlags, DeviceFlags, LogFlags, OutputFlags, PartFlags,
+    PictureFlags, ProgressMode, SceneFlags, SizeFlags,
 };
 pub use motion::{
     MomentFlags, MotionFlags, Range, RangeFlags, SequenceFlags, SequenceFormat, TurnFlags,
@@ -171,7 +171,7 @@ pub struct DemoArgs {
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// Scene file: .scene (course format), .toml (native), .nff, .obj, .gltf or .glb
+    /// Scene file: .toml (native), .scene (course format), .nff, .obj, .gltf, .glb, .ply, .stl or .zip
     pub scene: PathBuf,
     #[command(flatten)]
     pub output: OutputFlags,
@@ -195,7 +195,7 @@ pub struct RenderArgs {
 
 #[derive(Debug, Args)]
 pub struct AnimateArgs {
-    /// Scene file: .scene (course format), .toml (native), .nff, .obj, .gltf or .glb
+    /// Scene file: .toml (native), .scene (course format), .nff, .obj, .gltf, .glb, .ply, .stl or .zip
     pub scene: PathBuf,
     #[command(flatten)]
     pub output: SequenceFlags,
@@ -225,6 +225,8 @@ pub struct TurntableArgs {
     pub turn: TurnFlags,
     #[command(flatten)]
     pub picture: PictureFlags,
+    #[command(flatten)]
+    pub axis: AxisFlags,
     #[command(flatten)]
     pub reading: SceneFlags,
     #[command(flatten)]
@@ -256,7 +258,7 @@ pub struct ViewArgs {
 
 #[derive(Debug, Args)]
 pub struct ConvertArgs {
-    /// Scene file: .scene (course format), .toml (native), .nff, .obj, .gltf or .glb
+    /// Scene file: .toml (native), .scene (course format), .nff, .obj, .gltf, .glb, .ply, .stl or .zip
     pub scene: PathBuf,
     /// Output file [default: the scene's name with .toml in the current folder]
     #[arg(short, long, value_name = "OUT.toml")]
@@ -264,6 +266,8 @@ pub struct ConvertArgs {
     /// Do not replace an existing scene file
     #[arg(long)]
     pub no_clobber: bool,
+    #[command(flatten)]
+    pub axis: AxisFlags,
     #[command(flatten)]
     pub reading: SceneFlags,
 }
@@ -283,18 +287,20 @@ pub struct MergeArgs {
 
 #[derive(Debug, Args)]
 pub struct InspectArgs {
-    /// Scene file: .scene (course format), .toml (native), .nff, .obj, .gltf or .glb
+    /// Scene file: .toml (native), .scene (course format), .nff, .obj, .gltf, .glb, .ply, .stl or .zip
     pub scene: PathBuf,
     /// Print JSON instead of text
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub axis: AxisFlags,
     #[command(flatten)]
     pub reading: SceneFlags,
 }
 
 #[derive(Debug, Args)]
 pub struct ExplainArgs {
-    /// Scene file: .scene (course format), .toml (native), .nff, .obj, .gltf or .glb
+    /// Scene file: .toml (native), .scene (course format), .nff, .obj, .gltf, .glb, .ply, .stl or .zip
     pub scene: PathBuf,
     /// Column and row of the pixel in the whole picture; 0,0 is the top left
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = values::pixel)]

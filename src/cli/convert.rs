@@ -10,7 +10,8 @@ use std::path::PathBuf;
 
 pub fn run(arguments: &ConvertArgs) -> Result<(), AppError> {
     Interrupt::install()?;
-    let (scene, inputs) = scene_file::load(&arguments.scene, &arguments.reading);
+    let options = arguments.reading.import_options(arguments.axis.up, None);
+    let (scene, inputs) = scene_file::load(&arguments.scene, &options, arguments.reading.strict);
     let scene = scene?;
     let stem = arguments.scene.file_stem().unwrap_or("scene".as_ref());
     // `with_extension` would cut a stem that contains a dot.

@@ -19,7 +19,9 @@ use std::ops::Range;
 
 pub fn run(arguments: &ExplainArgs) -> Result<(), AppError> {
     Interrupt::install()?;
-    let (scene, inputs) = scene_file::load(&arguments.scene, &arguments.reading);
+    let size = arguments.picture.size.size;
+    let options = (arguments.reading).import_options(arguments.camera.model_axis(), size);
+    let (scene, inputs) = scene_file::load(&arguments.scene, &options, arguments.reading.strict);
     let mut scene = scene?;
     arguments.camera.overrides().apply(&mut scene)?;
     let settings = arguments.picture.overrides().settings(&scene.output);

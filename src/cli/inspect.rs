@@ -19,7 +19,8 @@ use std::fmt::{self, Write};
 const MAX_LISTED: usize = 20;
 
 pub fn run(arguments: &InspectArgs) -> Result<(), AppError> {
-    let scene = scene_file::load(&arguments.scene, &arguments.reading).0?;
+    let options = arguments.reading.import_options(arguments.axis.up, None);
+    let scene = scene_file::load(&arguments.scene, &options, arguments.reading.strict).0?;
     let path = arguments.scene.display().to_string();
     if arguments.json {
         return console::print_json(&to_json(&path, &scene)?);

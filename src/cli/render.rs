@@ -26,7 +26,11 @@ fn render(
     destination: &Destination,
     draft: &mut Draft,
 ) -> Result<(), AppError> {
-    let mut scene = draft.load(&arguments.scene, &arguments.reading)?;
+    let size = arguments.picture.size.size;
+    let options = arguments
+        .reading
+        .import_options(arguments.camera.model_axis(), size);
+    let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
     arguments.camera.overrides().apply(&mut scene)?;
     let clock = Clock::new(&scene.output, &arguments.motion.overrides());
     let shutter = clock.moment(&arguments.moment.moment());

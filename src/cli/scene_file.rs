@@ -1,30 +1,29 @@
 //! Reading a scene file and the files that it names.
 
-use super::args::SceneFlags;
 use super::memory;
 use crate::app::error::AppError;
 use crate::app::inputs::Inputs;
-use crate::import;
+use crate::import::{self, Options};
 use crate::scene::Scene;
 use std::path::Path;
 
-/// Reads a scene; with `--strict`, refuses one of which anything was skipped. The second value has the files
+/// Reads a scene; if `is_strict`, refuses one of which anything was skipped. The second value has the files
 /// that were read or looked for, even if reading failed.
-pub fn load(path: &Path, flags: &SceneFlags) -> (Result<Scene, AppError>, Inputs) {
+pub fn load(path: &Path, options: &Options, is_strict: bool) -> (Result<Scene, AppError>, Inputs) {
     if let Err(error) = memory::check_file(path) {
         return (Err(error), Inputs::new([path]));
     }
-    let (scene, files) = import::load_watched(path, &flags.import_options(), &|_| ());
+    let (scene, files) = import::load_watched(path, options, &|_| ());
     let scene = scene.map_err(AppError::from);
     (
-        scene.and_then(|scene| strict(path, flags, scene)),
+        scene.and_then(|scene| strict(path, is_strict, scene)),
         Inputs::new(files),
     )
 }
 
-fn strict(path: &Path, flags: &SceneFlags, scene: Scene) -> Result<Scene, AppError> {
+fn strict(path: &Path, is_strict: bool, scene: Scene) -> Result<Scene, AppError> {
     match scene.skipped.first() {
-        Some(first) if flags.strict => Err(AppError::Refused(format!(
+        Some(first) if is_strict => Err(AppError::Refused(format!(
             "refusing the scene ({}): {first}{}. Repair it or omit --strict.",
             path.display(),
             match scene.skipped.len() - 1 {

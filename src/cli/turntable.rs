@@ -27,7 +27,9 @@ pub fn run(arguments: &TurntableArgs, started: Instant) -> Result<(), AppError> 
 }
 
 fn render(arguments: &TurntableArgs, target: Target, draft: &mut Draft) -> Result<(), AppError> {
-    let mut scene = draft.load(&arguments.scene, &arguments.reading)?;
+    let size = arguments.picture.size.size;
+    let options = arguments.reading.import_options(arguments.axis.up, size);
+    let mut scene = draft.load(&arguments.scene, &options, arguments.reading.strict)?;
     let turn = &arguments.turn;
     if scene.output.samples == 1 {
         scene.output.samples = SAMPLES;

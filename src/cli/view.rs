@@ -40,7 +40,8 @@ fn request_of(arguments: &ViewArgs) -> ViewRequest {
             moment: arguments.moment.moment(),
             timing: arguments.motion.overrides(),
         },
-        import: arguments.reading.import_options(),
+        import: (arguments.reading)
+            .import_options(arguments.camera.model_axis(), arguments.picture.size.size),
         recording: RecordingRequest {
             record: recording.record.clone(),
             replay: recording.replay.clone(),

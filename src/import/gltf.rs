@@ -26,7 +26,7 @@ use super::error::ImportError;
 use super::notes::Notes;
 use super::paths::Files;
 use super::source::{Source, quote};
-use super::{Options, stage, suggest};
+use super::{Axis, Options, stage, suggest};
 use crate::scene::{OutputDefaults, Scene, Shadows};
 use accessor::Accessors;
 use blame::{Blame, Ledger};
@@ -54,6 +54,8 @@ struct Reader<'a> {
     ledger: &'a Ledger<'a>,
     notes: Notes,
     scene: Scene,
+    /// From the file's axes to those of the scene, in which +Y is up.
+    turn: DAffine3,
     /// The number of the chosen variant.
     variant: Option<usize>,
     /// For each node of the file whether a clip that is played moves it.
@@ -119,6 +121,7 @@ pub(super) fn read(
             },
             ..Scene::default()
         },
+        turn: options.up.map_or(DAffine3::IDENTITY, Axis::turn),
         variant: None,
         animated: Vec::new(),
         node_of: vec![None; document.nodes.len()],
@@ -136,7 +139,7 @@ pub(super) fn read(
     for clip in clips {
         reader.tracks(clip)?;
     }
-    Ok(reader.finish())
+    Ok(reader.finish(options))
 }
 
 /// The JSON in `bytes`.
@@ -233,7 +236,7 @@ impl Reader<'_> {
         Ok((scene.nodes.clone(), place))
     }
 
-    fn finish(mut self) -> Scene {
+    fn finish(mut self, options: &Options) -> Scene {
         let halved = self.store.halved_count;
         if halved > 0 {
             self.notes.add("smaller pictures", || {
@@ -249,12 +252,7 @@ impl Reader<'_> {
         if scene.instances.is_empty() {
             scene.skipped.push("the model has no triangles".to_owned());
         }
-        if scene.lights.is_empty() {
-            stage::light(&mut scene);
-        }
-        if scene.cameras.is_empty() {
-            scene.cameras = vec![stage::camera(&scene)];
-        }
+        stage::complete(&mut scene, options);
         scene
     }
 }

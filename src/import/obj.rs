@@ -10,20 +10,23 @@ mod lines;
 mod materials;
 mod mtl;
 mod smooth;
+mod surface;
 mod uv;
 mod weld;
 
 use super::budget::{self, Budget};
 use super::error::ImportError;
+use super::model::Model;
 use super::notes::{self, Notes};
 use super::paths::Files;
 use super::picture::Pictures;
 use super::polygon::{self, Cutter, Defect};
 use super::source::{Source, Token, quote};
-use super::{number, stage};
-use crate::scene::{Instance, Material, Mesh, OutputDefaults, Scene, Texture};
+use super::tint::Rgb;
+use super::{Axis, Options, number};
+use crate::scene::{Material, Mesh, Scene, Texture};
 use face::Corner;
-use glam::{DAffine3, DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use lines::{Line, Lines};
 use smooth::SmoothFace;
 use std::collections::{BTreeMap, HashMap};
@@ -51,48 +54,15 @@ const IGNORED: [&[u8]; 17] = [
     b"end",
 ];
 
-/// The mesh of a file.
-pub(super) struct Model {
-    /// Its materials are indices into `materials`.
-    pub mesh: Mesh,
-    /// World from mesh: the translation to the position in the file.
-    pub offset: DVec3,
-    /// Their textures are indices into `textures`.
-    pub materials: Vec<Material>,
-    pub textures: Vec<Texture>,
-    pub notes: Notes,
-}
-
-/// The model in `source` as a scene, with a camera and lights to show it.
-pub(super) fn read_scene(source: &Source, files: &Files) -> Result<Scene, ImportError> {
+/// The model in `source` as a scene.
+pub(super) fn read_scene(
+    source: &Source,
+    files: &Files,
+    options: &Options,
+) -> Result<Scene, ImportError> {
     let mut pictures = Pictures::default();
     let model = read(source, files, &mut pictures, None)?;
-    let mut scene = Scene {
-        materials: model.materials,
-        textures: model.textures,
-        pictures: pictures.pictures,
-        output: OutputDefaults {
-            size: (800, 600),
-            samples: 4,
-            ..OutputDefaults::default()
-        },
-        skipped: model.notes.into_lines(),
-        ..Scene::default()
-    };
-    if model.mesh.triangles.is_empty() {
-        scene.skipped.push("the model has no triangles".to_owned());
-    } else {
-        let world_from_object = DAffine3::from_translation(model.offset);
-        scene.meshes.push(model.mesh.into());
-        scene.instances.push(Instance {
-            mesh: 0,
-            placement: world_from_object,
-            node: None,
-        });
-    }
-    stage::light(&mut scene);
-    scene.cameras = vec![stage::camera(&scene)];
-    Ok(scene)
+    Ok(model.into_scene(pictures.pictures, Axis::Y, options))
 }
 
 /// The model in the file at `path`, which must have been resolved. Its images are added to `pictures`. If
@@ -120,6 +90,7 @@ fn read(
         pictures,
         replaced,
         positions: Vec::new(),
+        colors: Vec::new(),
         normals: Vec::new(),
         uvs: Vec::new(),
         made_normals: Vec::new(),
@@ -163,6 +134,8 @@ struct Reader<'s> {
     pictures: &'s mut Pictures,
     replaced: Option<bool>,
     positions: Vec<DVec3>,
+    /// Colours of vertices; empty if there are none, and may be shorter than `positions`.
+    colors: Vec<Option<Rgb>>,
     normals: Vec<Vec3>,
     uvs: Vec<Vec2>,
     /// Normals that are computed, not from the file.
@@ -233,17 +206,22 @@ impl<'s> Reader<'s> {
         let position = self.numbers(keyword, line)?;
         self.positions.push(position);
         // A weight (which only curves use), a colour, or both.
-        let mut more = 0;
+        let mut more = [0.0; 4];
+        let mut count = 0;
         while let Some(word) = line.word() {
-            number::parse(self.source, word)?;
-            more += 1;
-            if more > 4 {
+            let number = number::parse(self.source, word)?;
+            let Some(place) = more.get_mut(count) else {
                 let why = "a vertex has too many numbers".to_owned();
                 return Err(self.source.malformed(word.span(), why, "Write `v X Y Z`"));
-            }
+            };
+            *place = number;
+            count += 1;
         }
-        if more >= 3 {
-            self.skip("vertex colours");
+        if count >= 3 {
+            let channel = |c: f64| (c * 255.0).round().clamp(0.0, 255.0) as u8;
+            let color = [more[count - 3], more[count - 2], more[count - 1]].map(channel);
+            self.colors.resize(self.positions.len() - 1, None);
+            self.colors.push(Some(color));
         }
         Ok(())
     }
@@ -286,6 +264,11 @@ impl<'s> Reader<'s> {
             return Err(ImportError::TooBig(error.into_fault()));
         }
         let shift = |triangle: [u32; 3]| triangle.map(|i| first as u32 + i);
+        if face.len() == 3 {
+            self.triangles.push(shift([0, 1, 2]));
+            self.corners.append(&mut face);
+            return Ok(());
+        }
         let triangles = self.cutter.triangles(&points).unwrap_or_else(|defect| {
             // Triangles without area are counted when the mesh is repaired.
             self.fan_count += usize::from(defect != Defect::NoArea);
@@ -308,6 +291,7 @@ impl<'s> Reader<'s> {
         self.source.bytes.len() as u64
             + libraries.sum::<u64>()
             + budget::size::<DVec3>(self.positions.len())
+            + self.tint_memory()
             + budget::size::<Vec3>(self.normals.len() + self.made_normals.len())
             + budget::size::<Vec2>(self.uvs.len())
             + budget::size::<(Corner, [u8; WELDED])>(self.corners.len())
@@ -318,7 +302,8 @@ impl<'s> Reader<'s> {
     }
 
     fn finish(mut self) -> Result<Model, ImportError> {
-        let materials = self.materials()?;
+        let mut materials = self.materials()?;
+        self.tint(&mut materials);
         self.drop_unwanted_uvs(&materials);
         self.smooth();
         let (vertices, vertex_of_corner) = weld::weld(&self.corners);
@@ -371,6 +356,7 @@ impl<'s> Reader<'s> {
             materials,
             textures: self.textures,
             notes: self.notes,
+            ..Model::default()
         })
     }
 }

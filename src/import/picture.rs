@@ -43,6 +43,8 @@ pub(super) enum Role {
     Color,
     /// Numbers, such as the coordinates of normals.
     Data,
+    /// A mask: the image's alpha, or its brightness if it has none, becomes the alpha of a white picture.
+    Alpha,
 }
 
 /// Why an image could not be read.
@@ -198,6 +200,13 @@ pub(super) fn open(bytes: &[u8], quoted: &str) -> Result<DynamicImage, Refused> 
 fn texels(image: DynamicImage, role: Role) -> Texels {
     let channels = usize::from(image.color().channel_count());
     let is_narrow = usize::from(image.color().bytes_per_pixel()) == channels;
+    if role == Role::Alpha {
+        let white = |alpha| [u8::MAX, u8::MAX, u8::MAX, alpha];
+        return Texels::Linear8(match image.color().has_alpha() {
+            true => image.into_rgba8().pixels().map(|p| white(p.0[3])).collect(),
+            false => image.into_luma8().pixels().map(|p| white(p.0[0])).collect(),
+        });
+    }
     match image {
         DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
             let value = |c: f32| if c > 0.0 { c.min(f32::MAX) } else { 0.0 };
@@ -217,7 +226,7 @@ fn texels(image: DynamicImage, role: Role) -> Texels {
             let texels = image.as_bytes().chunks_exact(channels).map(texel);
             match role {
                 Role::Color => Texels::Srgb8(texels.collect()),
-                Role::Data => Texels::Linear8(texels.collect()),
+                Role::Data | Role::Alpha => Texels::Linear8(texels.collect()),
             }
         }
         image => {
@@ -225,7 +234,7 @@ fn texels(image: DynamicImage, role: Role) -> Texels {
             let curve: Vec<f32> = (0..=u16::MAX)
                 .map(|code| match role {
                     Role::Color => linear_from_srgb(value(code)) as f32,
-                    Role::Data => value(code) as f32,
+                    Role::Data | Role::Alpha => value(code) as f32,
                 })
                 .collect();
             let texel = |p: &image::Rgba<u16>| {

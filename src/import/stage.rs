@@ -1,54 +1,115 @@
-//! A camera and lights for models that have none.
+//! View and light for models that have none: a camera that frames the model, two soft lights, a gradient and
+//! a ground that receives the model's shadow.
 
-use crate::scene::{Background, Camera, Light, LightKind, Scene};
+use super::{Options, Staging};
+use crate::scene::{
+    Attenuation, Background, Camera, Framing, Geometry, Light, LightKind, Material, Scene, Shape,
+};
 use glam::{DVec3, Vec3};
 
-/// A camera that sees all of `scene` from the front, slightly right and above, in an image of aspect
-/// ratio 4:3 or wider; the course's camera if nothing in the scene is bounded.
-pub(super) fn camera(scene: &Scene) -> Camera {
-    let Some((min, max)) = scene.bounds() else {
-        return Camera::default();
-    };
-    let center = (min + max) / 2.0;
-    // Never 0, not even for a single point far from the origin.
-    let half = ((max - min) / 2.0).max(DVec3::splat(1e-6 * center.abs().max_element().max(1e-6)));
-    let backward = DVec3::new(0.55, 0.4, 1.0).normalize();
-    let right = DVec3::Y.cross(backward).normalize();
-    let up = backward.cross(right);
+/// The field of view of the camera, in radians.
+const FOV_Y: f64 = 32.0 * std::f64::consts::PI / 180.0;
 
-    let fov_y = 35_f64.to_radians();
-    let slope = (fov_y / 2.0).tan();
-    // Distance at which a corner of the box lies on the edge of the image.
-    let distance = |i: u8| {
-        let side = |bit: u8| if i & bit == 0 { -1.0 } else { 1.0 };
-        let corner = half * DVec3::new(side(1), side(2), side(4));
-        let height = corner.dot(up).abs().max(corner.dot(right).abs() * 0.75);
-        corner.dot(backward) + height / slope
-    };
-    let distance = (0..8).map(distance).fold(0.0, f64::max);
-    Camera {
-        look_from: center + 1.06 * distance * backward,
-        look_at: center,
-        fov_y,
-        ..Camera::default()
+/// From the model to its camera: in front of it, to the right and above.
+const TOWARDS: DVec3 = DVec3::new(0.62, 0.42, 1.0);
+
+/// Margin around the model, as a fraction of half the image.
+const MARGIN: f64 = 0.1;
+
+/// Adds what `scene`, which is a model, lacks: a camera; and if it has no lights, lights, a background and a
+/// ground. `options` may leave out each.
+pub(super) fn complete(scene: &mut Scene, options: &Options) {
+    let staging = options.staging;
+    if scene.cameras.is_empty() {
+        let size = options.size.unwrap_or(scene.output.size);
+        scene.cameras = vec![match staging.camera {
+            true => camera(scene, size),
+            false => Camera::default(),
+        }];
     }
+    if scene.lights.is_empty() {
+        light(scene, staging);
+    }
+    scene.output.samples = scene.default_samples().max(4);
 }
 
-/// Lights, background and ambient light for a bare model: a warm key light from the right above, a cool
-/// fill light from the left, and enough ambient light that nothing is black.
-pub(super) fn light(scene: &mut Scene) {
-    let sun = |towards: DVec3, color: Vec3| Light {
-        kind: LightKind::Directional {
-            direction: towards.normalize(),
-        },
-        color,
-        ..Light::default()
+/// A camera that sees all of `scene` from the front, right and above, for a picture of this size; the
+/// course's camera if nothing in the scene is bounded.
+pub(super) fn camera(scene: &Scene, (width, height): (u32, u32)) -> Camera {
+    let framing = Framing {
+        towards: TOWARDS,
+        fov_y: FOV_Y,
+        aspect: f64::from(width.max(1)) / f64::from(height.max(1)),
+        margin: MARGIN,
     };
-    scene.lights = vec![
-        sun(DVec3::new(-0.6, -1.0, -0.7), Vec3::new(0.85, 0.81, 0.74)),
-        sun(DVec3::new(1.0, -0.35, -0.6), Vec3::new(0.16, 0.19, 0.25)),
-    ];
-    scene.background = Background::Color(Vec3::new(0.54, 0.62, 0.72));
-    scene.ambient = Vec3::new(0.14, 0.15, 0.17);
-    scene.staged = true;
+    scene.framed(&framing).unwrap_or_default()
+}
+
+/// Adds lights, a background and a ground around the bounds of `scene`. Lights come from the side of the
+/// default camera and do not fade, so that large and small models are lit alike.
+fn light(scene: &mut Scene, staging: Staging) {
+    let bounds = scene.bounds();
+    let (min, max) = bounds.unwrap_or((DVec3::NEG_ONE, DVec3::ONE));
+    let center = min.midpoint(max);
+    // Never 0, not even for a single point far from the origin.
+    let radius = (max - min).length() / 2.0;
+    let radius = radius.max(1e-6 * center.abs().max_element().max(1e-6));
+    if staging.lights {
+        let soft = |towards: DVec3, size: f64, samples: u32, color: Vec3| {
+            let normal = -towards.normalize();
+            Light {
+                kind: LightKind::Disc {
+                    center: center - 12.0 * radius * normal,
+                    normal,
+                    radius: size * radius,
+                },
+                color,
+                attenuation: Attenuation::None,
+                samples,
+                visible: false,
+                node: None,
+            }
+        };
+        // A warm key light from the left above, and a cool fill light from the right.
+        scene.lights = vec![
+            soft(
+                DVec3::new(-0.75, 1.25, 0.85),
+                2.1,
+                2,
+                Vec3::new(0.78, 0.75, 0.70),
+            ),
+            soft(
+                DVec3::new(1.0, 0.55, 0.55),
+                5.0,
+                1,
+                Vec3::new(0.17, 0.19, 0.23),
+            ),
+        ];
+        scene.ambient = Vec3::new(0.19, 0.20, 0.22);
+    }
+    if staging.background {
+        scene.background = Background::Gradient {
+            bottom: Vec3::new(0.42, 0.43, 0.45),
+            top: Vec3::new(0.72, 0.74, 0.77),
+        };
+    }
+    if staging.ground && bounds.is_some() {
+        // Slightly below the model, so that its own flat bottom does not coincide with it.
+        let point = DVec3::new(center.x, min.y - 1e-3 * radius, center.z);
+        scene.materials.push(Material {
+            name: "ground".to_owned(),
+            diffuse: Vec3::splat(0.52),
+            ambient: Vec3::splat(0.52),
+            ..Material::default()
+        });
+        scene.shapes.push(Shape {
+            geometry: Geometry::Plane {
+                point,
+                normal: DVec3::Y,
+            },
+            material: scene.materials.len() - 1,
+            node: None,
+        });
+    }
+    scene.staged = staging.lights || staging.background || staging.ground;
 }

@@ -109,8 +109,9 @@ impl Mesh {
     }
 }
 
-/// The triangle's normal, of twice its area in length; `None` if that is below f32's precision.
-fn area_normal(positions: &[Vec3], triangle: &[u32; 3]) -> Option<DVec3> {
+/// The triangle's normal by its winding, of twice its area in length; `None` if the area is below f32's
+/// precision. Indices must be in range.
+pub fn area_normal(positions: &[Vec3], triangle: &[u32; 3]) -> Option<DVec3> {
     let [a, b, c] = triangle.map(|i| positions[i as usize].as_dvec3());
     let normal = (b - a).cross(c - a);
     let edges = [

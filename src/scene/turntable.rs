@@ -3,8 +3,8 @@
 mod framing;
 
 use super::{
-    Attenuation, Background, Beyond, Camera, Curve, Easing, Interpolation, Light, LightKind, Node,
-    NodeProperty, Scene, Target, Track, Values,
+    Attenuation, Background, Beyond, Camera, Curve, Easing, Geometry, Interpolation, Light,
+    LightKind, Node, NodeProperty, Scene, Shape, Target, Track, Values,
 };
 use framing::Swept;
 use glam::{DAffine3, DQuat, DVec3, Vec3};
@@ -55,7 +55,8 @@ impl Default for Turntable {
 ///
 /// The scene is framed as it is at time 0; animated objects may leave the frame. A scene without lights,
 /// or with those of [`Scene::staged`], gets a soft three-light rig attached to the camera, as if the
-/// scene turned on a table in front of it, and a grey background if its own is black or staged.
+/// scene turned on a table in front of it, and a grey background if its own is black or staged. The ground of
+/// a staged scene is removed: it would not turn with it.
 pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
     let Some((min, max)) = scene.bounds() else {
         return false;
@@ -106,6 +107,10 @@ pub fn turntable(scene: &mut Scene, options: &Turntable) -> bool {
     }];
     scene.camera_index = 0;
     scene.output.duration = Some(options.seconds);
+    if scene.staged {
+        let is_ground = |shape: &Shape| matches!(shape.geometry, Geometry::Plane { .. });
+        scene.shapes.retain(|shape| !is_ground(shape));
+    }
     if scene.staged || scene.lights.is_empty() {
         light(scene, node, look_at, radius, axis);
     }

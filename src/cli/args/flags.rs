@@ -1,6 +1,6 @@
 //! Flags that several commands share, grouped as in their help.
 
-use super::values::{self, BACKENDS, FORMATS, PROGRESS};
+use super::values::{self, BACKENDS, FORMATS, PROGRESS, Up};
 use crate::app::overrides::{CameraOverrides, PictureOverrides, ToneOverrides};
 use crate::app::value_names::{ANTIALIAS, FILTERS, INTEGRATORS, TONES, TRANSFERS, TRIANGLE_TESTS};
 use crate::gpu::{AdapterChoice, Backend};
@@ -154,9 +154,10 @@ pub struct CameraFlags {
     /// Point at the centre of the picture, in scene units
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector)]
     pub look_at: Option<DVec3>,
-    /// Up direction of the camera
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector)]
-    pub up: Option<DVec3>,
+    /// Up direction of the camera; or with a letter the axis of a model that points up [default of models:
+    /// z for .stl, else y]
+    #[arg(long, value_name = "X,Y,Z|x|y|z", allow_hyphen_values = true, value_parser = values::up)]
+    pub up: Option<Up>,
     /// Background colour: linear radiance, 0 or more per channel
     #[arg(long, value_name = "R,G,B", allow_hyphen_values = true, value_parser = values::color)]
     pub background: Option<Vec3>,
@@ -184,16 +185,51 @@ pub struct SceneFlags {
     /// Variant of a glTF model's materials, by its name or number [default: the model's]
     #[arg(long, value_name = "NAME")]
     pub variant: Option<String>,
+    /// Add nothing to a model: no camera that frames it, no lights, no background, no ground
+    #[arg(long)]
+    pub bare: bool,
+    /// Add no lights to a model without lights
+    #[arg(long)]
+    pub no_lights: bool,
+    /// Add no background to a model without lights
+    #[arg(long)]
+    pub no_background: bool,
+    /// Add no ground to a model without lights
+    #[arg(long)]
+    pub no_ground: bool,
+}
+
+/// The axis of a model that points up, for commands without the flags of a camera.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Scene")]
+pub struct AxisFlags {
+    /// Axis of a model that points up: x, y or z [default: z for .stl, else y]
+    #[arg(long, value_name = "AXIS", value_parser = values::model_axis)]
+    pub up: Option<import::Axis>,
 }
 
 impl SceneFlags {
-    pub fn import_options(&self) -> import::Options {
+    /// `up` is the axis of a model that points up; `size` is that of the picture, if it is known.
+    pub fn import_options(
+        &self,
+        up: Option<import::Axis>,
+        size: Option<(u32, u32)>,
+    ) -> import::Options {
+        let staging = import::Staging {
+            camera: !self.bare,
+            lights: !self.bare && !self.no_lights,
+            background: !self.bare && !self.no_background,
+            ground: !self.bare && !self.no_ground,
+        };
         import::Options {
             allow_dirs: self.allow_dirs.clone(),
             overrides: self.overrides.clone(),
             scene: self.model_scene.clone(),
             clip: self.clip.clone(),
             variant: self.variant.clone(),
+            up,
+            size,
+            staging,
         }
     }
 }
@@ -264,6 +300,11 @@ impl DevelopFlags {
 }
 
 impl CameraFlags {
+    /// The axis of a model that points up.
+    pub fn model_axis(&self) -> Option<import::Axis> {
+        self.up.and_then(Up::axis)
+    }
+
     pub fn overrides(&self) -> CameraOverrides {
         CameraOverrides {
             name: self.camera.clone(),
@@ -271,7 +312,10 @@ impl CameraFlags {
             orthographic_height: self.orthographic,
             look_from: self.look_from,
             look_at: self.look_at,
-            up: self.up,
+            up: match self.up {
+                Some(Up::Camera(up)) => Some(up),
+                Some(Up::Model(_)) | None => None,
+            },
             background: self.background,
         }
     }

@@ -3,6 +3,7 @@
 use crate::app::value_names::ValueNames;
 use crate::cli::args::{ProgressMode, Range, SequenceFormat};
 use crate::gpu::Backend;
+use crate::import::Axis;
 use crate::output::Format;
 use crate::output::video::VideoFormat;
 use crate::scene::Shutter;
@@ -203,6 +204,43 @@ pub fn axis(text: &str) -> Result<DVec3, String> {
             .ok_or_else(|| {
                 format!("it must be x, y, z or a direction such as 0,1,0, not `{other}`")
             }),
+    }
+}
+
+/// Which direction is up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Up {
+    /// In the picture.
+    Camera(DVec3),
+    /// In a model.
+    Model(Axis),
+}
+
+impl Up {
+    /// The axis of a model, if it is one.
+    pub fn axis(self) -> Option<Axis> {
+        match self {
+            Self::Camera(_) => None,
+            Self::Model(axis) => Some(axis),
+        }
+    }
+}
+
+/// A direction, or the axis of a model.
+pub fn up(text: &str) -> Result<Up, String> {
+    match model_axis(text) {
+        Ok(axis) => Ok(Up::Model(axis)),
+        Err(_) => vector(text).map(Up::Camera),
+    }
+}
+
+/// The axis of a model that points up.
+pub fn model_axis(text: &str) -> Result<Axis, String> {
+    match text.trim() {
+        "x" | "X" => Ok(Axis::X),
+        "y" | "Y" => Ok(Axis::Y),
+        "z" | "Z" => Ok(Axis::Z),
+        other => Err(format!("it must be x, y or z, not `{other}`")),
     }
 }
 

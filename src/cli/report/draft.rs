@@ -3,9 +3,10 @@
 
 use crate::app::error::AppError;
 use crate::app::inputs::Inputs;
-use crate::cli::args::{LogFlags, SceneFlags};
+use crate::cli::args::LogFlags;
 use crate::cli::report::{Adapter, ImageReport, Report, SceneReport, Seconds, host_peak_bytes};
 use crate::cli::scene_file;
+use crate::import::Options;
 use crate::scene::Scene;
 use serde_json::{Value, json};
 use std::fs;
@@ -63,9 +64,14 @@ impl<'a> Draft<'a> {
     ///
     /// # Errors
     /// Those of [`scene_file::load`].
-    pub fn load(&mut self, path: &Path, flags: &SceneFlags) -> Result<Scene, AppError> {
+    pub fn load(
+        &mut self,
+        path: &Path,
+        options: &Options,
+        is_strict: bool,
+    ) -> Result<Scene, AppError> {
         let loading = Instant::now();
-        let (scene, inputs) = scene_file::load(path, flags);
+        let (scene, inputs) = scene_file::load(path, options, is_strict);
         self.inputs = inputs;
         let scene = scene?;
         self.seconds.load = loading.elapsed().as_secs_f64();

@@ -35,7 +35,7 @@ impl Reader<'_> {
         let visit = |&index: &usize| Visit {
             index,
             parent: None,
-            parent_from_above: DAffine3::IDENTITY,
+            parent_from_above: self.turn,
             named: index,
         };
         let mut stack: Vec<Visit> = roots.iter().rev().map(visit).collect();
@@ -76,10 +76,8 @@ impl Reader<'_> {
     /// Computes the transforms of all nodes under `roots` at rest.
     fn find_worlds(&mut self, roots: &[usize]) {
         let nodes = &self.document.nodes;
-        let mut stack: Vec<(usize, DAffine3)> = roots
-            .iter()
-            .map(|&root| (root, DAffine3::IDENTITY))
-            .collect();
+        let mut stack: Vec<(usize, DAffine3)> =
+            roots.iter().map(|&root| (root, self.turn)).collect();
         while let Some((index, above)) = stack.pop() {
             let world = above * self.placed(&nodes[index], &format!("nodes[{index}]"));
             self.worlds[index] = world;

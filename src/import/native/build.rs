@@ -41,7 +41,7 @@ pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Sce
     let (cameras, camera_index) = cameras::cameras(&file, &nodes, texts)?;
     scene.camera_index = camera_index;
     scene.cameras = if cameras.is_empty() {
-        vec![stage::camera(&scene)]
+        vec![stage::camera(&scene, scene.output.size)]
     } else {
         cameras
     };

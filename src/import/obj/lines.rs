@@ -53,15 +53,15 @@ impl<'s> Line<'s> {
     /// The next word, unless a comment starts first.
     pub fn word(&mut self) -> Option<Token<'s>> {
         self.skip_space();
-        let is_part = |i: &usize| !self.is_space(*i);
-        let end = (self.at..self.end)
-            .find(|i| !is_part(i))
-            .unwrap_or(self.end);
+        let mut end = self.at;
+        while end < self.end && !self.is_space(end) {
+            end += 1;
+        }
         let token = Token {
             bytes: &self.bytes[self.at..end],
             at: self.at,
         };
-        if token.bytes.is_empty() || token.bytes.starts_with(b"#") {
+        if matches!(token.bytes, [] | [b'#', ..]) {
             self.at = self.end;
             return None;
         }

@@ -1,14 +1,17 @@
 //! The materials that a model uses, from its material libraries, with their images.
 
+use super::face::Corner;
 use super::lines::Line;
 use super::{Reader, mtl};
+use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::import::notes::Notes;
 use crate::import::paths::Refusal;
 use crate::import::picture::Role;
 use crate::import::source::{Source, Token, quote};
-use crate::scene::{Material, Pattern, Space, Texture, Wrap};
-use glam::DAffine3;
+use crate::import::tint::{self, Rgb};
+use crate::scene::{Coverage, Material, Pattern, Space, Texture, Wrap};
+use glam::Vec3;
 use std::path::Path;
 
 /// Size limit of a material file in bytes.
@@ -117,22 +120,66 @@ impl<'s> Reader<'s> {
         Ok(materials)
     }
 
-    fn pictures_of(&mut self, material: &mut Material, maps: mtl::Maps, file: &Path) {
+    /// Memory in bytes that [`Self::tint`] takes.
+    pub(super) fn tint_memory(&self) -> u64 {
+        if self.colors.is_empty() {
+            return 0;
+        }
+        budget::size::<Option<Rgb>>(self.colors.len())
+            + budget::size::<(u32, Option<Rgb>)>(self.corners.len())
+            + tint::bytes()
+    }
+
+    /// Gives corners of coloured vertices a material of that colour.
+    pub(super) fn tint(&mut self, materials: &mut Vec<Material>) {
+        let colors = std::mem::take(&mut self.colors);
+        if colors.is_empty() || self.replaced.is_some() {
+            return;
+        }
+        // Without a material, colours show unchanged.
+        if let Some(&id) = self.material_ids.get(&None) {
+            materials[id as usize] = tint::white();
+        }
+        let color = |corner: &Corner| colors.get(corner.position as usize).copied().flatten();
+        let of_corners: Vec<Option<Rgb>> = self.corners.iter().map(color).collect();
+        let mut ids: Vec<u32> = self.corners.iter().map(|corner| corner.material).collect();
+        let bits;
+        (*materials, bits) = tint::tint(materials, &mut ids, &of_corners);
+        for (corner, id) in self.corners.iter_mut().zip(ids) {
+            corner.material = id;
+        }
+        if bits < 8 {
+            self.notes.add("colours", || {
+                format!("colours of vertices reduced to {bits} bits a channel: there are too many")
+            });
+        }
+    }
+
+    fn pictures_of(&mut self, material: &mut Material, maps: mtl::Maps<String>, file: &Path) {
         if self.replaced.is_some() {
             return;
         }
-        material.textures.diffuse = self.picture(maps.diffuse, file);
-        material.textures.specular = self.picture(maps.specular, file);
+        material.textures.diffuse = self.picture(maps.diffuse, Role::Color, file);
+        material.textures.specular = self.picture(maps.specular, Role::Color, file);
         // Few exporters write an ambient texture, and all use the diffuse one.
         material.textures.ambient = match maps.ambient {
             None => material.textures.diffuse,
-            name => self.picture(name, file),
+            map => self.picture(map, Role::Color, file),
         };
+        material.textures.emission = self.picture(maps.emission, Role::Color, file);
+        material.textures.normal = self.picture(maps.normal, Role::Data, file);
+        material.textures.alpha = self.picture(maps.alpha, Role::Alpha, file);
+        if material.textures.alpha.is_some() {
+            material.coverage = Coverage::Blend;
+            material.alpha *= std::mem::replace(&mut material.opacity, 1.0);
+            material.transmit = Vec3::ZERO;
+        }
     }
 
-    /// The texture with the image `name` in `file`; unreadable images are skipped.
-    fn picture(&mut self, name: Option<String>, file: &Path) -> Option<usize> {
-        let picture = match (self.pictures).read(&self.files.named_in(file), &name?, Role::Color) {
+    /// The texture with an image that `file` names; unreadable images are skipped.
+    fn picture(&mut self, map: Option<mtl::Map<String>>, role: Role, file: &Path) -> Option<usize> {
+        let map = map?;
+        let picture = match (self.pictures).read(&self.files.named_in(file), &map.name, role) {
             Ok(picture) => picture,
             Err(refused) => {
                 self.notes.add("skipped textures", || {
@@ -148,7 +195,7 @@ impl<'s> Reader<'s> {
                 wrap: [Wrap::Repeat; 2],
             },
             space: Space::Uv,
-            pattern_from_space: DAffine3::IDENTITY,
+            pattern_from_space: map.picture_from_uv,
         };
         let known = self.textures.iter().position(|known| *known == texture);
         Some(known.unwrap_or_else(|| {

@@ -1,27 +1,47 @@
-//! Material libraries: `Kd`, `Ks`, `Ns` and `Ka` of MTL files, and their textures. Colours are taken as
-//! linear.
+//! Material libraries: the colours and numbers of MTL files, and their textures. Colours are taken as linear.
 
 use super::lines::{Line, Lines};
+use super::surface::Values;
 use crate::import::error::ImportError;
 use crate::import::notes::Notes;
 use crate::import::number;
 use crate::import::source::{Source, Token};
 use crate::scene::Material;
-use glam::Vec3;
+use glam::{DAffine3, DVec3, Vec3};
 use std::collections::BTreeMap;
+
+/// Textures and numbers that are skipped by name: the renderer has no such thing.
+const SKIPPED: [&str; 17] = [
+    "map_Bump", "bump", "map_Tr", "map_Ns", "map_Pr", "map_Pm", "map_Ps", "map_Pc", "disp",
+    "decal", "refl", "map_refl", "Ps", "Pc", "Pcr", "aniso", "anisor",
+];
 
 /// A material without its images.
 pub(super) struct Entry {
     pub material: Material,
-    pub maps: Maps,
+    pub maps: Maps<String>,
 }
 
-/// File names of the images that multiply the colours.
-#[derive(Default)]
-pub(super) struct Maps {
-    pub diffuse: Option<String>,
-    pub specular: Option<String>,
-    pub ambient: Option<String>,
+/// An image that multiplies a colour.
+#[derive(Clone, Copy)]
+pub(super) struct Map<N> {
+    /// Its file.
+    pub name: N,
+    /// By `-s` and `-o`.
+    pub picture_from_uv: DAffine3,
+}
+
+/// The images of a material.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Maps<N> {
+    pub diffuse: Option<Map<N>>,
+    pub specular: Option<Map<N>>,
+    pub ambient: Option<Map<N>>,
+    pub emission: Option<Map<N>>,
+    /// The shading normal.
+    pub normal: Option<Map<N>>,
+    /// How much of the surface is there.
+    pub alpha: Option<Map<N>>,
 }
 
 /// A material while it is parsed. It owns no memory: a library may have millions.
@@ -29,11 +49,9 @@ struct Draft<'s> {
     name: &'s [u8],
     diffuse: Option<Vec3>,
     specular: Option<Vec3>,
-    ambient: Option<Vec3>,
-    shininess: f32,
-    map_diffuse: Option<&'s [u8]>,
-    map_specular: Option<&'s [u8]>,
-    map_ambient: Option<&'s [u8]>,
+    emission: Option<Vec3>,
+    values: Values,
+    maps: Maps<&'s [u8]>,
 }
 
 /// Validates the library in `source` and returns those of its materials that `place` assigns an index to,
@@ -63,96 +81,166 @@ pub(super) fn read(
             return Err(source.malformed(keyword.span(), why, "Begin with `newmtl NAME`"));
         };
         match keyword.bytes {
-            b"Kd" | b"Ks" | b"Ka" => match color(source, keyword, &mut line)? {
-                None => *left_out.entry("spectral colours").or_default() += 1,
-                color if keyword.bytes == b"Kd" => draft.diffuse = color,
-                color if keyword.bytes == b"Ks" => draft.specular = color,
-                color => draft.ambient = color,
-            },
-            b"Ns" => draft.shininess = at_least_zero(source, keyword, line.word())?,
-            b"d" if line.rest().bytes.starts_with(b"-halo") => {}
-            b"d" | b"Tr" => {
-                let opaque = if keyword.bytes == b"d" { 1.0 } else { 0.0 };
-                if at_least_zero(source, keyword, line.word())? != opaque {
-                    *left_out.entry("transparency").or_default() += 1;
+            b"Kd" | b"Ks" | b"Ka" | b"Ke" | b"Tf" => {
+                let color = color(source, keyword, &mut line)?;
+                match (keyword.bytes, color) {
+                    (_, None) => *left_out.entry("spectral colours").or_default() += 1,
+                    (b"Kd", color) => draft.diffuse = color,
+                    (b"Ks", color) => draft.specular = color,
+                    (b"Ke", color) => draft.emission = color,
+                    (b"Ka", color) => draft.values.ka = color,
+                    (_, Some(color)) => draft.values.tf = color.min(Vec3::ONE),
                 }
             }
-            b"map_Kd" | b"map_Ks" | b"map_Ka" => {
-                if skip_options(&mut line) {
+            b"d" if line.rest().bytes.starts_with(b"-halo") => {
+                *left_out.entry("`d -halo`").or_default() += 1;
+            }
+            b"illum" => {
+                let model = at_least_zero(source, keyword, line.word())? as u32;
+                draft.values.illum = model;
+                if model > 9 {
+                    *left_out.entry("`illum` above 9").or_default() += 1;
+                }
+            }
+            b"Ns" | b"Ni" | b"d" | b"Tr" | b"Pr" | b"Pm" => {
+                let number = at_least_zero(source, keyword, line.word())?;
+                let values = &mut draft.values;
+                match keyword.bytes {
+                    b"Ns" => values.ns = number,
+                    b"Ni" => values.ni = number,
+                    b"d" => values.d = number,
+                    b"Tr" => values.d = (1.0 - number).max(0.0),
+                    b"Pr" => values.pr = Some(number),
+                    _ => values.pm = Some(number),
+                }
+            }
+            b"map_Kd" | b"map_Ks" | b"map_Ka" | b"map_Ke" | b"norm" | b"map_d" | b"map_opacity" => {
+                let (picture_from_uv, is_complete) = options(&mut line);
+                if !is_complete {
                     *left_out.entry("texture options").or_default() += 1;
                 }
                 let name = line.rest().bytes;
-                let name = (!name.is_empty()).then_some(name);
+                let map = (!name.is_empty()).then_some(Map {
+                    name,
+                    picture_from_uv,
+                });
                 match keyword.bytes {
-                    b"map_Kd" => draft.map_diffuse = name,
-                    b"map_Ks" => draft.map_specular = name,
-                    _ => draft.map_ambient = name,
+                    b"map_Kd" => draft.maps.diffuse = map,
+                    b"map_Ks" => draft.maps.specular = map,
+                    b"map_Ka" => draft.maps.ambient = map,
+                    b"norm" => draft.maps.normal = map,
+                    b"map_d" | b"map_opacity" => draft.maps.alpha = map,
+                    _ => draft.maps.emission = map,
                 }
             }
-            word if word.starts_with(b"map_") || matches!(word, b"bump" | b"disp" | b"refl") => {
-                *left_out.entry("other textures").or_default() += 1;
+            word => {
+                let is_named = |name: &&&str| word.eq_ignore_ascii_case(name.as_bytes());
+                if let Some(name) = SKIPPED.iter().find(is_named) {
+                    // A number of 0 asks for nothing.
+                    let rest = line.rest().bytes;
+                    let is_zero = std::str::from_utf8(rest).is_ok_and(|t| t.parse() == Ok(0.0));
+                    if !is_zero {
+                        *left_out.entry(name).or_default() += 1;
+                    }
+                } else if word.starts_with(b"map_") {
+                    *left_out.entry("other textures").or_default() += 1;
+                }
             }
-            _ => {}
         }
     }
     close(draft);
-    for (what, count) in left_out {
-        notes.add("material files with skipped parts", || {
-            format!("{what} of materials skipped: {count}")
+    const WHAT: &str = "material files with skipped parts";
+    let (named, others): (Vec<_>, Vec<_>) =
+        (left_out.into_iter()).partition(|(what, _)| SKIPPED.contains(what));
+    for (what, count) in others {
+        notes.add(WHAT, || format!("{what} of materials skipped: {count}"));
+    }
+    if !named.is_empty() {
+        let named = named
+            .iter()
+            .map(|(what, count)| format!("`{what}` {count}"));
+        let named: Vec<_> = named.collect();
+        notes.add(WHAT, || {
+            format!("skipped in materials: {}", named.join(", "))
         });
     }
     Ok(())
 }
 
-/// Skips the options of a texture and returns whether there were any.
-fn skip_options(line: &mut Line) -> bool {
-    let mut found = false;
+/// Reads the options of a texture: its transform by `-s` and `-o`, and whether these are all.
+fn options(line: &mut Line) -> (DAffine3, bool) {
+    let mut is_complete = true;
+    let (mut scale, mut offset) = (DVec3::ONE, DVec3::ZERO);
     while line.rest().bytes.starts_with(b"-") {
         let Some(option) = line.word() else { break };
-        found = true;
         let (least, most) = match option.bytes {
             b"-mm" => (2, 2),
             b"-o" | b"-s" | b"-t" => (1, 3),
             _ => (1, 1),
         };
+        let mut numbers: Vec<f64> = Vec::new();
         for i in 0..most {
             let next = line.rest().bytes.split(u8::is_ascii_whitespace).next();
             let text = next.and_then(|word| std::str::from_utf8(word).ok());
-            let is_number = text.is_some_and(|text| text.parse::<f64>().is_ok());
-            if i >= least && !is_number {
+            let number = text.and_then(|text| text.parse::<f64>().ok());
+            if i >= least && number.is_none() {
                 break;
             }
+            // Beyond this, f32 has whole numbers only.
+            numbers.extend(number.filter(|n| n.is_finite()).map(|n| n.clamp(-1e9, 1e9)));
             line.word();
         }
+        match (option.bytes, &numbers[..]) {
+            (b"-s", [first, ..]) if numbers.iter().all(|n| *n != 0.0) => {
+                scale = DVec3::new(*first, numbers.get(1).copied().unwrap_or(1.0), 1.0);
+            }
+            (b"-o", [first, ..]) => {
+                offset = DVec3::new(*first, numbers.get(1).copied().unwrap_or(0.0), 0.0);
+            }
+            _ => is_complete = false,
+        }
     }
-    found
+    let transform = DAffine3::from_translation(offset) * DAffine3::from_scale(scale);
+    (transform, is_complete)
 }
 
 impl Draft<'_> {
     fn entry(self) -> Entry {
-        // An image without a colour is shown unchanged.
-        let or_white = |color: Option<Vec3>, map: Option<&[u8]>, default: Vec3| {
-            color.unwrap_or(if map.is_some() { Vec3::ONE } else { default })
+        let text = |map: Option<Map<&[u8]>>| {
+            map.map(|map| Map {
+                name: String::from_utf8_lossy(map.name).into_owned(),
+                picture_from_uv: map.picture_from_uv,
+            })
         };
-        let default = Material::default();
-        let diffuse = or_white(self.diffuse, self.map_diffuse, default.diffuse);
-        let specular = or_white(self.specular, self.map_specular, default.specular);
-        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        Entry {
+        // An image without a colour is shown unchanged.
+        let or_white = |color: Option<Vec3>, is_image: bool, default: Vec3| {
+            color.unwrap_or(if is_image { Vec3::ONE } else { default })
+        };
+        let maps = &self.maps;
+        let values = Values {
+            kd: or_white(self.diffuse, maps.diffuse.is_some(), self.values.kd),
+            ks: or_white(self.specular, maps.specular.is_some(), self.values.ks),
+            ke: or_white(self.emission, maps.emission.is_some(), self.values.ke),
+            ..self.values
+        };
+        let mut entry = Entry {
             material: Material {
-                name: text(self.name),
-                diffuse,
-                specular,
-                ambient: self.ambient.unwrap_or(diffuse),
-                shininess: self.shininess,
-                ..default
+                name: String::from_utf8_lossy(self.name).into_owned(),
+                ..values.material()
             },
             maps: Maps {
-                diffuse: self.map_diffuse.map(text),
-                specular: self.map_specular.map(text),
-                ambient: self.map_ambient.map(text),
+                diffuse: text(maps.diffuse),
+                specular: text(maps.specular),
+                ambient: text(maps.ambient),
+                emission: text(maps.emission),
+                normal: text(maps.normal),
+                alpha: text(maps.alpha),
             },
+        };
+        if values.illum == 0 && entry.maps.emission.is_none() {
+            entry.maps.emission = entry.maps.diffuse.take();
         }
+        entry
     }
 }
 
@@ -166,15 +254,26 @@ fn new_draft<'s>(
         let why = "a material has no name".to_owned();
         return Err(source.malformed(keyword.span(), why, "Write `newmtl NAME`"));
     }
+    let default = Material::default();
     Ok(Draft {
         name,
         diffuse: None,
         specular: None,
-        ambient: None,
-        shininess: Material::default().shininess,
-        map_diffuse: None,
-        map_specular: None,
-        map_ambient: None,
+        emission: None,
+        values: Values {
+            kd: default.diffuse,
+            ks: default.specular,
+            ka: None,
+            ke: Vec3::ZERO,
+            tf: Vec3::ONE,
+            ns: default.shininess,
+            ni: 1.0,
+            d: 1.0,
+            illum: 2,
+            pr: None,
+            pm: None,
+        },
+        maps: Maps::default(),
     })
 }
 

@@ -7,6 +7,7 @@ mod flags;
 
 use crate::app::clock::Clock;
 use crate::app::window::{ParsePicture, PictureRequest};
+use crate::import::Staging;
 use crate::render::{RenderSettings, Tone};
 use crate::scene::{Background, Camera, Scene, Shutter, Target};
 use std::borrow::Cow;
@@ -95,6 +96,26 @@ pub fn copy(shown: &Shown) -> CommandLine {
     }
     for folder in &shown.options.allow_dirs {
         arguments.extend(["--allow-dir".to_owned(), file(folder)]);
+    }
+    let staging = shown.options.staging;
+    let is_bare = staging == Staging::NONE;
+    for (flag, is_given) in [
+        ("--bare", is_bare),
+        ("--no-lights", !is_bare && !staging.lights),
+        ("--no-background", !is_bare && !staging.background),
+        ("--no-ground", !is_bare && !staging.ground),
+    ] {
+        arguments.extend(is_given.then(|| flag.to_owned()));
+    }
+    if let Some(up) = shown.options.up {
+        let up = format!("{up:?}").to_lowercase();
+        arguments.extend(["--up".to_owned(), up]);
+    }
+    let mut scene = scene;
+    if shown.scene.staged && shown.settings.size != shown.options.size.unwrap_or(scene.output.size)
+    {
+        // With another size the model is framed again, so the camera is written in full.
+        scene.cameras.fill(Camera::default());
     }
     let mut tried: Vec<&str> = Vec::new();
     // A flag may change the defaults of others, so each is added to the line so far.

@@ -161,9 +161,9 @@ fn files_that_are_no_scenes_have_their_messages() {
         .map(|name| message_in(&folder, name, &Options::default()))
         .collect();
     assert_snapshot!(lines.join("\n"), @r"
-unknown scene format (a.fbx): the extension `.fbx` is not supported. Use a .toml (native), .scene (course), .nff, .obj (Wavefront), .gltf or .glb file; convert other models to .glb first.
-unknown scene format (plain): the name has no extension. Use a .toml (native), .scene (course), .nff, .obj (Wavefront), .gltf or .glb file; convert other models to .glb first.
-unknown scene format (odd.��): the extension `.\u{7}\n` is not supported. Use a .toml (native), .scene (course), .nff, .obj (Wavefront), .gltf or .glb file; convert other models to .glb first.
+unknown scene format (a.fbx): the extension `.fbx` is not supported. Use a .toml, .scene, .nff, .obj, .gltf, .glb, .ply, .stl or .zip file; convert other models to one of these.
+unknown scene format (plain): the name has no extension. Use a .toml, .scene, .nff, .obj, .gltf, .glb, .ply, .stl or .zip file; convert other models to one of these.
+unknown scene format (odd.��): the extension `.\u{7}\n` is not supported. Use a .toml, .scene, .nff, .obj, .gltf, .glb, .ply, .stl or .zip file; convert other models to one of these.
 cannot read the file (d.toml): it is a folder. Name a scene file.
 cannot read the file (gone.toml): no such file or folder. Check the path and its permissions.
 cannot read the file (gone.scene): no such file or folder. Check the path and its permissions.

@@ -247,8 +247,8 @@ fn damaged_ply_files_are_refused_in_one_line_each() {
             "vertex 9, but only 4 exist",
         ),
         (
-            number("3 0 2 3\n", "4 0 2 3 1\n"),
-            "4 corners, but only triangles",
+            number("3 0 2 3\n", "-1 0 2 3 1\n"),
+            "a list has a negative length",
         ),
         (
             number("3 0 2 3\n", "3 0 2"),

@@ -158,7 +158,7 @@ fn a_scene_missing_from_memory_has_a_message() {
     assert_snapshot!(lines.join("\n"), @r##"
 scene refused (gone.toml): `gone.toml` does not exist. Check the name and the folder.
 scene refused (../a.toml): `../a.toml` points outside the scene folder. Name a file in it, or permit the other folder.
-unknown scene format (a.fbx): the extension `.fbx` is not supported. Use a .toml (native), .scene (course), .nff, .obj (Wavefront), .gltf or .glb file; convert other models to .glb first.
+unknown scene format (a.fbx): the extension `.fbx` is not supported. Use a .toml, .scene, .nff, .obj, .gltf, .glb, .ply, .stl or .zip file; convert other models to one of these.
 bad scene (a.toml:1:11): invalid type: integer `3`, expected a colour: [r, g, b] or "#rrggbb". See `glimray schema` for what is allowed.
 bad model (sub/b.obj): the file is empty. Check that it was written completely.
 "##);

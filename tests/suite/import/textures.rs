@@ -8,7 +8,7 @@ use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb};
 use insta::assert_snapshot;
 use std::io::Cursor;
 
-fn png() -> Vec<u8> {
+pub(super) fn png() -> Vec<u8> {
     let image = ImageBuffer::from_pixel(2, 1, Rgb([255u8, 0, 0]));
     let mut bytes = Cursor::new(Vec::new());
     let image = DynamicImage::from(image);
@@ -198,8 +198,9 @@ fn models_have_their_textures() {
         ("m/a.mtl", library),
         ("m/my red.png", &png),
     ]);
-    assert_eq!((scene.pictures.len(), scene.textures.len()), (1, 1));
-    let [a, b] = &scene.materials[..] else {
+    // One of them is scaled.
+    assert_eq!((scene.pictures.len(), scene.textures.len()), (1, 2));
+    let [a, b, _ground] = &scene.materials[..] else {
         panic!("two materials");
     };
     assert_eq!(a.diffuse, Vec3::new(0.5, 1.0, 1.0));
@@ -207,15 +208,18 @@ fn models_have_their_textures() {
     assert_eq!(a.textures.ambient, Some(0));
     // A colour that is not given is white if there is a texture.
     assert_eq!((b.diffuse, b.specular), (Vec3::ONE, Vec3::ONE));
-    assert_eq!(b.textures.specular, Some(0));
+    assert_eq!(
+        (b.textures.diffuse, b.textures.specular),
+        (Some(1), Some(1))
+    );
     let mesh = &scene.meshes[0];
     assert_eq!(mesh.uvs.len(), mesh.positions.len());
     for (p, uv) in mesh.positions.iter().zip(&mesh.uvs) {
         assert_eq!(p.truncate(), *uv, "here u is x and v is y");
     }
     assert_snapshot!(scene.skipped.join("\n"), @r"
-other textures of materials skipped: 1
 texture options of materials skipped: 2
+skipped in materials: `map_Bump` 1
 ");
 }
 
@@ -268,7 +272,6 @@ fn unreadable_textures_of_models_are_skipped() {
     assert_eq!(scene.triangle_count(), 4);
     assert!(scene.textures.is_empty() && scene.meshes[0].uvs.is_empty());
     assert_snapshot!(scene.skipped.join("\n"), @r"
-texture options of materials skipped: 1
 texture skipped: `gone.png` does not exist
 texture skipped: `C:\pictures\x.png` points outside the scene folder
 texture skipped: `broken.png` is not a supported image

@@ -255,11 +255,11 @@ impl Builder<'_> {
         materials: &[usize],
     ) -> Result<PlacedMesh, ImportError> {
         let bytes = self.files.read(path, MAX_GEOMETRY_BYTES)?;
-        let (mut mesh, offset) = ply::mesh(path, &bytes, materials.len())?;
+        let mut notes = Notes::default();
+        let (mut mesh, offset) = ply::mesh(path, &bytes, materials.len(), &mut notes)?;
         for material in &mut mesh.materials {
             *material = materials[*material as usize] as u32;
         }
-        let mut notes = Notes::default();
         notes::of_repairs(&mut notes, mesh.repair());
         self.notes.append(notes, &quote(name.as_bytes()));
         Ok(self.add_mesh(mesh, offset))

@@ -1,5 +1,6 @@
 //! Opens files by name: dropped, chosen, or next in the folder.
 
+use crate::import::SCENE_ENDINGS;
 use crate::viewer::actions::files::{intend, is_picture, is_scene, short, surround};
 use crate::viewer::state::files::Intent;
 use crate::viewer::state::session::Session;
@@ -47,8 +48,9 @@ pub fn open(session: &mut Session, paths: Vec<PathBuf>) {
         _ => format!("{} files: none is a supported scene or image", paths.len()),
     };
     session.messages.warn(format!(
-        "Cannot open {what}. Convert to .toml, .scene, .nff, .obj, .gltf or .glb for scenes and \
-         models, or to .hdr, .exr, .png or .jpg for images."
+        "Cannot open {what}. Convert to .{} for scenes and models, or to .hdr, .exr, .png or .jpg for \
+         images.",
+        SCENE_ENDINGS.join(", .")
     ));
 }
 

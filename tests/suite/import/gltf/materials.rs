@@ -27,7 +27,8 @@ fn picture(model: &mut Model, width: u32, texels: &[[u8; 4]]) -> usize {
 
 fn material(material: Value) -> Material {
     let scene = model(material).scene();
-    assert_eq!(scene.materials.len(), 1);
+    // The other is the ground's.
+    assert_eq!(scene.materials.len(), 2);
     scene.materials[0].clone()
 }
 

@@ -1,0 +1,94 @@
+//! Options for importing a scene or model file.
+
+use glam::{DAffine3, DMat3, DVec3};
+use std::ops::Neg;
+use std::path::PathBuf;
+
+/// Options for importing a scene file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Folders besides the scene's own whose files the scene may refer to, for [`load_with`].
+    pub allow_dirs: Vec<PathBuf>,
+    /// `KEY=VALUE` pairs. Each replaces or adds one value of a native scene, such as
+    /// `camera.fov_y_deg=30`, `objects.0.sphere.radius=2` or `output.tone=aces`. Values are TOML; a bare
+    /// word is a string.
+    pub overrides: Vec<String>,
+    /// The scene of a glTF model to import, by its name or number; `None` is the model's default.
+    pub scene: Option<String>,
+    /// The clip of a glTF model to play, by its name or number; `None` is all that fit together.
+    pub clip: Option<String>,
+    /// The variant of a glTF model's materials, by its name or number; `None` is the model's default.
+    pub variant: Option<String>,
+    /// The axis of a model that points up; `None` for the usual one of its format: +Z in STL, otherwise
+    /// +Y. Scenes that are not models ignore it.
+    pub up: Option<Axis>,
+    /// Width and height of the picture that a model without a camera is framed for; `None` for the scene's
+    /// own size.
+    pub size: Option<(u32, u32)>,
+    /// What is added to a model that lacks it.
+    pub staging: Staging,
+}
+
+/// A coordinate axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// +X.
+    X,
+    /// +Y.
+    Y,
+    /// +Z.
+    Z,
+}
+
+impl Axis {
+    /// The rotation from axes in which `self` points up to axes in which +Y does.
+    pub fn turn(self) -> DAffine3 {
+        let turned = |axis: DVec3| DVec3::from(self.upright(axis.to_array()));
+        let axes = DMat3::from_cols(turned(DVec3::X), turned(DVec3::Y), turned(DVec3::Z));
+        DAffine3::from_mat3(axes)
+    }
+
+    /// Turns a vector from axes in which `self` points up to axes in which +Y does.
+    pub fn upright<T: Neg<Output = T>>(self, [x, y, z]: [T; 3]) -> [T; 3] {
+        match self {
+            Self::X => [-y, x, z],
+            Self::Y => [x, y, z],
+            Self::Z => [x, z, -y],
+        }
+    }
+}
+
+/// What is added to a model to show it. Each part is added only where the model has none of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Staging {
+    /// A camera that frames the model. Without it the camera is at the origin and looks along −Z.
+    pub camera: bool,
+    /// Lights and ambient light.
+    pub lights: bool,
+    /// A gradient behind the model; black without it.
+    pub background: bool,
+    /// A ground below the model that receives its shadow.
+    pub ground: bool,
+}
+
+impl Staging {
+    /// Nothing is added.
+    pub const NONE: Self = Self {
+        camera: false,
+        lights: false,
+        background: false,
+        ground: false,
+    };
+}
+
+impl Default for Staging {
+    /// Everything is added.
+    fn default() -> Self {
+        Self {
+            camera: true,
+            lights: true,
+            background: true,
+            ground: true,
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! The numbers of a PLY file, one after the other.
+
+use super::AGAIN;
+use super::types::{Element, Encoding, Kind, Property};
+use crate::import::budget::Budget;
+use crate::import::error::{ImportError, fault};
+use crate::import::source::quote;
+use std::path::Path;
+
+pub(super) struct Reader<'a> {
+    path: &'a Path,
+    pub bytes: &'a [u8],
+    pub at: usize,
+    pub encoding: Encoding,
+    /// The pictures that the header names, as MeshLab writes them.
+    pub texture_files: Vec<String>,
+    /// Memory in bytes that the file takes.
+    taken: u64,
+}
+
+impl<'a> Reader<'a> {
+    pub fn new(path: &'a Path, bytes: &'a [u8]) -> Result<Self, ImportError> {
+        let reader = Self {
+            path,
+            bytes,
+            at: 0,
+            encoding: Encoding::Text,
+            texture_files: Vec::new(),
+            taken: bytes.len() as u64,
+        };
+        match bytes.starts_with(b"ply") {
+            true => Ok(reader),
+            false => Err(reader.refuse("it does not begin with `ply`", "Name a PLY file")),
+        }
+    }
+
+    pub fn refuse(&self, why: &str, todo: &str) -> ImportError {
+        ImportError::Malformed(fault("bad mesh", self.path, why, todo))
+    }
+
+    /// Reserves memory from the budget, before it is allocated.
+    pub fn reserve(&mut self, bytes: u64) -> Result<(), ImportError> {
+        self.taken = self.taken.saturating_add(bytes);
+        Budget::of(self.bytes.len()).check(self.taken, |why, todo| self.refuse(&why, todo))
+    }
+
+    pub fn cut(&self) -> ImportError {
+        let todo = "Check that it was written completely";
+        self.refuse("it is shorter than its header announces", todo)
+    }
+
+    /// The error for a number that cannot be used.
+    pub fn not_finite(&self, number: f64) -> ImportError {
+        let why = format!("{number} is not a finite number of at most 3.4e38");
+        self.refuse(&why, "Repair the mesh")
+    }
+
+    /// The columns of properties, if the element has all of them; lists are refused.
+    pub fn columns(
+        &self,
+        element: &Element,
+        names: &[&str],
+    ) -> Result<Option<Vec<usize>>, ImportError> {
+        let column = |name: &&str| element.properties.iter().position(|p| p.name == *name);
+        let columns: Option<Vec<_>> = names.iter().map(column).collect();
+        let lists = columns.iter().flatten();
+        let mut lists = lists.filter(|&&i| element.properties[i].count.is_some());
+        match lists.next() {
+            Some(_) => Err(self.refuse(&format!("`{}` is a list", names[0]), AGAIN)),
+            None => Ok(columns),
+        }
+    }
+
+    /// Calls `take` with the numbers in `columns` of each row of the element.
+    pub fn rows(
+        &mut self,
+        element: &Element,
+        columns: &[usize],
+        mut take: impl FnMut(&Self, &[f64]) -> Result<(), ImportError>,
+    ) -> Result<(), ImportError> {
+        let mut values = vec![0.0; columns.len()];
+        let has_lists = element.properties.iter().any(|p| p.count.is_some());
+        if self.encoding == Encoding::Text || has_lists {
+            let mut row = Vec::new();
+            for _ in 0..element.count {
+                self.row(element, &mut row)?;
+                for (value, &column) in values.iter_mut().zip(columns) {
+                    *value = row[column];
+                }
+                take(self, &values)?;
+            }
+            return Ok(());
+        }
+        // All rows have the same length.
+        let sizes = || element.properties.iter().map(|p| p.kind.size());
+        let length: usize = sizes().sum();
+        let place = |&column: &usize| {
+            (
+                sizes().take(column).sum::<usize>(),
+                element.properties[column].kind,
+            )
+        };
+        let places: Vec<(usize, Kind)> = columns.iter().map(place).collect();
+        let bytes = self.bytes;
+        let end = element
+            .count
+            .checked_mul(length)
+            .and_then(|length| self.at.checked_add(length));
+        let rows = end
+            .and_then(|end| bytes.get(self.at..end))
+            .ok_or_else(|| self.cut())?;
+        self.at += rows.len();
+        for row in rows.chunks_exact(length.max(1)) {
+            for (value, &(at, kind)) in values.iter_mut().zip(&places) {
+                *value = decoded(kind, &row[at..], self.encoding);
+            }
+            take(self, &values)?;
+        }
+        Ok(())
+    }
+
+    /// The numbers of one row; a list gives 0.
+    fn row(&mut self, element: &Element, row: &mut Vec<f64>) -> Result<(), ImportError> {
+        row.clear();
+        for property in &element.properties {
+            if property.count.is_none() {
+                row.push(self.number(property.kind)?);
+                continue;
+            }
+            for _ in 0..self.length(property)? {
+                self.number(property.kind)?;
+            }
+            row.push(0.0);
+        }
+        Ok(())
+    }
+
+    pub fn pass_over(&mut self, element: &Element) -> Result<(), ImportError> {
+        self.rows(element, &[], |_, _| Ok(()))
+    }
+
+    /// The number of values of a property, which the rest of the file has room for.
+    pub fn length(&mut self, property: &Property) -> Result<usize, ImportError> {
+        let Some(kind) = property.count else {
+            return Ok(1);
+        };
+        let length = self.number(kind)?;
+        if length.is_nan() || length < 0.0 {
+            return Err(self.refuse("a list has a negative length", AGAIN));
+        }
+        let least = match self.encoding {
+            Encoding::Text => 2,
+            _ => property.kind.size(),
+        };
+        // The last word of a text file may lack its line break.
+        match length as usize > (self.bytes.len() - self.at + 1) / least {
+            true => Err(self.cut()),
+            false => Ok(length as usize),
+        }
+    }
+
+    /// The next number, in the range of its type.
+    pub fn number(&mut self, kind: Kind) -> Result<f64, ImportError> {
+        if self.encoding == Encoding::Text {
+            return self.word();
+        }
+        let bytes = self.bytes.get(self.at..self.at + kind.size());
+        let bytes = bytes.ok_or_else(|| self.cut())?;
+        self.at += kind.size();
+        Ok(decoded(kind, bytes, self.encoding))
+    }
+
+    fn word(&mut self) -> Result<f64, ImportError> {
+        let is_space = |b: &u8| b.is_ascii_whitespace();
+        let rest = &self.bytes[self.at..];
+        let start = rest.iter().position(|b| !is_space(b));
+        let start = start.ok_or_else(|| self.cut())?;
+        let length = rest[start..].iter().position(is_space);
+        let word = &rest[start..length.map_or(rest.len(), |length| start + length)];
+        self.at += start + word.len();
+        let number = std::str::from_utf8(word)
+            .ok()
+            .and_then(|word| word.parse().ok());
+        number.ok_or_else(|| self.refuse(&format!("{} is not a number", quote(word)), AGAIN))
+    }
+}
+
+/// The number at the beginning of `bytes`, which are long enough.
+fn decoded(kind: Kind, bytes: &[u8], encoding: Encoding) -> f64 {
+    let mut bits = [0; 8];
+    let size = kind.size();
+    bits[..size].copy_from_slice(&bytes[..size]);
+    let mut bits = u64::from_le_bytes(bits);
+    if encoding == Encoding::Big {
+        bits = bits.swap_bytes() >> (64 - 8 * size);
+    }
+    match kind {
+        Kind::I8 => f64::from(bits as i8),
+        Kind::U8 => f64::from(bits as u8),
+        Kind::I16 => f64::from(bits as i16),
+        Kind::U16 => f64::from(bits as u16),
+        Kind::I32 => f64::from(bits as i32),
+        Kind::U32 => f64::from(bits as u32),
+        Kind::Float => f64::from(f32::from_bits(bits as u32)),
+        Kind::Double => f64::from_bits(bits),
+    }
+}

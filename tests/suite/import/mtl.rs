@@ -1,0 +1,238 @@
+//! Materials of Wavefront libraries, and colours of vertices.
+
+use super::{folder, scene};
+use glam::{DVec3, Vec3};
+use glimray::import;
+use glimray::scene::{Coverage, Fresnel, Material, Scene, Shadows, Texels};
+use insta::assert_snapshot;
+
+const MODEL: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
+
+fn with(library: &str) -> Scene {
+    let folder = folder(&[
+        ("a.obj", MODEL.as_bytes()),
+        ("a.mtl", format!("newmtl a\n{library}").as_bytes()),
+        ("red.png", &super::textures::png()),
+    ]);
+    import::load(&folder.path().join("a.obj")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn material(library: &str) -> Material {
+    let mut scene = with(library);
+    assert_eq!(scene.skipped, [""; 0], "{library}");
+    scene.materials.swap_remove(0)
+}
+
+#[test]
+fn dissolved_materials_are_seen_through() {
+    for library in ["d 0.25", "Tr 0.75", "d 0.25\nillum 4"] {
+        let scene = with(library);
+        let material = &scene.materials[0];
+        assert_eq!(
+            (material.opacity, material.transmit, material.ior),
+            (0.25, Vec3::splat(0.75), 1.0)
+        );
+        assert_eq!(scene.shadows, Shadows::Filtered);
+    }
+    let material = material("d 0.5\nTf 1 0.5 0");
+    assert_eq!(material.transmit, Vec3::new(0.5, 0.25, 0.0));
+    // Maya and 3ds Max write these for opaque materials.
+    for library in ["illum 4\nTf 1 1 1\nNi 1", "Tr 0\nd 1\nTf 1 1 1"] {
+        let scene = with(library);
+        assert_eq!(
+            (scene.materials[0].transmit, scene.shadows),
+            (Vec3::ZERO, Shadows::Opaque)
+        );
+    }
+}
+
+#[test]
+fn every_model_of_illumination_has_its_meaning() {
+    let of = |model: u32| {
+        material(&format!(
+            "Kd 0.4 0.2 0.1\nKs 0.5 0.5 0.5\nNs 30\nd 0.2\nNi 1.4\nillum {model}"
+        ))
+    };
+    let kd = Vec3::new(0.4, 0.2, 0.1);
+    // 0: a constant colour. 1: no highlight. 2: a highlight.
+    let constant = of(0);
+    assert_eq!(
+        (constant.emission, constant.diffuse, constant.specular),
+        (kd, Vec3::ZERO, Vec3::ZERO)
+    );
+    assert_eq!((of(1).diffuse, of(1).specular), (kd, Vec3::ZERO));
+    assert_eq!(
+        (of(2).diffuse, of(2).specular, of(2).shininess),
+        (kd, Vec3::splat(0.5), 30.0)
+    );
+    for model in [0, 1, 2] {
+        assert_eq!(
+            (of(model).reflect, of(model).fresnel),
+            (Vec3::ZERO, Fresnel::None)
+        );
+    }
+    // From 3 on the surroundings are reflected; 5 and 7 by Fresnel; 6 and 7 refract.
+    for model in 3..=9 {
+        let material = of(model);
+        assert_eq!(material.reflect, Vec3::splat(0.5), "{model}");
+        let is_fresnel = matches!(model, 5 | 7);
+        assert_eq!(material.fresnel == Fresnel::Exact, is_fresnel, "{model}");
+        let is_bent = matches!(model, 5..=7);
+        assert_eq!(material.ior, if is_bent { 1.4 } else { 1.0 }, "{model}");
+    }
+    assert_eq!(
+        with("illum 10").skipped,
+        ["`illum` above 9 of materials skipped: 1"]
+    );
+}
+
+#[test]
+fn emission_and_its_picture_are_kept() {
+    assert_eq!(material("Ke 1 2 3").emission, Vec3::new(1.0, 2.0, 3.0));
+    let pictured = material("map_Ke red.png");
+    assert_eq!(
+        (pictured.emission, pictured.textures.emission),
+        (Vec3::ONE, Some(0))
+    );
+    let constant = material("illum 0\nmap_Kd red.png");
+    assert_eq!(
+        (constant.emission, constant.textures.emission),
+        (Vec3::ONE, Some(0))
+    );
+}
+
+#[test]
+fn physically_based_keys_become_a_highlight_and_a_mirror() {
+    // α = 0.25, so the Blinn–Phong exponent is 2/0.0625 − 2 = 30: 7.5 in Phong's model, with the height
+    // 0.04 · 38/8 = 0.19. The mirror has (1 − 0.5)⁴ = 0.0625 of what Schlick's formula gives.
+    let plastic = material("Kd 0.5 0.25 1\nPr 0.5\nPm 0");
+    assert_eq!(plastic.diffuse, Vec3::new(0.5, 0.25, 1.0));
+    assert!((plastic.shininess - 7.5).abs() < 1e-4);
+    assert!(
+        (plastic.specular - 0.19).abs().max_element() < 1e-5,
+        "{}",
+        plastic.specular
+    );
+    assert_eq!(plastic.reflect, Vec3::splat(0.0625));
+    assert_eq!((plastic.fresnel, plastic.ior), (Fresnel::Schlick, 1.5));
+    // A metal reflects in its own colour: (1 − 0.2)⁴ = 0.4096 of it.
+    let metal = material("Kd 1 0.5 0.25\nPr 0.2\nPm 1");
+    let expected = 0.4096 * Vec3::new(1.0, 0.5, 0.25);
+    assert!(
+        (metal.reflect - expected).abs().max_element() < 1e-5,
+        "{}",
+        metal.reflect
+    );
+    let diffuse = 0.6 * (1.0 - 0.4096);
+    assert!(
+        (metal.diffuse.x - diffuse).abs() < 1e-5,
+        "{}",
+        metal.diffuse
+    );
+    let sheer = material("Kd 1 1 1\nPr 0.4\nd 0.3");
+    assert_eq!((sheer.coverage, sheer.alpha), (Coverage::Blend, 0.3));
+    assert_eq!((sheer.opacity, sheer.transmit), (1.0, Vec3::ZERO));
+}
+
+#[test]
+fn what_the_renderer_lacks_is_named() {
+    let library = "map_Bump -bm 0.5 a.png\nbump b.png\nmap_Ns c.png\nmap_Pr e.png\ndisp f.png\n\
+        refl -type sphere g.png\nmap_what h.png\nPs 0.5\nPc 0\nPcr 0.1\naniso 0.5\nd -halo 0.5\n";
+    assert_snapshot!(with(library).skipped.join("\n"), @r"
+`d -halo` of materials skipped: 1
+other textures of materials skipped: 1
+skipped in materials: `Pcr` 1, `Ps` 1, `aniso` 1, `bump` 1, `disp` 1, `map_Bump` 1, `map_Ns` 1, `map_Pr` 1, `refl` 1
+");
+}
+
+#[test]
+fn norm_is_a_normal_map() {
+    let material = material("norm red.png");
+    assert_eq!(
+        (material.textures.normal, material.textures.diffuse),
+        (Some(0), None)
+    );
+}
+
+#[test]
+fn map_d_cuts_holes_by_alpha_or_by_brightness() {
+    let png = |image: image::DynamicImage| {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        let written = image.write_to(&mut bytes, image::ImageFormat::Png);
+        written.expect("a picture");
+        bytes.into_inner()
+    };
+    let grey = image::GrayImage::from_pixel(1, 1, image::Luma([51]));
+    let clear = image::RgbaImage::from_pixel(1, 1, image::Rgba([9, 200, 9, 102]));
+    for (bytes, alpha) in [(png(grey.into()), 51), (png(clear.into()), 102)] {
+        let folder = folder(&[
+            ("a.obj", MODEL.as_bytes()),
+            ("a.mtl", b"newmtl a\nd 0.5\nmap_d a.png"),
+            ("a.png", &bytes),
+        ]);
+        let scene = import::load(&folder.path().join("a.obj")).expect("a model");
+        let material = &scene.materials[0];
+        assert_eq!((material.coverage, material.alpha), (Coverage::Blend, 0.5));
+        assert_eq!((material.opacity, material.transmit), (1.0, Vec3::ZERO));
+        assert_eq!(material.textures.alpha, Some(0));
+        let texels = Texels::Linear8(vec![[255, 255, 255, alpha]]);
+        assert_eq!(scene.pictures[0].texels, texels);
+    }
+}
+
+#[test]
+fn textures_are_scaled_and_moved() {
+    let scene = with("map_Kd -s 2 3 1 -o 0.5 0.25 0 -blendu on red.png");
+    let place = scene.textures[0]
+        .pattern_from_space
+        .transform_point3(DVec3::new(1.0, 1.0, 0.0));
+    assert_eq!(place, DVec3::new(2.5, 3.25, 0.0));
+    assert_eq!(scene.skipped, ["texture options of materials skipped: 1"]);
+}
+
+#[test]
+fn vertices_have_their_colours() {
+    // MeshLab writes them after the position, ZBrush after a weight too; 0.7373 is 188 of 255.
+    let text =
+        "v 0 0 0 1 0 0\nv 1 0 0 1 0.7373 0.7373 0.7373\nv 0 1 0 0 0 1\nv 1 1 0\nf 1 2 3\nf 2 4 3\n";
+    let scene = scene("a.obj", text);
+    let mesh = &scene.meshes[0];
+    let at = |position: Vec3| {
+        let index = mesh
+            .positions
+            .iter()
+            .position(|p| *p == position)
+            .expect("a vertex");
+        scene.materials[mesh.materials[index] as usize].diffuse
+    };
+    assert_eq!(
+        (at(Vec3::ZERO), at(Vec3::Y), at(Vec3::new(1.0, 1.0, 0.0))),
+        (Vec3::X, Vec3::Z, Vec3::ONE)
+    );
+    assert!((at(Vec3::X) - 0.5029).abs().max_element() < 1e-4);
+    assert_eq!(scene.skipped, [""; 0]);
+}
+
+#[test]
+fn colours_of_vertices_multiply_the_material() {
+    let model = MODEL.replace("v 0 0 0", "v 0 0 0 0 1 1");
+    let folder = folder(&[
+        ("a.obj", model.as_bytes()),
+        ("a.mtl", b"newmtl a\nKd 0.5 0.25 1\n"),
+    ]);
+    let scene = import::load(&folder.path().join("a.obj")).expect("a scene");
+    let mut names: Vec<_> = scene
+        .materials
+        .iter()
+        .map(|m| (&*m.name, m.diffuse))
+        .collect();
+    names.sort_by_key(|(name, _)| name.len());
+    assert_eq!(
+        names,
+        [
+            ("a", Vec3::new(0.5, 0.25, 1.0)),
+            ("ground", scene.materials[2].diffuse),
+            ("a #00ffff", Vec3::new(0.0, 0.25, 1.0)),
+        ]
+    );
+}
