@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// Options for importing a scene file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Folders besides the scene's own whose files the scene may refer to, for [`load_with`].
+    /// Folders besides the scene's own whose files the scene may refer to, for [`super::load_with`].
     pub allow_dirs: Vec<PathBuf>,
     /// `KEY=VALUE` pairs. Each replaces or adds one value of a native scene, such as
     /// `camera.fov_y_deg=30`, `objects.0.sphere.radius=2` or `output.tone=aces`. Values are TOML; a bare
