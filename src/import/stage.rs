@@ -45,6 +45,31 @@ pub(super) fn camera(scene: &Scene, (width, height): (u32, u32)) -> Camera {
     scene.framed(&framing).unwrap_or_default()
 }
 
+/// Distance of the lights from the model, in its radii: so far away that they light all of the ground alike.
+const DISTANCE: f64 = 1e5;
+
+/// Lights: towards them, their radius by their distance, samples and colour. A warm key light from the left
+/// above, and a cool fill light from the right.
+const LIGHTS: [(DVec3, f64, u32, Vec3); 2] = [
+    (
+        DVec3::new(-0.75, 1.25, 0.85),
+        0.175,
+        2,
+        Vec3::new(0.78, 0.75, 0.70),
+    ),
+    (
+        DVec3::new(1.0, 0.55, 0.55),
+        0.417,
+        1,
+        Vec3::new(0.17, 0.19, 0.23),
+    ),
+];
+const AMBIENT: Vec3 = Vec3::new(0.19, 0.20, 0.22);
+
+/// Colours of the background straight down and straight up.
+const BOTTOM: Vec3 = Vec3::new(0.30, 0.30, 0.305);
+const TOP: Vec3 = Vec3::new(0.60, 0.60, 0.61);
+
 /// Adds lights, a background and a ground around the bounds of `scene`. Lights come from the side of the
 /// default camera and do not fade, so that large and small models are lit alike.
 fn light(scene: &mut Scene, staging: Staging) {
@@ -55,13 +80,14 @@ fn light(scene: &mut Scene, staging: Staging) {
     let radius = (max - min).length() / 2.0;
     let radius = radius.max(1e-6 * center.abs().max_element().max(1e-6));
     if staging.lights {
-        let soft = |towards: DVec3, size: f64, samples: u32, color: Vec3| {
+        let distance = DISTANCE * radius;
+        let soft = |(towards, size, samples, color): (DVec3, f64, u32, Vec3)| {
             let normal = -towards.normalize();
             Light {
                 kind: LightKind::Disc {
-                    center: center - 12.0 * radius * normal,
+                    center: center - distance * normal,
                     normal,
-                    radius: size * radius,
+                    radius: size * distance,
                 },
                 color,
                 attenuation: Attenuation::None,
@@ -70,36 +96,23 @@ fn light(scene: &mut Scene, staging: Staging) {
                 node: None,
             }
         };
-        // A warm key light from the left above, and a cool fill light from the right.
-        scene.lights = vec![
-            soft(
-                DVec3::new(-0.75, 1.25, 0.85),
-                2.1,
-                2,
-                Vec3::new(0.78, 0.75, 0.70),
-            ),
-            soft(
-                DVec3::new(1.0, 0.55, 0.55),
-                5.0,
-                1,
-                Vec3::new(0.17, 0.19, 0.23),
-            ),
-        ];
-        scene.ambient = Vec3::new(0.19, 0.20, 0.22);
+        scene.lights = LIGHTS.map(soft).into();
+        scene.ambient = AMBIENT;
     }
     if staging.background {
         scene.background = Background::Gradient {
-            bottom: Vec3::new(0.42, 0.43, 0.45),
-            top: Vec3::new(0.72, 0.74, 0.77),
+            bottom: BOTTOM,
+            top: TOP,
         };
     }
     if staging.ground && bounds.is_some() {
         // Slightly below the model, so that its own flat bottom does not coincide with it.
         let point = DVec3::new(center.x, min.y - 1e-3 * radius, center.z);
+        let color = ground_color();
         scene.materials.push(Material {
             name: "ground".to_owned(),
-            diffuse: Vec3::splat(0.52),
-            ambient: Vec3::splat(0.52),
+            diffuse: color,
+            ambient: color,
             ..Material::default()
         });
         scene.shapes.push(Shape {
@@ -112,4 +125,15 @@ fn light(scene: &mut Scene, staging: Staging) {
         });
     }
     scene.staged = staging.lights || staging.background || staging.ground;
+}
+
+/// The colour of a ground that these lights make as bright as the background at the horizon, where the two
+/// meet.
+fn ground_color() -> Vec3 {
+    let falling = |(towards, _, _, color): (DVec3, f64, u32, Vec3)| {
+        let cosine = towards.normalize().y as f32;
+        cosine * color
+    };
+    let light: Vec3 = LIGHTS.into_iter().map(falling).sum();
+    (BOTTOM + TOP) / 2.0 / (AMBIENT + light)
 }
