@@ -102,7 +102,7 @@ fn read(
         material: None,
         material_names: Vec::new(),
         material_ids: HashMap::new(),
-        smoothing: 0,
+        smoothing: smooth::UNSTATED,
         libraries: Vec::new(),
         textures: Vec::new(),
         notes: Notes::default(),

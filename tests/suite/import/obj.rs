@@ -151,6 +151,21 @@ fn faces_without_normals_are_flat_unless_smoothed() {
 }
 
 #[test]
+fn models_without_any_smoothing_group_are_smooth_up_to_thirty_degrees() {
+    // The sides of prisms of 13 and of 11 meet at 27.7° and at 32.7°.
+    for (sides, is_smooth) in [(13, true), (11, false)] {
+        let scene = scene("a.obj", prism(sides));
+        let positions = &scene.meshes[0].positions;
+        let corner = positions.iter().find(|p| p.x == 1.0 && p.y == 1.0);
+        let normals = normals_at(&scene, *corner.expect("the first corner"));
+        // The end, and one mean of the two sides or both of them.
+        assert_eq!(normals.len(), if is_smooth { 2 } else { 3 }, "{sides}");
+        let is_mean = normals.iter().any(|n| n.distance(Vec3::X) < 1e-6);
+        assert_eq!(is_mean, is_smooth, "{normals:?}");
+    }
+}
+
+#[test]
 fn a_cube_keeps_its_edges_with_and_without_smoothing() {
     for smoothing in ["", "s 1\n"] {
         let scene = scene("a.obj", smoothing.to_owned() + &prism(4));
