@@ -69,7 +69,9 @@ use crate::scene::{Picture, Scene};
 use error::fault;
 use paths::Files;
 use source::Source;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+#[cfg(not(target_arch = "wasm32"))]
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The extensions of the files that [`load`] reads, in lower case.
