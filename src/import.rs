@@ -75,14 +75,18 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The extensions of the files that [`load`] reads, in lower case.
-#[cfg(feature = "archive")]
 pub const SCENE_ENDINGS: &[&str] = &[
-    "toml", "scene", "nff", "obj", "gltf", "glb", "ply", "stl", "zip",
+    "toml",
+    "scene",
+    "nff",
+    "obj",
+    "gltf",
+    "glb",
+    "ply",
+    "stl",
+    #[cfg(feature = "archive")]
+    "zip",
 ];
-
-/// The extensions of the files that [`load`] reads, in lower case.
-#[cfg(not(feature = "archive"))]
-pub const SCENE_ENDINGS: &[&str] = &["toml", "scene", "nff", "obj", "gltf", "glb", "ply", "stl"];
 
 /// The usual extensions of the files that [`picture()`] reads.
 pub const PICTURE_ENDINGS: &[&str] = &["hdr", "exr", "png", "jpg", "jpeg"];
@@ -127,22 +131,13 @@ impl Format {
         !matches!(self, Self::Native | Self::Course | Self::Nff)
     }
 
-    /// Whether files have, or may have, a glTF model.
-    fn may_be_gltf(self) -> bool {
-        #[cfg(feature = "archive")]
-        if self == Self::Zip {
-            return true;
+    /// Whether files have scenes of other formats in them.
+    fn is_archive(self) -> bool {
+        match self {
+            #[cfg(feature = "archive")]
+            Self::Zip => true,
+            _ => false,
         }
-        self == Self::Gltf
-    }
-
-    /// Whether files have, or may have, a native scene.
-    fn may_be_native(self) -> bool {
-        #[cfg(feature = "archive")]
-        if self == Self::Zip {
-            return true;
-        }
-        self == Self::Native
     }
 
     /// The format's size limit for files, in bytes.
@@ -170,7 +165,8 @@ impl Format {
         options: &Options,
         files: &Files,
     ) -> Result<Scene, ImportError> {
-        if !self.may_be_native() && !options.overrides.is_empty() {
+        let has_keys = self == Self::Native || self.is_archive();
+        if !has_keys && !options.overrides.is_empty() {
             let why = "only native scenes (.toml) have keys to set";
             let fault = fault("override refused", path, why, "Leave out the overrides");
             return Err(ImportError::Malformed(fault));
@@ -200,7 +196,8 @@ impl Format {
             Self::Ply => ply::read_scene(path, &bytes, options),
             Self::Stl => stl::read_scene(path, bytes, options),
             #[cfg(feature = "archive")]
-            Self::Zip => zipped::read_scene(path, bytes, options),
+            // It is already limited.
+            Self::Zip => return zipped::read_scene(path, bytes, options),
         }?;
         range::limit(&mut scene);
         scene.pin_render_origin();
@@ -217,7 +214,7 @@ impl Options {
             ("variant", &self.variant),
         ];
         match given.iter().find(|(_, value)| value.is_some()) {
-            Some((what, _)) if !format.may_be_gltf() => {
+            Some((what, _)) if !(format == Format::Gltf || format.is_archive()) => {
                 let why = format!("only glTF models have a {what} to choose");
                 let fault = fault("choice refused", path, &why, "Leave out the choice");
                 Err(ImportError::Malformed(fault))

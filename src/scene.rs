@@ -33,6 +33,7 @@ pub use animation::{
     Beyond, CameraProperty, Curve, Easing, Interpolation, LightProperty, MaterialProperty,
     NodeProperty, Target, Track, Values,
 };
+pub(crate) use bounds::corners;
 pub use curve::Value;
 pub use frame::{Frame, NodeState};
 pub use framing::Framing;

@@ -109,16 +109,9 @@ fn sampled(file: String, nearest: bool, wrap: [Wrap; 2]) -> String {
 
 /// The name of a mode for both axes, or the names of two.
 fn wrap_modes([u, v]: [Wrap; 2]) -> String {
-    let name = |wrap| {
-        string(match wrap {
-            Wrap::Repeat => "repeat",
-            Wrap::Clamp => "clamp",
-            Wrap::Mirror => "mirror",
-        })
-    };
     match u == v {
-        true => name(u),
-        false => format!("[{}, {}]", name(u), name(v)),
+        true => string(u.name()),
+        false => format!("[{}, {}]", string(u.name()), string(v.name())),
     }
 }
 

@@ -139,13 +139,26 @@ impl super::LightKind {
 }
 
 /// A box that contains the image of another box under `place`.
-fn boxed((min, max): Bounds, place: DAffine3) -> Bounds {
-    let corner = |i: u8| {
-        let side = |bit: u8, axis: usize| if i & bit == 0 { min[axis] } else { max[axis] };
-        let corner = place.transform_point3(DVec3::new(side(1, 0), side(2, 1), side(4, 2)));
-        (corner, corner)
-    };
-    (1..8).map(corner).fold(corner(0), union)
+fn boxed(bounds: Bounds, place: DAffine3) -> Bounds {
+    let corners = corners(bounds).map(|corner| place.transform_point3(corner));
+    corners
+        .map(|corner| (corner, corner))
+        .into_iter()
+        .fold((corners[0], corners[0]), union)
+}
+
+/// The corners of a box. Bits 0 to 2 of an index say whether x, y and z are those of the maximum.
+pub(crate) fn corners((min, max): Bounds) -> [DVec3; 8] {
+    std::array::from_fn(|i| {
+        let side = |axis: usize| {
+            if i >> axis & 1 == 0 {
+                min[axis]
+            } else {
+                max[axis]
+            }
+        };
+        DVec3::new(side(0), side(1), side(2))
+    })
 }
 
 pub(super) fn union(a: Bounds, b: Bounds) -> Bounds {

@@ -5,7 +5,7 @@
 //! field of view. So only the largest x + w z and −x + w z over all points matter, and the same with y: each
 //! pair gives the camera's place across the image and its least distance, and the larger distance holds.
 
-use super::{Camera, Geometry, Scene};
+use super::{Camera, Geometry, Scene, corners};
 use glam::{DAffine3, DMat3, DVec3};
 
 /// Beyond this number of vertices in all instances, the boxes of meshes stand for their vertices.
@@ -49,10 +49,8 @@ impl Reach {
         }
     }
 
-    fn add_box(&mut self, (min, max): (DVec3, DVec3), place: DAffine3) {
-        for i in 0..8 {
-            let side = |bit: u8, axis: usize| if i & bit == 0 { min[axis] } else { max[axis] };
-            let corner = DVec3::new(side(1, 0), side(2, 1), side(4, 2));
+    fn add_box(&mut self, bounds: (DVec3, DVec3), place: DAffine3) {
+        for corner in corners(bounds) {
             self.add(place.transform_point3(corner), 0.0);
         }
     }

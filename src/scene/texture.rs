@@ -80,3 +80,14 @@ pub enum Wrap {
     /// It is repeated, and every second copy is mirrored.
     Mirror,
 }
+
+impl Wrap {
+    /// Its name in native scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Repeat => "repeat",
+            Self::Clamp => "clamp",
+            Self::Mirror => "mirror",
+        }
+    }
+}

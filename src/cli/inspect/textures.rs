@@ -20,7 +20,7 @@ pub fn texture_json(texture: &Texture) -> Value {
             picture,
             nearest,
             wrap,
-        } => json!({ "picture": picture, "nearest": nearest, "wrap": wrap.map(wrap_name) }),
+        } => json!({ "picture": picture, "nearest": nearest, "wrap": wrap.map(Wrap::name) }),
     };
     value["pattern"] = json!(pattern(texture));
     value["space"] = json!(space(texture));
@@ -53,14 +53,6 @@ fn kind(texels: &Texels) -> &'static str {
         Texels::Srgb8(_) => "srgb8",
         Texels::Linear8(_) => "linear8",
         Texels::Float(_) => "float",
-    }
-}
-
-fn wrap_name(wrap: Wrap) -> &'static str {
-    match wrap {
-        Wrap::Repeat => "repeat",
-        Wrap::Clamp => "clamp",
-        Wrap::Mirror => "mirror",
     }
 }
 

@@ -22,8 +22,8 @@
 //! unless the width requires a larger d; then it is the t for which the third holds with equality too.
 
 use super::Turntable;
-use crate::scene::{CanonicalShape, Geometry, Scene};
-use glam::{DAffine3, DVec3};
+use crate::scene::{CanonicalShape, Geometry, Scene, corners};
+use glam::DAffine3;
 
 /// The geometry to be framed, around an axis along y.
 pub(super) struct Swept {
@@ -88,16 +88,9 @@ impl Swept {
             canonical,
             world_from_canonical: DAffine3::IDENTITY,
         };
-        if let Some((min, max)) = at_home.bounds() {
-            self.points.extend((0..8).map(|i| {
-                let side = |bit: usize| {
-                    if i >> bit & 1 == 0 {
-                        min[bit]
-                    } else {
-                        max[bit]
-                    }
-                };
-                let p = place.transform_point3(DVec3::new(side(0), side(1), side(2)));
+        if let Some(bounds) = at_home.bounds() {
+            self.points.extend(corners(bounds).map(|corner| {
+                let p = place.transform_point3(corner);
                 [p.x.hypot(p.z), p.y]
             }));
         }

@@ -1,6 +1,6 @@
 //! Editing overlays of the picture: the outline of the selection and its handles.
 
-use crate::scene::{Camera, Geometry, LightKind, ObjectRef, Scene};
+use crate::scene::{Camera, Geometry, LightKind, ObjectRef, Scene, corners};
 use crate::viewer::model::bindings::Action;
 use crate::viewer::model::handles::{Eye, Grip, Handles, Part};
 use crate::viewer::model::modal::Modal;
@@ -303,15 +303,12 @@ fn eye_distance(session: &Session, kind: &LightKind) -> f64 {
     0.04 * distance.unwrap_or(1.0)
 }
 
-fn cuboid((min, max): (DVec3, DVec3), place: DAffine3) -> Vec<[DVec3; 2]> {
-    let corner = |i: usize| {
-        let side = |bit: usize, axis: usize| if i & bit == 0 { min[axis] } else { max[axis] };
-        place.transform_point3(DVec3::new(side(1, 0), side(2, 1), side(4, 2)))
-    };
+fn cuboid(bounds: (DVec3, DVec3), place: DAffine3) -> Vec<[DVec3; 2]> {
+    let corners = corners(bounds).map(|corner| place.transform_point3(corner));
     let edges = (0..8).flat_map(|i| [1, 2, 4].map(|bit| (i, i | bit)));
     edges
         .filter(|(a, b)| a != b)
-        .map(|(a, b)| [corner(a), corner(b)])
+        .map(|(a, b): (usize, usize)| [corners[a], corners[b]])
         .collect()
 }
 
