@@ -29,7 +29,7 @@ install = sh -c 'echo "missing, to be installed: $$*"; \
 .DEFAULT_GOAL := help
 # Steps share a build, so none runs beside another.
 .NOTPARALLEL:
-.PHONY: help demo test bench peers docs gallery strips man size hand-in build shaders linker compiler display driver opengl lint features headless wasm
+.PHONY: help demo test bench peers docs gallery strips man size hand-in fuzz build shaders linker compiler display driver opengl lint features headless wasm
 
 help:
 	@echo 'make demo      render the showcase scene to glimray.png (about 3 minutes the first time)'
@@ -41,6 +41,7 @@ help:
 	@echo 'make strips    render the strips of its page on failures again'
 	@echo 'make shaders   link the kernels again after a change in a shader; the others do so by themselves'
 	@echo 'make man       write the manual pages to $(TARGET)/man'
+	@echo 'make fuzz      fuzz everything that is read from files, each kind for ten minutes (nightly Rust)'
 	@echo 'make hand-in NAME=YourName'
 	@echo '               pack the exercise: code, readme, JPEG frames and video, in Exercise4-YourName.zip'
 	@echo 'The times are for 2 cores. Where no Vulkan adapter is found, each first installs the Vulkan loader'
@@ -123,6 +124,10 @@ hand-in:
 		--prefix="Exercise4-$$NAME/frames/" $(patsubst %,--add-file=%,$(wildcard assets/gallery/carousel_*.jpg)) \
 		--prefix="Exercise4-$$NAME/" --add-file=assets/gallery/carousel.mp4 "$$files" && \
 	echo "$(HAND_IN_FOLDER)/Exercise4-$$NAME.zip"
+
+# Everything that is read from files, on a nightly compiler.
+fuzz: compiler
+	fuzz/run.sh
 
 build: compiler shaders
 	$(CARGO) build --release --locked

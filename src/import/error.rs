@@ -116,7 +116,7 @@ impl Fault {
     pub fn place(&self) -> String {
         match self.is_in_override() {
             true => "override".to_owned(),
-            false => one_line(&self.path),
+            false => one_line(&self.path.to_string_lossy()),
         }
     }
 }
@@ -132,8 +132,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// A path without control characters, on one line.
-fn one_line(path: &Path) -> String {
-    let visible = |c: char| if c.is_control() { '\u{fffd}' } else { c };
-    path.to_string_lossy().chars().map(visible).collect()
+/// `text` from a file, on one line: without control characters.
+pub(super) fn one_line(text: &str) -> String {
+    text.replace(char::is_control, "\u{fffd}")
 }

@@ -22,7 +22,7 @@ mod store;
 mod textures;
 
 use super::budget::Budget;
-use super::error::ImportError;
+use super::error::{ImportError, one_line};
 use super::notes::Notes;
 use super::paths::Files;
 use super::source::{Source, quote};
@@ -153,7 +153,8 @@ fn parse(bytes: &[u8], blame: Blame) -> Result<Document, ImportError> {
         let line = lines.take(error.line().saturating_sub(1)).map(<[u8]>::len);
         let at = line.sum::<usize>() + error.column().saturating_sub(1);
         let why = error.to_string();
-        let why = why.split(" at line ").next().unwrap_or_default().to_owned();
+        let why = why.split(" at line ").next().unwrap_or_default();
+        let why = one_line(why);
         let todo = "Check that it is a complete glTF 2.0 file";
         source.malformed(at..at + 1, why, todo)
     })?;

@@ -1,6 +1,8 @@
 //! Notes about skipped features. A file may cause millions of similar notes, so the first few of each
 //! kind are kept and the others counted.
 
+use super::error::one_line;
+
 /// Number of notes kept per kind.
 const MOST: usize = 8;
 
@@ -40,7 +42,7 @@ impl Notes {
             kind.more += 1;
             return;
         }
-        let note = note();
+        let note = one_line(&note());
         if !kind.kept.contains(&note) {
             kind.kept.push(note);
         }

@@ -5,7 +5,7 @@
 
 mod complete;
 
-use super::error::{Fault, ImportError};
+use super::error::{Fault, ImportError, one_line};
 use super::paths::{Files, Refusal};
 use super::source::quote;
 pub(super) use crate::scene::linear_from_srgb;
@@ -168,7 +168,7 @@ pub(super) fn open(bytes: &[u8], quoted: &str) -> Result<DynamicImage, Refused> 
             unfit(why.to_owned(), "Save it as PNG, JPEG, HDR or EXR")
         }
         error => {
-            let why = format!("is damaged: {}", one_line(&error.to_string()));
+            let why = format!("is damaged: {}", clause(&error.to_string()));
             unfit(why, "Check that it was written completely")
         }
     };
@@ -248,9 +248,8 @@ fn texels(image: DynamicImage, role: Role) -> Texels {
 }
 
 /// A decoder's message as a clause on one line.
-fn one_line(message: &str) -> String {
+fn clause(message: &str) -> String {
     const LONGEST: usize = 160;
-    let visible = |c: char| if c.is_control() { ' ' } else { c };
-    let line: String = message.chars().take(LONGEST).map(visible).collect();
-    line.trim_end_matches('.').to_owned()
+    let start: String = message.chars().take(LONGEST).collect();
+    one_line(&start).trim_end_matches('.').to_owned()
 }

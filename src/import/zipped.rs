@@ -1,7 +1,7 @@
 //! A ZIP archive of a model with its files, read in memory.
 
 use super::archive::Archive;
-use super::error::{ImportError, fault};
+use super::error::{ImportError, fault, one_line};
 use super::paths::{self, Files};
 use super::resolver::{FileError, Resolver};
 use super::source::quote;
@@ -58,7 +58,7 @@ pub(super) fn read_scene(
     let archive = match Archive::new(bytes) {
         Ok(archive) => archive,
         Err(error) => {
-            let why = error.to_string().replace(char::is_control, " ");
+            let why = one_line(&error.to_string());
             return refuse(&why, "Check that it was written completely");
         }
     };

@@ -100,10 +100,10 @@ impl Tone {
         ]
     }
 
-    /// The tone with these numbers.
+    /// The tone with these numbers; `None` if [`Self::numbers`] gives them for no tone.
     pub(super) fn from_numbers(numbers: [u32; 6]) -> Option<Self> {
         let [exposure, curve, transfer, kind, least, most] = numbers;
-        Some(Self {
+        let tone = Self {
             exposure_ev: f32::from_bits(exposure),
             curve: match curve {
                 0 => ToneCurve::None,
@@ -123,7 +123,8 @@ impl Tone {
                 2 => Levels::Fixed([least, most].map(f32::from_bits)),
                 _ => return None,
             },
-        })
+        };
+        (tone.numbers() == numbers).then_some(tone)
     }
 
     /// Develops linear radiance to a picture, as [`Renderer::develop`] does with that of a renderer. Opacity is kept.

@@ -1,7 +1,6 @@
 //! Importers: the meaning of each format, and the message for every error.
 
 mod assets;
-mod corpus;
 mod course;
 mod defaults;
 mod files;

@@ -22,6 +22,7 @@ mod features;
 mod film;
 mod film_files;
 mod fingerprints;
+mod fuzz;
 mod golden;
 mod import;
 mod imports;

@@ -248,7 +248,7 @@ fn whole_pictures() -> Vec<(&'static str, Vec<u8>)> {
         // Written by libjpeg, with chroma at half the resolution.
         (
             "progressive.jpg",
-            include_bytes!("../../corpus/progressive.jpg").to_vec(),
+            include_bytes!("../../../fuzz/regressions/picture/progressive.jpg").to_vec(),
         ),
         ("a.png", encode(color, ImageFormat::Png)),
         ("a.hdr", encode(light.clone(), ImageFormat::Hdr)),

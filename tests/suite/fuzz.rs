@@ -1,0 +1,83 @@
+//! The fuzz targets on what they start from and on what they found: seeds, corpora and regressions.
+
+#[path = "../../fuzz/src/lib.rs"]
+mod targets;
+
+use glimray::import::{Archive, Resolver};
+use std::fs;
+use std::panic::catch_unwind;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Time for one file, which is small. The fuzzer has the same limit.
+const MOST_TIME: Duration = Duration::from_secs(10);
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz")
+}
+
+/// Names and contents of the files that the target starts from, or that once failed.
+fn inputs(target: &str) -> Vec<(String, Vec<u8>)> {
+    let mut inputs = Vec::new();
+    for folder in ["seeds", "regressions"] {
+        let Ok(entries) = fs::read_dir(root().join(folder).join(target)) else {
+            continue;
+        };
+        for entry in entries {
+            let path = entry.expect("an entry").path();
+            inputs.push((path.display().to_string(), fs::read(&path).expect("a file")));
+        }
+    }
+    let scenes = root().join("../assets/scenes");
+    let ending = match target {
+        "native" => "toml",
+        "course" => "scene",
+        "nff" => "nff",
+        _ => "",
+    };
+    for entry in fs::read_dir(scenes).expect("scenes") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|it| it == ending) {
+            inputs.push((path.display().to_string(), fs::read(&path).expect("a file")));
+        }
+    }
+    let corpus = root().join("corpus").join(target).with_extension("zip");
+    if let Ok(bytes) = fs::read(&corpus) {
+        let corpus = Archive::new(bytes).expect("an archive");
+        for name in corpus.names() {
+            let bytes = corpus.read(name, u64::MAX).expect("a file");
+            inputs.push((format!("{target}.zip, {}", name.display()), bytes));
+        }
+    }
+    inputs
+}
+
+#[test]
+fn what_the_fuzzer_found_is_read_or_refused_in_one_line() {
+    for (target, run) in targets::TARGETS {
+        let inputs = inputs(target);
+        assert!(!inputs.is_empty(), "{target} has nothing to start from");
+        for (name, bytes) in inputs {
+            let started = Instant::now();
+            let outcome = catch_unwind(|| run(&bytes));
+            assert!(outcome.is_ok(), "{target} fails with {name}");
+            let took = started.elapsed();
+            assert!(took < MOST_TIME, "{target} takes {took:?} with {name}");
+        }
+    }
+}
+
+#[test]
+fn every_target_is_built() {
+    let manifest = fs::read_to_string(root().join("Cargo.toml")).expect("the manifest");
+    for (target, _) in targets::TARGETS {
+        let program = format!("name = \"{target}\"\npath = \"targets/{target}.rs\"\n");
+        assert!(manifest.contains(&program), "{target} is not in Cargo.toml");
+        let path = root().join("targets").join(target).with_extension("rs");
+        let text = fs::read_to_string(&path).expect("a target");
+        let call = format!("glimray_fuzz::{target}(bytes)");
+        assert!(text.contains(&call), "{} calls another", path.display());
+    }
+    let count = manifest.matches("[[bin]]").count();
+    assert_eq!(count, targets::TARGETS.len(), "programs without a target");
+}
