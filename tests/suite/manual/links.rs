@@ -92,10 +92,11 @@ fn links_of_the_book_work_in_the_built_book_too() {
 
 #[test]
 fn files_and_tests_that_the_manual_names_are_there() {
-    const FOLDERS: [&str; 6] = [
+    const FOLDERS: [&str; 7] = [
         "assets/",
         "benches/",
         "examples/",
+        "fuzz/",
         "shaders/",
         "src/",
         "tests/",
