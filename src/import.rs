@@ -30,6 +30,7 @@ mod crease;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
 mod folder;
+mod formats;
 mod gltf;
 mod model;
 mod native;
@@ -60,6 +61,8 @@ pub use archive::Archive;
 pub use error::{Excerpt, Fault, ImportError, Position};
 #[cfg(not(target_arch = "wasm32"))]
 pub use folder::Folder;
+pub use formats::{SCENE_FORMATS, SceneFormat};
+pub use gltf::{GLTF_EXTENSIONS, Support};
 pub use options::{Axis, Options, Staging};
 pub use resolver::{FileError, Memory, Resolver};
 #[cfg(not(target_arch = "wasm32"))]

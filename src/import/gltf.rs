@@ -32,6 +32,7 @@ use accessor::Accessors;
 use blame::{Blame, Ledger};
 use buffers::Buffers;
 use document::Document;
+pub use extensions::{GLTF_EXTENSIONS, Support};
 use glam::DAffine3;
 use materials::{MaterialKey, Surface};
 use std::cell::Cell;

@@ -2,6 +2,7 @@
 //! commands parse, their scenes load, and what is generated is current.
 
 mod commands;
+mod formats;
 mod generated;
 mod links;
 mod native_reference;

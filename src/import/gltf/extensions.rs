@@ -6,18 +6,20 @@ use crate::import::error::ImportError;
 use crate::import::notes::Notes;
 use crate::import::source::quote;
 
-/// How much of an extension is read.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Support {
-    /// All of it, as far as the renderer can show it.
+/// What happens with an extension of glTF.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Support {
+    /// It is shown.
     Full,
-    /// Its parameters are kept, but the classical integrator does not show them.
+    /// Its parameters are kept in the scene, but the classical integrator does not show them.
     Kept,
-    /// It is for programs that edit or describe models.
+    /// It says nothing about the picture: it is for programs that edit or describe models.
     Irrelevant,
 }
 
-const EXTENSIONS: &[(&str, Support)] = &[
+/// The extensions of glTF that are known. A model that requires another one is refused; of a model that
+/// uses another one, it is reported.
+pub const GLTF_EXTENSIONS: &[(&str, Support)] = &[
     ("EXT_mesh_gpu_instancing", Support::Full),
     ("KHR_lights_punctual", Support::Full),
     ("KHR_materials_emissive_strength", Support::Full),
@@ -51,7 +53,7 @@ pub(super) fn check(
     blame: Blame,
 ) -> Result<(), ImportError> {
     let support = |name: &str| {
-        let mut known = EXTENSIONS.iter();
+        let mut known = GLTF_EXTENSIONS.iter();
         known.find(|(known, _)| *known == name).map(|(_, it)| *it)
     };
     let mut lacking: Vec<String> = Vec::new();

@@ -1,7 +1,8 @@
 //! Generated parts of pages are current: they stand between two comments, and `UPDATE=1` writes them.
 
-use super::native_reference;
 use super::pages::Page;
+use super::{formats, native_reference};
+use glimray::import::{SCENE_ENDINGS, SCENE_FORMATS};
 use std::fs;
 
 const BEGIN: &str = "<!-- generated: UPDATE=1 cargo test --profile ci --test suite manual -->\n";
@@ -28,6 +29,18 @@ fn check(path: &str, expected: &str) {
 fn the_table_of_shortcuts_is_current() {
     let table = glimray::viewer::model::bindings::markdown_table();
     check("docs/src/guide/shortcuts.md", &table);
+}
+
+#[test]
+fn the_tables_of_formats_are_current() {
+    check("README.md", &formats::markdown());
+}
+
+#[test]
+fn the_table_of_formats_has_every_ending_that_is_read() {
+    let listed = SCENE_FORMATS.iter().flat_map(|format| format.endings);
+    let listed: Vec<_> = listed.copied().collect();
+    assert_eq!(listed, SCENE_ENDINGS);
 }
 
 #[test]

@@ -1,0 +1,70 @@
+//! What is read of each format, for the tables of the manual.
+
+/// A format of scenes or models.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SceneFormat {
+    /// Extensions of its files, in lower case; see [`super::SCENE_ENDINGS`].
+    pub endings: &'static [&'static str],
+    /// Its name.
+    pub name: &'static str,
+    /// The parts that are shown.
+    pub shown: &'static str,
+    /// The parts that are skipped and reported; empty if there are none.
+    pub skipped: &'static str,
+}
+
+/// The formats of scenes and models, in the order of [`super::SCENE_ENDINGS`].
+pub const SCENE_FORMATS: &[SceneFormat] = &[
+    SceneFormat {
+        endings: &["toml"],
+        name: "glimray's own",
+        shown: "everything that glimray can show, but deforming meshes",
+        skipped: "",
+    },
+    SceneFormat {
+        endings: &["scene"],
+        name: "of the course CV 804",
+        shown: "everything",
+        skipped: "",
+    },
+    SceneFormat {
+        endings: &["nff"],
+        name: "Haines' NFF",
+        shown: "everything but the inside of shapes of negative radius",
+        skipped: "negative radii",
+    },
+    SceneFormat {
+        endings: &["obj"],
+        name: "Wavefront OBJ with MTL",
+        shown: "polygons, normals, smoothing groups, texture coordinates, vertex colours; colours, pictures, \
+                normal and height maps, masks, mirrors, glass, roughness and metalness",
+        skipped: "points, lines, curves and surfaces; `disp`, `refl`, `Ps`, `Pc`, `aniso`",
+    },
+    SceneFormat {
+        endings: &["gltf", "glb"],
+        name: "glTF 2.0",
+        shown: "meshes, instances, skins, morph targets, clips, cameras, lights, all maps of materials; \
+                extensions as below",
+        skipped: "points and lines",
+    },
+    SceneFormat {
+        endings: &["ply"],
+        name: "Stanford PLY, text and binary",
+        shown: "faces of any number of corners, strips, normals, texture coordinates, vertex colours; points \
+                as spheres",
+        skipped: "edges and other elements and properties",
+    },
+    SceneFormat {
+        endings: &["stl"],
+        name: "STL, text and binary",
+        shown: "facets, and their colours in both dialects",
+        skipped: "the normals in the file",
+    },
+    #[cfg(feature = "archive")]
+    SceneFormat {
+        endings: &["zip"],
+        name: "ZIP archive of one of these",
+        shown: "one scene or model with its files",
+        skipped: "further scenes",
+    },
+];

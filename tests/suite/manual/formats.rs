@@ -1,0 +1,41 @@
+//! The tables of formats and glTF extensions, from the lists of the importers.
+
+use glimray::import::{GLTF_EXTENSIONS, SCENE_FORMATS, Support};
+use std::fmt::Write;
+
+pub fn markdown() -> String {
+    let mut text = "| files | format | shown | skipped |\n|---|---|---|---|\n".to_owned();
+    for format in SCENE_FORMATS {
+        let endings = format.endings.iter().map(|ending| format!("`.{ending}`"));
+        let endings = endings.collect::<Vec<_>>().join(" ");
+        let skipped = match format.skipped {
+            "" => "–",
+            parts => parts,
+        };
+        writeln!(
+            text,
+            "| {endings} | {} | {} | {skipped} |",
+            format.name, format.shown
+        )
+        .expect("a string takes everything");
+    }
+    text += "\n| extensions of glTF | |\n|---|---|\n";
+    for (support, effect) in [
+        (Support::Full, "supported"),
+        (
+            Support::Kept,
+            "partly: read and kept in the scene, not shown",
+        ),
+        (
+            Support::Irrelevant,
+            "skipped: they say nothing about the picture",
+        ),
+    ] {
+        let names = GLTF_EXTENSIONS
+            .iter()
+            .filter(|(_, found)| *found == support);
+        let names: Vec<_> = names.map(|(name, _)| format!("`{name}`")).collect();
+        writeln!(text, "| {} | {effect} |", names.join(" ")).expect("a string takes everything");
+    }
+    text + "| others | skipped; a model that requires one is refused |\n"
+}
