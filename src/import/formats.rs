@@ -44,7 +44,7 @@ pub const SCENE_FORMATS: &[SceneFormat] = &[
         endings: &["gltf", "glb"],
         name: "glTF 2.0",
         shown: "meshes, instances, skins, morph targets, clips, cameras, lights, all maps of materials; \
-                extensions as below",
+                many extensions",
         skipped: "points and lines",
     },
     SceneFormat {

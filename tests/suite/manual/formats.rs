@@ -3,7 +3,7 @@
 use glimray::import::{GLTF_EXTENSIONS, SCENE_FORMATS, Support};
 use std::fmt::Write;
 
-pub fn markdown() -> String {
+pub fn scenes() -> String {
     let mut text = "| files | format | shown | skipped |\n|---|---|---|---|\n".to_owned();
     for format in SCENE_FORMATS {
         let endings = format.endings.iter().map(|ending| format!("`.{ending}`"));
@@ -19,7 +19,11 @@ pub fn markdown() -> String {
         )
         .expect("a string takes everything");
     }
-    text += "\n| extensions of glTF | |\n|---|---|\n";
+    text
+}
+
+pub fn extensions() -> String {
+    let mut text = "| extensions | |\n|---|---|\n".to_owned();
     for (support, effect) in [
         (Support::Full, "supported"),
         (

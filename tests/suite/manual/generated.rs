@@ -33,7 +33,8 @@ fn the_table_of_shortcuts_is_current() {
 
 #[test]
 fn the_tables_of_formats_are_current() {
-    check("README.md", &formats::markdown());
+    check("README.md", &formats::scenes());
+    check("docs/src/guide/models.md", &formats::extensions());
 }
 
 #[test]
