@@ -346,6 +346,8 @@ packed! {
         min_throughput: f32,
         /// Factor on [`PackedLight::sample_count`].
         light_samples: f32,
+        /// Width of the part of a pixel that a sample stands for, in pixels.
+        footprint: f32,
         /// Counts of what the dispatch did; zero before it.
         counters: PackedCounters,
     }

@@ -9,6 +9,7 @@ mod light;
 mod material;
 mod media;
 mod mesh;
+mod mipmap;
 mod nodes;
 mod object;
 mod picture;
@@ -76,7 +77,8 @@ pub struct PackedScene {
     /// In scene order.
     pub textures: Arc<[PackedTexture]>,
     /// The words of the texels of all pictures, concatenated: red, green, blue and alpha in 8 bits each, lowest
-    /// first, or two words of half floats.
+    /// first, or two words of half floats. Before the first texel of a picture with a mipmap the words -k say where its
+    /// level k starts, counted from there.
     pub texels: Segments<u32>,
     /// The first word with its `PICTURE_` bits, width and height of each picture.
     pub pictures: Vec<[u32; 3]>,
@@ -124,6 +126,8 @@ pub struct Features {
     pub noise: bool,
     /// Some texture is a picture.
     pub pictures: bool,
+    /// Some picture is filtered over the footprint of a ray.
+    pub footprints: bool,
     /// Some surface has holes.
     pub coverage: bool,
     /// Some material has a normal map.
@@ -295,7 +299,7 @@ fn pack(
         },
         materials,
         textures: material::textures(scene, origin, &pictures)?,
-        texels: (packed_pictures.iter().map(|(_, texels)| texels.clone())).collect(),
+        texels: (packed_pictures.iter().map(|packed| packed.words.clone())).collect(),
         pictures,
         features,
         volumes: media::volumes(scene, &meshes),

@@ -44,9 +44,9 @@ pub use metallic_roughness::{Lobes, Map, MetallicRoughness, SurfacePoint};
 pub use node::Node;
 pub use object::ObjectRef;
 pub use output::{Antialias, Filter, OutputDefaults, Shutter, ToneCurve, Transfer};
-pub use picture::{Picture, Texels, linear_from_srgb};
+pub use picture::{Picture, SrgbCurve, Texels, linear_from_srgb};
 pub use shape::{CanonicalShape, Geometry, Shape};
-pub use texture::{Pattern, Space, Texture, Wrap};
+pub use texture::{Minify, Pattern, Space, Texture, Wrap};
 pub use transform::{Transform, angles, rotation};
 pub use turntable::{MAX_ELEVATION, Turntable, turntable};
 

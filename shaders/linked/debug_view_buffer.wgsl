@@ -7,7 +7,7 @@ fn debug_view(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 		var sum = film__load_sum(work.film_index);
 		var sample = batch.first_sample;
 		loop {
-			let color = view(dispatch__sample_ray(batch, work.pixel, key, sample));
+			let color = view(batch, dispatch__sample_ray(batch, work.pixel, key, sample));
 			sum = film__add_sample(sum, film__Sample(color), dispatch__sample_weight(key, sample));
 			continuing {
 				sample += 1u;
@@ -20,7 +20,7 @@ fn debug_view(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_ind
 	dispatch__add_counts(lane);
 }
 
-fn view(ray: types__Ray) -> vec3f {
+fn view(batch: dispatch__Batch, ray: types__Ray) -> vec3f {
 	let before = loops__nodes_visited + loops__primitives_tested;
 	let hit = traverse__closest_hit(ray);
 	if (bindings__VIEW == types__VIEW_HEAT) {
@@ -32,7 +32,7 @@ fn view(ray: types__Ray) -> vec3f {
 	if (bindings__VIEW == types__VIEW_DEPTH) {
 		return vec3f(hit.t, 1.0, 0.0);
 	}
-	let surface = surface__surface_at(ray, hit);
+	let surface = surface__surface_at(ray, hit, footprint__camera_cone(batch, ray.direction));
 	if (bindings__VIEW == types__VIEW_IDS) {
 		return colormap__id_color(surface.id);
 	}
@@ -101,13 +101,14 @@ struct dispatch__Batch {
 	max_depth: u32,
 	min_throughput: f32,
 	light_samples: f32,
+	footprint: f32,
 	camera_media: vec4u
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
 	fetch__load_starts();
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -234,7 +235,15 @@ const types__TEXTURE_ROWS: u32 = 6u;
 
 const types__NO_TEXTURE: u32 = 65535u;
 
+const types__TEXTURE_UV: u32 = 1u;
+
 const types__TEXTURE_NEAREST: u32 = 2u;
+
+const types__TEXTURE_MINIFY_NEAREST: u32 = 64u;
+
+const types__TEXTURE_LEVELS: u32 = 128u;
+
+const types__TEXTURE_BETWEEN_LEVELS: u32 = 256u;
 
 const types__TEXTURE_WRAP_U_SHIFT: u32 = 2u;
 
@@ -406,6 +415,7 @@ struct types__PackedDispatch {
 	max_depth: u32,
 	min_throughput: f32,
 	light_samples: f32,
+	footprint: f32,
 	counters: types__PackedCounters
 }
 
@@ -479,7 +489,19 @@ struct types__Surface {
 	phong: types__Phong,
 	id: u32,
 	place: vec3f,
-	instance: u32
+	instance: u32,
+	footprint: types__Footprint,
+	curvature: f32
+}
+
+struct types__Cone {
+	width: f32,
+	spread: f32
+}
+
+struct types__Footprint {
+	uv: mat2x2f,
+	place: mat2x3f
 }
 
 var<private> fetch__root: u32;
@@ -684,6 +706,8 @@ override bindings__FILTER: u32 = types__FILTER_BOX;
 override bindings__FILTER_RADIUS: f32 = 0.5;
 
 override bindings__HAS_TEXTURES: bool = true;
+
+override bindings__HAS_FOOTPRINTS: bool = true;
 
 override bindings__HAS_COVERAGE: bool = true;
 
@@ -1264,6 +1288,10 @@ fn shape__is_round(kind: u32) -> bool {
 	return (bindings__SHAPE_KINDS & ~(shape__SPHERES | shape__GLOBES)) == 0u || kind == types__SHAPE_SPHERE || kind == types__SHAPE_GLOBE;
 }
 
+fn shape__is_globe(kind: u32) -> bool {
+	return (bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || kind == types__SHAPE_GLOBE);
+}
+
 fn shape__is_flat(kind: u32) -> bool {
 	return (bindings__SHAPE_KINDS & (shape__DISCS | shape__RECTANGLES)) != 0u && (kind == types__SHAPE_DISC || kind == types__SHAPE_RECTANGLE);
 }
@@ -1785,9 +1813,11 @@ fn node__sort4(keys: vec4u) -> vec4u {
 	return vec4u(lowest, min(middle_low, middle_high), max(middle_low, middle_high), highest);
 }
 
+const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x3f());
+
 var<private> surface__met_vertices: vec3u;
 
-fn surface__surface_at(ray: types__Ray, hit: types__Hit) -> types__Surface {
+fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
 	var instance: types__PackedInstance;
 	var space: motion__Space;
 	var local = ray;
@@ -1799,12 +1829,16 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit) -> types__Surface {
 	}
 	var surface: types__Surface;
 	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
-		surface = surface__triangle_surface(ray, hit, space, is_placed);
+		surface = surface__triangle_surface(ray, hit, space, is_placed, cone);
 	}
 	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
 		surface = surface__shape_surface(local, hit);
+		let p = surface.p;
 		if (is_placed) {
 			surface = surface__placed_surface(ray, surface, space);
+		}
+		if (bindings__HAS_FOOTPRINTS) {
+			surface = footprint__with_shape_footprint(surface, ray, hit, p, space, is_placed, cone);
 		}
 	}
 	if (is_placed) {
@@ -1813,6 +1847,10 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit) -> types__Surface {
 		surface.id += 2654435761u * instance.id;
 		surface.place = instance__pattern_place(instance, q);
 		surface.instance = hit.instance;
+		if (bindings__HAS_FOOTPRINTS) {
+			let own = mat2x3f(space.inverse * surface.footprint.place[0], space.inverse * surface.footprint.place[1]);
+			surface.footprint.place = footprint__instance_footprint(instance, own);
+		}
 	}
 	return surface;
 }
@@ -1826,7 +1864,7 @@ fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__
 	return surface;
 }
 
-fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Space, is_placed: bool) -> types__Surface {
+fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
 	let own = fetch__load_triangle(hit.primitive);
 	surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
 	let v0 = fetch__load_vertex(own.i0);
@@ -1854,14 +1892,21 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Sp
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
 	}
+	var footprint = surface__NO_FOOTPRINT;
+	if (bindings__HAS_FOOTPRINTS) {
+		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
+	}
 	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
 		let uvs = mat3x2f(fetch__load_uv(own.i0), fetch__load_uv(own.i1), fetch__load_uv(own.i2));
 		uv = uvs * vec3f(b0, b1, b2);
+		if (bindings__HAS_FOOTPRINTS) {
+			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
+		}
 		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(v0.material, n, corners, uvs, vec3f(b0, b1, b2));
+			shading_normal = normal_map__mapped_normal(v0.material, n, corners, uvs, vec3f(b0, b1, b2), footprint);
 		}
 	}
-	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE);
+	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)));
 }
 
 fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
@@ -1876,13 +1921,13 @@ fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE);
+		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE);
+		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
 	}
 	let placed = surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -1891,11 +1936,11 @@ fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE);
+	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
 }
 
 fn surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
-	if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
+	if (shape__is_globe(shape.kind)) {
 		return globe__globe_point(shape, reached);
 	}
 	let ng = numeric__normalize_or(reached - shape.position, -direction);
@@ -1911,7 +1956,133 @@ fn surface__mix_phong(p0: types__Phong, p1: types__Phong, p2: types__Phong, b0: 
 	return types__Phong(b0 * p0.diffuse + b1 * p1.diffuse + b2 * p2.diffuse, b0 * p0.specular + b1 * p1.specular + b2 * p2.specular, b0 * p0.shininess + b1 * p1.shininess + b2 * p2.shininess, b0 * p0.ambient + b1 * p1.ambient + b2 * p2.ambient, b0 * p0.reflect + b1 * p1.reflect + b2 * p2.reflect);
 }
 
-fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x2f, weights: vec3f) -> vec3f {
+const ray_cone__MOST_TAPS: f32 = 8.0;
+
+const ray_cone__WIDEST: f32 = 1000000000000000.0;
+
+struct ray_cone__Filtering {
+	level: f32,
+	tap_count: u32,
+	way: vec2f
+}
+
+fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
+	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+}
+
+fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
+	let cosine = dot(n, direction);
+	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+	let other = numeric__normalize_or(cross(n, axis), vec3f(0.0, 0.0, 1.0));
+	let slope = direction - cosine * n;
+	let along = select(other, numeric__normalize_or(slope, other), dot(slope, slope) > 1e-8);
+	let size = abs(width);
+	return mat2x3f((size / max(abs(cosine), 0.001)) * along, size * cross(n, along));
+}
+
+fn ray_cone__uv_along(v: vec3f, e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f) -> vec2f {
+	let normal = cross(e1, e2);
+	let n = numeric__normalize_or(normal, vec3f(0.0));
+	let area = max(dot(normal, n), 1e-30);
+	return (dot(cross(v, e2), n) / area) * d1 + (dot(cross(e1, v), n) / area) * d2;
+}
+
+fn ray_cone__curvature_along(edge: vec3f, bend: vec3f) -> f32 {
+	return dot(edge, bend) / max(dot(edge, edge), 1e-30);
+}
+
+fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
+	let is_first = dot(a, a) >= dot(b, b);
+	let way = select(b, a, is_first);
+	let long = length(way);
+	let short = length(select(a, b, is_first));
+	let count = clamp(round(long / max(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
+	let width = max(max(short, long / count), 1e-9);
+	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
+}
+
+fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
+	let camera = batch.camera;
+	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
+	let side = batch.footprint * max(sides.x, sides.y);
+	if (bindings__ORTHOGRAPHIC) {
+		return types__Cone(side, 0.0);
+	}
+	return types__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+}
+
+fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
+	let e1 = corners[1] - corners[0];
+	let e2 = corners[2] - corners[0];
+	let d1 = uvs[1] - uvs[0];
+	let d2 = uvs[2] - uvs[0];
+	return mat2x2f(ray_cone__uv_along(axes[0], e1, e2, d1, d2), ray_cone__uv_along(axes[1], e1, e2, d1, d2));
+}
+
+fn footprint__shape_uv_footprint(shape: types__PackedShape, p: vec3f, axes: mat2x3f, part: f32) -> mat2x2f {
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		return mat2x2f(vec2f(dot(shape.row_x, axes[0]), dot(shape.row_z, axes[0])), vec2f(dot(shape.row_x, axes[1]), dot(shape.row_z, axes[1])));
+	}
+	var first = vec2f(0.0);
+	var ends = mat2x2f(first, first);
+	var k = 0u;
+	loop {
+		let at = select(select(p + axes[1], p + axes[0], k == 1u), p, k == 0u);
+		let uv = footprint__shape_uv(shape, at, part);
+		let way = uv - first - round(uv - first);
+		first = select(first, uv, k == 0u);
+		ends = mat2x2f(select(ends[0], way, k == 1u), select(ends[1], way, k == 2u));
+		continuing {
+			k += 1u;
+			break if k > 2u;
+		}
+	}
+	loops__cut_off |= k <= 2u;
+	return ends;
+}
+
+fn footprint__shape_uv(shape: types__PackedShape, p: vec3f, part: f32) -> vec2f {
+	if (!shape__is_round(shape.kind)) {
+		return shape__canonical_point(shape, p, part).uv;
+	}
+	if (shape__is_globe(shape.kind)) {
+		return canonical__sphere_uv(globe__globe_point(shape, p).ng);
+	}
+	return canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
+}
+
+fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) -> mat2x3f {
+	let rows = transpose(mat3x3f(instance.pattern_x.xyz, instance.pattern_y.xyz, instance.pattern_z.xyz));
+	return mat2x3f(rows * own[0], rows * own[1]);
+}
+
+fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: types__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
+	var surface = own;
+	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
+	var local = axes;
+	var scale = 1.0;
+	if (bindings__HAS_INSTANCES && is_placed) {
+		local = mat2x3f(space.inverse * axes[0], space.inverse * axes[1]);
+		scale = length(instance__placed_normal(space, own.ng));
+	}
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	surface.footprint = types__Footprint(footprint__shape_uv_footprint(shape, p, local, hit.b1), axes);
+	if (shape__is_round(shape.kind)) {
+		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
+		surface.curvature = select(-curvature, curvature, own.outside);
+	}
+	return surface;
+}
+
+fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) -> f32 {
+	if (!(bindings__HAS_FOOTPRINTS && (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION))) {
+		return 0.0;
+	}
+	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
+	return select(-bend, bend, side < 0.0) / 3.0;
+}
+
+fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x2f, weights: vec3f, footprint: types__Footprint) -> vec3f {
 	let index = fetch__load_texture_indices(material).w & 65535u;
 	if (index == types__NO_TEXTURE) {
 		return n;
@@ -1920,7 +2091,8 @@ fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat
 	let q0 = normal_map__in_picture(texture, uvs[0]);
 	let q1 = normal_map__in_picture(texture, uvs[1]);
 	let q2 = normal_map__in_picture(texture, uvs[2]);
-	let code = texture__picture_color(texture, weights.x * q0 + weights.y * q1 + weights.z * q2).xyz;
+	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
+	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
 	let tilt = fetch__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
 	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
 	let bitangent = tangent.w * cross(n, tangent.xyz);
@@ -1932,11 +2104,67 @@ fn normal_map__in_picture(texture: types__PackedTexture, uv: vec2f) -> vec2f {
 	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
 }
 
-fn texture__picture_color(texture: types__PackedTexture, q: vec2f) -> vec4f {
+fn texture__picture_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
+	if (bindings__HAS_FOOTPRINTS) {
+		return mipmap__mipmap_color(texture, q, axes);
+	}
 	let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
 	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
 	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
 	return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v));
+}
+
+fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
+	if (!bindings__HAS_FOOTPRINTS) {
+		return mat2x2f();
+	}
+	let is_uv = (texture.flags & types__TEXTURE_UV) != 0u;
+	let a = select(footprint.place[0], vec3f(footprint.uv[0], 0.0), is_uv);
+	let b = select(footprint.place[1], vec3f(footprint.uv[1], 0.0), is_uv);
+	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
+}
+
+fn mipmap__mipmap_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
+	let size = vec2f(vec2u(texture.width, texture.height));
+	let plan = ray_cone__filtering(size * axes[0], size * axes[1]);
+	let has_levels = (texture.flags & types__TEXTURE_LEVELS) != 0u;
+	let last = select(0.0, f32(31u - countLeadingZeros(max(texture.width, texture.height))), has_levels);
+	let exact = clamp(plan.level, 0.0, last);
+	let level = select(round(exact), exact, (texture.flags & types__TEXTURE_BETWEEN_LEVELS) != 0u);
+	let tap_count = select(1u, plan.tap_count, has_levels);
+	let way = select(vec2f(0.0), plan.way / size, has_levels);
+	let nearest_bit = select(types__TEXTURE_NEAREST, types__TEXTURE_MINIFY_NEAREST, plan.level > 0.0);
+	let nearest = (texture.flags & nearest_bit) != 0u;
+	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
+	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
+	let below = u32(level);
+	let weight = fract(level);
+	let end = select(tap_count, 2u * tap_count, weight > 0.0);
+	var color = vec4f(0.0);
+	var k = 0u;
+	loop {
+		let is_above = k >= tap_count;
+		let tap = f32(k - select(0u, tap_count, is_above));
+		let at = q + ((tap + 0.5) / f32(tap_count) - 0.5) * way;
+		let own = below + select(0u, 1u, is_above);
+		let width = max(texture.width >> own, 1u);
+		let height = max(texture.height >> own, 1u);
+		let sample = picture__blend_texels(mipmap__level_of(texture.picture, own), width, height, picture__neighbours(at.x, width, nearest, wrap_u), picture__neighbours(at.y, height, nearest, wrap_v));
+		color += select(1.0 - weight, weight, is_above) * sample;
+		continuing {
+			k += 1u;
+			break if k >= end;
+		}
+	}
+	loops__cut_off |= k < end;
+	return color / f32(tap_count);
+}
+
+fn mipmap__level_of(picture: u32, level: u32) -> u32 {
+	if (level == 0u) {
+		return picture;
+	}
+	return picture + picture__load_texel_word((picture & types__PICTURE_FIRST_MASK) - level);
 }
 
 fn picture__blend_texels(picture: u32, width: u32, height: u32, columns: picture__Neighbours, rows: picture__Neighbours) -> vec4f {

@@ -19,7 +19,7 @@ fn explain(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index)
 
 fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u32) -> wide__Vectors {
 	var radiance = wide__no_vectors();
-	var states = ray_stack__camera_states(rays, batch.camera_media);
+	var states = ray_stack__camera_states(batch, rays);
 	var is_unfinished = false;
 	loop {
 		let hits = rays__closest_hits(states.rays);
@@ -32,9 +32,9 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 		loop {
 			let k = rays__first_row(rows);
 			ray_stack__current_tree = k;
-			let state = ray_stack__state_at(states, k);
+			let state = ray_states__state_at(states, k);
 			let hit = rays__hit_at(hits, k);
-			var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_stack__no_ray(), ray_stack__no_ray());
+			var event = optics__ScatterEvent(state.throughput, vec3f(1.0), vec3f(1.0), ray_states__no_ray(), ray_states__no_ray());
 			if (state.ray.t_max >= 0.0) {
 				dispatch__count_hit(state.kind, hit);
 				record__open_ray(state.ray, hit, state.kind, state.throughput, state.media);
@@ -44,10 +44,10 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 					record__record_miss(seen);
 				}
 				else {
-					let contact = contact__contact_at(state.ray, hit);
+					let contact = contact__contact_at(state.ray, hit, state.cone);
 					var surface = contact.surface;
 					if (bindings__HAS_TEXTURES) {
-						surface.phong = texture__textured_phong(surface.phong, surface.material, surface.place, surface.uv);
+						surface.phong = texture__textured_phong(surface);
 					}
 					let factors = texture__texture_optics(surface);
 					if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
@@ -70,8 +70,8 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 			}
 			if (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION || bindings__HAS_COVERAGE) {
 				let following = ray_stack__next_ray(event.reflected, event.refracted);
-				next = ray_stack__state_set(next, k, following);
-				is_unfinished |= ray_stack__is_alive(following);
+				next = ray_states__state_set(next, k, following);
+				is_unfinished |= ray_states__is_alive(following);
 			}
 			continuing {
 				rows = rays__later_rows(rows);
@@ -94,7 +94,7 @@ fn trace(batch: dispatch__Batch, rays: rays__Rays, keys: wide__Words, sample: u3
 	return radiance;
 }
 
-fn escaping_throughput(state: ray_stack__RayState) -> vec3f {
+fn escaping_throughput(state: ray_states__RayState) -> vec3f {
 	var throughput = state.throughput;
 	if (bindings__HAS_REFRACTION) {
 		throughput *= medium__transmittance(medium__medium_of(medium__dominant(state.media)), state.ray.t_max);
@@ -187,6 +187,8 @@ override bindings__HAS_TEXTURES: bool = true;
 override bindings__HAS_NOISE: bool = true;
 
 override bindings__HAS_PICTURES: bool = true;
+
+override bindings__HAS_FOOTPRINTS: bool = true;
 
 override bindings__HAS_COVERAGE: bool = true;
 
@@ -309,6 +311,12 @@ const types__PATTERN_PICTURE: u32 = 4u;
 const types__TEXTURE_UV: u32 = 1u;
 
 const types__TEXTURE_NEAREST: u32 = 2u;
+
+const types__TEXTURE_MINIFY_NEAREST: u32 = 64u;
+
+const types__TEXTURE_LEVELS: u32 = 128u;
+
+const types__TEXTURE_BETWEEN_LEVELS: u32 = 256u;
 
 const types__TEXTURE_WRAP_U_SHIFT: u32 = 2u;
 
@@ -509,6 +517,7 @@ struct types__PackedDispatch {
 	max_depth: u32,
 	min_throughput: f32,
 	light_samples: f32,
+	footprint: f32,
 	counters: types__PackedCounters
 }
 
@@ -633,7 +642,19 @@ struct types__Surface {
 	phong: types__Phong,
 	id: u32,
 	place: vec3f,
-	instance: u32
+	instance: u32,
+	footprint: types__Footprint,
+	curvature: f32
+}
+
+struct types__Cone {
+	width: f32,
+	spread: f32
+}
+
+struct types__Footprint {
+	uv: mat2x2f,
+	place: mat2x3f
 }
 
 struct types__Optics {
@@ -863,13 +884,14 @@ struct dispatch__Batch {
 	max_depth: u32,
 	min_throughput: f32,
 	light_samples: f32,
+	footprint: f32,
 	camera_media: vec4u
 }
 
 fn dispatch__load_batch() -> dispatch__Batch {
 	fetch__load_starts();
 	let picture_size = vec2f(vec2u(bindings__dispatch.picture_width, bindings__dispatch.picture_height));
-	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__frame.camera_media);
+	return dispatch__Batch(bindings__frame.camera, bindings__frame.background, bindings__frame.background_top, bindings__frame.background_rotation, bindings__frame.background_picture, vec2u(bindings__frame.background_width, bindings__frame.background_height), bindings__frame.ambient, bindings__frame.light_count, picture_size, bindings__dispatch.seed, bindings__dispatch.first_sample, bindings__dispatch.end_sample, bindings__dispatch.max_depth, bindings__dispatch.min_throughput, bindings__dispatch.light_samples, bindings__dispatch.footprint, bindings__frame.camera_media);
 }
 
 fn dispatch__sample_ray(batch: dispatch__Batch, pixel: vec2u, key: u32, sample: u32) -> types__Ray {
@@ -911,11 +933,11 @@ fn dispatch__sample_weight(key: u32, sample: u32) -> f32 {
 fn dispatch__count_hit(kind: u32, hit: types__Hit) {
 	if (bindings__COUNT_RAYS) {
 		let hits = select(0u, 1u, hit.primitive != types__NONE);
-		if (kind == ray_stack__KIND_PRIMARY) {
+		if (kind == ray_states__KIND_PRIMARY) {
 			dispatch__counts.primary += 1u;
 			dispatch__counts.primary_hits += hits;
 		}
-		else if (kind == ray_stack__KIND_REFLECTED) {
+		else if (kind == ray_states__KIND_REFLECTED) {
 			dispatch__counts.reflection += 1u;
 			dispatch__counts.reflection_hits += hits;
 		}
@@ -1568,36 +1590,6 @@ fn warp__turn_to(n: vec3f, direction: vec3f) -> vec3f {
 	return direction.x * x + direction.y * y + direction.z * n;
 }
 
-const ray_stack__KIND_PRIMARY: u32 = 0u;
-
-const ray_stack__KIND_REFLECTED: u32 = 1u;
-
-const ray_stack__KIND_REFRACTED: u32 = 2u;
-
-struct ray_stack__RayState {
-	ray: types__Ray,
-	throughput: vec3f,
-	media: vec4u,
-	depth: u32,
-	kind: u32,
-	node: u32
-}
-
-struct ray_stack__Media {
-	x: wide__Words,
-	y: wide__Words,
-	z: wide__Words,
-	w: wide__Words
-}
-
-struct ray_stack__RayStates {
-	rays: rays__Rays,
-	throughput: wide__Vectors,
-	media: ray_stack__Media,
-	step: wide__Words,
-	node: wide__Words
-}
-
 const ray_stack__RAY_STACK_SIZE: u32 = 9u;
 
 const ray_stack__MAX_TREE_RAYS: u32 = 1024u;
@@ -1605,6 +1597,8 @@ const ray_stack__MAX_TREE_RAYS: u32 = 1024u;
 var<private> ray_stack__ray_stack: array<vec4u, 36>;
 
 var<private> ray_stack__stack_counts: wide__Words;
+
+var<private> ray_stack__cone_stack: array<vec2f, 9>;
 
 var<private> ray_stack__stack_senders: array<u32, ray_stack__RAY_STACK_SIZE>;
 
@@ -1616,51 +1610,31 @@ var<private> ray_stack__trees_cut_off: wide__Words;
 
 var<private> ray_stack__cut_off_trees: u32 = 0u;
 
-fn ray_stack__is_alive(state: ray_stack__RayState) -> bool {
-	return any(state.throughput > vec3f(0.0));
-}
-
-fn ray_stack__camera_states(rays: rays__Rays, media: vec4u) -> ray_stack__RayStates {
+fn ray_stack__camera_states(batch: dispatch__Batch, rays: rays__Rays) -> ray_states__RayStates {
+	let media = batch.camera_media;
 	ray_stack__stack_counts = wide__Words(0u);
 	ray_stack__tree_rays = wide__Words(0u);
 	ray_stack__trees_cut_off = wide__Words(0u);
 	let all = wide__Floats(1.0);
-	return ray_stack__RayStates(rays, wide__Vectors(all, all, all), ray_stack__Media(wide__Words(media.x), wide__Words(media.y), wide__Words(media.z), wide__Words(media.w)), wide__Words(ray_stack__KIND_PRIMARY), wide__Words(1u));
+	let states = ray_states__RayStates(rays, wide__Vectors(all, all, all), ray_states__Media(wide__Words(media.x), wide__Words(media.y), wide__Words(media.z), wide__Words(media.w)), wide__Words(ray_states__KIND_PRIMARY), wide__Words(1u), wide__Floats(0.0), wide__Floats(0.0));
+	if (bindings__HAS_FOOTPRINTS) {
+		return ray_states__with_cones(batch, states);
+	}
+	return states;
 }
 
-fn ray_stack__state_at(states: ray_stack__RayStates, k: u32) -> ray_stack__RayState {
-	let step = wide__word_at(states.step, k);
-	return ray_stack__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_stack__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k));
-}
-
-fn ray_stack__state_set(states: ray_stack__RayStates, k: u32, state: ray_stack__RayState) -> ray_stack__RayStates {
-	return ray_stack__RayStates(rays__ray_set(states.rays, k, state.ray), wide__vector_set(states.throughput, k, state.throughput), ray_stack__media_set(states.media, k, state.media), wide__word_set(states.step, k, (state.depth << 2u) | state.kind), wide__word_set(states.node, k, state.node));
-}
-
-fn ray_stack__media_at(all: ray_stack__Media, k: u32) -> vec4u {
-	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
-}
-
-fn ray_stack__media_set(all: ray_stack__Media, k: u32, media: vec4u) -> ray_stack__Media {
-	return ray_stack__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
-}
-
-fn ray_stack__no_ray() -> ray_stack__RayState {
-	return ray_stack__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u);
-}
-
-fn ray_stack__next_ray(reflected: ray_stack__RayState, refracted: ray_stack__RayState) -> ray_stack__RayState {
+fn ray_stack__next_ray(reflected: ray_states__RayState, refracted: ray_states__RayState) -> ray_states__RayState {
 	let k = ray_stack__current_tree;
 	let count = wide__word_at(ray_stack__stack_counts, k);
 	let rays = wide__word_at(ray_stack__tree_rays, k) + 1u;
 	ray_stack__tree_rays = wide__word_set(ray_stack__tree_rays, k, rays);
 	record__sender = record__traced_index;
-	let sends_both = ray_stack__is_alive(reflected) && ray_stack__is_alive(refracted);
-	let goes_on = ray_stack__is_alive(reflected) || ray_stack__is_alive(refracted) || count > 0u;
+	let sends_both = ray_states__is_alive(reflected) && ray_states__is_alive(refracted);
+	let goes_on = ray_states__is_alive(reflected) || ray_states__is_alive(refracted) || count > 0u;
 	if (goes_on && rays >= ray_stack__MAX_TREE_RAYS) {
 		ray_stack__cut_tree();
 		ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, 0u);
-		return ray_stack__no_ray();
+		return ray_states__no_ray();
 	}
 	if (sends_both) {
 		let reflected_is_weaker = ray_stack__strength(reflected) < ray_stack__strength(refracted);
@@ -1671,10 +1645,10 @@ fn ray_stack__next_ray(reflected: ray_stack__RayState, refracted: ray_stack__Ray
 		ray_stack__push(k, ray_stack__choose(reflected, refracted, !reflected_is_weaker));
 		return ray_stack__choose(reflected, refracted, reflected_is_weaker);
 	}
-	if (ray_stack__is_alive(refracted)) {
+	if (ray_states__is_alive(refracted)) {
 		return refracted;
 	}
-	if (ray_stack__is_alive(reflected)) {
+	if (ray_states__is_alive(reflected)) {
 		return reflected;
 	}
 	return ray_stack__pop(k);
@@ -1685,31 +1659,32 @@ fn ray_stack__cut_tree() {
 	ray_stack__trees_cut_off = wide__word_set(ray_stack__trees_cut_off, ray_stack__current_tree, 1u);
 }
 
-fn ray_stack__choose(reflected: ray_stack__RayState, refracted: ray_stack__RayState, first: bool) -> ray_stack__RayState {
+fn ray_stack__choose(reflected: ray_states__RayState, refracted: ray_states__RayState, first: bool) -> ray_states__RayState {
 	if (first) {
 		return reflected;
 	}
 	return refracted;
 }
 
-fn ray_stack__strength(state: ray_stack__RayState) -> f32 {
+fn ray_stack__strength(state: ray_states__RayState) -> f32 {
 	return dot(state.throughput, vec3f(1.0));
 }
 
-fn ray_stack__push(k: u32, state: ray_stack__RayState) {
+fn ray_stack__push(k: u32, state: ray_states__RayState) {
 	let count = wide__word_at(ray_stack__stack_counts, k);
 	let row = 4u * count;
 	ray_stack__ray_stack[row] = vec4u(bitcast<vec3u>(state.ray.origin), state.ray.leaving);
 	ray_stack__ray_stack[row + 1u] = vec4u(bitcast<vec3u>(state.ray.direction), ray_stack__step_and_instance(state));
 	ray_stack__ray_stack[row + 2u] = vec4u(bitcast<vec3u>(state.throughput), state.node);
 	ray_stack__ray_stack[row + 3u] = state.media;
+	ray_stack__keep_cone(count, state.cone);
 	ray_stack__stack_senders[count] = record__sender;
 	ray_stack__stack_counts = wide__word_set(ray_stack__stack_counts, k, count + 1u);
 }
 
-fn ray_stack__pop(k: u32) -> ray_stack__RayState {
+fn ray_stack__pop(k: u32) -> ray_states__RayState {
 	if (ray_stack__stack_counts == 0u) {
-		return ray_stack__no_ray();
+		return ray_states__no_ray();
 	}
 	ray_stack__stack_counts -= 1u;
 	record__sender = ray_stack__stack_senders[ray_stack__stack_counts];
@@ -1717,16 +1692,190 @@ fn ray_stack__pop(k: u32) -> ray_stack__RayState {
 	let r0 = ray_stack__ray_stack[row];
 	let r1 = ray_stack__ray_stack[row + 1u];
 	let r2 = ray_stack__ray_stack[row + 2u];
-	return ray_stack__stored(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, ray_stack__ray_stack[row + 3u]);
+	return ray_stack__stored(bitcast<vec3f>(r0.xyz), r0.w, bitcast<vec3f>(r1.xyz), r1.w, bitcast<vec3f>(r2.xyz), r2.w, ray_stack__ray_stack[row + 3u], ray_stack__kept_cone(ray_stack__stack_counts));
 }
 
-fn ray_stack__step_and_instance(state: ray_stack__RayState) -> u32 {
+fn ray_stack__step_and_instance(state: ray_states__RayState) -> u32 {
 	return (state.ray.leaving_instance << 12u) | (state.depth << 2u) | state.kind;
 }
 
-fn ray_stack__stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u) -> ray_stack__RayState {
-	return ray_stack__RayState(types__Ray(origin, camera__T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node);
+fn ray_stack__stored(origin: vec3f, leaving: u32, direction: vec3f, place: u32, throughput: vec3f, node: u32, media: vec4u, cone: types__Cone) -> ray_states__RayState {
+	return ray_states__RayState(types__Ray(origin, camera__T_FAR, direction, leaving, place >> 12u), throughput, media, (place >> 2u) & 1023u, place & 3u, node, cone);
 }
+
+fn ray_stack__keep_cone(index: u32, cone: types__Cone) {
+	if (bindings__HAS_FOOTPRINTS) {
+		ray_stack__cone_stack[index] = vec2f(cone.width, cone.spread);
+	}
+}
+
+fn ray_stack__kept_cone(index: u32) -> types__Cone {
+	if (bindings__HAS_FOOTPRINTS) {
+		return types__Cone(ray_stack__cone_stack[index].x, ray_stack__cone_stack[index].y);
+	}
+	return types__Cone(0.0, 0.0);
+}
+
+const ray_states__KIND_PRIMARY: u32 = 0u;
+
+const ray_states__KIND_REFLECTED: u32 = 1u;
+
+const ray_states__KIND_REFRACTED: u32 = 2u;
+
+struct ray_states__RayState {
+	ray: types__Ray,
+	throughput: vec3f,
+	media: vec4u,
+	depth: u32,
+	kind: u32,
+	node: u32,
+	cone: types__Cone
+}
+
+struct ray_states__Media {
+	x: wide__Words,
+	y: wide__Words,
+	z: wide__Words,
+	w: wide__Words
+}
+
+struct ray_states__RayStates {
+	rays: rays__Rays,
+	throughput: wide__Vectors,
+	media: ray_states__Media,
+	step: wide__Words,
+	node: wide__Words,
+	cone_width: wide__Floats,
+	cone_spread: wide__Floats
+}
+
+fn ray_states__is_alive(state: ray_states__RayState) -> bool {
+	return any(state.throughput > vec3f(0.0));
+}
+
+fn ray_states__with_cones(batch: dispatch__Batch, states: ray_states__RayStates) -> ray_states__RayStates {
+	var all = states;
+	var k = 0u;
+	loop {
+		let cone = footprint__camera_cone(batch, wide__vector_at(states.rays.direction, k));
+		all.cone_width = wide__float_set(all.cone_width, k, cone.width);
+		all.cone_spread = wide__float_set(all.cone_spread, k, cone.spread);
+		continuing {
+			k += 1u;
+			break if wide__ONE_RAY | (k >= wide__RAYS_PER_LANE);
+		}
+	}
+	loops__cut_off |= k < wide__RAYS_PER_LANE;
+	return all;
+}
+
+fn ray_states__state_at(states: ray_states__RayStates, k: u32) -> ray_states__RayState {
+	let step = wide__word_at(states.step, k);
+	return ray_states__RayState(rays__ray_at(states.rays, k), wide__vector_at(states.throughput, k), ray_states__media_at(states.media, k), step >> 2u, step & 3u, wide__word_at(states.node, k), types__Cone(wide__float_at(states.cone_width, k), wide__float_at(states.cone_spread, k)));
+}
+
+fn ray_states__state_set(states: ray_states__RayStates, k: u32, state: ray_states__RayState) -> ray_states__RayStates {
+	return ray_states__RayStates(rays__ray_set(states.rays, k, state.ray), wide__vector_set(states.throughput, k, state.throughput), ray_states__media_set(states.media, k, state.media), wide__word_set(states.step, k, (state.depth << 2u) | state.kind), wide__word_set(states.node, k, state.node), wide__float_set(states.cone_width, k, state.cone.width), wide__float_set(states.cone_spread, k, state.cone.spread));
+}
+
+fn ray_states__media_at(all: ray_states__Media, k: u32) -> vec4u {
+	return vec4u(wide__word_at(all.x, k), wide__word_at(all.y, k), wide__word_at(all.z, k), wide__word_at(all.w, k));
+}
+
+fn ray_states__media_set(all: ray_states__Media, k: u32, media: vec4u) -> ray_states__Media {
+	return ray_states__Media(wide__word_set(all.x, k, media.x), wide__word_set(all.y, k, media.y), wide__word_set(all.z, k, media.z), wide__word_set(all.w, k, media.w));
+}
+
+fn ray_states__no_ray() -> ray_states__RayState {
+	return ray_states__RayState(rays__DEAD, vec3f(0.0), vec4u(types__NONE), 0u, 0u, 0u, types__Cone(0.0, 0.0));
+}
+
+fn footprint__camera_cone(batch: dispatch__Batch, direction: vec3f) -> types__Cone {
+	let camera = batch.camera;
+	let sides = 2.0 * vec2f(length(camera.right), length(camera.up)) / batch.picture_size;
+	let side = batch.footprint * max(sides.x, sides.y);
+	if (bindings__ORTHOGRAPHIC) {
+		return types__Cone(side, 0.0);
+	}
+	return types__Cone(0.0, side * max(dot(direction, camera.forward), 0.0));
+}
+
+fn footprint__triangle_uv_footprint(axes: mat2x3f, corners: mat3x3f, uvs: mat3x2f) -> mat2x2f {
+	let e1 = corners[1] - corners[0];
+	let e2 = corners[2] - corners[0];
+	let d1 = uvs[1] - uvs[0];
+	let d2 = uvs[2] - uvs[0];
+	return mat2x2f(ray_cone__uv_along(axes[0], e1, e2, d1, d2), ray_cone__uv_along(axes[1], e1, e2, d1, d2));
+}
+
+fn footprint__shape_uv_footprint(shape: types__PackedShape, p: vec3f, axes: mat2x3f, part: f32) -> mat2x2f {
+	if (bindings__HAS_PLANES && (!bindings__HAS_SHAPES || shape.kind == types__SHAPE_PLANE)) {
+		return mat2x2f(vec2f(dot(shape.row_x, axes[0]), dot(shape.row_z, axes[0])), vec2f(dot(shape.row_x, axes[1]), dot(shape.row_z, axes[1])));
+	}
+	var first = vec2f(0.0);
+	var ends = mat2x2f(first, first);
+	var k = 0u;
+	loop {
+		let at = select(select(p + axes[1], p + axes[0], k == 1u), p, k == 0u);
+		let uv = footprint__shape_uv(shape, at, part);
+		let way = uv - first - round(uv - first);
+		first = select(first, uv, k == 0u);
+		ends = mat2x2f(select(ends[0], way, k == 1u), select(ends[1], way, k == 2u));
+		continuing {
+			k += 1u;
+			break if k > 2u;
+		}
+	}
+	loops__cut_off |= k <= 2u;
+	return ends;
+}
+
+fn footprint__shape_uv(shape: types__PackedShape, p: vec3f, part: f32) -> vec2f {
+	if (!shape__is_round(shape.kind)) {
+		return shape__canonical_point(shape, p, part).uv;
+	}
+	if (shape__is_globe(shape.kind)) {
+		return canonical__sphere_uv(globe__globe_point(shape, p).ng);
+	}
+	return canonical__sphere_uv(numeric__normalize_or(p - shape.position, vec3f(0.0, 1.0, 0.0)));
+}
+
+fn footprint__instance_footprint(instance: types__PackedInstance, own: mat2x3f) -> mat2x3f {
+	let rows = transpose(mat3x3f(instance.pattern_x.xyz, instance.pattern_y.xyz, instance.pattern_z.xyz));
+	return mat2x3f(rows * own[0], rows * own[1]);
+}
+
+fn footprint__with_shape_footprint(own: types__Surface, ray: types__Ray, hit: types__Hit, p: vec3f, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
+	var surface = own;
+	let axes = ray_cone__footprint_axes(ray.direction, own.ng, ray_cone__cone_at(cone, hit.t).width);
+	var local = axes;
+	var scale = 1.0;
+	if (bindings__HAS_INSTANCES && is_placed) {
+		local = mat2x3f(space.inverse * axes[0], space.inverse * axes[1]);
+		scale = length(instance__placed_normal(space, own.ng));
+	}
+	let shape = fetch__load_shape(hit.primitive & ~types__SHAPE);
+	surface.footprint = types__Footprint(footprint__shape_uv_footprint(shape, p, local, hit.b1), axes);
+	if (shape__is_round(shape.kind)) {
+		let curvature = scale * select(1.0 / shape.size0, shape.size0, shape__is_globe(shape.kind));
+		surface.curvature = select(-curvature, curvature, own.outside);
+	}
+	return surface;
+}
+
+fn footprint__triangle_curvature(corners: mat3x3f, normals: mat3x3f, side: f32) -> f32 {
+	if (!(bindings__HAS_FOOTPRINTS && (bindings__HAS_REFLECTION || bindings__HAS_REFRACTION))) {
+		return 0.0;
+	}
+	let bend = ray_cone__curvature_along(corners[1] - corners[0], normals[1] - normals[0]) + ray_cone__curvature_along(corners[2] - corners[1], normals[2] - normals[1]) + ray_cone__curvature_along(corners[0] - corners[2], normals[0] - normals[2]);
+	return select(-bend, bend, side < 0.0) / 3.0;
+}
+
+var<private> loops__nodes_visited: u32 = 0u;
+
+var<private> loops__primitives_tested: u32 = 0u;
+
+var<private> loops__cut_off: bool = false;
 
 const traverse__EMPTY: u32 = 4294967295u;
 
@@ -2024,12 +2173,6 @@ fn plane__intersect_plane(ray: types__Ray, point: vec3f, n: vec3f) -> types__Can
 	return types__Candidate(steep & (t > 0.0), t, 0.0, 0.0);
 }
 
-var<private> loops__nodes_visited: u32 = 0u;
-
-var<private> loops__primitives_tested: u32 = 0u;
-
-var<private> loops__cut_off: bool = false;
-
 const numeric__ROUNDING: f32 = 5.9604645e-8;
 
 fn numeric__normalize_or(v: vec3f, fallback: vec3f) -> vec3f {
@@ -2157,6 +2300,10 @@ fn shape__is_round(kind: u32) -> bool {
 		return false;
 	}
 	return (bindings__SHAPE_KINDS & ~(shape__SPHERES | shape__GLOBES)) == 0u || kind == types__SHAPE_SPHERE || kind == types__SHAPE_GLOBE;
+}
+
+fn shape__is_globe(kind: u32) -> bool {
+	return (bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || kind == types__SHAPE_GLOBE);
 }
 
 fn shape__is_flat(kind: u32) -> bool {
@@ -2668,7 +2815,7 @@ fn direct__receiver_at(all: direct__Receivers, k: u32) -> direct__Receiver {
 	return direct__Receiver(surface, wide__vector_at(all.v, k), types__SampleKey(wide__word_at(all.hash, k), 0u, wide__float_at(all.weight, k)));
 }
 
-fn direct__direct_light(batch: dispatch__Batch, receivers: direct__Receivers, media: ray_stack__Media, sample: u32) -> wide__Vectors {
+fn direct__direct_light(batch: dispatch__Batch, receivers: direct__Receivers, media: ray_states__Media, sample: u32) -> wide__Vectors {
 	var color = wide__no_vectors();
 	if (!bindings__HAS_LIGHTS) {
 		return color;
@@ -2689,7 +2836,7 @@ fn direct__direct_light(batch: dispatch__Batch, receivers: direct__Receivers, me
 	return color;
 }
 
-fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: direct__Receivers, lit_rows: u32, media: ray_stack__Media, sample: u32, light: types__PackedLight, index: u32) -> wide__Vectors {
+fn direct__with_light(batch: dispatch__Batch, before: wide__Vectors, receivers: direct__Receivers, lit_rows: u32, media: ray_states__Media, sample: u32, light: types__PackedLight, index: u32) -> wide__Vectors {
 	var sum = wide__no_vectors();
 	var counts = wide__Floats(1.0);
 	let has_extent = bindings__HAS_AREA_LIGHTS && light.kind >= types__LIGHT_RECTANGLE;
@@ -2763,8 +2910,8 @@ struct optics__ScatterEvent {
 	arriving: vec3f,
 	diffuse: vec3f,
 	highlight: vec3f,
-	reflected: ray_stack__RayState,
-	refracted: ray_stack__RayState
+	reflected: ray_states__RayState,
+	refracted: ray_states__RayState
 }
 
 struct optics__Weights {
@@ -2772,7 +2919,7 @@ struct optics__Weights {
 	highlight: vec3f
 }
 
-fn optics__scatter(batch: dispatch__Batch, state: ray_stack__RayState, distance: f32, contact: contact__Contact, factors: mat3x3f, coverage: f32) -> optics__ScatterEvent {
+fn optics__scatter(batch: dispatch__Batch, state: ray_states__RayState, distance: f32, contact: contact__Contact, factors: mat3x3f, coverage: f32) -> optics__ScatterEvent {
 	let surface = contact.surface;
 	let direction = state.ray.direction;
 	let optics = fetch__load_optics(surface.material);
@@ -2823,23 +2970,34 @@ fn optics__scatter(batch: dispatch__Batch, state: ray_stack__RayState, distance:
 		transmit = vec3f(1.0);
 	}
 	record__record_scatter(reflect, transmit, boundary, vec2f(ior, ior_behind), is_boundary);
-	var reflected_ray = ray_stack__no_ray();
-	var refracted_ray = ray_stack__no_ray();
+	var cone = types__Cone(0.0, 0.0);
+	var mirrored_way = cone;
+	var refracted_way = cone;
+	if (bindings__HAS_FOOTPRINTS) {
+		cone = ray_cone__cone_at(state.cone, distance);
+		mirrored_way = ray_cone__mirrored_cone(cone, surface.curvature);
+		refracted_way = cone;
+		if (is_boundary) {
+			refracted_way = ray_cone__refracted_cone(cone, surface.curvature, ior / ior_behind);
+		}
+	}
+	var reflected_ray = ray_states__no_ray();
+	var refracted_ray = ray_states__no_ray();
 	let deeper = state.depth < batch.max_depth;
 	if (bindings__HAS_REFLECTION && deeper && optics__is_worth_tracing(batch, arriving * reflect)) {
 		let way = fresnel__mirrored(direction, n);
 		let ray = surface__mirrored_ray(surface, way, camera__T_FAR, state.ray, distance);
-		reflected_ray = ray_stack__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_stack__KIND_REFLECTED, 2u * state.node);
+		reflected_ray = ray_states__RayState(ray, arriving * reflect, state.media, state.depth + 1u, ray_states__KIND_REFLECTED, 2u * state.node, mirrored_way);
 	}
 	let refracts = bindings__HAS_REFRACTION && transparent && (deeper || !is_boundary);
 	let beyond = select(vec3f(0.0), arriving * transmit, refracts);
 	if (bindings__HAS_REFRACTION && refracts && optics__is_worth_tracing(batch, beyond + passing)) {
 		let ray = surface__leaving_ray(surface, straight, camera__T_FAR);
-		refracted_ray = ray_stack__RayState(ray, beyond + passing, media, select(state.depth, state.depth + 1u, is_boundary), ray_stack__KIND_REFRACTED, 2u * state.node + 1u);
+		refracted_ray = ray_states__RayState(ray, beyond + passing, media, select(state.depth, state.depth + 1u, is_boundary), ray_states__KIND_REFRACTED, 2u * state.node + 1u, refracted_way);
 	}
 	else if (bindings__HAS_COVERAGE && optics__is_worth_tracing(batch, passing)) {
 		let ray = surface__leaving_ray(surface, direction, camera__T_FAR);
-		refracted_ray = ray_stack__RayState(ray, passing, state.media, state.depth, ray_stack__KIND_REFRACTED, 2u * state.node + 1u);
+		refracted_ray = ray_states__RayState(ray, passing, state.media, state.depth, ray_states__KIND_REFRACTED, 2u * state.node + 1u, cone);
 	}
 	let sends = any(reflected_ray.throughput > vec3f(0.0));
 	let kept = optics__local_weights(optics, reflect, sends);
@@ -3013,7 +3171,7 @@ struct contact__Contact {
 	enters_touching: bool
 }
 
-fn contact__contact_at(ray: types__Ray, hit: types__Hit) -> contact__Contact {
+fn contact__contact_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> contact__Contact {
 	var contact: contact__Contact;
 	record__seen = hit;
 	contact.touching = types__NONE;
@@ -3022,7 +3180,7 @@ fn contact__contact_at(ray: types__Ray, hit: types__Hit) -> contact__Contact {
 	var second_wanted = false;
 	var vertices = vec3u(0u);
 	loop {
-		let surface = surface__surface_at(ray, current);
+		let surface = surface__surface_at(ray, current, cone);
 		if (first) {
 			contact.surface = surface;
 			vertices = surface__met_vertices;
@@ -3101,9 +3259,11 @@ fn contact__is_twin(first: vec3u, second: vec3u) -> bool {
 	return any(second == first.xxx) & any(second == first.yyy) & any(second == first.zzz);
 }
 
+const surface__NO_FOOTPRINT: types__Footprint = types__Footprint(mat2x2f(), mat2x3f());
+
 var<private> surface__met_vertices: vec3u;
 
-fn surface__surface_at(ray: types__Ray, hit: types__Hit) -> types__Surface {
+fn surface__surface_at(ray: types__Ray, hit: types__Hit, cone: types__Cone) -> types__Surface {
 	var instance: types__PackedInstance;
 	var space: motion__Space;
 	var local = ray;
@@ -3115,12 +3275,16 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit) -> types__Surface {
 	}
 	var surface: types__Surface;
 	if (bindings__HAS_TRIANGLES && (!(bindings__HAS_SHAPES || bindings__HAS_PLANES) || (hit.primitive & types__SHAPE) == 0u)) {
-		surface = surface__triangle_surface(ray, hit, space, is_placed);
+		surface = surface__triangle_surface(ray, hit, space, is_placed, cone);
 	}
 	if ((bindings__HAS_SHAPES || bindings__HAS_PLANES) && (!bindings__HAS_TRIANGLES || (hit.primitive & types__SHAPE) != 0u)) {
 		surface = surface__shape_surface(local, hit);
+		let p = surface.p;
 		if (is_placed) {
 			surface = surface__placed_surface(ray, surface, space);
+		}
+		if (bindings__HAS_FOOTPRINTS) {
+			surface = footprint__with_shape_footprint(surface, ray, hit, p, space, is_placed, cone);
 		}
 	}
 	if (is_placed) {
@@ -3129,6 +3293,10 @@ fn surface__surface_at(ray: types__Ray, hit: types__Hit) -> types__Surface {
 		surface.id += 2654435761u * instance.id;
 		surface.place = instance__pattern_place(instance, q);
 		surface.instance = hit.instance;
+		if (bindings__HAS_FOOTPRINTS) {
+			let own = mat2x3f(space.inverse * surface.footprint.place[0], space.inverse * surface.footprint.place[1]);
+			surface.footprint.place = footprint__instance_footprint(instance, own);
+		}
 	}
 	return surface;
 }
@@ -3142,7 +3310,7 @@ fn surface__placed_surface(ray: types__Ray, own: types__Surface, space: motion__
 	return surface;
 }
 
-fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Space, is_placed: bool) -> types__Surface {
+fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Space, is_placed: bool, cone: types__Cone) -> types__Surface {
 	let own = fetch__load_triangle(hit.primitive);
 	surface__met_vertices = vec3u(own.i0, own.i1, own.i2);
 	let v0 = fetch__load_vertex(own.i0);
@@ -3170,14 +3338,21 @@ fn surface__triangle_surface(ray: types__Ray, hit: types__Hit, space: motion__Sp
 	if (bindings__HAS_TEXTURES) {
 		uv = vec2f(0.0);
 	}
+	var footprint = surface__NO_FOOTPRINT;
+	if (bindings__HAS_FOOTPRINTS) {
+		footprint.place = ray_cone__footprint_axes(ray.direction, ng, ray_cone__cone_at(cone, hit.t).width);
+	}
 	if (bindings__HAS_TEXTURES && bindings__HAS_UVS) {
 		let uvs = mat3x2f(fetch__load_uv(own.i0), fetch__load_uv(own.i1), fetch__load_uv(own.i2));
 		uv = uvs * vec3f(b0, b1, b2);
+		if (bindings__HAS_FOOTPRINTS) {
+			footprint.uv = footprint__triangle_uv_footprint(footprint.place, corners, uvs);
+		}
 		if (bindings__HAS_NORMAL_MAPS) {
-			shading_normal = normal_map__mapped_normal(v0.material, n, corners, uvs, vec3f(b0, b1, b2));
+			shading_normal = normal_map__mapped_normal(v0.material, n, corners, uvs, vec3f(b0, b1, b2), footprint);
 		}
 	}
-	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE);
+	return types__Surface(corners * vec3f(b0, b1, b2), select(shading_normal, -shading_normal, surface__must_flip(material.flags, dot(n, ng), dot(ng, ray.direction))), ng, offset__triangle_error(corners[0], corners[1], corners[2], b1, b2), hit.primitive, (dot(n, ng) < 0.0) == (dot(ng, ray.direction) > 0.0), uv, v0.material, phong, own.i0 ^ (own.i1 << 10u) ^ (own.i2 << 20u), place, types__NO_INSTANCE, footprint, footprint__triangle_curvature(corners, normals, dot(ng, n) * dot(ng, ray.direction)));
 }
 
 fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
@@ -3192,13 +3367,13 @@ fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
 		if (bindings__HAS_TEXTURES) {
 			plane_uv = vec2f(dot(shape.row_x, p) + shape.size0, dot(shape.row_z, p) + shape.size1);
 		}
-		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE);
+		return types__Surface(p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, offset__plane_error(p, shape.position), hit.primitive, outside, plane_uv, shape.material, material.phong, shape.id, p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
 	}
 	if (!shape__is_round(shape.kind)) {
 		let point = shape__canonical_point(shape, reached, hit.b1);
 		let placed = canonical__placed_point(shape, reached, point);
 		let ng = placed.ng;
-		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE);
+		return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, select(types__NONE, hit.primitive, shape__is_flat(shape.kind)), dot(ng, ray.direction) <= 0.0, point.uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
 	}
 	let placed = surface__sphere_point(shape, reached, ray.direction);
 	let ng = placed.ng;
@@ -3207,11 +3382,11 @@ fn surface__shape_surface(ray: types__Ray, hit: types__Hit) -> types__Surface {
 	if (bindings__HAS_TEXTURES) {
 		uv = canonical__sphere_uv(ng);
 	}
-	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE);
+	return types__Surface(placed.p, select(ng, -ng, surface__must_flip(material.flags, 1.0, dot(ng, ray.direction))), ng, placed.error, types__NONE, outside, uv, shape.material, material.phong, shape.id, placed.p, types__NO_INSTANCE, surface__NO_FOOTPRINT, 0.0);
 }
 
 fn surface__sphere_point(shape: types__PackedShape, reached: vec3f, direction: vec3f) -> canonical__PlacedPoint {
-	if ((bindings__SHAPE_KINDS & shape__GLOBES) != 0u && (bindings__SHAPE_KINDS == shape__GLOBES || shape.kind == types__SHAPE_GLOBE)) {
+	if (shape__is_globe(shape.kind)) {
 		return globe__globe_point(shape, reached);
 	}
 	let ng = numeric__normalize_or(reached - shape.position, -direction);
@@ -3245,7 +3420,61 @@ fn surface__mirrored_ray(surface: types__Surface, direction: vec3f, t_max: f32, 
 	return types__Ray(origin, t_max, direction, surface.leaving, surface.instance);
 }
 
-fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x2f, weights: vec3f) -> vec3f {
+const ray_cone__MOST_TAPS: f32 = 8.0;
+
+const ray_cone__WIDEST: f32 = 1000000000000000.0;
+
+struct ray_cone__Filtering {
+	level: f32,
+	tap_count: u32,
+	way: vec2f
+}
+
+fn ray_cone__cone_at(cone: types__Cone, distance: f32) -> types__Cone {
+	return types__Cone(clamp(cone.width + distance * cone.spread, -ray_cone__WIDEST, ray_cone__WIDEST), cone.spread);
+}
+
+fn ray_cone__mirrored_cone(cone: types__Cone, curvature: f32) -> types__Cone {
+	return types__Cone(cone.width, clamp(cone.spread + 2.0 * curvature * cone.width, -ray_cone__WIDEST, ray_cone__WIDEST));
+}
+
+fn ray_cone__refracted_cone(cone: types__Cone, curvature: f32, eta: f32) -> types__Cone {
+	let spread = eta * cone.spread + (eta - 1.0) * curvature * cone.width;
+	return types__Cone(cone.width, clamp(spread, -ray_cone__WIDEST, ray_cone__WIDEST));
+}
+
+fn ray_cone__footprint_axes(direction: vec3f, n: vec3f, width: f32) -> mat2x3f {
+	let cosine = dot(n, direction);
+	let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+	let other = numeric__normalize_or(cross(n, axis), vec3f(0.0, 0.0, 1.0));
+	let slope = direction - cosine * n;
+	let along = select(other, numeric__normalize_or(slope, other), dot(slope, slope) > 1e-8);
+	let size = abs(width);
+	return mat2x3f((size / max(abs(cosine), 0.001)) * along, size * cross(n, along));
+}
+
+fn ray_cone__uv_along(v: vec3f, e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f) -> vec2f {
+	let normal = cross(e1, e2);
+	let n = numeric__normalize_or(normal, vec3f(0.0));
+	let area = max(dot(normal, n), 1e-30);
+	return (dot(cross(v, e2), n) / area) * d1 + (dot(cross(e1, v), n) / area) * d2;
+}
+
+fn ray_cone__curvature_along(edge: vec3f, bend: vec3f) -> f32 {
+	return dot(edge, bend) / max(dot(edge, edge), 1e-30);
+}
+
+fn ray_cone__filtering(a: vec2f, b: vec2f) -> ray_cone__Filtering {
+	let is_first = dot(a, a) >= dot(b, b);
+	let way = select(b, a, is_first);
+	let long = length(way);
+	let short = length(select(a, b, is_first));
+	let count = clamp(round(long / max(short, 1.0)), 1.0, ray_cone__MOST_TAPS);
+	let width = max(max(short, long / count), 1e-9);
+	return ray_cone__Filtering(log2(width), u32(count), select(vec2f(0.0), way, count > 1.0));
+}
+
+fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat3x2f, weights: vec3f, footprint: types__Footprint) -> vec3f {
 	let index = fetch__load_texture_indices(material).w & 65535u;
 	if (index == types__NO_TEXTURE) {
 		return n;
@@ -3254,7 +3483,8 @@ fn normal_map__mapped_normal(material: u32, n: vec3f, corners: mat3x3f, uvs: mat
 	let q0 = normal_map__in_picture(texture, uvs[0]);
 	let q1 = normal_map__in_picture(texture, uvs[1]);
 	let q2 = normal_map__in_picture(texture, uvs[2]);
-	let code = texture__picture_color(texture, weights.x * q0 + weights.y * q1 + weights.z * q2).xyz;
+	let q = weights.x * q0 + weights.y * q1 + weights.z * q2;
+	let code = texture__picture_color(texture, q, texture__footprint_in(texture, footprint)).xyz;
 	let tilt = fetch__load_normal_scale(material) * (2.0 * code.xy - vec2f(1.0));
 	let tangent = tangent__tangent_along(corners[1] - corners[0], corners[2] - corners[0], q1 - q0, q2 - q0, n);
 	let bitangent = tangent.w * cross(n, tangent.xyz);
@@ -3266,9 +3496,10 @@ fn normal_map__in_picture(texture: types__PackedTexture, uv: vec2f) -> vec2f {
 	return vec2f(dot(texture.row_x, at), dot(texture.row_y, at));
 }
 
-fn texture__textured_phong(phong: types__Phong, material: u32, p: vec3f, uv: vec2f) -> types__Phong {
-	let indices = fetch__load_texture_indices(material);
-	let factors = texture__texture_factors(vec3u(indices.x & 65535u, indices.x >> 16u, indices.z & 65535u), p, uv);
+fn texture__textured_phong(surface: types__Surface) -> types__Phong {
+	let phong = surface.phong;
+	let indices = fetch__load_texture_indices(surface.material);
+	let factors = texture__texture_factors(vec3u(indices.x & 65535u, indices.x >> 16u, indices.z & 65535u), surface);
 	return types__Phong(factors[0] * phong.diffuse, factors[1] * phong.specular, phong.shininess, factors[2] * phong.ambient, phong.reflect);
 }
 
@@ -3277,15 +3508,15 @@ fn texture__texture_optics(surface: types__Surface) -> mat3x3f {
 		return mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 	}
 	let indices = fetch__load_texture_indices(surface.material);
-	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface.place, surface.uv);
+	return texture__texture_factors(vec3u(indices.y & 65535u, indices.y >> 16u, indices.z >> 16u), surface);
 }
 
-fn texture__texture_factors(wanted: vec3u, p: vec3f, uv: vec2f) -> mat3x3f {
+fn texture__texture_factors(wanted: vec3u, surface: types__Surface) -> mat3x3f {
 	var factors = mat3x3f(vec3f(1.0), vec3f(1.0), vec3f(1.0));
 	var open = wanted != vec3u(types__NO_TEXTURE);
 	loop {
 		let index = select(select(select(0u, wanted.z, open.z), wanted.y, open.y), wanted.x, open.x);
-		let color = texture__texture_color(fetch__load_texture(index), p, uv);
+		let color = texture__texture_color(fetch__load_texture(index), surface);
 		let found = open & (wanted == vec3u(index));
 		factors[0] = select(factors[0], color, found.x);
 		factors[1] = select(factors[1], color, found.y);
@@ -3300,11 +3531,24 @@ fn texture__texture_factors(wanted: vec3u, p: vec3f, uv: vec2f) -> mat3x3f {
 	return factors;
 }
 
-fn texture__picture_color(texture: types__PackedTexture, q: vec2f) -> vec4f {
+fn texture__picture_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
+	if (bindings__HAS_FOOTPRINTS) {
+		return mipmap__mipmap_color(texture, q, axes);
+	}
 	let nearest = (texture.flags & types__TEXTURE_NEAREST) != 0u;
 	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
 	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
 	return picture__blend_texels(texture.picture, texture.width, texture.height, picture__neighbours(q.x, texture.width, nearest, wrap_u), picture__neighbours(q.y, texture.height, nearest, wrap_v));
+}
+
+fn texture__footprint_in(texture: types__PackedTexture, footprint: types__Footprint) -> mat2x2f {
+	if (!bindings__HAS_FOOTPRINTS) {
+		return mat2x2f();
+	}
+	let is_uv = (texture.flags & types__TEXTURE_UV) != 0u;
+	let a = select(footprint.place[0], vec3f(footprint.uv[0], 0.0), is_uv);
+	let b = select(footprint.place[1], vec3f(footprint.uv[1], 0.0), is_uv);
+	return mat2x2f(vec2f(dot(texture.row_x.xyz, a), dot(texture.row_y.xyz, a)), vec2f(dot(texture.row_x.xyz, b), dot(texture.row_y.xyz, b)));
 }
 
 fn texture__place_in_pattern(texture: types__PackedTexture, p: vec3f, uv: vec2f) -> vec3f {
@@ -3312,17 +3556,19 @@ fn texture__place_in_pattern(texture: types__PackedTexture, p: vec3f, uv: vec2f)
 	return clamp(vec3f(dot(texture.row_x, at), dot(texture.row_y, at), dot(texture.row_z, at)), vec3f(-100000000.0), vec3f(100000000.0));
 }
 
-fn texture__texture_alpha(texture: types__PackedTexture, p: vec3f, uv: vec2f) -> f32 {
+fn texture__texture_alpha(texture: types__PackedTexture, surface: types__Surface, is_mask: bool) -> f32 {
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
-		return texture__picture_color(texture, texture__place_in_pattern(texture, p, uv).xy).w;
+		let axes = texture__footprint_in(texture, surface.footprint);
+		let size = select(1.0, 0.0, is_mask);
+		return texture__picture_color(texture, texture__place_in_pattern(texture, surface.place, surface.uv).xy, size * axes).w;
 	}
 	return 1.0;
 }
 
-fn texture__texture_color(texture: types__PackedTexture, p: vec3f, uv: vec2f) -> vec3f {
-	let q = texture__place_in_pattern(texture, p, uv);
+fn texture__texture_color(texture: types__PackedTexture, surface: types__Surface) -> vec3f {
+	let q = texture__place_in_pattern(texture, surface.place, surface.uv);
 	if (bindings__HAS_PICTURES && texture.kind == types__PATTERN_PICTURE) {
-		return texture__picture_color(texture, q.xy).xyz;
+		return texture__picture_color(texture, q.xy, texture__footprint_in(texture, surface.footprint)).xyz;
 	}
 	var weight = pattern__checker(q);
 	if (bindings__HAS_NOISE && texture.kind == types__PATTERN_NOISE) {
@@ -3333,6 +3579,49 @@ fn texture__texture_color(texture: types__PackedTexture, p: vec3f, uv: vec2f) ->
 	weight = select(weight, pattern__stripes(q), texture.kind == types__PATTERN_STRIPES);
 	weight = select(weight, pattern__gradient(q), texture.kind == types__PATTERN_GRADIENT);
 	return mix(texture.color_a, texture.color_b, weight);
+}
+
+fn mipmap__mipmap_color(texture: types__PackedTexture, q: vec2f, axes: mat2x2f) -> vec4f {
+	let size = vec2f(vec2u(texture.width, texture.height));
+	let plan = ray_cone__filtering(size * axes[0], size * axes[1]);
+	let has_levels = (texture.flags & types__TEXTURE_LEVELS) != 0u;
+	let last = select(0.0, f32(31u - countLeadingZeros(max(texture.width, texture.height))), has_levels);
+	let exact = clamp(plan.level, 0.0, last);
+	let level = select(round(exact), exact, (texture.flags & types__TEXTURE_BETWEEN_LEVELS) != 0u);
+	let tap_count = select(1u, plan.tap_count, has_levels);
+	let way = select(vec2f(0.0), plan.way / size, has_levels);
+	let nearest_bit = select(types__TEXTURE_NEAREST, types__TEXTURE_MINIFY_NEAREST, plan.level > 0.0);
+	let nearest = (texture.flags & nearest_bit) != 0u;
+	let wrap_u = (texture.flags >> types__TEXTURE_WRAP_U_SHIFT) & 3u;
+	let wrap_v = (texture.flags >> types__TEXTURE_WRAP_V_SHIFT) & 3u;
+	let below = u32(level);
+	let weight = fract(level);
+	let end = select(tap_count, 2u * tap_count, weight > 0.0);
+	var color = vec4f(0.0);
+	var k = 0u;
+	loop {
+		let is_above = k >= tap_count;
+		let tap = f32(k - select(0u, tap_count, is_above));
+		let at = q + ((tap + 0.5) / f32(tap_count) - 0.5) * way;
+		let own = below + select(0u, 1u, is_above);
+		let width = max(texture.width >> own, 1u);
+		let height = max(texture.height >> own, 1u);
+		let sample = picture__blend_texels(mipmap__level_of(texture.picture, own), width, height, picture__neighbours(at.x, width, nearest, wrap_u), picture__neighbours(at.y, height, nearest, wrap_v));
+		color += select(1.0 - weight, weight, is_above) * sample;
+		continuing {
+			k += 1u;
+			break if k >= end;
+		}
+	}
+	loops__cut_off |= k < end;
+	return color / f32(tap_count);
+}
+
+fn mipmap__level_of(picture: u32, level: u32) -> u32 {
+	if (level == 0u) {
+		return picture;
+	}
+	return picture + picture__load_texel_word((picture & types__PICTURE_FIRST_MASK) - level);
 }
 
 fn tangent__tangent_along(e1: vec3f, e2: vec3f, d1: vec2f, d2: vec2f, n: vec3f) -> vec4f {
@@ -3526,7 +3815,7 @@ fn coverage__coverage_at(surface: types__Surface) -> f32 {
 	if (bindings__HAS_TEXTURES) {
 		let index = fetch__load_texture_indices(surface.material).w >> 16u;
 		if (index != types__NO_TEXTURE) {
-			alpha *= texture__texture_alpha(fetch__load_texture(index), surface.place, surface.uv);
+			alpha *= texture__texture_alpha(fetch__load_texture(index), surface, (material.flags & types__MATERIAL_MASK) != 0u);
 		}
 	}
 	let masked = select(0.0, 1.0, alpha >= 0.999999);
@@ -3618,7 +3907,7 @@ fn phong__phong(coefficients: types__Phong, n: vec3f, l: vec3f, v: vec3f) -> vec
 
 const shadow__MAX_CROSSINGS: u32 = 64u;
 
-fn shadow__light_through(rays: rays__Rays, media: ray_stack__Media) -> wide__Vectors {
+fn shadow__light_through(rays: rays__Rays, media: ray_states__Media) -> wide__Vectors {
 	record__open_shadow(rays__ray_at(rays, 0u).t_max);
 	var through: wide__Vectors;
 	if (bindings__HAS_COVERAGE || (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS)) {
@@ -3651,7 +3940,7 @@ fn shadow__count_shadows(rays: rays__Rays, through: wide__Vectors) {
 	loops__cut_off |= k < wide__RAYS_PER_LANE;
 }
 
-fn shadow__filtered(shadow_rays: rays__Rays, start: ray_stack__Media) -> wide__Vectors {
+fn shadow__filtered(shadow_rays: rays__Rays, start: ray_states__Media) -> wide__Vectors {
 	var rays = shadow_rays;
 	var media = start;
 	var transmitted = wide__Vectors(wide__Floats(1.0), wide__Floats(1.0), wide__Floats(1.0));
@@ -3670,19 +3959,19 @@ fn shadow__filtered(shadow_rays: rays__Rays, start: ray_stack__Media) -> wide__V
 				var next = rays__DEAD;
 				if (hit.primitive == types__NONE) {
 					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-						passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_stack__media_at(media, k))), hit.t);
+						passed *= medium__transmittance(medium__medium_of(medium__dominant(ray_states__media_at(media, k))), hit.t);
 					}
 				}
 				else {
 					ray_stack__current_tree = k;
-					let contact = contact__contact_at(ray, hit);
+					let contact = contact__contact_at(ray, hit, types__Cone(0.0, 0.0));
 					record__record_met(record__seen, shadow_rays.t_max - ray.t_max);
 					let surface = contact.surface;
 					var through = vec3f(0.0);
 					if (bindings__HAS_REFRACTION && bindings__FILTERED_SHADOWS) {
-						let around = ray_stack__media_at(media, k);
+						let around = ray_states__media_at(media, k);
 						let beyond = contact__media_behind(around, contact);
-						media = ray_stack__media_set(media, k, beyond);
+						media = ray_states__media_set(media, k, beyond);
 						through = shadow__passing(ray, hit.t, surface, around, medium__dominant(beyond));
 					}
 					passed *= mix(vec3f(1.0), through, coverage__coverage_at(surface));

@@ -356,6 +356,7 @@ struct types__PackedDispatch {
 	max_depth: u32,
 	min_throughput: f32,
 	light_samples: f32,
+	footprint: f32,
 	counters: types__PackedCounters
 }
 

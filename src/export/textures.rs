@@ -3,7 +3,7 @@
 use super::pictures::Role;
 use super::text::{self, Table, color, key, string};
 use super::{ExportError, Writer, exact};
-use crate::scene::{Material, Pattern, Space, Texture, Transform, Wrap};
+use crate::scene::{Material, Minify, Pattern, Space, Texture, Transform, Wrap};
 use glam::{DAffine3, DVec3, Vec3};
 
 impl Writer<'_> {
@@ -36,10 +36,11 @@ impl Writer<'_> {
                 Pattern::Picture {
                     picture,
                     nearest,
+                    minify,
                     wrap,
                 } => {
                     let file = self.picture(picture, Role::Color)?;
-                    table.put("picture", sampled(file, nearest, wrap));
+                    table.put("picture", sampled(file, nearest, minify, wrap));
                 }
             }
             let is_picture = matches!(texture.pattern, Pattern::Picture { .. });
@@ -68,6 +69,7 @@ impl Writer<'_> {
             Pattern::Picture {
                 picture,
                 nearest,
+                minify,
                 wrap,
             },
         )) = texture.map(|texture| (texture, &texture.pattern))
@@ -76,7 +78,7 @@ impl Writer<'_> {
         };
         let mut table = Table::default();
         let file = self.picture(*picture, Role::Data)?;
-        table.put("picture", sampled(file, *nearest, *wrap));
+        table.put("picture", sampled(file, *nearest, *minify, *wrap));
         let strength = material.normal_scale;
         table.put_if(strength != 1.0, "strength", text::number32(strength));
         place(&mut table, texture);
@@ -96,13 +98,14 @@ impl Writer<'_> {
 }
 
 /// An image file, and how it is sampled.
-fn sampled(file: String, nearest: bool, wrap: [Wrap; 2]) -> String {
-    if !nearest && wrap == [Wrap::Repeat; 2] {
+fn sampled(file: String, nearest: bool, minify: Minify, wrap: [Wrap; 2]) -> String {
+    if !nearest && minify == Minify::default() && wrap == [Wrap::Repeat; 2] {
         return file;
     }
     let mut table = Table::default();
     table.put("file", file);
     table.put_if(nearest, "nearest", "true".to_owned());
+    table.put_if(minify != Minify::default(), "minify", string(minify.name()));
     table.put_if(wrap != [Wrap::Repeat; 2], "wrap", wrap_modes(wrap));
     table.inline()
 }

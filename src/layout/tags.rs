@@ -116,6 +116,12 @@ pub const PATTERN_PICTURE: u32 = 4;
 pub const TEXTURE_UV: u32 = 1;
 /// Bit of [`super::PackedTexture::flags`]: texels are looked up without interpolation.
 pub const TEXTURE_NEAREST: u32 = 2;
+/// Bit of [`super::PackedTexture::flags`]: the same for texels that are smaller than the footprint of a ray.
+pub const TEXTURE_MINIFY_NEAREST: u32 = 64;
+/// Bit of [`super::PackedTexture::flags`]: the picture is looked up in the levels of its mipmap.
+pub const TEXTURE_LEVELS: u32 = 128;
+/// Bit of [`super::PackedTexture::flags`]: levels are interpolated.
+pub const TEXTURE_BETWEEN_LEVELS: u32 = 256;
 /// Shift of the mode in [`super::PackedTexture::flags`] by which a picture continues along u.
 pub const TEXTURE_WRAP_U_SHIFT: u32 = 2;
 /// The same along v.

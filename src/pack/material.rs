@@ -6,8 +6,9 @@ use crate::{
         MATERIAL_BLEND, MATERIAL_COVERAGE, MATERIAL_FRESNEL, MATERIAL_MASK, MATERIAL_SCHLICK,
         MATERIAL_SUM, MATERIAL_TWO_SIDED, NO_TEXTURE, PATTERN_CHECKER, PATTERN_GRADIENT,
         PATTERN_NOISE, PATTERN_PICTURE, PATTERN_STRIPES, PackedMaterial, PackedTexture,
-        TEXTURE_NEAREST, TEXTURE_UV, TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP,
-        WRAP_MIRROR, WRAP_REPEAT,
+        TEXTURE_BETWEEN_LEVELS, TEXTURE_LEVELS, TEXTURE_MINIFY_NEAREST, TEXTURE_NEAREST,
+        TEXTURE_UV, TEXTURE_WRAP_U_SHIFT, TEXTURE_WRAP_V_SHIFT, WRAP_CLAMP, WRAP_MIRROR,
+        WRAP_REPEAT,
     },
     scene::{
         Coverage, Fresnel, Material, MaterialProperty, Mixing, Pattern, Scene, Space, Target,
@@ -142,6 +143,12 @@ pub fn features(scene: &Scene) -> Features {
         textures: !scene.textures.is_empty(),
         noise: has_pattern(|it| matches!(it, Pattern::Noise { .. })),
         pictures: has_pattern(|it| matches!(it, Pattern::Picture { .. })),
+        footprints: has_pattern(|it| match it {
+            Pattern::Picture {
+                nearest, minify, ..
+            } => minify.has_levels() || minify.is_nearest() != *nearest,
+            _ => false,
+        }),
         byte_texels: has_texels(|it| !matches!(it, Texels::Float(_))),
         half_texels: has_texels(|it| matches!(it, Texels::Float(_))),
         optics_textures: (scene.materials.iter())
@@ -209,10 +216,15 @@ fn texture(texture: &Texture, origin: DVec3, pictures: &[[u32; 3]]) -> PackedTex
         Pattern::Picture {
             picture,
             nearest,
+            minify,
             wrap: [u, v],
         } => {
             packed.kind = PATTERN_PICTURE;
-            packed.flags |= if nearest { TEXTURE_NEAREST } else { 0 };
+            let bit = |bit: u32, is_on: bool| if is_on { bit } else { 0 };
+            packed.flags |= bit(TEXTURE_NEAREST, nearest)
+                | bit(TEXTURE_MINIFY_NEAREST, minify.is_nearest())
+                | bit(TEXTURE_LEVELS, minify.has_levels())
+                | bit(TEXTURE_BETWEEN_LEVELS, minify.blends_levels());
             packed.flags |= wrap(u) << TEXTURE_WRAP_U_SHIFT | wrap(v) << TEXTURE_WRAP_V_SHIFT;
             [packed.picture, packed.width, packed.height] = pictures[picture];
         }

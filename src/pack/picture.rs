@@ -1,9 +1,9 @@
 //! Packs pictures: their texels are words of one array on the GPU.
 
-use super::PackError;
+use super::{PackError, mipmap};
 use crate::{
     layout::{PICTURE_HALF, PICTURE_SRGB},
-    scene::{Picture, Scene, Texels},
+    scene::{Pattern, Picture, Scene, Texels},
 };
 use glam::Vec4;
 use half::f16;
@@ -12,20 +12,36 @@ use std::sync::Arc;
 /// Maximum number of words: those of the largest array of layers that WebGPU guarantees.
 const MAX_WORDS: usize = 1 << 30;
 
-/// A picture and the words of its texels: one for each texel of 8 bits per channel, two for half floats.
-pub type PackedPicture = (Arc<Picture>, Arc<[u32]>);
+/// A picture and its words.
+#[derive(Clone, Debug)]
+pub struct PackedPicture {
+    pub picture: Arc<Picture>,
+    /// Where each level of its mipmap starts, then its texels level by level: one word for each of 8 bits per channel,
+    /// two for half floats.
+    pub words: Arc<[u32]>,
+    /// 1 without a mipmap.
+    level_count: u32,
+}
 
 /// All pictures of a scene, and for each the first word with its `PICTURE_` bits, width and height. Pictures that
-/// were packed `before` are reused.
+/// were packed `before` are reused. Those of textures that are minified have a mipmap.
 pub fn pictures(
     scene: &Scene,
     before: &[PackedPicture],
 ) -> Result<(Vec<PackedPicture>, Vec<[u32; 3]>), PackError> {
-    let word_count = |picture: &Arc<Picture>| match &picture.texels {
-        Texels::Srgb8(texels) | Texels::Linear8(texels) => texels.len(),
-        Texels::Float(texels) => 2 * texels.len(),
-    };
-    let count = scene.pictures.iter().map(word_count).sum();
+    let mut level_counts = vec![1; scene.pictures.len()];
+    for texture in &scene.textures {
+        if let Pattern::Picture {
+            picture, minify, ..
+        } = texture.pattern
+            && minify.has_levels()
+        {
+            level_counts[picture] = mipmap::level_count(&scene.pictures[picture]);
+        }
+    }
+    let count = (scene.pictures.iter().zip(&level_counts))
+        .map(|(picture, level_count)| word_count(picture, *level_count))
+        .sum();
     if count > MAX_WORDS {
         return Err(PackError::TooMany {
             what: "words of texels",
@@ -33,35 +49,76 @@ pub fn pictures(
             limit: MAX_WORDS,
         });
     }
-    let mut first = 0;
+    let mut next = 0;
     let mut pictures = Vec::with_capacity(scene.pictures.len());
     let mut places = Vec::with_capacity(scene.pictures.len());
-    for picture in &scene.pictures {
-        let known = before.iter().find(|(known, _)| Arc::ptr_eq(known, picture));
-        let texels = known.map_or_else(|| words(&picture.texels), |(_, texels)| texels.clone());
+    for (picture, level_count) in scene.pictures.iter().zip(level_counts) {
+        let is_same = |known: &&PackedPicture| {
+            Arc::ptr_eq(&known.picture, picture) && known.level_count == level_count
+        };
+        let known = before.iter().find(is_same).cloned();
+        let packed = known.unwrap_or_else(|| PackedPicture {
+            picture: picture.clone(),
+            words: words(picture, level_count),
+            level_count,
+        });
         let format = match &picture.texels {
             Texels::Srgb8(_) => PICTURE_SRGB,
             Texels::Linear8(_) => 0,
             Texels::Float(_) => PICTURE_HALF,
         };
+        let first = next + (level_count - 1);
         places.push([first | format, picture.width, picture.height]);
-        first += texels.len() as u32;
-        pictures.push((picture.clone(), texels));
+        next += packed.words.len() as u32;
+        pictures.push(packed);
     }
     Ok((pictures, places))
 }
 
-fn words(texels: &Texels) -> Arc<[u32]> {
+/// The number of words of a picture.
+fn word_count(picture: &Picture, level_count: u32) -> usize {
+    let texel_count = match level_count {
+        1 => picture.texels.len(),
+        _ => mipmap::texel_count(picture),
+    };
+    let each = match picture.texels {
+        Texels::Srgb8(_) | Texels::Linear8(_) => 1,
+        Texels::Float(_) => 2,
+    };
+    each * texel_count + level_count as usize - 1
+}
+
+/// The words of a picture: see [`PackedPicture::words`].
+fn words(picture: &Picture, level_count: u32) -> Arc<[u32]> {
+    if level_count == 1 {
+        return texel_words(&picture.texels).collect();
+    }
+    let levels = mipmap::levels(picture);
+    let mut starts = Vec::with_capacity(levels.len());
+    let mut words = vec![0; levels.len()];
+    words.reserve_exact(word_count(picture, level_count) - words.len());
+    words.extend(texel_words(&picture.texels));
+    for level in &levels {
+        starts.push((words.len() - levels.len()) as u32);
+        words.extend(texel_words(level));
+    }
+    for (word, start) in words.iter_mut().zip(starts.into_iter().rev()) {
+        *word = start;
+    }
+    words.into()
+}
+
+/// The words of texels.
+fn texel_words(texels: &Texels) -> impl Iterator<Item = u32> {
     let half = |value: f32| u32::from(f16::from_f32(value.min(f16::MAX.to_f32())).to_bits());
-    let halves = |texel: &Vec4| {
+    let halves = move |texel: &Vec4| {
         let [r, g, b, a] = texel.to_array().map(half);
         [r | g << 16, b | a << 16]
     };
-    match texels {
-        Texels::Srgb8(texels) | Texels::Linear8(texels) => texels
-            .iter()
-            .map(|texel| u32::from_le_bytes(*texel))
-            .collect(),
-        Texels::Float(texels) => texels.iter().flat_map(halves).collect(),
-    }
+    let (bytes, floats) = match texels {
+        Texels::Srgb8(texels) | Texels::Linear8(texels) => (&texels[..], &[][..]),
+        Texels::Float(texels) => (&[][..], &texels[..]),
+    };
+    let bytes = bytes.iter().map(|texel| u32::from_le_bytes(*texel));
+    bytes.chain(floats.iter().flat_map(halves))
 }

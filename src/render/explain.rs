@@ -258,6 +258,7 @@ impl Renderer {
             max_depth: settings.max_depth,
             min_throughput: settings.min_throughput,
             light_samples: settings.light_samples,
+            footprint: settings.footprint(),
             ..Default::default()
         }
     }

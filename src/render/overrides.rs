@@ -80,6 +80,7 @@ pub fn of(task: Task) -> Overrides {
         ),
         ("HAS_NOISE", flag(features.noise)),
         ("HAS_PICTURES", flag(features.pictures)),
+        ("HAS_FOOTPRINTS", flag(features.footprints)),
         ("HAS_COVERAGE", flag(features.coverage)),
         ("HAS_NORMAL_MAPS", flag(features.normal_maps)),
         ("HAS_BYTE_TEXELS", flag(features.byte_texels)),

@@ -98,6 +98,15 @@ impl RenderSettings {
         self.antialias == Antialias::Adaptive && self.integrator.entry().is_lit
     }
 
+    /// The width of the part of a pixel that each sample stands for, in pixels: N samples have an N-th of its area each,
+    /// unless all go through its centre.
+    pub fn footprint(&self) -> f32 {
+        match self.antialias {
+            Antialias::None => 1.0,
+            Antialias::Stratified | Antialias::Adaptive => (self.samples as f32).sqrt().recip(),
+        }
+    }
+
     /// The rectangle to render: x, y, width, height.
     pub fn region(&self) -> [u32; 4] {
         let [x0, y0, x1, y1] = self.crop.unwrap_or([0, 0, self.size.0, self.size.1]);

@@ -92,6 +92,7 @@ impl Slice {
             max_depth: settings.max_depth,
             min_throughput: settings.min_throughput,
             light_samples: settings.light_samples,
+            footprint: settings.footprint(),
             ..Default::default()
         }
     }

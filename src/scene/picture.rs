@@ -37,7 +37,8 @@ impl Picture {
 
     /// All texels as linear values, row by row from the top left.
     pub fn linear(&self) -> impl Iterator<Item = Vec4> {
-        (0..self.texels.len()).map(|index| self.texels.linear(index))
+        let curve = SrgbCurve::default();
+        (0..self.texels.len()).map(move |index| self.texels.linear(&curve, index))
     }
 }
 
@@ -64,16 +65,44 @@ impl Texels {
     }
 
     /// The linear values of the texel at `index`, which must exist.
-    fn linear(&self, index: usize) -> Vec4 {
-        let value = |code: u8| f64::from(code) / 255.0;
+    pub fn linear(&self, curve: &SrgbCurve, index: usize) -> Vec4 {
+        let value = |code: u8| (f64::from(code) / 255.0) as f32;
         match self {
             Self::Srgb8(texels) => {
                 let [r, g, b, a] = texels[index];
-                let color = [r, g, b].map(|code| linear_from_srgb(value(code)) as f32);
-                Vec3::from(color).extend(value(a) as f32)
+                let color = [r, g, b].map(|code| curve.values[usize::from(code)]);
+                Vec3::from(color).extend(value(a))
             }
-            Self::Linear8(texels) => Vec4::from(texels[index].map(|code| value(code) as f32)),
+            Self::Linear8(texels) => Vec4::from(texels[index].map(value)),
             Self::Float(texels) => texels[index],
+        }
+    }
+}
+
+/// The transfer function of sRGB (IEC 61966-2-1) between 8-bit codes and linear values.
+#[derive(Clone, Debug)]
+pub struct SrgbCurve {
+    /// The linear value of each code.
+    values: [f32; 256],
+}
+
+impl Default for SrgbCurve {
+    fn default() -> Self {
+        let value = |code: usize| linear_from_srgb(code as f64 / 255.0) as f32;
+        Self {
+            values: std::array::from_fn(value),
+        }
+    }
+}
+
+impl SrgbCurve {
+    /// The code whose linear value is nearest to `value`.
+    pub fn code(&self, value: f32) -> u8 {
+        let above = (self.values.partition_point(|known| *known < value)).min(255);
+        let below = above.saturating_sub(1);
+        match value - self.values[below] < self.values[above] - value {
+            true => below as u8,
+            false => above as u8,
         }
     }
 }

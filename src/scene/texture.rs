@@ -62,11 +62,75 @@ pub enum Pattern {
     Picture {
         /// Index into [`super::Scene::pictures`].
         picture: usize,
-        /// Whether texels are looked up without interpolation.
+        /// Whether texels that look larger than a pixel are not interpolated.
         nearest: bool,
+        /// How texels that look smaller than a pixel are filtered.
+        minify: Minify,
         /// How the image continues beyond [0, 1] along u and v.
         wrap: [Wrap; 2],
     },
+}
+
+/// How the texels of an image are filtered where they look smaller than a pixel: in the image itself or in its mipmap
+/// (Williams, Pyramidal Parametrics, 1983), whose levels each have half the width and height of the one before. The
+/// modes are those of samplers in OpenGL and glTF.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Minify {
+    /// The nearest texel of the image.
+    Nearest,
+    /// Interpolated between texels of the image.
+    Linear,
+    /// The nearest texel of the level whose texels are nearest to a pixel in size.
+    NearestMipmapNearest,
+    /// Interpolated between texels of that level.
+    LinearMipmapNearest,
+    /// Interpolated between two levels, with the nearest texel of each.
+    NearestMipmapLinear,
+    /// Interpolated between texels and between levels.
+    #[default]
+    LinearMipmapLinear,
+}
+
+impl Minify {
+    /// All modes.
+    pub const ALL: [Self; 6] = [
+        Self::Nearest,
+        Self::Linear,
+        Self::NearestMipmapNearest,
+        Self::LinearMipmapNearest,
+        Self::NearestMipmapLinear,
+        Self::LinearMipmapLinear,
+    ];
+
+    /// Its name in native scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Nearest => "nearest",
+            Self::Linear => "linear",
+            Self::NearestMipmapNearest => "nearest-mipmap-nearest",
+            Self::LinearMipmapNearest => "linear-mipmap-nearest",
+            Self::NearestMipmapLinear => "nearest-mipmap-linear",
+            Self::LinearMipmapLinear => "linear-mipmap-linear",
+        }
+    }
+
+    /// Whether texels of one level are not interpolated.
+    pub fn is_nearest(self) -> bool {
+        matches!(
+            self,
+            Self::Nearest | Self::NearestMipmapNearest | Self::NearestMipmapLinear
+        )
+    }
+
+    /// Whether it uses the levels of a mipmap.
+    pub fn has_levels(self) -> bool {
+        !matches!(self, Self::Nearest | Self::Linear)
+    }
+
+    /// Whether it interpolates between levels.
+    pub fn blends_levels(self) -> bool {
+        matches!(self, Self::NearestMipmapLinear | Self::LinearMipmapLinear)
+    }
 }
 
 /// How an image continues beyond [0, 1] along one axis.

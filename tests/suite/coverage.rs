@@ -6,8 +6,8 @@ use crate::support::verdict::Verdict;
 use glam::{DAffine3, DVec3, Vec2, Vec3, dvec3, vec3};
 use glimray::render::{Fetch, RenderSettings};
 use glimray::scene::{
-    Background, Coverage, Light, LightKind, Material, Pattern, Picture, Scene, Space, Texels,
-    Texture, Textures, Wrap,
+    Background, Coverage, Light, LightKind, Material, Minify, Pattern, Picture, Scene, Space,
+    Texels, Texture, Textures, Wrap,
 };
 use std::sync::Arc;
 
@@ -102,6 +102,7 @@ fn half(texels: [u8; 2]) -> (Arc<Picture>, Texture) {
         pattern: Pattern::Picture {
             picture: 0,
             nearest: true,
+            minify: Minify::default(),
             wrap: [Wrap::Clamp; 2],
         },
         space: Space::Uv,

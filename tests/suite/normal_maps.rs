@@ -7,7 +7,8 @@ use crate::support::random::Random;
 use crate::support::verdict::Verdict;
 use glam::{DAffine3, DMat2, DQuat, DVec2, DVec3, Vec2, Vec3, dvec3, vec3};
 use glimray::scene::{
-    Light, LightKind, Material, Pattern, Picture, Scene, Space, Texels, Texture, Textures, Wrap,
+    Light, LightKind, Material, Minify, Pattern, Picture, Scene, Space, Texels, Texture, Textures,
+    Wrap,
 };
 use glimray::{export, import};
 use std::sync::Arc;
@@ -30,6 +31,7 @@ fn quad(uv_from_xy: DMat2, placement: DAffine3, material: Material) -> Scene {
         pattern: Pattern::Picture {
             picture: 0,
             nearest: false,
+            minify: Minify::default(),
             wrap: [Wrap::Repeat; 2],
         },
         space: Space::Uv,

@@ -19,8 +19,14 @@ pub fn texture_json(texture: &Texture) -> Value {
         Pattern::Picture {
             picture,
             nearest,
+            minify,
             wrap,
-        } => json!({ "picture": picture, "nearest": nearest, "wrap": wrap.map(Wrap::name) }),
+        } => json!({
+            "picture": picture,
+            "nearest": nearest,
+            "minify": minify.name(),
+            "wrap": wrap.map(Wrap::name),
+        }),
     };
     value["pattern"] = json!(pattern(texture));
     value["space"] = json!(space(texture));

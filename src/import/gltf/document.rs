@@ -286,6 +286,7 @@ pub struct Image {
 #[serde(default, rename_all = "camelCase")]
 pub struct Sampler {
     pub mag_filter: Option<u32>,
+    pub min_filter: Option<u32>,
     pub wrap_s: Option<u32>,
     pub wrap_t: Option<u32>,
 }

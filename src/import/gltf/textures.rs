@@ -5,11 +5,15 @@ use super::bake::{self, Baked, Shade, Sheets};
 use super::document::{Material as Source, TextureInfo};
 use crate::import::error::ImportError;
 use crate::scene::{
-    Coverage, Material, MetallicRoughness, Pattern, Picture, Space, Texels, Texture, Wrap,
+    Coverage, Material, MetallicRoughness, Minify, Pattern, Picture, Space, Texels, Texture, Wrap,
 };
 use glam::{DAffine2, DAffine3, DMat2, DMat3, DVec2, DVec3, Vec3};
 
 const NEAREST: u32 = 9728;
+const LINEAR: u32 = 9729;
+const NEAREST_MIPMAP_NEAREST: u32 = 9984;
+const LINEAR_MIPMAP_NEAREST: u32 = 9985;
+const NEAREST_MIPMAP_LINEAR: u32 = 9986;
 const CLAMP: u32 = 33071;
 const MIRROR: u32 = 33648;
 
@@ -23,8 +27,9 @@ pub(super) struct FoundMap {
     pub uv_set: u32,
     /// Both with v downwards.
     pub picture_from_uv: DAffine3,
-    /// Whether texels are not interpolated.
+    /// Whether texels that look large are not interpolated.
     nearest: bool,
+    minify: Minify,
     /// Along u and v.
     wrap: [Wrap; 2],
 }
@@ -100,6 +105,7 @@ impl Reader<'_> {
             uv_set: info.tex_coord,
             picture_from_uv: transform(info),
             nearest: false,
+            minify: Minify::default(),
             wrap: [Wrap::Repeat; 2],
         };
         let moved = info.extensions.transform.as_ref();
@@ -111,6 +117,14 @@ impl Reader<'_> {
                 .blame
                 .get(&document.samplers, index, "samplers", &here)?;
             found.nearest = sampler.mag_filter == Some(NEAREST);
+            found.minify = match sampler.min_filter {
+                Some(NEAREST) => Minify::Nearest,
+                Some(LINEAR) => Minify::Linear,
+                Some(NEAREST_MIPMAP_NEAREST) => Minify::NearestMipmapNearest,
+                Some(LINEAR_MIPMAP_NEAREST) => Minify::LinearMipmapNearest,
+                Some(NEAREST_MIPMAP_LINEAR) => Minify::NearestMipmapLinear,
+                _ => Minify::LinearMipmapLinear,
+            };
             found.wrap = [sampler.wrap_s, sampler.wrap_t].map(|wrap| match wrap {
                 Some(CLAMP) => Wrap::Clamp,
                 Some(MIRROR) => Wrap::Mirror,
@@ -383,6 +397,7 @@ impl Reader<'_> {
             pattern: Pattern::Picture {
                 picture,
                 nearest: map.nearest,
+                minify: map.minify,
                 wrap: map.wrap,
             },
             space: Space::Uv,

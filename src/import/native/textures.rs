@@ -9,7 +9,7 @@ use crate::import::error::ImportError;
 use crate::import::paths::Files;
 use crate::import::picture::{Pictures, Role};
 use crate::import::suggest;
-use crate::scene::{Background, Pattern, Space, Texture, Transform, Wrap};
+use crate::scene::{Background, Minify, Pattern, Space, Texture, Transform, Wrap};
 use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -164,16 +164,30 @@ impl<'a> Textures<'a> {
                 octaves: noise.octaves.0,
             })
         } else if let Some(picture) = tables.picture {
-            let (name, span, nearest, wrap) = match picture.get_ref() {
-                PictureOrFile::File(name) => (name, picture.span(), false, [Wrap::Repeat; 2]),
+            let (name, span, nearest, minify, wrap) = match picture.get_ref() {
+                PictureOrFile::File(name) => (
+                    name,
+                    picture.span(),
+                    false,
+                    Minify::default(),
+                    [Wrap::Repeat; 2],
+                ),
                 PictureOrFile::Table(table) => {
                     let wrap = table.wrap.unwrap_or_default().modes();
-                    (table.file.get_ref(), table.file.span(), table.nearest, wrap)
+                    let minify = table.minify.unwrap_or_default().mode();
+                    (
+                        table.file.get_ref(),
+                        table.file.span(),
+                        table.nearest,
+                        minify,
+                        wrap,
+                    )
                 }
             };
             Some(Pattern::Picture {
                 picture: self.picture(name, span, tables.role)?,
                 nearest,
+                minify,
                 wrap,
             })
         } else {

@@ -10,7 +10,7 @@ use crate::import::paths::Refusal;
 use crate::import::picture::Role;
 use crate::import::source::{Source, Token, quote};
 use crate::import::tint::{self, Rgb};
-use crate::scene::{Coverage, Material, Pattern, Space, Texture, Wrap};
+use crate::scene::{Coverage, Material, Minify, Pattern, Space, Texture, Wrap};
 use glam::Vec3;
 use std::path::Path;
 
@@ -192,6 +192,7 @@ impl<'s> Reader<'s> {
             pattern: Pattern::Picture {
                 picture,
                 nearest: false,
+                minify: Minify::default(),
                 wrap: [Wrap::Repeat; 2],
             },
             space: Space::Uv,

@@ -167,6 +167,7 @@ fn texture(random: &mut Random, pictures: usize) -> Texture {
         _ => Pattern::Picture {
             picture: random.below(pictures),
             nearest: random.below(2) == 0,
+            minify: pick(random, &Minify::ALL),
             wrap: [wrap(random), wrap(random)],
         },
     };

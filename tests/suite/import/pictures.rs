@@ -3,7 +3,7 @@
 use super::{folder, message_in};
 use glam::{Vec3, Vec4Swizzles};
 use glimray::import::{self, Options};
-use glimray::scene::{Background, Pattern, Picture, Scene, Space, Texels, Wrap};
+use glimray::scene::{Background, Minify, Pattern, Picture, Scene, Space, Texels, Wrap};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, LumaA, Rgb, Rgba};
 use insta::assert_snapshot;
 use std::io::Cursor;
@@ -151,12 +151,14 @@ fn an_image_used_twice_is_read_once() {
         let Pattern::Picture {
             picture,
             nearest,
+            minify,
             wrap,
         } = scene.textures[i].pattern
         else {
             panic!("not a picture");
         };
         assert_eq!(wrap, [Wrap::Repeat; 2]);
+        assert_eq!(minify, Minify::LinearMipmapLinear);
         assert_eq!((picture, nearest), (0, is_nearest));
         scene.textures[i].space
     };

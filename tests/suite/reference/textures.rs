@@ -46,6 +46,7 @@ pub fn color_at(scene: &Scene, texture: &Texture, p: DVec3, uv: DVec2) -> DVec3 
             picture,
             nearest,
             wrap,
+            ..
         } => picture_at(&scene.pictures[picture], q.truncate(), nearest, wrap),
     }
 }

@@ -87,6 +87,13 @@ pub struct Space {
     pub inverse: [[f32; 3]; 3],
 }
 
+/// See `lib/ray_cone.wesl`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    pub width: f32,
+    pub spread: f32,
+}
+
 /// A point on a canonical surface: see `shaders/lib/canonical.wesl`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CanonicalPoint {
@@ -96,6 +103,7 @@ pub struct CanonicalPoint {
 }
 
 shader_struct!(CanonicalPoint = "package::lib::canonical::CanonicalPoint" { p: [f32; 3], n: [f32; 3], uv: [f32; 2], });
+shader_struct!(Cone = "package::types::Cone" { width: f32, spread: f32, });
 shader_struct!(Moment = "package::lib::motion::Moment" { key: u32, fraction: f32, });
 shader_struct!(Space = "package::lib::motion::Space" {
     translation: [f32; 3],

@@ -4,7 +4,7 @@ use crate::import::native::values::{
     Angle, Color, Matrix, NonNegative, Number, Octaves, Scale, Vector,
 };
 use crate::import::picture::Role;
-use crate::scene::Wrap;
+use crate::scene::{Minify, Wrap};
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -203,11 +203,47 @@ pub(in crate::import::native) struct PictureTable {
     /// The path of a PNG, JPEG, HDR or EXR file in the scene's folder or below.
     #[schemars(with = "String")]
     pub file: Spanned<String>,
-    /// Whether texels are looked up without interpolation; default false.
+    /// Whether texels that look larger than a pixel are not interpolated, as in pixel art; default false.
     #[serde(default)]
     pub nearest: bool,
+    /// How texels that look smaller than a pixel are filtered; default `"linear-mipmap-linear"`.
+    pub minify: Option<MinifyName>,
     /// How the picture continues beyond its edges: for both axes, or for u and v; default `"repeat"`.
     pub wrap: Option<WrapModes>,
+}
+
+/// How texels that look smaller than a pixel are filtered: in the picture, or in its mipmap, whose levels each have
+/// half the width and height of the one before. The modes are those of OpenGL and glTF.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(in crate::import::native) enum MinifyName {
+    /// The nearest texel of the picture.
+    Nearest,
+    /// Interpolated between texels of the picture.
+    Linear,
+    /// The nearest texel of the level whose texels are nearest to a pixel in size.
+    NearestMipmapNearest,
+    /// Interpolated between texels of that level.
+    LinearMipmapNearest,
+    /// Interpolated between two levels, with the nearest texel of each.
+    NearestMipmapLinear,
+    /// Interpolated between texels and between levels.
+    #[default]
+    LinearMipmapLinear,
+}
+
+impl MinifyName {
+    /// The mode of this name.
+    pub fn mode(self) -> Minify {
+        match self {
+            Self::Nearest => Minify::Nearest,
+            Self::Linear => Minify::Linear,
+            Self::NearestMipmapNearest => Minify::NearestMipmapNearest,
+            Self::LinearMipmapNearest => Minify::LinearMipmapNearest,
+            Self::NearestMipmapLinear => Minify::NearestMipmapLinear,
+            Self::LinearMipmapLinear => Minify::LinearMipmapLinear,
+        }
+    }
 }
 
 /// How a picture continues beyond its edges along one axis.

@@ -5,7 +5,7 @@ use super::{folder, message_in};
 use glam::{DVec3, Vec3};
 use glimray::import::{self, Options};
 use glimray::scene::{
-    Coverage, Fresnel, Material, MetallicRoughness, Pattern, Scene, Space, Texture, Wrap,
+    Coverage, Fresnel, Material, MetallicRoughness, Minify, Pattern, Scene, Space, Texture, Wrap,
 };
 use serde_json::{Value, json};
 
@@ -292,21 +292,43 @@ fn texture_transforms_scale_then_turn_then_move() {
 fn samplers_say_how_pictures_continue() {
     use Wrap::{Clamp, Mirror, Repeat};
     for (sampler, expected) in [
-        (json!({}), (false, [Repeat; 2])),
+        (json!({}), (false, Minify::LinearMipmapLinear, [Repeat; 2])),
         (
-            json!({ "wrapS": 33648, "magFilter": 9728 }),
-            (true, [Mirror, Repeat]),
+            json!({ "wrapS": 33648, "magFilter": 9728, "minFilter": 9728 }),
+            (true, Minify::Nearest, [Mirror, Repeat]),
         ),
         (
-            json!({ "wrapS": 10497, "wrapT": 33071, "magFilter": 9729 }),
-            (false, [Repeat, Clamp]),
+            json!({ "wrapS": 10497, "wrapT": 33071, "magFilter": 9729, "minFilter": 9729 }),
+            (false, Minify::Linear, [Repeat, Clamp]),
+        ),
+        (
+            json!({ "minFilter": 9984 }),
+            (false, Minify::NearestMipmapNearest, [Repeat; 2]),
+        ),
+        (
+            json!({ "minFilter": 9985 }),
+            (false, Minify::LinearMipmapNearest, [Repeat; 2]),
+        ),
+        (
+            json!({ "minFilter": 9986 }),
+            (false, Minify::NearestMipmapLinear, [Repeat; 2]),
+        ),
+        (
+            json!({ "minFilter": 9987 }),
+            (false, Minify::LinearMipmapLinear, [Repeat; 2]),
         ),
     ] {
         let (texture, _) = placed(json!({}), sampler);
-        let Pattern::Picture { nearest, wrap, .. } = texture.pattern else {
+        let Pattern::Picture {
+            nearest,
+            minify,
+            wrap,
+            ..
+        } = texture.pattern
+        else {
             panic!("not a picture");
         };
-        assert_eq!((nearest, wrap), expected);
+        assert_eq!((nearest, minify, wrap), expected);
     }
 }
 
