@@ -1,5 +1,5 @@
 //! Writes a glTF model, a flower that sways and opens under a glass dome:
-//! `cargo run --example make_flower -- assets/models/flower.glb`
+//! `cargo run --example make_flower -- assets/scenes/flower.glb`
 //!
 //! It has what models of today have: a skin on a chain of joints, a morph target, a clip, pictures with
 //! roles (colour, normals, roughness, holes), metal, and glass with a volume.
@@ -74,7 +74,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ],
         96,
     );
-    let rim = Surface::torus(0.158, 0.006, 96, 16).moved(vec3(0.0, 0.033, 0.0));
+    let rim = Surface::torus(0.158, 0.006, 96, 12).moved(vec3(0.0, 0.033, 0.0));
     let pot = Surface::lathe(
         &[
             [0.0, 0.03],
@@ -147,19 +147,20 @@ fn dome() -> Surface {
     const RADIUS: f32 = 0.15;
     const WALL: f32 = 0.003;
     const STRAIGHT: f32 = 0.4;
+    const STEPS: u32 = 20;
     let mut profile = Vec::new();
     let mut arc = |radius: f32, angles: &mut dyn Iterator<Item = u32>| {
         for i in angles {
-            let (sin, cos) = (i as f32 / 24.0 * PI / 2.0).sin_cos();
+            let (sin, cos) = (i as f32 / STEPS as f32 * PI / 2.0).sin_cos();
             profile.push([radius * cos, STRAIGHT + radius * sin]);
         }
     };
-    arc(RADIUS, &mut (0..=24));
-    arc(RADIUS - WALL, &mut (0..=24).rev());
+    arc(RADIUS, &mut (0..=STEPS));
+    arc(RADIUS - WALL, &mut (0..=STEPS).rev());
     profile.insert(0, [RADIUS, 0.0301]);
     profile.push([RADIUS - WALL, 0.0301]);
     profile.push([RADIUS, 0.0301]);
-    Surface::lathe(&profile, 128)
+    Surface::lathe(&profile, 96)
 }
 
 /// The height of a point above the soil, in bones.
@@ -169,8 +170,8 @@ fn bones(point: Vec3) -> f32 {
 
 fn stem() -> Surface {
     let length = BONE * (JOINTS - 1) as f32;
-    Surface::grid([20, 60], |u, v| {
-        let radius = 0.0045 - 0.0015 * v;
+    Surface::grid([16, 40], |u, v| {
+        let radius = 0.006 - 0.002 * v;
         let (sin, cos) = (u * TAU).sin_cos();
         vec3(radius * cos, SOIL + length * v, -radius * sin)
     })
@@ -199,7 +200,7 @@ const LEAVES: [(f32, f32); 5] = [
 fn leaves() -> Surface {
     let mut all = Surface::default();
     for (height, turn) in LEAVES {
-        let size = 0.1 - 0.25 * height;
+        let size = 0.135 - 0.28 * height;
         let turned = Quat::from_rotation_y(turn * TAU);
         all.add(&Surface::grid([12, 24], |u, v| {
             let across = (u - 0.5) * 0.5 * size;
@@ -249,8 +250,8 @@ fn flower(glb: &mut Glb, petals: Option<usize>, pollen: Option<usize>) -> [Value
         all
     };
     let shape = |opening: f32| {
-        let mut all = ring(8, 0.05, 1.25 * opening + 0.12, 0.0);
-        all.add(&ring(8, 0.042, 0.95 * opening + 0.08, 0.5));
+        let mut all = ring(8, 0.07, 1.25 * opening + 0.12, 0.0);
+        all.add(&ring(8, 0.058, 0.95 * opening + 0.08, 0.5));
         all
     };
     let (closed, open) = (shape(0.0), shape(1.0));
@@ -270,7 +271,7 @@ fn flower(glb: &mut Glb, petals: Option<usize>, pollen: Option<usize>) -> [Value
     let head = Surface::grid([24, 12], |u, v| {
         let (sin, cos) = (u * TAU).sin_cos();
         let (low, high) = (PI * (1.0 - v)).sin_cos();
-        0.009 * vec3(low * cos, 0.7 * high + 0.6, -low * sin)
+        0.012 * vec3(low * cos, 0.7 * high + 0.6, -low * sin)
     });
     let target = glb.morph(&head, &head);
     let head = glb.primitive(&head, pollen, json!({ "targets": [target] }));

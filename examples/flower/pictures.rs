@@ -25,17 +25,16 @@ fn waves(u: f32, v: f32) -> f32 {
 /// Wood around the axis of a turned disc: grain along v, which runs across the disc.
 pub fn wood() -> RgbaImage {
     picture(256, |u, v| {
-        let grain = (TAU * (14.0 * v + 0.25 * waves(u, v))).sin() * 0.5 + 0.5;
-        let fibre = waves(9.0 * u, 2.0 * v) * 0.06;
-        let mix = |dark: f32, light: f32| dark + (light - dark) * grain.powf(0.6) + fibre;
-        [mix(0.3, 0.56), mix(0.17, 0.34), mix(0.09, 0.18), 1.0]
+        let grain = (TAU * (22.0 * v + 0.3 * waves(u, v))).sin() * 0.5 + 0.5;
+        let mix = |dark: f32, light: f32| dark + (light - dark) * grain.powf(0.6);
+        [mix(0.33, 0.46), mix(0.19, 0.28), mix(0.1, 0.15), 1.0]
     })
 }
 
 /// A normal map of shallow dents.
 pub fn dents() -> RgbaImage {
     let height = |u: f32, v: f32| 0.012 * waves(3.0 * u, v) + 0.004 * waves(11.0 * u, 5.0 * v);
-    picture(256, |u, v| {
+    picture(128, |u, v| {
         const STEP: f32 = 1.0 / 512.0;
         let slope = |ahead: f32, behind: f32| (ahead - behind) / (2.0 * STEP);
         let x = -slope(height(u + STEP, v), height(u - STEP, v));

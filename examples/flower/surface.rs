@@ -118,7 +118,7 @@ impl Surface {
                     [at(0, 0), at(1, 1), at(1, 0)],
                 ] {
                     let [a, b, c] = corners.map(|corner| self.positions[usize::from(corner)]);
-                    if (b - a).cross(c - a).length() > 1e-12 {
+                    if (b - a).cross(c - a).length() > 2e-8 {
                         self.triangles.push(corners);
                     }
                 }

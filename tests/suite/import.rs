@@ -4,7 +4,7 @@ mod assets;
 mod course;
 mod defaults;
 mod files;
-mod gltf;
+pub mod gltf;
 mod hostile;
 mod memory;
 mod mtl;

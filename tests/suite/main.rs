@@ -35,6 +35,7 @@ mod levels;
 mod manual;
 mod messages;
 mod mipmaps;
+mod models;
 mod motion_blur;
 mod moving;
 mod moving_pictures;

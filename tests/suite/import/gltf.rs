@@ -3,7 +3,7 @@
 mod geometry;
 mod hostile;
 mod materials;
-mod model;
+pub mod model;
 mod motion;
 mod nodes;
 

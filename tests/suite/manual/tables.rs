@@ -3,6 +3,7 @@
 use super::commands::help_text;
 use super::pages::Page;
 use crate::support::verdict::Verdict;
+use glimray::import::SCENE_ENDINGS;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -36,9 +37,9 @@ fn every_scene_is_in_the_table_of_scenes() {
     for entry in std::fs::read_dir("assets/scenes").expect("a folder") {
         let name = entry.expect("an entry").file_name();
         let name = name.to_string_lossy();
-        if [".toml", ".scene", ".nff", ".obj"]
+        if SCENE_ENDINGS
             .iter()
-            .any(|ending| name.ends_with(ending))
+            .any(|ending| name.ends_with(&format!(".{ending}")))
         {
             let row = format!("| `{name}` |");
             verdict.that(&name, page.text.contains(&row), || "is missing");

@@ -452,12 +452,18 @@ fn without_a_dialog_a_path_can_be_typed() {
     });
 }
 
+const FACET: &str = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n\
+    endloop\nendfacet\nendsolid s\n";
+
 #[test]
 fn the_next_scene_of_the_folder_comes_after_this_one_and_round_the_end() {
     let files = [
         ("a.toml", &*scene("1")),
         ("b.toml", "nonsense"),
         ("c.toml", &*scene("3")),
+        ("d.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+        ("e.txt", "not a scene"),
+        ("f.STL", FACET),
     ];
     let place = Folder::new(&files);
     let mut window = place.open("a.toml");
@@ -469,8 +475,10 @@ fn the_next_scene_of_the_folder_comes_after_this_one_and_round_the_end() {
         wait(window, expected, |window| title(window) == expected);
     };
     next(&mut window, egui::Key::PageDown, "c.toml");
+    next(&mut window, egui::Key::PageDown, "d.obj");
+    next(&mut window, egui::Key::PageDown, "f.STL");
     next(&mut window, egui::Key::PageDown, "a.toml");
-    next(&mut window, egui::Key::PageUp, "c.toml");
+    next(&mut window, egui::Key::PageUp, "f.STL");
 }
 
 #[test]
