@@ -43,6 +43,11 @@ impl Reader<'_> {
                     self.texture_files.push(name.to_owned());
                 }
                 [] | ["comment" | "obj_info", ..] => {}
+                ["element", name, _] if elements.iter().any(|known| known.name == name) => {
+                    let quoted = quote(name.as_bytes());
+                    let why = format!("its header has the element {quoted} twice");
+                    return Err(self.refuse(&why, AGAIN));
+                }
                 ["element", name, count] => elements.push(Element {
                     name: name.to_owned(),
                     count: count.parse().map_err(|_| bad(self))?,

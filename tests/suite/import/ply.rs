@@ -284,6 +284,8 @@ fn every_error_has_a_message() {
             "property int vertex_indices",
         )
         .into(),
+        good.replace("element face", "element vertex 0\nelement face")
+            .into(),
     ];
     assert_snapshot!(messages("a.ply", &texts), @r"
 bad mesh (a.ply): it does not begin with `ply`. Name a PLY file.
@@ -299,6 +301,7 @@ bad mesh (a.ply): a face has vertex -2, but only 8 exist. Save the file again.
 bad mesh (a.ply): inf is not a finite number of at most 3.4e38. Repair the mesh.
 bad mesh (a.ply): its vertices lack x, y or z. Save the file again.
 bad mesh (a.ply): its faces have no list `vertex_indices`. Save the file again.
+bad mesh (a.ply): its header has the element `vertex` twice. Save the file again.
 ");
 }
 
