@@ -175,7 +175,7 @@ lint: compiler shaders
 
 # The library alone, and with each feature by itself: what they share is built once.
 features: compiler
-	@for feature in '' archive cli flip gl link parallel video viewer; do \
+	@for feature in '' archive basis cli draco flip gl link parallel video viewer; do \
 		echo "without default features, with: $${feature:-none}"; \
 		$(CARGO) clippy --quiet $(FLAGS) --lib --bins --no-default-features --features "$$feature" \
 			-- --deny warnings || exit; \

@@ -8,9 +8,9 @@ mod binary;
 mod linked;
 mod ploc;
 mod reinsertion;
-pub mod threads;
 mod wide;
 
+pub use crate::threads;
 pub use wide::{Child, Children, WideNode};
 
 use glam::Vec3;

@@ -92,7 +92,16 @@ pub const SCENE_ENDINGS: &[&str] = &[
 ];
 
 /// The usual extensions of the files that [`picture()`] reads.
-pub const PICTURE_ENDINGS: &[&str] = &["hdr", "exr", "png", "jpg", "jpeg"];
+pub const PICTURE_ENDINGS: &[&str] = &[
+    "hdr",
+    "exr",
+    "png",
+    "jpg",
+    "jpeg",
+    "webp",
+    #[cfg(feature = "basis")]
+    "ktx2",
+];
 
 /// Size limit of a geometry file (`.scene`, `.nff`, `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`) in bytes.
 const MAX_GEOMETRY_BYTES: u64 = 2 << 30;
@@ -361,13 +370,22 @@ fn named_picture(
     name: &str,
     path: &Path,
 ) -> Result<Arc<Picture>, ImportError> {
-    let mut pictures = picture::Pictures::default();
-    match pictures.read(&Files::of(resolver), name, picture::Role::Color) {
-        Ok(index) => Ok(pictures.pictures.swap_remove(index)),
-        Err(refused) => Err(refused.into_error(|why, todo| {
+    let files = Files::of(resolver);
+    let quoted = source::quote(name.as_bytes());
+    let read = match files.resolve(name) {
+        Ok(found) => picture::Pictures::new(&Options::default()).picture(
+            &picture::Place::File(found),
+            &quoted,
+            picture::Role::Color,
+            &picture::reader(&files),
+        ),
+        Err(refusal) => Err(picture::Refused::File(refusal)),
+    };
+    read.map_err(|refused| {
+        refused.into_error(|why, todo| {
             ImportError::Malformed(fault("picture refused", path, &why, todo))
-        })),
-    }
+        })
+    })
 }
 
 /// The JSON Schema (2020-12) of the native format, for editors with TOML completion and validation.

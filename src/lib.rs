@@ -79,16 +79,19 @@
 //! | `cli` | [`cli`], the program |
 //! | `viewer` | the window of `glimray view`; brings `cli` |
 //! | `video` | MP4 and GIF |
+//! | `basis` | KTX2 pictures |
+//! | `draco` | glTF models with Draco compression |
 //! | `gl` | OpenGL, where there is no Vulkan, Metal or DirectX 12 |
-//! | `parallel` | trees are built by all cores |
+//! | `parallel` | trees are built and pictures decoded by all cores |
 //!
 //! # Map
 //!
 //! | module | does | uses |
 //! |---|---|---|
 //! | [`scene`] | the host model, with every question settled | |
-//! | [`import`] | file → `Scene`, one file for each format; files come from an [`import::Resolver`] | `scene` |
-//! | [`bvh`] | boxes → tree of four-way nodes | |
+//! | [`threads`] | work on slices by all cores | |
+//! | [`import`] | file → `Scene`, one file for each format; files come from an [`import::Resolver`] | `scene`, `threads` |
+//! | [`bvh`] | boxes → tree of four-way nodes | `threads` |
 //! | [`layout`] | the structs and tags that shaders also see | |
 //! | [`pack`] | `Scene` → arrays for the GPU; no device needed | `scene`, `bvh`, `layout` |
 //! | [`gpu`] | the device, its memory, its loss, its errors | |
@@ -123,5 +126,6 @@ pub mod output;
 pub mod pack;
 pub mod render;
 pub mod scene;
+pub mod threads;
 #[cfg(feature = "viewer")]
 pub mod viewer;

@@ -29,14 +29,14 @@ impl Picture {
     }
 }
 
-/// Reads the picture at `path`: PNG, JPEG, OpenEXR or Radiance HDR, recognised by its first bytes.
+/// Reads the picture at `path`: PNG, JPEG, WebP, KTX2, OpenEXR or Radiance HDR, recognised by its first bytes.
 ///
 /// # Errors
 /// The file is missing, damaged, of another kind or too large.
 pub fn read(path: &Path) -> Result<Picture, AppError> {
     let refused = |why: &str| {
         AppError::Refused(format!(
-            "cannot read the picture ({}): {}. Give a PNG, JPEG, OpenEXR or Radiance HDR file.",
+            "cannot read the picture ({}): {}. Give a PNG, JPEG, WebP, KTX2, OpenEXR or Radiance HDR file.",
             path.display(),
             why.trim_end_matches('.')
         ))

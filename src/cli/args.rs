@@ -339,7 +339,7 @@ pub struct DoctorArgs {
 
 #[derive(Debug, Args)]
 pub struct CompareArgs {
-    /// First picture: PNG, JPEG, OpenEXR or Radiance HDR
+    /// First picture: PNG, JPEG, WebP, KTX2, OpenEXR or Radiance HDR
     pub a: PathBuf,
     /// Second picture, of the same size
     pub b: PathBuf,

@@ -130,12 +130,13 @@ pub(super) fn read(
         meshes: HashMap::new(),
         surfaces: HashMap::new(),
         materials: HashMap::new(),
-        store: Store::default(),
+        store: Store::new(options),
     };
     reader.variant = reader.chosen_variant(options.variant.as_deref())?;
     let clips = reader.clips(options.clip.as_deref())?;
     reader.animated = reader.moved_by(&clips);
     let (roots, place) = reader.chosen_scene(options.scene.as_deref())?;
+    reader.plan_images();
     reader.nodes(&roots, &place)?;
     for clip in clips {
         reader.tracks(clip)?;
@@ -239,14 +240,8 @@ impl Reader<'_> {
     }
 
     fn finish(mut self, options: &Options) -> Scene {
-        let halved = self.store.halved_count;
-        if halved > 0 {
-            self.notes.add("smaller pictures", || {
-                format!("pictures were made smaller {halved} times to fit into memory")
-            });
-        }
         let mut scene = self.scene;
-        scene.pictures = self.store.pictures;
+        scene.pictures = self.store.pictures.finish(&mut self.notes);
         if scene.materials.is_empty() {
             scene.materials.push(crate::scene::Material::default());
         }

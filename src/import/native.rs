@@ -73,6 +73,7 @@ pub(super) fn read(
         scene.map_err(|error| texts.explain(&error, "See `glimray schema` for what is allowed"))?,
         &texts,
         files,
+        options,
     )
 }
 

@@ -60,9 +60,10 @@ pub(super) fn read_scene(
     files: &Files,
     options: &Options,
 ) -> Result<Scene, ImportError> {
-    let mut pictures = Pictures::default();
-    let model = read(source, files, &mut pictures, None)?;
-    Ok(model.into_scene(pictures.pictures, Axis::Y, options))
+    let mut pictures = Pictures::new(options);
+    let mut model = read(source, files, &mut pictures, None)?;
+    let pictures = pictures.finish(&mut model.notes);
+    Ok(model.into_scene(pictures, Axis::Y, options))
 }
 
 /// The model in the file at `path`, which must have been resolved. Its images are added to `pictures`. If

@@ -1,6 +1,7 @@
 //! Options for importing a scene or model file.
 
 use glam::{DAffine3, DMat3, DVec3};
+use std::num::NonZero;
 use std::ops::Neg;
 use std::path::PathBuf;
 
@@ -22,6 +23,9 @@ pub struct Options {
     /// The axis of a model that points up; `None` for the usual one of its format: +Z in STL, otherwise
     /// +Y. Scenes that are not models ignore it.
     pub up: Option<Axis>,
+    /// The longest side that pictures of textures and backgrounds may have, in texels: larger ones are halved until
+    /// they fit, which [`crate::scene::Scene::skipped`] reports. `None` is no limit.
+    pub texture_limit: Option<NonZero<u32>>,
     /// Width and height of the picture that a model without a camera is framed for; `None` for the scene's
     /// own size.
     pub size: Option<(u32, u32)>,

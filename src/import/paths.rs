@@ -15,6 +15,7 @@ pub(super) struct Files<'r> {
 }
 
 /// Why a file may not be read.
+#[derive(Clone)]
 pub(super) enum Refusal {
     /// There is no such file.
     Missing(String),

@@ -1,21 +1,24 @@
-//! Images that scenes refer to: PNG, JPEG, Radiance HDR and OpenEXR, recognised by their first bytes.
+//! Images that scenes refer to: PNG, JPEG, WebP, Radiance HDR and OpenEXR, recognised by their first bytes.
 //!
-//! PNG and JPEG are sRGB and keep their 8 bits, or become floats if they have 16; HDR and EXR are linear Rec.
+//! PNG, JPEG and WebP are sRGB and keep their 8 bits, or become floats if they have 16; HDR and EXR are linear Rec.
 //! 709. A truncated file is refused even if its decoder would accept it.
 
 mod complete;
+#[cfg(feature = "basis")]
+mod ktx2;
+mod store;
+
+pub(super) use store::{Pictures, Place, Read};
 
 use super::error::{Fault, ImportError, one_line};
 use super::paths::{Files, Refusal};
-use super::source::quote;
 pub(super) use crate::scene::linear_from_srgb;
 use crate::scene::{Picture, Texels};
 use glam::Vec4;
-use image::{DynamicImage, ImageError, ImageReader, Limits};
-use std::collections::HashMap;
+use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits};
+use std::borrow::Cow;
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::Path;
 
 /// Size limit of an image file in bytes.
 pub(super) const MAX_BYTES: u64 = 512 << 20;
@@ -23,20 +26,17 @@ pub(super) const MAX_BYTES: u64 = 512 << 20;
 /// Limit of the number of texels of an image: 8192×8192.
 const MAX_TEXELS: u64 = 1 << 26;
 
-/// Limit of the bytes of all images of a scene together, as they are kept.
-const MAX_KEPT_BYTES: u64 = 4 << 30;
+/// The kinds of images.
+const KINDS: &str = if cfg!(feature = "basis") {
+    "PNG, JPEG, WebP, KTX2, HDR or EXR"
+} else {
+    "PNG, JPEG, WebP, HDR or EXR"
+};
 
 /// Memory limit for decoding: four floats per texel.
 const MAX_DECODED_BYTES: u64 = MAX_TEXELS * 16;
 
-/// The images of a scene; each file is read once for each role.
-#[derive(Default)]
-pub(super) struct Pictures {
-    pub pictures: Vec<Arc<Picture>>,
-    indices: HashMap<(PathBuf, Role), usize>,
-}
-
-/// What the values of an image stand for, which decides how those of PNG and JPEG are decoded.
+/// What the values of an image stand for, which decides how those of PNG, JPEG and WebP are decoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Role {
     /// Colours in sRGB.
@@ -48,6 +48,7 @@ pub(super) enum Role {
 }
 
 /// Why an image could not be read.
+#[derive(Clone)]
 pub(super) enum Refused {
     /// The name does not resolve to a readable file.
     File(Refusal),
@@ -60,6 +61,23 @@ pub(super) enum Refused {
 }
 
 impl Refused {
+    fn too_big(why: String) -> Self {
+        Self::Unfit {
+            kind: ImportError::TooBig,
+            why,
+            todo: "Use a smaller picture".to_owned(),
+        }
+    }
+
+    /// There is no file to read; `why` names it.
+    pub fn unreadable(why: String) -> Self {
+        Self::Unfit {
+            kind: ImportError::Unreadable,
+            why,
+            todo: "Check the name and the folder".to_owned(),
+        }
+    }
+
     /// As an error; `malformed` adds the position.
     pub fn into_error(self, malformed: impl FnOnce(String, &str) -> ImportError) -> ImportError {
         const WHAT: &str = "picture refused";
@@ -82,113 +100,141 @@ impl Refused {
     }
 }
 
-impl Pictures {
-    /// The index of the image in the file `name`.
-    ///
-    /// # Errors
-    /// The file is missing or inaccessible, is not an image, or is too large.
-    pub fn read(&mut self, files: &Files, name: &str, role: Role) -> Result<usize, Refused> {
-        let key = (files.resolve(name).map_err(Refused::File)?, role);
-        if let Some(&index) = self.indices.get(&key) {
-            return Ok(index);
-        }
-        let taken = (self.pictures.iter())
-            .map(|picture| picture.texels.byte_len() as u64)
-            .sum();
-        let picture = decode(files, &key.0, name, role, taken)?;
-        self.pictures.push(Arc::new(picture));
-        self.indices.insert(key, self.pictures.len() - 1);
-        Ok(self.pictures.len() - 1)
-    }
-}
-
-/// Reads the image at `path`; `taken` bytes of texels are already kept.
-fn decode(
-    files: &Files,
-    path: &Path,
-    name: &str,
-    role: Role,
-    taken: u64,
-) -> Result<Picture, Refused> {
-    let quoted = quote(name.as_bytes());
-    let too_big = |why: String| Refused::Unfit {
-        kind: ImportError::TooBig,
-        why: format!("{quoted} {why}"),
-        todo: "Use a smaller picture".to_owned(),
-    };
-    let bytes = files.read(path, MAX_BYTES).map_err(|error| {
+/// The bytes of the image file at `path`, which messages call `name`.
+///
+/// # Errors
+/// It cannot be read, or is too large.
+pub(super) fn file(files: &Files, path: &Path, name: &str) -> Result<Vec<u8>, Refused> {
+    files.read(path, MAX_BYTES).map_err(|error| {
         let is_too_big = error.is_too_big();
         let fault = error.into_fault();
         match is_too_big {
-            true => too_big(format!("has {}", fault.why)),
+            true => Refused::too_big(format!("{name} has {}", fault.why)),
             false => Refused::Unfit {
                 kind: ImportError::Unreadable,
-                why: format!("{quoted}: {}", fault.why),
+                why: format!("{name}: {}", fault.why),
                 todo: fault.todo,
             },
         }
-    })?;
-    let image = open(&bytes, &quoted)?;
-    let (width, height) = (image.width(), image.height());
-    let texels = texels(image, role);
-    let bytes = texels.byte_len() as u64;
-    if taken + bytes > MAX_KEPT_BYTES {
-        let why = format!(
-            "takes {bytes} bytes, the others {taken}, but the limit for all is {MAX_KEPT_BYTES}"
-        );
-        return Err(too_big(why));
-    }
-    Ok(Picture {
-        width,
-        height,
-        texels,
     })
 }
 
-/// The image in `bytes`, which messages call `quoted`.
-pub(super) fn open(bytes: &[u8], quoted: &str) -> Result<DynamicImage, Refused> {
-    let too_big = |why: String| Refused::Unfit {
-        kind: ImportError::TooBig,
-        why: format!("{quoted} {why}"),
-        todo: "Use a smaller picture".to_owned(),
+/// What reads pictures out of files.
+pub(super) fn reader(
+    files: &Files,
+) -> impl Fn(&Place, &str) -> Result<Cow<'static, [u8]>, Refused> {
+    |place, name| match place {
+        Place::File(path) => file(files, path, name).map(Cow::Owned),
+        Place::Part(_) => Err(Refused::unreadable(format!("{name} is in no file"))),
+    }
+}
+
+/// The pictures of the image in `bytes` for each role; messages call it `name`.
+fn decode(bytes: &[u8], name: &str, roles: &[Role]) -> Result<Vec<Picture>, Refused> {
+    let image = open(bytes, name)?;
+    let (width, height) = (image.width(), image.height());
+    let picture = |image, role| Picture {
+        width,
+        height,
+        texels: texels(image, role),
     };
-    let unfit = |why: String, todo: &str| Refused::Unfit {
-        kind: ImportError::Malformed,
-        why: format!("{quoted} {why}"),
-        todo: todo.to_owned(),
+    let Some((last, others)) = roles.split_last() else {
+        return Ok(Vec::new());
     };
+    let mut pictures: Vec<Picture> = (others.iter())
+        .map(|&role| picture(image.clone(), role))
+        .collect();
+    pictures.push(picture(image, *last));
+    Ok(pictures)
+}
+
+/// The number of texels that the header of an image announces, times four if it has floats; 0 if it is invalid.
+fn dimensions(bytes: &[u8]) -> u64 {
+    let texels = |(width, height)| u64::from(width) * u64::from(height);
+    #[cfg(feature = "basis")]
+    if bytes.starts_with(ktx2::MAGIC) {
+        return ktx2::dimensions(bytes).map_or(0, texels).min(MAX_TEXELS);
+    }
+    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
+    let Ok(reader) = reader else { return 0 };
+    let has_floats = matches!(
+        reader.format(),
+        Some(ImageFormat::Hdr | ImageFormat::OpenExr)
+    );
+    let count = reader.into_dimensions().map_or(0, texels);
+    count.min(MAX_TEXELS) * if has_floats { 4 } else { 1 }
+}
+
+/// What is wrong with the image in a file.
+struct Unfit<'n> {
+    /// What messages call it.
+    name: &'n str,
+}
+
+impl Unfit<'_> {
+    fn as_it_is(&self, why: &str, todo: &str) -> Refused {
+        Refused::Unfit {
+            kind: ImportError::Malformed,
+            why: format!("{} {why}", self.name),
+            todo: todo.to_owned(),
+        }
+    }
+
+    fn too_big(&self, why: &str) -> Refused {
+        Refused::too_big(format!("{} {why}", self.name))
+    }
+
+    fn damaged(&self, why: &str) -> Refused {
+        self.as_it_is(why, "Check that it was written completely")
+    }
+
+    fn unsupported(&self, why: &str) -> Refused {
+        self.as_it_is(why, &format!("Save it as {KINDS}"))
+    }
+
+    /// The number of texels of a picture of this size.
+    fn count(&self, width: u32, height: u32) -> Result<u64, Refused> {
+        match u64::from(width) * u64::from(height) {
+            0 => Err(self.as_it_is("has no texels", "Save it again")),
+            count if count > MAX_TEXELS => Err(self.too_big(&format!(
+                "has {width} × {height} texels, but the limit is {MAX_TEXELS} of them"
+            ))),
+            count => Ok(count),
+        }
+    }
+}
+
+/// The image in `bytes`, which messages call `name`.
+fn open(bytes: &[u8], name: &str) -> Result<DynamicImage, Refused> {
+    let unfit = Unfit { name };
+    #[cfg(feature = "basis")]
+    if bytes.starts_with(ktx2::MAGIC) {
+        let refuse = |fault| match fault {
+            ktx2::Fault::Damaged(why) => unfit.damaged(&why),
+            ktx2::Fault::Unsupported(why) => unfit.unsupported(&why),
+        };
+        let (width, height) = ktx2::dimensions(bytes).map_err(refuse)?;
+        unfit.count(width, height)?;
+        return ktx2::decode(bytes, (width, height)).map_err(refuse);
+    }
     let reader = || {
         let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
         reader.ok().filter(|reader| reader.format().is_some())
     };
     let explain = |error: ImageError| match error {
-        ImageError::Limits(_) => too_big("takes too much memory to decode".to_owned()),
-        ImageError::Unsupported(_) => {
-            let why = "is an image of an unsupported kind";
-            unfit(why.to_owned(), "Save it as PNG, JPEG, HDR or EXR")
-        }
-        error => {
-            let why = format!("is damaged: {}", clause(&error.to_string()));
-            unfit(why, "Check that it was written completely")
-        }
+        ImageError::Limits(_) => unfit.too_big("takes too much memory to decode"),
+        ImageError::Unsupported(_) => unfit.unsupported("is an image of an unsupported kind"),
+        error => unfit.damaged(&format!("is damaged: {}", clause(&error.to_string()))),
     };
     let (Some(head), Some(mut body)) = (reader(), reader()) else {
-        let why = "is not a supported image";
-        return Err(unfit(why.to_owned(), "Name a PNG, JPEG, HDR or EXR file"));
+        let todo = format!("Name a {KINDS} file");
+        return Err(unfit.as_it_is("is not a supported image", &todo));
     };
     // Check the header first: it may claim any size.
     let (width, height) = head.into_dimensions().map_err(explain)?;
-    let count = u64::from(width) * u64::from(height);
-    if count == 0 {
-        return Err(unfit("has no texels".to_owned(), "Save it again"));
-    }
-    if count > MAX_TEXELS {
-        let why = format!("has {width} × {height} texels, but the limit is {MAX_TEXELS} of them");
-        return Err(too_big(why));
-    }
+    let count = unfit.count(width, height)?;
     if let Some(format) = body.format() {
-        complete::check(format, bytes, count)
-            .map_err(|why| unfit(why, "Check that it was written completely"))?;
+        complete::check(format, bytes, count).map_err(|why| unfit.damaged(&why))?;
     }
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_DECODED_BYTES);

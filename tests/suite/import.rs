@@ -3,6 +3,7 @@
 mod assets;
 mod course;
 mod defaults;
+mod encoded;
 mod files;
 pub mod gltf;
 mod hostile;
@@ -16,6 +17,7 @@ mod nff;
 mod nodes_and_ply;
 mod obj;
 mod optics;
+mod picture_store;
 mod pictures;
 mod ply;
 mod range;

@@ -17,8 +17,9 @@ const MODULES: &[(&str, &[&str])] = &[
     ("image", &[]),
     ("layout", &[]),
     ("gpu", &[]),
-    ("bvh", &[]),
-    ("import", &["scene"]),
+    ("threads", &[]),
+    ("bvh", &["threads"]),
+    ("import", &["scene", "threads"]),
     ("export", &["scene"]),
     ("pack", &["clock", "scene", "bvh", "layout"]),
     (

@@ -10,6 +10,7 @@ use crate::render::{Antialias, Integrator, RayOffset, TriangleTest};
 use crate::scene::{Filter, ToneCurve, Transfer};
 use clap::Args;
 use glam::{DVec3, Vec3};
+use std::num::NonZero;
 use std::path::PathBuf;
 
 /// Where the picture is written.
@@ -185,6 +186,10 @@ pub struct SceneFlags {
     /// Variant of a glTF model's materials, by its name or number [default: the model's]
     #[arg(long, value_name = "NAME")]
     pub variant: Option<String>,
+    /// Halve pictures of textures and backgrounds until no side is longer than this, in pixels, which is reported
+    /// [default: no limit; all pictures together take at most 2.75 GiB]
+    #[arg(long, value_name = "PIXELS", allow_hyphen_values = true, value_parser = values::texture_limit)]
+    pub texture_limit: Option<NonZero<u32>>,
     /// Add nothing to a model: no camera that frames it, no lights, no background, no ground
     #[arg(long)]
     pub bare: bool,
@@ -228,6 +233,7 @@ impl SceneFlags {
             clip: self.clip.clone(),
             variant: self.variant.clone(),
             up,
+            texture_limit: self.texture_limit,
             size,
             staging,
         }

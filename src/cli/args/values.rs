@@ -10,6 +10,7 @@ use crate::scene::Shutter;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec3, Vec3};
 use std::fmt::Display;
+use std::num::NonZero;
 use std::str::FromStr;
 
 /// Parses one of a setting's names.
@@ -148,6 +149,11 @@ pub fn fov_y(text: &str) -> Result<f64, String> {
 
 pub fn orthographic(text: &str) -> Result<f64, String> {
     within(text, 1e-9, MAX_COORDINATE, "it")
+}
+
+pub fn texture_limit(text: &str) -> Result<NonZero<u32>, String> {
+    let limit = within(text, 1, MAX_SIDE, "it")?;
+    Ok(NonZero::new(limit).unwrap_or(NonZero::<u32>::MIN))
 }
 
 pub fn filter_radius(text: &str) -> Result<f32, String> {

@@ -299,6 +299,15 @@ pub struct Texture {
     pub extensions: TextureExtensions,
 }
 
+impl Texture {
+    /// The number of its image: of the one that needs no extension if there is a choice.
+    pub fn image(&self) -> Option<usize> {
+        let webp = || self.extensions.webp.as_ref()?.source;
+        let basisu = || self.extensions.basisu.as_ref()?.source;
+        (self.source.or_else(webp)).or_else(|| basisu().filter(|_| cfg!(feature = "basis")))
+    }
+}
+
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct TextureExtensions {

@@ -21,6 +21,7 @@ pub enum Support {
 /// uses another one, it is reported.
 pub const GLTF_EXTENSIONS: &[(&str, Support)] = &[
     ("EXT_mesh_gpu_instancing", Support::Full),
+    ("EXT_texture_webp", Support::Full),
     ("KHR_lights_punctual", Support::Full),
     ("KHR_materials_emissive_strength", Support::Full),
     ("KHR_materials_ior", Support::Full),
@@ -31,6 +32,8 @@ pub const GLTF_EXTENSIONS: &[(&str, Support)] = &[
     ("KHR_materials_variants", Support::Full),
     ("KHR_materials_volume", Support::Full),
     ("KHR_mesh_quantization", Support::Full),
+    #[cfg(feature = "basis")]
+    ("KHR_texture_basisu", Support::Full),
     ("KHR_texture_transform", Support::Full),
     ("KHR_materials_anisotropy", Support::Kept),
     ("KHR_materials_clearcoat", Support::Kept),
@@ -96,7 +99,7 @@ fn remedy(lacking: &[String]) -> &'static str {
     let has = |part: &str| lacking.iter().any(|name| name.contains(part));
     if has("draco") || has("meshopt") {
         "Export the model without compression"
-    } else if has("basisu") || has("webp") {
+    } else if has("basisu") {
         "Export the model with PNG or JPEG pictures"
     } else {
         "Export the model without them"

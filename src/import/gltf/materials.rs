@@ -32,14 +32,7 @@ impl Reader<'_> {
         primitive: &Primitive,
         here: &str,
     ) -> Result<MaterialKey, ImportError> {
-        let mut index = primitive.material;
-        let variants = (primitive.extensions.as_ref()).and_then(|e| e.variants.as_ref());
-        if let (Some(variants), Some(variant)) = (variants, self.variant) {
-            let mut mappings = variants.mappings.iter();
-            if let Some(mapping) = mappings.find(|mapping| mapping.variants.contains(&variant)) {
-                index = Some(mapping.material);
-            }
-        }
+        let index = self.material_index(primitive);
         let key = MaterialKey(index);
         if !self.surfaces.contains_key(&key) {
             let surface = match index {
@@ -61,6 +54,18 @@ impl Reader<'_> {
             self.surfaces.insert(key, surface);
         }
         Ok(key)
+    }
+
+    /// The number of a primitive's material in the chosen variant.
+    pub(super) fn material_index(&self, primitive: &Primitive) -> Option<usize> {
+        let variants = (primitive.extensions.as_ref()).and_then(|e| e.variants.as_ref());
+        if let (Some(variants), Some(variant)) = (variants, self.variant) {
+            let mut mappings = variants.mappings.iter();
+            if let Some(mapping) = mappings.find(|mapping| mapping.variants.contains(&variant)) {
+                return Some(mapping.material);
+            }
+        }
+        primitive.material
     }
 
     /// The set of texture coordinates that a material needs, which [`Self::material_of`] returned.
@@ -183,7 +188,7 @@ impl Reader<'_> {
 }
 
 /// The maps that have an effect on the picture.
-const SHOWN_MAPS: [&str; 7] = [
+pub(super) const SHOWN_MAPS: [&str; 7] = [
     "baseColorTexture",
     "metallicRoughnessTexture",
     "emissiveTexture",
@@ -204,7 +209,7 @@ fn code(color: Vec4, levels: f32) -> u32 {
 }
 
 /// All maps of a material, by the name of their property.
-fn all_maps(source: &Source) -> Vec<(&'static str, &TextureInfo)> {
+pub(super) fn all_maps(source: &Source) -> Vec<(&'static str, &TextureInfo)> {
     let mut maps = Vec::new();
     macro_rules! list {
         ($from:expr, $($name:literal $field:ident),*) => {

@@ -1,121 +1,188 @@
-//! The pictures and textures of a model. Pictures that are too large together are halved.
+//! The images of a model in the store that all formats share.
 
 use super::Reader;
-use super::bake;
-use super::buffers::{self, Source};
+use super::blame::Blame;
+use super::buffers::{self, Buffers, Source};
+use super::document::Document;
+use super::materials::{SHOWN_MAPS, all_maps};
+use crate::import::Options;
 use crate::import::error::ImportError;
 use crate::import::paths::Refusal;
-use crate::import::picture;
+use crate::import::picture::{self, Pictures, Place, Refused, Role};
 use crate::import::source::quote;
 use crate::scene::Picture;
-use image::RgbaImage;
-use std::collections::HashMap;
+use std::borrow::Cow;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// Most bytes that all pictures of a model take; at four bytes a texel 16 pictures of 4096 × 4096.
-const MAX_BYTES: usize = 1 << 30;
-
-/// Number of texels of decoded images that are kept for other materials.
-const MOST_KEPT: usize = 64 << 20;
-
 /// What was made of the images of a model.
-#[derive(Default)]
 pub(super) struct Store {
-    pub pictures: Vec<Arc<Picture>>,
-    /// Decoded images by their number in the file; `None` if it cannot be read.
-    images: HashMap<usize, Option<Arc<RgbaImage>>>,
-    kept_texels: usize,
+    pub pictures: Pictures,
+    /// By the number of the image, what is known of it.
+    images: HashMap<usize, Image>,
     /// Pictures by what they were made from.
     pub known: HashMap<Vec<u32>, super::textures::Appearance>,
-    /// How many times pictures were halved.
-    pub halved_count: usize,
 }
 
-impl Store {
-    /// Adds a picture and returns its index.
-    pub fn add(&mut self, picture: Picture) -> usize {
-        self.pictures.push(picture.into());
-        while self.byte_count() > MAX_BYTES {
-            let largest = (self.pictures.iter_mut()).max_by_key(|it| it.texels.byte_len());
-            let Some(largest) = largest.filter(|picture| picture.texels.len() > 1) else {
-                break;
-            };
-            *largest = bake::halved(largest).into();
-            self.halved_count += 1;
-        }
-        self.pictures.len() - 1
-    }
+/// Where the file of an image is and its name for messages, or why there is none.
+type Image = Result<(Place, String), String>;
 
-    fn byte_count(&self) -> usize {
-        self.pictures
-            .iter()
-            .map(|picture| picture.texels.byte_len())
-            .sum()
+impl Store {
+    pub fn new(options: &Options) -> Self {
+        Self {
+            pictures: Pictures::new(options),
+            images: HashMap::new(),
+            known: HashMap::new(),
+        }
+    }
+}
+
+/// What the texels of a map stand for, by the name of its property.
+fn role_of(parameter: &str) -> Role {
+    match parameter {
+        "baseColorTexture" | "diffuseTexture" | "emissiveTexture" => Role::Color,
+        _ => Role::Data,
     }
 }
 
 impl Reader<'_> {
-    /// `images[index]`, which exists; `None` with a note if it cannot be read.
+    /// Announces the images that will be used, so that they are decoded together: those of the materials of all
+    /// primitives in the chosen variant, unless they are in no file.
+    pub(super) fn plan_images(&mut self) {
+        let document = self.document;
+        let mut seen = HashSet::new();
+        for primitive in document.meshes.iter().flat_map(|mesh| &mesh.primitives) {
+            let index = self.material_index(primitive);
+            let Some(source) = index.and_then(|index| document.materials.get(index)) else {
+                continue;
+            };
+            if !seen.insert(index) {
+                continue;
+            }
+            for (parameter, info) in all_maps(source) {
+                let texture = document.textures.get(info.index);
+                let image = texture.and_then(|texture| texture.image());
+                if let Some(image) = image.filter(|_| SHOWN_MAPS.contains(&parameter))
+                    && let Ok(Ok((place, name))) = self.located(image)
+                {
+                    let role = role_of(parameter);
+                    self.store.pictures.plan(place, &name, role);
+                }
+            }
+        }
+    }
+
+    /// `images[index]`, which exists, without making it part of the scene; `None` with a note if it cannot be read.
     ///
     /// # Errors
     /// It is in a file that the model may not read.
-    pub(super) fn image(&mut self, index: usize) -> Result<Option<Arc<RgbaImage>>, ImportError> {
-        if let Some(known) = self.store.images.get(&index) {
-            return Ok(known.clone());
-        }
-        let found = match self.encoded(index)? {
-            Ok((bytes, name)) => picture::open(&bytes, &name)
-                .map(|image| Arc::new(image.into_rgba8()))
-                .map_err(picture::Refused::into_note),
+    pub(super) fn image(
+        &mut self,
+        index: usize,
+        role: Role,
+    ) -> Result<Option<Arc<Picture>>, ImportError> {
+        self.looked_up(index, |pictures, place, name, read| {
+            pictures.picture(place, name, role, read)
+        })
+    }
+
+    /// As [`Self::image`], the index of the picture in the scene.
+    pub(super) fn shown(&mut self, index: usize, role: Role) -> Result<Option<usize>, ImportError> {
+        self.looked_up(index, |pictures, place, name, read| {
+            pictures.index(place, name, role, read)
+        })
+    }
+
+    /// What `get` finds for `images[index]` in the store.
+    fn looked_up<T>(
+        &mut self,
+        index: usize,
+        get: impl FnOnce(&mut Pictures, &Place, &str, picture::Read) -> Result<T, Refused>,
+    ) -> Result<Option<T>, ImportError> {
+        let (document, buffers, files) = (self.document, self.buffers, self.files);
+        let blame = self.blame;
+        let found = match self.located(index)? {
+            Ok((place, name)) => {
+                let read = move |place: &Place, name: &str| match place {
+                    Place::File(path) => picture::file(files, path, name).map(Cow::Owned),
+                    Place::Part(number) => part(document, buffers, blame, *number, name),
+                };
+                let pictures = &mut self.store.pictures;
+                get(pictures, &place, &name, &read).map_err(Refused::into_note)
+            }
             Err(why) => Err(why),
         };
-        let found = match found {
-            Ok(image) => Some(image),
-            Err(why) => {
+        Ok(found.map_or_else(
+            |why| {
                 let note = || format!("texture skipped: images[{index}] {why}");
                 self.notes.add("skipped textures", note);
                 None
-            }
-        };
-        let texels = found.as_ref().map_or(0, |image| image.len() / 4);
-        if self.store.kept_texels + texels > MOST_KEPT {
-            self.store.images.clear();
-            self.store.kept_texels = 0;
+            },
+            Some,
+        ))
+    }
+
+    /// Where `images[index]` is.
+    fn located(&mut self, index: usize) -> Result<Image, ImportError> {
+        if let Some(known) = self.store.images.get(&index) {
+            return Ok(known.clone());
         }
-        self.store.kept_texels += texels;
+        let found = self.locate(index)?;
         self.store.images.insert(index, found.clone());
         Ok(found)
     }
 
-    /// The bytes of an image file and its name for messages, or why they cannot be had.
-    fn encoded(&self, index: usize) -> Result<Result<(Vec<u8>, String), String>, ImportError> {
+    fn locate(&self, index: usize) -> Result<Image, ImportError> {
         let place = format!("images[{index}]");
         let Some(image) = self.document.images.get(index) else {
             return Ok(Err("does not exist".to_owned()));
         };
+        let views = self.document.buffer_views.len();
         let Some(uri) = &image.uri else {
             let Some(view) = image.buffer_view else {
                 return Ok(Err("has neither a URI nor a buffer view".to_owned()));
             };
-            let (bytes, _) = self.buffers.view(self.document, view, &place, self.blame)?;
+            self.buffers.view(self.document, view, &place, self.blame)?;
             let name = image.name.clone().unwrap_or_default();
-            return Ok(Ok((bytes.to_vec(), quote(name.as_bytes()))));
+            return Ok(Ok((Place::Part(view), quote(name.as_bytes()))));
         };
         let name = match buffers::source(uri, self.blame, &place)? {
-            Source::Bytes(bytes) => return Ok(Ok((bytes, "in a data: URI".to_owned()))),
+            Source::Bytes(_) => {
+                return Ok(Ok((
+                    Place::Part(views + index),
+                    "in a data: URI".to_owned(),
+                )));
+            }
             Source::File(name) => name,
         };
-        let path = match self.files.resolve(&name) {
-            Ok(path) => path,
+        match self.files.resolve(&name) {
+            Ok(path) => Ok(Ok((Place::File(path), quote(name.as_bytes())))),
             Err(refusal @ Refusal::Outside(_)) => {
-                return Err(buffers::refused(refusal, "picture", self.blame, &place));
+                Err(buffers::refused(refusal, "picture", self.blame, &place))
             }
-            Err(Refusal::Missing(why) | Refusal::Unfit(why)) => return Ok(Err(why)),
-        };
-        let quoted = quote(name.as_bytes());
-        match self.files.read(&path, picture::MAX_BYTES) {
-            Ok(bytes) => Ok(Ok((bytes, quoted))),
-            Err(error) => Ok(Err(format!("{quoted}: {}", error.into_fault().why))),
+            Err(Refusal::Missing(why) | Refusal::Unfit(why)) => Ok(Err(why)),
         }
     }
+}
+
+/// The bytes of an image inside the model: `number` is that of its buffer view, or counts on with images.
+fn part<'b>(
+    document: &Document,
+    buffers: &'b Buffers,
+    blame: Blame,
+    number: usize,
+    name: &str,
+) -> Result<Cow<'b, [u8]>, Refused> {
+    const PLACE: &str = "images";
+    let bytes = match number.checked_sub(document.buffer_views.len()) {
+        None => (buffers.view(document, number, PLACE, blame).ok())
+            .map(|(bytes, _)| Cow::Borrowed(bytes)),
+        Some(image) => (document.images.get(image))
+            .and_then(|image| buffers::source(image.uri.as_deref()?, blame, PLACE).ok())
+            .and_then(|source| match source {
+                Source::Bytes(bytes) => Some(Cow::Owned(bytes)),
+                Source::File(_) => None,
+            }),
+    };
+    bytes.ok_or_else(|| Refused::unreadable(format!("{name} is not in the model")))
 }

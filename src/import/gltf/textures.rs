@@ -4,9 +4,8 @@ use super::Reader;
 use super::bake::{self, Baked, Shade, Sheets};
 use super::document::{Material as Source, TextureInfo};
 use crate::import::error::ImportError;
-use crate::scene::{
-    Coverage, Material, MetallicRoughness, Minify, Pattern, Picture, Space, Texels, Texture, Wrap,
-};
+use crate::import::picture::Role;
+use crate::scene::{Coverage, Material, MetallicRoughness, Minify, Pattern, Space, Texture, Wrap};
 use glam::{DAffine2, DAffine3, DMat2, DMat3, DVec2, DVec3, Vec3};
 
 const NEAREST: u32 = 9728;
@@ -88,11 +87,9 @@ impl Reader<'_> {
             .blame
             .get(&document.textures, info.index, "textures", place)?;
         let here = format!("textures[{}]", info.index);
-        let own = texture.source;
-        let webp = || texture.extensions.webp.as_ref().and_then(|it| it.source);
-        let Some(image) = own.or_else(webp) else {
+        let Some(image) = texture.image() else {
             let what = match texture.extensions.basisu {
-                Some(_) => "has only a KTX2 picture, which is not supported",
+                Some(_) => "has only a KTX2 picture, which this program cannot read",
                 None => "has no picture",
             };
             let note = || format!("texture skipped: {here} {what}");
@@ -188,9 +185,8 @@ impl Reader<'_> {
         let mut uv_set = lead.map(|lead| lead.uv_set);
         if model.coverage != Coverage::Opaque
             && let Some(map) = &maps[0]
-            && let Some(image) = self.image(map.image)?
+            && let Some(picture) = self.shown(map.image, Role::Color)?
         {
-            let picture = self.plain(map.image, &image, false);
             material.textures.alpha = Some(self.texture(picture, map));
         }
         if let Some(info) = source.emissive_texture.as_deref()
@@ -229,11 +225,11 @@ impl Reader<'_> {
             });
             return Ok(None);
         }
-        let Some(image) = self.image(map.image)? else {
+        let role = if has_values { Role::Data } else { Role::Color };
+        let Some(picture) = self.shown(map.image, role)? else {
             return Ok(None);
         };
         *uv_set = Some(map.uv_set);
-        let picture = self.plain(map.image, &image, has_values);
         Ok(Some(self.texture(picture, &map)))
     }
 
@@ -245,9 +241,10 @@ impl Reader<'_> {
         maps: &[Option<FoundMap>; 3],
     ) -> Result<Option<Appearance>, ImportError> {
         let mut sheets = [None, None, None];
-        for (sheet, map) in sheets.iter_mut().zip(maps) {
+        let roles = [Role::Color, Role::Data, Role::Data];
+        for ((sheet, map), role) in sheets.iter_mut().zip(maps).zip(roles) {
             if let Some(map) = map {
-                *sheet = self.image(map.image)?;
+                *sheet = self.image(map.image, role)?;
             }
         }
         if sheets.iter().all(Option::is_none) {
@@ -263,8 +260,8 @@ impl Reader<'_> {
             && model.transmission == 0.0
             && !model.unlit;
         let look = match (&sheets[0], maps[0].as_ref()) {
-            (Some(image), Some(map)) if is_simple => {
-                let picture = Some(self.plain(map.image, image, false));
+            (Some(_), Some(map)) if is_simple => {
+                let picture = self.shown(map.image, Role::Color)?;
                 let lobes = model.lobes(&model.point(), model.roughness);
                 // With metals, all colours are multiples of the base colour.
                 let is_metal = model.metallic == 1.0;
@@ -287,14 +284,7 @@ impl Reader<'_> {
                     sheets[2] = None;
                 }
                 for sheet in sheets.iter_mut().flatten() {
-                    let (width, height) = sheet.dimensions();
-                    if width.max(height) > MAX_BAKED {
-                        let least = |n: u32| n.clamp(1, MAX_BAKED);
-                        let small =
-                            image::imageops::thumbnail(&**sheet, least(width), least(height));
-                        *sheet = small.into();
-                        self.store.halved_count += 1;
-                    }
+                    *sheet = self.store.pictures.at_most(sheet.clone(), MAX_BAKED);
                 }
                 let baked = bake::bake(
                     &model,
@@ -315,7 +305,7 @@ impl Reader<'_> {
     fn stored(&mut self, baked: Baked) -> Appearance {
         let mut add = |shade| match shade {
             Shade::Constant(color) => (color, None),
-            Shade::Picture(picture) => (Vec3::ONE, Some(self.store.add(picture))),
+            Shade::Picture(picture) => (Vec3::ONE, Some(self.store.pictures.add(picture))),
         };
         Appearance {
             diffuse: add(baked.diffuse),
@@ -324,35 +314,6 @@ impl Reader<'_> {
             transmit: add(baked.transmit),
             roughness: baked.roughness,
         }
-    }
-
-    /// The index of an image as it is: of values, or of colours.
-    fn plain(&mut self, index: usize, image: &image::RgbaImage, has_values: bool) -> usize {
-        let key = vec![index as u32, u32::from(has_values)];
-        if let Some(known) = self.store.known.get(&key)
-            && let Some(picture) = known.diffuse.1
-        {
-            return picture;
-        }
-        let texels = image.as_chunks().0.to_vec();
-        let added = self.store.add(Picture {
-            width: image.width(),
-            height: image.height(),
-            texels: match has_values {
-                true => Texels::Linear8(texels),
-                false => Texels::Srgb8(texels),
-            },
-        });
-        let none = (Vec3::ZERO, None);
-        let look = Appearance {
-            diffuse: (Vec3::ONE, Some(added)),
-            specular: none,
-            reflect: none,
-            transmit: none,
-            roughness: 1.0,
-        };
-        self.store.known.insert(key, look);
-        added
     }
 
     /// Gives `material` the colours of `look`.

@@ -13,7 +13,7 @@ use crate::import::error::ImportError;
 use crate::import::notes::Notes;
 use crate::import::number::in_range;
 use crate::import::paths::Files;
-use crate::import::stage;
+use crate::import::{Options, stage};
 use crate::scene::{Material, OutputDefaults, Scene, Shutter};
 use glam::DAffine3;
 use std::collections::{BTreeMap, HashMap};
@@ -22,18 +22,25 @@ use surfaces::{MeshKey, MeshPlace, PlacedMesh, Triangles};
 use toml::Spanned;
 
 /// The scene that `file` describes.
-pub(super) fn scene(file: SceneFile, texts: &Texts, files: &Files) -> Result<Scene, ImportError> {
+pub(super) fn scene(
+    file: SceneFile,
+    texts: &Texts,
+    files: &Files,
+    options: &Options,
+) -> Result<Scene, ImportError> {
     let objects = Objects::new(&file, texts, files)?;
-    let mut builder = Builder::new(&file, &objects, texts, files)?;
+    let textures = Textures::new(&file, texts, files, options)?;
+    let mut builder = Builder::new(&file, &objects, textures, texts, files)?;
     builder.list(objects.roots.clone(), NodePlacement::default())?;
     builder.finish_triangles();
     let background = builder.textures.background(&file.background)?;
+    builder.textures.complete()?;
     let (mut nodes, names) = (builder.nodes, builder.names);
     let mut notes = builder.notes;
     let mut scene = Scene {
         nodes: std::mem::take(&mut nodes.nodes),
         textures: builder.textures.textures,
-        pictures: builder.textures.pictures.pictures,
+        pictures: builder.textures.pictures.finish(&mut notes),
         background,
         ..builder.scene
     };
@@ -92,10 +99,10 @@ impl<'a> Builder<'a> {
     fn new(
         file: &'a SceneFile,
         objects: &'a Objects<'a>,
+        mut textures: Textures<'a>,
         texts: &'a Texts<'a>,
         files: &'a Files<'a>,
     ) -> Result<Self, ImportError> {
-        let mut textures = Textures::new(file, texts, files)?;
         let in_file = in_order(&file.materials);
         let names = in_file.iter().map(|(name, _)| (*name).clone()).zip(0..);
         let names = names.collect();

@@ -7,8 +7,9 @@ use super::file::{
 };
 use crate::import::error::ImportError;
 use crate::import::paths::Files;
-use crate::import::picture::{Pictures, Role};
-use crate::import::suggest;
+use crate::import::picture::{self, Pictures, Place, Refused, Role};
+use crate::import::source::quote;
+use crate::import::{Options, suggest};
 use crate::scene::{Background, Minify, Pattern, Space, Texture, Transform, Wrap};
 use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
@@ -25,6 +26,8 @@ pub(super) struct Textures<'a> {
     names: BTreeMap<String, usize>,
     pub textures: Vec<Texture>,
     pub pictures: Pictures,
+    /// For each picture where it is named first.
+    spans: BTreeMap<usize, Range<usize>>,
 }
 
 impl<'a> Textures<'a> {
@@ -33,13 +36,15 @@ impl<'a> Textures<'a> {
         file: &SceneFile,
         texts: &'a Texts<'a>,
         files: &'a Files<'a>,
+        options: &Options,
     ) -> Result<Self, ImportError> {
         let mut textures = Self {
             texts,
             files,
             names: BTreeMap::new(),
             textures: Vec::new(),
-            pictures: Pictures::default(),
+            pictures: Pictures::new(options),
+            spans: BTreeMap::new(),
         };
         for (name, table) in in_order(&file.textures) {
             let index = textures.texture(&table.get_ref().pattern(), table.span())?;
@@ -230,10 +235,28 @@ impl<'a> Textures<'a> {
         span: Range<usize>,
         role: Role,
     ) -> Result<usize, ImportError> {
-        let read = self.pictures.read(self.files, name, role);
-        read.map_err(|refused| {
-            refused.into_error(|why, todo| self.texts.malformed(span, why, todo))
+        match self.files.resolve(name) {
+            Ok(path) => {
+                let place = Place::File(path);
+                let index = (self.pictures).reserve(place, &quote(name.as_bytes()), role);
+                self.spans.entry(index).or_insert(span);
+                Ok(index)
+            }
+            Err(refusal) => Err(self.refused(Refused::File(refusal), span)),
+        }
+    }
+
+    /// Reads the pictures.
+    pub fn complete(&mut self) -> Result<(), ImportError> {
+        let read = self.pictures.complete(&picture::reader(self.files));
+        read.map_err(|(index, refused)| {
+            let span = self.spans.get(&index).cloned().unwrap_or_default();
+            self.refused(refused, span)
         })
+    }
+
+    fn refused(&self, refused: Refused, span: Range<usize>) -> ImportError {
+        refused.into_error(|why, todo| self.texts.malformed(span, why, todo))
     }
 }
 

@@ -7,7 +7,7 @@ use crate::import::budget;
 use crate::import::error::ImportError;
 use crate::import::notes::Notes;
 use crate::import::paths::Refusal;
-use crate::import::picture::Role;
+use crate::import::picture::{self, Place, Refused, Role};
 use crate::import::source::{Source, Token, quote};
 use crate::import::tint::{self, Rgb};
 use crate::scene::{Coverage, Material, Minify, Pattern, Space, Texture, Wrap};
@@ -86,6 +86,9 @@ impl<'s> Reader<'s> {
                 }
                 id.is_some()
             })?;
+            for (_, maps) in &entries {
+                self.plan_pictures(maps, &library.path);
+            }
             for (id, maps) in entries {
                 if let Some(mut material) = found[id].take() {
                     self.pictures_of(&mut material, maps, &library.path);
@@ -155,6 +158,23 @@ impl<'s> Reader<'s> {
         }
     }
 
+    /// Announces the pictures of a material, so that they are decoded together.
+    fn plan_pictures(&mut self, maps: &mtl::Maps<String>, file: &Path) {
+        if self.replaced.is_some() {
+            return;
+        }
+        let colors = [&maps.diffuse, &maps.specular, &maps.ambient, &maps.emission];
+        let colors = colors.map(|map| (map, Role::Color));
+        let others = [(&maps.normal, Role::Data), (&maps.alpha, Role::Alpha)];
+        for (map, role) in colors.into_iter().chain(others) {
+            let Some(map) = map else { continue };
+            if let Ok(path) = self.files.named_in(file).resolve(&map.name) {
+                let name = quote(map.name.as_bytes());
+                self.pictures.plan(Place::File(path), &name, role);
+            }
+        }
+    }
+
     fn pictures_of(&mut self, material: &mut Material, maps: mtl::Maps<String>, file: &Path) {
         if self.replaced.is_some() {
             return;
@@ -179,7 +199,15 @@ impl<'s> Reader<'s> {
     /// The texture with an image that `file` names; unreadable images are skipped.
     fn picture(&mut self, map: Option<mtl::Map<String>>, role: Role, file: &Path) -> Option<usize> {
         let map = map?;
-        let picture = match (self.pictures).read(&self.files.named_in(file), &map.name, role) {
+        let name = quote(map.name.as_bytes());
+        let found = match self.files.named_in(file).resolve(&map.name) {
+            Ok(path) => {
+                let read = picture::reader(self.files);
+                self.pictures.index(&Place::File(path), &name, role, &read)
+            }
+            Err(refusal) => Err(Refused::File(refusal)),
+        };
+        let picture = match found {
             Ok(picture) => picture,
             Err(refused) => {
                 self.notes.add("skipped textures", || {

@@ -4,7 +4,7 @@
 use image::ImageFormat;
 
 /// The message for a file that ends too early.
-const CUT: &str = "is truncated: its end is missing";
+pub(super) const CUT: &str = "is truncated: its end is missing";
 
 /// Most texels that one byte of a PNG file can represent: deflate compresses 1032 bytes to one, and a
 /// byte holds eight texels of one bit.
@@ -27,6 +27,8 @@ pub(super) fn check(format: ImageFormat, bytes: &[u8], texels: u64) -> Result<()
             png(bytes)?;
             PNG_TEXELS
         }
+        // A picture of a single colour may have no bits for its texels.
+        ImageFormat::WebP => return webp(bytes),
         ImageFormat::OpenExr => EXR_TEXELS,
         _ => HDR_TEXELS,
     };
@@ -38,6 +40,16 @@ pub(super) fn check(format: ImageFormat, bytes: &[u8], texels: u64) -> Result<()
 
 fn too_short(length: usize, count: u64, what: &str) -> String {
     format!("is truncated: {length} bytes cannot hold the {count} {what} that its header announces")
+}
+
+/// Compares the length of a WebP file with the one in its header (RFC 9649, section 2.4).
+fn webp(bytes: &[u8]) -> Result<(), String> {
+    let length = bytes.get(4..8).ok_or(CUT)?;
+    let length = u32::from_le_bytes([length[0], length[1], length[2], length[3]]);
+    match bytes.len() as u64 - 8 < u64::from(length) {
+        true => Err(CUT.to_owned()),
+        false => Ok(()),
+    }
 }
 
 /// Follows the chunks of a PNG file to the last one.

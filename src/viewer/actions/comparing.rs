@@ -3,7 +3,7 @@
 use crate::app::{advice, picture_file};
 use crate::image::Image;
 use crate::render::{Shows, Tone};
-use crate::viewer::model::file_dialog::{self, PICTURES, Reply, Request};
+use crate::viewer::model::file_dialog::{self, Reply, Request};
 use crate::viewer::model::gallery::{MOST, Snapshot, StillId};
 use crate::viewer::model::view_settings::Source;
 use crate::viewer::state::answer::Answer;
@@ -79,7 +79,7 @@ pub fn ask_reference(session: &mut Session, ctx: &egui::Context) {
     let folder = session.path.as_deref().and_then(Path::parent);
     let request = Request {
         saves: false,
-        kind: Some(PICTURES),
+        kind: Some(("Pictures", crate::import::PICTURE_ENDINGS)),
         title: "Open a reference picture".to_owned(),
         folder: folder.map(Path::to_owned),
         name: None,

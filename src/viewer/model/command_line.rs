@@ -94,6 +94,9 @@ pub fn copy(shown: &Shown) -> CommandLine {
             arguments.extend([flag.to_owned(), value.clone()]);
         }
     }
+    if let Some(limit) = shown.options.texture_limit {
+        arguments.extend(["--texture-limit".to_owned(), limit.to_string()]);
+    }
     for folder in &shown.options.allow_dirs {
         arguments.extend(["--allow-dir".to_owned(), file(folder)]);
     }

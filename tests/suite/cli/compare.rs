@@ -121,7 +121,7 @@ fn compare_reports_different_sizes_and_refuses_other_files() {
     let run = workspace.run("compare a.png wide.png").expect(8);
     insta::assert_snapshot!(run.stderr, @"error: the pictures differ (a.png, wide.png): one is 2×2 pixels, the other 3×1.");
     let run = workspace.run("compare a.png nothing.png").expect(3);
-    insta::assert_snapshot!(run.stderr, @"error: cannot read the picture (nothing.png): no such file or directory. Give a PNG, JPEG, OpenEXR or Radiance HDR file.");
+    insta::assert_snapshot!(run.stderr, @"error: cannot read the picture (nothing.png): no such file or directory. Give a PNG, JPEG, WebP, KTX2, OpenEXR or Radiance HDR file.");
     for name in ["broken.png", "a.scene", "."] {
         let run = workspace.run(&format!("compare a.png {name}")).expect(3);
         assert_eq!(run.stderr.trim_end().lines().count(), 1, "{}", run.stderr);

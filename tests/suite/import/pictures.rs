@@ -223,15 +223,15 @@ fn every_invalid_image_has_a_message() {
         })
         .collect();
     assert_snapshot!(lines.join("\n"), @r"
-picture refused (a.toml:2:26): `empty.png` is not a supported image. Name a PNG, JPEG, HDR or EXR file.
-picture refused (a.toml:2:26): `text.png` is not a supported image. Name a PNG, JPEG, HDR or EXR file.
+picture refused (a.toml:2:26): `empty.png` is not a supported image. Name a PNG, JPEG, WebP, KTX2, HDR or EXR file.
+picture refused (a.toml:2:26): `text.png` is not a supported image. Name a PNG, JPEG, WebP, KTX2, HDR or EXR file.
 picture refused (a.toml:2:26): `cut.png` is truncated: its end is missing. Check that it was written completely.
 picture refused (a.toml:2:26): `wide.png` has 100000 × 100000 texels, but the limit is 67108864 of them. Use a smaller picture.
 picture refused (a.toml:2:26): `huge.png` takes too much memory to decode. Use a smaller picture.
 picture refused (a.toml:2:26): `flat.png` is damaged: Format error decoding Png: Invalid image dimensions. Check that it was written completely.
 picture refused (a.toml:2:26): `huge.hdr` has 60000 × 60000 texels, but the limit is 67108864 of them. Use a smaller picture.
 picture refused (a.toml:2:26): `cut.exr` is damaged: Format error decoding OpenExr: invalid: reference to missing bytes. Check that it was written completely.
-picture refused (a.toml:2:26): `a.gif` is an image of an unsupported kind. Save it as PNG, JPEG, HDR or EXR.
+picture refused (a.toml:2:26): `a.gif` is an image of an unsupported kind. Save it as PNG, JPEG, WebP, KTX2, HDR or EXR.
 picture refused (a.toml:2:26): `gone.png` does not exist. Check the name and the folder.
 picture refused (a.toml:2:26): `sub` is not a plain file. Name a plain file in the scene folder.
 picture refused (a.toml:2:26): `../a.png` points outside the scene folder. Name a file in it, or permit the other folder.
@@ -252,6 +252,7 @@ fn whole_pictures() -> Vec<(&'static str, Vec<u8>)> {
             "progressive.jpg",
             include_bytes!("../../../fuzz/regressions/picture/progressive.jpg").to_vec(),
         ),
+        ("a.webp", encode(color.clone(), ImageFormat::WebP)),
         ("a.png", encode(color, ImageFormat::Png)),
         ("a.hdr", encode(light.clone(), ImageFormat::Hdr)),
         ("a.exr", encode(light, ImageFormat::OpenExr)),
@@ -283,7 +284,7 @@ fn a_truncated_picture_is_refused_wherever_it_is_cut() {
 #[test]
 fn bytes_after_an_image_are_ignored() {
     let folder = folder(&[]);
-    for (name, mut whole) in whole_pictures().into_iter().take(3) {
+    for (name, mut whole) in whole_pictures().into_iter().take(4) {
         whole.extend(b"\0\0whatever");
         let read = read(&folder, &whole);
         read.unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -345,7 +346,8 @@ fn no_corruption_of_an_image_makes_the_importer_panic() {
     let light = ImageBuffer::from_fn(13, 9, |x, y| Rgb([x as f32, y as f32 / 9.0, 0.5f32]));
     let files = [
         ("a.png", encode(color.clone(), ImageFormat::Png)),
-        ("a.jpg", encode(color, ImageFormat::Jpeg)),
+        ("a.jpg", encode(color.clone(), ImageFormat::Jpeg)),
+        ("a.webp", encode(color, ImageFormat::WebP)),
         ("a.hdr", encode(light.clone(), ImageFormat::Hdr)),
         ("a.exr", encode(light, ImageFormat::OpenExr)),
     ];

@@ -167,7 +167,7 @@ pub(in crate::import::native) struct NoiseTable {
     pub octaves: Octaves,
 }
 
-/// The path of an image (PNG, JPEG, HDR or EXR) in the scene's folder or below, or a table.
+/// The path of an image (PNG, JPEG, WebP, KTX2, HDR or EXR) in the scene's folder or below, or a table.
 #[derive(Clone, Debug, JsonSchema)]
 #[schemars(untagged)]
 pub(in crate::import::native) enum PictureOrFile {
@@ -200,7 +200,7 @@ impl<'de> Deserialize<'de> for PictureOrFile {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(in crate::import::native) struct PictureTable {
-    /// The path of a PNG, JPEG, HDR or EXR file in the scene's folder or below.
+    /// The path of a PNG, JPEG, WebP, KTX2, HDR or EXR file in the scene's folder or below.
     #[schemars(with = "String")]
     pub file: Spanned<String>,
     /// Whether texels that look larger than a pixel are not interpolated, as in pixel art; default false.
@@ -330,7 +330,7 @@ pub(in crate::import::native) struct BackgroundTable {
     pub bottom: Option<Color>,
     /// The colour straight up.
     pub top: Option<Color>,
-    /// The path of an equirectangular image (PNG, JPEG, HDR or EXR) in the scene's folder or below, for
+    /// The path of an equirectangular image (PNG, JPEG, WebP, KTX2, HDR or EXR) in the scene's folder or below, for
     /// image-based backgrounds. Its centre lies in the direction -z, +x to the right of it, its upper
     /// edge straight up.
     #[schemars(with = "Option<String>")]

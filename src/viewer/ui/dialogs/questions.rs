@@ -25,7 +25,10 @@ pub fn typed(ctx: &egui::Context, session: &mut Session) {
     if let Some(path) = path(ctx, "Open a path", hint, &mut session.files.typed) {
         files::open(session, vec![path]);
     }
-    let (title, hint) = ("Open a reference picture", "A PNG, JPEG, EXR or HDR file");
+    let (title, hint) = (
+        "Open a reference picture",
+        "A PNG, JPEG, WebP, KTX2, EXR or HDR file",
+    );
     if let Some(path) = path(ctx, title, hint, &mut session.comparing.typed) {
         comparing::open_reference(session, path);
     }

@@ -3,7 +3,7 @@
 use std::{
     cell::Cell,
     num::NonZero,
-    sync::{Arc, OnceLock},
+    sync::{Arc, Mutex, OnceLock, PoisonError},
     thread,
 };
 
@@ -57,6 +57,22 @@ pub fn for_each<J: Send>(jobs: impl IntoIterator<Item = J>, work: impl Fn(J) + S
         }
         work(last);
     });
+}
+
+/// The results of `work` for all jobs, in their order. Threads take the next job as soon as they are done with one, so
+/// that jobs may differ in length.
+pub fn map<J: Send, R: Send>(jobs: Vec<J>, work: impl Fn(J) -> R + Sync) -> Vec<R> {
+    let count = count().min(jobs.len());
+    let mut results: Vec<Option<R>> = jobs.iter().map(|_| None).collect();
+    let queue = Mutex::new(jobs.into_iter().zip(&mut results));
+    let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+    for_each(0..count, |_| {
+        while let Some((job, result)) = next() {
+            *result = Some(work(job));
+        }
+    });
+    drop(queue);
+    results.into_iter().flatten().collect()
 }
 
 /// Divides a slice into chunks, and calls `work` with the index of the first element of each and the chunk.

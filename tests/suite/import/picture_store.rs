@@ -1,0 +1,195 @@
+//! Pictures in scenes of all formats: decoded once, limited in size, and the same whatever decodes them.
+
+use super::gltf::model::{Model, png};
+use super::{folder, load};
+use glam::DVec4;
+use glimray::import::{self, Options};
+use glimray::scene::{Picture, Scene, Texels};
+use glimray::threads;
+use serde_json::json;
+use std::num::NonZero;
+use std::sync::Arc;
+
+/// A picture of `width` × `height` texels of different colours and alphas.
+fn colorful(width: u32, height: u32) -> Vec<u8> {
+    let texels: Vec<[u8; 4]> = (0..width * height)
+        .map(|i| {
+            let (x, y) = (i % width, i / width);
+            [x * 40, 255 - y * 30, (x * y) * 11, 255 - x].map(|c| c as u8)
+        })
+        .collect();
+    png(width, &texels)
+}
+
+/// The same picture as a texture of a native scene, an OBJ model and a glTF model.
+fn scenes(picture: &[u8], options: &Options) -> [Scene; 3] {
+    let mut model = Model::triangle(json!({
+        "attributes": { "TEXCOORD_0": 1 },
+        "material": 0,
+    }));
+    let uvs = super::gltf::model::floats(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
+    model.accessor(&uvs, super::gltf::model::FLOAT, "VEC2", 3);
+    model.json["materials"] = json!([{ "pbrMetallicRoughness": {
+        "baseColorTexture": { "index": 0 }, "metallicFactor": 0 } }]);
+    model.json["textures"] = json!([{ "source": 0 }]);
+    model.json["images"] = json!([{ "uri": "a.png" }]);
+    let folder = folder(&[
+        ("a.png", picture),
+        (
+            "a.toml",
+            b"textures.t = { picture = 'a.png' }\nmaterials.m.phong.diffuse = { texture = 't' }",
+        ),
+        (
+            "a.obj",
+            b"mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n",
+        ),
+        ("a.mtl", b"newmtl m\nmap_Kd a.png\n"),
+        ("a.glb", &model.glb()),
+    ]);
+    ["a.toml", "a.obj", "a.glb"].map(|name| {
+        import::load_with(&folder.path().join(name), options)
+            .unwrap_or_else(|error| panic!("{error}"))
+    })
+}
+
+/// The mean of the linear values of all texels, by the definition of sRGB in f64.
+fn mean(picture: &Picture) -> DVec4 {
+    let linear = |code: u8| match f64::from(code) / 255.0 {
+        value if value <= 0.04045 => value / 12.92,
+        value => ((value + 0.055) / 1.055).powf(2.4),
+    };
+    let Texels::Srgb8(texels) = &picture.texels else {
+        panic!("{picture:?}");
+    };
+    let sum: DVec4 = (texels.iter())
+        .map(|&[r, g, b, a]| DVec4::new(linear(r), linear(g), linear(b), f64::from(a) / 255.0))
+        .sum();
+    sum / texels.len() as f64
+}
+
+#[test]
+fn pictures_beyond_the_texture_limit_are_halved_in_linear_light_and_reported() {
+    let picture = colorful(32, 8);
+    let whole = scenes(&picture, &Options::default());
+    for (limit, size) in [(32, (32, 8)), (31, (16, 4)), (8, (8, 2)), (1, (1, 1))] {
+        let options = Options {
+            texture_limit: NonZero::new(limit),
+            ..Options::default()
+        };
+        for (scene, whole) in scenes(&picture, &options).iter().zip(&whole) {
+            let [small, whole] = [scene, whole].map(|scene| &scene.pictures[0]);
+            assert_eq!((small.width, small.height), size);
+            // Each halving rounds to a code; the steps between bright codes are the largest.
+            let off = (mean(small) - mean(whole)).abs().max_element();
+            assert!(off < 0.006, "limit {limit}: off by {off}");
+            let note =
+                format!("1 picture was halved to at most {limit} texels a side, as asked for");
+            assert_eq!(
+                scene.skipped.contains(&note),
+                limit < 32,
+                "{:?}",
+                scene.skipped
+            );
+        }
+    }
+}
+
+#[test]
+fn halves_of_data_are_means_of_their_codes() {
+    let picture = Picture {
+        width: 3,
+        height: 2,
+        texels: Texels::Linear8(vec![
+            [0, 10, 255, 7],
+            [1, 10, 255, 7],
+            [99; 4],
+            [2, 30, 254, 7],
+            [4, 30, 254, 7],
+            [99; 4],
+        ]),
+    };
+    // 1.75, 20, 254.5 and 7; the last column of an odd width is left out.
+    let half = picture.halved();
+    assert_eq!((half.width, half.height), (1, 1));
+    assert_eq!(half.texels, Texels::Linear8(vec![[2, 20, 255, 7]]));
+    let bright = Picture::opaque(2, 1, [glam::Vec3::MAX; 2]).halved();
+    assert_eq!(bright.linear().next(), Some(glam::Vec3::MAX.extend(1.0)));
+}
+
+/// A glTF model with `count` images, each the base colour of a material of its own.
+fn many(count: usize) -> Vec<u8> {
+    let mut model = Model::new();
+    let position = model.vectors(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    let uvs = super::gltf::model::floats(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
+    let uvs = model.accessor(&uvs, super::gltf::model::FLOAT, "VEC2", 3);
+    let (mut materials, mut textures, mut images) = (Vec::new(), Vec::new(), Vec::new());
+    for i in 0..count {
+        let attributes = json!({ "attributes": { "TEXCOORD_0": uvs }, "material": i });
+        model.primitive(position, attributes);
+        let view = model.view(&colorful(1 + i as u32 % 6, 1 + i as u32 % 7));
+        images.push(json!({ "bufferView": view, "mimeType": "image/png" }));
+        textures.push(json!({ "source": i }));
+        materials.push(json!({ "pbrMetallicRoughness": {
+            "baseColorTexture": { "index": i }, "metallicFactor": 0 } }));
+    }
+    model.json["materials"] = json!(materials);
+    model.json["textures"] = json!(textures);
+    model.json["images"] = json!(images);
+    model.glb()
+}
+
+#[test]
+fn pictures_do_not_depend_on_the_number_of_threads() {
+    const COUNT: usize = 150;
+    let file = many(COUNT);
+    let read = |count| threads::with(count, || load("a.glb", &file)).expect("a scene");
+    let (one, five) = (read(1), read(5));
+    assert_eq!(one.pictures.len(), COUNT);
+    assert_eq!(one.pictures, five.pictures);
+    assert_eq!(one.textures, five.textures);
+    for (i, picture) in one.pictures.iter().enumerate() {
+        let size = (1 + i as u32 % 6, 1 + i as u32 % 7);
+        assert_eq!((picture.width, picture.height), size, "picture {i}");
+    }
+}
+
+#[test]
+fn a_file_is_one_picture_for_all_materials_that_use_it_alike() {
+    let picture = colorful(4, 4);
+    let folder = folder(&[
+        ("a.png", &picture),
+        ("a.obj", b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\nusemtl n\nf 1/1 2/1 3/1\n"),
+        ("a.mtl", b"newmtl m\nmap_Kd a.png\nnewmtl n\nmap_Kd ./a.png\nmap_Ks a.png\nnorm a.png\n"),
+        ("a.toml", b"objects = [{ mesh = { file = 'a.obj' } }]\ntextures.t = { picture = 'a.png' }"),
+    ]);
+    for name in ["a.obj", "a.toml"] {
+        let scene = import::load(&folder.path().join(name)).expect("a scene");
+        let texels = |picture: &Arc<Picture>| matches!(picture.texels, Texels::Srgb8(_));
+        let kinds: Vec<bool> = scene.pictures.iter().map(texels).collect();
+        // Colours, and the values of the normal map.
+        assert_eq!(kinds, [true, false], "{name}");
+    }
+}
+
+#[test]
+fn of_several_bad_pictures_the_first_is_named() {
+    let good = colorful(2, 2);
+    let text = "\
+        textures.a = { picture = 'good.png' }\n\
+        textures.b = { picture = 'bad.png' }\n\
+        textures.c = { picture = 'worse.png' }\n";
+    let folder = folder(&[
+        ("a.toml", text.as_bytes()),
+        ("good.png", &good),
+        ("bad.png", &good[..good.len() / 2]),
+        ("worse.png", b"no picture"),
+    ]);
+    for threads in [1, 3] {
+        let load = || super::message_in(&folder, "a.toml", &Options::default());
+        let message = threads::with(threads, load);
+        assert!(
+            message.contains("(a.toml:2:26): `bad.png` is truncated"),
+            "{message}"
+        );
+    }
+}
