@@ -2,13 +2,15 @@
 //!
 //! Nothing in a file is trusted: `container.rs` and `accessor.rs` check every range, `hierarchy.rs` that
 //! nodes form trees, and a [`blame::Ledger`] bounds the memory to 16 times the size of the file and its
-//! buffers plus 64 MiB: a file may pack vertices into a few bytes each. What cannot be shown is noted.
+//! buffers, decoded where they are compressed, plus 64 MiB: a file may pack vertices into a few bytes each. What
+//! cannot be shown is noted.
 
 mod accessor;
 mod animation;
 mod bake;
 mod blame;
 mod buffers;
+mod compressed;
 mod container;
 mod document;
 mod document_materials;
@@ -17,6 +19,7 @@ mod hierarchy;
 mod lights;
 mod materials;
 mod mesh;
+mod meshopt;
 mod skins;
 mod store;
 mod textures;
@@ -96,13 +99,15 @@ pub(super) fn read(
 ) -> Result<Scene, ImportError> {
     let blame = Blame { path };
     let parts = container::parts(&bytes, blame)?;
-    let document = parse(&bytes[parts.json.clone()], blame)?;
+    let mut document = parse(&bytes[parts.json.clone()], blame)?;
     let mut notes = Notes::default();
     extensions::check(&document, &mut notes, blame)?;
-    let buffers = Buffers::read(&document, bytes, parts.bin, files, blame)?;
+    let mut buffers = Buffers::read(&document, bytes, parts.bin, files, blame)?;
+    let in_files = buffers.total();
+    compressed::expand(&mut document, &mut buffers, blame)?;
     let ledger = Ledger {
         blame,
-        budget: Budget::of(buffers.total().saturating_mul(2)),
+        budget: Budget::of(buffers.total().saturating_add(in_files)),
         held: Cell::new(buffers.total() as u64),
     };
     let mut reader = Reader {

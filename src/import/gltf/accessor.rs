@@ -16,7 +16,7 @@ pub(super) struct Accessors<'a> {
 
 /// The type of the numbers in an accessor.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Component {
+pub(super) enum Component {
     I8,
     U8,
     I16,
@@ -26,7 +26,8 @@ enum Component {
 }
 
 impl Component {
-    fn of(code: u32) -> Option<Self> {
+    /// The type of this `componentType`.
+    pub fn of(code: u32) -> Option<Self> {
         Some(match code {
             5120 => Self::I8,
             5121 => Self::U8,
@@ -38,7 +39,8 @@ impl Component {
         })
     }
 
-    fn size(self) -> usize {
+    /// Bytes of a number.
+    pub fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 => 2,
@@ -70,6 +72,19 @@ impl Component {
         }
     }
 
+    /// Appends the nearest number to `value` to `bytes`; integers that are too large are the largest.
+    #[cfg(feature = "draco")]
+    pub fn write(self, value: f32, bytes: &mut Vec<u8>) {
+        match self {
+            Self::I8 => bytes.extend((value.round() as i8).to_le_bytes()),
+            Self::U8 => bytes.extend((value.round() as u8).to_le_bytes()),
+            Self::I16 => bytes.extend((value.round() as i16).to_le_bytes()),
+            Self::U16 => bytes.extend((value.round() as u16).to_le_bytes()),
+            Self::U32 => bytes.extend((value.round() as u32).to_le_bytes()),
+            Self::F32 => bytes.extend(value.to_le_bytes()),
+        }
+    }
+
     /// The whole number at the start of `bytes`; `None` if the type is signed or floating.
     fn index(self, bytes: &[u8]) -> Option<u32> {
         match self {
@@ -96,7 +111,7 @@ impl Kind {
     }
 
     /// Number of components.
-    fn width(self) -> usize {
+    pub(super) fn width(self) -> usize {
         match self {
             Self::Scalar => 1,
             Self::Vec2 => 2,

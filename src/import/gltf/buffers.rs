@@ -99,22 +99,44 @@ impl Buffers {
         blame: Blame,
     ) -> Result<(&[u8], Option<u64>), ImportError> {
         let view = blame.get(&document.buffer_views, index, "bufferViews", place)?;
-        let here = || format!("bufferViews[{index}]");
-        let (block, range) = blame.get(&self.places, view.buffer, "buffers", here())?;
-        let buffer = &self.blocks[*block][range.clone()];
-        let end = view.byte_offset.checked_add(view.byte_length);
-        let Some(end) = end.filter(|end| *end <= buffer.len() as u64) else {
-            let why = format!(
-                "{} bytes from byte {} lie outside buffers[{}], which has {} bytes",
-                view.byte_length,
-                view.byte_offset,
-                view.buffer,
-                buffer.len()
-            );
-            return Err(blame.bad(here(), why));
-        };
-        let bytes = &buffer[view.byte_offset as usize..end as usize];
+        let here = format!("bufferViews[{index}]");
+        let (offset, length) = (view.byte_offset, view.byte_length);
+        let bytes = self.range(view.buffer, offset, length, &here, blame)?;
         Ok((bytes, view.byte_stride.filter(|stride| *stride > 0)))
+    }
+
+    /// `length` bytes of `buffers[index]` from byte `offset`, to which `here` refers.
+    ///
+    /// # Errors
+    /// The buffer does not exist, or they lie outside it.
+    pub fn range(
+        &self,
+        index: usize,
+        offset: u64,
+        length: u64,
+        here: &str,
+        blame: Blame,
+    ) -> Result<&[u8], ImportError> {
+        let (block, range) = blame.get(&self.places, index, "buffers", here)?;
+        let buffer = &self.blocks[*block][range.clone()];
+        let end = offset.checked_add(length);
+        match end.filter(|end| *end <= buffer.len() as u64) {
+            Some(end) => Ok(&buffer[offset as usize..end as usize]),
+            None => {
+                let have = buffer.len();
+                let why = format!(
+                    "{length} bytes from byte {offset} lie outside buffers[{index}], which has {have} bytes"
+                );
+                Err(blame.bad(here, why))
+            }
+        }
+    }
+
+    /// Adds a buffer and returns its index.
+    pub fn push(&mut self, bytes: Vec<u8>) -> usize {
+        self.places.push((self.blocks.len(), 0..bytes.len()));
+        self.blocks.push(bytes);
+        self.places.len() - 1
     }
 }
 

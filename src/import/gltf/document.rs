@@ -55,8 +55,24 @@ pub struct Accessor {
     pub sparse: Option<Box<Sparse>>,
 }
 
+#[cfg(feature = "draco")]
+impl Accessor {
+    /// An accessor of this shape without elements.
+    pub fn of(kind: Kind) -> Self {
+        Self {
+            buffer_view: None,
+            byte_offset: 0,
+            component_type: 0,
+            normalized: false,
+            count: 0,
+            kind,
+            sparse: None,
+        }
+    }
+}
+
 /// The shape of an accessor's elements.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Hash)]
 #[serde(rename_all = "UPPERCASE")]
 pub enum Kind {
     Scalar,
@@ -107,6 +123,29 @@ pub struct BufferView {
     pub byte_offset: u64,
     pub byte_length: u64,
     pub byte_stride: Option<u64>,
+    pub extensions: Option<Box<ViewExtensions>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct ViewExtensions {
+    #[serde(rename = "EXT_meshopt_compression")]
+    pub ext: Option<CompressedView>,
+    #[serde(rename = "KHR_meshopt_compression")]
+    pub khr: Option<CompressedView>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct CompressedView {
+    pub buffer: usize,
+    #[serde(default)]
+    pub byte_offset: u64,
+    pub byte_length: u64,
+    pub byte_stride: u64,
+    pub count: u64,
+    pub mode: String,
+    pub filter: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -188,6 +227,18 @@ fn triangles() -> u32 {
 pub struct PrimitiveExtensions {
     #[serde(rename = "KHR_materials_variants")]
     pub variants: Option<VariantMappings>,
+    #[cfg(feature = "draco")]
+    #[serde(rename = "KHR_draco_mesh_compression")]
+    pub draco: Option<CompressedPrimitive>,
+}
+
+#[cfg(feature = "draco")]
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct CompressedPrimitive {
+    pub buffer_view: usize,
+    #[serde(default)]
+    pub attributes: BTreeMap<String, u32>,
 }
 
 #[derive(Debug, Default, Deserialize)]

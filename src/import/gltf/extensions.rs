@@ -21,7 +21,10 @@ pub enum Support {
 /// uses another one, it is reported.
 pub const GLTF_EXTENSIONS: &[(&str, Support)] = &[
     ("EXT_mesh_gpu_instancing", Support::Full),
+    ("EXT_meshopt_compression", Support::Full),
     ("EXT_texture_webp", Support::Full),
+    #[cfg(feature = "draco")]
+    ("KHR_draco_mesh_compression", Support::Full),
     ("KHR_lights_punctual", Support::Full),
     ("KHR_materials_emissive_strength", Support::Full),
     ("KHR_materials_ior", Support::Full),
@@ -32,6 +35,7 @@ pub const GLTF_EXTENSIONS: &[(&str, Support)] = &[
     ("KHR_materials_variants", Support::Full),
     ("KHR_materials_volume", Support::Full),
     ("KHR_mesh_quantization", Support::Full),
+    ("KHR_meshopt_compression", Support::Full),
     #[cfg(feature = "basis")]
     ("KHR_texture_basisu", Support::Full),
     ("KHR_texture_transform", Support::Full),
@@ -97,7 +101,7 @@ pub(super) fn check(
 /// What to do about missing extensions.
 fn remedy(lacking: &[String]) -> &'static str {
     let has = |part: &str| lacking.iter().any(|name| name.contains(part));
-    if has("draco") || has("meshopt") {
+    if has("draco") || has("compression") {
         "Export the model without compression"
     } else if has("basisu") {
         "Export the model with PNG or JPEG pictures"

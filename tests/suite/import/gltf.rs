@@ -1,5 +1,6 @@
 //! glTF 2.0. The models are built here, byte by byte.
 
+mod compressed;
 mod geometry;
 mod hostile;
 mod materials;
