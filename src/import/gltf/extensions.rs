@@ -101,7 +101,7 @@ pub(super) fn check(
 /// What to do about missing extensions.
 fn remedy(lacking: &[String]) -> &'static str {
     let has = |part: &str| lacking.iter().any(|name| name.contains(part));
-    if has("draco") || has("compression") {
+    if has("compression") {
         "Export the model without compression"
     } else if has("basisu") {
         "Export the model with PNG or JPEG pictures"

@@ -140,7 +140,7 @@ fn references_and_values_out_of_range_are_refused() {
         },
         &|it| it["asset"]["version"] = json!("1.0"),
         &|it| it["asset"] = Value::Null,
-        &|it| it["extensionsRequired"] = json!(["KHR_draco_mesh_compression", "KHR_mesh_quantization", "ABC_x"]),
+        &|it| it["extensionsRequired"] = json!(["ABC_compression", "KHR_mesh_quantization", "ABC_x"]),
     ]), @r#"
 bad model (a.glb): scene: scenes[3] does not exist. Export the model again, or correct the file.
 bad model (a.glb): scenes[0].nodes: nodes[9] does not exist. Export the model again, or correct the file.
@@ -164,7 +164,7 @@ bad model (a.glb:1:334): unknown variant `GLASS`, expected one of `OPAQUE`, `MAS
 bad model (a.glb): cameras[0]: it needs a yfov between 0 and π, or a ymag other than 0. Export the model again, or correct the file.
 bad model (a.glb): it is glTF `1.0`, but only version 2.0 is read. Convert it to glTF 2.0.
 bad model (a.glb): it has no `asset`. Check that it is a glTF 2.0 file.
-bad model (a.glb): it requires extensions that are not supported: `KHR_draco_mesh_compression`, `ABC_x`. Export the model without compression.
+bad model (a.glb): it requires extensions that are not supported: `ABC_compression`, `ABC_x`. Export the model without compression.
 "#);
 }
 
