@@ -118,7 +118,7 @@ fn attributes(count: usize, stride: usize, source: &[u8]) -> Result<Vec<u8>, Fau
     let tail = &source[source.len() - tail_len..];
     let (mut last, channels) = (tail[..stride].to_vec(), &tail[stride..]);
     let mut stream = Stream(body);
-    let most = (BLOCK_BYTES / stride & !15).min(BLOCK_ELEMENTS);
+    let most = ((BLOCK_BYTES / stride) & !15).min(BLOCK_ELEMENTS);
     let mut columns = vec![0; stride * most];
     let mut bytes = Vec::new();
     for first in (0..count).step_by(most) {

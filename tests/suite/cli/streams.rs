@@ -80,6 +80,12 @@ fn a_full_device_exits_4() {
         .run("render a.scene --size 8x8 --quiet -o /dev/full")
         .expect(4);
     run.says("no space left on device");
+    let model = include_bytes!("../../encoded/draco.glb");
+    std::fs::write(workspace.path("a.glb"), model).expect("a model");
+    workspace
+        .run("render a.glb --size 8x8 --quiet -o /dev/full")
+        .expect(4)
+        .says("no space left on device");
 }
 
 #[test]

@@ -411,3 +411,37 @@ bad material file (a.mtl:2:4): `1e39` is out of range: at most 3.4e38 is allowed
 bad material file (a.mtl:2:3): `much` is not a number. Write a decimal number such as -0.5 or 2e3.
 ");
 }
+
+#[test]
+fn a_model_that_was_cut_anywhere_has_what_is_left_or_is_refused_in_one_line() {
+    let faces: String = (1..60)
+        .map(|i| format!("f {i}/1 {}/2/1 {}//1\n", i + 1, i + 2))
+        .collect();
+    let vertices: String = (0..62).map(|i| format!("v {i} {} 0.5\n", i % 2)).collect();
+    let model = format!("mtllib a.mtl\n{vertices}vt 0 0\nvt 1 0\nvn 0 0 1\nusemtl m\n{faces}");
+    let library = "newmtl m\nKd 0.5 0.25 0.125\nNs 20\nmap_Kd gone.png\n";
+    let read = |model: &[u8], library: &[u8]| {
+        let files = import::Memory::from_iter([("a.obj", model), ("a.mtl", library)]);
+        import::load_from(&files, "a.obj", &import::Options::default())
+    };
+    for percent in 0..=100 {
+        let cut = |text: &str| text.as_bytes()[..text.len() * percent / 100].to_vec();
+        for (model, library) in [
+            (cut(&model), library.as_bytes().to_vec()),
+            (model.clone().into_bytes(), cut(library)),
+        ] {
+            match read(&model, &library) {
+                Ok(scene) => {
+                    // The last face may have lost a corner, which makes it another one or none.
+                    let whole = model.iter().filter(|&&byte| byte == b'f').count();
+                    assert!(scene.triangle_count() <= whole, "{percent} %");
+                    assert!(
+                        scene.triangle_count() + 1 >= whole || percent < 100,
+                        "{percent} %"
+                    );
+                }
+                Err(error) => assert_eq!(error.to_string().lines().count(), 1, "{error}"),
+            }
+        }
+    }
+}

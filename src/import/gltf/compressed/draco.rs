@@ -8,6 +8,7 @@ use crate::import::gltf::document::{Accessor, BufferView, Document, Kind};
 use crate::import::source::quote;
 use draco_core::{DecodeLimits, DecoderBuffer, ErrorKind, Mesh, MeshDecoder};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// Bytes that the decoder takes for a face beside its attributes.
 const PER_FACE: u64 = 64;
@@ -38,12 +39,12 @@ pub(super) fn primitives(
             };
             let place = format!("meshes[{m}].primitives[{p}]");
             let view = compressed.buffer_view;
-            if !streams.contains_key(&view) {
-                let (source, _) = buffers.view(document, view, &place, room.blame)?;
-                streams.insert(view, decode(source, room, &place)?);
-            }
-            let Some(stream) = streams.get_mut(&view) else {
-                continue;
+            let stream = match streams.entry(view) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(new) => {
+                    let (source, _) = buffers.view(document, view, &place, room.blame)?;
+                    new.insert(decode(source, room, &place)?)
+                }
             };
             for (name, &id) in &compressed.attributes {
                 let attribute = primitive.attributes.get_mut(name);
