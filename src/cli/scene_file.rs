@@ -1,5 +1,6 @@
 //! Reading a scene file and the files that it names.
 
+use super::interrupt::Interrupt;
 use super::memory;
 use crate::app::error::AppError;
 use crate::app::inputs::Inputs;
@@ -10,7 +11,9 @@ use std::path::Path;
 /// Reads a scene; if `is_strict`, refuses one of which anything was skipped. The second value has the files
 /// that were read or looked for, even if reading failed.
 pub fn load(path: &Path, options: &Options, is_strict: bool) -> (Result<Scene, AppError>, Inputs) {
-    if let Err(error) = memory::check_file(path) {
+    // Reading may take long, and is then to end like the rest.
+    let ready = memory::check_file(path).and_then(|()| Interrupt::install());
+    if let Err(error) = ready {
         return (Err(error), Inputs::new([path]));
     }
     let (scene, files) = import::load_watched(path, options, &|_| ());
