@@ -88,7 +88,7 @@
 //!
 //! | module | does | uses |
 //! |---|---|---|
-//! | [`scene`] | the host model, with every question settled | |
+//! | [`scene`] | the host model, with every question settled | `threads` |
 //! | [`threads`] | work on slices by all cores | |
 //! | [`import`] | file → `Scene`, one file for each format; files come from an [`import::Resolver`] | `scene`, `threads` |
 //! | [`bvh`] | boxes → tree of four-way nodes | `threads` |

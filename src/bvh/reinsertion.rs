@@ -9,6 +9,10 @@ use super::{
 /// The share of all nodes that the first round tries to move.
 const SHARE: f32 = 0.1;
 
+/// Nodes that the first round tries to move at most. Beyond, a larger share would cost more time than it saves: for a
+/// million boxes it makes rays 1 % cheaper.
+const MOST: f32 = 65536.0;
+
 /// Rounds; round i tries 1 / (2 i + 1) as many nodes as the first, and always the largest.
 const ROUNDS: usize = 16;
 
@@ -30,8 +34,8 @@ pub fn optimize(nodes: &mut [Node]) -> u64 {
     let mut touched = vec![0u8; nodes.len()];
     let mut work = 0;
     for round in 0..ROUNDS {
-        let share = SHARE / (2 * round + 1) as f32;
-        let count = ((nodes.len() as f32 * share) as usize).clamp(1, nodes.len() - 1);
+        let first = (nodes.len() as f32 * SHARE).min(MOST);
+        let count = ((first / (2 * round + 1) as f32) as usize).clamp(1, nodes.len() - 1);
         let mut moves: Vec<_> = (candidates(nodes, count).into_iter())
             .map(|from| {
                 (

@@ -37,6 +37,9 @@ impl Ledger {
     }
 }
 
+/// Bytes that are written at a time: each is copied before the device gets it.
+const STAGED: usize = 16 << 20;
+
 impl Gpu {
     /// A buffer of at least 16 bytes, its contents undefined or zero.
     pub(crate) fn allocate(
@@ -71,19 +74,18 @@ impl Gpu {
         Ok(buffer)
     }
 
-    /// Writes to a buffer in chunks, so that no staging copy exceeds 64 MiB.
+    /// Writes to a buffer in chunks, each submitted, so that the staging copies of earlier ones are freed.
     pub(crate) fn write(
         &self,
         buffer: &wgpu::Buffer,
         offset: u64,
         contents: &[u8],
     ) -> Result<(), GpuError> {
-        const PART: usize = 64 << 20;
         self.scoped("write", || {
-            for (i, part) in contents.chunks(PART).enumerate() {
+            for (i, part) in contents.chunks(STAGED).enumerate() {
                 self.queue
-                    .write_buffer(buffer, offset + (i * PART) as u64, part);
-                if i > 0 {
+                    .write_buffer(buffer, offset + (i * STAGED) as u64, part);
+                if part.len() == STAGED {
                     self.queue.submit([]);
                 }
             }
@@ -177,7 +179,7 @@ impl Gpu {
         first: u64,
         contents: &[u8],
     ) -> Result<(), GpuError> {
-        const ROWS: u32 = 512;
+        let mut staged = 0;
         let texture = image.texture();
         let (width, height) = (texture.width(), texture.height());
         let texel = row_bytes(1, texture.format()) as usize;
@@ -194,7 +196,9 @@ impl Gpu {
                     (0, 0) => (texels as u32, 1),
                     (0, rows) => (
                         width,
-                        rows.min((height - y % height).min(ROWS) as usize) as u32,
+                        rows.min((height - y % height) as usize)
+                            .min((STAGED / (width as usize * texel)).max(1))
+                            as u32,
                     ),
                     _ => (texels.min((width - x) as usize) as u32, 1),
                 };
@@ -215,6 +219,11 @@ impl Gpu {
                 };
                 let (now, later) = rest.split_at((columns * rows) as usize * texel);
                 (self.queue).write_texture(target, now, layout, extent(columns, rows));
+                staged += now.len();
+                if staged >= STAGED / 2 {
+                    self.queue.submit([]);
+                    staged = 0;
+                }
                 (x, y, rest) = (
                     (x + columns) % width,
                     y + (x + columns) / width * rows,

@@ -1,6 +1,8 @@
 //! Triangle meshes, and the repairs that every mesh format needs.
 
+use crate::threads;
 use glam::{DVec3, Vec2, Vec3};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Indexed triangles in object space. Positions are in range, triangles have an area, and normals have
 /// unit length: [`Mesh::repair`] ensures that for any file.
@@ -41,41 +43,46 @@ impl Mesh {
         self.normals.resize(self.positions.len(), Vec3::ZERO);
 
         let before = self.triangles.len();
-        let positions = &self.positions;
-        self.triangles
-            .retain(|triangle| area_normal(positions, triangle).is_some());
+        let (positions, triangles) = (&self.positions, &self.triangles);
+        let has_area = threads::collect(before, |index| {
+            area_normal(positions, &triangles[index]).is_some()
+        });
+        if has_area.contains(&false) {
+            let mut has_area = has_area.into_iter();
+            self.triangles
+                .retain(|_| has_area.next().unwrap_or_default());
+        }
 
-        let has_direction = |n: &Vec3| {
-            let length = n.as_dvec3().length();
-            length.is_finite() && length > 1e-30
-        };
-        // Stays empty if every vertex has a normal, which saves most of the memory of this pass.
-        let mut area_normals = Vec::new();
-        if !self.normals.iter().all(has_direction) {
-            area_normals.resize(self.positions.len(), None::<DVec3>);
+        let lacks_some = AtomicBool::new(false);
+        threads::for_chunks(&mut self.normals, |_, normals| {
+            for normal in normals {
+                let given = normal.as_dvec3();
+                let length = given.length();
+                if !has_direction(normal) {
+                    lacks_some.store(true, Ordering::Relaxed);
+                } else if (length - 1.0).abs() > f64::from(f32::EPSILON) {
+                    // Others are as near to 1 as f32 allows: they stay, so that a second repair changes nothing.
+                    *normal = (given / length).as_vec3();
+                }
+            }
+        });
+        let mut recomputed_normals = 0;
+        // Nothing else takes as much memory, and most files have all normals.
+        if lacks_some.into_inner() {
+            let mut area_normals = vec![None::<DVec3>; self.positions.len()];
             for triangle in &self.triangles {
                 let normal = area_normal(positions, triangle).unwrap_or_default();
                 for &i in triangle {
                     *area_normals[i as usize].get_or_insert_default() += normal;
                 }
             }
-        }
-        let mut recomputed_normals = 0;
-        for (i, normal) in self.normals.iter_mut().enumerate() {
-            let given = normal.as_dvec3();
-            let length = given.length();
-            // As near to 1 as f32 allows: keep it, so that a second repair changes nothing.
-            if (length - 1.0).abs() <= f64::from(f32::EPSILON) {
-                continue;
-            }
-            *normal = if has_direction(normal) {
-                (given / length).as_vec3()
-            } else {
+            let lacking = self.normals.iter_mut().enumerate();
+            for (i, normal) in lacking.filter(|(_, normal)| !has_direction(normal)) {
                 let around = area_normals[i];
                 recomputed_normals += usize::from(i < given_normals && around.is_some());
-                let normal = around.and_then(DVec3::try_normalize);
-                normal.unwrap_or(DVec3::Y).as_vec3()
-            };
+                let mean = around.and_then(DVec3::try_normalize);
+                *normal = mean.unwrap_or(DVec3::Y).as_vec3();
+            }
         }
         Repairs {
             dropped_triangles: before - self.triangles.len(),
@@ -107,6 +114,12 @@ impl Mesh {
         let local = positions.map(|p| (*p - offset).as_vec3()).collect();
         (local, offset)
     }
+}
+
+/// Whether a normal is long enough to be normalised.
+fn has_direction(normal: &Vec3) -> bool {
+    let length = normal.as_dvec3().length();
+    length.is_finite() && length > 1e-30
 }
 
 /// The triangle's normal by its winding, of twice its area in length; `None` if the area is below f32's

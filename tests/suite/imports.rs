@@ -12,7 +12,7 @@ use std::{
 
 /// What each module of `src/` may use of the others; "*" is everything.
 const MODULES: &[(&str, &[&str])] = &[
-    ("scene", &[]),
+    ("scene", &["threads"]),
     ("clock", &[]),
     ("image", &[]),
     ("layout", &[]),

@@ -6,6 +6,7 @@ use super::buffers::Buffers;
 use super::document::{Accessor, Document, Kind};
 use crate::import::budget;
 use crate::import::error::ImportError;
+use crate::threads;
 
 /// Reads the accessors of a document.
 pub(super) struct Accessors<'a> {
@@ -181,9 +182,8 @@ impl<'a> Accessors<'a> {
             zero[..width].fill(0.0);
             zero
         };
-        let mut vectors: Vec<[f32; N]> = (0..count)
-            .map(|i| elements.at(i).map_or(zero, vector))
-            .collect();
+        let mut vectors: Vec<[f32; N]> =
+            threads::collect(count, |i| elements.at(i).map_or(zero, vector));
         self.sparse(accessor, &here, |i, bytes| vectors[i] = vector(bytes))?;
         Ok(vectors)
     }
@@ -204,9 +204,8 @@ impl<'a> Accessors<'a> {
         self.ledger
             .take(0, budget::size::<u32>(elements.count), &here)?;
         let number = |bytes: &[u8]| component.index(bytes).unwrap_or_default();
-        let mut numbers: Vec<u32> = (0..elements.count)
-            .map(|i| elements.at(i).map_or(0, number))
-            .collect();
+        let mut numbers: Vec<u32> =
+            threads::collect(elements.count, |i| elements.at(i).map_or(0, number));
         self.sparse(accessor, &here, |i, bytes| numbers[i] = number(bytes))?;
         Ok(numbers)
     }
