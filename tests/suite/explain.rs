@@ -13,7 +13,9 @@ use glimray::render::{
     Antialias, Filter, RayKind, RayTree, RenderSettings, Renderer, SampleTree, Slicing, Tone,
     TracedRay,
 };
-use glimray::scene::{Attenuation, Geometry, Light, LightKind, ObjectRef, Scene, Shadows};
+use glimray::scene::{
+    Attenuation, Geometry, Light, LightKind, Minify, ObjectRef, Pattern, Scene, Shadows,
+};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -295,7 +297,7 @@ fn explaining_between_steps_does_not_change_the_picture() {
 }
 
 /// The scene reduced to what the independent tracer supports: a pinhole camera, opaque shadows, point lights
-/// instead of area lights, and nothing that touches a plane, because it has no rule for coincident surfaces.
+/// instead of area lights, pictures without mipmaps, and nothing that touches a plane, because it has no rule for coincident surfaces.
 fn plain(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     scene.shadows = Shadows::Opaque;
@@ -305,6 +307,11 @@ fn plain(scene: &Scene) -> Scene {
     for shape in &mut scene.shapes {
         if let Geometry::Plane { point, normal } = &mut shape.geometry {
             *point -= 0.003 * *normal;
+        }
+    }
+    for texture in &mut scene.textures {
+        if let Pattern::Picture { minify, .. } = &mut texture.pattern {
+            *minify = Minify::Linear;
         }
     }
     for light in &mut scene.lights {
