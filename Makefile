@@ -80,7 +80,7 @@ gallery: build driver display
 MDBOOK_VERSION := 0.5.4
 TOOLS := $(abspath $(TARGET)/tools)
 SITE := $(abspath $(TARGET)/site)
-LINKED := assets benches examples fuzz shaders src tests build.rs
+LINKED := assets benches examples shaders src tests build.rs
 docs: linker
 	@[ -x $(TOOLS)/bin/mdbook ] || $(CARGO) install mdbook --version $(MDBOOK_VERSION) --locked \
 		--no-default-features --features search --root $(TOOLS)

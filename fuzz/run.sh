@@ -11,15 +11,16 @@ targets=("$@")
 [ $# -gt 0 ] || mapfile -t targets < <(cargo +nightly fuzz list)
 
 # Without AddressSanitizer: glimray has no unsafe code, and runs are twice as fast.
-cargo +nightly fuzz build --sanitizer none --target-dir "$work/build"
+cargo +nightly fuzz build --release --sanitizer none --target-dir "$work/build"
 status=0
 for target in "${targets[@]}"; do
     corpus=$work/corpus/$target
     mkdir -p "$corpus" "$work/finds/$target"
     # What earlier runs found to be interesting.
-    if [ -e "corpus/$target.zip" ]; then unzip -qno "corpus/$target.zip" -d "$corpus"; fi
+    if [ -e "../tests/fuzz/corpus/$target.zip" ]; then unzip -qno "../tests/fuzz/corpus/$target.zip" -d "$corpus"; fi
     for folder in seeds regressions; do
-        if [ -d "$folder/$target" ]; then cp "$folder/$target"/* "$corpus"; fi
+        from=../tests/fuzz/$folder/$target
+        if [ -d "$from" ]; then cp "$from"/* "$corpus"; fi
     done
     case $target in
         native) cp ../assets/scenes/*.toml "$corpus" ;;

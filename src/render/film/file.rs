@@ -223,6 +223,9 @@ fn samples<R: Read>(input: &mut Reader<R>, header: &FilmHeader) -> Result<Sample
             return Err(damaged("its samples are not in order"));
         }
     }
+    if samples.is_empty() {
+        return Err(damaged("it has pixels without samples"));
+    }
     Ok(samples)
 }
 
